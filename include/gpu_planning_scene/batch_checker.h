@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "gpu_planning_scene/state_checker.h"
+
+namespace gpu_planning_scene
+{
+enum class Traversal
+{
+  BreadthFirst,  ///< packed work lists, level by level (Gress and Zachmann 2003)
+  WorkQueue      ///< a node stack per lane and a leaf queue per workgroup
+};
+
+/// "breadth_first" or "work_queue"; throws Error otherwise.
+Traversal traversalFromName(const std::string& name);
+
+struct BatchCheckerOptions
+{
+  /// "auto" (the first hardware device, else software), "software", an index, or part of a renderer's name.
+  std::string device = "auto";
+  Traversal traversal = Traversal::WorkQueue;
+  std::size_t max_batch = 16384;   ///< states that go to the GPU at once; larger requests are split
+  std::string shader_folder;       ///< empty: where they were installed, or the source tree's (see shaderFolder())
+};
+
+/// Checks states on the GPU: forward kinematics, root tests, tree traversal, triangle tests; undecided states go to a
+/// double-precision traversal of the same trees on the CPU. Owns a GL context and the thread that it is current on.
+class BatchChecker : public StateChecker
+{
+public:
+  /// Throws Error: no usable EGL device (lists what was tried), a shader that does not compile (with its log).
+  BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options);
+  ~BatchChecker() override;
+
+  void setScene(std::shared_ptr<const PlanningScene> scene) override;
+  BatchResult check(const double* states, std::size_t count, const std::string& group = "") override;
+  SceneReport report(const std::string& group = "") override;
+  std::string deviceName() const override;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+}  // namespace gpu_planning_scene

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+
+#include "gpu_planning_scene/state_checker.h"
+
+namespace gpu_planning_scene
+{
+/// Double-precision traversal of bounding volume trees on all cores, without any GL device.
+class CpuChecker : public StateChecker
+{
+public:
+  explicit CpuChecker(std::shared_ptr<const PlanningScene> scene);
+  ~CpuChecker() override;
+
+  void setScene(std::shared_ptr<const PlanningScene> scene) override;
+  BatchResult check(const double* states, std::size_t count, const std::string& group = "") override;
+  SceneReport report(const std::string& group = "") override;
+  std::string deviceName() const override;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+}  // namespace gpu_planning_scene

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "gpu_planning_scene/allowed_collision_matrix.h"
+#include "gpu_planning_scene/robot_model.h"
+#include "gpu_planning_scene/shapes.h"
+
+namespace gpu_planning_scene
+{
+struct WorldObject
+{
+  std::string id;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the planning frame
+  std::vector<PlacedShape> shapes;                         ///< in the object's frame
+};
+
+/// A robot, the objects around it, which pairs may touch, and the current state. A value: checkers take it as an
+/// immutable snapshot (`std::shared_ptr<const PlanningScene>`).
+/// A *body* is a link or an object; body indices count the links first, then the objects.
+struct PlanningScene
+{
+  explicit PlanningScene(std::shared_ptr<const RobotModel> robot_model);
+
+  std::shared_ptr<const RobotModel> robot;
+  std::vector<WorldObject> objects;
+  AllowedCollisionMatrix allowed_collisions;
+  /// One value per variable of the robot, empty until one was set or received.
+  std::vector<double> current_state;
+  std::uint64_t revision = 0;
+
+  const std::string& bodyName(int body) const;
+};
+
+/// A scene file in MoveIt's PlanningScene field names: the layout of MoveIt's own YAML (poses with x, y, z, w keys;
+/// entry_values with `enabled`) and the compact one (arrays, `type: box`, bare rows). Everything is checked before anything
+/// is kept. Throws Error with file and line. Joints that the robot lacks, and what is not modelled, give warnings.
+/// Object poses are in `planningFrame()`; a header.frame_id may name it, a link, or a frame of fixed_frame_transforms.
+PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
+                            const PackageResolver& packages, std::vector<std::string>* warnings = nullptr);
+}  // namespace gpu_planning_scene

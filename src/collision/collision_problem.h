@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "gpu_planning_scene/planning_scene.h"
+#include "gpu_planning_scene/state_checker.h"
+
+namespace gpu_planning_scene
+{
+/// An instance of a tree: one shape of a body.
+struct Geometry
+{
+  std::uint32_t tree;      ///< index into CollisionProblem::trees
+  std::int32_t body;       ///< body index of the planning scene
+  Eigen::Isometry3d pose;  ///< robot: in the link's frame; world: in the planning frame
+};
+
+/// A scene as the checkers see it: instances of trees and the pairs of them that are checked. It knows nothing of joints,
+/// names or matrices. Two rigid meshes and their relative poses are such a problem as well.
+struct CollisionProblem
+{
+  std::vector<Tessellation> trees;     ///< distinct shapes; instances share them
+  std::vector<Shape> shapes;           ///< the true shape of each tree
+  std::vector<Geometry> robot;         ///< move with their body; `body` is a link index
+  std::vector<Geometry> world;         ///< fixed in the planning frame
+  std::vector<std::array<std::uint32_t, 2>> self_pairs;  ///< indices into `robot`
+  std::vector<std::uint8_t> world_pairs;  ///< robot.size() x world.size(), row-major; 1 where the pair is checked
+};
+
+/// What of `scene` is checked for `group` (empty: all): the pairs that the allowed-collision matrix does not allow and, for
+/// a group, that have a link which the group moves. Throws Error for an unknown group. `report` may be null.
+CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report);
+}  // namespace gpu_planning_scene

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "gpu_planning_scene/shapes.h"
+
+namespace gpu_planning_scene
+{
+/// A node of a bounding volume hierarchy over triangles, as it lies in GPU memory (two RGBA32UI texels).
+/// The box is in the mesh's frame, in metres, and contains its triangles' double-precision vertices.
+struct Node
+{
+  std::array<float, 3> center;
+  std::uint32_t first;  ///< inner node: its children are nodes first and first + 1; leaf: its first triangle
+  std::array<float, 3> half;
+  std::uint32_t count;  ///< 0: inner node; otherwise the number of a leaf's triangles (at most kLeafTriangles)
+};
+static_assert(sizeof(Node) == 32, "two RGBA32UI texels");
+
+/// The trees of several meshes in one array of nodes.
+/// Triangles are numbered through all meshes: mesh m's triangle t is number first_triangle[m] + t.
+struct Forest
+{
+  std::vector<Node> nodes;
+  std::vector<std::uint32_t> roots;           ///< one per mesh
+  std::vector<std::uint32_t> first_triangle;  ///< one per mesh
+  std::vector<std::uint32_t> leaf_triangles;  ///< what a leaf's first .. first + count index: triangle numbers
+};
+}  // namespace gpu_planning_scene
