@@ -1,0 +1,24 @@
+#include "gpu_planning_scene/planning_scene.h"
+
+#include "scene/scene_reader.h"
+
+namespace gpu_planning_scene
+{
+PlanningScene::PlanningScene(std::shared_ptr<const RobotModel> robot_model)
+  : robot(std::move(robot_model)), allowed_collisions(AllowedCollisionMatrix::fromRobot(*robot))
+{
+}
+
+const std::string& PlanningScene::bodyName(int body) const
+{
+  const std::size_t links = robot->links().size();
+  const std::size_t index = static_cast<std::size_t>(body);
+  return index < links ? robot->links()[index].name : objects.at(index - links).id;
+}
+
+void SceneReader::warn(const std::string& line) const
+{
+  if (warnings)
+    warnings->push_back(line);
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,94 @@
+#include <cmath>
+
+#include "scene/scene_reader.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+Eigen::Quaterniond readOrientation(const YamlValue& value)
+{
+  Eigen::Vector4d components;  // x, y, z, w
+  if (value.kind() == YamlValue::Kind::Map)
+    components << value.at("x").number(), value.at("y").number(), value.at("z").number(), value.at("w").number();
+  else
+    components = Eigen::Vector4d(value.numbers(4).data());
+  const double norm = components.stableNorm();
+  if (norm == 0.0)
+    value.fail("the quaternion is zero; no rotation is [0, 0, 0, 1]");
+  components /= norm;
+  return Eigen::Quaterniond(components).normalized();
+}
+
+std::string withoutLeadingSlash(const std::string& frame)
+{
+  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
+}
+}  // namespace
+
+Eigen::Vector3d readVector(const YamlValue& value)
+{
+  if (value.kind() == YamlValue::Kind::Map)
+    return Eigen::Vector3d(value.at("x").number(), value.at("y").number(), value.at("z").number());
+  return Eigen::Vector3d(value.numbers(3).data());
+}
+
+Eigen::Isometry3d readPose(const YamlValue& value, const char* position_key, const char* orientation_key)
+{
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (const auto& member : value.members())
+    if (member.first != position_key && member.first != orientation_key)
+      member.second.fail("unknown key '" + member.first + "' in a pose; it has '" + position_key + "' and '" +
+                         orientation_key + "'");
+  if (const YamlValue* position = value.find(position_key))
+    pose.translation() = readVector(*position);
+  if (const YamlValue* orientation = value.find(orientation_key))
+    pose.linear() = readOrientation(*orientation).toRotationMatrix();
+  return pose;
+}
+
+void readFixedFrame(const YamlValue& value, SceneReader& reader)
+{
+  value.warnOfUnknownKeys({"header", "child_frame_id", "transform"}, reader.warnings);
+  const std::string& planning_frame = reader.robot.planningFrame();
+  const YamlValue* header = value.find("header");
+  const YamlValue* parent = header ? header->find("frame_id") : nullptr;
+  if (parent && !parent->text().empty() && withoutLeadingSlash(parent->text()) != withoutLeadingSlash(planning_frame))
+    parent->fail("the transform is given in frame '" + parent->text() + "'; the planning frame is '" + planning_frame +
+                 "' (the robot's root link, or the parent frame of the SRDF's virtual joint)");
+  const YamlValue& child = value.at("child_frame_id");
+  const Eigen::Isometry3d pose = readPose(value.at("transform"), "translation", "rotation");
+  if (child.text() == planning_frame && !pose.isApprox(Eigen::Isometry3d::Identity(), 1e-12))
+    child.fail("frame '" + child.text() + "' is the planning frame; its transform must be the identity");
+  if (child.text() != planning_frame && reader.robot.linkIndex(child.text()) >= 0)
+    child.fail("fixed frame '" + child.text() + "' has the name of a link");
+  if (!reader.fixed_frames.emplace(child.text(), pose).second)
+    child.fail("fixed frame '" + child.text() + "' is given twice");
+}
+
+Eigen::Isometry3d readFrame(const YamlValue* header, const SceneReader& reader)
+{
+  const YamlValue* value = header ? header->find("frame_id") : nullptr;
+  if (!value || value->text().empty())
+    return Eigen::Isometry3d::Identity();
+  // Old tf1 names begin with a slash, and so do the links of some robots: as written first, then without it.
+  for (const std::string& frame : {value->text(), withoutLeadingSlash(value->text())})
+  {
+    if (frame == reader.robot.planningFrame())
+      return Eigen::Isometry3d::Identity();
+    const auto fixed = reader.fixed_frames.find(frame);
+    if (fixed != reader.fixed_frames.end())
+      return fixed->second;
+    const int link = reader.robot.linkIndex(frame);
+    if (link < 0)
+      continue;
+    if (reader.state.empty())
+      value->fail("frame '" + frame + "' is a link, so the file must give the robot_state that it is meant for");
+    std::vector<Eigen::Isometry3d> poses(reader.robot.links().size());
+    reader.robot.linkPoses(reader.state.data(), poses.data());
+    return poses[link];
+  }
+  value->fail("unknown frame '" + value->text() + "'; known are the planning frame '" + reader.robot.planningFrame() +
+              "', the robot's links and the file's fixed_frame_transforms");
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,148 @@
+#include <cmath>
+
+#include "scene/scene_reader.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// The state as far as it was read, and what was not used of the file.
+struct PartialState
+{
+  std::vector<double> values;
+  std::vector<bool> given;
+  std::vector<std::string> unknown_joints;
+  std::vector<std::string> fixed_joints;
+  std::vector<std::string> mimic_joints;
+
+  void set(int variable, double value)
+  {
+    values[variable] = value;
+    given[variable] = true;
+  }
+};
+
+std::string join(const std::vector<std::string>& names)
+{
+  std::string line;
+  for (const std::string& name : names)
+    line += (line.empty() ? "" : ", ") + name;
+  return line;
+}
+
+void readJointState(const YamlValue& value, const SceneReader& reader, PartialState& state)
+{
+  value.warnOfUnknownKeys({"header", "name", "position", "velocity", "effort"}, reader.warnings);
+  const YamlValue* names = value.find("name");
+  const YamlValue* positions = value.find("position");
+  const std::size_t name_count = names ? names->items().size() : 0;
+  const std::size_t position_count = positions ? positions->items().size() : 0;
+  if (name_count != position_count)
+    value.fail(std::to_string(position_count) + " positions for " + std::to_string(name_count) + " joint names");
+  for (std::size_t i = 0; i < name_count; ++i)
+  {
+    const std::string& name = names->items()[i].text();
+    const double position = positions->items()[i].number();
+    const int variable = reader.robot.variableIndex(name);
+    if (variable >= 0)
+    {
+      if (state.given[variable])
+        names->items()[i].fail("joint '" + name + "' is given twice");
+      state.set(variable, position);
+      continue;
+    }
+    const int joint = reader.robot.jointIndex(name);
+    if (joint < 0)
+      state.unknown_joints.push_back(name);
+    else if (reader.robot.joints()[joint].mimic)
+      state.mimic_joints.push_back(name);
+    else if (reader.robot.joints()[joint].type == JointType::Fixed)
+      state.fixed_joints.push_back(name);
+    else
+      names->items()[i].fail("joint '" + name + "' has several variables; name them as '" +
+                             reader.robot.variables()[reader.robot.joints()[joint].first_variable].name +
+                             "' and so on, or use multi_dof_joint_state");
+  }
+}
+
+void setTransform(const Joint& joint, const Eigen::Isometry3d& pose, PartialState& state)
+{
+  const int first = joint.first_variable;
+  if (joint.type == JointType::Planar)
+  {
+    state.set(first, pose.translation().x());
+    state.set(first + 1, pose.translation().y());
+    state.set(first + 2, std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)));
+    return;
+  }
+  const Eigen::Quaterniond rotation(pose.linear());
+  for (int i = 0; i < 3; ++i)
+    state.set(first + i, pose.translation()[i]);
+  for (int i = 0; i < 4; ++i)
+    state.set(first + 3 + i, rotation.coeffs()[i]);  // x, y, z, w, as the variables are ordered
+}
+
+void readMultiDofState(const YamlValue& value, const SceneReader& reader, PartialState& state)
+{
+  value.warnOfUnknownKeys({"header", "joint_names", "transforms", "twist", "wrench"}, reader.warnings);
+  const YamlValue* names = value.find("joint_names");
+  const YamlValue* transforms = value.find("transforms");
+  const std::size_t name_count = names ? names->items().size() : 0;
+  const std::size_t transform_count = transforms ? transforms->items().size() : 0;
+  if (name_count != transform_count)
+    value.fail(std::to_string(transform_count) + " transforms for " + std::to_string(name_count) + " joint_names");
+  if (name_count == 0)
+    return;
+  const YamlValue* header = value.find("header");
+  const YamlValue* frame = header ? header->find("frame_id") : nullptr;
+  if (frame && !frame->text().empty() && frame->text() != reader.robot.planningFrame())
+    frame->fail("multi_dof_joint_state must be given in the planning frame '" + reader.robot.planningFrame() + "'");
+  for (std::size_t i = 0; i < name_count; ++i)
+  {
+    const std::string& name = names->items()[i].text();
+    const Eigen::Isometry3d pose = readPose(transforms->items()[i], "translation", "rotation");
+    const int index = reader.robot.jointIndex(name);
+    const Joint* joint = index < 0 ? nullptr : &reader.robot.joints()[index];
+    if (!joint)
+      state.unknown_joints.push_back(name);
+    else if (joint->type == JointType::Fixed)
+      state.fixed_joints.push_back(name);
+    else if (joint->type != JointType::Planar && joint->type != JointType::Floating)
+      names->items()[i].fail("joint '" + name + "' is neither planar nor floating; give its position in joint_state");
+    else
+      setTransform(*joint, pose, state);
+  }
+}
+}  // namespace
+
+std::vector<double> readRobotState(const YamlValue& value, const SceneReader& reader)
+{
+  value.warnOfUnknownKeys({"joint_state", "multi_dof_joint_state", "attached_collision_objects", "is_diff"},
+                          reader.warnings);
+  PartialState state;
+  state.values = reader.robot.defaultState();
+  state.given.assign(state.values.size(), false);
+  if (const YamlValue* joints = value.find("joint_state"))
+    readJointState(*joints, reader, state);
+  if (const YamlValue* joints = value.find("multi_dof_joint_state"))
+    readMultiDofState(*joints, reader, state);
+
+  const std::string start = value.where() + ": robot_state: ";
+  if (!state.unknown_joints.empty())
+    reader.warn(start + "not used, the robot has no such joints: " + join(state.unknown_joints));
+  if (!state.fixed_joints.empty())
+    reader.warn(start + "not used, these joints are fixed: " + join(state.fixed_joints));
+  if (!state.mimic_joints.empty())
+    reader.warn(start + "not used, these joints follow others: " + join(state.mimic_joints));
+
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; i < state.given.size(); ++i)
+    if (!state.given[i])
+      missing.push_back(reader.robot.variables()[i].name);
+  if (missing.size() == state.values.size())
+    return {};
+  if (!missing.empty())
+    reader.warn(start + "not given, so the default is taken: " + join(missing));
+  return state.values;
+}
+}  // namespace gpu_planning_scene

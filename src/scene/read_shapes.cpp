@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cctype>
+
+#include "gpu_planning_scene/error.h"
+#include "scene/scene_reader.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+enum class PrimitiveType
+{
+  Box,
+  Sphere,
+  Cylinder,
+  Cone
+};
+
+/// The numbers are those of shape_msgs/SolidPrimitive.
+PrimitiveType readType(const YamlValue& value)
+{
+  std::string name = value.text();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (name == "box" || name == "1")
+    return PrimitiveType::Box;
+  if (name == "sphere" || name == "2")
+    return PrimitiveType::Sphere;
+  if (name == "cylinder" || name == "3")
+    return PrimitiveType::Cylinder;
+  if (name == "cone" || name == "4")
+    return PrimitiveType::Cone;
+  value.fail("unknown primitive type '" + value.text() + "'; known are box (1), sphere (2), cylinder (3) and cone (4)");
+}
+
+/// `count` dimensions. Messages that were filled by habit carry zeros after those that count.
+std::vector<double> readDimensions(const YamlValue& value, std::size_t count, const char* meaning)
+{
+  std::vector<double> dimensions;
+  for (const YamlValue& item : value.items())
+    dimensions.push_back(item.number());
+  const auto surplus = dimensions.begin() + std::min(count, dimensions.size());
+  if (dimensions.size() < count || std::any_of(surplus, dimensions.end(), [](double d) { return d != 0.0; }))
+    value.fail("expected the dimensions " + std::string(meaning) + ", found " + std::to_string(dimensions.size()) +
+               " numbers");
+  return dimensions;
+}
+
+Shape readPrimitive(const YamlValue& value, const SceneReader& reader)
+{
+  value.warnOfUnknownKeys({"type", "dimensions"}, reader.warnings);
+  const YamlValue& dimensions = value.at("dimensions");
+  Shape shape;
+  switch (readType(value.at("type")))
+  {
+    case PrimitiveType::Box:
+      shape = Box{Eigen::Vector3d(readDimensions(dimensions, 3, "[x, y, z]").data())};
+      break;
+    case PrimitiveType::Sphere:
+      shape = Sphere{readDimensions(dimensions, 1, "[radius]")[0]};
+      break;
+    case PrimitiveType::Cylinder:
+    {
+      const auto sizes = readDimensions(dimensions, 2, "[height, radius]");
+      shape = Cylinder{sizes[1], sizes[0]};
+      break;
+    }
+    case PrimitiveType::Cone:
+    {
+      const auto sizes = readDimensions(dimensions, 2, "[height, radius]");
+      shape = Cone{sizes[1], sizes[0]};
+      break;
+    }
+  }
+  validateShape(shape, dimensions.where());
+  return shape;
+}
+
+std::array<std::uint32_t, 3> readTriangle(const YamlValue& value, std::size_t vertex_count)
+{
+  const YamlValue& indices = value.kind() == YamlValue::Kind::Map ? value.at("vertex_indices") : value;
+  if (indices.items().size() != 3)
+    indices.fail("a triangle has three vertex indices");
+  std::array<std::uint32_t, 3> triangle;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const long long index = indices.items()[i].integer();
+    if (index < 0 || static_cast<std::size_t>(index) >= vertex_count)
+      indices.items()[i].fail("vertex index " + std::to_string(index) + " is out of range; the mesh has " +
+                              std::to_string(vertex_count) + " vertices");
+    triangle[i] = static_cast<std::uint32_t>(index);
+  }
+  return triangle;
+}
+
+std::shared_ptr<const Mesh> readInlineMesh(const YamlValue& value, SceneReader& reader)
+{
+  auto mesh = std::make_shared<Mesh>();
+  mesh->name = value.where();
+  for (const YamlValue& vertex : value.at("vertices").items())
+    mesh->vertices.push_back(readVector(vertex));
+  for (const YamlValue& triangle : value.at("triangles").items())
+    mesh->triangles.push_back(readTriangle(triangle, mesh->vertices.size()));
+  validateMesh(*mesh);
+  for (const auto& known : reader.inline_meshes)
+    if (known->triangles == mesh->triangles && known->vertices == mesh->vertices)
+      return known;  // one tree serves them all
+  reader.inline_meshes.push_back(mesh);
+  return mesh;
+}
+
+/// A mesh's vertices and triangles, or a `resource` (a URI or path) with an optional `scale` (`dimensions` in
+/// robowflex's files).
+std::shared_ptr<const Mesh> readMesh(const YamlValue& value, SceneReader& reader)
+{
+  value.warnOfUnknownKeys({"vertices", "triangles", "resource", "scale", "dimensions"}, reader.warnings);
+  const YamlValue* resource = value.find("resource");
+  if (!resource)
+    return readInlineMesh(value, reader);
+  for (const char* key : {"vertices", "triangles"})
+    if (const YamlValue* surplus = value.find(key))
+      surplus->fail(std::string("a mesh has either a 'resource' or '") + key + "'");
+  const YamlValue* scale = value.find("scale");
+  if (!scale)
+    scale = value.find("dimensions");
+  try
+  {
+    const std::string path = resolveUri(resource->text(), reader.folder, reader.packages);
+    return reader.mesh_files.load(path, scale ? readVector(*scale) : Eigen::Vector3d(1.0, 1.0, 1.0));
+  }
+  catch (const Error& error)
+  {
+    resource->fail(error.what());
+  }
+}
+
+/// One pose per shape; a lone shape may do without.
+std::vector<Eigen::Isometry3d> readShapePoses(const YamlValue& object, const char* key, std::size_t count)
+{
+  std::vector<Eigen::Isometry3d> poses;
+  const YamlValue* values = object.find(key);
+  if (values)
+    for (const YamlValue& value : values->items())
+      poses.push_back(readPose(value));
+  if (poses.empty() && count == 1)
+    poses.push_back(Eigen::Isometry3d::Identity());
+  if (poses.size() != count)
+    (values ? *values : object)
+        .fail(std::to_string(poses.size()) + " " + key + " for " + std::to_string(count) + " shapes");
+  return poses;
+}
+}  // namespace
+
+std::vector<PlacedShape> readShapes(const YamlValue& object, SceneReader& reader)
+{
+  std::vector<Shape> primitives;
+  if (const YamlValue* values = object.find("primitives"))
+    for (const YamlValue& value : values->items())
+      primitives.push_back(readPrimitive(value, reader));
+  std::vector<Shape> meshes;
+  if (const YamlValue* values = object.find("meshes"))
+    for (const YamlValue& value : values->items())
+      meshes.push_back(readMesh(value, reader));
+  const auto primitive_poses = readShapePoses(object, "primitive_poses", primitives.size());
+  const auto mesh_poses = readShapePoses(object, "mesh_poses", meshes.size());
+
+  std::vector<PlacedShape> shapes;
+  for (std::size_t i = 0; i < primitives.size(); ++i)
+    shapes.push_back({primitives[i], primitive_poses[i]});
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    shapes.push_back({meshes[i], mesh_poses[i]});
+  return shapes;
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gpu_planning_scene
+{
+/// A value of a YAML file that knows where it stands, so that what is wrong with it can be said with file and line.
+class YamlValue
+{
+ public:
+  enum class Kind
+  {
+    Null,
+    Scalar,
+    Sequence,
+    Map
+  };
+
+  /// Throws Error if the file cannot be read, is not YAML, names a key twice, or holds no or more than one document.
+  static YamlValue loadFile(const std::string& path);
+
+  Kind kind() const { return kind_; }
+  std::string where() const;  ///< "FILE:LINE"
+  /// Throws Error with file and line.
+  [[noreturn]] void fail(const std::string& what) const;
+
+  /// A map's member; null if it is missing or empty. Fails if this is not a map.
+  const YamlValue* find(const std::string& key) const;
+  /// A map's member; fails if it is missing or empty.
+  const YamlValue& at(const std::string& key) const;
+  /// Fails if this is not a map.
+  const std::vector<std::pair<std::string, YamlValue>>& members() const;
+  /// Fails if this is not a sequence.
+  const std::vector<YamlValue>& items() const;
+
+  double number() const;  ///< fails if it is not a finite number
+  long long integer() const;
+  bool boolean() const;  ///< true, false, yes, no, 1, 0 (as YAML 1.1 and ROS write them)
+  const std::string& text() const;
+  /// As many finite numbers as asked for.
+  std::vector<double> numbers(std::size_t count) const;
+
+  /// Adds a line to `warnings` (may be null) for each member that is not `known`.
+  void warnOfUnknownKeys(std::initializer_list<const char*> known, std::vector<std::string>* warnings) const;
+
+ private:
+  friend class YamlTreeBuilder;
+  Kind kind_ = Kind::Null;
+  int line_ = 0;
+  std::shared_ptr<const std::string> file_;
+  std::string scalar_;
+  std::vector<YamlValue> items_;
+  std::vector<std::pair<std::string, YamlValue>> members_;
+};
+}  // namespace gpu_planning_scene
