@@ -1,0 +1,22 @@
+# What is needed at run time and to build against the package.
+set(libraries gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_scene_gpu gpu_planning_scene_collision)
+foreach(target ${libraries} check_states generate_acm planning_scene_node)
+  if(NOT TARGET ${target})
+    message(STATUS "no install rules yet: ${target} is missing")
+    return()
+  endif()
+endforeach()
+set(export_folder ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+
+install(TARGETS ${libraries} EXPORT gpu_planning_scene-targets LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+install(TARGETS check_states generate_acm RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(DIRECTORY include/ DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
+install(DIRECTORY shaders config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene:: DESTINATION ${export_folder})
+
+if(GPU_PLANNING_SCENE_ROS)
+  install(TARGETS planning_scene_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  catkin_install_python(PROGRAMS scripts/demo_client.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  export(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene::
+    FILE ${CATKIN_DEVEL_PREFIX}/${export_folder}/gpu_planning_scene-targets.cmake)
+endif()
