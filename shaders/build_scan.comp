@@ -1,0 +1,71 @@
+// One workgroup: exclusive prefix sums of a round's counts, the round's pairs, and the next round's record. When each
+// mesh is down to one cluster, the rounds that follow get zero workgroups.
+layout(local_size_x = 256) in;
+#include "common.glsl"
+layout(location = 0) uniform uint round_index;
+layout(location = 1) uniform uint mesh_count;
+layout(std430, binding = 2) buffer Rounds { uint rounds[]; };
+layout(std430, binding = 4) buffer Sums { uvec2 sums[]; };
+
+shared uvec2 part_sums[256];
+shared uvec2 total;
+
+void setGroups(uint at, uint lanes)
+{
+  const uint groups = (lanes + GROUP_SIZE - 1u) / GROUP_SIZE;
+  const uint rows = (groups + 65534u) / 65535u;
+  rounds[at] = rows == 0u ? 0u : (groups + rows - 1u) / rows;
+  rounds[at + 1u] = rows;
+  rounds[at + 2u] = 1u;
+}
+
+void main()
+{
+  const uint lane = gl_LocalInvocationID.x;
+  const uint now = round_index * ROUND_STRIDE;
+  const uint next = now + ROUND_STRIDE;
+  const uint cluster_count = rounds[now + ROUND_CLUSTERS];
+  const bool done = cluster_count == mesh_count;
+  const uint value_count = done ? 0u : (cluster_count + CHUNK - 1u) / CHUNK;
+  const uint part = (value_count + 255u) / 256u;
+  const uint begin = min(lane * part, value_count);
+  const uint end = min(begin + part, value_count);
+  uvec2 sum = uvec2(0u);
+  for (uint i = begin; i < end; ++i)
+    sum += sums[i];
+  part_sums[lane] = sum;
+  barrier();
+  if (lane == 0u)
+  {
+    uvec2 running = uvec2(0u);
+    for (uint i = 0u; i < 256u; ++i)
+    {
+      const uvec2 value = part_sums[i];
+      part_sums[i] = running;
+      running += value;
+    }
+    total = running;
+  }
+  barrier();
+  uvec2 offset = part_sums[lane];
+  for (uint i = begin; i < end; ++i)
+  {
+    const uvec2 value = sums[i];
+    sums[i] = offset;
+    offset += value;
+  }
+  if (lane == 0u)
+  {
+    const uint remaining = done ? cluster_count : total.x;
+    rounds[now + ROUND_PAIRS] = total.y;
+    setGroups(now + ROUND_PAIR_GROUPS, total.y);
+    rounds[next + ROUND_CLUSTERS] = remaining;
+    rounds[next + ROUND_FIRST_PAIR] = rounds[now + ROUND_FIRST_PAIR] + total.y;
+    const uint lanes = remaining == mesh_count ? 0u : remaining;
+    setGroups(next + ROUND_CLUSTER_GROUPS, lanes);
+    setGroups(next + ROUND_CHUNK_GROUPS, (lanes + CHUNK - 1u) / CHUNK);
+    // Unchanged clusters stay where they are, so what is last written is what the last round that ran wrote.
+    if (!done && remaining == mesh_count)
+      rounds[BUILD_ROUNDS * ROUND_STRIDE + ROUND_PAIRS] = (round_index + 1u) & 1u;
+  }
+}

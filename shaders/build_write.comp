@@ -1,0 +1,52 @@
+// One lane per CHUNK clusters: writes the clusters that remain, packed and in order, and the pairs of children that
+// the merged ones now have.
+#include "interface.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common.glsl"
+#include "cluster.glsl"
+#include "build_merge.glsl"
+layout(std430, binding = 0) readonly buffer ClustersIn { uvec4 clusters_in[]; };
+layout(std430, binding = 1) readonly buffer MeshIn { uint mesh_in[]; };
+layout(std430, binding = 4) readonly buffer Sums { uvec2 sums[]; };
+layout(std430, binding = 5) writeonly buffer ClustersOut { uvec4 clusters_out[]; };
+layout(std430, binding = 6) writeonly buffer MeshOut { uint mesh_out[]; };
+layout(std430, binding = 7) writeonly buffer Pairs { uvec4 pairs[]; };  // four a pair: two clusters
+
+void main()
+{
+  const uint lane = invocationIndex();
+  const uint cluster_count = rounds[round_index * ROUND_STRIDE + ROUND_CLUSTERS];
+  if (lane * CHUNK >= cluster_count)
+    return;
+  uvec2 at = sums[lane];
+  at.y += rounds[round_index * ROUND_STRIDE + ROUND_FIRST_PAIR];
+  const uint end = min((lane + 1u) * CHUNK, cluster_count);
+  for (uint i = lane * CHUNK; i < end; ++i)
+  {
+    const uint fate = fateOf(i);
+    if (fate == VANISHES)
+      continue;
+    uvec4 low = clusters_in[2u * i];
+    uvec4 high = clusters_in[2u * i + 1u];
+    if (fate == MERGES)
+    {
+      const uint j = nearest[i];
+      const uvec4 other_low = clusters_in[2u * j];
+      const uvec4 other_high = clusters_in[2u * j + 1u];
+      pairs[4u * at.y] = low;
+      pairs[4u * at.y + 1u] = high;
+      pairs[4u * at.y + 2u] = other_low;
+      pairs[4u * at.y + 3u] = other_high;
+      const Cluster a = unpackCluster(low, high);
+      const Cluster b = unpackCluster(other_low, other_high);
+      const Cluster merged = Cluster(min(a.low, b.low), max(a.high, b.high), at.y, a.count + b.count);
+      low = packLow(merged);
+      high = packHigh(merged);
+      ++at.y;
+    }
+    clusters_out[2u * at.x] = low;
+    clusters_out[2u * at.x + 1u] = high;
+    mesh_out[at.x] = mesh_in[i];
+    ++at.x;
+  }
+}

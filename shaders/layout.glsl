@@ -1,0 +1,23 @@
+// The last step of the build, from the roots down: nodes get their final form, and every triangle its place, so that a
+// subtree's triangles are contiguous and a subtree of at most leaf_size triangles becomes a leaf.
+#include "cluster.glsl"
+layout(location = 1) uniform uint root_base;      // where the roots of this forest lie among the nodes
+layout(location = 2) uniform uint leaf_size;
+layout(std430, binding = 5) buffer PairStarts { uint pair_starts[]; };         // the first triangle below each pair
+layout(std430, binding = 6) writeonly buffer Nodes { uvec4 nodes[]; };         // two a node, see forest.h
+layout(std430, binding = 7) writeonly buffer LeafOrder { uint leaf_order[]; };
+
+// Places a subtree whose triangles begin at `start` into node `at`. Pairs of children follow the `roots` roots.
+void place(Cluster c, uint at, uint start, uint first_pair_node)
+{
+  const bool leaf = c.count <= leaf_size;
+  if (c.count == 1u)
+    leaf_order[start] = c.reference;
+  else
+    pair_starts[c.reference] = start;
+  const vec3 center = 0.5 * c.low + 0.5 * c.high;
+  // Rounded outward: the half extents cover both corners whatever was rounded in the centre.
+  const vec3 half_extent = max(c.high - center, center - c.low) * (1.0 + 4.0 * 1.1920929e-7) + 1e-37;
+  nodes[2u * at] = uvec4(floatBitsToUint(center), leaf ? start : first_pair_node + 2u * c.reference);
+  nodes[2u * at + 1u] = uvec4(floatBitsToUint(half_extent), leaf ? c.count : 0u);
+}

@@ -1,0 +1,105 @@
+#include "gpu/buffer.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <epoxy/gl.h>
+
+#include "gpu/gl_check.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+Buffer::Buffer(std::size_t size) : size_(std::max<std::size_t>(size, 16))
+{
+  glCreateBuffers(1, &id_);
+  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(size_), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  checkGl(("allocating " + std::to_string(size_) + " bytes").c_str());
+}
+
+Buffer::~Buffer()
+{
+  if (id_)
+    glDeleteBuffers(1, &id_);
+}
+
+Buffer::Buffer(Buffer&& other) noexcept : id_(std::exchange(other.id_, 0)), size_(std::exchange(other.size_, 0)) {}
+
+Buffer& Buffer::operator=(Buffer&& other) noexcept
+{
+  std::swap(id_, other.id_);
+  std::swap(size_, other.size_);
+  return *this;
+}
+
+void Buffer::reserve(std::size_t size)
+{
+  if (size <= size_)
+    return;
+  Buffer larger(std::max(size, size_ + size_ / 2));
+  if (size_)
+    larger.copyFrom(*this, size_);
+  *this = std::move(larger);
+}
+
+void Buffer::write(const void* data, std::size_t size, std::size_t offset)
+{
+  if (size == 0)
+    return;
+  glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(size), data);
+  checkGl("an upload");
+}
+
+void Buffer::read(void* data, std::size_t size, std::size_t offset) const
+{
+  if (size == 0)
+    return;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(size), data);
+  checkGl("a download");
+}
+
+void Buffer::clear() { clear(0, size_); }
+
+void Buffer::clear(std::size_t offset, std::size_t size)
+{
+  const std::uint32_t zero = 0;
+  glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(size & ~std::size_t{ 3 }),
+                            GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+  checkGl("clearing a buffer");
+}
+
+void Buffer::copyFrom(const Buffer& other, std::size_t size)
+{
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  glCopyNamedBufferSubData(other.id_, id_, 0, 0, static_cast<GLsizeiptr>(size));
+  checkGl("copying a buffer");
+}
+
+void Buffer::bindStorage(std::uint32_t binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_); }
+
+TexelBuffer::~TexelBuffer()
+{
+  if (texture_)
+    glDeleteTextures(1, &texture_);
+}
+
+void TexelBuffer::reserve(std::size_t size)
+{
+  if (size <= buffer_.size() && texture_)
+    return;
+  buffer_.reserve(size);
+  GLint limit = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
+  if (buffer_.size() / 16 > static_cast<std::size_t>(limit))
+    throw Error("the device holds at most " + std::to_string(limit) + " texels in a buffer texture, " +
+                std::to_string(buffer_.size() / 16) + " are needed; use fewer triangles or a smaller batch");
+  if (!texture_)
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
+  glTextureBuffer(texture_, GL_RGBA32UI, buffer_.id());
+  checkGl("making a buffer texture");
+}
+
+void TexelBuffer::bindTexture(std::uint32_t unit) const { glBindTextureUnit(unit, texture_); }
+}  // namespace gpu_planning_scene

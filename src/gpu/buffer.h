@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace gpu_planning_scene
+{
+/// A block of GPU memory of fixed size. Move-only; used on the context's thread. All sizes are in bytes.
+/// Throws Error where OpenGL fails (out of memory, out of range).
+class Buffer
+{
+public:
+  Buffer() = default;
+  explicit Buffer(std::size_t size);
+  ~Buffer();
+  Buffer(Buffer&& other) noexcept;
+  Buffer& operator=(Buffer&& other) noexcept;
+
+  std::size_t size() const { return size_; }
+  std::uint32_t id() const { return id_; }
+
+  /// Grows to at least `size`, with head room; keeps what it held.
+  void reserve(std::size_t size);
+  void write(const void* data, std::size_t size, std::size_t offset = 0);
+  void read(void* data, std::size_t size, std::size_t offset = 0) const;
+  void clear();  ///< fills it with zeros
+  void clear(std::size_t offset, std::size_t size);
+  void copyFrom(const Buffer& other, std::size_t size);
+
+  void bindStorage(std::uint32_t binding) const;
+
+  template <class T>
+  void write(const std::vector<T>& data)
+  {
+    write(data.data(), data.size() * sizeof(T));
+  }
+
+private:
+  std::uint32_t id_ = 0;
+  std::size_t size_ = 0;
+};
+
+/// A buffer that shaders read through a buffer texture of 16-byte texels (RGBA32UI): on llvmpipe such reads cost a
+/// quarter of a storage buffer's. Integers, so that bit patterns survive on devices that flush denormals.
+class TexelBuffer
+{
+public:
+  TexelBuffer() = default;
+  ~TexelBuffer();
+  TexelBuffer(const TexelBuffer&) = delete;
+  TexelBuffer& operator=(const TexelBuffer&) = delete;
+
+  /// Grows to at least `size` bytes and keeps what it held. Throws Error past the device's limit.
+  void reserve(std::size_t size);
+  Buffer& buffer() { return buffer_; }
+  const Buffer& buffer() const { return buffer_; }
+  void bindTexture(std::uint32_t unit) const;
+
+private:
+  Buffer buffer_;
+  std::uint32_t texture_ = 0;
+};
+}  // namespace gpu_planning_scene

@@ -1,0 +1,46 @@
+#include "gpu/gl_check.h"
+
+#include <string>
+
+#include <epoxy/gl.h>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+const char* errorName(GLenum error)
+{
+  switch (error)
+  {
+    case GL_INVALID_ENUM:
+      return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+      return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+      return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+      return "GL_OUT_OF_MEMORY";
+    case GL_CONTEXT_LOST:
+      return "GL_CONTEXT_LOST";
+    default:
+      return "an unknown OpenGL error";
+  }
+}
+}  // namespace
+
+void checkGl(const char* where)
+{
+  const GLenum first = glGetError();
+  if (first == GL_NO_ERROR)
+    return;
+  // One flag per kind of error may be set; a lost context reports its error for ever.
+  for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i)
+  {
+  }
+  throw Error(std::string("the GPU failed in ") + where + ": " + errorName(first));
+}
+}  // namespace gpu_planning_scene

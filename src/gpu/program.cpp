@@ -1,0 +1,145 @@
+#include "gpu/program.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include <epoxy/gl.h>
+
+#include "gpu/gl_check.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr std::size_t kMaxGroups = 65535;
+
+/// What a dispatch may read of the dispatches before it: storage, buffer textures and indirect arguments.
+void waitForEarlierDispatches()
+{
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                  GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void appendFile(const std::string& folder, const std::string& name, std::set<std::string>& seen, std::string& text)
+{
+  if (!seen.insert(name).second)
+    return;
+  std::ifstream file(folder + "/" + name);
+  if (!file)
+    throw Error("shader file " + folder + "/" + name + " is missing; install the package, or set GPU_PLANNING_SCENE_SHADERS");
+  std::string line;
+  while (std::getline(file, line))
+  {
+    std::istringstream words(line);
+    std::string word;
+    std::string quoted;
+    words >> word >> quoted;
+    if (word == "#include" && quoted.size() > 2)
+      appendFile(folder, quoted.substr(1, quoted.size() - 2), seen, text);
+    else if (word != "#pragma")  // the include guards of files that C++ reads too
+      text += line + '\n';
+  }
+}
+
+std::string compileLog(GLuint shader)
+{
+  GLint length = 0;
+  glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length), '\0');
+  glGetShaderInfoLog(shader, length, nullptr, log.data());
+  return log;
+}
+
+std::string linkLog(GLuint program)
+{
+  GLint length = 0;
+  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length), '\0');
+  glGetProgramInfoLog(program, length, nullptr, log.data());
+  return log;
+}
+}  // namespace
+
+std::string shaderFolder()
+{
+  const char* chosen = std::getenv("GPU_PLANNING_SCENE_SHADERS");
+  for (const std::string& folder : { std::string(chosen ? chosen : ""), std::string(GPS_INSTALLED_SHADERS), std::string(GPS_SOURCE_SHADERS) })
+    if (!folder.empty() && std::filesystem::exists(folder + "/interface.h"))
+      return folder;
+  throw Error("the shaders are neither in " GPS_INSTALLED_SHADERS " nor in " GPS_SOURCE_SHADERS
+              "; install the package, or set GPU_PLANNING_SCENE_SHADERS");
+}
+
+std::string readShader(const std::string& folder, const std::string& name)
+{
+  std::set<std::string> seen;
+  std::string text;
+  appendFile(folder, name, seen, text);
+  return text;
+}
+
+Program::Program(const std::string& folder, const std::string& name, const std::string& definitions)
+{
+  const std::string source = "#version 450\n" + definitions + readShader(folder, name);
+  const char* text = source.c_str();
+  const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint good = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+  if (!good)
+  {
+    const std::string log = compileLog(shader);
+    glDeleteShader(shader);
+    throw Error("shader " + name + " does not compile: " + log);
+  }
+  id_ = glCreateProgram();
+  glAttachShader(id_, shader);
+  glLinkProgram(id_);
+  glDeleteShader(shader);
+  glGetProgramiv(id_, GL_LINK_STATUS, &good);
+  if (!good)
+  {
+    const std::string log = linkLog(id_);
+    glDeleteProgram(id_);
+    throw Error("shader " + name + " does not link: " + log);
+  }
+  checkGl(("compiling " + name).c_str());
+}
+
+Program::~Program()
+{
+  if (id_)
+    glDeleteProgram(id_);
+}
+
+Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+
+void Program::set(int location, std::uint32_t value) const { glProgramUniform1ui(id_, location, value); }
+
+void Program::dispatch(std::size_t groups) const
+{
+  if (groups == 0)
+    return;
+  const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
+  const std::size_t columns = (groups + rows - 1) / rows;
+  if (rows > kMaxGroups)
+    throw Error("a dispatch of " + std::to_string(groups) + " workgroups is more than OpenGL can run; use a smaller batch");
+  waitForEarlierDispatches();
+  glUseProgram(id_);
+  glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
+}
+
+void Program::dispatchIndirect(const Buffer& arguments, std::size_t offset) const
+{
+  waitForEarlierDispatches();
+  glUseProgram(id_);
+  glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments.id());
+  glDispatchComputeIndirect(static_cast<GLintptr>(offset));
+}
+}  // namespace gpu_planning_scene
