@@ -8,6 +8,8 @@
 
 namespace gpu_planning_scene
 {
+constexpr std::uint32_t kLeafTriangles = 4;  // the most that a leaf holds
+
 /// A node of a bounding volume hierarchy over triangles, as it lies in GPU memory (two RGBA32UI texels).
 /// The box is in the mesh's frame, in metres, and contains its triangles' double-precision vertices.
 struct Node

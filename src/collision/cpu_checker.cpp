@@ -1,0 +1,152 @@
+#include "gpu_planning_scene/cpu_checker.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "binned_sah.h"
+#include "collision_problem.h"
+#include "cpu_traversal.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr std::size_t kStatesPerChunk = 16;
+
+/// Calls `work(begin, end)` for chunks of [0, count) on all cores; the calling thread is one of them.
+template <class Work>
+void forChunks(std::size_t count, const Work& work)
+{
+  const std::size_t chunks = (count + kStatesPerChunk - 1) / kStatesPerChunk;
+  std::atomic<std::size_t> next{0};
+  const auto run = [&]
+  {
+    Work own = work;
+    for (std::size_t chunk = next++; chunk < chunks; chunk = next++)
+    {
+      own(chunk * kStatesPerChunk, std::min(count, (chunk + 1) * kStatesPerChunk));
+    }
+  };
+  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::thread> helpers;
+  for (std::size_t i = 1; i < std::min(cores, chunks); ++i)
+  {
+    helpers.emplace_back(run);
+  }
+  run();
+  for (std::thread& helper : helpers)
+  {
+    helper.join();
+  }
+}
+}  // namespace
+
+struct CpuChecker::Impl
+{
+  struct GroupProblem
+  {
+    SceneReport report;
+    std::unique_ptr<const CpuTraversal> traversal;
+  };
+
+  std::mutex mutex;
+  std::shared_ptr<const PlanningScene> scene;
+  std::shared_ptr<const Forest> forest;
+  std::map<std::string, GroupProblem> groups;
+
+  const GroupProblem& groupProblem(const std::string& group)
+  {
+    const auto known = groups.find(group);
+    if (known != groups.end())
+    {
+      return known->second;
+    }
+    GroupProblem made;
+    auto problem = std::make_shared<const CollisionProblem>(makeProblem(*scene, group, &made.report));
+    if (!forest)
+    {
+      forest = std::make_shared<const Forest>(buildBinnedSah(problem->trees));
+    }
+    made.traversal = std::make_unique<const CpuTraversal>(problem, forest);
+    return groups.emplace(group, std::move(made)).first->second;
+  }
+
+  void refuseNonFinite(const double* states, std::size_t count) const
+  {
+    const auto& variables = scene->robot->variables();
+    for (std::size_t i = 0; i < count * variables.size(); ++i)
+    {
+      if (!std::isfinite(states[i]))
+      {
+        throw Error("state " + std::to_string(i / variables.size()) + ": the value of variable '" +
+                    variables[i % variables.size()].name + "' is not a finite number");
+      }
+    }
+  }
+};
+
+CpuChecker::CpuChecker(std::shared_ptr<const PlanningScene> scene) : impl_(std::make_unique<Impl>())
+{
+  setScene(std::move(scene));
+}
+
+CpuChecker::~CpuChecker() = default;
+
+void CpuChecker::setScene(std::shared_ptr<const PlanningScene> scene)
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  Impl fresh;
+  fresh.scene = std::move(scene);
+  fresh.groupProblem("");
+  impl_->scene = std::move(fresh.scene);
+  impl_->forest = std::move(fresh.forest);
+  impl_->groups = std::move(fresh.groups);
+}
+
+BatchResult CpuChecker::check(const double* states, std::size_t count, const std::string& group)
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  const CpuTraversal& traversal = *impl_->groupProblem(group).traversal;
+  impl_->refuseNonFinite(states, count);
+  const RobotModel& robot = *impl_->scene->robot;
+
+  BatchResult result;
+  result.revision = impl_->scene->revision;
+  result.valid.assign(count, 1);
+  result.colliding.assign(count, {-1, -1});
+  const auto start = std::chrono::steady_clock::now();
+  forChunks(count,
+            [&, scratch = CpuTraversal::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot.links().size())](
+                std::size_t begin, std::size_t end) mutable
+            {
+              for (std::size_t i = begin; i < end; ++i)
+              {
+                robot.linkPoses(states + i * robot.variables().size(), poses.data());
+                if (const auto pair = traversal.firstCollision(poses.data(), scratch))
+                {
+                  result.valid[i] = 0;
+                  result.colliding[i] = *pair;
+                }
+              }
+            });
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+SceneReport CpuChecker::report(const std::string& group)
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  return impl_->groupProblem(group).report;
+}
+
+std::string CpuChecker::deviceName() const
+{
+  return "CPU";
+}
+}  // namespace gpu_planning_scene
