@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -19,20 +21,20 @@ using PackageResolver = std::function<std::string(const std::string& package)>;
 PackageResolver packageResolver(std::map<std::string, std::string> folders);
 
 /// Turns a mesh URI into a file path: package://NAME/PATH, file:///PATH, an absolute path, or a path relative to
-/// `base_folder` (the folder of the URDF; may be empty, then relative paths are an error). %20-style escapes are decoded
-/// in URIs. Throws Error that names the URI; does not look whether the file is there.
+/// `base_folder` (the folder of the URDF; may be empty, then relative paths are an error). %20-style escapes are
+/// decoded in URIs. Throws Error that names the URI; does not look whether the file is there.
 std::string resolveUri(const std::string& uri, const std::string& base_folder, const PackageResolver& packages);
 
 /// Loads meshes from STL, DAE, OBJ and PLY files and keeps what it loaded: a file with the same scale is read once.
 /// The unit and up-axis of a DAE are applied as RViz and MoveIt do. Not thread-safe.
 class MeshCache
 {
-public:
-  /// The mesh of a file, scaled per axis; negative scales mirror. Throws Error: missing or unreadable file, no triangles,
-  /// non-finite vertices.
+ public:
+  /// The mesh of a file, scaled per axis; negative scales mirror. Throws Error: missing or unreadable file, no
+  /// triangles, non-finite vertices.
   std::shared_ptr<const Mesh> load(const std::string& path, const Eigen::Vector3d& scale);
 
-private:
+ private:
   std::map<std::pair<std::string, std::array<double, 3>>, std::shared_ptr<const Mesh>> meshes_;
 };
 }  // namespace gpu_planning_scene

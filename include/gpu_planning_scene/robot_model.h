@@ -4,6 +4,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -20,9 +21,9 @@ namespace gpu_planning_scene
 struct Variable
 {
   std::string name;
-  bool bounded = false;      ///< has limits in the URDF
-  double lower = 0.0;        ///< the limits, or the range for random states of an unbounded variable
-  double upper = 0.0;        ///< (see RobotModelOptions)
+  bool bounded = false;  ///< has limits in the URDF
+  double lower = 0.0;    ///< the limits, or the range for random states of an unbounded variable
+  double upper = 0.0;    ///< (see RobotModelOptions)
 };
 
 enum class JointType
@@ -34,6 +35,13 @@ enum class JointType
   Planar,
   Floating
 };
+
+/// How many variables a joint of that type has (one that is not a mimic).
+int variableCount(JointType type);
+
+/// The directions in which a planar joint's x and y move and its normal, as columns (right-handed). Where the normal is
+/// z they are x, y and z, as in MoveIt, which knows no other normal.
+Eigen::Matrix3d planarDirections(const Eigen::Vector3d& normal);
 
 struct Joint
 {
@@ -77,15 +85,15 @@ struct LinkPair
 struct SrdfCollisions
 {
   bool has_srdf = false;
-  std::vector<LinkPair> disabled;      ///< disable_collisions
-  std::vector<LinkPair> enabled;       ///< enable_collisions
+  std::vector<LinkPair> disabled;        ///< disable_collisions
+  std::vector<LinkPair> enabled;         ///< enable_collisions
   std::vector<int> disabled_by_default;  ///< disable_default_collisions
 };
 
 struct RobotModelOptions
 {
-  PackageResolver packages;             ///< may be empty where no URI needs it
-  std::string urdf_folder;              ///< what relative mesh paths are relative to; may be empty
+  PackageResolver packages;                              ///< may be empty where no URI needs it
+  std::string urdf_folder;                               ///< what relative mesh paths are relative to; may be empty
   std::string urdf_name = "robot_description";           ///< for messages: the file or parameter
   std::string srdf_name = "robot_description_semantic";  ///< for messages
   /// Random states of unbounded variables are drawn from these: angles (continuous, planar theta) from [-pi, pi],
@@ -94,14 +102,16 @@ struct RobotModelOptions
   double unbounded_translation = 1.0;
 };
 
+class Kinematics;
+
 /// A robot: the kinematic tree of a URDF with its collision shapes, and what its SRDF adds. Immutable, thread-safe.
 /// A *state* is a row of `variables().size()` doubles.
 class RobotModel
 {
-public:
-  /// `urdf` and `srdf` are XML texts; an empty `srdf` means that there is none. `warnings` (may be null) receives a line
-  /// for each thing that is odd but harmless (an SRDF entry that names an unknown link, say).
-  /// Throws Error with name and line for malformed XML, missing meshes, unknown links or joints in groups.
+ public:
+  /// `urdf` and `srdf` are XML texts; an empty `srdf` means that there is none. `warnings` (may be null) receives a
+  /// line for each thing that is odd but harmless (an SRDF entry that names an unknown link, say). Throws Error with
+  /// name and line for malformed XML, missing meshes, unknown links or joints in groups.
   static std::shared_ptr<const RobotModel> fromXml(const std::string& urdf, const std::string& srdf,
                                                    const RobotModelOptions& options,
                                                    std::vector<std::string>* warnings = nullptr);
@@ -119,10 +129,10 @@ public:
   const std::vector<Group>& groups() const { return groups_; }
   const SrdfCollisions& srdfCollisions() const { return srdf_collisions_; }
 
-  int linkIndex(const std::string& name) const;      ///< -1 if there is none
-  int jointIndex(const std::string& name) const;     ///< -1 if there is none
-  int variableIndex(const std::string& name) const;  ///< -1 if there is none
-  const Group& group(const std::string& name) const; ///< throws Error that lists the groups there are
+  int linkIndex(const std::string& name) const;       ///< -1 if there is none
+  int jointIndex(const std::string& name) const;      ///< -1 if there is none
+  int variableIndex(const std::string& name) const;   ///< -1 if there is none
+  const Group& group(const std::string& name) const;  ///< throws Error that lists the groups there are
 
   /// Links that a joint joins directly (no shapes in between: links without collision shapes are stepped over, so
   /// that two bodies joined by an empty link count as adjacent). Pairs of links with shapes, sorted.
@@ -140,7 +150,7 @@ public:
 
   std::size_t triangleCount() const;  ///< of all meshes of all links, boxes and curved shapes not counted
 
-private:
+ private:
   friend class RobotModelBuilder;
   std::string name_;
   std::string planning_frame_;
@@ -149,5 +159,9 @@ private:
   std::vector<Variable> variables_;
   std::vector<Group> groups_;
   SrdfCollisions srdf_collisions_;
+  std::unordered_map<std::string, int> link_indices_;
+  std::unordered_map<std::string, int> joint_indices_;
+  std::unordered_map<std::string, int> variable_indices_;
+  std::shared_ptr<const Kinematics> kinematics_;
 };
 }  // namespace gpu_planning_scene

@@ -1,0 +1,127 @@
+#include "kinematics.h"
+
+#include <cmath>
+
+namespace gpu_planning_scene
+{
+namespace
+{
+Eigen::Matrix3d crossProductMatrix(const Eigen::Vector3d& a)
+{
+  Eigen::Matrix3d matrix;
+  matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return matrix;
+}
+
+// Motion in the plane whose directions and normal are the columns of `directions`.
+Eigen::Matrix4d planarMotion(const Eigen::Matrix3d& directions, const double* variables)
+{
+  Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
+  motion.topRightCorner<3, 1>() = directions.leftCols<2>() * Eigen::Vector2d(variables[0], variables[1]);
+  motion.topLeftCorner<3, 3>() = Eigen::AngleAxisd(variables[2], directions.col(2)).toRotationMatrix();
+  return motion;
+}
+
+Eigen::Matrix4d floatingMotion(const double* variables)
+{
+  Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
+  motion.topRightCorner<3, 1>() = Eigen::Map<const Eigen::Vector3d>(variables);
+  const Eigen::Vector4d coefficients = Eigen::Map<const Eigen::Vector4d>(variables + 3).stableNormalized();
+  if (!coefficients.isZero(0.0))
+  {
+    motion.topLeftCorner<3, 3>() = Eigen::Quaterniond(coefficients).toRotationMatrix();
+  }
+  return motion;
+}
+}  // namespace
+
+Eigen::Matrix3d planarDirections(const Eigen::Vector3d& normal)
+{
+  // x is the coordinate direction after that which the normal is nearest to, brought into the plane: for a normal along
+  // x, y, z these are (y, z), (z, x), (x, y).
+  int nearest;
+  normal.cwiseAbs().maxCoeff(&nearest);
+  const Eigen::Vector3d next = Eigen::Vector3d::Unit((nearest + 1) % 3);
+  Eigen::Matrix3d directions;
+  directions.col(0) = (next - next.dot(normal) * normal).normalized();
+  directions.col(1) = normal.cross(directions.col(0));
+  directions.col(2) = normal;
+  return directions;
+}
+
+Kinematics::Kinematics(const std::vector<Link>& links, const std::vector<Joint>& joints)
+{
+  for (const Link& link : links)
+  {
+    Step step;
+    if (link.parent_joint >= 0)
+    {
+      const Joint& joint = joints[link.parent_joint];
+      const Eigen::Matrix3d origin = joint.origin.linear();
+      const Eigen::Vector3d& axis = joint.axis;
+      step.constant = joint.origin.matrix();
+      step.multiplier = joint.multiplier;
+      step.offset = joint.offset;
+      step.parent = joint.parent_link;
+      step.variable = joint.first_variable;
+      step.type = joint.type;
+      if (joint.type == JointType::Revolute || joint.type == JointType::Continuous)
+      {
+        const Eigen::Matrix3d along = axis * axis.transpose();
+        step.constant.topLeftCorner<3, 3>() = origin * along;
+        step.first.topLeftCorner<3, 3>() = origin * (Eigen::Matrix3d::Identity() - along);
+        step.second.topLeftCorner<3, 3>() = origin * crossProductMatrix(axis);
+      }
+      else if (joint.type == JointType::Prismatic)
+      {
+        step.first.topRightCorner<3, 1>() = origin * axis;
+      }
+      else if (joint.type == JointType::Planar)
+      {
+        step.first.topLeftCorner<3, 3>() = planarDirections(axis);
+      }
+    }
+    steps_.push_back(step);
+  }
+}
+
+Eigen::Matrix4d Kinematics::relativePose(const Step& step, const double* state)
+{
+  switch (step.type)
+  {
+    case JointType::Revolute:
+    case JointType::Continuous:
+    {
+      const double angle = step.multiplier * state[step.variable] + step.offset;
+      return step.constant + std::cos(angle) * step.first + std::sin(angle) * step.second;
+    }
+    case JointType::Prismatic:
+      return step.constant + (step.multiplier * state[step.variable] + step.offset) * step.first;
+    case JointType::Planar:
+      return step.constant * planarMotion(step.first.topLeftCorner<3, 3>(), state + step.variable);
+    case JointType::Floating:
+      return step.constant * floatingMotion(state + step.variable);
+    case JointType::Fixed:
+      break;
+  }
+  return step.constant;
+}
+
+void Kinematics::linkPoses(const double* state, Eigen::Isometry3d* poses) const
+{
+  for (std::size_t i = 0; i < steps_.size(); ++i)
+  {
+    const Step& step = steps_[i];
+    const Eigen::Matrix4d relative = relativePose(step, state);
+    // Products of 4x4 matrices are vectorised; their last rows come out as exactly 0 0 0 1.
+    if (step.parent < 0)
+    {
+      poses[i].matrix() = relative;
+    }
+    else
+    {
+      poses[i].matrix().noalias() = poses[step.parent].matrix() * relative;
+    }
+  }
+}
+}  // namespace gpu_planning_scene

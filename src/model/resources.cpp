@@ -1,0 +1,120 @@
+#include "gpu_planning_scene/resources.h"
+
+#include <cctype>
+#include <filesystem>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+bool startsWith(const std::string& text, const std::string& prefix)
+{
+  return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+// A percent sign that no two hexadecimal digits follow stands for itself, as in libcurl, which ROS reads URIs with.
+std::string decodePercents(const std::string& text, const std::string& uri)
+{
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    if (text[i] == '%' && i + 2 < text.size() && std::isxdigit(static_cast<unsigned char>(text[i + 1])) &&
+        std::isxdigit(static_cast<unsigned char>(text[i + 2])))
+    {
+      decoded += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    }
+    else
+    {
+      decoded += text[i];
+    }
+  }
+  if (decoded.find('\0') != std::string::npos)
+  {
+    throw Error("mesh URI '" + uri + "' holds a zero byte");
+  }
+  return decoded;
+}
+
+std::string resolvePackageUri(const std::string& uri, const PackageResolver& packages)
+{
+  const std::string rest = decodePercents(uri.substr(std::string("package://").size()), uri);
+  const std::size_t slash = rest.find('/');
+  const std::string package = rest.substr(0, slash);
+  const fs::path inside = slash == std::string::npos ? fs::path() : fs::path(rest.substr(slash + 1)).lexically_normal();
+  if (package.empty() || inside.empty() || inside == ".")
+  {
+    throw Error("mesh URI '" + uri + "' is not of the form package://NAME/PATH");
+  }
+  if (package == "." || package == ".." || inside.is_absolute() || *inside.begin() == "..")
+  {
+    throw Error("mesh URI '" + uri + "' leaves its package");
+  }
+  const std::string folder = packages ? packages(package) : std::string();
+  if (folder.empty())
+  {
+    throw Error("mesh URI '" + uri + "': the folder of package '" + package + "' is not known; name it (--package " +
+                package + "=DIR) or put it on ROS_PACKAGE_PATH");
+  }
+  return (fs::path(folder) / inside).string();
+}
+
+std::string resolveFileUri(const std::string& uri)
+{
+  std::string path = uri.substr(std::string("file://").size());
+  if (startsWith(path, "localhost/"))
+  {
+    path.erase(0, std::string("localhost").size());
+  }
+  path = decodePercents(path, uri);
+  if (path.empty() || path[0] != '/')
+  {
+    throw Error("mesh URI '" + uri + "' names no absolute path; write file:///PATH");
+  }
+  return path;
+}
+}  // namespace
+
+PackageResolver packageResolver(std::map<std::string, std::string> folders)
+{
+  return [folders = std::move(folders)](const std::string& package)
+  {
+    const auto found = folders.find(package);
+    return found == folders.end() ? std::string() : found->second;
+  };
+}
+
+std::string resolveUri(const std::string& uri, const std::string& base_folder, const PackageResolver& packages)
+{
+  if (uri.empty())
+  {
+    throw Error("a mesh has an empty file name");
+  }
+  if (startsWith(uri, "package://"))
+  {
+    return resolvePackageUri(uri, packages);
+  }
+  if (startsWith(uri, "file://"))
+  {
+    return resolveFileUri(uri);
+  }
+  if (uri.find("://") != std::string::npos)
+  {
+    throw Error("mesh URI '" + uri + "': only package://, file:// and plain paths can be read");
+  }
+  if (uri[0] == '/')
+  {
+    return uri;
+  }
+  if (base_folder.empty())
+  {
+    throw Error("mesh path '" + uri +
+                "' is relative, but it is not known to which folder; write package:// or an absolute path");
+  }
+  return (fs::path(base_folder) / uri).string();
+}
+}  // namespace gpu_planning_scene

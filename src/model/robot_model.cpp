@@ -1,0 +1,164 @@
+#include "gpu_planning_scene/robot_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu_planning_scene/error.h"
+#include "kinematics.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+int find(const std::unordered_map<std::string, int>& indices, const std::string& name)
+{
+  const auto found = indices.find(name);
+  return found == indices.end() ? -1 : found->second;
+}
+
+// From [0, 1), the same with every standard library.
+double uniform(std::mt19937_64& generator)
+{
+  return static_cast<double>(generator() >> 11) * 0x1.0p-53;
+}
+
+// Uniform over the rotations: points of the unit ball in four dimensions, by rejection, brought to its surface.
+void randomQuaternion(std::mt19937_64& generator, double* coefficients)
+{
+  Eigen::Map<Eigen::Vector4d> quaternion(coefficients);
+  double squared_norm;
+  do
+  {
+    for (int i = 0; i < 4; ++i)
+    {
+      quaternion[i] = 2.0 * uniform(generator) - 1.0;
+    }
+    squared_norm = quaternion.squaredNorm();
+  } while (squared_norm > 1.0 || squared_norm < 1e-6);
+  quaternion /= std::sqrt(squared_norm);
+}
+}  // namespace
+
+int variableCount(JointType type)
+{
+  switch (type)
+  {
+    case JointType::Fixed:
+      return 0;
+    case JointType::Planar:
+      return 3;
+    case JointType::Floating:
+      return 7;
+    default:
+      return 1;
+  }
+}
+
+int RobotModel::linkIndex(const std::string& name) const
+{
+  return find(link_indices_, name);
+}
+
+int RobotModel::jointIndex(const std::string& name) const
+{
+  return find(joint_indices_, name);
+}
+
+int RobotModel::variableIndex(const std::string& name) const
+{
+  return find(variable_indices_, name);
+}
+
+const Group& RobotModel::group(const std::string& name) const
+{
+  std::string names;
+  for (const Group& group : groups_)
+  {
+    if (group.name == name)
+    {
+      return group;
+    }
+    names += (names.empty() ? "" : ", ") + group.name;
+  }
+  throw Error("robot '" + name_ + "' has no group '" + name + "'; " +
+              (names.empty() ? "it has no groups, they come from an SRDF" : "its groups: " + names));
+}
+
+std::vector<std::pair<int, int>> RobotModel::adjacentLinks() const
+{
+  std::vector<std::pair<int, int>> pairs;
+  std::vector<int> nearest(links_.size());  // the link itself, or its nearest ancestor, with shapes; -1: none
+  for (std::size_t i = 0; i < links_.size(); ++i)
+  {
+    const int link = static_cast<int>(i);
+    const int parent = links_[i].parent_joint < 0 ? -1 : joints_[links_[i].parent_joint].parent_link;
+    const int ancestor = parent < 0 ? -1 : nearest[parent];
+    nearest[i] = links_[i].shapes.empty() ? ancestor : link;
+    if (nearest[i] == link && ancestor >= 0)
+    {
+      pairs.emplace_back(ancestor, link);
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+void RobotModel::linkPoses(const double* state, Eigen::Isometry3d* poses) const
+{
+  kinematics_->linkPoses(state, poses);
+}
+
+void RobotModel::randomState(std::mt19937_64& generator, double* state) const
+{
+  for (std::size_t i = 0; i < variables_.size(); ++i)
+  {
+    const Variable& variable = variables_[i];
+    const double u = uniform(generator);
+    // Limits may be so wide that their difference overflows; rounding may leave them by one step.
+    state[i] = std::clamp((1.0 - u) * variable.lower + u * variable.upper, variable.lower, variable.upper);
+  }
+  for (const Joint& joint : joints_)
+  {
+    if (joint.type == JointType::Floating)
+    {
+      randomQuaternion(generator, state + joint.first_variable + 3);
+    }
+  }
+}
+
+std::vector<double> RobotModel::defaultState() const
+{
+  std::vector<double> state(variables_.size(), 0.0);
+  for (std::size_t i = 0; i < variables_.size(); ++i)
+  {
+    if (variables_[i].lower > 0.0 || variables_[i].upper < 0.0)
+    {
+      state[i] = 0.5 * variables_[i].lower + 0.5 * variables_[i].upper;
+    }
+  }
+  for (const Joint& joint : joints_)
+  {
+    if (joint.type == JointType::Floating)
+    {
+      state[joint.first_variable + 6] = 1.0;
+    }
+  }
+  return state;
+}
+
+std::size_t RobotModel::triangleCount() const
+{
+  std::size_t count = 0;
+  for (const Link& link : links_)
+  {
+    for (const PlacedShape& placed : link.shapes)
+    {
+      if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&placed.shape))
+      {
+        count += (*mesh)->triangles.size();
+      }
+    }
+  }
+  return count;
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,89 @@
+#include "gpu_planning_scene/shapes.h"
+
+#include <cmath>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+void requirePositive(double value, const char* dimension, const std::string& where)
+{
+  if (!std::isfinite(value) || value <= 0.0)
+  {
+    throw Error(where + ": the " + dimension + " is " + std::to_string(value) + ", it must be finite and positive");
+  }
+}
+
+struct DimensionCheck
+{
+  const std::string& where;
+
+  void operator()(const Box& box) const
+  {
+    requirePositive(box.size.x(), "size along x", where);
+    requirePositive(box.size.y(), "size along y", where);
+    requirePositive(box.size.z(), "size along z", where);
+  }
+  void operator()(const Sphere& sphere) const { requirePositive(sphere.radius, "radius", where); }
+  void operator()(const Cylinder& cylinder) const
+  {
+    requirePositive(cylinder.radius, "radius", where);
+    requirePositive(cylinder.length, "length", where);
+  }
+  void operator()(const Cone& cone) const
+  {
+    requirePositive(cone.radius, "radius", where);
+    requirePositive(cone.length, "length", where);
+  }
+  void operator()(const std::shared_ptr<const Mesh>& mesh) const
+  {
+    if (!mesh)
+    {
+      throw Error(where + ": there is no mesh");
+    }
+    try
+    {
+      validateMesh(*mesh);
+    }
+    catch (const Error& error)
+    {
+      throw Error(where + ": " + error.what());
+    }
+  }
+};
+}  // namespace
+
+void validateMesh(const Mesh& mesh)
+{
+  const std::string name = "mesh '" + mesh.name + "'";
+  if (mesh.triangles.empty())
+  {
+    throw Error(name + " has no triangles");
+  }
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+  {
+    if (!mesh.vertices[i].allFinite())
+    {
+      throw Error(name + ": vertex " + std::to_string(i) + " is not finite");
+    }
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  {
+    for (const std::uint32_t vertex : mesh.triangles[i])
+    {
+      if (vertex >= mesh.vertices.size())
+      {
+        throw Error(name + ": triangle " + std::to_string(i) + " names vertex " + std::to_string(vertex) +
+                    ", but there are " + std::to_string(mesh.vertices.size()) + " vertices");
+      }
+    }
+  }
+}
+
+void validateShape(const Shape& shape, const std::string& where)
+{
+  std::visit(DimensionCheck{where}, shape);
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,111 @@
+#include "urdf_reader.h"
+
+#include <mutex>
+
+#include <console_bridge/console.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+// urdfdom says what is wrong only through console_bridge's one log handler: this takes its place for a while.
+class LogCapture : public console_bridge::OutputHandler
+{
+ public:
+  LogCapture() : lock_(mutex()), previous_(console_bridge::getOutputHandler()), level_(console_bridge::getLogLevel())
+  {
+    console_bridge::useOutputHandler(this);
+    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_WARN);
+  }
+
+  ~LogCapture() override
+  {
+    console_bridge::setLogLevel(level_);
+    console_bridge::useOutputHandler(previous_);
+  }
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override
+  {
+    (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR ? errors : warnings).push_back(text);
+  }
+
+  std::vector<std::string> errors;
+  std::vector<std::string> warnings;
+
+ private:
+  static std::mutex& mutex()
+  {
+    static std::mutex instance;
+    return instance;
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  console_bridge::OutputHandler* previous_;
+  console_bridge::LogLevel level_;
+};
+
+// urdfdom names elements as [name] or 'name' in its messages: the line of the first one that the text has.
+std::string whereOf(const std::vector<std::string>& messages, const XmlText& xml)
+{
+  for (const std::string& message : messages)
+  {
+    for (const char* quotes : {"[]", "''"})
+    {
+      const std::size_t begin = message.find(quotes[0]);
+      const std::size_t end = begin == std::string::npos ? begin : message.find(quotes[1], begin + 1);
+      if (end == std::string::npos)
+      {
+        continue;
+      }
+      const std::string name = message.substr(begin + 1, end - begin - 1);
+      for (const char* tag : {"joint", "link"})
+      {
+        const std::string where = xml.where(tag, name);
+        if (where != xml.name())
+        {
+          return where;
+        }
+      }
+    }
+  }
+  return xml.name();
+}
+
+std::string joined(const std::vector<std::string>& messages)
+{
+  std::string text;
+  for (const std::string& message : messages)
+  {
+    text += (text.empty() ? "" : "; ") + message;
+  }
+  return text.empty() ? "urdfdom refused it without saying why" : text;
+}
+}  // namespace
+
+UrdfText::UrdfText(const std::string& text, const std::string& name) : xml(text, name, "robot")
+{
+  LogCapture log;
+  try
+  {
+    model = urdf::parseURDF(text);
+  }
+  catch (const std::exception& exception)
+  {
+    log.errors.push_back(exception.what());
+  }
+  if (!model)
+  {
+    throw Error(whereOf(log.errors, xml) + ": not a valid URDF: " + joined(log.errors));
+  }
+  for (const auto* messages : {&log.errors, &log.warnings})
+  {
+    for (const std::string& message : *messages)
+    {
+      warnings.push_back(name + ": " + message);
+    }
+  }
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "xml.h"
+
+namespace urdf
+{
+class ModelInterface;
+}
+
+namespace gpu_planning_scene
+{
+/// A URDF as urdfdom reads it, with the text's lines for messages.
+struct UrdfText
+{
+  UrdfText(const std::string& text, const std::string& name);
+
+  XmlText xml;
+  std::shared_ptr<const urdf::ModelInterface> model;
+  std::vector<std::string> warnings;  ///< what urdfdom said although it took the text
+};
+}  // namespace gpu_planning_scene

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace tinyxml2
+{
+class XMLDocument;
+class XMLElement;
+}  // namespace tinyxml2
+
+namespace gpu_planning_scene
+{
+/// A parsed XML text that can say, for messages, where an element stands.
+class XmlText
+{
+ public:
+  /// `name`: the file or parameter that the text came from. Throws Error with name and line if the text is malformed or
+  /// its root element is not `root`.
+  XmlText(const std::string& text, const std::string& name, const std::string& root);
+
+  const std::string& name() const { return name_; }
+  const tinyxml2::XMLElement& root() const { return *root_; }
+  /// "NAME:LINE".
+  std::string where(const tinyxml2::XMLElement& element) const;
+  /// The same for the first <tag name="value"> below the root; NAME alone if there is none.
+  std::string where(const std::string& tag, const std::string& value) const;
+  /// The value of an attribute; throws Error if the element lacks it.
+  std::string attribute(const tinyxml2::XMLElement& element, const char* attribute) const;
+
+ private:
+  std::string name_;
+  std::shared_ptr<tinyxml2::XMLDocument> document_;
+  const tinyxml2::XMLElement* root_;
+};
+}  // namespace gpu_planning_scene
