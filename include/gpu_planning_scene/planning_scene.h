@@ -21,6 +21,14 @@ struct WorldObject
   std::vector<PlacedShape> shapes;                         ///< in the object's frame
 };
 
+/// Where a scene's allowed-collision matrix comes from.
+enum class MatrixSource
+{
+  Srdf,
+  AdjacentLinks,  ///< there is no SRDF
+  SceneFile
+};
+
 /// A robot, the objects around it, which pairs may touch, and the current state. A value: checkers take it as an
 /// immutable snapshot (`std::shared_ptr<const PlanningScene>`).
 /// A *body* is a link or an object; body indices count the links first, then the objects.
@@ -31,6 +39,7 @@ struct PlanningScene
   std::shared_ptr<const RobotModel> robot;
   std::vector<WorldObject> objects;
   AllowedCollisionMatrix allowed_collisions;
+  MatrixSource matrix_source;  ///< for reports
   /// One value per variable of the robot, empty until one was set or received.
   std::vector<double> current_state;
   std::uint64_t revision = 0;
@@ -39,9 +48,10 @@ struct PlanningScene
 };
 
 /// A scene file in MoveIt's PlanningScene field names: the layout of MoveIt's own YAML (poses with x, y, z, w keys;
-/// entry_values with `enabled`) and the compact one (arrays, `type: box`, bare rows). Everything is checked before anything
-/// is kept. Throws Error with file and line. Joints that the robot lacks, and what is not modelled, give warnings.
-/// Object poses are in `planningFrame()`; a header.frame_id may name it, a link, or a frame of fixed_frame_transforms.
+/// entry_values with `enabled`) and the compact one (arrays, `type: box`, bare rows). Everything is checked before
+/// anything is kept. Throws Error with file and line. Joints that the robot lacks, and what is not modelled, give
+/// warnings. Object poses are in `planningFrame()`; a header.frame_id may name it, a link, or a frame of
+/// fixed_frame_transforms.
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings = nullptr);
 }  // namespace gpu_planning_scene

@@ -5,7 +5,9 @@
 namespace gpu_planning_scene
 {
 PlanningScene::PlanningScene(std::shared_ptr<const RobotModel> robot_model)
-  : robot(std::move(robot_model)), allowed_collisions(AllowedCollisionMatrix::fromRobot(*robot))
+  : robot(std::move(robot_model)),
+    allowed_collisions(AllowedCollisionMatrix::fromRobot(*robot)),
+    matrix_source(robot->srdfCollisions().has_srdf ? MatrixSource::Srdf : MatrixSource::AdjacentLinks)
 {
 }
 

@@ -7,7 +7,7 @@ namespace gpu_planning_scene
 namespace
 {
 /// The state as far as it was read, and what was not used of the file.
-struct PartialState
+struct GivenState
 {
   std::vector<double> values;
   std::vector<bool> given;
@@ -30,7 +30,7 @@ std::string join(const std::vector<std::string>& names)
   return line;
 }
 
-void readJointState(const YamlValue& value, const SceneReader& reader, PartialState& state)
+void readJointState(const YamlValue& value, const SceneReader& reader, GivenState& state)
 {
   value.warnOfUnknownKeys({"header", "name", "position", "velocity", "effort"}, reader.warnings);
   const YamlValue* names = value.find("name");
@@ -65,7 +65,7 @@ void readJointState(const YamlValue& value, const SceneReader& reader, PartialSt
   }
 }
 
-void setTransform(const Joint& joint, const Eigen::Isometry3d& pose, PartialState& state)
+void setTransform(const Joint& joint, const Eigen::Isometry3d& pose, GivenState& state)
 {
   const int first = joint.first_variable;
   if (joint.type == JointType::Planar)
@@ -82,7 +82,7 @@ void setTransform(const Joint& joint, const Eigen::Isometry3d& pose, PartialStat
     state.set(first + 3 + i, rotation.coeffs()[i]);  // x, y, z, w, as the variables are ordered
 }
 
-void readMultiDofState(const YamlValue& value, const SceneReader& reader, PartialState& state)
+void readMultiDofState(const YamlValue& value, const SceneReader& reader, GivenState& state)
 {
   value.warnOfUnknownKeys({"header", "joint_names", "transforms", "twist", "wrench"}, reader.warnings);
   const YamlValue* names = value.find("joint_names");
@@ -119,7 +119,7 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
 {
   value.warnOfUnknownKeys({"joint_state", "multi_dof_joint_state", "attached_collision_objects", "is_diff"},
                           reader.warnings);
-  PartialState state;
+  GivenState state;
   state.values = reader.robot.defaultState();
   state.given.assign(state.values.size(), false);
   if (const YamlValue* joints = value.find("joint_state"))

@@ -118,8 +118,12 @@ PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const Robot
     for (const YamlValue& frame : frames->items())
       readFixedFrame(frame, reader);
   if (const YamlValue* matrix = file.find("allowed_collision_matrix"))
-    if (!readMatrix(*matrix, reader, scene.allowed_collisions))
+  {
+    if (readMatrix(*matrix, reader, scene.allowed_collisions))
+      scene.matrix_source = MatrixSource::SceneFile;
+    else
       reader.warn(matrix->where() + ": the allowed_collision_matrix is empty; the robot's own is kept");
+  }
   scene.objects = readObjects(file, reader);
   scene.current_state = reader.state;
   return scene;

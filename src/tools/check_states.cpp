@@ -1,0 +1,169 @@
+// check_states: which of many robot states are free of collision, on the command line.
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+
+#include "tools/open_checker.h"
+#include "tools/progress_bar.h"
+#include "tools/robot_arguments.h"
+#include "tools/scene_text.h"
+#include "tools/state_source.h"
+#include "tools/state_table.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::vector<Option> options()
+{
+  std::vector<Option> all = robotOptions();
+  all.push_back(
+      {"--scene", "FILE", "the planning scene, YAML in MoveIt's field names;\nwithout it, the robot is alone"});
+  for (const Option& option : stateOptions())
+    all.push_back(option);
+  all.push_back({"--group", "NAME", "check only pairs with a link that this group moves"});
+  for (const Option& option : deviceOptions())
+    all.push_back(option);
+  all.push_back({"--out", "FILE", "where the answers go (default: the standard output)"});
+  return all;
+}
+
+PlanningScene sceneFrom(const CommandLine& arguments, std::vector<std::string>* warnings)
+{
+  auto robot = robotFrom(arguments, warnings);
+  if (!arguments.has("--scene"))
+    return PlanningScene(robot);
+  return loadSceneFile(arguments.required("--scene"), robot, packagesFrom(arguments), warnings);
+}
+
+/// Wrong options should be found before large files are read.
+void checkUsage(const CommandLine& arguments)
+{
+  arguments.required("--urdf");
+  packagesFrom(arguments);
+  checkerOptionsFrom(arguments);
+  if (arguments.has("--states") == arguments.has("--random"))
+    throw UsageError("give either --states FILE or --random N");
+}
+
+/// All states, a device's batch at a time, so that there is progress to show.
+BatchResult checkAll(StateChecker& checker, StateSource& source, std::size_t batch, const std::string& group)
+{
+  BatchResult all;
+  all.valid.reserve(source.count());
+  all.colliding.reserve(source.count());
+  ProgressBar progress("checking", source.count());
+  while (all.valid.size() < source.count())
+  {
+    const std::size_t count = std::min(batch, source.count() - all.valid.size());
+    const BatchResult result = checker.check(source.next(count), count, group);
+    all.valid.insert(all.valid.end(), result.valid.begin(), result.valid.end());
+    all.colliding.insert(all.colliding.end(), result.colliding.begin(), result.colliding.end());
+    all.seconds += result.seconds;
+    all.undecided_states += result.undecided_states;
+    progress.update(all.valid.size());
+  }
+  return all;
+}
+
+void writeAnswers(std::ostream& out, const BatchResult& result, const PlanningScene& scene)
+{
+  std::vector<std::string> names;
+  for (std::size_t body = 0; body < scene.robot->links().size() + scene.objects.size(); ++body)
+    names.push_back(csvCell(scene.bodyName(static_cast<int>(body))));
+  for (std::size_t i = 0; i < result.valid.size(); ++i)
+  {
+    if (result.valid[i])
+      out << "1,,\n";
+    else
+      out << "0," << names[result.colliding[i][0]] << ',' << names[result.colliding[i][1]] << '\n';
+  }
+}
+
+std::size_t countValid(const BatchResult& result)
+{
+  return static_cast<std::size_t>(std::count(result.valid.begin(), result.valid.end(), 1));
+}
+
+void printSummary(const PlanningScene& scene, const SceneReport& report, const StateSource& source,
+                  const BatchResult& result, const std::string& device)
+{
+  const std::size_t count = source.count();
+  const std::size_t valid = countValid(result);
+  char line[128];
+  for (const std::string& text : describeScene(scene, report, device))
+    std::cerr << text << "\n";
+  std::cerr << "states: " << source.text() << "\n";
+  std::snprintf(line, sizeof line, "valid: %.1f %%\n", 100.0 * static_cast<double>(valid) / static_cast<double>(count));
+  std::cerr << line;
+  if (result.undecided_states != 0)
+    std::cerr << "settled on the CPU: " << counted(result.undecided_states, "state") << "\n";
+  PairCounts pairs;
+  pairs.add(result);
+  const auto commonest = pairs.commonest(scene, 5);
+  if (!commonest.empty())
+    std::cerr << "commonest colliding pairs:\n";
+  for (const std::string& pair : commonest)
+    std::cerr << "  " << pair << "\n";
+  const double rate = static_cast<double>(count) / std::max(result.seconds, 1e-9);
+  std::snprintf(line, sizeof line, "%zu states, %zu valid, %.0f states/s, ", count, valid, rate);
+  std::cerr << line << device << "\n";
+}
+
+void run(const CommandLine& arguments)
+{
+  checkUsage(arguments);
+  std::vector<std::string> warnings;
+  const auto scene = std::make_shared<const PlanningScene>(sceneFrom(arguments, &warnings));
+  printWarnings(warnings);
+  const std::string group = arguments.value("--group", "");
+  if (!group.empty())
+    scene->robot->group(group);
+  const auto source = stateSourceFrom(arguments, *scene);
+  const std::string out_path = arguments.value("--out", "");
+  std::ofstream out_file;
+  if (!out_path.empty())
+  {
+    out_file.open(out_path, std::ios::app);  // found out now, not after the work; nothing is overwritten yet
+    if (!out_file)
+      throw Error(out_path + ": cannot write the file");
+  }
+
+  const BatchCheckerOptions options = checkerOptionsFrom(arguments);
+  const auto checker = openChecker(scene, options);
+  const BatchResult result = checkAll(*checker, *source, options.max_batch, group);
+
+  if (out_path.empty())
+  {
+    writeAnswers(std::cout, result, *scene);
+  }
+  else
+  {
+    out_file.close();
+    out_file.open(out_path, std::ios::trunc);
+    writeAnswers(out_file, result, *scene);
+    if (!out_file.flush())
+      throw Error(out_path + ": writing the file failed");
+  }
+  std::cout.flush();
+  printSummary(*scene, checker->report(group), *source, result, checker->deviceName());
+}
+}  // namespace
+}  // namespace gpu_planning_scene
+
+int main(int argc, char** argv)
+{
+  using namespace gpu_planning_scene;
+  const Tool tool{"check_states",
+                  "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE]\n"
+                  "                    (--states FILE.csv | --random N [--seed S]) [options]",
+                  "Checks which states of a robot are free of collision. Answers with one line per state,\n"
+                  "valid,body_1,body_2: 1 and two empty names, or 0 and a pair of bodies that collide.\n"
+                  "A summary goes to the standard error; its last line is\n"
+                  "  N states, V valid, R states/s, DEVICE\n"
+                  "Exit code: 0 success, 2 bad usage, 1 any other error.",
+                  options(), run};
+  return runTool(tool, argc, argv);
+}

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+/// A command line that the tool cannot make sense of; the exit code is 2, not 1.
+class UsageError : public Error
+{
+ public:
+  using Error::Error;
+};
+
+struct Option
+{
+  std::string name;      ///< as typed, "--urdf"
+  std::string argument;  ///< what --help calls its value; empty for a switch
+  std::string help;
+  bool repeatable = false;
+};
+
+/// Long options: `--name value` or `--name=value`.
+class CommandLine
+{
+ public:
+  /// Throws UsageError: unknown option, missing value, an option given twice, anything that is not an option.
+  CommandLine(const std::vector<Option>& options, int argc, const char* const* argv);
+
+  bool has(const std::string& name) const { return values_.count(name) != 0; }
+  /// Throws UsageError if it was not given.
+  const std::string& required(const std::string& name) const;
+  std::string value(const std::string& name, const std::string& fallback) const;
+  std::vector<std::string> values(const std::string& name) const;
+  /// Throws UsageError unless it is an integer from `least` to `most`.
+  long long integer(const std::string& name, long long fallback, long long least, long long most) const;
+  /// Throws UsageError unless it is a number from `least` to `most`.
+  double number(const std::string& name, double fallback, double least, double most) const;
+
+ private:
+  std::map<std::string, std::vector<std::string>> values_;
+};
+
+/// One tool: what it can be asked and what it does.
+struct Tool
+{
+  std::string name;
+  std::string synopsis;  ///< what follows the name in the first line of --help
+  std::string description;
+  std::vector<Option> options;  ///< --help and --version come by themselves
+  void (*run)(const CommandLine& arguments);
+};
+
+/// The body of main(): handles --help, --version and errors. Returns 0 on success, 2 on bad usage, 1 on any other
+/// error, with one line on stderr.
+int runTool(const Tool& tool, int argc, const char* const* argv);
+}  // namespace gpu_planning_scene

@@ -1,0 +1,83 @@
+#include "tools/full_states.h"
+
+#include "gpu_planning_scene/error.h"
+#include "tools/scene_text.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::string variableNames(const RobotModel& robot)
+{
+  std::vector<std::string> names;
+  for (const Variable& variable : robot.variables())
+    names.push_back(variable.name);
+  return joined(names);
+}
+
+std::string whyNoVariable(const RobotModel& robot, const std::string& name)
+{
+  const int joint = robot.jointIndex(name);
+  if (joint >= 0 && robot.joints()[joint].mimic)
+    return "joint '" + name + "' follows another joint and has no variable of its own";
+  if (joint >= 0 && robot.joints()[joint].type == JointType::Fixed)
+    return "joint '" + name + "' is fixed and has no variable";
+  return "the robot has no variable '" + name + "'";
+}
+}  // namespace
+
+PartialState::PartialState(const RobotModel& robot)
+  : values(robot.variables().size(), 0.0), known(robot.variables().size(), false)
+{
+}
+
+PartialState::PartialState(const RobotModel& robot, const std::vector<double>& state) : PartialState(robot)
+{
+  if (state.empty())
+    return;
+  values = state;
+  known.assign(values.size(), true);
+}
+
+std::vector<int> variableIndices(const RobotModel& robot, const std::vector<std::string>& names)
+{
+  std::vector<int> indices;
+  std::vector<bool> seen(robot.variables().size(), false);
+  for (const std::string& name : names)
+  {
+    const int index = robot.variableIndex(name);
+    if (index < 0)
+      throw Error(whyNoVariable(robot, name) + "; its variables are " + variableNames(robot));
+    if (seen[index])
+      throw Error("variable '" + name + "' is given twice");
+    seen[index] = true;
+    indices.push_back(index);
+  }
+  return indices;
+}
+
+std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& columns, const double* rows,
+                               std::size_t count, const PartialState& current)
+{
+  const std::size_t width = robot.variables().size();
+  std::vector<bool> given(width, false);
+  for (const int column : columns)
+    given[column] = true;
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; i < width; ++i)
+    if (!given[i] && !current.known[i])
+      missing.push_back(robot.variables()[i].name);
+  if (!missing.empty())
+    throw Error("no value for " + joined(missing) + ": neither given nor known from the scene's current state");
+
+  std::vector<double> states(count * width);
+  for (std::size_t row = 0; row < count; ++row)
+  {
+    double* state = states.data() + row * width;
+    std::copy(current.values.begin(), current.values.end(), state);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      state[columns[i]] = rows[row * columns.size() + i];
+  }
+  return states;
+}
+}  // namespace gpu_planning_scene

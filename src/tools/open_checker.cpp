@@ -1,0 +1,27 @@
+#include "tools/open_checker.h"
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/device.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
+                                          const BatchCheckerOptions& options)
+{
+  if (options.device == "cpu")
+    return std::make_unique<CpuChecker>(std::move(scene));
+  try
+  {
+    return std::make_unique<BatchChecker>(std::move(scene), options);
+  }
+  catch (const Error& error)
+  {
+    if (!listDevices().empty())
+      throw;
+    throw Error(std::string(error.what()) +
+                "; install a GPU driver, or Mesa for a software device (Debian: libegl-mesa0 and libgl1-mesa-dri), or "
+                "choose the device 'cpu'");
+  }
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace gpu_planning_scene
+{
+/// A bar on stderr for work that takes longer than a second; nothing where stderr is not a terminal.
+class ProgressBar
+{
+ public:
+  ProgressBar(std::string label, std::size_t total);
+  ~ProgressBar();  ///< wipes it
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void update(std::size_t done);
+
+ private:
+  std::string label_;
+  std::size_t total_;
+  bool terminal_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point next_;
+};
+}  // namespace gpu_planning_scene

@@ -1,0 +1,73 @@
+#include "tools/robot_arguments.h"
+
+#include <iostream>
+
+namespace gpu_planning_scene
+{
+std::vector<Option> robotOptions()
+{
+  return {
+      {"--urdf", "FILE", "the robot"},
+      {"--srdf", "FILE", "its groups and the pairs of links that are not checked;\nwithout it, adjacent links are not"},
+      {"--package", "NAME=DIR", "where package://NAME/... is; can be repeated", true},
+      {"--unbounded-translation", "METRES",
+       "planar and floating joints without limits: random positions\nare from -METRES to METRES (default 1)"}};
+}
+
+std::vector<Option> deviceOptions()
+{
+  return {{"--device", "DEVICE",
+           "auto (default): a GPU, else a software device;\nsoftware; an index; part of a renderer's name;\n"
+           "or cpu: no GL device at all, in double precision"},
+          {"--traversal", "NAME", "work_queue (default) or breadth_first; cpu has its own"},
+          {"--max-batch", "N", "states that go to the device at once (default 16384)"}};
+}
+
+PackageResolver packagesFrom(const CommandLine& arguments)
+{
+  std::map<std::string, std::string> folders;
+  for (const std::string& package : arguments.values("--package"))
+  {
+    const std::size_t equals = package.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == package.size())
+      throw UsageError("--package: '" + package + "' is not NAME=DIR");
+    if (!folders.emplace(package.substr(0, equals), package.substr(equals + 1)).second)
+      throw UsageError("--package: '" + package.substr(0, equals) + "' is given twice");
+  }
+  return packageResolver(folders);
+}
+
+std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::vector<std::string>* warnings)
+{
+  RobotModelOptions options;
+  options.packages = packagesFrom(arguments);
+  options.unbounded_translation = arguments.number("--unbounded-translation", options.unbounded_translation, 0.0, 1e6);
+  return RobotModel::fromFiles(arguments.required("--urdf"), arguments.value("--srdf", ""), options, warnings);
+}
+
+BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments)
+{
+  BatchCheckerOptions options;
+  options.device = arguments.value("--device", options.device);
+  if (arguments.has("--traversal"))
+  {
+    try
+    {
+      options.traversal = traversalFromName(arguments.required("--traversal"));
+    }
+    catch (const Error& error)
+    {
+      throw UsageError(std::string("--traversal: ") + error.what());
+    }
+  }
+  options.max_batch =
+      static_cast<std::size_t>(arguments.integer("--max-batch", static_cast<long long>(options.max_batch), 1, 1 << 24));
+  return options;
+}
+
+void printWarnings(const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings)
+    std::cerr << "warning: " << warning << "\n";
+}
+}  // namespace gpu_planning_scene

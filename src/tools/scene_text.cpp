@@ -1,0 +1,73 @@
+#include "tools/scene_text.h"
+
+#include <algorithm>
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::string matrixText(MatrixSource source)
+{
+  switch (source)
+  {
+    case MatrixSource::Srdf:
+      return "the SRDF allows";
+    case MatrixSource::SceneFile:
+      return "the scene's allowed-collision matrix allows";
+    case MatrixSource::AdjacentLinks:
+      break;
+  }
+  return "are adjacent (no SRDF was given)";
+}
+}  // namespace
+
+std::string counted(std::size_t count, const std::string& noun)
+{
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string joined(const std::vector<std::string>& names)
+{
+  std::string line;
+  for (const std::string& name : names)
+    line += (line.empty() ? "" : ", ") + name;
+  return line;
+}
+
+std::vector<std::string> describeScene(const PlanningScene& scene, const SceneReport& report, const std::string& device)
+{
+  const RobotModel& robot = *scene.robot;
+  std::vector<std::string> lines;
+  lines.push_back("device: " + device);
+  lines.push_back("robot: " + robot.name() + ", " + counted(robot.links().size(), "link") + ", " +
+                  counted(robot.variables().size(), "variable") + ", planning frame " + robot.planningFrame());
+  lines.push_back("scene: " + counted(scene.objects.size(), "object"));
+  lines.push_back("triangles: " + std::to_string(report.triangles) + " in " + counted(report.trees, "tree"));
+  lines.push_back("checked pairs: " + std::to_string(report.self_pairs) + " of links, " +
+                  std::to_string(report.world_pairs) + " of a link and an object");
+  lines.push_back("left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") + " that " +
+                  matrixText(scene.matrix_source) + ", " + counted(report.links_without_shapes, "link") +
+                  " without collision shapes");
+  return lines;
+}
+
+void PairCounts::add(const BatchResult& result)
+{
+  for (std::size_t i = 0; i < result.valid.size(); ++i)
+    if (!result.valid[i])
+      ++counts_[std::minmax(result.colliding[i][0], result.colliding[i][1])];
+}
+
+std::vector<std::string> PairCounts::commonest(const PlanningScene& scene, std::size_t limit) const
+{
+  std::vector<std::pair<std::size_t, std::pair<int, int>>> sorted;
+  for (const auto& [pair, count] : counts_)
+    sorted.push_back({count, pair});
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < std::min(limit, sorted.size()); ++i)
+    lines.push_back(scene.bodyName(sorted[i].second.first) + " - " + scene.bodyName(sorted[i].second.second) + ": " +
+                    counted(sorted[i].first, "state"));
+  return lines;
+}
+}  // namespace gpu_planning_scene
