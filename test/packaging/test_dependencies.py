@@ -1,0 +1,41 @@
+"""The Debian packages that the scripts install and the rosdep keys of package.xml name the same things."""
+import unittest
+import xml.etree.ElementTree
+
+from repository import ROOT, SCRIPTS
+
+
+def listed():
+    """(Debian package, rosdep key, reason) of each line of dependencies.txt."""
+    lines = (SCRIPTS / "dependencies.txt").read_text().splitlines()
+    return [line.split(maxsplit=2) for line in lines if line and not line.startswith("#")]
+
+
+class Dependencies(unittest.TestCase):
+    def test_each_package_has_a_key_and_a_reason(self):
+        for fields in listed():
+            self.assertEqual(len(fields), 3, fields)
+
+    def test_no_package_is_listed_twice(self):
+        packages = [fields[0] for fields in listed()]
+        self.assertEqual(sorted(set(packages)), sorted(packages))
+
+    def test_keys_are_those_of_package_xml(self):
+        keys = {fields[1] for fields in listed()} - {"-"}
+        package = xml.etree.ElementTree.parse(ROOT / "package.xml").getroot()
+        declared = {element.text for element in package if element.tag.endswith("depend")}
+        self.assertEqual(keys, declared)
+
+    def test_catkin_packages_that_cmake_asks_for_are_declared(self):
+        text = (ROOT / "cmake" / "ros.cmake").read_text()
+        components = text.split("find_package(catkin REQUIRED COMPONENTS", 1)[1].split(")", 1)[0].split()
+        self.assertLessEqual(set(components), {fields[1] for fields in listed()})
+
+    def test_version_is_the_same_everywhere(self):
+        version = xml.etree.ElementTree.parse(ROOT / "package.xml").getroot().findtext("version")
+        self.assertIn(f"project(gpu_planning_scene VERSION {version} ", (ROOT / "CMakeLists.txt").read_text())
+        self.assertIn(version, (ROOT / "CHANGELOG.rst").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
