@@ -92,9 +92,9 @@ bool triangleMeetsFrustum(const Triangle& triangle, const Frustum& exact)
   const Vector3d normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);
   const double across = normal.head<2>().norm();
   const Vector2d u = across > 0.0 ? Vector2d(normal.head<2>() / across) : Vector2d::UnitX();
-  const double b = exact.bottom_radius;
-  const double t = exact.top_radius;
-  const double h = exact.half_length;
+  const double b = frustum.bottom_radius;
+  const double t = frustum.top_radius;
+  const double h = frustum.half_length;
   const std::array<Vector3d, 4> section = {Vector3d(b * u.x(), b * u.y(), -h), Vector3d(t * u.x(), t * u.y(), h),
                                            Vector3d(-t * u.x(), -t * u.y(), h), Vector3d(-b * u.x(), -b * u.y(), -h)};
   for (int i = 0; i < 4; ++i)
@@ -103,7 +103,7 @@ bool triangleMeetsFrustum(const Triangle& triangle, const Frustum& exact)
     const Vector3d& end = section[(i + 1) % 4];
     const double start_side = normal.dot(start - triangle[0]);
     const double end_side = normal.dot(end - triangle[0]);
-    if (start_side == end_side || (start_side > 0.0) == (end_side > 0.0))
+    if ((start_side > 0.0) == (end_side > 0.0))
     {
       continue;
     }

@@ -10,14 +10,31 @@ namespace
 {
 using Eigen::Vector3d;
 
-/// The sign of the volume u x v . w: -1, 0 or 1; 0 where rounding may have changed it. The vectors are differences of
-/// coordinates, each of its largest absolute component `..._size`.
-int signOfVolume(const Vector3d& u, const Vector3d& v, const Vector3d& w, double u_size, double v_size, double w_size)
+/// A bound on the rounding error of the volume u x v . w of three differences of coordinates, by their largest
+/// components: six products of three factors, each with less than eight roundings.
+double volumeError(double u_size, double v_size, double w_size)
 {
-  // Six products of three factors with relative errors of less than eight roundings in all.
-  const double error = 6.0 * 8.0 * std::numeric_limits<double>::epsilon() * u_size * v_size * w_size;
-  const double volume = u.cross(v).dot(w);
-  return volume > error ? 1 : volume < -error ? -1 : 0;
+  return 6.0 * 8.0 * std::numeric_limits<double>::epsilon() * u_size * v_size * w_size;
+}
+
+/// 0 where rounding may have changed the sign.
+int clearSign(double value, double error)
+{
+  return value > error ? 1 : value < -error ? -1 : 0;
+}
+
+/// Whether the projections of two triangles on an axis are so far apart that their distance exceeds the tolerance.
+bool separates(const Vector3d& axis, const Triangle& p, const Triangle& q)
+{
+  const double p0 = axis.dot(p[0] - q[0]);
+  const double p1 = axis.dot(p[1] - q[0]);
+  const double p2 = axis.dot(p[2] - q[0]);
+  const double q1 = axis.dot(q[1] - q[0]);
+  const double q2 = axis.dot(q[2] - q[0]);
+  const double gap =
+      std::max(std::min({p0, p1, p2}) - std::max({0.0, q1, q2}), std::min({0.0, q1, q2}) - std::max({p0, p1, p2}));
+  // Twice the tolerance leaves room for the rounding of the projections.
+  return gap > 2.0 * kContactTolerance * axis.norm();
 }
 
 double squaredDistanceOfSegments(const Vector3d& p0, const Vector3d& p1, const Vector3d& q0, const Vector3d& q1)
@@ -68,48 +85,46 @@ enum class Verdict
   Undecided
 };
 
-/// Decides by the signs of volumes: those of one triangle and a vertex of the other (sides of planes) and those of two
-/// edges (how the line of an edge passes the edges of the other triangle, as in Pluecker coordinates; see e.g.
-/// Devillers and Guigue, "Faster Triangle-Triangle Intersection Tests", 2002).
+/// Decides what is clear: apart if an axis separates them by more than the tolerance; a hit by the signs of volumes:
+/// those of one triangle and a vertex of the other (sides of planes) and those of two edges (how the line of an edge
+/// passes the edges of the other triangle, as in Pluecker coordinates; see e.g. Devillers and Guigue, "Faster
+/// Triangle-Triangle Intersection Tests", 2002).
 Verdict decideBySigns(const Triangle& p, const Triangle& q)
 {
   const auto size = [](const Vector3d& v) { return v.lpNorm<Eigen::Infinity>(); };
   Triangle edge_p;
   Triangle edge_q;
-  std::array<Triangle, 3> between;  // [i][j]: from vertex i of p to vertex j of q
   std::array<double, 3> edge_p_size;
   std::array<double, 3> edge_q_size;
-  std::array<std::array<double, 3>, 3> between_size;
   for (int i = 0; i < 3; ++i)
   {
     edge_p[i] = p[(i + 1) % 3] - p[i];
     edge_q[i] = q[(i + 1) % 3] - q[i];
     edge_p_size[i] = size(edge_p[i]);
     edge_q_size[i] = size(edge_q[i]);
-    for (int j = 0; j < 3; ++j)
-    {
-      between[i][j] = q[j] - p[i];
-      between_size[i][j] = size(between[i][j]);
-    }
   }
 
+  // On which side of the plane of `triangle` the vertices of `other` are; returns whether they are all on one, clearly
+  // apart.
+  const auto findSides = [&size](const Triangle& triangle, const Triangle& edge, const std::array<double, 3>& edge_size,
+                                 const Triangle& other, std::array<int, 3>& sides)
+  {
+    const Vector3d normal = edge[0].cross(edge[1]);
+    const double tolerance = 2.0 * kContactTolerance * normal.norm();
+    int apart = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vector3d between = other[i] - triangle[1];
+      const double volume = normal.dot(between);
+      const double error = volumeError(edge_size[0], edge_size[1], size(between));
+      sides[i] = clearSign(volume, error);
+      apart += clearSign(volume, error + tolerance);
+    }
+    return std::abs(apart) == 3;
+  };
   std::array<int, 3> side_of_p;  // of the vertices of q
   std::array<int, 3> side_of_q;  // of the vertices of p
-  for (int i = 0; i < 3; ++i)
-  {
-    side_of_p[i] =
-        signOfVolume(edge_p[0], edge_p[1], between[1][i], edge_p_size[0], edge_p_size[1], between_size[1][i]);
-  }
-  if (side_of_p[0] != 0 && side_of_p[0] == side_of_p[1] && side_of_p[0] == side_of_p[2])
-  {
-    return Verdict::Apart;
-  }
-  for (int i = 0; i < 3; ++i)
-  {
-    side_of_q[i] =
-        signOfVolume(edge_q[0], edge_q[1], between[i][1], edge_q_size[0], edge_q_size[1], between_size[i][1]);
-  }
-  if (side_of_q[0] != 0 && side_of_q[0] == side_of_q[1] && side_of_q[0] == side_of_q[2])
+  if (findSides(p, edge_p, edge_p_size, q, side_of_p) || findSides(q, edge_q, edge_q_size, p, side_of_q))
   {
     return Verdict::Apart;
   }
@@ -119,8 +134,14 @@ Verdict decideBySigns(const Triangle& p, const Triangle& q)
   {
     for (int j = 0; j < 3; ++j)
     {
-      turn[i][j] =
-          signOfVolume(edge_p[i], edge_q[j], between[i][j], edge_p_size[i], edge_q_size[j], between_size[i][j]);
+      const Vector3d axis = edge_p[i].cross(edge_q[j]);
+      const Vector3d between = q[j] - p[i];
+      const double error = volumeError(edge_p_size[i], edge_q_size[j], size(between));
+      turn[i][j] = clearSign(axis.dot(between), error);
+      if (turn[i][j] != 0 && separates(axis, p, q))
+      {
+        return Verdict::Apart;
+      }
     }
   }
   for (int i = 0; i < 3; ++i)
@@ -136,29 +157,24 @@ Verdict decideBySigns(const Triangle& p, const Triangle& q)
       return Verdict::Hit;
     }
   }
-  // No edge clearly pierces. They are apart if each edge clearly misses: it stays on one side of the other's plane, or
-  // passes two of the other's edges on different sides.
-  const auto misses = [](int side_1, int side_2, int turn_1, int turn_2, int turn_3)
-  {
-    const bool one_side = side_1 != 0 && side_1 == side_2;
-    const bool outside = std::min({turn_1, turn_2, turn_3}) < 0 && std::max({turn_1, turn_2, turn_3}) > 0;
-    return one_side || outside;
-  };
-  for (int i = 0; i < 3; ++i)
-  {
-    if (!misses(side_of_q[i], side_of_q[(i + 1) % 3], turn[i][0], turn[i][1], turn[i][2]) ||
-        !misses(side_of_p[i], side_of_p[(i + 1) % 3], turn[0][i], turn[1][i], turn[2][i]))
-    {
-      return Verdict::Undecided;
-    }
-  }
-  return Verdict::Apart;
+  return Verdict::Undecided;
 }
 }  // namespace
 
 Vector3d nearestPoint(const Triangle& triangle, const Vector3d& point)
 {
   const Vector3d& a = triangle[0];
+  Vector3d best = a;
+  double best_distance = (a - point).squaredNorm();
+  const auto offer = [&](const Vector3d& candidate)
+  {
+    const double distance = (candidate - point).squaredNorm();
+    if (distance < best_distance)
+    {
+      best_distance = distance;
+      best = candidate;
+    }
+  };
   const Vector3d ab = triangle[1] - a;
   const Vector3d ac = triangle[2] - a;
   const Vector3d n = ab.cross(ac);
@@ -170,23 +186,16 @@ Vector3d nearestPoint(const Triangle& triangle, const Vector3d& point)
     const double w = ab.cross(ap).dot(n);
     if (v >= 0.0 && w >= 0.0 && v + w <= nn)
     {
-      return a + (v / nn) * ab + (w / nn) * ac;
+      offer(a + (v / nn) * ab + (w / nn) * ac);
     }
   }
-  Vector3d best = a;
-  double best_distance = std::numeric_limits<double>::infinity();
+  // Also where the foot of the perpendicular seems to be inside: of a sliver's plane only rounding may be left.
   for (int i = 0; i < 3; ++i)
   {
     const Vector3d edge = triangle[(i + 1) % 3] - triangle[i];
     const double length = edge.squaredNorm();
     const double t = length > 0.0 ? std::clamp((point - triangle[i]).dot(edge) / length, 0.0, 1.0) : 0.0;
-    const Vector3d candidate = triangle[i] + t * edge;
-    const double distance = (candidate - point).squaredNorm();
-    if (distance < best_distance)
-    {
-      best_distance = distance;
-      best = candidate;
-    }
+    offer(triangle[i] + t * edge);
   }
   return best;
 }
