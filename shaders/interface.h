@@ -26,3 +26,59 @@
 #define ROUND_FIRST_PAIR 7       // pairs of children made before this round
 #define ROUND_PAIR_GROUPS 8      // indirect arguments: a lane per pair that the round made
 #define ROUND_PAIRS 11           // how many pairs the round made
+
+// --- Checking batches of states -----------------------------------------------------------------------------------------
+// Buffer textures.
+#define UNIT_NODES 0
+#define UNIT_TRIANGLES 1
+#define UNIT_ROBOT_POSES 2
+#define UNIT_WORLD_POSES 3
+#define UNIT_ITEMS 4
+#define UNIT_ENTRIES 5
+#define UNIT_LEAF_PAIRS 6
+#define UNIT_CANDIDATES 7
+// Storage buffers.
+#define BINDING_COUNTERS 0
+#define BINDING_FLAGS 1       // one uint a state: STATE_* bits
+#define BINDING_HITS 2        // one uint a state: the pair that was hit
+#define BINDING_GEOMETRIES 3  // two uints an instance: root node, slack (float bits); robot's first, then the world's
+#define BINDING_OUT 4         // what the kernel writes; see its header
+#define BINDING_OUT_2 5
+#define BINDING_IN 6
+#define BINDING_IN_2 7
+
+#define STATE_HIT 1u
+#define STATE_UNDECIDED 2u
+
+// A pair of instances in one uint: a robot instance, and a robot instance or (robot count + a world instance).
+#define PAIR_OTHER_BITS 20
+#define MAX_ROBOT_GEOMETRIES (1 << 12)
+#define MAX_GEOMETRIES (1 << PAIR_OTHER_BITS)
+
+// Counters, in uints. Each list has a count and, before each dispatch over it, indirect arguments.
+#define COUNTER_CANDIDATES 0
+#define COUNTER_ITEMS 1
+#define COUNTER_NEXT_ENTRY 2      // work queues: the next entry that nobody has taken
+#define COUNTER_OVERFLOW 3        // not 0: a list was too short, the batch has to be split
+#define COUNTER_ENTRIES_EVEN 4    // node pairs; the two lists take turns
+#define COUNTER_ENTRIES_ODD 5
+#define COUNTER_LEAF_PAIRS 6
+#define COUNTER_BOX_TESTS 7       // work done, counted where COUNT_WORK is defined
+#define COUNTER_TRIANGLE_TESTS 8
+#define COUNTER_ARGUMENTS 12      // three uints
+#define COUNTER_LEAF_ARGUMENTS 16
+#define COUNTER_CHUNK_ARGUMENTS 20
+#define COUNTER_WORDS 24
+
+// Breadth-first traversal: node pairs that one lane handles in sequence.
+#define LEVEL_CHUNK 8
+// Work queues: lanes of a workgroup, its most workgroups, steps between two barriers, node pairs that a lane's stack
+// holds, leaf pairs at which the group turns to triangles, and room for what all lanes may add before they do.
+#define QUEUE_LANES 32
+#define QUEUE_MAX_GROUPS 2048
+#define QUEUE_STEPS 8
+#define QUEUE_STACK 48
+#define QUEUE_FLUSH 128
+#define QUEUE_LEAF_PAIRS (QUEUE_FLUSH + QUEUE_LANES * QUEUE_STEPS)
+// llvmpipe ends an invocation silently after 65535 loop iterations; a lane hands its work on before that.
+#define QUEUE_ITERATIONS 50000

@@ -1,50 +1,19 @@
 #include "gpu_planning_scene/cpu_checker.h"
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <cmath>
 #include <map>
 #include <mutex>
-#include <thread>
 
 #include "binned_sah.h"
 #include "collision_problem.h"
 #include "cpu_traversal.h"
-#include "gpu_planning_scene/error.h"
+#include "state_rows.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
 constexpr std::size_t kStatesPerChunk = 16;
-
-/// Calls `work(begin, end)` for chunks of [0, count) on all cores; the calling thread is one of them.
-template <class Work>
-void forChunks(std::size_t count, const Work& work)
-{
-  const std::size_t chunks = (count + kStatesPerChunk - 1) / kStatesPerChunk;
-  std::atomic<std::size_t> next{0};
-  const auto run = [&]
-  {
-    Work own = work;
-    for (std::size_t chunk = next++; chunk < chunks; chunk = next++)
-    {
-      own(chunk * kStatesPerChunk, std::min(count, (chunk + 1) * kStatesPerChunk));
-    }
-  };
-  const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::thread> helpers;
-  for (std::size_t i = 1; i < std::min(cores, chunks); ++i)
-  {
-    helpers.emplace_back(run);
-  }
-  run();
-  for (std::thread& helper : helpers)
-  {
-    helper.join();
-  }
-}
 }  // namespace
 
 struct CpuChecker::Impl
@@ -76,19 +45,6 @@ struct CpuChecker::Impl
     made.traversal = std::make_unique<const CpuTraversal>(problem, forest);
     return groups.emplace(group, std::move(made)).first->second;
   }
-
-  void refuseNonFinite(const double* states, std::size_t count) const
-  {
-    const auto& variables = scene->robot->variables();
-    for (std::size_t i = 0; i < count * variables.size(); ++i)
-    {
-      if (!std::isfinite(states[i]))
-      {
-        throw Error("state " + std::to_string(i / variables.size()) + ": the value of variable '" +
-                    variables[i % variables.size()].name + "' is not a finite number");
-      }
-    }
-  }
 };
 
 CpuChecker::CpuChecker(std::shared_ptr<const PlanningScene> scene) : impl_(std::make_unique<Impl>())
@@ -113,7 +69,7 @@ BatchResult CpuChecker::check(const double* states, std::size_t count, const std
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   const CpuTraversal& traversal = *impl_->groupProblem(group).traversal;
-  impl_->refuseNonFinite(states, count);
+  refuseNonFinite(*impl_->scene->robot, states, count);
   const RobotModel& robot = *impl_->scene->robot;
 
   BatchResult result;
@@ -121,7 +77,7 @@ BatchResult CpuChecker::check(const double* states, std::size_t count, const std
   result.valid.assign(count, 1);
   result.colliding.assign(count, {-1, -1});
   const auto start = std::chrono::steady_clock::now();
-  forChunks(count,
+  forChunks(count, kStatesPerChunk,
             [&, scratch = CpuTraversal::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot.links().size())](
                 std::size_t begin, std::size_t end) mutable
             {

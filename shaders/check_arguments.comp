@@ -1,0 +1,20 @@
+// One lane: indirect arguments for dispatches over a list of `counter` elements, at most `capacity`, and of at most
+// `max_groups` workgroups of `lanes` lanes; `cleared` and the work queues' next entry start again from 0.
+#include "interface.h"
+layout(local_size_x = 1) in;
+#include "counters.glsl"
+#include "arguments.glsl"
+layout(location = 0) uniform uint counter;
+layout(location = 1) uniform uint capacity;
+layout(location = 2) uniform uint lanes;
+layout(location = 3) uniform uint max_groups;
+layout(location = 4) uniform uint arguments;  // where they go among the counters
+layout(location = 5) uniform uint cleared;
+
+void main()
+{
+  const uint count = min(counters[counter], capacity);
+  setGroups(arguments, min((count + lanes - 1u) / lanes, max_groups));
+  counters[cleared] = 0u;
+  counters[COUNTER_NEXT_ENTRY] = 0u;
+}

@@ -1,0 +1,1 @@
+layout(std430, binding = BINDING_COUNTERS) buffer Counters { uint counters[]; };

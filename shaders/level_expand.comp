@@ -1,0 +1,44 @@
+// One lane per LEVEL_CHUNK node pairs: writes the overlapping child pairs to the places that the sums give them.
+#include "interface.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common.glsl"
+#include "level.glsl"
+layout(std430, binding = BINDING_OUT) readonly buffer Masks { uint masks[]; };
+layout(std430, binding = BINDING_OUT_2) readonly buffer Sums { uvec2 sums[]; };
+layout(std430, binding = BINDING_IN) writeonly buffer NextEntries { uvec4 next_entries[]; };
+layout(std430, binding = BINDING_IN_2) writeonly buffer LeafPairs { uvec4 leaf_pairs[]; };
+
+void main()
+{
+  const uint lane = invocationIndex();
+  const uint entry_count = min(counters[in_counter], entry_capacity);
+  if (lane * LEVEL_CHUNK >= entry_count)
+    return;
+  uvec2 at = sums[lane];
+  const uint end = min((lane + 1u) * LEVEL_CHUNK, entry_count);
+  for (uint i = lane * LEVEL_CHUNK; i < end; ++i)
+  {
+    const uint mask = masks[i];
+    const uvec4 entry = texelFetch(entries, int(i));
+    const TreeNode a = fetchNode(entry.y);
+    const TreeNode b = fetchNode(entry.z);
+    for (uint c = 0u; c < 4u; ++c)
+    {
+      const uvec2 nodes = childPair(entry.yz, a, b, c);
+      if ((mask >> c & 1u) != 0u)
+      {
+        if (at.x < entry_capacity)
+          next_entries[at.x] = uvec4(entry.x, nodes, 0u);
+        ++at.x;
+      }
+      if ((mask >> (c + 4u) & 1u) != 0u)
+      {
+        const TreeNode child_a = fetchNode(nodes.x);
+        const TreeNode child_b = fetchNode(nodes.y);
+        if (at.y < leaf_pair_capacity)
+          leaf_pairs[at.y] = uvec4(entry.x, child_a.first, child_b.first, child_a.count | (child_b.count << 16u));
+        ++at.y;
+      }
+    }
+  }
+}

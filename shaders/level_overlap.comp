@@ -1,0 +1,41 @@
+// One lane per LEVEL_CHUNK node pairs: which child pairs overlap. Out: a mask a pair (low four bits: go on to the next
+// level, next four: leaf pairs) and the chunk's sums.
+#include "interface.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common.glsl"
+#include "level.glsl"
+#include "verdicts.glsl"
+layout(std430, binding = BINDING_OUT) writeonly buffer Masks { uint masks[]; };
+layout(std430, binding = BINDING_OUT_2) writeonly buffer Sums { uvec2 sums[]; };
+
+void main()
+{
+  const uint lane = invocationIndex();
+  const uint entry_count = min(counters[in_counter], entry_capacity);
+  if (lane * LEVEL_CHUNK >= entry_count)
+    return;
+  uvec2 sum = uvec2(0u);
+  const uint end = min((lane + 1u) * LEVEL_CHUNK, entry_count);
+  for (uint i = lane * LEVEL_CHUNK; i < end; ++i)
+  {
+    const uvec4 entry = texelFetch(entries, int(i));
+    const Item item = fetchItem(entry.x);
+    const TreeNode a = fetchNode(entry.y);
+    const TreeNode b = fetchNode(entry.z);
+    const uint children = isDecided(item.state) ? 0u : childrenOf(a, b);
+    uint mask = 0u;
+    for (uint c = 0u; c < 4u; ++c)
+    {
+      const uvec2 nodes = childPair(entry.yz, a, b, c);
+      const TreeNode child_a = fetchNode(nodes.x);
+      const TreeNode child_b = fetchNode(nodes.y);
+      const bool apart = boxesApart(child_a.box, child_b.box, item.pose, item.slack + item.error);
+      const bool leaves = child_a.count != 0u && child_b.count != 0u;
+      if (!apart && (children >> c & 1u) != 0u)
+        mask |= (leaves ? 16u : 1u) << c;
+    }
+    masks[i] = mask;
+    sum += uvec2(bitCount(mask & 15u), bitCount(mask >> 4u));
+  }
+  sums[lane] = sum;
+}

@@ -1,0 +1,61 @@
+// One workgroup: exclusive prefix sums of the chunks' sums, the sizes of the next level and of the leaf list, and the
+// indirect arguments for both. A list that is too short is noticed here, before anything is written.
+#include "interface.h"
+layout(local_size_x = 256) in;
+#include "counters.glsl"
+#include "arguments.glsl"
+layout(location = 0) uniform uint in_counter;
+layout(location = 1) uniform uint out_counter;
+layout(location = 2) uniform uint entry_capacity;
+layout(location = 3) uniform uint leaf_pair_capacity;
+layout(std430, binding = BINDING_OUT_2) buffer Sums { uvec2 sums[]; };
+
+shared uvec2 part_sums[256];
+shared uvec2 total;
+
+void main()
+{
+  const uint lane = gl_LocalInvocationID.x;
+  const uint value_count = (min(counters[in_counter], entry_capacity) + LEVEL_CHUNK - 1u) / LEVEL_CHUNK;
+  const uint part = (value_count + 255u) / 256u;
+  const uint begin = min(lane * part, value_count);
+  const uint end = min(begin + part, value_count);
+  uvec2 sum = uvec2(0u);
+  for (uint i = begin; i < end; ++i)
+    sum += sums[i];
+  part_sums[lane] = sum;
+  barrier();
+  if (lane == 0u)
+  {
+    uvec2 running = uvec2(0u);
+    for (uint i = 0u; i < 256u; ++i)
+    {
+      const uvec2 value = part_sums[i];
+      part_sums[i] = running;
+      running += value;
+    }
+    total = running;
+  }
+  barrier();
+  uvec2 offset = part_sums[lane];
+  for (uint i = begin; i < end; ++i)
+  {
+    const uvec2 value = sums[i];
+    sums[i] = offset;
+    offset += value;
+  }
+  if (lane == 0u)
+  {
+    if (total.x > entry_capacity || total.y > leaf_pair_capacity)
+      counters[COUNTER_OVERFLOW] = 1u;
+    const uvec2 kept = min(total, uvec2(entry_capacity, leaf_pair_capacity));
+    counters[out_counter] = kept.x;
+    counters[COUNTER_LEAF_PAIRS] = kept.y;
+    // This level's arguments serve once more, for writing the next one.
+    for (uint i = 0u; i < 3u; ++i)
+      counters[COUNTER_CHUNK_ARGUMENTS + i] = counters[COUNTER_ARGUMENTS + i];
+    const uint chunks = (kept.x + LEVEL_CHUNK - 1u) / LEVEL_CHUNK;
+    setGroups(COUNTER_ARGUMENTS, (chunks + GROUP_SIZE - 1u) / GROUP_SIZE);
+    setGroups(COUNTER_LEAF_ARGUMENTS, (kept.y * LEAF_TRIANGLES + GROUP_SIZE - 1u) / GROUP_SIZE);
+  }
+}

@@ -1,0 +1,31 @@
+// Rigid motions: x -> rotation * x + translation. Lengths in metres.
+struct Pose
+{
+  mat3 rotation;
+  vec3 translation;
+};
+
+// Three texels hold the rows of [rotation | translation].
+Pose poseFromRows(vec4 x, vec4 y, vec4 z)
+{
+  return Pose(transpose(mat3(x.xyz, y.xyz, z.xyz)), vec3(x.w, y.w, z.w));
+}
+
+Pose fetchPose(usamplerBuffer poses, uint index)
+{
+  const int at = int(3u * index);
+  return poseFromRows(uintBitsToFloat(texelFetch(poses, at)), uintBitsToFloat(texelFetch(poses, at + 1)),
+                      uintBitsToFloat(texelFetch(poses, at + 2)));
+}
+
+vec3 apply(Pose pose, vec3 point)
+{
+  return pose.rotation * point + pose.translation;
+}
+
+// The pose of b in a's frame, both given in the same frame.
+Pose relativePose(Pose a, Pose b)
+{
+  const mat3 inverse = transpose(a.rotation);
+  return Pose(inverse * b.rotation, inverse * (b.translation - a.translation));
+}

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "collision/gpu_traversal.h"
+
+namespace gpu_planning_scene
+{
+/// Gress and Zachmann 2003: level by level over packed lists of overlapping node pairs; sums of overlap counts place the
+/// next level's pairs (shaders/level.glsl). The CPU does not wait in between: each level sizes the next one's dispatches.
+class BreadthFirst : public GpuTraversal
+{
+public:
+  BreadthFirst(const std::string& shader_folder, const ListCapacities& capacities);
+  void run(BatchLists& lists, std::uint32_t levels) override;
+
+private:
+  ArgumentsKernel arguments_;
+  Program overlap_, scan_, expand_, triangles_;
+  Buffer masks_, sums_;
+  TexelBuffer leaf_pairs_;
+};
+}  // namespace gpu_planning_scene

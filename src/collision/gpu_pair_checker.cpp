@@ -1,0 +1,141 @@
+#include "collision/gpu_pair_checker.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "gpu/gl_check.h"
+#include "interface.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr std::uint32_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
+
+std::size_t groupsFor(std::size_t lanes) { return (lanes + GROUP_SIZE - 1) / GROUP_SIZE; }
+
+/// Room that is enough for most batches: what a state leaves behind on average, and some for batches of few states.
+ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
+{
+  const auto per_state = [&](std::uint32_t chosen, std::size_t count)
+  { return chosen ? chosen : static_cast<std::uint32_t>(std::min<std::size_t>(max_states * count + 65536, 1U << 26)); };
+  capacities.candidates = per_state(capacities.candidates, 48);
+  capacities.items = per_state(capacities.items, 24);
+  capacities.node_pairs = per_state(capacities.node_pairs, 64);
+  capacities.leaf_pairs = per_state(capacities.leaf_pairs, 64);
+  return capacities;
+}
+}  // namespace
+
+GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, std::size_t max_states,
+                               const ListCapacities& capacities)
+  : scene_(folder)
+  , max_states_(std::max<std::size_t>(1, max_states))
+  , lists_(withDefaults(capacities, max_states_))
+  , traversal_(makeTraversal(traversal, folder, lists_.capacity))
+  , arguments_(folder)
+  , spheres_program_(folder, "check_spheres.comp")
+  , self_program_(folder, "check_self_broad.comp")
+  , world_program_(folder, "check_world_broad.comp")
+  , roots_program_(folder, "check_roots.comp")
+{
+}
+
+std::pair<std::uint32_t, std::uint32_t> GpuPairChecker::pairOf(std::uint32_t hit)
+{
+  return { hit >> PAIR_OTHER_BITS, hit & ((1U << PAIR_OTHER_BITS) - 1) };
+}
+
+void GpuPairChecker::check(const float* poses, std::size_t count, Verdicts& verdicts)
+{
+  verdicts.flags.assign(count, 0);
+  verdicts.hits.assign(count, 0);
+  if (scene_.robotCount() == 0)
+    return;
+  for (std::size_t begin = 0; begin < count; begin += max_states_)
+    checkPart(poses, begin, std::min(max_states_, count - begin), verdicts);
+}
+
+void GpuPairChecker::checkPart(const float* poses, std::size_t begin, std::size_t count, Verdicts& verdicts)
+{
+  if (runBatch(poses + begin * scene_.robotCount() * 12, count))
+  {
+    lists_.flags.read(&verdicts.flags[begin], count * sizeof(std::uint32_t));
+    lists_.hits.read(&verdicts.hits[begin], count * sizeof(std::uint32_t));
+    return;
+  }
+  if (count == 1)
+  {
+    verdicts.flags[begin] = STATE_UNDECIDED;
+    return;
+  }
+  checkPart(poses, begin, count / 2, verdicts);
+  checkPart(poses, begin + count / 2, count - count / 2, verdicts);
+}
+
+bool GpuPairChecker::runBatch(const float* poses, std::size_t count)
+{
+  poses_.reserve(count * scene_.robotCount() * 12 * sizeof(float));
+  poses_.buffer().write(poses, count * scene_.robotCount() * 12 * sizeof(float));
+  lists_.flags.reserve(count * sizeof(std::uint32_t));
+  lists_.flags.clear(0, count * sizeof(std::uint32_t));
+  lists_.hits.reserve(count * sizeof(std::uint32_t));
+  lists_.counters.clear();
+
+  scene_.bind();
+  poses_.bindTexture(UNIT_ROBOT_POSES);
+  lists_.items.bindTexture(UNIT_ITEMS);
+  lists_.candidates.bindTexture(UNIT_CANDIDATES);
+  lists_.counters.bindStorage(BINDING_COUNTERS);
+  lists_.flags.bindStorage(BINDING_FLAGS);
+  lists_.hits.bindStorage(BINDING_HITS);
+
+  findCandidates(static_cast<std::uint32_t>(count));
+  testRoots();
+  traversal_->run(lists_, scene_.depthBound());
+
+  std::uint32_t overflow = 0;
+  lists_.counters.read(&overflow, sizeof(overflow), COUNTER_OVERFLOW * sizeof(std::uint32_t));
+  checkGl("a batch");
+  return overflow == 0;
+}
+
+void GpuPairChecker::findCandidates(std::uint32_t states)
+{
+  const std::size_t groups = groupsFor(std::size_t{ states } * scene_.robotCount());
+  for (const Program* program : { &spheres_program_, &self_program_, &world_program_, &roots_program_ })
+  {
+    program->set(0, states);
+    program->set(1, scene_.robotCount());
+  }
+  lists_.candidates.buffer().bindStorage(BINDING_OUT_2);
+  if (scene_.hasSelfPairs())
+  {
+    spheres_.reserve(std::size_t{ states } * scene_.robotCount() * 16);
+    spheres_.bindStorage(BINDING_OUT);
+    spheres_program_.dispatch(groups);
+    self_program_.set(2, lists_.capacity.candidates);
+    scene_.partners().bindStorage(BINDING_IN);
+    self_program_.dispatch(groups);
+  }
+  if (scene_.worldCount() > 0)
+  {
+    world_program_.set(2, lists_.capacity.candidates);
+    world_program_.set(3, scene_.worldCount());
+    world_program_.set(4, scene_.worldRoot());
+    scene_.worldOrder().bindStorage(BINDING_IN);
+    scene_.worldPairs().bindStorage(BINDING_IN_2);
+    world_program_.dispatch(groups);
+  }
+}
+
+void GpuPairChecker::testRoots()
+{
+  arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, kNoLimit, COUNTER_NEXT_ENTRY);
+  roots_program_.set(2, lists_.capacity.candidates);
+  roots_program_.set(3, lists_.capacity.items);
+  lists_.items.buffer().bindStorage(BINDING_OUT);
+  lists_.node_pairs[0].buffer().bindStorage(BINDING_OUT_2);
+  roots_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
+}
+}  // namespace gpu_planning_scene

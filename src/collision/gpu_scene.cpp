@@ -1,0 +1,185 @@
+#include "collision/gpu_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "gpu_planning_scene/error.h"
+#include "interface.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// The box of a shape's triangles, grown by its sagitta.
+Eigen::AlignedBox3d localBounds(const Tessellation& tree)
+{
+  Eigen::AlignedBox3d box;
+  for (const auto& triangle : tree.mesh->triangles)
+    for (const std::uint32_t corner : triangle)
+      box.extend(tree.mesh->vertices[corner]);
+  const Eigen::Vector3d sagitta = Eigen::Vector3d::Constant(tree.sagitta);
+  return { box.min() - sagitta, box.max() + sagitta };
+}
+
+/// A box that holds `box` moved by `pose`, rounded outward to float.
+Eigen::AlignedBox3f movedBounds(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& pose)
+{
+  const Eigen::Vector3d center = pose * box.center();
+  const Eigen::Vector3d half = pose.linear().cwiseAbs() * (box.sizes() / 2.0);
+  Eigen::AlignedBox3f moved;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double slop = 1e-12 * (std::abs(center[axis]) + half[axis]);
+    moved.min()[axis] = std::nextafter(static_cast<float>(center[axis] - half[axis] - slop), -std::numeric_limits<float>::infinity());
+    moved.max()[axis] = std::nextafter(static_cast<float>(center[axis] + half[axis] + slop), std::numeric_limits<float>::infinity());
+  }
+  return moved;
+}
+
+std::vector<const Mesh*> meshes(const std::vector<Tessellation>& trees, std::size_t begin, std::size_t end)
+{
+  std::vector<const Mesh*> found;
+  for (std::size_t i = begin; i < end; ++i)
+    found.push_back(trees[i].mesh.get());
+  return found;
+}
+
+std::size_t robotTreeCount(const CollisionProblem& problem)
+{
+  std::size_t count = 0;
+  for (const Geometry& geometry : problem.robot)
+    count = std::max<std::size_t>(count, geometry.tree + 1);
+  return count;
+}
+}  // namespace
+
+void writePoseRows(const Eigen::Isometry3d& pose, float* rows)
+{
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      rows[4 * row + column] = static_cast<float>(pose(row, column));
+}
+
+void GpuScene::setProblem(const CollisionProblem& problem, bool same_robot)
+{
+  if (problem.robot.size() > MAX_ROBOT_GEOMETRIES || problem.robot.size() + problem.world.size() > MAX_GEOMETRIES)
+    throw Error(std::to_string(problem.robot.size()) + " shapes of the robot and " + std::to_string(problem.world.size()) +
+                " of the world are more than " + std::to_string(MAX_ROBOT_GEOMETRIES) + " and " +
+                std::to_string(MAX_GEOMETRIES) + "; merge meshes");
+  robot_count_ = static_cast<std::uint32_t>(problem.robot.size());
+  world_count_ = static_cast<std::uint32_t>(problem.world.size());
+
+  trees_ = problem.trees.size();
+  const std::size_t robot_trees = robotTreeCount(problem);
+  if (!same_robot || robot_trees != robot_trees_)
+  {
+    robot_region_ = {};
+    robot_trees_ = robot_trees;
+    if (robot_trees_ > 0)
+      builder_.buildTriangles(meshes(problem.trees, 0, robot_trees_), robot_region_, nodes_, leaf_order_, triangles_);
+  }
+  shape_region_ = {};
+  shape_region_.first_node = robot_region_.node_count;
+  shape_region_.first_primitive = robot_region_.primitive_count;
+  if (trees_ > robot_trees_)
+    builder_.buildTriangles(meshes(problem.trees, robot_trees_, trees_), shape_region_, nodes_, leaf_order_, triangles_);
+  first_triangle_.clear();
+  std::uint32_t triangle = 0;
+  for (const Tessellation& tree : problem.trees)
+  {
+    first_triangle_.push_back(triangle);
+    triangle += static_cast<std::uint32_t>(tree.mesh->triangles.size());
+  }
+  buildWorldTree(problem);
+  depth_bound_ = BUILD_ROUNDS;
+
+  std::vector<std::uint32_t> geometries;
+  for (const std::vector<Geometry>* instances : { &problem.robot, &problem.world })
+    for (const Geometry& geometry : *instances)
+    {
+      const std::uint32_t root = geometry.tree < robot_trees_ ?
+                                     geometry.tree :
+                                     shape_region_.first_node + geometry.tree - static_cast<std::uint32_t>(robot_trees_);
+      const float slack = std::nextafter(static_cast<float>(problem.trees[geometry.tree].sagitta), 1.0F);
+      std::uint32_t bits = 0;
+      if (problem.trees[geometry.tree].sagitta > 0.0)
+        std::memcpy(&bits, &slack, sizeof(bits));
+      geometries.push_back(root);
+      geometries.push_back(bits);
+    }
+  geometries_.reserve(geometries.size() * sizeof(std::uint32_t));
+  geometries_.write(geometries);
+  selectPairs(problem);
+}
+
+void GpuScene::buildWorldTree(const CollisionProblem& problem)
+{
+  if (world_count_ == 0)
+    return;
+  std::vector<Eigen::AlignedBox3d> local;
+  for (const Tessellation& tree : problem.trees)
+    local.push_back(localBounds(tree));
+  std::vector<Eigen::AlignedBox3f> bounds;
+  std::vector<float> poses(12 * problem.world.size());
+  for (std::size_t i = 0; i < problem.world.size(); ++i)
+  {
+    bounds.push_back(movedBounds(local[problem.world[i].tree], problem.world[i].pose));
+    writePoseRows(problem.world[i].pose, &poses[12 * i]);
+  }
+  world_poses_.reserve(poses.size() * sizeof(float));
+  world_poses_.buffer().write(poses);
+  ForestRegion region;
+  region.first_node = shape_region_.first_node + shape_region_.node_count;
+  builder_.buildBoxes(bounds, region, nodes_, world_order_);
+  world_root_ = region.first_node;
+}
+
+void GpuScene::selectPairs(const CollisionProblem& problem)
+{
+  // Offsets of each robot instance's partners, then the partners; a pair is with its lower instance.
+  std::vector<std::vector<std::uint32_t>> of(robot_count_);
+  for (const auto& pair : problem.self_pairs)
+    of[std::min(pair[0], pair[1])].push_back(std::max(pair[0], pair[1]));
+  std::vector<std::uint32_t> partners(robot_count_ + 1, 0);
+  for (std::uint32_t i = 0; i < robot_count_; ++i)
+    partners[i + 1] = partners[i] + static_cast<std::uint32_t>(of[i].size());
+  for (const auto& list : of)
+    partners.insert(partners.end(), list.begin(), list.end());
+  partners_.reserve(partners.size() * sizeof(std::uint32_t));
+  partners_.write(partners);
+  has_self_pairs_ = !problem.self_pairs.empty();
+
+  std::vector<std::uint32_t> bits(problem.world_pairs.size() / 32 + 1, 0);
+  for (std::size_t i = 0; i < problem.world_pairs.size(); ++i)
+    if (problem.world_pairs[i])
+      bits[i / 32] |= 1U << (i % 32);
+  world_pairs_.reserve(bits.size() * sizeof(std::uint32_t));
+  world_pairs_.write(bits);
+}
+
+void GpuScene::bind() const
+{
+  nodes_.bindTexture(UNIT_NODES);
+  triangles_.bindTexture(UNIT_TRIANGLES);
+  world_poses_.bindTexture(UNIT_WORLD_POSES);
+  geometries_.bindStorage(BINDING_GEOMETRIES);
+}
+
+Forest GpuScene::readForest() const
+{
+  Forest forest;
+  forest.nodes.resize(shape_region_.first_node + shape_region_.node_count);
+  nodes_.buffer().read(forest.nodes.data(), forest.nodes.size() * sizeof(Node));
+  forest.leaf_triangles.resize(shape_region_.first_primitive + shape_region_.primitive_count);
+  leaf_order_.read(forest.leaf_triangles.data(), forest.leaf_triangles.size() * sizeof(std::uint32_t));
+  // The world's shapes are numbered from 0 in their own forest.
+  for (std::size_t i = shape_region_.first_primitive; i < forest.leaf_triangles.size(); ++i)
+    forest.leaf_triangles[i] += shape_region_.first_primitive;
+  forest.first_triangle = first_triangle_;
+  for (std::size_t i = 0; i < trees_; ++i)
+    forest.roots.push_back(static_cast<std::uint32_t>(i < robot_trees_ ? i : shape_region_.first_node + i - robot_trees_));
+  return forest;
+}
+}  // namespace gpu_planning_scene

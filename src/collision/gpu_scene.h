@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "collision/collision_problem.h"
+#include "collision/gpu_forest.h"
+#include "gpu/buffer.h"
+
+namespace gpu_planning_scene
+{
+/// A collision problem in GPU memory: the trees of all distinct shapes, the instances, the tree over world instances and
+/// the pairs that are checked. Used on the context's thread.
+class GpuScene
+{
+public:
+  explicit GpuScene(const std::string& shader_folder) : builder_(shader_folder) {}
+
+  /// Uploads a problem and builds its trees. `same_robot`: the problem has the robot of the one before, so the robot's trees
+  /// stay. Throws Error if the problem is too large for the device; the scene is then unusable until the next setProblem.
+  void setProblem(const CollisionProblem& problem, bool same_robot);
+
+  /// Restricts the checked pairs to those of `problem`, which has the same trees and instances as the one uploaded.
+  void selectPairs(const CollisionProblem& problem);
+
+  /// Binds what all kernels read: nodes, triangles, world poses, instances.
+  void bind() const;
+  const Buffer& partners() const { return partners_; }
+  const Buffer& worldOrder() const { return world_order_; }
+  const Buffer& worldPairs() const { return world_pairs_; }
+
+  std::uint32_t robotCount() const { return robot_count_; }
+  std::uint32_t worldCount() const { return world_count_; }
+  std::uint32_t worldRoot() const { return world_root_; }
+  bool hasSelfPairs() const { return has_self_pairs_; }
+
+  /// No tree has more levels than this.
+  std::uint32_t depthBound() const { return depth_bound_; }
+
+  /// The trees as the CPU can walk them; reads back from the GPU.
+  Forest readForest() const;
+
+private:
+  void buildWorldTree(const CollisionProblem& problem);
+
+  GpuForestBuilder builder_;
+  TexelBuffer nodes_, triangles_, world_poses_;
+  Buffer leaf_order_, geometries_, partners_, world_order_, world_pairs_;
+  ForestRegion robot_region_, shape_region_;
+  std::size_t robot_trees_ = 0;
+  std::size_t trees_ = 0;
+  std::vector<std::uint32_t> first_triangle_;  // of each tree, among all
+  std::uint32_t robot_count_ = 0;
+  std::uint32_t world_count_ = 0;
+  std::uint32_t world_root_ = 0;
+  std::uint32_t depth_bound_ = 0;
+  bool has_self_pairs_ = false;
+};
+
+/// The rows of [rotation | translation] as a shader reads them (shaders/pose.glsl).
+void writePoseRows(const Eigen::Isometry3d& pose, float* rows);
+}  // namespace gpu_planning_scene

@@ -1,0 +1,49 @@
+#include "collision/gpu_traversal.h"
+
+#include "collision/breadth_first.h"
+#include "collision/work_queue.h"
+#include "gpu_planning_scene/error.h"
+#include "interface.h"
+
+namespace gpu_planning_scene
+{
+Traversal traversalFromName(const std::string& name)
+{
+  if (name == "breadth_first")
+    return Traversal::BreadthFirst;
+  if (name == "work_queue")
+    return Traversal::WorkQueue;
+  throw Error("unknown traversal '" + name + "'; use breadth_first or work_queue");
+}
+
+BatchLists::BatchLists(const ListCapacities& capacities)
+  : capacity(capacities), counters(COUNTER_WORDS * sizeof(std::uint32_t))
+{
+  candidates.reserve(std::size_t{ capacity.candidates } * 16);
+  items.reserve(std::size_t{ capacity.items } * 64);
+  for (TexelBuffer& list : node_pairs)
+    list.reserve(std::size_t{ std::max(capacity.node_pairs, capacity.items) } * 16);
+}
+
+std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,
+                                            const ListCapacities& capacities)
+{
+  if (traversal == Traversal::BreadthFirst)
+    return std::make_unique<BreadthFirst>(shader_folder, capacities);
+  return std::make_unique<WorkQueue>(shader_folder);
+}
+
+void ArgumentsKernel::prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes, std::uint32_t max_groups,
+                              std::uint32_t cleared) const
+{
+  program_.set(0, counter);
+  program_.set(1, capacity);
+  program_.set(2, lanes);
+  program_.set(3, max_groups);
+  program_.set(4, COUNTER_ARGUMENTS);
+  program_.set(5, cleared);
+  program_.dispatch(1);
+}
+
+std::size_t ArgumentsKernel::argumentsOffset() { return COUNTER_ARGUMENTS * sizeof(std::uint32_t); }
+}  // namespace gpu_planning_scene

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <thread>
+#include <vector>
+
+#include "gpu_planning_scene/robot_model.h"
+
+namespace gpu_planning_scene
+{
+/// Throws Error if one of `count` rows of the robot's variables holds a value that is not finite.
+void refuseNonFinite(const RobotModel& robot, const double* states, std::size_t count);
+
+/// Calls `work(begin, end)` for chunks of [0, count) on all cores; the calling thread is one of them. Each thread works
+/// with its own copy of `work`, so that what it captures by value may serve as scratch. `work` must not throw.
+template <class Work>
+void forChunks(std::size_t count, std::size_t per_chunk, const Work& work)
+{
+  const std::size_t chunks = (count + per_chunk - 1) / per_chunk;
+  std::atomic<std::size_t> next{ 0 };
+  const auto run = [&]
+  {
+    Work own = work;
+    for (std::size_t chunk = next++; chunk < chunks; chunk = next++)
+      own(chunk * per_chunk, std::min(count, (chunk + 1) * per_chunk));
+  };
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::thread> helpers;
+  for (std::size_t i = 1; i < std::min(cores, chunks); ++i)
+    helpers.emplace_back(run);
+  run();
+  for (std::thread& helper : helpers)
+    helper.join();
+}
+}  // namespace gpu_planning_scene

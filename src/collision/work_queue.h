@@ -1,0 +1,22 @@
+#pragma once
+
+#include "collision/gpu_traversal.h"
+
+namespace gpu_planning_scene
+{
+/// Every lane walks node pairs with a stack of its own, a workgroup shares a list of leaf pairs
+/// (shaders/work_queue.comp). A pass that could not finish within the iterations that a device grants hands on what is
+/// left to the next pass.
+class WorkQueue : public GpuTraversal
+{
+public:
+  explicit WorkQueue(const std::string& shader_folder) : arguments_(shader_folder), program_(shader_folder, "work_queue.comp")
+  {
+  }
+  void run(BatchLists& lists, std::uint32_t levels) override;
+
+private:
+  ArgumentsKernel arguments_;
+  Program program_;
+};
+}  // namespace gpu_planning_scene

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <queue>
+#include <string>
+#include <thread>
+
+#include "gpu/egl_context.h"
+
+namespace gpu_planning_scene
+{
+/// A thread that owns an OpenGL context and does one job after the other: a context is current on one thread only.
+class GlThread
+{
+public:
+  /// Starts the thread and makes the context; throws Error as EglContext does.
+  explicit GlThread(const std::string& device_selector);
+  /// Finishes the jobs that were given, then destroys the context.
+  ~GlThread();
+
+  /// Runs `job` on the thread and waits for it; what it throws is thrown here. Thread-safe.
+  void run(const std::function<void()>& job);
+
+  const Device& device() const { return device_; }
+
+private:
+  void serve(const std::string& device_selector, std::promise<Device>& started);
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::queue<std::packaged_task<void()>> jobs_;
+  bool stopping_ = false;
+  Device device_;
+  std::thread thread_;
+};
+}  // namespace gpu_planning_scene
