@@ -1,0 +1,132 @@
+#!/usr/bin/python3
+"""Checks random states of the robot on the parameter server through planning_scene_node, and sums up the answers."""
+import argparse
+import collections
+import math
+import sys
+import time
+import xml.etree.ElementTree
+
+import numpy
+import yaml
+
+# Variables are named as in MoveIt: the joint's name, or JOINT/PART where a joint has several.
+Variable = collections.namedtuple("Variable", "name lower upper")
+QUATERNION = ["rot_x", "rot_y", "rot_z", "rot_w"]
+
+
+def variables_of(urdf, reach=1.0):
+    """The variables of a URDF text that a request gives values for. Angles without limits range over a turn,
+    translations of planar and floating joints over [-reach, reach]."""
+    variables = []
+    for joint in xml.etree.ElementTree.fromstring(urdf).findall("joint"):
+        name, kind = joint.get("name"), joint.get("type")
+        if kind == "fixed" or joint.find("mimic") is not None:
+            continue
+        if kind in ("revolute", "prismatic"):
+            limit = joint.find("limit")
+            variables.append(Variable(name, float(limit.get("lower", 0)), float(limit.get("upper", 0))))
+        elif kind == "continuous":
+            variables.append(Variable(name, -math.pi, math.pi))
+        elif kind == "planar":
+            variables += [Variable(f"{name}/{part}", -reach, reach) for part in ("x", "y")]
+            variables.append(Variable(f"{name}/theta", -math.pi, math.pi))
+        elif kind == "floating":
+            variables += [Variable(f"{name}/{part}", -reach, reach) for part in ("trans_x", "trans_y", "trans_z")]
+            variables += [Variable(f"{name}/{part}", -1.0, 1.0) for part in QUATERNION]
+    return variables
+
+
+def random_states(variables, count, seed, around=None, spread=0.0):
+    """One row a state: uniform between the limits, or, where `around` (name -> value) is given, within `spread` of it
+    and the limits. Rotations of floating joints are uniform over all rotations, or those of `around`."""
+    generator = numpy.random.default_rng(seed)
+    lower = numpy.array([variable.lower for variable in variables])
+    upper = numpy.array([variable.upper for variable in variables])
+    names = [variable.name for variable in variables]
+    if around is None:
+        states = generator.uniform(lower, upper, (count, len(variables)))
+    else:
+        center = numpy.array([around.get(name, 0.0) for name in names])
+        states = center + generator.uniform(-spread, spread, (count, len(variables)))
+        states = numpy.clip(states, lower, upper)
+    for column, name in enumerate(names):
+        if name.endswith("/rot_x"):
+            rotation = slice(column, column + len(QUATERNION))
+            if around is None:
+                states[:, rotation] = generator.normal(size=(count, len(QUATERNION)))
+            states[:, rotation] /= numpy.linalg.norm(states[:, rotation], axis=1, keepdims=True)
+    return states
+
+
+def state_of_scene(path):
+    """The joint values that a scene file's robot_state names."""
+    with open(path) as file:
+        joint_state = yaml.safe_load(file)["robot_state"]["joint_state"]
+    return dict(zip(joint_state["name"], joint_state["position"]))
+
+
+def summary(response, count, seconds):
+    """Lines for a person."""
+    valid = numpy.frombuffer(response.valid, dtype=numpy.uint8)
+    pairs = collections.Counter(
+        tuple(sorted(pair)) for pair, free in zip(zip(response.body_1, response.body_2), valid) if not free
+    )
+    lines = [
+        f"valid: {100 * numpy.count_nonzero(valid) / count:.1f} %",
+        f"rate: {count / response.seconds:.0f} states/s"
+        f" ({response.seconds:.3f} s in the checker, {seconds:.3f} s for the whole ROS call)",
+        "commonest colliding pairs:" if pairs else "no state is in collision",
+    ]
+    return lines + [f"  {first} - {second}: {number} states" for (first, second), number in pairs.most_common(5)]
+
+
+def call(arguments):
+    """Asks the node; returns the exit code."""
+    import rospy  # here, so that the rest can be used without ROS
+    from gpu_planning_scene.srv import CheckStates
+
+    rospy.init_node("demo_client", anonymous=True)
+    variables = variables_of(rospy.get_param("robot_description"))
+    around = state_of_scene(arguments.around) if arguments.around else None
+    states = random_states(variables, arguments.states, arguments.seed, around, arguments.spread)
+    rospy.wait_for_service(arguments.service, arguments.timeout)
+    check_states = rospy.ServiceProxy(arguments.service, CheckStates)
+    request = {"group": arguments.group, "joint_names": [variable.name for variable in variables], "max_contacts": 0}
+
+    # The first call finds pages, threads and shaders cold.
+    check_states(positions=states[:1024].ravel(), **request)
+    begin = time.monotonic()
+    response = check_states(positions=states.ravel(), **request)
+    seconds = time.monotonic() - begin
+    if not response.success:
+        print(f"demo_client: {response.message}", file=sys.stderr)
+        return 1
+    where = f"within {arguments.spread} of the scene's state" if around else "within the joints' limits"
+    print(f"states: {len(states)} random ones {where}, seed {arguments.seed}")
+    print("\n".join(summary(response, len(states), seconds)))
+    return 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--states", type=int, default=16384, help="how many (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=1, help="of the random states (default: %(default)s)")
+    parser.add_argument("--around", metavar="SCENE", help="draw states around the robot_state of this scene file")
+    parser.add_argument("--spread", type=float, default=0.2, help="radians and metres (default: %(default)s)")
+    parser.add_argument("--group", default="", help="check only what this planning group moves")
+    parser.add_argument("--service", default="/planning_scene_node/check_states", help="(default: %(default)s)")
+    parser.add_argument("--timeout", type=float, default=120, help="seconds to wait for it (default: %(default)s)")
+    # roslaunch and rosrun add arguments of their own, such as __name:=...
+    arguments = parser.parse_args([argument for argument in sys.argv[1:] if ":=" not in argument])
+    try:
+        return call(arguments)
+    except KeyboardInterrupt:
+        return 130
+    except Exception as error:  # whatever it is, a user wants one line
+        print(f"demo_client: {error}", file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,85 @@
+"""The demo's client: what it reads from a URDF, what it draws, and how it sums up answers."""
+import collections
+import importlib.util
+import unittest
+
+import numpy
+
+from repository import ROOT, SCRIPTS
+
+spec = importlib.util.spec_from_file_location("demo_client", SCRIPTS / "demo_client.py")
+demo_client = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(demo_client)
+
+URDF = """<robot name="r">
+  <joint name="still" type="fixed"/>
+  <joint name="elbow" type="revolute"><limit lower="-1" upper="2"/></joint>
+  <joint name="finger" type="prismatic"><limit lower="0" upper="0.04"/></joint>
+  <joint name="other_finger" type="prismatic"><mimic joint="finger"/><limit lower="0" upper="0.04"/></joint>
+  <joint name="wheel" type="continuous"/>
+  <joint name="base" type="planar"/>
+  <joint name="body" type="floating"/>
+</robot>"""
+
+
+class Variables(unittest.TestCase):
+    def test_are_those_of_moving_joints_with_moveit_names(self):
+        names = [variable.name for variable in demo_client.variables_of(URDF)]
+        self.assertEqual(names[:6], ["elbow", "finger", "wheel", "base/x", "base/y", "base/theta"])
+        self.assertEqual(
+            names[6:], ["body/" + part for part in "trans_x trans_y trans_z rot_x rot_y rot_z rot_w".split()]
+        )
+
+    def test_have_the_limits_of_the_urdf(self):
+        elbow = demo_client.variables_of(URDF)[0]
+        self.assertEqual((elbow.lower, elbow.upper), (-1.0, 2.0))
+
+
+class RandomStates(unittest.TestCase):
+    def setUp(self):
+        self.variables = demo_client.variables_of(URDF)
+
+    def test_fill_the_limits(self):
+        states = demo_client.random_states(self.variables, 4000, seed=3)
+        for column, variable in enumerate(self.variables[:9]):
+            width = variable.upper - variable.lower
+            self.assertGreaterEqual(states[:, column].min(), variable.lower)
+            self.assertLessEqual(states[:, column].max(), variable.upper)
+            self.assertGreater(numpy.ptp(states[:, column]), 0.99 * width, variable.name)
+
+    def test_have_unit_quaternions_that_favour_no_direction(self):
+        rotations = demo_client.random_states(self.variables, 4000, seed=3)[:, 9:]
+        numpy.testing.assert_allclose(numpy.linalg.norm(rotations, axis=1), 1.0)
+        numpy.testing.assert_allclose((rotations**2).mean(axis=0), 0.25, atol=0.02)
+
+    def test_around_a_state_stay_near_it_and_within_limits(self):
+        around = {"elbow": 1.95, "body/rot_w": 1.0}
+        states = demo_client.random_states(self.variables, 1000, seed=3, around=around, spread=0.1)
+        self.assertGreaterEqual(states[:, 0].min(), 1.85)
+        self.assertEqual(states[:, 0].max(), 2.0)
+        self.assertGreater(states[:, 12].min(), 0.9)
+
+    def test_are_the_same_for_the_same_seed(self):
+        first, second = (demo_client.random_states(self.variables, 10, seed=7) for _ in range(2))
+        numpy.testing.assert_array_equal(first, second)
+
+
+class Summary(unittest.TestCase):
+    def test_names_share_rate_and_commonest_pairs_in_either_order(self):
+        Response = collections.namedtuple("Response", "valid body_1 body_2 seconds")
+        response = Response(bytes([1, 0, 0, 0]), ["", "a", "b", "a"], ["", "b", "a", "c"], 0.5)
+        lines = demo_client.summary(response, 4, 0.75)
+        self.assertEqual(lines[0], "valid: 25.0 %")
+        self.assertTrue(lines[1].startswith("rate: 8 states/s "), lines[1])
+        self.assertEqual(lines[3:], ["  a - b: 2 states", "  a - c: 1 states"])
+
+
+class DemoScenes(unittest.TestCase):
+    def test_the_state_of_the_hubo_scene_is_read(self):
+        state = demo_client.state_of_scene(ROOT / "config" / "demo" / "hubo_scene.yaml")
+        self.assertEqual(len(state), 51)
+        self.assertEqual(state["LEP"], -1.4)
+
+
+if __name__ == "__main__":
+    unittest.main()
