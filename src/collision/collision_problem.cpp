@@ -64,57 +64,28 @@ class TreeTable
   std::map<ShapeKey, std::uint32_t> trees_;
 };
 
-/// The geometries of bodies with consecutive indices: those of body b are numbers [b - first_body] to [b - first_body +
-/// 1].
-std::vector<std::uint32_t> rangesOf(const std::vector<Geometry>& geometries, int first_body, std::size_t bodies)
+struct BodyPair
 {
-  std::vector<std::uint32_t> ranges(bodies + 1, 0);
-  for (const Geometry& geometry : geometries)
-  {
-    ++ranges[geometry.body - first_body + 1];
-  }
-  for (std::size_t i = 1; i < ranges.size(); ++i)
-  {
-    ranges[i] += ranges[i - 1];
-  }
-  return ranges;
-}
-}  // namespace
+  std::size_t link;   // index of a link
+  std::size_t other;  // index of a later link, or of an object
+};
 
-CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report)
+/// The pairs that the allowed-collision matrix leaves, whatever the group. Bodies without shapes are in none.
+struct CheckedPairs
+{
+  std::vector<BodyPair> self;
+  std::vector<BodyPair> world;
+};
+
+CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<bool>& moved, SceneReport& report)
 {
   const auto& links = scene.robot->links();
-  const auto& objects = scene.objects;
-  std::vector<bool> moved(links.size(), group.empty());
-  if (!group.empty())
-  {
-    for (const int link : scene.robot->group(group).moved_links)
-    {
-      moved[link] = true;
-    }
-  }
-
-  SceneReport counts;
-  CollisionProblem problem;
-  TreeTable trees(problem);
-  for (std::size_t i = 0; i < links.size(); ++i)
-  {
-    trees.addGeometries(links[i].shapes, static_cast<int>(i), Eigen::Isometry3d::Identity(), problem.robot);
-    counts.links_without_shapes += links[i].shapes.empty() ? 1 : 0;
-  }
-  const int first_object = static_cast<int>(links.size());
-  for (std::size_t k = 0; k < objects.size(); ++k)
-  {
-    trees.addGeometries(objects[k].shapes, first_object + static_cast<int>(k), objects[k].pose, problem.world);
-  }
-  const std::vector<std::uint32_t> robot_ranges = rangesOf(problem.robot, 0, links.size());
-  const std::vector<std::uint32_t> world_ranges = rangesOf(problem.world, first_object, objects.size());
-
-  problem.world_pairs.assign(problem.robot.size() * problem.world.size(), 0);
+  CheckedPairs pairs;
   for (std::size_t i = 0; i < links.size(); ++i)
   {
     if (links[i].shapes.empty())
     {
+      ++report.links_without_shapes;
       continue;
     }
     for (std::size_t j = i + 1; j < links.size(); ++j)
@@ -123,49 +94,118 @@ CollisionProblem makeProblem(const PlanningScene& scene, const std::string& grou
       {
         continue;
       }
-      if (!moved[i] && !moved[j])
+      const bool is_allowed = scene.allowed_collisions.allowed(links[i].name, links[j].name);
+      const bool is_moved = moved[i] || moved[j];
+      ++(is_allowed ? report.allowed_self_pairs : is_moved ? report.self_pairs : report.unmoved_pairs);
+      if (!is_allowed)
       {
-        ++counts.unmoved_pairs;
-        continue;
-      }
-      if (scene.allowed_collisions.allowed(links[i].name, links[j].name))
-      {
-        ++counts.allowed_self_pairs;
-        continue;
-      }
-      ++counts.self_pairs;
-      for (std::uint32_t a = robot_ranges[i]; a < robot_ranges[i + 1]; ++a)
-      {
-        for (std::uint32_t b = robot_ranges[j]; b < robot_ranges[j + 1]; ++b)
-        {
-          problem.self_pairs.push_back({a, b});
-        }
+        pairs.self.push_back({i, j});
       }
     }
-    for (std::size_t k = 0; k < objects.size(); ++k)
+    for (std::size_t k = 0; k < scene.objects.size(); ++k)
     {
-      if (objects[k].shapes.empty())
+      if (scene.objects[k].shapes.empty())
       {
         continue;
       }
-      if (!moved[i])
+      const bool is_allowed = scene.allowed_collisions.allowed(links[i].name, scene.objects[k].id);
+      ++(is_allowed ? report.allowed_world_pairs : moved[i] ? report.world_pairs : report.unmoved_pairs);
+      if (!is_allowed)
       {
-        ++counts.unmoved_pairs;
-        continue;
-      }
-      if (scene.allowed_collisions.allowed(links[i].name, objects[k].id))
-      {
-        ++counts.allowed_world_pairs;
-        continue;
-      }
-      ++counts.world_pairs;
-      for (std::uint32_t a = robot_ranges[i]; a < robot_ranges[i + 1]; ++a)
-      {
-        const auto row = problem.world_pairs.begin() + a * problem.world.size();
-        std::fill(row + world_ranges[k], row + world_ranges[k + 1], std::uint8_t{1});
+        pairs.world.push_back({i, k});
       }
     }
   }
+  return pairs;
+}
+
+/// A half-open range of indices of geometries.
+struct Range
+{
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+}  // namespace
+
+CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report)
+{
+  const auto& links = scene.robot->links();
+  std::vector<bool> moved(links.size(), group.empty());
+  if (!group.empty())
+  {
+    for (const int link : scene.robot->group(group).moved_links)
+    {
+      moved[link] = true;
+    }
+  }
+  SceneReport counts;
+  const CheckedPairs pairs = findCheckedPairs(scene, moved, counts);
+  std::vector<bool> link_needed(links.size(), false);
+  std::vector<bool> object_needed(scene.objects.size(), false);
+  for (const BodyPair& pair : pairs.self)
+  {
+    link_needed[pair.link] = link_needed[pair.other] = true;
+  }
+  for (const BodyPair& pair : pairs.world)
+  {
+    link_needed[pair.link] = object_needed[pair.other] = true;
+  }
+
+  CollisionProblem problem;
+  TreeTable trees(problem);
+  const auto add_body = [&trees](const std::vector<PlacedShape>& shapes, std::size_t body,
+                                 const Eigen::Isometry3d& pose, std::vector<Geometry>& geometries)
+  {
+    const auto begin = static_cast<std::uint32_t>(geometries.size());
+    trees.addGeometries(shapes, static_cast<int>(body), pose, geometries);
+    return Range{begin, static_cast<std::uint32_t>(geometries.size())};
+  };
+  std::vector<Range> of_link(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i)
+  {
+    if (link_needed[i])
+    {
+      of_link[i] = add_body(links[i].shapes, i, Eigen::Isometry3d::Identity(), problem.robot);
+    }
+  }
+  std::vector<Range> of_object(scene.objects.size());
+  for (std::size_t k = 0; k < scene.objects.size(); ++k)
+  {
+    const WorldObject& object = scene.objects[k];
+    if (object_needed[k])
+    {
+      of_object[k] = add_body(object.shapes, links.size() + k, object.pose, problem.world);
+    }
+  }
+
+  for (const BodyPair& pair : pairs.self)
+  {
+    if (!moved[pair.link] && !moved[pair.other])
+    {
+      continue;
+    }
+    for (std::uint32_t a = of_link[pair.link].begin; a < of_link[pair.link].end; ++a)
+    {
+      for (std::uint32_t b = of_link[pair.other].begin; b < of_link[pair.other].end; ++b)
+      {
+        problem.self_pairs.push_back({a, b});
+      }
+    }
+  }
+  problem.world_pairs.assign(problem.robot.size() * problem.world.size(), 0);
+  for (const BodyPair& pair : pairs.world)
+  {
+    if (!moved[pair.link])
+    {
+      continue;
+    }
+    for (std::uint32_t a = of_link[pair.link].begin; a < of_link[pair.link].end; ++a)
+    {
+      const auto row = problem.world_pairs.begin() + a * problem.world.size();
+      std::fill(row + of_object[pair.other].begin, row + of_object[pair.other].end, std::uint8_t{1});
+    }
+  }
+
   counts.trees = problem.trees.size();
   for (const Tessellation& tree : problem.trees)
   {

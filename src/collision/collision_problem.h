@@ -20,19 +20,21 @@ struct Geometry
   Eigen::Isometry3d pose;  ///< robot: in the link's frame; world: in the planning frame
 };
 
-/// A scene as the checkers see it: instances of trees and the pairs of them that are checked. It knows nothing of joints,
-/// names or matrices. Two rigid meshes and their relative poses are such a problem as well.
+/// A scene as the checkers see it: instances of trees and the pairs of them that are checked. It knows nothing of
+/// joints, names or matrices. Two rigid meshes and their relative poses are such a problem as well.
 struct CollisionProblem
 {
-  std::vector<Tessellation> trees;     ///< distinct shapes; instances share them
-  std::vector<Shape> shapes;           ///< the true shape of each tree
-  std::vector<Geometry> robot;         ///< move with their body; `body` is a link index
-  std::vector<Geometry> world;         ///< fixed in the planning frame
+  std::vector<Tessellation> trees;                       ///< distinct shapes; instances share them
+  std::vector<Shape> shapes;                             ///< the true shape of each tree
+  std::vector<Geometry> robot;                           ///< move with their body; `body` is a link index
+  std::vector<Geometry> world;                           ///< fixed in the planning frame
   std::vector<std::array<std::uint32_t, 2>> self_pairs;  ///< indices into `robot`
   std::vector<std::uint8_t> world_pairs;  ///< robot.size() x world.size(), row-major; 1 where the pair is checked
 };
 
-/// What of `scene` is checked for `group` (empty: all): the pairs that the allowed-collision matrix does not allow and, for
-/// a group, that have a link which the group moves. Throws Error for an unknown group. `report` may be null.
+/// What of `scene` is checked for `group` (empty: all): the pairs that the allowed-collision matrix does not allow and,
+/// for a group, that have a link which the group moves. Throws Error for an unknown group. `report` may be null.
+/// Bodies that are in no such pair of any group are left out. Trees and geometries do not depend on the group, only the
+/// pairs do, so one forest serves all groups.
 CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report);
 }  // namespace gpu_planning_scene

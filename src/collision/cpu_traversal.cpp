@@ -101,8 +101,8 @@ void CpuTraversal::findNearObjects(const AlignedBox3d& bounds, Scratch& scratch)
   }
 }
 
-std::optional<std::array<std::int32_t, 2>> CpuTraversal::firstCollision(const Isometry3d* link_poses,
-                                                                        Scratch& scratch) const
+template <class Visit>
+void CpuTraversal::visitCollisions(const Isometry3d* link_poses, Scratch& scratch, const Visit& visit) const
 {
   const auto& robot = problem_->robot;
   scratch.poses.resize(robot.size());
@@ -119,21 +119,48 @@ std::optional<std::array<std::int32_t, 2>> CpuTraversal::firstCollision(const Is
     {
       const Geometry& other = problem_->world[object];
       if (problem_->world_pairs[i * problem_->world.size() + object] != 0 &&
-          shapesMeet(robot[i].tree, scratch.poses[i], other.tree, other.pose, scratch))
+          shapesMeet(robot[i].tree, scratch.poses[i], other.tree, other.pose, scratch) &&
+          visit(BodyPair{robot[i].body, other.body}))
       {
-        return {{robot[i].body, other.body}};
+        return;
       }
     }
   }
   for (const auto& [first, second] : problem_->self_pairs)
   {
     if (scratch.bounds[first].intersects(scratch.bounds[second]) &&
-        shapesMeet(robot[first].tree, scratch.poses[first], robot[second].tree, scratch.poses[second], scratch))
+        shapesMeet(robot[first].tree, scratch.poses[first], robot[second].tree, scratch.poses[second], scratch) &&
+        visit(BodyPair{robot[first].body, robot[second].body}))
     {
-      return {{robot[first].body, robot[second].body}};
+      return;
     }
   }
-  return std::nullopt;
+}
+
+std::optional<CpuTraversal::BodyPair> CpuTraversal::firstCollision(const Isometry3d* link_poses, Scratch& scratch) const
+{
+  std::optional<BodyPair> found;
+  visitCollisions(link_poses, scratch,
+                  [&found](const BodyPair& pair)
+                  {
+                    found = pair;
+                    return true;
+                  });
+  return found;
+}
+
+std::vector<CpuTraversal::BodyPair> CpuTraversal::allCollisions(const Isometry3d* link_poses, Scratch& scratch) const
+{
+  std::vector<BodyPair> found;
+  visitCollisions(link_poses, scratch,
+                  [&found](const BodyPair& pair)
+                  {
+                    found.push_back(pair);
+                    return false;
+                  });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 bool CpuTraversal::shapesMeet(std::uint32_t a, const Isometry3d& pose_a, std::uint32_t b, const Isometry3d& pose_b,

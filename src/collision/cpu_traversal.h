@@ -22,6 +22,8 @@ namespace gpu_planning_scene
 class CpuTraversal
 {
  public:
+  using BodyPair = std::array<std::int32_t, 2>;  // body indices
+
   /// Work space of one thread, reused from call to call.
   struct Scratch
   {
@@ -37,8 +39,10 @@ class CpuTraversal
 
   /// The bodies of a colliding pair, if there is one. `link_poses`: of every link, in the planning frame. Thread-safe
   /// as long as each thread has its own scratch.
-  std::optional<std::array<std::int32_t, 2>> firstCollision(const Eigen::Isometry3d* link_poses,
-                                                            Scratch& scratch) const;
+  std::optional<BodyPair> firstCollision(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
+
+  /// All colliding pairs of bodies, each once.
+  std::vector<BodyPair> allCollisions(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
 
  private:
   struct Tree
@@ -50,6 +54,9 @@ class CpuTraversal
     double sagitta;
   };
 
+  /// Calls visit(body pair) for colliding pairs of geometries until it returns true.
+  template <class Visit>
+  void visitCollisions(const Eigen::Isometry3d* link_poses, Scratch& scratch, const Visit& visit) const;
   Eigen::AlignedBox3d boundsOf(std::uint32_t tree, const Eigen::Isometry3d& pose) const;
   void findNearObjects(const Eigen::AlignedBox3d& bounds, Scratch& scratch) const;
   bool shapesMeet(std::uint32_t a, const Eigen::Isometry3d& pose_a, std::uint32_t b, const Eigen::Isometry3d& pose_b,
