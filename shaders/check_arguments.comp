@@ -1,5 +1,5 @@
 // One lane: indirect arguments for dispatches over a list of `counter` elements, at most `capacity`, and of at most
-// `max_groups` workgroups of `lanes` lanes; `cleared` and the work queues' next entry start again from 0.
+// `max_groups` workgroups of `lanes` lanes; `cleared` starts again from 0. The lanes are counted.
 #include "interface.h"
 layout(local_size_x = 1) in;
 #include "counters.glsl"
@@ -14,7 +14,8 @@ layout(location = 5) uniform uint cleared;
 void main()
 {
   const uint count = min(counters[counter], capacity);
-  setGroups(arguments, min((count + lanes - 1u) / lanes, max_groups));
+  const uint groups = min((count + lanes - 1u) / lanes, max_groups);
+  setGroups(arguments, groups);
+  counters[COUNTER_LANES_STARTED] += groups * lanes;
   counters[cleared] = 0u;
-  counters[COUNTER_NEXT_ENTRY] = 0u;
 }

@@ -63,8 +63,9 @@
 #define COUNTER_ENTRIES_EVEN 4    // node pairs; the two lists take turns
 #define COUNTER_ENTRIES_ODD 5
 #define COUNTER_LEAF_PAIRS 6
-#define COUNTER_BOX_TESTS 7       // work done, counted where COUNT_WORK is defined
-#define COUNTER_TRIANGLE_TESTS 8
+#define COUNTER_LANES_ENDED 7     // work queues: lanes that came to their end, and that were started
+#define COUNTER_LANES_STARTED 8
+#define COUNTER_UNUSED 11
 #define COUNTER_ARGUMENTS 12      // three uints
 #define COUNTER_LEAF_ARGUMENTS 16
 #define COUNTER_CHUNK_ARGUMENTS 20

@@ -17,6 +17,10 @@ layout(location = 2) uniform uint entry_capacity;
 layout(binding = UNIT_ENTRIES) uniform usamplerBuffer entries;
 layout(std430, binding = BINDING_OUT) writeonly buffer Spill { uvec4 spilled[]; };
 
+// Loop iterations of one step and of one slot of a leaf pair, in case the compiler does not unroll the inner loops.
+#define STEP_ITERATIONS 4u
+#define SLOT_ITERATIONS 20u
+
 shared uint leaf_pair_count;
 shared uint busy_lanes;
 shared uvec4 leaf_pairs[QUEUE_LEAF_PAIRS];  // item, a's first triangle, b's first triangle, counts (a low, b high)
@@ -115,7 +119,7 @@ void main()
     }
     if (flush)
       testLeafPairs(count);
-    iterations += 1u + QUEUE_STEPS + (flush ? 1u + (count * LEAF_TRIANGLES) / QUEUE_LANES : 0u);
+    iterations += 1u + STEP_ITERATIONS * QUEUE_STEPS + (flush ? SLOT_ITERATIONS * (1u + (count * LEAF_TRIANGLES) / QUEUE_LANES) : 0u);
     running = busy && iterations < QUEUE_ITERATIONS;
     barrier();
   }
@@ -127,4 +131,6 @@ void main()
     --top;
     spill(item_index, stack[top], item.state);
   }
+  // A device that ends lanes early is found out by this count.
+  atomicAdd(counters[COUNTER_LANES_ENDED], 1u);
 }

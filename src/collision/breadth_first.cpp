@@ -23,7 +23,7 @@ BreadthFirst::BreadthFirst(const std::string& folder, const ListCapacities& capa
   leaf_pairs_.reserve(std::size_t{ capacities.leaf_pairs } * 16);
 }
 
-void BreadthFirst::run(BatchLists& lists, std::uint32_t levels)
+bool BreadthFirst::run(BatchLists& lists, std::uint32_t levels)
 {
   const std::uint32_t capacity = std::max(lists.capacity.node_pairs, lists.capacity.items);
   const auto chunk_lanes = std::uint32_t{ LEVEL_CHUNK } * GROUP_SIZE;
@@ -56,5 +56,8 @@ void BreadthFirst::run(BatchLists& lists, std::uint32_t levels)
     triangles_.dispatchIndirect(lists.counters, offsetOf(COUNTER_LEAF_ARGUMENTS));
     in_counter = out_counter;
   }
+  std::array<std::uint32_t, COUNTER_WORDS> counters{};
+  lists.counters.read(counters.data(), sizeof(counters));
+  return counters[COUNTER_OVERFLOW] == 0 && counters[in_counter] == 0;
 }
 }  // namespace gpu_planning_scene

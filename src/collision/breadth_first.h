@@ -10,7 +10,7 @@ class BreadthFirst : public GpuTraversal
 {
 public:
   BreadthFirst(const std::string& shader_folder, const ListCapacities& capacities);
-  void run(BatchLists& lists, std::uint32_t levels) override;
+  bool run(BatchLists& lists, std::uint32_t levels) override;
 
 private:
   ArgumentsKernel arguments_;

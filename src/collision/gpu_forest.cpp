@@ -134,7 +134,7 @@ void GpuForestBuilder::build(std::size_t count, const std::vector<std::uint32_t>
   first_primitive_.write(shifted_first);
 
   sortByMorton(count, mesh_count);
-  mergeClusters(count, mesh_count);
+  region.depth = mergeClusters(count, mesh_count);
   layOut(mesh_count, leaf_size, region, nodes, leaf_order);
 }
 
@@ -181,7 +181,7 @@ void GpuForestBuilder::sortByMorton(std::size_t count, std::size_t mesh_count)
     pass(shift, 1);
 }
 
-void GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mesh_count)
+std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mesh_count)
 {
   for (int i = 0; i < 2; ++i)
   {
@@ -218,7 +218,7 @@ void GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mesh_count)
   first[ROUND_CLUSTERS] = static_cast<std::uint32_t>(count);
   rounds_.write(first);
   if (lanes == 0)
-    return;
+    return 0;
 
   scan_program_.set(1, static_cast<std::uint32_t>(mesh_count));
   rounds_.bindStorage(2);
@@ -239,11 +239,16 @@ void GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mesh_count)
     scan_program_.dispatch(1);
     write_program_.dispatchIndirect(rounds_, record + ROUND_CHUNK_GROUPS * kUint);
   }
-  std::uint32_t remaining = 0;
-  rounds_.read(&remaining, kUint, (BUILD_ROUNDS * ROUND_STRIDE + ROUND_CLUSTERS) * kUint);
+  std::vector<std::uint32_t> rounds((BUILD_ROUNDS + 1) * ROUND_STRIDE);
+  rounds_.read(rounds.data(), rounds.size() * kUint);
+  const std::uint32_t remaining = rounds[BUILD_ROUNDS * ROUND_STRIDE + ROUND_CLUSTERS];
   if (remaining != mesh_count)
     throw Error("the GPU left " + std::to_string(remaining) + " subtrees instead of " + std::to_string(mesh_count) +
                 " trees; its compute shaders do not work as OpenGL promises, choose another device");
+  std::uint32_t merging = 0;
+  while (merging < BUILD_ROUNDS && rounds[merging * ROUND_STRIDE + ROUND_PAIRS] > 0)
+    ++merging;
+  return merging;
 }
 
 void GpuForestBuilder::layOut(std::size_t mesh_count, std::uint32_t leaf_size, const ForestRegion& region,

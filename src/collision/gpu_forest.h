@@ -20,6 +20,7 @@ struct ForestRegion
   std::uint32_t node_count = 0;       ///< 2 * primitives - meshes
   std::uint32_t first_primitive = 0;  ///< of its primitives in the leaf order
   std::uint32_t primitive_count = 0;
+  std::uint32_t depth = 0;  ///< no root lies further than this above a leaf
 };
 
 /// Builds bounding volume trees on the GPU, many at once: Morton order (Lauterbach et al. 2009), then bottom-up merging of
@@ -46,7 +47,8 @@ private:
   void build(std::size_t primitive_count, const std::vector<std::uint32_t>& first_primitive, std::uint32_t leaf_size,
              ForestRegion& region, TexelBuffer& nodes, Buffer& leaf_order);
   void sortByMorton(std::size_t primitive_count, std::size_t mesh_count);
-  void mergeClusters(std::size_t primitive_count, std::size_t mesh_count);
+  /// Returns the number of rounds that merged: a bound on the depth.
+  std::uint32_t mergeClusters(std::size_t primitive_count, std::size_t mesh_count);
   void layOut(std::size_t mesh_count, std::uint32_t leaf_size, const ForestRegion& region, const TexelBuffer& nodes,
               const Buffer& leaf_order);
 

@@ -92,12 +92,9 @@ bool GpuPairChecker::runBatch(const float* poses, std::size_t count)
 
   findCandidates(static_cast<std::uint32_t>(count));
   testRoots();
-  traversal_->run(lists_, scene_.depthBound());
-
-  std::uint32_t overflow = 0;
-  lists_.counters.read(&overflow, sizeof(overflow), COUNTER_OVERFLOW * sizeof(std::uint32_t));
+  const bool finished = traversal_->run(lists_, scene_.depthBound());
   checkGl("a batch");
-  return overflow == 0;
+  return finished;
 }
 
 void GpuPairChecker::findCandidates(std::uint32_t states)
@@ -131,7 +128,7 @@ void GpuPairChecker::findCandidates(std::uint32_t states)
 
 void GpuPairChecker::testRoots()
 {
-  arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, kNoLimit, COUNTER_NEXT_ENTRY);
+  arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, kNoLimit, COUNTER_UNUSED);
   roots_program_.set(2, lists_.capacity.candidates);
   roots_program_.set(3, lists_.capacity.items);
   lists_.items.buffer().bindStorage(BINDING_OUT);

@@ -93,7 +93,7 @@ void GpuScene::setProblem(const CollisionProblem& problem, bool same_robot)
     triangle += static_cast<std::uint32_t>(tree.mesh->triangles.size());
   }
   buildWorldTree(problem);
-  depth_bound_ = BUILD_ROUNDS;
+  depth_bound_ = std::max({ 1U, robot_region_.depth, shape_region_.depth });
 
   std::vector<std::uint32_t> geometries;
   for (const std::vector<Geometry>* instances : { &problem.robot, &problem.world })

@@ -41,7 +41,8 @@ public:
 
   /// Traverses from the first node-pair list, counters[COUNTER_ITEMS] entries. `levels`: how many levels the deepest tree
   /// may have.
-  virtual void run(BatchLists& lists, std::uint32_t levels) = 0;
+  /// Returns false if something was left undone: a list overflowed, or the device ended work early.
+  virtual bool run(BatchLists& lists, std::uint32_t levels) = 0;
 };
 
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,
@@ -53,8 +54,7 @@ class ArgumentsKernel
 public:
   explicit ArgumentsKernel(const std::string& shader_folder) : program_(shader_folder, "check_arguments.comp") {}
 
-  /// Writes indirect arguments for a list of counters[counter] elements, at most `capacity`; sets counters[cleared] and the
-  /// work queues' next entry to 0.
+  /// Writes indirect arguments for a list of counters[counter] elements, at most `capacity`; sets counters[cleared] to 0.
   void prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes, std::uint32_t max_groups,
                std::uint32_t cleared) const;
   static std::size_t argumentsOffset();

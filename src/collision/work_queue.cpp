@@ -1,32 +1,40 @@
 #include "collision/work_queue.h"
 
+#include <algorithm>
+#include <array>
+
 #include "interface.h"
 
 namespace gpu_planning_scene
 {
-namespace
+bool WorkQueue::run(BatchLists& lists, std::uint32_t /*levels*/)
 {
-/// Passes that are queued before the CPU looks whether anything is left.
-constexpr std::uint32_t kPassesAtOnce = 2;
-}  // namespace
-
-void WorkQueue::run(BatchLists& lists, std::uint32_t /*levels*/)
-{
-  program_.set(2, std::max(lists.capacity.node_pairs, lists.capacity.items));
+  const std::uint32_t capacity = std::max(lists.capacity.node_pairs, lists.capacity.items);
+  program_.set(2, capacity);
   std::uint32_t in_counter = COUNTER_ITEMS;
-  for (std::uint32_t pass = 0, left = 1; left != 0; ++pass)
+  lists.counters.clear(COUNTER_LANES_STARTED * sizeof(std::uint32_t), sizeof(std::uint32_t));
+  std::array<std::uint32_t, COUNTER_WORDS> counters{};
+  // One pass, as a rule: what follows is for what the stacks or the granted iterations were too short for.
+  for (std::uint32_t pass = 0;; ++pass)
   {
     const std::uint32_t out_counter = pass % 2 == 0 ? COUNTER_ENTRIES_ODD : COUNTER_ENTRIES_EVEN;
-    arguments_.prepare(in_counter, std::max(lists.capacity.node_pairs, lists.capacity.items), QUEUE_LANES,
-                       QUEUE_MAX_GROUPS, out_counter);
     program_.set(0, in_counter);
     program_.set(1, out_counter);
+    lists.counters.clear(COUNTER_NEXT_ENTRY * sizeof(std::uint32_t), sizeof(std::uint32_t));
+    lists.counters.clear(out_counter * sizeof(std::uint32_t), sizeof(std::uint32_t));
     lists.node_pairs[pass % 2].bindTexture(UNIT_ENTRIES);
     lists.node_pairs[1 - pass % 2].buffer().bindStorage(BINDING_OUT);
-    program_.dispatchIndirect(lists.counters, ArgumentsKernel::argumentsOffset());
+    do
+    {
+      arguments_.prepare(in_counter, capacity, QUEUE_LANES, QUEUE_MAX_GROUPS, COUNTER_UNUSED);
+      program_.dispatchIndirect(lists.counters, ArgumentsKernel::argumentsOffset());
+      lists.counters.read(counters.data(), sizeof(counters));
+      if (counters[COUNTER_OVERFLOW] != 0 || counters[COUNTER_LANES_ENDED] != counters[COUNTER_LANES_STARTED])
+        return false;
+    } while (counters[COUNTER_NEXT_ENTRY] < std::min(counters[in_counter], capacity));
+    if (counters[out_counter] == 0)
+      return true;
     in_counter = out_counter;
-    if (pass % kPassesAtOnce == kPassesAtOnce - 1)
-      lists.counters.read(&left, sizeof(left), out_counter * sizeof(std::uint32_t));
   }
 }
 }  // namespace gpu_planning_scene

@@ -13,7 +13,7 @@ public:
   explicit WorkQueue(const std::string& shader_folder) : arguments_(shader_folder), program_(shader_folder, "work_queue.comp")
   {
   }
-  void run(BatchLists& lists, std::uint32_t levels) override;
+  bool run(BatchLists& lists, std::uint32_t levels) override;
 
 private:
   ArgumentsKernel arguments_;
