@@ -1,0 +1,137 @@
+#include "node/node_parameters.h"
+
+#include <ros/package.h>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using XmlRpc::XmlRpcValue;
+
+/// Empty where it is not set. roslaunch makes an integer of a device index or of a name like "0".
+std::string textParameter(const ros::NodeHandle& own, const std::string& name, const std::string& fallback)
+{
+  XmlRpcValue value;
+  if (!own.getParam(name, value))
+    return fallback;
+  if (value.getType() == XmlRpcValue::TypeInt)
+    return std::to_string(static_cast<int>(value));
+  if (value.getType() != XmlRpcValue::TypeString)
+    throw Error("parameter " + own.resolveName(name) + " is not a string");
+  return static_cast<std::string>(value);
+}
+
+double numberParameter(const ros::NodeHandle& own, const std::string& name, double fallback)
+{
+  XmlRpcValue value;
+  if (!own.getParam(name, value))
+    return fallback;
+  if (value.getType() == XmlRpcValue::TypeInt)
+    return static_cast<int>(value);
+  if (value.getType() != XmlRpcValue::TypeDouble)
+    throw Error("parameter " + own.resolveName(name) + " is not a number");
+  return static_cast<double>(value);
+}
+
+/// The text of a parameter that lies in this namespace or one above it; empty where there is none.
+std::string searchedText(const ros::NodeHandle& node, const std::string& name)
+{
+  std::string found;
+  if (!node.searchParam(name, found))
+    return "";
+  return textParameter(node, found, "");
+}
+
+void addFolder(const std::string& name, const std::string& folder, std::map<std::string, std::string>& folders)
+{
+  const std::size_t begin = folder.find_first_not_of(' ');
+  if (name.empty() || begin == std::string::npos)
+    throw Error("parameter ~packages: a package without a name or a folder");
+  folders[name] = folder.substr(begin);
+}
+
+void addFolders(const XmlRpcValue& value, std::map<std::string, std::string>& folders)
+{
+  XmlRpcValue copy = value;  // XmlRpcValue has no const access
+  if (copy.getType() == XmlRpcValue::TypeString)
+  {
+    const std::string text = static_cast<std::string>(copy);
+    const std::size_t separator = text.find_first_of("=:");
+    if (separator == std::string::npos)
+      throw Error("parameter ~packages: '" + text + "' is not NAME=DIR");
+    addFolder(text.substr(0, separator), text.substr(separator + 1), folders);
+    return;
+  }
+  if (copy.getType() != XmlRpcValue::TypeStruct)
+    throw Error("parameter ~packages is not a map of NAME: DIR");
+  for (auto& entry : copy)
+  {
+    if (entry.second.getType() != XmlRpcValue::TypeString)
+      throw Error("parameter ~packages: the folder of '" + entry.first + "' is not a string");
+    addFolder(entry.first, static_cast<std::string>(entry.second), folders);
+  }
+}
+}  // namespace
+
+std::map<std::string, std::string> packageFolders(const XmlRpcValue& value)
+{
+  std::map<std::string, std::string> folders;
+  XmlRpcValue copy = value;
+  if (copy.getType() != XmlRpcValue::TypeArray)
+  {
+    addFolders(copy, folders);
+    return folders;
+  }
+  for (int i = 0; i < copy.size(); ++i)
+    addFolders(copy[i], folders);
+  return folders;
+}
+
+std::shared_ptr<const PlanningScene> sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own,
+                                                         std::vector<std::string>* warnings)
+{
+  XmlRpcValue packages;
+  std::map<std::string, std::string> folders;
+  if (own.getParam("packages", packages))
+    folders = packageFolders(packages);
+  RobotModelOptions options;
+  options.packages = [known = packageResolver(folders)](const std::string& package)
+  {
+    const std::string folder = known(package);
+    return folder.empty() ? ros::package::getPath(package) : folder;
+  };
+  options.urdf_folder = textParameter(own, "urdf_folder", "");
+  options.unbounded_translation = numberParameter(own, "unbounded_translation", options.unbounded_translation);
+  if (!(options.unbounded_translation >= 0.0))
+    throw Error("parameter " + own.resolveName("unbounded_translation") + " is negative");
+
+  const std::string urdf = searchedText(node, "robot_description");
+  if (urdf.empty())
+    throw Error("parameter " + node.resolveName("robot_description") + " is not set; load the robot's URDF there");
+  const auto robot = RobotModel::fromXml(urdf, searchedText(node, "robot_description_semantic"), options, warnings);
+
+  const std::string scene_file = textParameter(own, "scene", "");
+  PlanningScene scene = scene_file.empty() ? PlanningScene(robot)
+                                           : loadSceneFile(resolveUri(scene_file, "", options.packages), robot,
+                                                           options.packages, warnings);
+  scene.revision = 1;
+  return std::make_shared<const PlanningScene>(std::move(scene));
+}
+
+BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own)
+{
+  BatchCheckerOptions options;
+  options.device = textParameter(own, "device", options.device);
+  if (own.hasParam("traversal"))
+    options.traversal = traversalFromName(textParameter(own, "traversal", ""));
+  const double max_batch = numberParameter(own, "max_batch", static_cast<double>(options.max_batch));
+  constexpr double most = 1 << 24;
+  if (!(max_batch >= 1.0 && max_batch <= most) || max_batch != static_cast<double>(static_cast<std::size_t>(max_batch)))
+    throw Error("parameter " + own.resolveName("max_batch") + " is not an integer from 1 to " +
+                std::to_string(static_cast<std::size_t>(most)));
+  options.max_batch = static_cast<std::size_t>(max_batch);
+  return options;
+}
+}  // namespace gpu_planning_scene
