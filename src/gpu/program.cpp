@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include <dlfcn.h>
 #include <epoxy/gl.h>
 
 #include "gpu/gl_check.h"
@@ -63,15 +64,28 @@ std::string linkLog(GLuint program)
   glGetProgramInfoLog(program, length, nullptr, log.data());
   return log;
 }
+
+/// Seen from this library, so that an installation can be moved.
+std::string installedShaderFolder()
+{
+  Dl_info library;
+  if (dladdr(reinterpret_cast<const void*>(&shaderFolder), &library) == 0)
+    return "";
+  const auto folder = std::filesystem::canonical(library.dli_fname).parent_path();
+  return (folder / GPS_SHADERS_FROM_LIBRARY).lexically_normal().string();
+}
 }  // namespace
 
 std::string shaderFolder()
 {
   const char* chosen = std::getenv("GPU_PLANNING_SCENE_SHADERS");
-  for (const std::string& folder : { std::string(chosen ? chosen : ""), std::string(GPS_INSTALLED_SHADERS), std::string(GPS_SOURCE_SHADERS) })
-    if (!folder.empty() && std::filesystem::exists(folder + "/interface.h"))
+  if (chosen != nullptr)
+    return chosen;
+  const std::string installed = installedShaderFolder();
+  for (const std::string& folder : {installed, std::string(GPS_SOURCE_SHADERS)})
+    if (std::filesystem::exists(folder + "/interface.h"))
       return folder;
-  throw Error("the shaders are neither in " GPS_INSTALLED_SHADERS " nor in " GPS_SOURCE_SHADERS
+  throw Error("the shaders are neither in " + installed + " nor in " GPS_SOURCE_SHADERS
               "; install the package, or set GPU_PLANNING_SCENE_SHADERS");
 }
 
