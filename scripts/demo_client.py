@@ -47,7 +47,7 @@ def random_states(variables, count, seed, around=None, spread=0.0):
     if around is None:
         states = generator.uniform(lower, upper, (count, len(variables)))
     else:
-        center = numpy.array([around.get(name, 0.0) for name in names])
+        center = numpy.array([around.get(name, 1.0 if name.endswith("/rot_w") else 0.0) for name in names])
         states = center + generator.uniform(-spread, spread, (count, len(variables)))
         states = numpy.clip(states, lower, upper)
     for column, name in enumerate(names):
