@@ -1,0 +1,119 @@
+#include "support/obstacles.h"
+
+#include <cmath>
+#include <random>
+#include <string>
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using Eigen::Vector3d;
+
+/// Two triangles for each cell of a grid of `rows` x `columns` vertices, of which the last may be joined to the first.
+void addGridTriangles(std::uint32_t rows, std::uint32_t columns, bool closed, Mesh& mesh)
+{
+  const std::uint32_t open = closed ? 0 : 1;
+  for (std::uint32_t i = 0; i + open < rows; ++i)
+  {
+    for (std::uint32_t j = 0; j + open < columns; ++j)
+    {
+      const std::uint32_t a = i * columns + j;
+      const std::uint32_t b = i * columns + (j + 1) % columns;
+      const std::uint32_t c = (i + 1) % rows * columns + j;
+      const std::uint32_t d = (i + 1) % rows * columns + (j + 1) % columns;
+      mesh.triangles.push_back({a, c, d});
+      mesh.triangles.push_back({a, d, b});
+    }
+  }
+}
+}  // namespace
+
+std::shared_ptr<const Mesh> torusMesh(double radius, double tube_radius)
+{
+  constexpr std::uint32_t kAround = 32;
+  constexpr std::uint32_t kAcross = 16;
+  auto mesh = std::make_shared<Mesh>();
+  mesh->name = "torus";
+  for (std::uint32_t i = 0; i < kAround; ++i)
+  {
+    const double u = 2.0 * M_PI * i / kAround;
+    for (std::uint32_t j = 0; j < kAcross; ++j)
+    {
+      const double v = 2.0 * M_PI * j / kAcross;
+      const double distance = radius + tube_radius * std::cos(v);
+      mesh->vertices.emplace_back(distance * std::cos(u), distance * std::sin(u), tube_radius * std::sin(v));
+    }
+  }
+  addGridTriangles(kAround, kAcross, true, *mesh);
+  return mesh;
+}
+
+std::shared_ptr<const Mesh> sheetMesh(double size)
+{
+  constexpr std::uint32_t kSteps = 17;
+  auto mesh = std::make_shared<Mesh>();
+  mesh->name = "sheet";
+  for (std::uint32_t i = 0; i < kSteps; ++i)
+  {
+    for (std::uint32_t j = 0; j < kSteps; ++j)
+    {
+      const double x = static_cast<double>(i) / (kSteps - 1) - 0.5;
+      const double y = static_cast<double>(j) / (kSteps - 1) - 0.5;
+      mesh->vertices.emplace_back(size * x, size * y, 0.1 * size * std::sin(9.0 * x) * std::cos(7.0 * y));
+    }
+  }
+  addGridTriangles(kSteps, kSteps, false, *mesh);
+  return mesh;
+}
+
+std::vector<WorldObject> generateObstacles(const ObstacleField& field, std::uint64_t seed)
+{
+  std::mt19937_64 generator(seed);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  const auto random_direction = [&]() -> Vector3d
+  { return Vector3d(normal(generator), normal(generator), normal(generator)).normalized(); };
+  const auto random_size = [&] { return field.size * (0.3 + 0.7 * share(generator)); };
+  const Shape torus = torusMesh(0.35 * field.size, 0.12 * field.size);
+  const Shape sheet = sheetMesh(field.size);
+
+  std::vector<WorldObject> objects;
+  for (std::size_t i = 0; i < field.count; ++i)
+  {
+    WorldObject object;
+    object.id = "obstacle_" + std::to_string(i);
+    const double distance = field.inner_radius + (field.outer_radius - field.inner_radius) * share(generator);
+    object.pose.translation() = field.center + distance * random_direction();
+    object.pose.linear() =
+        Eigen::Quaterniond(normal(generator), normal(generator), normal(generator), normal(generator))
+            .normalized()
+            .toRotationMatrix();
+    const double a = random_size();
+    const double b = random_size();
+    const double c = random_size();
+    switch (i % 6)
+    {
+      case 0:
+        object.shapes.push_back({Box{{a, b, c}}});
+        break;
+      case 1:
+        object.shapes.push_back({Cylinder{0.3 * a, b}});
+        break;
+      case 2:
+        object.shapes.push_back({Sphere{0.4 * a}});
+        break;
+      case 3:
+        object.shapes.push_back({Cone{0.4 * a, b}});
+        break;
+      case 4:
+        object.shapes.push_back({torus});
+        break;
+      default:
+        object.shapes.push_back({sheet});
+    }
+    objects.push_back(std::move(object));
+  }
+  return objects;
+}
+}  // namespace gpu_planning_scene
