@@ -188,6 +188,8 @@ std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vecto
   // from the file's up-axis to y. RViz and geometric_shapes (MoveIt) take the coordinates as they are, whatever the
   // up-axis, as ROS frames have z up; RViz applies the unit. So the rotation is switched off and the scale kept.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // A file without a mesh has no triangles: Assimp would make some up to show its nodes.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   // No step that removes or merges anything: degenerate triangles stay, and welding is done above, much faster.
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr)

@@ -157,12 +157,16 @@ namespace
 {
 std::string readFile(const std::string& path, const char* what)
 {
-  std::ifstream file(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   std::error_code unreadable;
-  if (!file.is_open() || file.bad() || !std::filesystem::is_regular_file(path, unreadable))
+  std::ifstream file(path, std::ios::binary);
+  if (!file.is_open() || std::filesystem::is_directory(path, unreadable))
   {
     throw Error(std::string("cannot read ") + what + " '" + path + "'");
+  }
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (text.empty())
+  {
+    throw Error(std::string(what) + " '" + path + "' is empty");
   }
   return text;
 }

@@ -74,7 +74,7 @@ class TreeBuilder
     result.name = link.name;
     result.parent_joint = static_cast<int>(tree_.joints.size()) - 1;
     result.shapes = collisionShapes(link, where, options_, meshes_);
-    if (result.shapes.empty() && !link.visual_array.empty())
+    if (result.shapes.empty() && urdf_.xml.hasChild("link", link.name, "visual"))
     {
       warnings_.push_back(where + ": link '" + link.name +
                           "' has visual but no collision geometry: it collides with nothing");
@@ -104,11 +104,16 @@ class TreeBuilder
     if (result.type != JointType::Fixed && result.type != JointType::Floating)
     {
       const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
-      if (axis.norm() == 0.0)
+      if (axis.stableNorm() == 0.0)
       {
         throw Error(whereJoint(joint.name) + " has an axis of zero length");
       }
       result.axis = axis.stableNormalized();
+    }
+    if (result.type == JointType::Planar && !urdf_.xml.hasChild("joint", joint.name, "axis"))
+    {
+      warnings_.push_back(whereJoint(joint.name) +
+                          " is planar and has no <axis>: its normal is x, as the URDF format has it");
     }
     if (joint.mimic && result.type == JointType::Fixed)
     {

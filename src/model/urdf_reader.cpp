@@ -1,8 +1,11 @@
 #include "urdf_reader.h"
 
+#include <algorithm>
 #include <mutex>
 
 #include <console_bridge/console.h>
+#include <tinyxml2.h>
+#include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include "gpu_planning_scene/error.h"
@@ -83,6 +86,58 @@ std::string joined(const std::vector<std::string>& messages)
   }
   return text.empty() ? "urdfdom refused it without saying why" : text;
 }
+
+void removeChildren(tinyxml2::XMLElement& parent, const char* tag)
+{
+  while (tinyxml2::XMLElement* child = parent.FirstChildElement(tag))
+  {
+    parent.DeleteChild(child);
+  }
+}
+
+// What urdfdom need not see: where it dislikes a link's inertia or looks, it drops the link's collision elements too.
+std::string withoutLooksAndInertia(const std::string& text)
+{
+  tinyxml2::XMLDocument document;
+  document.Parse(text.data(), text.size());
+  tinyxml2::XMLElement& root = *document.RootElement();
+  removeChildren(root, "material");
+  for (auto* link = root.FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link"))
+  {
+    removeChildren(*link, "inertial");
+    removeChildren(*link, "visual");
+  }
+  tinyxml2::XMLPrinter printer(nullptr, true);
+  document.Print(&printer);
+  return printer.CStr();
+}
+
+int childCount(const tinyxml2::XMLElement& parent, const char* tag)
+{
+  int count = 0;
+  for (const auto* child = parent.FirstChildElement(tag); child != nullptr; child = child->NextSiblingElement(tag))
+  {
+    ++count;
+  }
+  return count;
+}
+
+// urdfdom goes on without the collision elements that it cannot read: a robot that passes through walls.
+void requireAllCollisionElements(const XmlText& xml, const urdf::ModelInterface& model,
+                                 const std::vector<std::string>& errors)
+{
+  const tinyxml2::XMLElement& root = xml.root();
+  for (const auto* link = root.FirstChildElement("link"); link != nullptr; link = link->NextSiblingElement("link"))
+  {
+    const std::string name = xml.attribute(*link, "name");
+    const urdf::LinkConstSharedPtr read = model.getLink(name);
+    if (read && static_cast<int>(read->collision_array.size()) != childCount(*link, "collision"))
+    {
+      throw Error(xml.where(*link) + ": link '" + name +
+                  "' has a collision element that cannot be read: " + joined(errors));
+    }
+  }
+}
 }  // namespace
 
 UrdfText::UrdfText(const std::string& text, const std::string& name) : xml(text, name, "robot")
@@ -90,7 +145,7 @@ UrdfText::UrdfText(const std::string& text, const std::string& name) : xml(text,
   LogCapture log;
   try
   {
-    model = urdf::parseURDF(text);
+    model = urdf::parseURDF(withoutLooksAndInertia(text));
   }
   catch (const std::exception& exception)
   {
@@ -100,11 +155,16 @@ UrdfText::UrdfText(const std::string& text, const std::string& name) : xml(text,
   {
     throw Error(whereOf(log.errors, xml) + ": not a valid URDF: " + joined(log.errors));
   }
+  requireAllCollisionElements(xml, *model, log.errors);
   for (const auto* messages : {&log.errors, &log.warnings})
   {
     for (const std::string& message : *messages)
     {
-      warnings.push_back(name + ": " + message);
+      const std::string warning = name + ": " + message;
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+      {
+        warnings.push_back(warning);
+      }
     }
   }
 }

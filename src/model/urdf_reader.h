@@ -13,7 +13,7 @@ class ModelInterface;
 
 namespace gpu_planning_scene
 {
-/// A URDF as urdfdom reads it, with the text's lines for messages.
+/// A URDF as urdfdom reads it, without its visuals and inertias, and with the text's lines for messages.
 struct UrdfText
 {
   UrdfText(const std::string& text, const std::string& name);

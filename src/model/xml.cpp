@@ -49,17 +49,29 @@ std::string XmlText::where(const tinyxml2::XMLElement& element) const
   return name_ + ":" + std::to_string(element.GetLineNum());
 }
 
-std::string XmlText::where(const std::string& tag, const std::string& value) const
+const tinyxml2::XMLElement* XmlText::find(const std::string& tag, const std::string& value) const
 {
   for (const auto* element = root_->FirstChildElement(tag.c_str()); element != nullptr;
        element = element->NextSiblingElement(tag.c_str()))
   {
     if (element->Attribute("name", value.c_str()) != nullptr)
     {
-      return where(*element);
+      return element;
     }
   }
-  return name_;
+  return nullptr;
+}
+
+std::string XmlText::where(const std::string& tag, const std::string& value) const
+{
+  const tinyxml2::XMLElement* element = find(tag, value);
+  return element == nullptr ? name_ : where(*element);
+}
+
+bool XmlText::hasChild(const std::string& tag, const std::string& value, const char* child_tag) const
+{
+  const tinyxml2::XMLElement* element = find(tag, value);
+  return element != nullptr && element->FirstChildElement(child_tag) != nullptr;
 }
 
 std::string XmlText::attribute(const tinyxml2::XMLElement& element, const char* attribute) const

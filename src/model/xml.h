@@ -25,10 +25,14 @@ class XmlText
   std::string where(const tinyxml2::XMLElement& element) const;
   /// The same for the first <tag name="value"> below the root; NAME alone if there is none.
   std::string where(const std::string& tag, const std::string& value) const;
+  /// Whether that element has a child <child_tag>.
+  bool hasChild(const std::string& tag, const std::string& value, const char* child_tag) const;
   /// The value of an attribute; throws Error if the element lacks it.
   std::string attribute(const tinyxml2::XMLElement& element, const char* attribute) const;
 
  private:
+  const tinyxml2::XMLElement* find(const std::string& tag, const std::string& value) const;
+
   std::string name_;
   std::shared_ptr<tinyxml2::XMLDocument> document_;
   const tinyxml2::XMLElement* root_;

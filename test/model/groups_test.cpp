@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include "model_testing.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using Names = std::vector<std::string>;
+
+std::string error(const std::string& srdf)
+{
+  return errorOf([&] { robotOf(armUrdf(), srdf); });
+}
+
+void expectError(const std::string& srdf, const std::string& text)
+{
+  EXPECT_NE(error(srdf).find(text), std::string::npos) << srdf << ": " << error(srdf);
+}
+
+TEST(Groups, jointsLinksChainsAndSubgroupsAddJoints)
+{
+  const auto robot = robotOf(armUrdf(), R"(
+    <group name="all"><group name="arm"/><group name="gripper"/></group>
+    <group name="arm"><chain base_link="base" tip_link="hand"/></group>
+    <group name="gripper"><link name="finger_left"/><link name="finger_right"/></group>
+    <group name="one"><joint name="arm_2"/></group>)");
+  EXPECT_EQ(jointNames(*robot, robot->group("arm").joints), (Names{"arm_1", "arm_2", "hand_fix"}));
+  EXPECT_EQ(jointNames(*robot, robot->group("gripper").joints), (Names{"left", "right"}));
+  EXPECT_EQ(jointNames(*robot, robot->group("all").joints), (Names{"arm_1", "arm_2", "hand_fix", "left", "right"}));
+  EXPECT_EQ(jointNames(*robot, robot->group("one").joints), (Names{"arm_2"}));
+  EXPECT_EQ(robot->groups().size(), 4u);
+  EXPECT_EQ(robot->groups()[0].name, "all");
+}
+
+TEST(Groups, variablesAreThoseOfActiveJoints)
+{
+  const auto robot = robotOf(armUrdf(), R"(
+    <group name="arm"><chain base_link="base" tip_link="hand"/></group>
+    <group name="gripper"><joint name="right"/><joint name="left"/></group>)");
+  EXPECT_EQ(robot->group("arm").variables, (std::vector<int>{0, 1}));
+  EXPECT_EQ(robot->group("gripper").variables, (std::vector<int>{2}));
+}
+
+TEST(Groups, aGroupMovesAllLinksBelowItsActiveJoints)
+{
+  const auto robot = robotOf(armUrdf(), R"(
+    <group name="elbow"><joint name="arm_2"/></group>
+    <group name="pan"><joint name="pan"/></group>
+    <group name="mount"><joint name="hand_fix"/></group>)");
+  EXPECT_EQ(linkNames(*robot, robot->group("elbow").moved_links),
+            (Names{"fore", "hand", "finger_left", "finger_right"}));
+  EXPECT_EQ(linkNames(*robot, robot->group("pan").moved_links), (Names{"head"}));
+  EXPECT_TRUE(robot->group("mount").moved_links.empty());
+}
+
+TEST(Groups, aLeaderMovesTheLinksOfItsMimicsToo)
+{
+  const auto robot = robotOf(armUrdf(), R"(
+    <group name="leader"><joint name="left"/></group>
+    <group name="mimic"><joint name="right"/></group>)");
+  EXPECT_EQ(linkNames(*robot, robot->group("leader").moved_links), (Names{"finger_left", "finger_right"}));
+  EXPECT_TRUE(robot->group("mimic").moved_links.empty()) << "the group does not own the leader's variable";
+}
+
+TEST(Groups, aChainBetweenTwoBranchesTakesBothUpToTheirMeetingPoint)
+{
+  const auto robot = robotOf(armUrdf(), R"(
+    <group name="over_root"><chain base_link="head" tip_link="fore"/></group>
+    <group name="fingers"><chain base_link="finger_left" tip_link="finger_right"/></group>
+    <group name="upwards"><chain base_link="hand" tip_link="upper"/></group>)");
+  EXPECT_EQ(jointNames(*robot, robot->group("over_root").joints), (Names{"arm_1", "arm_2", "pan"}));
+  // As MoveIt has it, the joint above the meeting point is included.
+  EXPECT_EQ(jointNames(*robot, robot->group("fingers").joints), (Names{"hand_fix", "left", "right"}));
+  EXPECT_EQ(jointNames(*robot, robot->group("upwards").joints), (Names{"arm_1", "arm_2", "hand_fix"}));
+}
+
+TEST(Groups, aVirtualJointCanBelongToAGroup)
+{
+  const auto robot = robotOf(armUrdf(), R"(
+    <virtual_joint name="v" type="planar" parent_frame="odom" child_link="base"/>
+    <group name="base"><joint name="v"/></group>
+    <group name="base_by_link"><link name="base"/></group>)");
+  EXPECT_EQ(robot->group("base").variables, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(robot->group("base").moved_links.size(), robot->links().size());
+  EXPECT_EQ(robot->group("base_by_link").joints, robot->group("base").joints);
+}
+
+TEST(Groups, unknownNamesAreErrorsWithTheirLine)
+{
+  expectError("\n<group name=\"g\">\n<joint name=\"x\"/></group>", "test.srdf:3: group 'g' names joint 'x'");
+  expectError("\n<group name=\"g\"><link name=\"x\"/></group>", "test.srdf:2: group 'g' names link 'x'");
+  expectError("<group name=\"g\"><chain base_link=\"x\" tip_link=\"hand\"/></group>", "link 'x'");
+  expectError("<group name=\"g\"><chain base_link=\"base\" tip_link=\"y\"/></group>", "link 'y'");
+  expectError("<group name=\"g\"><group name=\"h\"/></group>", "subgroup 'h'");
+}
+
+TEST(Groups, groupsThatContainThemselvesAreErrors)
+{
+  expectError("<group name=\"g\"><group name=\"g\"/></group>", "group 'g' contains itself");
+  expectError(R"(<group name="a"><group name="b"/></group><group name="b"><group name="c"/></group>
+                 <group name="c"><group name="a"/></group>)",
+              "group 'a' contains itself");
+}
+
+TEST(Groups, aSharedSubgroupIsNoLoop)
+{
+  const auto robot = robotOf(armUrdf(), R"(
+    <group name="top"><group name="a"/><group name="b"/></group>
+    <group name="a"><group name="c"/></group><group name="b"><group name="c"/></group>
+    <group name="c"><joint name="pan"/></group>)");
+  EXPECT_EQ(robot->group("top").variables, robot->group("c").variables);
+}
+
+TEST(Groups, missingAttributesAreErrors)
+{
+  expectError("<group/>", "test.srdf:1: <group> lacks the attribute 'name'");
+  expectError("<group name=\"g\"><chain base_link=\"base\"/></group>", "'tip_link'");
+  expectError("<group name=\"g\"><joint/></group>", "<joint> lacks the attribute 'name'");
+}
+
+TEST(Groups, oddGroupsGiveWarnings)
+{
+  std::vector<std::string> warnings;
+  const auto robot = robotOf(armUrdf(), R"(
+    <group name="g"><joint name="pan"/></group>
+    <group name="g"><joint name="arm_1"/></group>
+    <group name="still"><joint name="hand_fix"/></group>)",
+                             &warnings);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].find("test.srdf:3: group 'g' is defined twice"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("test.srdf:4: group 'still' has no joint that can move"), std::string::npos);
+  EXPECT_EQ(jointNames(*robot, robot->group("g").joints), (Names{"pan"}));
+}
+
+TEST(Groups, anUnknownGroupIsAnErrorThatListsTheGroups)
+{
+  const auto robot = robotOf(
+      armUrdf(), "<group name=\"a\"><joint name=\"pan\"/></group><group name=\"b\"><joint name=\"left\"/></group>");
+  const std::string unknown = errorOf([&] { robot->group("c"); });
+  EXPECT_NE(unknown.find("'c'"), std::string::npos) << unknown;
+  EXPECT_NE(unknown.find("a, b"), std::string::npos) << unknown;
+  EXPECT_NE(errorOf([] { robotOf(armUrdf())->group("c"); }).find("SRDF"), std::string::npos);
+}
+}  // namespace
+}  // namespace gpu_planning_scene

@@ -1,0 +1,167 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "model_testing.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::string error(const std::string& srdf)
+{
+  return errorOf([&] { robotOf(armUrdf(), srdf); });
+}
+
+TEST(Srdf, collisionEntriesArePairsOfLinkIndices)
+{
+  std::vector<std::string> warnings;
+  const auto robot = robotOf(armUrdf(), R"(
+    <disable_collisions link1="hand" link2="upper" reason="Never"/>
+    <disable_collisions link1="base" link2="head"/>
+    <enable_collisions link1="head" link2="hand"/>
+    <disable_default_collisions link="fore"/>)",
+                             &warnings);
+  const SrdfCollisions& collisions = robot->srdfCollisions();
+  EXPECT_TRUE(collisions.has_srdf);
+  ASSERT_EQ(collisions.disabled.size(), 2u);
+  EXPECT_EQ(collisions.disabled[0].first, robot->linkIndex("upper"));
+  EXPECT_EQ(collisions.disabled[0].second, robot->linkIndex("hand"));
+  EXPECT_EQ(collisions.disabled[0].reason, "Never");
+  EXPECT_EQ(collisions.disabled[1].reason, "");
+  ASSERT_EQ(collisions.enabled.size(), 1u);
+  EXPECT_EQ(collisions.enabled[0].first, robot->linkIndex("hand"));
+  EXPECT_EQ(collisions.disabled_by_default, std::vector<int>{robot->linkIndex("fore")});
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+}
+
+TEST(Srdf, unknownLinksInCollisionEntriesAreWarnings)
+{
+  std::vector<std::string> warnings;
+  const auto robot = robotOf(armUrdf(), R"(
+    <disable_collisions link1="hand" link2="x" reason="Never"/>
+    <disable_collisions link1="y" link2="hand" reason="Never"/>
+    <enable_collisions link1="z" link2="hand"/>
+    <disable_default_collisions link="w"/>
+    <disable_collisions link1="hand" link2="hand"/>
+    <passive_joint name="v"/>)",
+                             &warnings);
+  EXPECT_TRUE(robot->srdfCollisions().disabled.empty());
+  EXPECT_TRUE(robot->srdfCollisions().enabled.empty());
+  EXPECT_TRUE(robot->srdfCollisions().disabled_by_default.empty());
+  ASSERT_EQ(warnings.size(), 6u);
+  for (const char* text :
+       {"test.srdf:2: link 'x'", "test.srdf:3: link 'y'", "test.srdf:4: link 'z'", "test.srdf:5: link 'w'",
+        "test.srdf:6: link 'hand' is paired with itself", "test.srdf:7: passive joint 'v'"})
+  {
+    const auto mentions = [&](const std::string& warning) { return warning.find(text) != std::string::npos; };
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), mentions)) << text;
+  }
+}
+
+TEST(Srdf, aVirtualJointMovesTheRootInThePlanningFrame)
+{
+  const auto robot =
+      robotOf(armUrdf(), R"(<virtual_joint name="v" type="floating" parent_frame="odom" child_link="base"/>)");
+  EXPECT_EQ(robot->planningFrame(), "odom");
+  EXPECT_EQ(robot->joints()[0].name, "v");
+  EXPECT_EQ(robot->joints()[0].parent_link, -1);
+  EXPECT_EQ(robot->joints()[0].child_link, 0);
+  EXPECT_EQ(robot->links()[0].parent_joint, 0);
+  EXPECT_EQ(robot->variableIndex("v/trans_x"), 0);
+  EXPECT_EQ(robot->variableIndex("arm_1"), 7);
+
+  std::vector<double> state = robot->defaultState();
+  state[1] = 5.0;
+  std::vector<Eigen::Isometry3d> poses(robot->links().size());
+  robot->linkPoses(state.data(), poses.data());
+  for (const Eigen::Isometry3d& pose : poses)
+  {
+    EXPECT_EQ(pose.translation(), Eigen::Vector3d(0, 5, 0));
+  }
+}
+
+TEST(Srdf, aPlanarVirtualJointMovesInTheGroundPlane)
+{
+  const auto robot =
+      robotOf(armUrdf(), R"(<virtual_joint name="v" type="planar" parent_frame="odom" child_link="base"/>)");
+  std::vector<double> state = robot->defaultState();
+  state[0] = 1.0;
+  state[1] = 2.0;
+  state[2] = std::acos(-1.0) / 2.0;
+  std::vector<Eigen::Isometry3d> poses(robot->links().size());
+  robot->linkPoses(state.data(), poses.data());
+  EXPECT_TRUE((poses[0] * Eigen::Vector3d(1, 0, 0.5)).isApprox(Eigen::Vector3d(1, 3, 0.5), 1e-15));
+}
+
+TEST(Srdf, aFixedVirtualJointOnlyNamesThePlanningFrame)
+{
+  const auto robot =
+      robotOf(armUrdf(), R"(<virtual_joint name="v" type="fixed" parent_frame="world" child_link="base"/>)");
+  EXPECT_EQ(robot->planningFrame(), "world");
+  EXPECT_EQ(robot->variables().size(), robotOf(armUrdf())->variables().size());
+}
+
+TEST(Srdf, virtualJointsThatDoNotFitAreIgnoredWithAWarning)
+{
+  std::vector<std::string> warnings;
+  const auto robot = robotOf(armUrdf(), R"(
+    <virtual_joint name="v" type="floating" parent_frame="odom" child_link="hand"/>
+    <virtual_joint name="w" type="fixed" parent_frame="map" child_link="base"/>
+    <virtual_joint name="x" type="planar" parent_frame="odom" child_link="base"/>
+    <group name="g"><joint name="v"/><joint name="pan"/></group>)",
+                             &warnings);
+  EXPECT_EQ(robot->planningFrame(), "map");
+  EXPECT_EQ(robot->variableIndex("v/trans_x"), -1);
+  EXPECT_EQ(robot->group("g").joints.size(), 1u);
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_NE(warnings[0].find("test.srdf:2: virtual joint 'v'"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find("test.srdf:4: virtual joint 'x'"), std::string::npos) << warnings[1];
+  EXPECT_NE(warnings[2].find("test.srdf:5: group 'g'"), std::string::npos) << warnings[2];
+}
+
+TEST(Srdf, badVirtualJointsAreErrors)
+{
+  EXPECT_NE(error(R"(<virtual_joint name="v" type="ball" parent_frame="odom" child_link="base"/>)").find("'ball'"),
+            std::string::npos);
+  EXPECT_NE(error(R"(<virtual_joint name="v" type="fixed" child_link="base"/>)").find("'parent_frame'"),
+            std::string::npos);
+  EXPECT_NE(error(R"(<virtual_joint name="pan" type="fixed" parent_frame="odom" child_link="base"/>)").find("'pan'"),
+            std::string::npos);
+}
+
+TEST(Srdf, passiveJointsAreMarked)
+{
+  const auto robot = robotOf(armUrdf(), R"(<passive_joint name="arm_2"/>)");
+  EXPECT_TRUE(robot->joints()[robot->jointIndex("arm_2")].passive);
+  EXPECT_FALSE(robot->joints()[robot->jointIndex("arm_1")].passive);
+}
+
+TEST(Srdf, malformedXmlIsAnErrorWithItsLine)
+{
+  EXPECT_NE(error("\n<group name=\"g\">\n</grop>").find("test.srdf:"), std::string::npos);
+  EXPECT_NE(error("<disable_collisions link1=\"base\"/>").find("test.srdf:1: <disable_collisions> lacks"),
+            std::string::npos);
+  EXPECT_NE(errorOf([] { RobotModel::fromXml("<robot name=\"r\"><link name=\"a\"/></robot>", "<srdf/>", {}); })
+                .find("robot_description_semantic:1: the root element is <srdf>"),
+            std::string::npos);
+}
+
+TEST(Srdf, theSrdfOfAnotherRobotGivesAWarning)
+{
+  std::vector<std::string> warnings;
+  RobotModel::fromXml("<robot name=\"r\"><link name=\"a\"/></robot>", "<robot name=\"s\"/>", {}, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("'s'"), std::string::npos) << warnings[0];
+}
+
+TEST(Srdf, withoutOneThereAreNoGroups)
+{
+  const auto robot = robotOf(armUrdf());
+  EXPECT_FALSE(robot->srdfCollisions().has_srdf);
+  EXPECT_TRUE(robot->groups().empty());
+  EXPECT_EQ(robot->planningFrame(), "base");
+}
+}  // namespace
+}  // namespace gpu_planning_scene

@@ -1,0 +1,191 @@
+#include <gtest/gtest.h>
+
+#include "mesh_files.h"
+#include "model_testing.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::string error(const std::string& urdf)
+{
+  return errorOf([&] { robotOf(urdf); });
+}
+
+// Every message is one line that begins with the file, has a line number and names the culprit.
+void expectError(const std::string& urdf, const std::string& where, const std::string& text)
+{
+  const std::string message = error(urdf);
+  EXPECT_EQ(message.find(where), 0u) << message;
+  EXPECT_NE(message.find(text), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+const std::string kTwoLinks = "<link name=\"a\"/><link name=\"b\"/>\n";
+
+TEST(UrdfErrors, malformedXmlIsNamedWithItsLine)
+{
+  expectError("\n<link name=\"a\">\n</lnk>", "test.urdf:2: malformed XML", "mismatched");
+  expectError("\n\n<link name=a/>", "test.urdf:3: malformed XML", "attribute");
+  const auto whole = [](const std::string& text)
+  { return errorOf([&] { RobotModel::fromXml(text, "", RobotModelOptions()); }); };
+  EXPECT_NE(whole("This is not a valid URDF file.").find("robot_description:1: malformed XML"), std::string::npos);
+  EXPECT_NE(whole("").find("robot_description:1: malformed XML"), std::string::npos);
+  EXPECT_NE(whole("<!-- nothing -->").find("robot_description"), std::string::npos);
+  EXPECT_NE(whole("\n<sdf/>").find("robot_description:2: the root element is <sdf>"), std::string::npos);
+  EXPECT_NE(whole("<robot name=\"r\"/>"), "");
+  EXPECT_NE(whole("<robot><link name=\"a\"/></robot>"), "");
+}
+
+TEST(UrdfErrors, limitsMustBeThereAndInOrder)
+{
+  expectError(kTwoLinks + jointXml("j", "revolute", "a", "b"), "test.urdf:2:", "[j]");
+  expectError(kTwoLinks + jointXml("j", "prismatic", "a", "b"), "test.urdf:2:", "[j]");
+  expectError(
+      kTwoLinks + jointXml("j", "revolute", "a", "b", R"(<limit lower="2" upper="-1" effort="1" velocity="1"/>)"),
+      "test.urdf:2: joint 'j'", "lower limit above its upper limit");
+}
+
+TEST(UrdfErrors, numbersMustBeFinite)
+{
+  expectError(
+      kTwoLinks + jointXml("j", "revolute", "a", "b", R"(<limit lower="nan" upper="1" effort="1" velocity="1"/>)"),
+      "test.urdf", "j");
+  expectError(
+      kTwoLinks + jointXml("j", "revolute", "a", "b", R"(<limit lower="-inf" upper="inf" effort="1" velocity="1"/>)"),
+      "test.urdf", "j");
+  expectError(R"(<link name="a"><collision><geometry><box size="1 nan 1"/></geometry></collision></link>)",
+              "test.urdf:1: link 'a'", "nan");
+  expectError(
+      "<link name=\"a\"><collision><origin xyz=\"0 inf 0\"/><geometry><sphere radius=\"1\"/></geometry>"
+      "</collision></link>",
+      "test.urdf:1: link 'a'", "inf");
+}
+
+TEST(UrdfErrors, theAxisMustHaveALength)
+{
+  expectError(kTwoLinks + jointXml("j", "continuous", "a", "b", "<axis xyz=\"0 0 0\"/>"), "test.urdf:2: joint 'j'",
+              "axis");
+}
+
+TEST(UrdfErrors, typesAndParentsMustBeKnown)
+{
+  expectError(kTwoLinks + jointXml("j", "screw", "a", "b"), "test.urdf:2:", "screw");
+  expectError(kTwoLinks + jointXml("j", "fixed", "a", "c"), "test.urdf", "c");
+}
+
+TEST(UrdfErrors, linksMustFormATree)
+{
+  EXPECT_NE(error(kTwoLinks).find("wo root links"), std::string::npos) << error(kTwoLinks);
+  EXPECT_NE(error(kTwoLinks + jointXml("j", "fixed", "a", "b") + jointXml("k", "fixed", "b", "a")), "");
+  expectError("<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/>\n<link name=\"d\"/>" +
+                  jointXml("1", "fixed", "a", "b") + jointXml("2", "fixed", "a", "c") +
+                  jointXml("3", "fixed", "b", "d") + jointXml("4", "fixed", "c", "d"),
+              "test.urdf:2: link 'd'", "child of several joints");
+  expectError("<link name=\"a\"/>\n<link name=\"b\"/><link name=\"c\"/>" + jointXml("1", "fixed", "b", "c") +
+                  jointXml("2", "fixed", "c", "b"),
+              "test.urdf:2: link 'b'", "not connected");
+}
+
+TEST(UrdfErrors, mimicsMustLeadToAJointWithOneVariable)
+{
+  const std::string links = "<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/><link name=\"d\"/>\n";
+  const auto mimic = [](const std::string& leader) { return kLimits + ("<mimic joint=\"" + leader + "\"/>"); };
+  expectError(links + jointXml("1", "revolute", "a", "b", mimic("9")) + jointXml("2", "fixed", "a", "c") +
+                  jointXml("3", "fixed", "a", "d"),
+              "test.urdf:2: joint '1'", "mimics joint '9'");
+  const std::string loop = jointXml("1", "revolute", "a", "b", mimic("2")) +
+                           jointXml("2", "revolute", "a", "c", mimic("1")) + jointXml("3", "fixed", "a", "d");
+  expectError(links + loop, "test.urdf:2: joint '1'", "mimics itself");
+  const std::string into_a_loop = jointXml("1", "revolute", "a", "b", mimic("2")) +
+                                  jointXml("2", "revolute", "a", "c", mimic("3")) +
+                                  jointXml("3", "revolute", "a", "d", mimic("2"));
+  expectError(links + into_a_loop, "test.urdf:2: joint '1'", "mimics itself");
+  for (const char* type : {"fixed", "floating", "planar"})
+  {
+    expectError(links + jointXml("1", "revolute", "a", "b", mimic("2")) + jointXml("2", type, "a", "c") +
+                    jointXml("3", "fixed", "a", "d"),
+                "test.urdf:2: joint '1'", "joint '2' is not revolute");
+  }
+  expectError(links + jointXml("1", "continuous", "a", "b") + jointXml("2", "floating", "a", "c", mimic("1")) +
+                  jointXml("3", "fixed", "a", "d"),
+              "test.urdf:3: joint '2'", "is not revolute");
+}
+
+TEST(UrdfErrors, theMimicOfAFixedJointIsIgnoredWithAWarning)
+{
+  std::vector<std::string> warnings;
+  const auto robot = robotOf(kTwoLinks + jointXml("j", "fixed", "a", "b", "<mimic joint=\"j\"/>"), "", &warnings);
+  EXPECT_FALSE(robot->joints()[0].mimic);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("test.urdf:2: joint 'j'"), std::string::npos) << warnings[0];
+}
+
+TEST(UrdfErrors, badShapesAreNamedWithTheirLink)
+{
+  const auto link = [](const std::string& geometry)
+  { return "\n<link name=\"a\">\n<collision><geometry>" + geometry + "</geometry></collision></link>"; };
+  expectError(link("<sphere radius=\"0\"/>"), "test.urdf:2: link 'a'", "radius");
+  expectError(link("<box size=\"1 -1 1\"/>"), "test.urdf:2: link 'a'", "size along y");
+  expectError(link("<capsule/>"), "test.urdf:2:", "capsule");
+  expectError(link("<mesh filename=\"/no/such/mesh.stl\"/>"), "test.urdf:2: link 'a'", "/no/such/mesh.stl");
+  expectError(link("<mesh filename=\"mesh.stl\"/>"), "test.urdf:2: link 'a'", "relative");
+  expectError(link("<mesh filename=\"package://p/mesh.stl\"/>"), "test.urdf:2: link 'a'", "package 'p'");
+}
+
+TEST(UrdfErrors, noCollisionElementIsLostBehindABadOne)
+{
+  const std::string good = "<collision><geometry><sphere radius=\"1\"/></geometry></collision>";
+  for (const char* bad :
+       {"<collision/>", "<collision><geometry/></collision>", "<collision><geometry><mesh/></geometry></collision>",
+        "<collision><geometry><sphere radius=\"x\"/></geometry></collision>"})
+  {
+    expectError("<link name=\"a\">" + good + bad + good + "</link>", "test.urdf:1: link 'a'",
+                "collision element that cannot be read");
+  }
+}
+
+TEST(UrdfErrors, badLooksAndInertiaDoNotMatter)
+{
+  const auto robot = robotOf(R"(<material name="m"/>
+    <link name="a"><inertial><mass/></inertial><visual><geometry><mesh/></geometry></visual>
+    <visual><geometry><box size="1 1 1"/></geometry><material/></visual>
+    <collision><geometry><sphere radius="1"/></geometry></collision></link>)");
+  EXPECT_EQ(robot->links()[0].shapes.size(), 1u);
+}
+
+TEST(UrdfErrors, urdfdomsOwnMessagesGoIntoTheErrorAlone)
+{
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const std::string message = error(kTwoLinks + jointXml("j", "revolute", "a", "b"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_NE(message.find("does not specify limits"), std::string::npos) << message;
+}
+
+TEST(UrdfErrors, filesAreNamedWhereTheyCannotBeRead)
+{
+  const TemporaryFolder folder;
+  const std::string urdf = folder.write("my robot.urdf", "<robot name=\"r\"><link name=\"a\"/></robot>");
+  EXPECT_EQ(errorOf([&] { RobotModel::fromFiles(urdf, "", {}); }), "");
+  EXPECT_NE(errorOf([&] { RobotModel::fromFiles(folder.path("x.urdf"), "", {}); }).find("x.urdf"), std::string::npos);
+  EXPECT_NE(errorOf([&] { RobotModel::fromFiles(folder.path(""), "", {}); }).find("URDF"), std::string::npos);
+  EXPECT_NE(errorOf([&] { RobotModel::fromFiles(urdf, folder.path("x.srdf"), {}); }).find("x.srdf"), std::string::npos);
+  const std::string empty = folder.write("empty.srdf", "");
+  EXPECT_NE(errorOf([&] { RobotModel::fromFiles(urdf, empty, {}); }).find("empty.srdf"), std::string::npos);
+}
+
+TEST(UrdfErrors, meshPathsAreRelativeToTheUrdfFile)
+{
+  const TemporaryFolder folder;
+  folder.write("meshes/part 1.stl", binaryStl(*tessellate(Box{{1, 1, 1}}).mesh));
+  const std::string urdf = folder.write("my robot.urdf", R"(<robot name="r"><link name="a"><collision><geometry>
+      <mesh filename="meshes/part 1.stl" scale="-1 2 1"/></geometry></collision></link></robot>)");
+  const auto robot = RobotModel::fromFiles(urdf, "", {});
+  EXPECT_EQ(robot->triangleCount(), 12u);
+  const auto& mesh = std::get<std::shared_ptr<const Mesh>>(robot->links()[0].shapes[0].shape);
+  EXPECT_EQ(mesh->vertices[0].cwiseAbs(), Eigen::Vector3d(0.5, 1.0, 0.5));
+}
+}  // namespace
+}  // namespace gpu_planning_scene
