@@ -47,7 +47,9 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
                   std::to_string(report.world_pairs) + " of a link and an object");
   lines.push_back("left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") + " that " +
                   matrixText(scene.matrix_source) + ", " + counted(report.links_without_shapes, "link") +
-                  " without collision shapes");
+                  " without collision shapes" +
+                  (report.unmoved_pairs ? ", " + counted(report.unmoved_pairs, "pair") + " that the group does not move"
+                                        : std::string()));
   return lines;
 }
 

@@ -1,0 +1,155 @@
+#include "tools/acm_generator.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "collision/binned_sah.h"
+#include "collision/collision_problem.h"
+#include "collision/cpu_traversal.h"
+#include "collision/state_rows.h"
+#include "tools/progress_bar.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using BodyPair = CpuTraversal::BodyPair;
+using HitCounts = std::map<BodyPair, std::size_t>;
+
+constexpr DisabledReason kReasons[] = {DisabledReason::Adjacent, DisabledReason::Default, DisabledReason::Always,
+                                       DisabledReason::Never};
+
+BodyPair ordered(int first, int second)
+{
+  return {std::min(first, second), std::max(first, second)};
+}
+
+/// In how many of `count` states each pair of links collides. A checker of states reports one pair per state, which
+/// hides the others; here every pair counts.
+class PairSampler
+{
+ public:
+  explicit PairSampler(std::shared_ptr<const RobotModel> robot) : robot_(std::move(robot))
+  {
+    PlanningScene scene(robot_);
+    scene.allowed_collisions = AllowedCollisionMatrix();  // every pair
+    const auto problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
+    const auto forest = std::make_shared<const Forest>(buildBinnedSah(problem->trees));
+    traversal_ = std::make_unique<const CpuTraversal>(problem, forest);
+  }
+
+  void add(const std::vector<double>& states, std::size_t count, HitCounts& counts) const
+  {
+    const std::size_t width = robot_->variables().size();
+    std::vector<std::vector<BodyPair>> hits(count);
+    forChunks(count, 16,
+              [&, scratch = CpuTraversal::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot_->links().size())](
+                  std::size_t begin, std::size_t end) mutable
+              {
+                for (std::size_t i = begin; i < end; ++i)
+                {
+                  robot_->linkPoses(states.data() + i * width, poses.data());
+                  hits[i] = traversal_->allCollisions(poses.data(), scratch);
+                }
+              });
+    for (const auto& pairs : hits)
+      for (const BodyPair& pair : pairs)
+        ++counts[ordered(pair[0], pair[1])];
+  }
+
+ private:
+  std::shared_ptr<const RobotModel> robot_;
+  std::unique_ptr<const CpuTraversal> traversal_;
+};
+
+HitCounts countInRandomStates(const RobotModel& robot, const PairSampler& sampler, const SamplingOptions& options)
+{
+  constexpr std::size_t states_at_once = 1024;
+  const std::size_t width = robot.variables().size();
+  HitCounts counts;
+  std::mt19937_64 generator(options.seed);
+  ProgressBar progress("sampling", options.samples);
+  for (std::size_t done = 0; done < options.samples;)
+  {
+    const std::size_t count = std::min(states_at_once, options.samples - done);
+    std::vector<double> states(count * width);
+    for (std::size_t i = 0; i < count; ++i)
+      robot.randomState(generator, states.data() + i * width);
+    sampler.add(states, count, counts);
+    done += count;
+    progress.update(done);
+  }
+  return counts;
+}
+
+/// Pairs that the SRDF decides in the user's own words.
+std::set<BodyPair> usersPairs(const SrdfCollisions& srdf)
+{
+  std::set<BodyPair> pairs;
+  for (const LinkPair& pair : srdf.enabled)
+    pairs.insert(ordered(pair.first, pair.second));
+  for (const LinkPair& pair : srdf.disabled)
+    if (isUsersReason(pair.reason))
+      pairs.insert(ordered(pair.first, pair.second));
+  return pairs;
+}
+}  // namespace
+
+const char* nameOf(DisabledReason reason)
+{
+  switch (reason)
+  {
+    case DisabledReason::Adjacent:
+      return "Adjacent";
+    case DisabledReason::Default:
+      return "Default";
+    case DisabledReason::Always:
+      return "Always";
+    case DisabledReason::Never:
+      break;
+  }
+  return "Never";
+}
+
+bool isUsersReason(const std::string& reason)
+{
+  return std::none_of(std::begin(kReasons), std::end(kReasons), [&](DisabledReason r) { return reason == nameOf(r); });
+}
+
+GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const SamplingOptions& options)
+{
+  const PairSampler sampler(robot);
+  HitCounts in_default_state;
+  sampler.add(robot->defaultState(), 1, in_default_state);
+  const HitCounts hits = countInRandomStates(*robot, sampler, options);
+  const auto adjacent_links = robot->adjacentLinks();
+  const std::set<std::pair<int, int>> adjacent(adjacent_links.begin(), adjacent_links.end());
+  const std::set<BodyPair> users = usersPairs(robot->srdfCollisions());
+  const double always = options.always_share * static_cast<double>(options.samples);
+
+  GeneratedMatrix matrix;
+  const int links = static_cast<int>(robot->links().size());
+  for (int first = 0; first < links; ++first)
+  {
+    for (int second = first + 1; second < links; ++second)
+    {
+      if (robot->links()[first].shapes.empty() || robot->links()[second].shapes.empty() ||
+          users.count({first, second}) != 0)
+        continue;
+      const auto hit = hits.find({first, second});
+      if (adjacent.count({first, second}) != 0)
+        matrix.disabled.push_back({first, second, DisabledReason::Adjacent});
+      else if (in_default_state.count({first, second}) != 0)
+        matrix.disabled.push_back({first, second, DisabledReason::Default});
+      else if (hit == hits.end())
+        matrix.disabled.push_back({first, second, DisabledReason::Never});
+      else if (static_cast<double>(hit->second) >= always)
+        matrix.disabled.push_back({first, second, DisabledReason::Always});
+      else
+        ++matrix.remaining_pairs;
+    }
+  }
+  return matrix;
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,92 @@
+// generate_acm: finds the pairs of links that need not be checked and writes them as an SRDF.
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <limits>
+
+#include "tools/acm_generator.h"
+#include "tools/robot_arguments.h"
+#include "tools/scene_text.h"
+#include "tools/srdf_writer.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::vector<Option> options()
+{
+  std::vector<Option> all = {
+      {"--urdf", "FILE", "the robot"},
+      {"--srdf", "FILE", "an SRDF to start from: its groups and the user's own entries are kept"}};
+  for (const Option& option : robotOptions())
+    if (option.name != "--urdf" && option.name != "--srdf")
+      all.push_back(option);
+  all.push_back({"--samples", "N", "random states (default 10000)"});
+  all.push_back({"--seed", "S", "their seed (default 0)"});
+  all.push_back({"--always-share", "P", "a pair that collides in this share of them is Always (default 0.95)"});
+  all.push_back({"--out", "FILE", "where the SRDF goes (default: the standard output)"});
+  return all;
+}
+
+std::string readFile(const std::string& path)
+{
+  std::ifstream file(path);
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+void printSummary(const GeneratedMatrix& matrix, const SamplingOptions& sampling)
+{
+  std::cerr << counted(sampling.samples, "random state") << ", seed " << sampling.seed << "\ndisabled pairs of links:";
+  for (const DisabledReason reason :
+       {DisabledReason::Adjacent, DisabledReason::Default, DisabledReason::Always, DisabledReason::Never})
+    std::cerr << " "
+              << std::count_if(matrix.disabled.begin(), matrix.disabled.end(),
+                               [&](const DisabledPair& pair) { return pair.reason == reason; })
+              << " " << nameOf(reason);
+  std::cerr << "\npairs that remain to be checked: " << matrix.remaining_pairs << "\n";
+}
+
+void run(const CommandLine& arguments)
+{
+  arguments.required("--urdf");
+  SamplingOptions sampling;
+  sampling.samples =
+      static_cast<std::size_t>(arguments.integer("--samples", static_cast<long long>(sampling.samples), 1, 1000000000));
+  sampling.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 0, std::numeric_limits<long long>::max()));
+  sampling.always_share = arguments.number("--always-share", sampling.always_share, 0.0, 1.0);
+
+  std::vector<std::string> warnings;
+  const auto robot = robotFrom(arguments, &warnings);
+  printWarnings(warnings);
+  const GeneratedMatrix matrix = generateMatrix(robot, sampling);
+  const std::string srdf = srdfWith(matrix, *robot, sampling, readFile(arguments.value("--srdf", "")));
+  if (arguments.has("--out"))
+  {
+    const std::string& path = arguments.required("--out");
+    std::ofstream file(path);
+    if (!(file << srdf).flush())
+      throw Error(path + ": cannot write the file");
+  }
+  else
+  {
+    std::cout << srdf;
+  }
+  printSummary(matrix, sampling);
+}
+}  // namespace
+}  // namespace gpu_planning_scene
+
+int main(int argc, char** argv)
+{
+  using namespace gpu_planning_scene;
+  const Tool tool{"generate_acm", "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [options]",
+                  "Finds the pairs of a robot's links that need not be checked for collision, as MoveIt's Setup\n"
+                  "Assistant does, and writes them as disable_collisions of an SRDF: Adjacent (a joint joins them),\n"
+                  "Default (they collide in the default state), Always and Never (in nearly all and in none of many\n"
+                  "random states). Runs on the CPU, on all cores, in double precision.\n"
+                  "Exit code: 0 success, 2 bad usage, 1 any other error.",
+                  options(), run};
+  return runTool(tool, argc, argv);
+}
