@@ -29,12 +29,7 @@ class TreeBuilder
     {
       addVirtualJoint(*virtual_joint);
     }
-    addLink(root);
-    addDescendants(root);
-    if (tree_.links.size() != urdf_.model->links_.size())
-    {
-      throwUnconnected();
-    }
+    addSubtree(root);
     resolveMimics();
     return std::move(tree_);
   }
@@ -66,10 +61,6 @@ class TreeBuilder
   void addLink(const urdf::Link& link)
   {
     const std::string where = urdf_.xml.where("link", link.name);
-    if (!link_indices_.emplace(link.name, static_cast<int>(tree_.links.size())).second)
-    {
-      throw Error(where + ": link '" + link.name + "' is the child of several joints, the links must form a tree");
-    }
     Link result;
     result.name = link.name;
     result.parent_joint = static_cast<int>(tree_.joints.size()) - 1;
@@ -82,14 +73,14 @@ class TreeBuilder
     tree_.links.push_back(std::move(result));
   }
 
-  void addDescendants(const urdf::Link& link)
+  void addSubtree(const urdf::Link& link)
   {
-    const int parent = link_indices_.at(link.name);
+    const int index = static_cast<int>(tree_.links.size());
+    addLink(link);
     for (const urdf::LinkSharedPtr& child : link.child_links)
     {
-      addJoint(*child->parent_joint, parent);
-      addLink(*child);
-      addDescendants(*child);
+      addJoint(*child->parent_joint, index);
+      addSubtree(*child);
     }
   }
 
@@ -242,25 +233,11 @@ class TreeBuilder
     }
   }
 
-  [[noreturn]] void throwUnconnected() const
-  {
-    for (const auto& [name, link] : urdf_.model->links_)
-    {
-      if (link_indices_.count(name) == 0)
-      {
-        throw Error(urdf_.xml.where("link", name) + ": link '" + name + "' is not connected to the root link '" +
-                    tree_.links[0].name + "': its joints form a loop");
-      }
-    }
-    throw Error(urdf_.xml.name() + ": the links do not form a tree");
-  }
-
   const UrdfText& urdf_;
   const RobotModelOptions& options_;
   std::vector<std::string>& warnings_;
   MeshCache meshes_;
   RobotTree tree_;
-  std::map<std::string, int> link_indices_;
 };
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "urdf_reader.h"
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 
 #include <console_bridge/console.h>
@@ -122,6 +123,40 @@ int childCount(const tinyxml2::XMLElement& parent, const char* tag)
   return count;
 }
 
+// Each link is the child of at most one joint, and no link is its own ancestor. urdfdom does not look.
+void requireTree(const XmlText& xml)
+{
+  std::map<std::string, std::pair<std::string, const tinyxml2::XMLElement*>> parents;  // with the joint to each
+  for (const auto* joint = xml.root().FirstChildElement("joint"); joint != nullptr;
+       joint = joint->NextSiblingElement("joint"))
+  {
+    const auto* parent = joint->FirstChildElement("parent");
+    const auto* child = joint->FirstChildElement("child");
+    if (parent == nullptr || child == nullptr)
+    {
+      throw Error(xml.where(*joint) + ": joint '" + xml.attribute(*joint, "name") + "' lacks a parent or a child link");
+    }
+    const std::string link = xml.attribute(*child, "link");
+    if (!parents.emplace(link, std::pair(xml.attribute(*parent, "link"), joint)).second)
+    {
+      throw Error(xml.where(*joint) + ": link '" + link +
+                  "' is the child of several joints, the links must form a tree");
+    }
+  }
+  for (const auto& [link, parent] : parents)
+  {
+    std::size_t steps = 0;
+    for (auto above = parents.find(parent.first); above != parents.end(); above = parents.find(above->second.first))
+    {
+      if (++steps > parents.size())
+      {
+        throw Error(xml.where(*parent.second) + ": the joints above link '" + link +
+                    "' form a loop, the links must form a tree");
+      }
+    }
+  }
+}
+
 // urdfdom goes on without the collision elements that it cannot read: a robot that passes through walls.
 void requireAllCollisionElements(const XmlText& xml, const urdf::ModelInterface& model,
                                  const std::vector<std::string>& errors)
@@ -142,6 +177,7 @@ void requireAllCollisionElements(const XmlText& xml, const urdf::ModelInterface&
 
 UrdfText::UrdfText(const std::string& text, const std::string& name) : xml(text, name, "robot")
 {
+  requireTree(xml);
   LogCapture log;
   try
   {

@@ -77,14 +77,16 @@ TEST(UrdfErrors, typesAndParentsMustBeKnown)
 TEST(UrdfErrors, linksMustFormATree)
 {
   EXPECT_NE(error(kTwoLinks).find("wo root links"), std::string::npos) << error(kTwoLinks);
-  EXPECT_NE(error(kTwoLinks + jointXml("j", "fixed", "a", "b") + jointXml("k", "fixed", "b", "a")), "");
-  expectError("<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/>\n<link name=\"d\"/>" +
-                  jointXml("1", "fixed", "a", "b") + jointXml("2", "fixed", "a", "c") +
+  expectError(kTwoLinks + jointXml("j", "fixed", "a", "b") + jointXml("k", "fixed", "b", "a"), "test.urdf:", "loop");
+  const std::string four_links = "<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/><link name=\"d\"/>\n";
+  expectError(four_links + jointXml("1", "fixed", "a", "b") + jointXml("2", "fixed", "a", "c") +
                   jointXml("3", "fixed", "b", "d") + jointXml("4", "fixed", "c", "d"),
-              "test.urdf:2: link 'd'", "child of several joints");
-  expectError("<link name=\"a\"/>\n<link name=\"b\"/><link name=\"c\"/>" + jointXml("1", "fixed", "b", "c") +
-                  jointXml("2", "fixed", "c", "b"),
-              "test.urdf:2: link 'b'", "not connected");
+              "test.urdf:5: link 'd'", "child of several joints");
+  expectError(four_links + jointXml("1", "fixed", "a", "b") + jointXml("2", "fixed", "c", "d") +
+                  jointXml("3", "fixed", "d", "c"),
+              "test.urdf:", "loop");
+  expectError(kTwoLinks + "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/></joint>", "test.urdf:2: joint 'j'",
+              "lacks a parent or a child");
 }
 
 TEST(UrdfErrors, mimicsMustLeadToAJointWithOneVariable)
