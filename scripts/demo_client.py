@@ -87,10 +87,10 @@ def call(arguments):
     from gpu_planning_scene.srv import CheckStates
 
     rospy.init_node("demo_client", anonymous=True)
+    rospy.wait_for_service(arguments.service, arguments.timeout)
     variables = variables_of(rospy.get_param("robot_description"))
     around = state_of_scene(arguments.around) if arguments.around else None
     states = random_states(variables, arguments.states, arguments.seed, around, arguments.spread)
-    rospy.wait_for_service(arguments.service, arguments.timeout)
     check_states = rospy.ServiceProxy(arguments.service, CheckStates)
     request = {"group": arguments.group, "joint_names": [variable.name for variable in variables], "max_contacts": 0}
 
@@ -115,7 +115,7 @@ def main():
     parser.add_argument("--around", metavar="SCENE", help="draw states around the robot_state of this scene file")
     parser.add_argument("--spread", type=float, default=0.2, help="radians and metres (default: %(default)s)")
     parser.add_argument("--group", default="", help="check only what this planning group moves")
-    parser.add_argument("--service", default="/planning_scene_node/check_states", help="(default: %(default)s)")
+    parser.add_argument("--service", default="/planning_scene/check_states", help="(default: %(default)s)")
     parser.add_argument("--timeout", type=float, default=120, help="seconds to wait for it (default: %(default)s)")
     # roslaunch and rosrun add arguments of their own, such as __name:=...
     arguments = parser.parse_args([argument for argument in sys.argv[1:] if ":=" not in argument])

@@ -72,6 +72,24 @@ run()
   wait $!
 }
 
+# run_beside PID COMMAND...: as `run`, but ends the command and fails when the process PID ends before it.
+run_beside()
+{
+  local other=$1 own
+  shift
+  "$@" < /dev/null &
+  own=$!
+  started+=("$own")
+  while [[ "$(process_field "$own" 0)" == [^Z] ]]; do
+    if [[ "$(process_field "$other" 0)" != [^Z] ]]; then
+      stop "$own"
+      return 1
+    fi
+    sleep 0.1
+  done
+  wait "$own"
+}
+
 clean_up()
 {
   local status=$? i

@@ -1,0 +1,45 @@
+# What install.a_package_builds_against_the_installed_one runs. BUILD: the build to install; CONSUMER: the package to
+# build; FOLDER: where all of it goes; SANITIZE: whether BUILD has sanitizers, which CONSUMER then needs too.
+
+# run(WHAT COMMAND...): fails, saying WHAT, with the command's output. Sets output.
+function(run what)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${what}: ${status}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${FOLDER})
+set(prefix ${FOLDER}/prefix)
+set(flags "")
+if(SANITIZE)
+  set(flags "-fsanitize=address,undefined")
+endif()
+
+run("the package does not install" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+run("find_package does not find it" ${CMAKE_COMMAND} -S ${CONSUMER} -B ${FOLDER}/build -DCMAKE_PREFIX_PATH=${prefix}
+  -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${flags} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
+run("a package does not build against it" ${CMAKE_COMMAND} --build ${FOLDER}/build)
+foreach(program with_variables with_targets)
+  run("${program} gives wrong answers" ${FOLDER}/build/${program})
+endforeach()
+
+# The tools run from where they were installed, without any environment.
+foreach(tool check_states generate_acm)
+  run("${tool} does not run" ${CMAKE_COMMAND} -E env --unset=LD_LIBRARY_PATH
+    ${prefix}/lib/gpu_planning_scene/${tool} --version)
+endforeach()
+
+foreach(file launch/planning_scene.launch config/demo/kr5_scene.yaml package.xml)
+  if(NOT EXISTS ${prefix}/share/gpu_planning_scene/${file})
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
+
+# It is the installed shaders that were compiled: one of them spoilt, the program fails and names it.
+file(WRITE ${prefix}/share/gpu_planning_scene/shaders/interface.h "#error the installed one\n")
+execute_process(COMMAND ${FOLDER}/build/with_variables RESULT_VARIABLE status ERROR_VARIABLE output OUTPUT_VARIABLE output)
+if(status EQUAL 0 OR NOT output MATCHES "the installed one")
+  message(FATAL_ERROR "the installed shaders are not used: ${status}\n${output}")
+endif()
