@@ -7,6 +7,8 @@
 // --- Building trees ---------------------------------------------------------------------------------------------------
 // A tree's leaf holds at most this many triangles.
 #define LEAF_TRIANGLES 4
+// A leaf in one word: its first triangle below this bit, its number of triangles less one above.
+#define LEAF_COUNT_SHIFT 30
 // Elements that one lane of the sort and of the compaction handles in sequence.
 #define CHUNK 32
 #define RADIX_BITS 4
@@ -79,7 +81,7 @@
 #define QUEUE_MAX_GROUPS 2048
 #define QUEUE_STEPS 8
 #define QUEUE_STACK 48
-#define QUEUE_FLUSH 128
+#define QUEUE_FLUSH 32
 #define QUEUE_LEAF_PAIRS (QUEUE_FLUSH + QUEUE_LANES * QUEUE_STEPS)
 // llvmpipe ends an invocation silently after 65535 loop iterations; a lane hands its work on before that.
 #define QUEUE_ITERATIONS 50000

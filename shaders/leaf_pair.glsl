@@ -8,25 +8,30 @@ void fetchTriangle(uint index, out vec3 corners[3])
     corners[i] = uintBitsToFloat(texelFetch(triangle_texels, int(3u * index) + i).xyz);
 }
 
-// Triangle `a` of a's mesh against up to LEAF_TRIANGLES of b's.
-void testTriangles(Item item, uint a, uint b_first, uint b_count)
+// A leaf in one word: its first triangle, and how many less one.
+uint leafReference(TreeNode leaf)
 {
-  vec3 corners_a[3];
-  fetchTriangle(a, corners_a);
-  bool hit = false;
-  bool undecided = false;
+  return leaf.first | ((leaf.count - 1u) << LEAF_COUNT_SHIFT);
+}
+
+// Triangle number `i` of leaf a, if there is one, against all of leaf b.
+void testLeafTriangle(uint item_index, uint i, uint leaf_a, uint leaf_b)
+{
+  const uint mask = (1u << LEAF_COUNT_SHIFT) - 1u;
+  const uint last_a = leaf_a >> LEAF_COUNT_SHIFT;
+  const uint last_b = leaf_b >> LEAF_COUNT_SHIFT;
+  const Item item = fetchItem(item_index);
+  vec3 a[3];
+  fetchTriangle((leaf_a & mask) + min(i, last_a), a);
+  uint found = 0u;
   for (uint j = 0u; j < uint(LEAF_TRIANGLES); ++j)
   {
-    vec3 corners_b[3];
-    fetchTriangle(b_first + min(j, b_count - 1u), corners_b);
+    vec3 b[3];
+    fetchTriangle((leaf_b & mask) + min(j, last_b), b);
     for (int k = 0; k < 3; ++k)
-      corners_b[k] = apply(item.pose, corners_b[k]);
-    const uint result = trianglePair(corners_a, corners_b, item.error, item.slack);
-    hit = hit || result == HIT;
-    undecided = undecided || result == UNDECIDED;
+      b[k] = apply(item.pose, b[k]);
+    found |= trianglePair(a, b, item.error, item.slack);
   }
-  if (hit)
-    reportHit(item.state, item.pair);
-  else if (undecided)
-    reportUndecided(item.state);
+  if (i <= last_a && found != 0u)
+    report(item.state, item.pair, found);
 }

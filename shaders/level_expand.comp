@@ -3,6 +3,8 @@
 layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
 #include "level.glsl"
+#include "verdicts.glsl"
+#include "leaf_pair.glsl"
 layout(std430, binding = BINDING_OUT) readonly buffer Masks { uint masks[]; };
 layout(std430, binding = BINDING_OUT_2) readonly buffer Sums { uvec2 sums[]; };
 layout(std430, binding = BINDING_IN) writeonly buffer NextEntries { uvec4 next_entries[]; };
@@ -36,7 +38,7 @@ void main()
         const TreeNode child_a = fetchNode(nodes.x);
         const TreeNode child_b = fetchNode(nodes.y);
         if (at.y < leaf_pair_capacity)
-          leaf_pairs[at.y] = uvec4(entry.x, child_a.first, child_b.first, child_a.count | (child_b.count << 16u));
+          leaf_pairs[at.y] = uvec4(entry.x, leafReference(child_a), leafReference(child_b), 0u);
         ++at.y;
       }
     }

@@ -3,6 +3,7 @@
 layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
 #include "items.glsl"
+#include "boxes.glsl"
 #include "counters.glsl"
 #include "verdicts.glsl"
 #include "leaf_pair.glsl"
@@ -14,7 +15,5 @@ void main()
   if (slot / LEAF_TRIANGLES >= counters[COUNTER_LEAF_PAIRS])
     return;
   const uvec4 pair = texelFetch(leaf_pairs, int(slot / LEAF_TRIANGLES));
-  const uint triangle = slot % LEAF_TRIANGLES;
-  if (triangle < (pair.w & 0xffffu))
-    testTriangles(fetchItem(pair.x), pair.y + triangle, pair.z, pair.w >> 16u);
+  testLeafTriangle(pair.x, slot % LEAF_TRIANGLES, pair.y, pair.z);
 }

@@ -1,8 +1,4 @@
-// Two triangles: proven to meet, proven to be apart, or undecided.
-#define APART 0u
-#define HIT 1u
-#define UNDECIDED 2u
-
+// Two triangles: proven to meet (STATE_HIT), proven to be apart (0), or undecided (STATE_UNDECIDED).
 // a and b are the corners in one frame, metres. Uses the six distances of corners to the other's plane and the nine
 // volumes that an edge of a spans with an edge of b (Devillers and Guigue 2002 decide by their signs):
 // a hit is an edge that pierces the other triangle, apart is a separating axis out of the two normals and the nine
@@ -83,5 +79,5 @@ uint trianglePair(vec3 a[3], vec3 b[3], float error, float slack)
     const bool crosses = (db[j] > error_b && db[j1] < -error_b) || (db[j] < -error_b && db[j1] > error_b);
     hit = hit || (crosses && (b_edge_above[j] || b_edge_below[j]));
   }
-  return hit ? HIT : (apart ? APART : UNDECIDED);
+  return hit ? STATE_HIT : (apart ? 0u : STATE_UNDECIDED);
 }

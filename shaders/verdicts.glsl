@@ -7,10 +7,12 @@ bool isDecided(uint state)
   return (flags[state] & STATE_HIT) != 0u;
 }
 
-void reportHit(uint state, uint pair)
+// `found`: STATE_* bits. Any hit may be the one that is reported.
+void report(uint state, uint pair, uint found)
 {
-  atomicOr(flags[state], STATE_HIT);
-  atomicExchange(hits[state], pair);
+  if ((found & STATE_HIT) != 0u)
+    hits[state] = pair;
+  atomicOr(flags[state], found);
 }
 
 void reportUndecided(uint state)

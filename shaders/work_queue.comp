@@ -1,7 +1,10 @@
 // Traversal by work queues. Every lane takes node pairs from the entry list and walks them with a stack of its own; pairs of
-// leaves go to a list that the workgroup shares. When the list is full enough, all lanes turn to its triangles. All lanes
+// leaves go to a list that the workgroup shares. When that list is full enough, all lanes turn to its triangles. All lanes
 // of a group meet at the same barriers: the outer loop is uniform, and a lane does at most QUEUE_STEPS steps between
 // two barriers. What does not fit a stack, or is left when the iterations run out, goes to the next entry list.
+//
+// Where a branch skips nothing (llvmpipe), every store and atomic costs each lane each time. So a step has one store: a
+// lane's memory holds node pairs from below and leaf pairs from above, and all else is done once a round.
 #include "interface.h"
 layout(local_size_x = QUEUE_LANES) in;
 #include "common.glsl"
@@ -22,8 +25,8 @@ layout(std430, binding = BINDING_OUT) writeonly buffer Spill { uvec4 spilled[]; 
 #define SLOT_ITERATIONS 20u
 
 shared uint leaf_pair_count;
-shared uint busy_lanes;
-shared uvec4 leaf_pairs[QUEUE_LEAF_PAIRS];  // item, a's first triangle, b's first triangle, counts (a low, b high)
+shared uint busy;
+shared uvec4 leaf_pairs[QUEUE_LEAF_PAIRS];  // item, then the leaves as leafReference() has them
 
 // The state is undecided if the list is full: its answer is never lost.
 void spill(uint item, uvec2 nodes, uint state)
@@ -41,25 +44,26 @@ void testLeafPairs(uint count)
   for (uint slot = gl_LocalInvocationID.x; slot < slots; slot += QUEUE_LANES)
   {
     const uvec4 pair = leaf_pairs[slot / LEAF_TRIANGLES];
-    const uint triangle = slot % LEAF_TRIANGLES;
-    if (triangle < (pair.w & 0xffffu))
-      testTriangles(fetchItem(pair.x), pair.y + triangle, pair.z, pair.w >> 16u);
+    testLeafTriangle(pair.x, slot % LEAF_TRIANGLES, pair.y, pair.z);
   }
 }
 
 void main()
 {
   const uint entry_count = min(counters[in_counter], entry_capacity);
-  uvec2 stack[QUEUE_STACK];
-  int top = 0;
-  bool exhausted = false;
+  uvec2 memory[QUEUE_STACK];
+  uint waiting = 0u;   // node pairs in memory, from below
+  uint leaves = 0u;    // leaf pairs in memory, from above
+  uvec2 nodes = uvec2(0u);
+  bool walking = false;     // whether `nodes` is a pair to be tested
+  bool exhausted = false;  // whether the entry list has nothing left
   uint item_index = 0u;
   Item item;
   item.state = 0u;
   if (gl_LocalInvocationID.x == 0u)
   {
     leaf_pair_count = 0u;
-    busy_lanes = 0u;
+    busy = 0u;
   }
   barrier();
 
@@ -67,70 +71,82 @@ void main()
   bool running = true;
   while (running)
   {
-    if (top == 0 && !exhausted)
+    if (isDecided(item.state))
+    {
+      walking = false;
+      waiting = 0u;
+    }
+    if (!walking && !exhausted)
     {
       const uint at = atomicAdd(counters[COUNTER_NEXT_ENTRY], 1u);
       exhausted = at >= entry_count;
+      walking = !exhausted;
       const uvec4 entry = texelFetch(entries, int(min(at, entry_count - 1u)));
       item_index = entry.x;
       item = fetchItem(item_index);
-      stack[0] = entry.yz;
-      top = exhausted ? 0 : 1;
+      nodes = entry.yz;
     }
-    if (isDecided(item.state))
-      top = 0;
-    for (int step = 0; step < QUEUE_STEPS && top > 0; ++step)
+    for (uint step = 0u; step < QUEUE_STEPS && walking && waiting + leaves < QUEUE_STACK; ++step)
     {
-      --top;
-      const uvec2 nodes = stack[top];
       const TreeNode a = fetchNode(nodes.x);
       const TreeNode b = fetchNode(nodes.y);
-      if (!boxesApart(a.box, b.box, item.pose, item.slack + item.error))
+      const bool overlap = !boxesApart(a.box, b.box, item.pose, item.slack + item.error);
+      const bool leaf = a.count != 0u && b.count != 0u;
+      const bool into_a = descendsIntoA(a, b);
+      const uvec2 first = into_a ? uvec2(a.first, nodes.y) : uvec2(nodes.x, b.first);
+      const uvec2 second = into_a ? uvec2(a.first + 1u, nodes.y) : uvec2(nodes.x, b.first + 1u);
+      const uvec2 leaf_pair = uvec2(leafReference(a), leafReference(b));
+      if (overlap)
+        memory[leaf ? QUEUE_STACK - 1u - leaves : waiting] = leaf ? leaf_pair : second;
+      leaves += overlap && leaf ? 1u : 0u;
+      waiting += overlap && !leaf ? 1u : 0u;
+      if (overlap && !leaf)
       {
-        if (a.count != 0u && b.count != 0u)
-        {
-          leaf_pairs[atomicAdd(leaf_pair_count, 1u)] = uvec4(item_index, a.first, b.first, a.count | (b.count << 16u));
-        }
-        else if (top + 2 > QUEUE_STACK)
-        {
-          spill(item_index, nodes, item.state);
-        }
-        else
-        {
-          const bool into_a = descendsIntoA(a, b);
-          stack[top] = into_a ? uvec2(a.first, nodes.y) : uvec2(nodes.x, b.first);
-          stack[top + 1] = into_a ? uvec2(a.first + 1u, nodes.y) : uvec2(nodes.x, b.first + 1u);
-          top += 2;
-        }
+        nodes = first;
+      }
+      else
+      {
+        walking = waiting > 0u;
+        waiting -= walking ? 1u : 0u;
+        nodes = memory[waiting];
       }
     }
-    if (top > 0 || !exhausted)
-      atomicAdd(busy_lanes, 1u);
+    // A stack that is full by itself: its current pair waits for the next pass.
+    if (walking && waiting >= QUEUE_STACK)
+    {
+      spill(item_index, nodes, item.state);
+      --waiting;
+      nodes = memory[waiting];
+    }
+    uint at = atomicAdd(leaf_pair_count, leaves);
+    for (; leaves > 0u; --leaves)
+      leaf_pairs[at++] = uvec4(item_index, memory[QUEUE_STACK - leaves], 0u);
+    if (walking || !exhausted)
+      busy = 1u;
     barrier();
     const uint count = leaf_pair_count;
-    const bool busy = busy_lanes > 0u;
+    const bool more = busy != 0u;
     barrier();
-    const bool flush = count >= QUEUE_FLUSH || !busy;
+    const bool flush = count >= QUEUE_FLUSH || !more;
     if (gl_LocalInvocationID.x == 0u)
     {
-      busy_lanes = 0u;
+      busy = 0u;
       if (flush)
         leaf_pair_count = 0u;
     }
     if (flush)
       testLeafPairs(count);
-    iterations += 1u + STEP_ITERATIONS * QUEUE_STEPS + (flush ? SLOT_ITERATIONS * (1u + (count * LEAF_TRIANGLES) / QUEUE_LANES) : 0u);
-    running = busy && iterations < QUEUE_ITERATIONS;
+    iterations += 1u + STEP_ITERATIONS * QUEUE_STEPS + QUEUE_STEPS + (flush ? SLOT_ITERATIONS * (1u + (count * LEAF_TRIANGLES) / QUEUE_LANES) : 0u);
+    running = more && iterations < QUEUE_ITERATIONS;
     barrier();
   }
 
   // Only after too many iterations: hand on what is left.
   testLeafPairs(leaf_pair_count);
-  while (top > 0)
-  {
-    --top;
-    spill(item_index, stack[top], item.state);
-  }
+  if (walking)
+    spill(item_index, nodes, item.state);
+  for (; waiting > 0u; --waiting)
+    spill(item_index, memory[waiting - 1u], item.state);
   // A device that ends lanes early is found out by this count.
   atomicAdd(counters[COUNTER_LANES_ENDED], 1u);
 }
