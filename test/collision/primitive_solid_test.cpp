@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/inside.h"
+
 namespace gpu_planning_scene
 {
 namespace
@@ -18,26 +20,6 @@ const Box kBox{{0.3, 0.2, 0.4}};
 const Sphere kSphere{0.2};
 const Cylinder kCylinder{0.2, 0.3};
 const Cone kCone{0.2, 0.5};
-
-/// From the definitions in shapes.h.
-bool inside(const Shape& shape, const Vector3d& p)
-{
-  if (const auto* box = std::get_if<Box>(&shape))
-  {
-    return (2.0 * p.cwiseAbs().array() <= box->size.array()).all();
-  }
-  if (const auto* sphere = std::get_if<Sphere>(&shape))
-  {
-    return p.norm() <= sphere->radius;
-  }
-  if (const auto* cylinder = std::get_if<Cylinder>(&shape))
-  {
-    return std::hypot(p.x(), p.y()) <= cylinder->radius && std::abs(p.z()) <= 0.5 * cylinder->length;
-  }
-  const Cone& cone = std::get<Cone>(shape);
-  return p.z() >= -0.5 * cone.length &&
-         std::hypot(p.x(), p.y()) <= cone.radius * (0.5 * cone.length - p.z()) / cone.length;
-}
 
 /// The least value of a convex function on [lower, upper].
 double minimum(const std::function<double(double)>& function, double lower, double upper)
@@ -94,14 +76,14 @@ TEST_P(PrimitiveSolid, DistanceIsThatToTheNearestOfManyInnerPoints)
         for (int z = 0; z <= kSteps; ++z)
         {
           const Vector3d q = Vector3d(x, y, z).cwiseProduct(step) - half;
-          nearest = inside(GetParam(), q) ? std::min(nearest, (p - q).norm()) : nearest;
+          nearest = isInside(GetParam(), q) ? std::min(nearest, (p - q).norm()) : nearest;
         }
       }
     }
     const double found = distanceToSolid(GetParam(), p);
     EXPECT_LE(found, nearest + 1e-12) << "seed " << seed << ", point " << p.transpose();
     EXPECT_GE(found, nearest - 2.0 * step.norm()) << "seed " << seed << ", point " << p.transpose();
-    EXPECT_EQ(inside(GetParam(), p), found == 0.0) << "seed " << seed << ", point " << p.transpose();
+    EXPECT_EQ(isInside(GetParam(), p), found == 0.0) << "seed " << seed << ", point " << p.transpose();
   }
 }
 

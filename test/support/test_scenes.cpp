@@ -5,22 +5,25 @@
 #include <map>
 #include <random>
 
+#include <yaml-cpp/yaml.h>
+
 #include "model/real_robots.h"
 #include "support/obstacles.h"
-#include "support/sampled_matrix.h"
+#include "tools/acm_generator.h"
+#include "tools/srdf_writer.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
 constexpr std::uint64_t kObstacleSeed = 1;
-constexpr std::uint64_t kMatrixSeed = 2;
 
 const std::string kUr5Prefix = "ur5_";
 
-std::string ur5SceneFile(const std::string& set)
+/// The folder of the problem set that a scene's name ends in.
+std::string problemFolder(const std::string& name)
 {
-  return std::string(GPS_SHARED_DIR) + "/problems/ur5/" + set + "/scene0001.yaml";
+  return std::string(GPS_SHARED_DIR) + "/problems/ur5/" + name.substr(kUr5Prefix.size());
 }
 
 RealRobot robotOf(const std::string& name)
@@ -50,54 +53,70 @@ TestScene inFullRanges(const std::string& name, PlanningScene scene)
   return made;
 }
 
-void limitToAroundNominal(double reach, TestScene& scene)
+/// Random states within `reach` of `center`, as far as the limits allow.
+void limitTo(const std::vector<double>& center, double reach, TestScene& scene)
 {
-  const std::vector<double> nominal = scene.scene->robot->defaultState();
-  for (std::size_t i = 0; i < nominal.size(); ++i)
+  for (std::size_t i = 0; i < center.size(); ++i)
   {
-    scene.lower[i] = std::max(scene.lower[i], nominal[i] - reach);
-    scene.upper[i] = std::min(scene.upper[i], nominal[i] + reach);
+    scene.lower[i] = std::max(scene.lower[i], center[i] - reach);
+    scene.upper[i] = std::min(scene.upper[i], center[i] + reach);
   }
 }
 
-/// For a robot without an SRDF of which more than adjacent links always collide.
-void allowPairsOfRandomStates(TestScene& scene)
+/// The goal of a motion request, near the obstacles; other variables at their default.
+std::vector<double> goalOf(const std::string& request_file, const RobotModel& robot)
 {
-  PlanningScene with_matrix = *scene.scene;
-  allowSampledPairs(scene.randomStates(500, kMatrixSeed), with_matrix);
-  scene.scene = std::make_shared<const PlanningScene>(std::move(with_matrix));
+  std::vector<double> state = robot.defaultState();
+  for (const auto& joint : YAML::LoadFile(request_file)["goal_constraints"][0]["joint_constraints"])
+  {
+    state.at(robot.variableIndex(joint["joint_name"].as<std::string>())) = joint["position"].as<double>();
+  }
+  return state;
+}
+
+/// The robot with the SRDF that generate_acm writes for it: of robots without one, more than adjacent links collide
+/// always.
+std::shared_ptr<const RobotModel> loadWithGeneratedSrdf(const RealRobot& robot)
+{
+  SamplingOptions sampling;
+  sampling.samples = 2000;
+  const auto bare = robot.load();
+  const std::string srdf = srdfWith(generateMatrix(bare, sampling), *bare, sampling, "");
+  RobotModelOptions options;
+  options.packages = packageResolver(robot.packages);
+  options.urdf_folder = std::filesystem::path(robot.urdf).parent_path();
+  return RobotModel::fromXml(robot.urdfText(), srdf, options);
 }
 
 TestScene load(const std::string& name)
 {
-  const auto robot = robotOf(name).load();
+  const RealRobot robot = robotOf(name);
   if (name.rfind(kUr5Prefix, 0) == 0)
   {
-    return inFullRanges(name, loadSceneFile(ur5SceneFile(name.substr(kUr5Prefix.size())), robot, {}));
+    const std::string folder = problemFolder(name);
+    const auto model = robot.load();
+    TestScene made = inFullRanges(name, loadSceneFile(folder + "/scene0001.yaml", model, {}));
+    limitTo(goalOf(folder + "/request0001.yaml", *model), 0.7, made);
+    return made;
   }
-  PlanningScene scene(robot);
-  if (name == "kr5")
+  if (name == "drchubo")
   {
-    scene.objects = generateObstacles({12, {0.0, 0.0, 0.6}, 0.5, 0.9, 0.3}, kObstacleSeed);
-    return inFullRanges(name, scene);
-  }
-  if (name == "kr5_crowded")
-  {
-    scene.objects = generateObstacles({400, {0.0, 0.0, 0.6}, 0.6, 4.0, 0.2}, kObstacleSeed);
-    return inFullRanges(name, scene);
+    PlanningScene scene(loadWithGeneratedSrdf(robot));
+    scene.objects = generateObstacles({12, {0.0, 0.0, 0.0}, 0.5, 0.9, 0.3}, kObstacleSeed);
+    TestScene made = inFullRanges(name, scene);
+    limitTo(scene.robot->defaultState(), 0.5, made);
+    return made;
   }
   if (name == "wam")
   {
+    PlanningScene scene(loadWithGeneratedSrdf(robot));
     scene.objects = generateObstacles({12, {0.0, 0.0, 0.6}, 0.5, 0.9, 0.3}, kObstacleSeed);
-    TestScene made = inFullRanges(name, scene);
-    allowPairsOfRandomStates(made);
-    return made;
+    return inFullRanges(name, scene);
   }
-  scene.objects = generateObstacles({12, {0.0, 0.0, 0.0}, 0.5, 0.9, 0.3}, kObstacleSeed);
-  TestScene made = inFullRanges(name, scene);
-  limitToAroundNominal(0.5, made);
-  allowPairsOfRandomStates(made);
-  return made;
+  PlanningScene scene(robot.load());
+  scene.objects = name == "kr5" ? generateObstacles({24, {0.0, 0.0, 0.6}, 0.3, 0.7, 0.3}, kObstacleSeed)
+                                : generateObstacles({400, {0.0, 0.0, 0.6}, 0.6, 4.0, 0.2}, kObstacleSeed);
+  return inFullRanges(name, scene);
 }
 }  // namespace
 
@@ -142,8 +161,7 @@ std::string missingFor(const std::string& name)
   }
   if (name.rfind(kUr5Prefix, 0) == 0)
   {
-    const std::string file = ur5SceneFile(name.substr(kUr5Prefix.size()));
-    return std::filesystem::exists(file) ? "" : file;
+    return std::filesystem::exists(problemFolder(name)) ? "" : problemFolder(name);
   }
   return "";
 }

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "collision/collision_problem.h"
+
+namespace gpu_planning_scene
+{
+/// FCL 0.7 as the peer of tests and benchmarks: meshes and boxes as BVHModel<OBBRSS>, spheres, cylinders and cones as
+/// FCL's shapes, contacts on, the boxes of a pair tested first, the world before the robot itself, the end at the first
+/// contact. Not thread-safe: one per thread.
+class FclPeer
+{
+ public:
+  using BodyPair = std::array<std::int32_t, 2>;
+
+  explicit FclPeer(std::shared_ptr<const CollisionProblem> problem);
+  ~FclPeer();
+
+  /// The poses that all further calls are about: of every link, in the planning frame.
+  void setState(const Eigen::Isometry3d* link_poses);
+
+  std::optional<BodyPair> firstCollision() const;
+
+  /// All pairs of bodies that collide.
+  std::vector<BodyPair> allCollisions() const;
+
+  /// Whether a pair of bodies, in either order, is checked and collides.
+  bool collides(const BodyPair& pair) const;
+
+  /// Whether a pair of bodies is free when it is moved 1e-6 m apart, in one of seven directions.
+  bool freeWhenMovedApart(const BodyPair& pair) const;
+
+  /// Whether the distance of a pair of bodies is at most `distance`, by FCL.
+  bool within(const BodyPair& pair, double distance) const;
+
+  /// Whether one body of a pair has a vertex in a solid of the other: in a primitive, or in a mesh by the parity of the
+  /// crossings of rays.
+  bool oneInsideTheOther(const BodyPair& pair) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+}  // namespace gpu_planning_scene
