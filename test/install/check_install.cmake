@@ -1,5 +1,6 @@
 # What install.a_package_builds_against_the_installed_one runs. BUILD: the build to install; CONSUMER: the package to
-# build; FOLDER: where all of it goes; SANITIZE: whether BUILD has sanitizers, which CONSUMER then needs too.
+# build; FOLDER: where all of it goes; PREFIX: the CMAKE_INSTALL_PREFIX of BUILD; SANITIZE: whether BUILD has sanitizers,
+# which CONSUMER then needs too.
 
 # run(WHAT COMMAND...): fails, saying WHAT, with the command's output. Sets output.
 function(run what)
@@ -11,13 +12,17 @@ function(run what)
 endfunction()
 
 file(REMOVE_RECURSE ${FOLDER})
-set(prefix ${FOLDER}/prefix)
+# Below DESTDIR, and not by `cmake --install --prefix`: catkin's setup files go to the prefix that BUILD was configured
+# with, whatever --prefix says, and a test must not write there.
+set(ENV{DESTDIR} ${FOLDER}/root)
+set(prefix ${FOLDER}/root${PREFIX})
 set(flags "")
 if(SANITIZE)
   set(flags "-fsanitize=address,undefined")
 endif()
 
-run("the package does not install" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+run("the package does not install" ${CMAKE_COMMAND} --install ${BUILD})
+unset(ENV{DESTDIR})
 run("find_package does not find it" ${CMAKE_COMMAND} -S ${CONSUMER} -B ${FOLDER}/build -DCMAKE_PREFIX_PATH=${prefix}
   -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${flags} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
 run("a package does not build against it" ${CMAKE_COMMAND} --build ${FOLDER}/build)
@@ -31,8 +36,10 @@ foreach(tool check_states generate_acm)
     ${prefix}/lib/gpu_planning_scene/${tool} --version)
 endforeach()
 
-foreach(file launch/planning_scene.launch config/demo/kr5_scene.yaml package.xml)
-  if(NOT EXISTS ${prefix}/share/gpu_planning_scene/${file})
+set(share share/gpu_planning_scene)
+foreach(file setup.bash ${share}/launch/planning_scene.launch ${share}/config/demo/kr5_scene.yaml ${share}/package.xml
+        lib/gpu_planning_scene/planning_scene_node lib/gpu_planning_scene/demo_client.py)
+  if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "${file} is not installed")
   endif()
 endforeach()

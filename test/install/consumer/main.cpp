@@ -35,7 +35,7 @@ try
 #endif
   return on_cpu == expected && on_gpu == expected ? 0 : 1;
 }
-catch (const Error& error)
+catch (const std::exception& error)
 {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;
