@@ -1,11 +1,5 @@
 # What is needed at run time and to build against the package.
 set(libraries gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_scene_gpu gpu_planning_scene_collision)
-foreach(target ${libraries} check_states generate_acm planning_scene_node)
-  if(NOT TARGET ${target})
-    message(STATUS "no install rules yet: ${target} is missing")
-    return()
-  endif()
-endforeach()
 set(export_folder ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
 
 install(TARGETS ${libraries} EXPORT gpu_planning_scene-targets LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
