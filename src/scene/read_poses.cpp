@@ -8,16 +8,15 @@ namespace
 {
 Eigen::Quaterniond readOrientation(const YamlValue& value)
 {
-  Eigen::Vector4d components;  // x, y, z, w
-  if (value.kind() == YamlValue::Kind::Map)
-    components << value.at("x").number(), value.at("y").number(), value.at("z").number(), value.at("w").number();
-  else
-    components = Eigen::Vector4d(value.numbers(4).data());
+  const Eigen::Vector4d components = value.kind() == YamlValue::Kind::Map
+                                         ? Eigen::Vector4d(value.at("x").number(), value.at("y").number(),
+                                                           value.at("z").number(), value.at("w").number())
+                                         : Eigen::Vector4d(value.numbers(4).data());
   const double norm = components.stableNorm();
   if (norm == 0.0)
     value.fail("the quaternion is zero; no rotation is [0, 0, 0, 1]");
-  components /= norm;
-  return Eigen::Quaterniond(components).normalized();
+  // Divided first, so that squares of large components do not overflow.
+  return Eigen::Quaterniond(Eigen::Vector4d(components / norm)).normalized();
 }
 
 std::string withoutLeadingSlash(const std::string& frame)

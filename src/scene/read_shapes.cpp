@@ -100,7 +100,8 @@ std::shared_ptr<const Mesh> readInlineMesh(const YamlValue& value, SceneReader& 
     mesh->vertices.push_back(readVector(vertex));
   for (const YamlValue& triangle : value.at("triangles").items())
     mesh->triangles.push_back(readTriangle(triangle, mesh->vertices.size()));
-  validateMesh(*mesh);
+  if (mesh->triangles.empty())
+    value.fail("the mesh has no triangles");
   for (const auto& known : reader.inline_meshes)
     if (known->triangles == mesh->triangles && known->vertices == mesh->vertices)
       return known;  // one tree serves them all

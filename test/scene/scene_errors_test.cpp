@@ -1,0 +1,184 @@
+// Scene files that are wrong, or ask for what is not modelled, are refused with the file, the line and the reason.
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/planning_scene.h"
+#include "model/model_testing.h"
+#include "scene/slider_robot.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+struct WrongScene
+{
+  const char* name;
+  std::string yaml;
+  int line;
+  const char* reason;  ///< part of the message
+};
+
+std::ostream& operator<<(std::ostream& out, const WrongScene& wrong)
+{
+  return out << wrong.name;
+}
+
+/// A scene of one object, whose lines are numbers 4 and on.
+std::string object(const std::string& lines)
+{
+  return "world:\n  collision_objects:\n    - id: a\n" + lines;
+}
+
+std::string sphereAnd(const std::string& lines)
+{
+  return object("      primitives: [{type: sphere, dimensions: [1]}]\n" + lines);
+}
+
+std::string primitive(const std::string& content)
+{
+  return object("      primitives: [{" + content + "}]\n");
+}
+
+std::string matrix(const std::string& lines)
+{
+  return "allowed_collision_matrix:\n" + lines;
+}
+
+std::string mesh(const std::string& content)
+{
+  return object("      meshes: [{" + content + "}]\n");
+}
+
+const std::vector<WrongScene>& wrongScenes()
+{
+  static const std::vector<WrongScene> scenes = {
+      {"NotYaml", "world:\n  - a: [1, 2\nb: 3\n", 3, "not YAML"},
+      {"AKeyTwice", "name: a\nname: b\n", 2, "'name' is given twice"},
+      {"TwoDocuments", "name: a\n---\nname: b\n", 3, "second document"},
+      {"AList", "- a\n- b\n", 1, "key: value"},
+      {"NotAScene", "group_name: arm\nplanner_id: RRT\n", 1, "not a planning scene"},
+      {"AnAliasToItself", "name: &x [*x]\n", 1, "alias"},
+      {"ADifference", "name: a\nis_diff: true\n", 2, "full scene is needed"},
+      {"WorldIsText", "world: 5\n", 1, "key: value"},
+      {"ObjectsAreAMap", "world:\n  collision_objects: {a: b}\n", 2, "expected a list"},
+
+      {"NoId", "world:\n  collision_objects:\n    - primitives: []\n", 3, "'id' is missing"},
+      {"EmptyId", "world:\n  collision_objects:\n    - id: ''\n", 3, "without an id"},
+      {"NoShapes", object("      primitives: []\n"), 3, "no shapes"},
+      {"IdTwice", sphereAnd("    - {id: a, primitives: [{type: sphere, dimensions: [1]}]}\n"), 5, "given twice"},
+      {"IdOfALink", "world: {collision_objects: [{id: cart, primitives: [{type: sphere, dimensions: [1]}]}]}", 1,
+       "name of a link"},
+      {"OperationRemove", sphereAnd("      operation: 1\n"), 5, "operation 1"},
+      {"Planes", sphereAnd("      planes: [{coef: [0, 0, 1, 0]}]\n"), 5, "planes are not supported"},
+
+      {"UnknownType", primitive("type: torus, dimensions: [1]"), 4, "unknown primitive type 'torus'"},
+      {"TypeNumberFive", primitive("type: 5, dimensions: [1]"), 4, "unknown primitive type '5'"},
+      {"NoType", primitive("dimensions: [1]"), 4, "'type' is missing"},
+      {"NoDimensions", primitive("type: box"), 4, "'dimensions' is missing"},
+      {"TooFewDimensions", primitive("type: cylinder, dimensions: [1]"), 4, "[height, radius]"},
+      {"TooManyDimensions", primitive("type: sphere, dimensions: [1, 2]"), 4, "[radius]"},
+      {"NegativeDimension", primitive("type: box, dimensions: [1, -1, 1]"), 4, "positive"},
+      {"ZeroDimension", primitive("type: sphere, dimensions: [0]"), 4, "positive"},
+      {"NanDimension", primitive("type: sphere, dimensions: [.nan]"), 4, "'.nan' is not a finite number"},
+      {"InfiniteDimension", primitive("type: sphere, dimensions: [inf]"), 4, "'inf' is not a finite number"},
+      {"HugeDimension", primitive("type: sphere, dimensions: [1e999]"), 4, "'1e999' is not a finite number"},
+      {"TextDimension", primitive("type: sphere, dimensions: [1m]"), 4, "'1m' is not a finite number"},
+      {"PosesMissing",
+       object("      primitives: [{type: sphere, dimensions: [1]}, {type: sphere, dimensions: [1]}]\n"
+              "      primitive_poses: [{}]\n"),
+       5, "1 primitive_poses for 2 shapes"},
+      {"PosesTooMany", sphereAnd("      primitive_poses: [{}, {}]\n"), 5, "2 primitive_poses for 1 shapes"},
+      {"MeshPosesWithoutMesh", sphereAnd("      mesh_poses: [{}]\n"), 5, "1 mesh_poses for 0 shapes"},
+
+      {"ZeroQuaternion", sphereAnd("      pose: {orientation: [0, 0, 0, 0]}\n"), 5, "quaternion is zero"},
+      {"ShortQuaternion", sphereAnd("      pose: {orientation: [0, 0, 0]}\n"), 5, "list of 4 numbers"},
+      {"QuaternionWithoutW", sphereAnd("      pose: {orientation: {x: 0, y: 0, z: 1}}\n"), 5, "'w' is missing"},
+      {"NanPosition", sphereAnd("      pose: {position: [0, nan, 0]}\n"), 5, "'nan' is not a finite number"},
+      {"PositionWithoutY", sphereAnd("      pose: {position: {x: 0, z: 0}}\n"), 5, "'y' is missing"},
+      {"PoseWithOtherKey", sphereAnd("      pose: {xyz: [0, 0, 0]}\n"), 5, "unknown key 'xyz' in a pose"},
+      {"UnknownFrame", sphereAnd("      header: {frame_id: moon}\n"), 5, "unknown frame 'moon'"},
+      {"LinkFrameWithoutState", sphereAnd("      header: {frame_id: cart}\n"), 5, "robot_state"},
+
+      {"MeshWithoutTriangles", mesh("vertices: [[0, 0, 0]], triangles: []"), 4, "triangle"},
+      {"MeshWithoutVertices", mesh("triangles: [[0, 1, 2]]"), 4, "'vertices' is missing"},
+      {"MeshIndexOutOfRange", mesh("vertices: [[0, 0, 0]], triangles: [[0, 0, 1]]"), 4, "index 1 is out of range"},
+      {"MeshIndexNegative", mesh("vertices: [[0, 0, 0]], triangles: [[0, 0, -1]]"), 4, "index -1 is out of range"},
+      {"MeshIndexNotWhole", mesh("vertices: [[0, 0, 0]], triangles: [[0, 0, 0.5]]"), 4, "not an integer"},
+      {"MeshTriangleOfFour", mesh("vertices: [[0, 0, 0]], triangles: [[0, 0, 0, 0]]"), 4, "three vertex indices"},
+      {"MeshVertexOfTwo", mesh("vertices: [[0, 0]], triangles: [[0, 0, 0]]"), 4, "list of 3 numbers"},
+      {"MeshFileMissing", mesh("resource: no/such.stl"), 4, "such.stl"},
+      {"MeshPackageUnknown", mesh("resource: 'package://nowhere/a.stl'"), 4, "nowhere"},
+      {"MeshFileAndVertices", mesh("resource: a.stl, vertices: []"), 4, "either a 'resource' or 'vertices'"},
+
+      {"MatrixRowsMissing", matrix("  entry_names: [a, b]\n  entry_values: [[true, true]]\n"), 2,
+       "1 entry_values for 2"},
+      {"MatrixRowTooShort", matrix("  entry_names: [a, b]\n  entry_values:\n    - [true, true]\n    - [true]\n"), 5,
+       "a row of 1 entries"},
+      {"MatrixNotSymmetric",
+       matrix("  entry_names: [a, b]\n  entry_values:\n    - [true, true]\n    - [false, true]\n"), 5,
+       "not symmetric for 'a' and 'b'"},
+      {"MatrixNameTwice", matrix("  entry_names: [a, a]\n  entry_values: [[true, true], [true, true]]\n"), 2, "twice"},
+      {"MatrixEntryIsText", matrix("  entry_names: [a]\n  entry_values: [[maybe]]\n"), 3, "neither true nor false"},
+      {"MatrixDefaultsMissing", matrix("  default_entry_names: [a]\n  default_entry_values: []\n"), 2,
+       "0 default_entry_values for 1"},
+
+      {"PositionsMissing", "robot_state:\n  joint_state:\n    name: [slide, turn]\n    position: [1]\n", 3,
+       "1 positions for 2 joint names"},
+      {"JointTwice", "robot_state:\n  joint_state:\n    name: [slide, slide]\n    position: [1, 2]\n", 3,
+       "given twice"},
+      {"NanJoint", "robot_state:\n  joint_state:\n    name: [slide]\n    position: [.NaN]\n", 4, "not a finite number"},
+      {"RevoluteAsMultiDof", "robot_state:\n  multi_dof_joint_state:\n    joint_names: [turn]\n    transforms: [{}]\n",
+       3, "neither planar nor floating"},
+      {"AttachedObject", "robot_state:\n  attached_collision_objects:\n    - link_name: cart\n", 3,
+       "attached objects are not supported"},
+
+      {"Padding", "name: a\nlink_padding:\n  - {link_name: cart, padding: 0.01}\n", 3, "link_padding is not supported"},
+      {"Scale", "name: a\nlink_scale:\n  - {link_name: cart, scale: 1.1}\n", 3, "link_scale is not supported"},
+      {"Octomap", "world:\n  octomap:\n    octomap:\n      data: [1, 2]\n", 4, "octomaps are not supported"},
+
+      {"FrameInAnotherFrame",
+       "fixed_frame_transforms:\n  - header: {frame_id: moon}\n    child_frame_id: camera\n    transform: {}\n", 2,
+       "given in frame 'moon'"},
+      {"FrameTwice",
+       "fixed_frame_transforms:\n  - {child_frame_id: c, transform: {translation: [0, 0, 0]}}\n"
+       "  - {child_frame_id: c, transform: {translation: [0, 0, 0]}}\n",
+       3, "given twice"},
+      {"FrameOfALink", "fixed_frame_transforms:\n  - {child_frame_id: cart, transform: {translation: [0, 0, 0]}}\n", 2,
+       "name of a link"},
+      {"PlanningFrameMoved",
+       "fixed_frame_transforms:\n  - {child_frame_id: rail, transform: {translation: [0, 0, 1]}}\n", 2,
+       "must be the identity"},
+      {"FrameWithoutTransform", "fixed_frame_transforms:\n  - {child_frame_id: c}\n", 2, "'transform' is missing"},
+  };
+  return scenes;
+}
+
+class SceneErrors : public testing::TestWithParam<WrongScene>
+{
+};
+
+TEST_P(SceneErrors, areSaidWithFileAndLine)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.write("scene.yaml", GetParam().yaml);
+  const std::string message = errorOf([&] { loadSceneFile(path, sliderRobot(), {}); });
+  EXPECT_EQ(0u, message.find(path + ":" + std::to_string(GetParam().line) + ": ")) << message;
+  EXPECT_NE(std::string::npos, message.find(GetParam().reason)) << message;
+  EXPECT_EQ(std::string::npos, message.find('\n')) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SceneErrors, testing::ValuesIn(wrongScenes()),
+                         [](const auto& parameter) { return parameter.param.name; });
+
+TEST(SceneErrors, aFileThatIsMissingOrEmptyIsNamed)
+{
+  const TemporaryFolder folder;
+  for (const std::string& path : {folder.path("missing.yaml"), folder.write("empty.yaml", ""),
+                                  folder.write("comment.yaml", "# nothing\n"), folder.path(".")})
+  {
+    const std::string message = errorOf([&] { loadSceneFile(path, sliderRobot(), {}); });
+    EXPECT_EQ(0u, message.find(path + ": ")) << message;
+  }
+}
+}  // namespace
+}  // namespace gpu_planning_scene

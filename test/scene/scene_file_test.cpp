@@ -1,0 +1,325 @@
+// What a scene file means: both layouts, frames, poses, shapes, the robot's state and the allowed-collision matrix.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/planning_scene.h"
+#include "model/model_testing.h"
+#include "scene/slider_robot.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+class SceneFile : public testing::Test
+{
+ protected:
+  PlanningScene load(const std::string& yaml, std::shared_ptr<const RobotModel> robot = sliderRobot())
+  {
+    warnings.clear();
+    return loadSceneFile(folder.write("scene.yaml", yaml), std::move(robot), packages, &warnings);
+  }
+
+  /// The pose of an object's first shape in the planning frame.
+  static Eigen::Isometry3d shapePose(const PlanningScene& scene, std::size_t object = 0)
+  {
+    return scene.objects.at(object).pose * scene.objects.at(object).shapes.at(0).pose;
+  }
+
+  bool warned(const std::string& fragment) const
+  {
+    for (const std::string& warning : warnings)
+      if (warning.find(fragment) != std::string::npos)
+        return true;
+    return false;
+  }
+
+  TemporaryFolder folder;
+  PackageResolver packages;
+  std::vector<std::string> warnings;
+};
+
+Eigen::Isometry3d pose(double x, double y, double z, double angle_about_z)
+{
+  return Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(angle_about_z, Eigen::Vector3d::UnitZ());
+}
+
+const char* const kMoveIt = R"(name: hall
+robot_model_name: slider
+robot_state:
+  joint_state:
+    header: {seq: 0, stamp: {secs: 0, nsecs: 0}, frame_id: ''}
+    name: [slide, turn]
+    position: [0.25, -1.5]
+    velocity: []
+    effort: []
+  multi_dof_joint_state: {joint_names: [], transforms: []}
+  attached_collision_objects: []
+  is_diff: False
+fixed_frame_transforms:
+  - header: {frame_id: rail}
+    child_frame_id: rail
+    transform:
+      translation: {x: 0.0, y: 0.0, z: 0.0}
+      rotation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}
+allowed_collision_matrix:
+  entry_names: [cart, pole, drum]
+  entry_values:
+    - enabled: [False, True, True]
+    - enabled: [True, False, False]
+    - enabled: [True, False, False]
+  default_entry_names: [lamp]
+  default_entry_values: [True]
+link_padding:
+  - {link_name: cart, padding: 0.0}
+link_scale:
+  - {link_name: cart, scale: 1.0}
+object_colors: []
+world:
+  collision_objects:
+    - header: {frame_id: rail}
+      pose:
+        position: {x: 1.0, y: 2.0, z: 3.0}
+        orientation: {x: 0.0, y: 0.0, z: 0.7071067811865476, w: 0.7071067811865476}
+      id: drum
+      type: {key: '', db: ''}
+      primitives:
+        - {type: 3, dimensions: [0.4, 0.1]}
+        - {type: 1, dimensions: [0.1, 0.2, 0.3]}
+        - {type: 2, dimensions: [0.5]}
+        - {type: 4, dimensions: [0.6, 0.7]}
+      primitive_poses:
+        - position: {x: 0.5, y: 0.0, z: 0.0}
+          orientation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}
+        - position: {x: 0.0, y: 0.0, z: 0.0}
+          orientation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}
+        - position: {x: 0.0, y: 0.0, z: 0.0}
+          orientation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}
+        - position: {x: 0.0, y: 0.0, z: 0.0}
+          orientation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}
+      meshes:
+        - triangles:
+            - vertex_indices: [0, 1, 2]
+          vertices:
+            - {x: 0.0, y: 0.0, z: 0.0}
+            - {x: 1.0, y: 0.0, z: 0.0}
+            - {x: 0.0, y: 1.0, z: 0.0}
+      mesh_poses:
+        - position: {x: 0.0, y: 0.0, z: 9.0}
+          orientation: {x: 0.0, y: 0.0, z: 0.0, w: 1.0}
+      planes: []
+      plane_poses: []
+      subframe_names: []
+      subframe_poses: []
+      operation: 0
+  octomap:
+    header: {frame_id: ''}
+    origin: {position: {x: 0.0, y: 0.0, z: 0.0}, orientation: {x: 0.0, y: 0.0, z: 0.0, w: 0.0}}
+    octomap: {binary: False, id: '', resolution: 0.0, data: []}
+is_diff: False
+---
+)";
+
+const char* const kCompact = R"(world:
+  collision_objects:
+    - id: drum
+      pose: {position: [1, 2, 3], orientation: [0, 0, 1, 1]}
+      primitives:
+        - {type: cylinder, dimensions: [0.4, 0.1]}
+        - {type: box, dimensions: [0.1, 0.2, 0.3]}
+        - {type: sphere, dimensions: [0.5]}
+        - {type: cone, dimensions: [0.6, 0.7]}
+      primitive_poses: [{position: [0.5, 0, 0]}, {}, {}, {}]
+      meshes:
+        - {vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}
+      mesh_poses: [{position: [0, 0, 9]}]
+allowed_collision_matrix:
+  entry_names: [cart, pole, drum]
+  entry_values: [[false, true, true], [true, false, false], [true, false, false]]
+  default_entry_names: [lamp]
+  default_entry_values: [true]
+robot_state:
+  joint_state: {name: [slide, turn], position: [0.25, -1.5]}
+)";
+
+TEST_F(SceneFile, bothLayoutsMeanTheSame)
+{
+  for (const char* yaml : {kMoveIt, kCompact})
+  {
+    SCOPED_TRACE(yaml);
+    const PlanningScene scene = load(yaml);
+    EXPECT_TRUE(warnings.empty()) << warnings.at(0);
+    EXPECT_EQ((std::vector<double>{0.25, -1.5}), scene.current_state);
+    ASSERT_EQ(1u, scene.objects.size());
+    EXPECT_EQ("drum", scene.objects[0].id);
+    EXPECT_EQ("drum", scene.bodyName(static_cast<int>(scene.robot->links().size())));
+    ASSERT_EQ(5u, scene.objects[0].shapes.size());
+    const auto& shapes = scene.objects[0].shapes;
+    EXPECT_EQ(0.1, std::get<Cylinder>(shapes[0].shape).radius);
+    EXPECT_EQ(0.4, std::get<Cylinder>(shapes[0].shape).length);
+    EXPECT_EQ(Eigen::Vector3d(0.1, 0.2, 0.3), std::get<Box>(shapes[1].shape).size);
+    EXPECT_EQ(0.5, std::get<Sphere>(shapes[2].shape).radius);
+    EXPECT_EQ(0.7, std::get<Cone>(shapes[3].shape).radius);
+    EXPECT_EQ(0.6, std::get<Cone>(shapes[3].shape).length);
+    const Mesh& mesh = *std::get<std::shared_ptr<const Mesh>>(shapes[4].shape);
+    EXPECT_EQ(3u, mesh.vertices.size());
+    EXPECT_EQ(1u, mesh.triangles.size());
+    EXPECT_EQ(9.0, shapes[4].pose.translation().z());
+    // The object is turned by 90 degrees, so the cylinder's 0.5 m along its x go along y.
+    EXPECT_TRUE(shapePose(scene).isApprox(pose(1.0, 2.5, 3.0, M_PI_2), 1e-15));
+
+    EXPECT_EQ(MatrixSource::SceneFile, scene.matrix_source);
+    EXPECT_TRUE(scene.allowed_collisions.allowed("cart", "drum"));
+    EXPECT_TRUE(scene.allowed_collisions.allowed("pole", "cart"));
+    EXPECT_FALSE(scene.allowed_collisions.allowed("drum", "pole"));
+    EXPECT_TRUE(scene.allowed_collisions.allowed("lamp", "nut"));
+  }
+}
+
+TEST_F(SceneFile, itsMatrixReplacesTheRobotsOwnWhereItHasOne)
+{
+  EXPECT_TRUE(load("world: {}\nname: a").allowed_collisions.allowed("cart", "pole"));
+  const PlanningScene kept = load("world: {}\nallowed_collision_matrix: {entry_names: [], entry_values: []}");
+  EXPECT_TRUE(kept.allowed_collisions.allowed("cart", "pole"));
+  EXPECT_EQ(MatrixSource::Srdf, kept.matrix_source);
+  EXPECT_TRUE(warned("matrix is empty"));
+  const PlanningScene replaced =
+      load("allowed_collision_matrix: {entry_names: [cart, nut], entry_values: [[false, true], [true, false]]}");
+  EXPECT_FALSE(replaced.allowed_collisions.allowed("cart", "pole"));
+  EXPECT_TRUE(replaced.allowed_collisions.allowed("cart", "nut"));
+}
+
+TEST_F(SceneFile, objectsMayBeGivenInLinksAndFixedFrames)
+{
+  const std::string shape = "primitives: [{type: sphere, dimensions: [1]}]";
+  const PlanningScene scene = load(R"(
+fixed_frame_transforms:
+  - child_frame_id: camera
+    transform: {translation: [0, 0, 5], rotation: [0, 0, 1, 1]}
+robot_state: {joint_state: {name: [slide, turn], position: [0.5, 1.5707963267948966]}}
+world:
+  collision_objects:
+    - {id: a, header: {frame_id: camera}, pose: {position: [1, 0, 0]}, )" +
+                                   shape + R"(}
+    - {id: b, header: {frame_id: pole}, pose: {position: [1, 0, 0]}, )" +
+                                   shape + R"(}
+    - {id: c, header: {frame_id: /rail}, )" +
+                                   shape + R"(}
+    - {id: d, header: {frame_id: ''}, )" +
+                                   shape + R"(}
+)");
+  EXPECT_TRUE(shapePose(scene, 0).isApprox(pose(0, 1, 5, M_PI_2), 1e-15)) << shapePose(scene, 0).matrix();
+  EXPECT_TRUE(shapePose(scene, 1).isApprox(pose(0.5, 1, 0, M_PI_2), 1e-15)) << shapePose(scene, 1).matrix();
+  EXPECT_TRUE(shapePose(scene, 2).isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_TRUE(shapePose(scene, 3).isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST_F(SceneFile, planningFrameIsTheVirtualJointsParent)
+{
+  const std::string world =
+      "world: {collision_objects: [{id: a, header: {frame_id: hall}, pose: {position: [1, 0, 0]}, "
+      "primitives: [{type: sphere, dimensions: [1]}]}]}";
+  EXPECT_EQ(1.0, shapePose(load(world, sliderRobotOnFloor("planar"))).translation().x());
+  EXPECT_NE("", errorOf([&] { load(world); }));
+}
+
+TEST_F(SceneFile, quaternionsAreNormalised)
+{
+  const PlanningScene scene = load(
+      "world: {collision_objects: [{id: a, pose: {orientation: [0, 0, 1e200, 1e200]}, "
+      "primitives: [{type: sphere, dimensions: [1]}]}]}");
+  EXPECT_TRUE(shapePose(scene).isApprox(pose(0, 0, 0, M_PI_2), 1e-15));
+}
+
+TEST_F(SceneFile, aPoseOfAllZerosWasNeverSet)
+{
+  const PlanningScene scene = load(
+      "world: {collision_objects: [{id: a, pose: {position: {x: 0.0, y: 0.0, z: 0.0}, "
+      "orientation: {x: 0.0, y: 0.0, z: 0.0, w: 0.0}}, "
+      "primitives: [{type: sphere, dimensions: [1, 0, 0]}]}]}");
+  EXPECT_TRUE(shapePose(scene).isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_TRUE(warned("was never set"));
+}
+
+TEST_F(SceneFile, whatTheRobotDoesNotUseOfTheStateGivesWarnings)
+{
+  const PlanningScene scene = load(
+      "robot_state: {joint_state: {name: [slide, flag, bolt, gripper, wheel], "
+      "position: [1, 2, 3, 4, 5]}}");
+  EXPECT_EQ((std::vector<double>{1.0, 0.0}), scene.current_state);
+  EXPECT_TRUE(warned("no such joints: gripper, wheel"));
+  EXPECT_TRUE(warned("fixed: bolt"));
+  EXPECT_TRUE(warned("follow others: flag"));
+  EXPECT_TRUE(warned("default is taken: turn"));
+}
+
+TEST_F(SceneFile, withoutJointValuesThereIsNoState)
+{
+  EXPECT_TRUE(load("world: {}\nname: a").current_state.empty());
+  EXPECT_TRUE(load("robot_state: {joint_state: {name: [], position: []}}").current_state.empty());
+  EXPECT_TRUE(load("robot_state: {joint_state: {name: [gripper], position: [1]}}").current_state.empty());
+}
+
+TEST_F(SceneFile, multiDofJointsTakeTransforms)
+{
+  const std::string yaml =
+      "robot_state: {joint_state: {name: [slide, turn], position: [1, 2]}, multi_dof_joint_state: "
+      "{header: {frame_id: hall}, joint_names: [floor, boat], transforms: "
+      "[{translation: [3, 4, 5], rotation: [0, 0, 1, 1]}, {}]}}";
+  const auto planar = sliderRobotOnFloor("planar");
+  const PlanningScene on_floor = load(yaml, planar);
+  EXPECT_TRUE(warned("no such joints: boat"));
+  EXPECT_EQ(3.0, on_floor.current_state.at(planar->variableIndex("floor/x")));
+  EXPECT_EQ(4.0, on_floor.current_state.at(planar->variableIndex("floor/y")));
+  EXPECT_NEAR(M_PI_2, on_floor.current_state.at(planar->variableIndex("floor/theta")), 1e-15);
+
+  const auto floating = sliderRobotOnFloor("floating");
+  const PlanningScene in_air = load(yaml, floating);
+  std::vector<Eigen::Isometry3d> poses(floating->links().size());
+  floating->linkPoses(in_air.current_state.data(), poses.data());
+  EXPECT_TRUE(poses[0].isApprox(pose(3, 4, 5, M_PI_2), 1e-15));
+}
+
+TEST_F(SceneFile, equalInlineMeshesAreOneMesh)
+{
+  const std::string mesh = "{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}";
+  const PlanningScene scene = load("world: {collision_objects: [{id: a, meshes: [" + mesh + "]}, {id: b, meshes: [" +
+                                   mesh + "], mesh_poses: [{position: [1, 0, 0]}]}]}");
+  EXPECT_EQ(std::get<std::shared_ptr<const Mesh>>(scene.objects[0].shapes[0].shape),
+            std::get<std::shared_ptr<const Mesh>>(scene.objects[1].shapes[0].shape));
+}
+
+TEST_F(SceneFile, meshesMayBeFiles)
+{
+  folder.write("meshes/triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  packages = packageResolver({{"parts", folder.path(".")}});
+  const PlanningScene scene = load(
+      "world: {collision_objects: [{id: a, meshes: [{resource: meshes/triangle.obj}]}, "
+      "{id: b, meshes: [{resource: package://parts/meshes/triangle.obj, "
+      "scale: [2, 2, 2]}]}]}");
+  const auto& relative = std::get<std::shared_ptr<const Mesh>>(scene.objects[0].shapes[0].shape);
+  const auto& scaled = std::get<std::shared_ptr<const Mesh>>(scene.objects[1].shapes[0].shape);
+  ASSERT_EQ(1u, relative->triangles.size());
+  EXPECT_EQ(2.0, scaled->vertices[scaled->triangles[0][1]].x());
+}
+
+TEST_F(SceneFile, aliasesStandForTheirValue)
+{
+  const PlanningScene scene = load(
+      "world:\n  collision_objects:\n"
+      "    - {id: a, primitives: &ball [{type: sphere, dimensions: [2]}]}\n"
+      "    - {id: b, primitives: *ball}\n");
+  EXPECT_EQ(2.0, std::get<Sphere>(scene.objects[1].shapes[0].shape).radius);
+}
+
+TEST_F(SceneFile, unknownKeysGiveWarnings)
+{
+  load("wrold: {}\nworld: {collision_objects: [{id: a, colour: red, primitives: [{type: sphere, dimensions: [1]}]}]}");
+  EXPECT_TRUE(warned("scene.yaml:1: unknown key 'wrold'"));
+  EXPECT_TRUE(warned("scene.yaml:2: unknown key 'colour'"));
+  load("robot_model_name: other\n");
+  EXPECT_TRUE(warned("for robot 'other', the robot is 'slider'"));
+}
+}  // namespace
+}  // namespace gpu_planning_scene
