@@ -125,6 +125,8 @@ Tessellation tessellateCone(const Cone& cone)
 // An icosahedron's faces, each divided into `frequency`^2 triangles, projected to the unit sphere.
 class Geodesic
 {
+  using Weights = std::array<std::pair<int, int>, 3>;  // corner of the icosahedron, weight
+
  public:
   explicit Geodesic(int frequency) : frequency_(frequency)
   {
@@ -140,20 +142,7 @@ class Geodesic
                                                        {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}}};
     for (const auto& face : faces)
     {
-      for (int row = 0; row < frequency; ++row)
-      {
-        for (int column = 0; column < frequency - row; ++column)
-        {
-          const std::uint32_t a = vertex(corners, face, row, column);
-          const std::uint32_t b = vertex(corners, face, row, column + 1);
-          const std::uint32_t c = vertex(corners, face, row + 1, column);
-          triangles.push_back({a, b, c});
-          if (column + 1 < frequency - row)
-          {
-            triangles.push_back({b, vertex(corners, face, row + 1, column + 1), c});
-          }
-        }
-      }
+      addFace(corners, face);
     }
   }
 
@@ -161,32 +150,63 @@ class Geodesic
   std::vector<std::array<std::uint32_t, 3>> triangles;
 
  private:
+  void addFace(const std::array<Eigen::Vector3d, 12>& corners, const std::array<int, 3>& face)
+  {
+    const int n = frequency_;
+    std::vector<std::vector<std::uint32_t>> rows(n + 1);
+    for (int row = 0; row <= n; ++row)
+    {
+      for (int column = 0; column <= n - row; ++column)
+      {
+        rows[row].push_back(vertex(corners, face, row, column));
+      }
+    }
+    for (int row = 0; row < n; ++row)
+    {
+      for (int column = 0; column < n - row; ++column)
+      {
+        triangles.push_back({rows[row][column], rows[row][column + 1], rows[row + 1][column]});
+        if (column + 1 < n - row)
+        {
+          triangles.push_back({rows[row][column + 1], rows[row + 1][column + 1], rows[row + 1][column]});
+        }
+      }
+    }
+  }
+
   // Vertices on the icosahedron's edges belong to several faces: they are known by their weights at the 12 corners.
   std::uint32_t vertex(const std::array<Eigen::Vector3d, 12>& corners, const std::array<int, 3>& face, int row,
                        int column)
   {
-    std::array<std::pair<int, int>, 3> weights = {std::pair(face[0], frequency_ - row - column),
-                                                  std::pair(face[1], column), std::pair(face[2], row)};
+    Weights weights = {std::pair(face[0], frequency_ - row - column), std::pair(face[1], column),
+                       std::pair(face[2], row)};
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    bool on_edge = false;
     for (auto& [corner, weight] : weights)
     {
-      corner = weight == 0 ? -1 : corner;
-    }
-    std::sort(weights.begin(), weights.end());
-    const auto [position, is_new] = indices_.emplace(weights, static_cast<std::uint32_t>(vertices.size()));
-    if (is_new)
-    {
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (const auto& [corner, weight] : weights)
+      sum += weight * corners[corner];
+      if (weight == 0)
       {
-        sum += weight == 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(weight * corners[corner]);
+        on_edge = true;
+        corner = -1;  // the faces on both sides of an edge have different third corners
       }
-      vertices.push_back(sum.normalized());
     }
-    return position->second;
+    const auto next = static_cast<std::uint32_t>(vertices.size());
+    if (on_edge)
+    {
+      std::sort(weights.begin(), weights.end());
+      const auto [known, is_new] = on_edges_.emplace(weights, next);
+      if (!is_new)
+      {
+        return known->second;
+      }
+    }
+    vertices.push_back(sum.normalized());
+    return next;
   }
 
   int frequency_;
-  std::map<std::array<std::pair<int, int>, 3>, std::uint32_t> indices_;
+  std::map<Weights, std::uint32_t> on_edges_;
 };
 
 // A ray from the centre meets the sphere at distance 1 and, before that, a triangle at a distance no less than that of
@@ -206,9 +226,9 @@ double unitSagitta(const Geodesic& sphere)
 Tessellation tessellateSphere(const Sphere& sphere)
 {
   const int max_frequency = static_cast<int>(std::sqrt(kMaxTriangles / 20.0));
-  // The widest triangle has a circumradius of about 0.76 / frequency, so the sagitta is about 0.29 r / frequency^2.
-  int frequency = static_cast<int>(std::min<double>(std::sqrt(0.27 * sphere.radius / kTargetSagitta), max_frequency));
-  frequency = std::max(frequency, 1);
+  // The widest triangle has a circumradius of about 0.764 / frequency, so the sagitta is about 0.292 r / frequency^2.
+  const double estimate = std::ceil(std::sqrt(0.292 * sphere.radius / kTargetSagitta));
+  int frequency = static_cast<int>(std::clamp<double>(estimate, 1.0, max_frequency));
   for (;; ++frequency)
   {
     const Geodesic unit(frequency);

@@ -58,12 +58,19 @@ TEST(State, theWidestLimitsDoNotOverflow)
 {
   std::mt19937_64 generator(1);
   const auto robot = robotOf(slider("-1.7e308", "1.7e308"));
-  double state;
+  double least = 0.0;
+  double largest = 0.0;
   for (int i = 0; i < 100; ++i)
   {
+    double state;
     robot->randomState(generator, &state);
     ASSERT_TRUE(std::isfinite(state));
+    least = std::min(least, state);
+    largest = std::max(largest, state);
   }
+  EXPECT_LT(least, -1e308);
+  EXPECT_GT(largest, 1e308);
+  EXPECT_LT(largest, 1.7e308) << "an overflow cut to the limit";
   EXPECT_EQ(robot->defaultState()[0], 0.0);
 }
 
