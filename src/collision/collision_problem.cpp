@@ -127,6 +127,13 @@ struct Range
 };
 }  // namespace
 
+bool sameShape(const Shape& a, const Shape& b)
+{
+  const ShapeKey key_a = keyOf(a);
+  const ShapeKey key_b = keyOf(b);
+  return !(key_a < key_b) && !(key_b < key_a);
+}
+
 CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report)
 {
   const auto& links = scene.robot->links();

@@ -32,6 +32,9 @@ struct CollisionProblem
   std::vector<std::uint8_t> world_pairs;  ///< robot.size() x world.size(), row-major; 1 where the pair is checked
 };
 
+/// Whether two shapes can share a tree: the same mesh, or primitives of the same kind and dimensions.
+bool sameShape(const Shape& a, const Shape& b);
+
 /// What of `scene` is checked for `group` (empty: all): the pairs that the allowed-collision matrix does not allow and,
 /// for a group, that have a link which the group moves. Throws Error for an unknown group. `report` may be null.
 /// Bodies that are in no such pair of any group are left out. Trees and geometries do not depend on the group, only the

@@ -38,6 +38,11 @@ Eigen::AlignedBox3f movedBounds(const Eigen::AlignedBox3d& box, const Eigen::Iso
   return moved;
 }
 
+bool sameShapes(const std::vector<Shape>& a, const std::vector<Shape>& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), sameShape);
+}
+
 std::vector<const Mesh*> meshes(const std::vector<Tessellation>& trees, std::size_t begin, std::size_t end)
 {
   std::vector<const Mesh*> found;
@@ -46,12 +51,13 @@ std::vector<const Mesh*> meshes(const std::vector<Tessellation>& trees, std::siz
   return found;
 }
 
-std::size_t robotTreeCount(const CollisionProblem& problem)
+/// The shapes that the robot's instances use; makeProblem numbers their trees first.
+std::vector<Shape> robotShapes(const CollisionProblem& problem)
 {
   std::size_t count = 0;
   for (const Geometry& geometry : problem.robot)
     count = std::max<std::size_t>(count, geometry.tree + 1);
-  return count;
+  return { problem.shapes.begin(), problem.shapes.begin() + static_cast<std::ptrdiff_t>(count) };
 }
 }  // namespace
 
@@ -62,7 +68,7 @@ void writePoseRows(const Eigen::Isometry3d& pose, float* rows)
       rows[4 * row + column] = static_cast<float>(pose(row, column));
 }
 
-void GpuScene::setProblem(const CollisionProblem& problem, bool same_robot)
+void GpuScene::setProblem(const CollisionProblem& problem)
 {
   if (problem.robot.size() > MAX_ROBOT_GEOMETRIES || problem.robot.size() + problem.world.size() > MAX_GEOMETRIES)
     throw Error(std::to_string(problem.robot.size()) + " shapes of the robot and " + std::to_string(problem.world.size()) +
@@ -70,21 +76,31 @@ void GpuScene::setProblem(const CollisionProblem& problem, bool same_robot)
                 std::to_string(MAX_GEOMETRIES) + "; merge meshes");
   robot_count_ = static_cast<std::uint32_t>(problem.robot.size());
   world_count_ = static_cast<std::uint32_t>(problem.world.size());
+  buildShapeTrees(problem);
+  buildWorldTree(problem);
+  writeGeometries(problem);
+  selectPairs(problem);
+}
 
+void GpuScene::buildShapeTrees(const CollisionProblem& problem)
+{
+  std::vector<Shape> shapes = robotShapes(problem);
   trees_ = problem.trees.size();
-  const std::size_t robot_trees = robotTreeCount(problem);
-  if (!same_robot || robot_trees != robot_trees_)
+  if (!sameShapes(shapes, robot_shapes_))
   {
+    robot_shapes_.clear();
     robot_region_ = {};
-    robot_trees_ = robot_trees;
-    if (robot_trees_ > 0)
-      builder_.buildTriangles(meshes(problem.trees, 0, robot_trees_), robot_region_, nodes_, leaf_order_, triangles_);
+    if (!shapes.empty())
+      builder_.buildTriangles(meshes(problem.trees, 0, shapes.size()), robot_region_, nodes_, leaf_order_, triangles_);
+    robot_shapes_ = std::move(shapes);
   }
   shape_region_ = {};
   shape_region_.first_node = robot_region_.node_count;
   shape_region_.first_primitive = robot_region_.primitive_count;
-  if (trees_ > robot_trees_)
-    builder_.buildTriangles(meshes(problem.trees, robot_trees_, trees_), shape_region_, nodes_, leaf_order_, triangles_);
+  if (trees_ > robot_shapes_.size())
+    builder_.buildTriangles(meshes(problem.trees, robot_shapes_.size(), trees_), shape_region_, nodes_, leaf_order_,
+                            triangles_);
+  depth_bound_ = std::max({ 1U, robot_region_.depth, shape_region_.depth });
   first_triangle_.clear();
   std::uint32_t triangle = 0;
   for (const Tessellation& tree : problem.trees)
@@ -92,26 +108,29 @@ void GpuScene::setProblem(const CollisionProblem& problem, bool same_robot)
     first_triangle_.push_back(triangle);
     triangle += static_cast<std::uint32_t>(tree.mesh->triangles.size());
   }
-  buildWorldTree(problem);
-  depth_bound_ = std::max({ 1U, robot_region_.depth, shape_region_.depth });
+}
 
+std::uint32_t GpuScene::rootOf(std::size_t tree) const
+{
+  const std::size_t robot_trees = robot_shapes_.size();
+  return static_cast<std::uint32_t>(tree < robot_trees ? tree : shape_region_.first_node + tree - robot_trees);
+}
+
+void GpuScene::writeGeometries(const CollisionProblem& problem)
+{
   std::vector<std::uint32_t> geometries;
   for (const std::vector<Geometry>* instances : { &problem.robot, &problem.world })
     for (const Geometry& geometry : *instances)
     {
-      const std::uint32_t root = geometry.tree < robot_trees_ ?
-                                     geometry.tree :
-                                     shape_region_.first_node + geometry.tree - static_cast<std::uint32_t>(robot_trees_);
-      const float slack = std::nextafter(static_cast<float>(problem.trees[geometry.tree].sagitta), 1.0F);
+      const double sagitta = problem.trees[geometry.tree].sagitta;
+      const float slack = sagitta > 0.0 ? std::nextafter(static_cast<float>(sagitta), 1.0F) : 0.0F;
       std::uint32_t bits = 0;
-      if (problem.trees[geometry.tree].sagitta > 0.0)
-        std::memcpy(&bits, &slack, sizeof(bits));
-      geometries.push_back(root);
+      std::memcpy(&bits, &slack, sizeof(bits));
+      geometries.push_back(rootOf(geometry.tree));
       geometries.push_back(bits);
     }
   geometries_.reserve(geometries.size() * sizeof(std::uint32_t));
   geometries_.write(geometries);
-  selectPairs(problem);
 }
 
 void GpuScene::buildWorldTree(const CollisionProblem& problem)
@@ -179,7 +198,7 @@ Forest GpuScene::readForest() const
     forest.leaf_triangles[i] += shape_region_.first_primitive;
   forest.first_triangle = first_triangle_;
   for (std::size_t i = 0; i < trees_; ++i)
-    forest.roots.push_back(static_cast<std::uint32_t>(i < robot_trees_ ? i : shape_region_.first_node + i - robot_trees_));
+    forest.roots.push_back(rootOf(i));
   return forest;
 }
 }  // namespace gpu_planning_scene

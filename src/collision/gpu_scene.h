@@ -17,9 +17,9 @@ class GpuScene
 public:
   explicit GpuScene(const std::string& shader_folder) : builder_(shader_folder) {}
 
-  /// Uploads a problem and builds its trees. `same_robot`: the problem has the robot of the one before, so the robot's trees
-  /// stay. Throws Error if the problem is too large for the device; the scene is then unusable until the next setProblem.
-  void setProblem(const CollisionProblem& problem, bool same_robot);
+  /// Uploads a problem and builds its trees; those of the robot stay if they are the ones that are there. Throws Error if
+  /// the problem is too large for the device; the scene is then unusable until the next setProblem.
+  void setProblem(const CollisionProblem& problem);
 
   /// Restricts the checked pairs to those of `problem`, which has the same trees and instances as the one uploaded.
   void selectPairs(const CollisionProblem& problem);
@@ -42,13 +42,16 @@ public:
   Forest readForest() const;
 
 private:
+  void buildShapeTrees(const CollisionProblem& problem);
   void buildWorldTree(const CollisionProblem& problem);
+  void writeGeometries(const CollisionProblem& problem);
+  std::uint32_t rootOf(std::size_t tree) const;
 
   GpuForestBuilder builder_;
   TexelBuffer nodes_, triangles_, world_poses_;
   Buffer leaf_order_, geometries_, partners_, world_order_, world_pairs_;
   ForestRegion robot_region_, shape_region_;
-  std::size_t robot_trees_ = 0;
+  std::vector<Shape> robot_shapes_;  // whose trees are in robot_region_
   std::size_t trees_ = 0;
   std::vector<std::uint32_t> first_triangle_;  // of each tree, among all
   std::uint32_t robot_count_ = 0;

@@ -1,0 +1,86 @@
+#include "gpu_planning_scene/mesh_pair_checker.h"
+
+#include <chrono>
+#include <mutex>
+
+#include "collision/batch_engine.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// A rotation's columns may be off by this much: poses come from products of others.
+constexpr double kRotationTolerance = 1e-6;
+
+std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape& b)
+{
+  validateShape(a, "shape a");
+  validateShape(b, "shape b");
+  auto problem = std::make_shared<CollisionProblem>();
+  problem->shapes = { b, a };
+  problem->trees = { tessellate(b), tessellate(a) };
+  problem->robot = { { 0, 0, Eigen::Isometry3d::Identity() } };
+  problem->world = { { 1, 1, Eigen::Isometry3d::Identity() } };
+  problem->world_pairs = { 1 };
+  return problem;
+}
+
+void refuseNonRigid(const std::vector<Eigen::Isometry3d>& poses)
+{
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    const Eigen::Matrix3d rotation = poses[i].linear();
+    if (!poses[i].matrix().allFinite() || !(rotation.transpose() * rotation).isIdentity(kRotationTolerance) ||
+        rotation.determinant() < 0.0)
+      throw Error("pose " + std::to_string(i) + " is not a rigid motion; give a finite translation and a rotation");
+  }
+}
+}  // namespace
+
+struct MeshPairChecker::Impl
+{
+  explicit Impl(const BatchCheckerOptions& options) : engine(options) {}
+
+  mutable std::mutex mutex;
+  BatchEngine engine;
+  BatchResult last;
+};
+
+MeshPairChecker::MeshPairChecker(const Shape& a, const Shape& b, const BatchCheckerOptions& options)
+  : impl_(std::make_unique<Impl>(options))
+{
+  impl_->engine.setProblem(pairProblem(a, b));
+}
+
+MeshPairChecker::~MeshPairChecker() = default;
+
+std::vector<std::uint8_t> MeshPairChecker::collide(const std::vector<Eigen::Isometry3d>& b_in_a)
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  refuseNonRigid(b_in_a);
+  const auto start = std::chrono::steady_clock::now();
+  BatchResult result;
+  impl_->engine.check(
+      b_in_a.size(), 1, [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = b_in_a[row]; }, result);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  std::vector<std::uint8_t> hits;
+  hits.reserve(result.valid.size());
+  for (const std::uint8_t valid : result.valid)
+    hits.push_back(valid ? 0 : 1);
+  impl_->last = std::move(result);
+  return hits;
+}
+
+double MeshPairChecker::seconds() const
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  return impl_->last.seconds;
+}
+
+std::size_t MeshPairChecker::undecided() const
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  return impl_->last.undecided_states;
+}
+}  // namespace gpu_planning_scene
