@@ -42,7 +42,9 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
   lines.push_back("robot: " + robot.name() + ", " + counted(robot.links().size(), "link") + ", " +
                   counted(robot.variables().size(), "variable") + ", planning frame " + robot.planningFrame());
   lines.push_back("scene: " + counted(scene.objects.size(), "object"));
-  lines.push_back("triangles: " + std::to_string(report.triangles) + " in " + counted(report.trees, "tree"));
+  lines.push_back("triangles: " + std::to_string(robot.triangleCount()) + " of the robot, " +
+                  std::to_string(report.triangles) + " in " + counted(report.trees, "tree") +
+                  " with the scene's (equal shapes share one)");
   lines.push_back("checked pairs: " + std::to_string(report.self_pairs) + " of links, " +
                   std::to_string(report.world_pairs) + " of a link and an object");
   lines.push_back("left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") + " that " +
