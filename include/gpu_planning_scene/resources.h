@@ -26,7 +26,7 @@ PackageResolver packageResolver(std::map<std::string, std::string> folders);
 std::string resolveUri(const std::string& uri, const std::string& base_folder, const PackageResolver& packages);
 
 /// Loads meshes from STL, DAE, OBJ and PLY files and keeps what it loaded: a file with the same scale is read once.
-/// The unit and up-axis of a DAE are applied as RViz and MoveIt do. Not thread-safe.
+/// The unit of a DAE is applied and its up-axis is not, as in RViz. Not thread-safe.
 class MeshCache
 {
  public:

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -155,6 +156,14 @@ class RobotModelBuilder
 
 namespace
 {
+// Names from the texts may have line breaks in them.
+std::string onOneLine(std::string text)
+{
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return text;
+}
+
 std::string readFile(const std::string& path, const char* what)
 {
   std::error_code unreadable;
@@ -177,7 +186,15 @@ std::shared_ptr<const RobotModel> RobotModel::fromXml(const std::string& urdf, c
                                                       std::vector<std::string>* warnings)
 {
   RobotModelBuilder builder(options);
-  std::shared_ptr<const RobotModel> model = builder.build(urdf, srdf);
+  std::shared_ptr<const RobotModel> model;
+  try
+  {
+    model = builder.build(urdf, srdf);
+  }
+  catch (const Error& error)
+  {
+    throw Error(onOneLine(error.what()));
+  }
   if (warnings != nullptr)
   {
     warnings->insert(warnings->end(), builder.warnings().begin(), builder.warnings().end());

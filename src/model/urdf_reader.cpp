@@ -51,20 +51,14 @@ class LogCapture : public console_bridge::OutputHandler
   console_bridge::LogLevel level_;
 };
 
-// urdfdom names elements as [name] or 'name' in its messages: the line of the first one that the text has.
+// urdfdom names elements as [name] in its messages: the line of the first joint or link that the text has.
 std::string whereOf(const std::vector<std::string>& messages, const XmlText& xml)
 {
   for (const std::string& message : messages)
   {
-    for (const char* quotes : {"[]", "''"})
+    for (std::size_t begin = message.find('['); begin != std::string::npos; begin = message.find('[', begin + 1))
     {
-      const std::size_t begin = message.find(quotes[0]);
-      const std::size_t end = begin == std::string::npos ? begin : message.find(quotes[1], begin + 1);
-      if (end == std::string::npos)
-      {
-        continue;
-      }
-      const std::string name = message.substr(begin + 1, end - begin - 1);
+      const std::string name = message.substr(begin + 1, message.find(']', begin) - begin - 1);
       for (const char* tag : {"joint", "link"})
       {
         const std::string where = xml.where(tag, name);

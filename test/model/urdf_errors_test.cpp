@@ -71,7 +71,8 @@ TEST(UrdfErrors, theAxisMustHaveALength)
 TEST(UrdfErrors, typesAndParentsMustBeKnown)
 {
   expectError(kTwoLinks + jointXml("j", "screw", "a", "b"), "test.urdf:2:", "screw");
-  expectError(kTwoLinks + jointXml("j", "fixed", "a", "c"), "test.urdf", "c");
+  expectError(kTwoLinks + jointXml("j", "fixed", "a", "c"), "test.urdf:2:", "[c]");
+  expectError(kTwoLinks + jointXml("j", "fix\ned", "a", "b"), "test.urdf:2:", "fix ed");
 }
 
 TEST(UrdfErrors, linksMustFormATree)
