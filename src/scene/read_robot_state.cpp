@@ -65,14 +65,20 @@ void readJointState(const YamlValue& value, const SceneReader& reader, GivenStat
   }
 }
 
-void setTransform(const Joint& joint, const Eigen::Isometry3d& pose, GivenState& state)
+void setTransform(const YamlValue& where, const Joint& joint, const Eigen::Isometry3d& pose, GivenState& state)
 {
   const int first = joint.first_variable;
   if (joint.type == JointType::Planar)
   {
-    state.set(first, pose.translation().x());
-    state.set(first + 1, pose.translation().y());
-    state.set(first + 2, std::atan2(pose.linear()(1, 0), pose.linear()(0, 0)));
+    const Eigen::Matrix3d directions = planarDirections(joint.axis);
+    const Eigen::Vector3d position = directions.transpose() * pose.translation();
+    const Eigen::Matrix3d rotation = directions.transpose() * pose.linear() * directions;
+    constexpr double tolerance = 1e-6;  // metres, radians: what rounding in a message may leave
+    if (std::abs(position.z()) > tolerance || rotation(2, 2) < 1.0 - 0.5 * tolerance * tolerance)
+      where.fail("the transform leaves the plane of the planar joint '" + joint.name + "'");
+    state.set(first, position.x());
+    state.set(first + 1, position.y());
+    state.set(first + 2, std::atan2(rotation(1, 0), rotation(0, 0)));
     return;
   }
   const Eigen::Quaterniond rotation(pose.linear());
@@ -110,7 +116,7 @@ void readMultiDofState(const YamlValue& value, const SceneReader& reader, GivenS
     else if (joint->type != JointType::Planar && joint->type != JointType::Floating)
       names->items()[i].fail("joint '" + name + "' is neither planar nor floating; give its position in joint_state");
     else
-      setTransform(*joint, pose, state);
+      setTransform(transforms->items()[i], *joint, pose, state);
   }
 }
 }  // namespace

@@ -266,16 +266,19 @@ TEST_F(SceneFile, multiDofJointsTakeTransforms)
   const std::string yaml =
       "robot_state: {joint_state: {name: [slide, turn], position: [1, 2]}, multi_dof_joint_state: "
       "{header: {frame_id: hall}, joint_names: [floor, boat], transforms: "
-      "[{translation: [3, 4, 5], rotation: [0, 0, 1, 1]}, {}]}}";
+      "[{translation: [3, 4, Z], rotation: [0, 0, 1, 1]}, {}]}}";
+  const auto at_height = [&](const char* z) { return std::string(yaml).replace(yaml.find('Z'), 1, z); };
   const auto planar = sliderRobotOnFloor("planar");
-  const PlanningScene on_floor = load(yaml, planar);
+  const PlanningScene on_floor = load(at_height("0"), planar);
   EXPECT_TRUE(warned("no such joints: boat"));
   EXPECT_EQ(3.0, on_floor.current_state.at(planar->variableIndex("floor/x")));
   EXPECT_EQ(4.0, on_floor.current_state.at(planar->variableIndex("floor/y")));
   EXPECT_NEAR(M_PI_2, on_floor.current_state.at(planar->variableIndex("floor/theta")), 1e-15);
 
+  EXPECT_NE(std::string::npos, errorOf([&] { load(at_height("5"), planar); }).find("leaves the plane"));
+
   const auto floating = sliderRobotOnFloor("floating");
-  const PlanningScene in_air = load(yaml, floating);
+  const PlanningScene in_air = load(at_height("5"), floating);
   std::vector<Eigen::Isometry3d> poses(floating->links().size());
   floating->linkPoses(in_air.current_state.data(), poses.data());
   EXPECT_TRUE(poses[0].isApprox(pose(3, 4, 5, M_PI_2), 1e-15));
