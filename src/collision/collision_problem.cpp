@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <tuple>
 
+#include "gpu_planning_scene/error.h"
 #include "primitive_solid.h"
 
 namespace gpu_planning_scene
@@ -63,6 +66,34 @@ class TreeTable
   CollisionProblem& problem_;
   std::map<ShapeKey, std::uint32_t> trees_;
 };
+
+/// Objects may come from a program as well as from a file. (A robot is checked when it is loaded.)
+void validateObjects(const PlanningScene& scene)
+{
+  std::set<std::string> ids;
+  for (const WorldObject& object : scene.objects)
+  {
+    const std::string where = "object '" + object.id + "'";
+    if (!ids.insert(object.id).second)
+    {
+      throw Error(where + ": there is another object of that name; give each its own");
+    }
+    const auto validate_pose = [&where](const Eigen::Isometry3d& pose)
+    {
+      const Eigen::Matrix3d& r = pose.linear();
+      if (!pose.matrix().allFinite() || !(r * r.transpose()).isIdentity(1e-6) || r.determinant() < 0.0)
+      {
+        throw Error(where + ": a pose is not finite or not a rotation and a translation");
+      }
+    };
+    validate_pose(object.pose);
+    for (const PlacedShape& placed : object.shapes)
+    {
+      validate_pose(placed.pose);
+      validateShape(placed.shape, where);
+    }
+  }
+}
 
 struct BodyPair
 {
@@ -136,6 +167,7 @@ bool sameShape(const Shape& a, const Shape& b)
 
 CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report)
 {
+  validateObjects(scene);
   const auto& links = scene.robot->links();
   std::vector<bool> moved(links.size(), group.empty());
   if (!group.empty())

@@ -36,7 +36,8 @@ struct CollisionProblem
 bool sameShape(const Shape& a, const Shape& b);
 
 /// What of `scene` is checked for `group` (empty: all): the pairs that the allowed-collision matrix does not allow and,
-/// for a group, that have a link which the group moves. Throws Error for an unknown group. `report` may be null.
+/// for a group, that have a link which the group moves. Throws Error for an unknown group, two objects of
+/// one name, or an object whose shapes or poses are not valid. `report` may be null.
 /// Bodies that are in no such pair of any group are left out. Trees and geometries do not depend on the group, only the
 /// pairs do, so one forest serves all groups.
 CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report);

@@ -1,0 +1,174 @@
+#include "gpu_planning_scene/cpu_checker.h"
+
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/error.h"
+#include "model/model_testing.h"
+#include "support/obstacles.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::string boxOf(const std::string& name, const std::string& size, const std::string& origin)
+{
+  return "<link name='" + name + "'><collision><origin xyz='" + origin + "'/><geometry><box size='" + size +
+         "'/></geometry></collision></link>";
+}
+
+std::string joint(const std::string& name, const std::string& parent, const std::string& child, const std::string& axis,
+                  const std::string& origin)
+{
+  return jointXml(name, "revolute", parent, child,
+                  "<origin xyz='" + origin + "'/><axis xyz='" + axis +
+                      "'/><limit lower='-2.5' upper='2.5' effort='1' velocity='1'/>");
+}
+
+/// base -pan-> upper -elbow-> fore, a metre each, and base -neck-> head, among obstacles; adjacent links may touch.
+std::shared_ptr<PlanningScene> armAmongObstacles()
+{
+  const std::string urdf = boxOf("base", "0.4 0.4 0.4", "0 0 0") + boxOf("upper", "1 0.1 0.1", "0.5 0 0") +
+                           boxOf("fore", "1 0.1 0.1", "0.5 0 0") + boxOf("head", "0.2 0.2 0.6", "0.1 0 0.3") +
+                           joint("pan", "base", "upper", "0 0 1", "0 0 0.1") +
+                           joint("elbow", "upper", "fore", "0 1 0", "1 0 0") +
+                           joint("neck", "base", "head", "1 0 0", "0 0 0.3");
+  auto scene = std::make_shared<PlanningScene>(robotOf(urdf, "<group name='head'><joint name='neck'/></group>"));
+  scene->allowed_collisions = AllowedCollisionMatrix();
+  for (const auto& [first, second] : scene->robot->adjacentLinks())
+  {
+    scene->allowed_collisions.setEntry(scene->robot->links()[first].name, scene->robot->links()[second].name, true);
+  }
+  scene->objects = generateObstacles({20, {0.0, 0.0, 0.0}, 0.8, 2.0, 0.4}, 5);
+  scene->revision = 17;
+  return scene;
+}
+
+std::vector<double> randomStates(const RobotModel& robot, std::size_t count)
+{
+  std::mt19937_64 generator(9);
+  std::vector<double> states(count * robot.variables().size());
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    robot.randomState(generator, states.data() + i * robot.variables().size());
+  }
+  return states;
+}
+
+class CpuCheckerTest : public testing::Test
+{
+ protected:
+  static constexpr std::size_t kCount = 500;
+
+  std::shared_ptr<PlanningScene> scene_ = armAmongObstacles();
+  std::size_t width_ = scene_->robot->variables().size();
+  std::vector<double> states_ = randomStates(*scene_->robot, kCount);
+  CpuChecker checker_{scene_};
+};
+
+TEST_F(CpuCheckerTest, NamesAPairForCollidingStatesOnly)
+{
+  const BatchResult result = checker_.check(states_.data(), kCount);
+  const int bodies = static_cast<int>(scene_->robot->links().size() + scene_->objects.size());
+  std::size_t free = 0;
+  for (std::size_t i = 0; i < kCount; ++i)
+  {
+    free += result.valid[i];
+    if (result.valid[i] != 0)
+    {
+      EXPECT_EQ((std::array<std::int32_t, 2>{-1, -1}), result.colliding[i]);
+    }
+    else
+    {
+      EXPECT_GE(result.colliding[i][0], 0);
+      EXPECT_LT(result.colliding[i][0], result.colliding[i][1]);
+      EXPECT_LT(result.colliding[i][1], bodies);
+    }
+  }
+  EXPECT_GT(free, kCount / 20);
+  EXPECT_LT(free, kCount - kCount / 20);
+  EXPECT_EQ(17u, result.revision);
+}
+
+TEST_F(CpuCheckerTest, AnswersAlikeInBatchesOfAnySizeAndFromSeveralThreads)
+{
+  const BatchResult expected = checker_.check(states_.data(), kCount);
+  std::vector<std::thread> threads;
+  for (const std::size_t batch : {1, 7, 64, 500})
+  {
+    threads.emplace_back(
+        [&, batch]
+        {
+          for (std::size_t i = 0; i < kCount; i += batch)
+          {
+            const std::size_t count = std::min(batch, kCount - i);
+            const BatchResult part = checker_.check(states_.data() + i * width_, count);
+            EXPECT_TRUE(std::equal(part.valid.begin(), part.valid.end(), expected.valid.begin() + i)) << "at " << i;
+          }
+        });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+}
+
+TEST_F(CpuCheckerTest, AGroupLeavesOutWhatItDoesNotMove)
+{
+  const std::vector<std::uint8_t> all = checker_.check(states_.data(), kCount).valid;
+  const BatchResult head = checker_.check(states_.data(), kCount, "head");
+  const int head_link = scene_->robot->linkIndex("head");
+  std::size_t freed = 0;
+  for (std::size_t i = 0; i < kCount; ++i)
+  {
+    EXPECT_LE(all[i], head.valid[i]);
+    freed += all[i] < head.valid[i] ? 1 : 0;
+    if (head.valid[i] == 0)
+    {
+      EXPECT_TRUE(head.colliding[i][0] == head_link || head.colliding[i][1] == head_link);
+    }
+  }
+  EXPECT_GT(freed, 0u);
+  EXPECT_LT(checker_.report("head").world_pairs, checker_.report().world_pairs);
+}
+
+TEST_F(CpuCheckerTest, RefusesWhatItCannotCheckAndGoesOn)
+{
+  const BatchResult expected = checker_.check(states_.data(), kCount);
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()})
+  {
+    std::vector<double> spoiled = states_;
+    spoiled[3 * width_ + 1] = bad;
+    const std::string error = errorOf([&] { checker_.check(spoiled.data(), kCount); });
+    EXPECT_NE(std::string::npos, error.find("state 3")) << error;
+    EXPECT_NE(std::string::npos, error.find(scene_->robot->variables()[1].name)) << error;
+  }
+  EXPECT_THROW(checker_.check(states_.data(), kCount, "leg"), Error);
+  EXPECT_THROW(checker_.report("leg"), Error);
+  EXPECT_EQ(expected.valid, checker_.check(states_.data(), kCount).valid);
+  EXPECT_TRUE(checker_.check(nullptr, 0).valid.empty());
+}
+
+TEST_F(CpuCheckerTest, ANewSceneReplacesTheOldOneUnlessItIsRefused)
+{
+  const BatchResult expected = checker_.check(states_.data(), kCount);
+  auto broken = std::make_shared<PlanningScene>(*scene_);
+  broken->objects[0].shapes.push_back({Sphere{0.0}});
+  EXPECT_THROW(checker_.setScene(broken), Error);
+  EXPECT_THROW(checker_.setScene(nullptr), Error);
+  EXPECT_EQ(expected.valid, checker_.check(states_.data(), kCount).valid);
+
+  auto empty = std::make_shared<PlanningScene>(*scene_);
+  empty->objects.clear();
+  empty->revision = 18;
+  checker_.setScene(empty);
+  const BatchResult alone = checker_.check(states_.data(), kCount);
+  EXPECT_EQ(18u, alone.revision);
+  EXPECT_NE(expected.valid, alone.valid);
+  EXPECT_EQ(0u, checker_.report().world_pairs);
+}
+}  // namespace
+}  // namespace gpu_planning_scene
