@@ -1,0 +1,236 @@
+// The tool check_states from outside: its answers, its summary, its exit codes.
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "model/model_testing.h"
+#include "scene/slider_robot.h"
+#include "tools/run_program.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// A wall from x = 0.9 to 1.1 m that the cart meets, and a lamp at the height of the pole, at x = -1 m.
+const char* const kScene = R"(
+world:
+  collision_objects:
+    - id: wall
+      primitives: [{type: box, dimensions: [0.2, 1, 0.2]}]
+      primitive_poses: [{position: [1, 0, 0]}]
+    - id: "lamp, red"
+      primitives: [{type: sphere, dimensions: [0.1]}]
+      primitive_poses: [{position: [-1, 0, 0.5]}]
+)";
+const char* const kState = "robot_state: {joint_state: {name: [slide, turn], position: [0, 0]}}\n";
+
+class CheckStates : public testing::Test
+{
+ protected:
+  CheckStates()
+  {
+    urdf = folder.write("slider.urdf", sliderUrdf());
+    srdf = folder.write("slider.srdf", sliderSrdf());
+    scene = folder.write("scene.yaml", std::string(kScene) + kState);
+  }
+
+  ProgramOutput run(std::vector<std::string> arguments) const
+  {
+    if (std::find(arguments.begin(), arguments.end(), "--device") == arguments.end())
+      arguments.insert(arguments.end(), {"--device", "cpu"});
+    return runProgram(GPS_CHECK_STATES, arguments);
+  }
+
+  /// With the slider robot and the scene.
+  ProgramOutput check(std::vector<std::string> arguments) const
+  {
+    arguments.insert(arguments.begin(), {"--urdf", urdf, "--srdf", srdf, "--scene", scene});
+    return run(std::move(arguments));
+  }
+
+  ProgramOutput checkCsv(const std::string& csv, std::vector<std::string> arguments = {}) const
+  {
+    arguments.insert(arguments.end(), {"--states", folder.write("states.csv", csv)});
+    return check(std::move(arguments));
+  }
+
+  /// One clear line on stderr, nothing on stdout.
+  static void expectError(const ProgramOutput& output, int exit_code, const std::string& reason)
+  {
+    EXPECT_EQ(exit_code, output.exit_code);
+    EXPECT_EQ("", output.out);
+    EXPECT_EQ(1u, linesOf(output.err).size()) << output.err;
+    EXPECT_EQ(0u, output.err.find("check_states: ")) << output.err;
+    EXPECT_NE(std::string::npos, output.err.find(reason)) << output.err;
+  }
+
+  TemporaryFolder folder;
+  std::string urdf;
+  std::string srdf;
+  std::string scene;
+};
+
+TEST_F(CheckStates, answersARowForEachState)
+{
+  const ProgramOutput output = checkCsv("slide,turn\n0,0\n0.75,1\n0.85,1\n-1.1,0\n");
+  EXPECT_EQ(0, output.exit_code);
+  const auto rows = linesOf(output.out);
+  ASSERT_EQ(4u, rows.size());
+  EXPECT_EQ("1,,", rows[0]);
+  EXPECT_EQ("1,,", rows[1]);
+  EXPECT_TRUE(rows[2] == "0,cart,wall" || rows[2] == "0,wall,cart") << rows[2];
+  EXPECT_TRUE(rows[3] == "0,pole,\"lamp, red\"" || rows[3] == "0,\"lamp, red\",pole") << rows[3];
+}
+
+TEST_F(CheckStates, columnsMayComeInAnyOrderAndForm)
+{
+  const auto rows = linesOf(checkCsv("\xEF\xBB\xBF\"turn\" , slide\r\n 0.5,\"0\"\r\n0.5 , 1e0\r\n1,+0.5\r\n\r\n").out);
+  ASSERT_EQ(3u, rows.size());
+  EXPECT_EQ('1', rows[0][0]);
+  EXPECT_EQ('0', rows[1][0]);
+  EXPECT_EQ('1', rows[2][0]);
+}
+
+TEST_F(CheckStates, otherVariablesTakeTheScenesState)
+{
+  EXPECT_EQ("1,,\n", checkCsv("turn\n0.5\n").out);
+  scene = folder.write("scene.yaml",
+                       std::string(kScene) + "robot_state: {joint_state: {name: [slide, turn], position: [1, 0]}}");
+  EXPECT_EQ('0', checkCsv("turn\n0.5\n").out.at(0));
+  scene = folder.write("scene.yaml", kScene);
+  expectError(checkCsv("turn\n0.5\n"), 1, "states.csv:1: no value for slide");
+}
+
+TEST_F(CheckStates, aGroupRestrictsThePairs)
+{
+  const std::string csv = "slide,turn\n1,0\n-1,0\n";  // the cart in the wall, the pole in the lamp
+  EXPECT_EQ("0", linesOf(checkCsv(csv).out).at(0).substr(0, 1));
+  const auto rows = linesOf(checkCsv(csv, {"--group", "mast"}).out);
+  EXPECT_EQ("1,,", rows.at(0));
+  EXPECT_EQ('0', rows.at(1).at(0));
+  expectError(checkCsv(csv, {"--group", "sails"}), 1, "sails");
+}
+
+TEST_F(CheckStates, theLastLineOfTheSummaryIsAsPromised)
+{
+  const ProgramOutput output = check({"--random", "3000", "--seed", "7", "--max-batch", "999"});
+  EXPECT_EQ(0, output.exit_code);
+  const auto rows = linesOf(output.out);
+  ASSERT_EQ(3000u, rows.size());
+  const auto valid = std::count(rows.begin(), rows.end(), "1,,");
+  std::smatch match;
+  const std::string last = linesOf(output.err).back();
+  ASSERT_TRUE(std::regex_match(last, match, std::regex("3000 states, (\\d+) valid, (\\d+) states/s, CPU"))) << last;
+  EXPECT_EQ(std::to_string(valid), match[1].str());
+  for (const char* part : {"device: CPU", "robot: slider",
+                           "triangles: ", "checked pairs: ", "left out: ", "valid: ", "commonest colliding pairs:"})
+    EXPECT_NE(std::string::npos, output.err.find(part)) << output.err;
+}
+
+TEST_F(CheckStates, randomStatesAreTheModelsAndDependOnTheSeedAlone)
+{
+  const auto robot = RobotModel::fromFiles(urdf, srdf, {});
+  std::mt19937_64 generator(7);
+  std::vector<double> states(500 * robot->variables().size());
+  for (std::size_t i = 0; i < 500; ++i)
+    robot->randomState(generator, states.data() + i * robot->variables().size());
+  CpuChecker checker(std::make_shared<const PlanningScene>(loadSceneFile(scene, robot, {})));
+  const BatchResult expected = checker.check(states.data(), 500);
+
+  const std::string one_batch = check({"--random", "500", "--seed", "7"}).out;
+  const auto rows = linesOf(one_batch);
+  ASSERT_EQ(500u, rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    EXPECT_EQ(expected.valid[i], rows[i][0] - '0') << "state " << i;
+  EXPECT_EQ(one_batch, check({"--random", "500", "--seed", "7", "--max-batch", "33"}).out);
+  EXPECT_NE(one_batch, check({"--random", "500", "--seed", "8"}).out);
+}
+
+TEST_F(CheckStates, writesToAFileWhereAsked)
+{
+  const std::string path = folder.write("answers.csv", "something older\nthat is longer than the answers are\n");
+  const ProgramOutput output = checkCsv("slide,turn\n0,0\n", {"--out", path});
+  EXPECT_EQ("", output.out);
+  std::ifstream file(path);
+  EXPECT_EQ("1,,\n", std::string(std::istreambuf_iterator<char>(file), {}));
+}
+
+TEST_F(CheckStates, aFailureLeavesTheOutputFileAsItWas)
+{
+  const std::string path = folder.write("answers.csv", "kept");
+  EXPECT_EQ(1, checkCsv("slide,turn\n0,x\n", {"--out", path}).exit_code);
+  std::ifstream file(path);
+  EXPECT_EQ("kept", std::string(std::istreambuf_iterator<char>(file), {}));
+  expectError(checkCsv("slide,turn\n0,0\n", {"--out", folder.path("no/such/folder.csv")}), 1, "cannot write");
+}
+
+TEST_F(CheckStates, aSceneIsNotNeeded)
+{
+  const ProgramOutput output = run({"--urdf", urdf, "--random", "10"});
+  EXPECT_EQ(0, output.exit_code) << output.err;
+  EXPECT_NE(std::string::npos, output.err.find("adjacent (no SRDF was given)")) << output.err;
+}
+
+TEST_F(CheckStates, saysWhatItIsAndCanDo)
+{
+  const ProgramOutput version = run({"--version"});
+  EXPECT_EQ(0, version.exit_code);
+  EXPECT_TRUE(std::regex_match(version.out, std::regex("check_states \\d+\\.\\d+\\.\\d+\n"))) << version.out;
+  const ProgramOutput help = run({"--help"});
+  EXPECT_EQ(0, help.exit_code);
+  for (const char* option : {"--urdf", "--srdf", "--package", "--scene", "--states", "--random", "--seed", "--group",
+                             "--device", "--traversal", "--out", "--version", "--help"})
+    EXPECT_NE(std::string::npos, help.out.find(option)) << option;
+}
+
+TEST_F(CheckStates, badUsageEndsWithTwo)
+{
+  const std::string csv = folder.write("states.csv", "slide,turn\n0,0\n");
+  expectError(run({}), 2, "--urdf is missing");
+  expectError(check({}), 2, "--states FILE or --random N");
+  expectError(check({"--states", csv, "--random", "1"}), 2, "--states FILE or --random N");
+  expectError(check({"--states", csv, "--seed", "1"}), 2, "--seed");
+  expectError(check({"--random", "0"}), 2, "--random: '0'");
+  expectError(check({"--random", "ten"}), 2, "--random: 'ten'");
+  expectError(check({"--random", "1.5"}), 2, "--random: '1.5'");
+  expectError(check({"--random", "1", "--seed", "-1"}), 2, "--seed: '-1'");
+  expectError(check({"--random", "1", "--fast"}), 2, "unknown option '--fast'");
+  expectError(check({"--random", "1", "more"}), 2, "unexpected argument 'more'");
+  expectError(check({"--random", "1", "--random", "2"}), 2, "--random is given twice");
+  expectError(check({"--random", "1", "--package", "nothing"}), 2, "'nothing' is not NAME=DIR");
+  expectError(check({"--random", "1", "--traversal", "depth_first"}), 2, "depth_first");
+  expectError(check({"--random", "1", "--max-batch", "0"}), 2, "--max-batch");
+  expectError(runProgram(GPS_CHECK_STATES, {"--urdf"}), 2, "--urdf needs a value");
+  expectError(run({"--version=1"}), 2, "--version takes no value");
+}
+
+TEST_F(CheckStates, badInputEndsWithOne)
+{
+  expectError(run({"--urdf", folder.path("no.urdf"), "--random", "1"}), 1, "no.urdf");
+  expectError(run({"--urdf", folder.write("bad.urdf", "<robot"), "--random", "1"}), 1, "bad.urdf");
+  expectError(run({"--urdf", urdf, "--scene", folder.path("no.yaml"), "--random", "1"}), 1, "no.yaml");
+  expectError(check({"--states", folder.path("no.csv")}), 1, "no.csv");
+  expectError(checkCsv(""), 1, "states.csv: ");
+  expectError(checkCsv("slide,turn\n"), 1, "no states");
+  expectError(checkCsv("0,0\n1,1\n"), 1, "states.csv:1: column 1: the first line must name the variables");
+  expectError(checkCsv("slide,trun\n0,0\n"), 1, "no variable 'trun'; its variables are slide, turn");
+  expectError(checkCsv("slide,turn,flag\n0,0,0\n"), 1, "joint 'flag' follows another");
+  expectError(checkCsv("slide,turn,bolt\n0,0,0\n"), 1, "joint 'bolt' is fixed");
+  expectError(checkCsv("slide,turn,slide\n0,0,0\n"), 1, "'slide' is given twice");
+  expectError(checkCsv("slide,turn\n0,0\n0\n"), 1, "states.csv:3: 1 values for 2 variables");
+  expectError(checkCsv("slide,turn\n0,0\n0,1,2\n"), 1, "states.csv:3: 3 values for 2 variables");
+  expectError(checkCsv("slide,turn\n0,0\n0,one\n"), 1, "states.csv:3: column 2 (turn): 'one'");
+  expectError(checkCsv("slide,turn\n0,\n"), 1, "states.csv:2: column 2 (turn): ''");
+  expectError(checkCsv("slide,turn\nnan,0\n"), 1, "states.csv:2: column 1 (slide): 'nan'");
+  expectError(checkCsv("slide,turn\n0,-inf\n"), 1, "states.csv:2: column 2 (turn): '-inf'");
+  expectError(checkCsv("slide,turn\n0,0\n\n0,0\n"), 1, "states.csv:3: an empty line");
+  expectError(checkCsv("slide,turn\n\"0,0\n"), 1, "states.csv:2: a quote");
+  expectError(check({"--random", "1", "--device", "no such renderer"}), 1, "no such renderer");
+}
+}  // namespace
+}  // namespace gpu_planning_scene

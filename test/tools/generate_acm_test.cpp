@@ -1,0 +1,219 @@
+// The tool generate_acm from outside: what it decides for pairs of links, and the SRDF that it writes.
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "model/model_testing.h"
+#include "tools/run_program.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::string boxes(const std::string& link, const std::vector<std::pair<double, double>>& spans)
+{
+  std::string xml = "<link name=\"" + link + "\">";
+  for (const auto& [from, to] : spans)
+    xml += "<collision><origin xyz=\"" + std::to_string(0.5 * (from + to)) + " 0 0\"/><geometry><box size=\"" +
+           std::to_string(to - from) + " 0.1 0.1\"/></geometry></collision>";
+  return xml + "</link>\n";
+}
+
+/// Boxes on a line, so that each pair is decided by arithmetic. `slide` moves half, cover and spare along x by -5 to 5
+/// m; block and mount stay. Against block, at x = -0.1 to 0.1: mount adjoins it; half, from 0 to 5, meets it in about
+/// half of the states; cover, with a gap of 0.3 m around it, in 99 %; core in the default state; spare, 100 m away, in
+/// none.
+std::string lineUrdf()
+{
+  const std::string range = "<axis xyz=\"1 0 0\"/><limit lower=\"-5\" upper=\"5\" effort=\"1\" velocity=\"1\"/>";
+  return "<robot name=\"line--up\">" + boxes("block", {{-0.1, 0.1}}) + boxes("mount", {{-0.1, 0.1}}) +
+         boxes("half", {{0.12, 5.0}}) + boxes("cover", {{-20.0, -0.15}, {0.15, 20.0}}) +
+         boxes("core", {{-0.01, 0.01}}) + boxes("spare", {{100.0, 101.0}}) +
+         jointXml("up", "fixed", "block", "mount", "<origin xyz=\"0 10 0\"/>") +
+         jointXml("slide", "prismatic", "mount", "half", "<origin xyz=\"0 -10 0\"/>" + range) +
+         jointXml("lid", "fixed", "half", "cover") + jointXml("pin", "fixed", "cover", "core") +
+         jointXml("far", "fixed", "core", "spare") + "</robot>";
+}
+
+std::string contentOf(const std::string& path)
+{
+  std::ifstream file(path);
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+std::map<std::string, std::string> reasonsOf(const RobotModel& robot)
+{
+  std::map<std::string, std::string> reasons;
+  for (const LinkPair& pair : robot.srdfCollisions().disabled)
+    reasons[robot.links()[pair.first].name + "-" + robot.links()[pair.second].name] = pair.reason;
+  return reasons;
+}
+
+class GenerateAcm : public testing::Test
+{
+ protected:
+  GenerateAcm() : urdf(folder.write("line.urdf", lineUrdf())), out(folder.path("out.srdf")) {}
+
+  ProgramOutput generate(std::vector<std::string> arguments) const
+  {
+    arguments.insert(arguments.end(), {"--urdf", urdf, "--out", out});
+    return runProgram(GPS_GENERATE_ACM, arguments);
+  }
+
+  TemporaryFolder folder;
+  std::string urdf;
+  std::string out;
+};
+
+TEST_F(GenerateAcm, decidesEachPairForTheRightReason)
+{
+  const ProgramOutput output = generate({"--samples", "2000", "--seed", "3"});
+  ASSERT_EQ(0, output.exit_code) << output.err;
+  const auto reasons = reasonsOf(*RobotModel::fromFiles(urdf, out, {}));
+  const auto reason = [&](const std::string& pair) { return reasons.count(pair) ? reasons.at(pair) : "checked"; };
+  EXPECT_EQ("Adjacent", reason("block-mount"));
+  EXPECT_EQ("checked", reason("block-half"));
+  EXPECT_EQ("Always", reason("block-cover"));
+  EXPECT_EQ("Default", reason("block-core"));
+  EXPECT_EQ("Never", reason("block-spare"));
+  EXPECT_EQ("Never", reason("mount-cover"));
+  EXPECT_EQ("Adjacent", reason("half-cover"));
+}
+
+TEST_F(GenerateAcm, theShareOfAlwaysCanBeSet)
+{
+  ASSERT_EQ(0, generate({"--samples", "2000", "--always-share", "0.4"}).exit_code);
+  EXPECT_EQ("Always", reasonsOf(*RobotModel::fromFiles(urdf, out, {})).at("block-half"));
+}
+
+TEST_F(GenerateAcm, theCommentSaysWhatNeverMeans)
+{
+  ASSERT_EQ(0, generate({"--samples", "3000", "--seed", "42"}).exit_code);
+  const std::string srdf = contentOf(out);
+  EXPECT_NE(std::string::npos, srdf.find("3000 random states, seed 42")) << srdf;
+  EXPECT_NE(std::string::npos, srdf.find("95 % confidence, for each pair, that fewer than 0.1 % of random")) << srdf;
+}
+
+TEST_F(GenerateAcm, theSameSeedWritesTheSameFile)
+{
+  ASSERT_EQ(0, generate({"--samples", "500", "--seed", "5"}).exit_code);
+  const std::string first = contentOf(out);
+  ASSERT_EQ(0, generate({"--samples", "500", "--seed", "5"}).exit_code);
+  EXPECT_EQ(first, contentOf(out));
+  EXPECT_EQ(first, runProgram(GPS_GENERATE_ACM, {"--urdf", urdf, "--samples", "500", "--seed", "5"}).out);
+}
+
+TEST_F(GenerateAcm, keepsWhatTheUserWroteInAnSrdf)
+{
+  const std::string srdf = folder.write("users.srdf", R"(<robot name="line--up">
+  <!-- my group -->
+  <group name="all"><joint name="slide"/></group>
+  <disable_collisions link1="block" link2="half" reason="User"/>
+  <enable_collisions link1="block" link2="core"/>
+  <disable_collisions link1="mount" link2="half" reason="Never"/>
+  <disable_collisions link1="block" link2="half" reason="Never"/>
+</robot>)");
+  ASSERT_EQ(0, generate({"--samples", "1000", "--srdf", srdf}).exit_code);
+  const std::string once = contentOf(out);
+  EXPECT_NE(std::string::npos, once.find("<!-- my group -->"));
+  const auto robot = RobotModel::fromFiles(urdf, out, {});
+  EXPECT_EQ(1u, robot->groups().size());
+  const auto reasons = reasonsOf(*robot);
+  EXPECT_EQ("User", reasons.at("block-half"));
+  EXPECT_EQ(0u, reasons.count("block-core"));
+  EXPECT_EQ("Adjacent", reasons.at("mount-half"));
+
+  // What it wrote itself is replaced, not added to.
+  ASSERT_EQ(0, generate({"--samples", "1000", "--srdf", out}).exit_code);
+  EXPECT_EQ(once, contentOf(out));
+}
+
+TEST_F(GenerateAcm, errorsHaveTheToolsExitCodes)
+{
+  EXPECT_EQ(2, runProgram(GPS_GENERATE_ACM, {}).exit_code);
+  EXPECT_EQ(2, generate({"--samples", "0"}).exit_code);
+  EXPECT_EQ(2, generate({"--always-share", "1.5"}).exit_code);
+  EXPECT_EQ(1, generate({"--srdf", folder.path("missing.srdf")}).exit_code);
+  out = folder.path("no/such/folder.srdf");
+  EXPECT_EQ(1, generate({"--samples", "10"}).exit_code);
+}
+
+struct RealRobot
+{
+  const char* name;
+  const char* urdf;
+  const char* package;  ///< in its folder; empty if its paths are relative
+};
+
+class GenerateAcmForRealRobots : public testing::TestWithParam<RealRobot>
+{
+};
+
+/// Checks 20,000 states that the generator has not seen.
+BatchResult checkFresh(const PlanningScene& scene)
+{
+  const std::size_t count = 20000;
+  const std::size_t width = scene.robot->variables().size();
+  std::mt19937_64 generator(20261121);
+  std::vector<double> states(count * width);
+  for (std::size_t i = 0; i < count; ++i)
+    scene.robot->randomState(generator, states.data() + i * width);
+  return CpuChecker(std::make_shared<const PlanningScene>(scene)).check(states.data(), count);
+}
+
+double shareValid(const BatchResult& result)
+{
+  return static_cast<double>(std::count(result.valid.begin(), result.valid.end(), 1)) /
+         static_cast<double>(result.valid.size());
+}
+
+TEST_P(GenerateAcmForRealRobots, neverPairsStayFreeAndTheRobotCanMove)
+{
+  const std::string data = GPS_DART_DATA_DIR;
+  const std::string urdf = data + "/" + GetParam().urdf;
+  if (!std::filesystem::exists(urdf))
+    GTEST_SKIP() << "needs " << urdf << " of Debian's dart-doc";
+  const std::string package_folder = urdf.substr(0, urdf.rfind('/'));
+  std::vector<std::string> arguments = {"--urdf", urdf};
+  RobotModelOptions options;
+  if (*GetParam().package)
+  {
+    arguments.insert(arguments.end(), {"--package", std::string(GetParam().package) + "=" + package_folder});
+    options.packages = packageResolver({{GetParam().package, package_folder}});
+  }
+  const TemporaryFolder folder;
+  const std::string srdf = folder.path("robot.srdf");
+  arguments.insert(arguments.end(), {"--out", srdf});
+  const ProgramOutput output = runProgram(GPS_GENERATE_ACM, arguments);
+  ASSERT_EQ(0, output.exit_code) << output.err;
+  const auto robot = RobotModel::fromFiles(urdf, srdf, options);
+
+  const double free_share = shareValid(checkFresh(PlanningScene(robot)));
+  EXPECT_GT(free_share, 0.1);
+  EXPECT_LT(free_share, 0.9);
+
+  // Only the Never pairs are checked. One that collides with a share p is taken for Never with (1 - p)^10000.
+  PlanningScene never(robot);
+  never.allowed_collisions = AllowedCollisionMatrix();
+  const auto reasons = reasonsOf(*robot);
+  for (const Link& first : robot->links())
+    for (const Link& second : robot->links())
+    {
+      const auto reason = reasons.find(first.name + "-" + second.name);
+      if (reason == reasons.end() ? reasons.count(second.name + "-" + first.name) == 0 : reason->second != "Never")
+        never.allowed_collisions.setEntry(first.name, second.name, true);
+    }
+  EXPECT_GT(shareValid(checkFresh(never)), 0.999);
+}
+
+INSTANTIATE_TEST_SUITE_P(Debian, GenerateAcmForRealRobots,
+                         testing::Values(RealRobot{"Kr5", "urdf/KR5/KR5 sixx R650.urdf", ""},
+                                         RealRobot{"Wam", "urdf/wam/wam.urdf", "herb_description"}),
+                         [](const auto& parameter) { return parameter.param.name; });
+}  // namespace
+}  // namespace gpu_planning_scene
