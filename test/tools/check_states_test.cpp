@@ -77,8 +77,10 @@ class CheckStates : public testing::Test
 
 TEST_F(CheckStates, answersARowForEachState)
 {
-  const ProgramOutput output = checkCsv("slide,turn\n0,0\n0.75,1\n0.85,1\n-1.1,0\n");
+  const std::string csv = "slide,turn\n0,0\n0.75,1\n0.85,1\n-1.1,0\n";
+  const ProgramOutput output = checkCsv(csv);
   EXPECT_EQ(0, output.exit_code);
+  EXPECT_EQ(output.out, checkCsv(csv, {"--max-batch", "3"}).out);
   const auto rows = linesOf(output.out);
   ASSERT_EQ(4u, rows.size());
   EXPECT_EQ("1,,", rows[0]);

@@ -97,6 +97,9 @@ TEST_F(GenerateAcm, theCommentSaysWhatNeverMeans)
   const std::string srdf = contentOf(out);
   EXPECT_NE(std::string::npos, srdf.find("3000 random states, seed 42")) << srdf;
   EXPECT_NE(std::string::npos, srdf.find("95 % confidence, for each pair, that fewer than 0.1 % of random")) << srdf;
+  // XML allows no two hyphens in a comment; the robot's name has them.
+  const std::size_t comment = srdf.find("<!--") + 4;
+  EXPECT_EQ(srdf.find("-->"), srdf.find("--", comment)) << srdf;
 }
 
 TEST_F(GenerateAcm, theSameSeedWritesTheSameFile)
