@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "support/fcl_agreement.h"
 #include "support/test_scenes.h"
@@ -27,6 +28,18 @@ struct Implementation
 };
 
 const Implementation kCpu = {"Cpu", [](Scene scene) { return std::make_unique<CpuChecker>(std::move(scene)); }};
+
+std::unique_ptr<StateChecker> onGpu(Scene scene, Traversal traversal)
+{
+  BatchCheckerOptions options;
+  options.traversal = traversal;
+  return std::make_unique<BatchChecker>(std::move(scene), options);
+}
+
+const Implementation kBreadthFirst = {"BreadthFirst",
+                                      [](Scene scene) { return onGpu(std::move(scene), Traversal::BreadthFirst); }};
+const Implementation kWorkQueue = {"WorkQueue",
+                                   [](Scene scene) { return onGpu(std::move(scene), Traversal::WorkQueue); }};
 
 class Agreement : public testing::TestWithParam<std::tuple<Implementation, std::string>>
 {
@@ -58,6 +71,6 @@ std::string nameOf(const testing::TestParamInfo<Agreement::ParamType>& parameter
   return std::get<0>(parameter.param).name + "_" + std::get<1>(parameter.param);
 }
 INSTANTIATE_TEST_SUITE_P(Checkers, Agreement,
-                         testing::Combine(testing::Values(kCpu), testing::ValuesIn(testSceneNames())), nameOf);
+                         testing::Combine(testing::Values(kCpu, kBreadthFirst, kWorkQueue), testing::ValuesIn(testSceneNames())), nameOf);
 }  // namespace
 }  // namespace gpu_planning_scene

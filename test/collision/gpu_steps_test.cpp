@@ -1,0 +1,192 @@
+// Steps of the shaders against plain C++ in double precision: proofs must be true, and doubt must be rare.
+
+#include <cstring>
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/cpu_box_pair.h"
+#include "collision/triangle_pair.h"
+#include "gpu/egl_context.h"
+#include "gpu/program.h"
+#include "interface.h"
+#include "support/shader_folder.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using Eigen::Vector3d;
+
+constexpr std::uint64_t kSeed = 17;
+
+/// One lane per case: runs one function of the shaders on floats.
+class GpuStep : public testing::Test
+{
+protected:
+  std::vector<std::uint32_t> run(const std::string& includes, const std::string& call, const std::vector<float>& input,
+                                 std::size_t floats_per_case)
+  {
+    folder_.write("step.comp", "#include \"interface.h\"\nlayout(local_size_x = GROUP_SIZE) in;\n#include \"common.glsl\"\n" + includes +
+                                   "layout(location = 0) uniform uint case_count;\n"
+                                   "layout(std430, binding = 0) readonly buffer Input { float data[]; };\n"
+                                   "layout(std430, binding = 1) writeonly buffer Output { uint result[]; };\n"
+                                   "uint base;\n"
+                                   "vec3 at(uint i) { return vec3(data[base + 3u * i], data[base + 3u * i + 1u], data[base + 3u * i + 2u]); }\n"
+                                   "void main() { const uint i = invocationIndex(); if (i >= case_count) return; base = i * " +
+                                   std::to_string(floats_per_case) + "u; result[i] = " + call + "; }\n");
+    const std::size_t cases = input.size() / floats_per_case;
+    Buffer in(input.size() * sizeof(float));
+    in.write(input);
+    Buffer out(cases * sizeof(std::uint32_t));
+    in.bindStorage(0);
+    out.bindStorage(1);
+    const Program program(folder_.path(), "step.comp");
+    program.set(0, static_cast<std::uint32_t>(cases));
+    program.dispatch((cases + GROUP_SIZE - 1) / GROUP_SIZE);
+    std::vector<std::uint32_t> result(cases);
+    out.read(result.data(), cases * sizeof(std::uint32_t));
+    return result;
+  }
+
+  Vector3d anyVector(double size)
+  {
+    return size * Vector3d(uniform_(generator_), uniform_(generator_), uniform_(generator_));
+  }
+  Eigen::Matrix3d anyRotation()
+  {
+    std::normal_distribution<double> normal;
+    return Eigen::Quaterniond(normal(generator_), normal(generator_), normal(generator_), normal(generator_))
+        .normalized()
+        .toRotationMatrix();
+  }
+  /// Rounds to float and keeps both.
+  static Vector3d put(const Vector3d& v, std::vector<float>& into)
+  {
+    const Eigen::Vector3f rounded = v.cast<float>();
+    into.insert(into.end(), rounded.data(), rounded.data() + 3);
+    return rounded.cast<double>();
+  }
+
+  EglContext context_{ "auto" };
+  ShaderFolder folder_;
+  std::mt19937_64 generator_{ kSeed };
+  std::uniform_real_distribution<double> uniform_{ -1.0, 1.0 };
+};
+
+using Triangles = std::array<Triangle, 2>;
+
+/// Adds error and slack to each pair of triangles.
+std::vector<float> withBounds(const std::vector<float>& triangles, float error, float slack)
+{
+  std::vector<float> input;
+  for (std::size_t at = 0; at < triangles.size(); at += 18)
+  {
+    input.insert(input.end(), triangles.begin() + static_cast<std::ptrdiff_t>(at), triangles.begin() + static_cast<std::ptrdiff_t>(at) + 18);
+    input.insert(input.end(), { error, slack, 0.0F });
+  }
+  return input;
+}
+
+const char* const kTriangleCall = "trianglePair(vec3[3](at(0u), at(1u), at(2u)), vec3[3](at(3u), at(4u), at(5u)), at(6u).x, at(6u).y)";
+
+TEST_F(GpuStep, TrianglePairsAreDecidedAsInDoubleOrLeftUndecided)
+{
+  constexpr std::size_t kCases = 60000;
+  std::vector<float> floats;
+  std::vector<Triangles> cases;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    // Sizes of 1 mm to 1 m, far from and near each other, slivers and degenerate ones among them.
+    const double size_a = std::pow(10.0, -1.5 + 1.5 * uniform_(generator_));
+    const double size_b = std::pow(10.0, -1.5 + 1.5 * uniform_(generator_));
+    const Vector3d center = anyVector(0.5);
+    const Vector3d apart = anyVector(0.3 * (size_a + size_b));
+    Triangles pair;
+    for (int k = 0; k < 3; ++k)
+    {
+      pair[0][k] = center + anyVector(size_a);
+      pair[1][k] = center + apart + anyVector(size_b);
+    }
+    if (i % 10 == 0)
+      pair[0][2] = pair[0][0] + 0.5 * (pair[0][1] - pair[0][0]) + anyVector(1e-5 * size_a);
+    if (i % 50 == 0)
+      pair[1][2] = pair[1][1];
+    for (Triangle& triangle : pair)
+      for (Vector3d& corner : triangle)
+        corner = put(corner, floats);
+    cases.push_back(pair);
+  }
+  const auto result = run("#include \"triangle_pair.glsl\"\n", kTriangleCall, withBounds(floats, 0.0F, 0.0F), 21);
+  std::size_t hits = 0;
+  std::size_t undecided = 0;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    const bool meet = trianglesMeet(cases[i][0], cases[i][1]);
+    hits += meet ? 1 : 0;
+    undecided += result[i] == STATE_UNDECIDED ? 1 : 0;
+    EXPECT_TRUE(result[i] == (meet ? STATE_HIT : 0U) || result[i] == STATE_UNDECIDED)
+        << "case " << i << " gives " << result[i] << ", seed " << kSeed;
+  }
+  std::cout << kCases << " pairs, " << hits << " meet, " << undecided << " undecided, seed " << kSeed << std::endl;
+  EXPECT_GT(hits, kCases / 20);
+  EXPECT_LT(undecided, kCases / 100);
+}
+
+TEST_F(GpuStep, TrianglesWithinTheErrorOrTheSlackAreUndecided)
+{
+  std::vector<float> floats;
+  constexpr std::size_t kCases = 2000;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    // A corner of b over the inside of a, 50 micrometres above its plane.
+    const Eigen::Matrix3d rotation = anyRotation();
+    const Vector3d offset = anyVector(0.3);
+    const double height = 5e-5;
+    for (const Vector3d& corner : { Vector3d(-0.1, -0.1, 0), Vector3d(0.2, 0, 0), Vector3d(0, 0.2, 0), Vector3d(0, 0, height),
+                                    Vector3d(0.05, 0, 0.1), Vector3d(0, 0.05, 0.1) })
+      put(rotation * corner + offset, floats);
+  }
+  for (const auto& [error, slack, expected] :
+       { std::tuple(0.0F, 0.0F, 0U), std::tuple(1e-4F, 0.0F, STATE_UNDECIDED), std::tuple(0.0F, 1e-4F, STATE_UNDECIDED) })
+    for (const std::uint32_t found : run("#include \"triangle_pair.glsl\"\n", kTriangleCall, withBounds(floats, error, slack), 21))
+      ASSERT_EQ(found, expected) << "error " << error << ", slack " << slack;
+}
+
+TEST_F(GpuStep, BoxesThatOverlapAreNeverApart)
+{
+  constexpr std::size_t kCases = 60000;
+  std::vector<float> input;
+  std::vector<bool> overlap;
+  std::size_t overlapping = 0;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    const Eigen::Matrix3d rotation = i % 7 == 0 ? Eigen::Matrix3d::Identity() : anyRotation();
+    const Vector3d center_a = put(anyVector(0.5), input);
+    const Vector3d half_a = put(anyVector(0.2).cwiseAbs(), input);
+    const Vector3d center_b = put(anyVector(0.5), input);
+    const Vector3d half_b = put(anyVector(0.2).cwiseAbs(), input);
+    Eigen::Matrix3d rows;
+    for (int row = 0; row < 3; ++row)
+      rows.row(row) = put(rotation.row(row).transpose(), input).transpose();
+    const Vector3d translation = put(anyVector(0.5), input);
+    overlap.push_back(BoxPairTest(rows).overlap(half_a, half_b, rows * center_b + translation - center_a));
+    overlapping += overlap.back() ? 1 : 0;
+  }
+  const auto apart = run("#include \"pose.glsl\"\n#include \"boxes.glsl\"\n",
+                         "boxesApart(Box(at(0u), at(1u)), Box(at(2u), at(3u)), Pose(transpose(mat3(at(4u), at(5u), at(6u))), at(7u)), "
+                         "1e-6) ? 1u : 0u",
+                         input, 24);
+  std::size_t missed = 0;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    EXPECT_FALSE(overlap[i] && apart[i] != 0U) << "case " << i << ", seed " << kSeed;
+    missed += !overlap[i] && apart[i] == 0U ? 1 : 0;
+  }
+  EXPECT_GT(overlapping, kCases / 50);
+  // All 15 axes are there: what is apart is found to be.
+  EXPECT_LT(missed, kCases / 1000);
+}
+}  // namespace
+}  // namespace gpu_planning_scene

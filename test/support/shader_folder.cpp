@@ -1,0 +1,43 @@
+#include "support/shader_folder.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace gpu_planning_scene
+{
+ShaderFolder::ShaderFolder()
+{
+  std::string name = (std::filesystem::temp_directory_path() / "shadersXXXXXX").string();
+  if (!mkdtemp(name.data()))
+    throw std::runtime_error("no temporary folder");
+  path_ = name;
+  std::filesystem::copy(GPS_SOURCE_DIR "/shaders", path_, std::filesystem::copy_options::recursive);
+}
+
+ShaderFolder::~ShaderFolder()
+{
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+void ShaderFolder::define(const std::string& name, const std::string& value) const
+{
+  std::ifstream in(path_ + "/interface.h");
+  std::ostringstream text;
+  bool found = false;
+  for (std::string line; std::getline(in, line);)
+  {
+    const bool here = line.rfind("#define " + name + " ", 0) == 0;
+    found = found || here;
+    text << (here ? "#define " + name + " " + value : line) << '\n';
+  }
+  if (!found)
+    throw std::runtime_error("interface.h has no " + name);
+  write("interface.h", text.str());
+}
+
+void ShaderFolder::write(const std::string& name, const std::string& text) const { std::ofstream(path_ + "/" + name) << text; }
+}  // namespace gpu_planning_scene

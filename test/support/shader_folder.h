@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gpu_planning_scene
+{
+/// A temporary copy of the project's shaders that a test may change; removed at the end.
+class ShaderFolder
+{
+public:
+  ShaderFolder();
+  ~ShaderFolder();
+  ShaderFolder(const ShaderFolder&) = delete;
+  ShaderFolder& operator=(const ShaderFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+
+  /// Gives a constant of interface.h another value; throws std::runtime_error if it is not there.
+  void define(const std::string& name, const std::string& value) const;
+  void write(const std::string& name, const std::string& text) const;
+
+private:
+  std::string path_;
+};
+}  // namespace gpu_planning_scene
