@@ -35,13 +35,11 @@ double numberParameter(const ros::NodeHandle& own, const std::string& name, doub
   return static_cast<double>(value);
 }
 
-/// The text of a parameter that lies in this namespace or one above it; empty where there is none.
-std::string searchedText(const ros::NodeHandle& node, const std::string& name)
+/// A parameter that lies in this namespace or one above it; under that name where there is none.
+std::string searched(const ros::NodeHandle& node, const std::string& name)
 {
   std::string found;
-  if (!node.searchParam(name, found))
-    return "";
-  return textParameter(node, found, "");
+  return node.searchParam(name, found) ? found : node.resolveName(name);
 }
 
 void addFolder(const std::string& name, const std::string& folder, std::map<std::string, std::string>& folders)
@@ -107,10 +105,12 @@ std::shared_ptr<const PlanningScene> sceneFromParameters(const ros::NodeHandle& 
   if (!(options.unbounded_translation >= 0.0))
     throw Error("parameter " + own.resolveName("unbounded_translation") + " is negative");
 
-  const std::string urdf = searchedText(node, "robot_description");
+  options.urdf_name = searched(node, "robot_description");
+  options.srdf_name = searched(node, "robot_description_semantic");
+  const std::string urdf = textParameter(node, options.urdf_name, "");
   if (urdf.empty())
-    throw Error("parameter " + node.resolveName("robot_description") + " is not set; load the robot's URDF there");
-  const auto robot = RobotModel::fromXml(urdf, searchedText(node, "robot_description_semantic"), options, warnings);
+    throw Error("parameter " + options.urdf_name + " is not set; load the robot's URDF there");
+  const auto robot = RobotModel::fromXml(urdf, textParameter(node, options.srdf_name, ""), options, warnings);
 
   const std::string scene_file = textParameter(own, "scene", "");
   PlanningScene scene = scene_file.empty() ? PlanningScene(robot)

@@ -1,6 +1,7 @@
 // planning_scene_node: holds a planning scene and answers over ROS which robot states are free of collision.
 
 #include <algorithm>
+#include <iostream>
 #include <thread>
 
 #include <ros/ros.h>
@@ -15,15 +16,14 @@ namespace gpu_planning_scene
 {
 namespace
 {
-void run()
+void serve(ros::NodeHandle& node, ros::NodeHandle& own)
 {
-  ros::NodeHandle node;
-  ros::NodeHandle own("~");
+  const BatchCheckerOptions options = checkerOptionsFromParameters(own);
   std::vector<std::string> warnings;
   const auto scene = sceneFromParameters(node, own, &warnings);
   for (const std::string& warning : warnings)
     ROS_WARN_STREAM(warning);
-  const std::shared_ptr<StateChecker> checker = openChecker(scene, checkerOptionsFromParameters(own));
+  const std::shared_ptr<StateChecker> checker = openChecker(scene, options);
   for (const std::string& line : describeScene(*scene, checker->report(), checker->deviceName()))
     ROS_INFO_STREAM(line);
 
@@ -55,6 +55,23 @@ void run()
   spinner.start();
   ros::waitForShutdown();
 }
+
+/// The handles outlive the error: with the last of them roscpp shuts down, and its log with it.
+int run()
+{
+  ros::NodeHandle node;
+  ros::NodeHandle own("~");
+  try
+  {
+    serve(node, own);
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    ROS_FATAL_STREAM(error.what());
+    return 1;
+  }
+}
 }  // namespace
 }  // namespace gpu_planning_scene
 
@@ -63,12 +80,11 @@ int main(int argc, char** argv)
   try
   {
     ros::init(argc, argv, "planning_scene_node");
-    gpu_planning_scene::run();
-    return 0;
+    return gpu_planning_scene::run();
   }
   catch (const std::exception& error)
   {
-    ROS_FATAL_STREAM(error.what());
+    std::cerr << "planning_scene_node: " << error.what() << "\n";
     return 1;
   }
 }

@@ -1,0 +1,211 @@
+// Run by rostest beside a planning_scene_node: over ROS it answers as the library does, to several clients at once, and
+// outlives wrong requests. The parameters of this test's own node name the files that the node was started with.
+
+#include <atomic>
+#include <limits>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+
+#include <gpu_planning_scene/CheckStates.h>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "tools/open_checker.h"
+#include "tools/run_program.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+const char* const kService = "/planning_scene/check_states";
+
+std::string parameter(const std::string& name)
+{
+  return ros::param::param<std::string>("~" + name, "");
+}
+
+class Node : public testing::Test
+{
+ protected:
+  static void SetUpTestSuite()
+  {
+    robot = RobotModel::fromFiles(parameter("urdf"), parameter("srdf"), {});
+    const std::string scene_file = parameter("scene");
+    scene = std::make_shared<const PlanningScene>(scene_file.empty() ? PlanningScene(robot)
+                                                                     : loadSceneFile(scene_file, robot, {}));
+    ASSERT_TRUE(ros::service::waitForService(kService, ros::Duration(60.0)));
+  }
+  static void TearDownTestSuite()
+  {
+    scene.reset();
+    robot.reset();
+  }
+
+  static std::vector<double> randomStates(std::size_t count, std::uint64_t seed)
+  {
+    std::mt19937_64 generator(seed);
+    std::vector<double> states(count * robot->variables().size());
+    for (std::size_t i = 0; i < count; ++i)
+      robot->randomState(generator, states.data() + i * robot->variables().size());
+    return states;
+  }
+
+  /// All variables named, in the robot's order.
+  static CheckStates request(const std::vector<double>& states)
+  {
+    CheckStates call;
+    for (const Variable& variable : robot->variables())
+      call.request.joint_names.push_back(variable.name);
+    call.request.positions = states;
+    return call;
+  }
+
+  /// Fails the test unless the node answers, and refuses.
+  static void expectRefusal(CheckStates call, const std::string& reason)
+  {
+    ASSERT_TRUE(ros::service::call(kService, call)) << "no answer, expected: " << reason;
+    EXPECT_FALSE(call.response.success);
+    EXPECT_NE(std::string::npos, call.response.message.find(reason)) << call.response.message;
+    EXPECT_TRUE(call.response.valid.empty());
+  }
+
+  static std::shared_ptr<const RobotModel> robot;
+  static std::shared_ptr<const PlanningScene> scene;
+};
+std::shared_ptr<const RobotModel> Node::robot;
+std::shared_ptr<const PlanningScene> Node::scene;
+
+TEST_F(Node, answersFourClientsAtOnceAsTheLibraryDoes)
+{
+  BatchCheckerOptions options;
+  options.device = parameter("device");
+  const auto checker = openChecker(scene, options);
+  constexpr int clients = 4;
+  constexpr int rounds = 5;
+  std::atomic<int> failures{0};
+  std::atomic<int> valid{0};
+  std::atomic<int> states{0};
+  const auto client = [&](int number)
+  {
+    for (int round = 0; round < rounds; ++round)
+    {
+      const std::size_t count = 1 + 400 * static_cast<std::size_t>(round) + 7 * static_cast<std::size_t>(number);
+      const std::vector<double> batch = randomStates(count, static_cast<std::uint64_t>(100 * number + round));
+      CheckStates call = request(batch);
+      const BatchResult expected = checker->check(batch.data(), count);
+      if (!ros::service::call(kService, call) || !call.response.success || call.response.valid != expected.valid)
+        ++failures;
+      for (std::size_t i = 0; i < call.response.valid.size(); ++i)
+      {
+        const bool free = call.response.valid[i] != 0;
+        if (free != call.response.body_1.at(i).empty() || free != call.response.body_2.at(i).empty())
+          ++failures;
+        valid += free ? 1 : 0;
+        ++states;
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 0; i < clients; ++i)
+    threads.emplace_back(client, i);
+  for (std::thread& thread : threads)
+    thread.join();
+  EXPECT_EQ(0, failures);
+  EXPECT_GT(10 * valid, states) << "hardly any state is valid: the comparison says little";
+  EXPECT_LT(10 * valid, 9 * states) << "hardly any state collides: the comparison says little";
+}
+
+TEST_F(Node, refusesWrongRequestsAndLivesOn)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> states = randomStates(2, 1);
+  CheckStates wrong = request(states);
+  wrong.request.group = "no such group";
+  expectRefusal(wrong, "no such group");
+  wrong = request(states);
+  wrong.request.joint_names[0] = "no such joint";
+  expectRefusal(wrong, "no such joint");
+  wrong = request(states);
+  wrong.request.positions.pop_back();
+  expectRefusal(wrong, "positions are not rows");
+  wrong = request(states);
+  wrong.request.positions[0] = nan;
+  expectRefusal(wrong, "not a finite number");
+  expectRefusal(CheckStates(), "joint_names is empty");
+
+  CheckStates right = request(states);
+  ASSERT_TRUE(ros::service::call(kService, right));
+  EXPECT_TRUE(right.response.success) << right.response.message;
+  EXPECT_EQ(2u, right.response.valid.size());
+}
+
+TEST_F(Node, takesVariablesThatARequestLeavesOutFromJointStates)
+{
+  CheckStates partial;
+  partial.request.joint_names = {robot->variables()[0].name};
+  partial.request.positions = {0.0};
+  ASSERT_TRUE(scene->current_state.empty()) << "the test needs a scene without a robot_state";
+  expectRefusal(partial, "no value for");
+
+  ros::NodeHandle node;
+  ros::Publisher publisher = node.advertise<sensor_msgs::JointState>("/joint_states", 1, true);
+  sensor_msgs::JointState message;
+  for (const Variable& variable : robot->variables())
+  {
+    message.name.push_back(variable.name);
+    message.position.push_back(0.5 * (variable.lower + variable.upper));
+  }
+  publisher.publish(message);
+  for (int i = 0; i < 100 && !partial.response.success; ++i)
+  {
+    ros::Duration(0.1).sleep();
+    ASSERT_TRUE(ros::service::call(kService, partial));
+  }
+  EXPECT_TRUE(partial.response.success) << partial.response.message;
+  std::vector<double> state = message.position;
+  state[0] = 0.0;
+  EXPECT_EQ(CpuChecker(scene).check(state.data(), 1).valid, partial.response.valid);
+}
+
+/// A node of its own with these arguments ends with exit code 1 and one line that says why.
+void expectNoStart(std::vector<std::string> arguments, const std::string& reason)
+{
+  // Private parameters outlive their node, so each gets a name of its own.
+  static int number = 0;
+  const std::string urdf = parameter("urdf");
+  arguments.push_back("__name:=broken_" + std::to_string(++number));
+  arguments.push_back("_urdf_folder:=" + urdf.substr(0, urdf.rfind('/')));
+  const ProgramOutput output = runProgram(GPS_NODE, arguments);
+  EXPECT_EQ(1, output.exit_code);
+  const auto lines = linesOf(output.err);
+  ASSERT_EQ(1u, lines.size()) << output.err;
+  EXPECT_NE(std::string::npos, lines[0].find("FATAL")) << lines[0];
+  EXPECT_NE(std::string::npos, lines[0].find(reason)) << lines[0];
+}
+
+TEST_F(Node, doesNotStartOnWhatItCannotUse)
+{
+  ros::param::set("/broken_description", "<robot name=");
+  ros::param::set("/number_description", 5.5);
+  expectNoStart({"robot_description:=broken_description"}, "broken_description");
+  expectNoStart({"robot_description:=number_description"}, "number_description is not a string");
+  expectNoStart({"robot_description:=missing_description"}, "missing_description is not set");
+  expectNoStart({"_scene:=/no/such/scene.yaml"}, "/no/such/scene.yaml");
+  expectNoStart({"_device:=no such renderer"}, "no such renderer");
+  expectNoStart({"_traversal:=depth_first"}, "depth_first");
+  expectNoStart({"_max_batch:=0"}, "max_batch is not an integer");
+  expectNoStart({"_packages:=5"}, "~packages");
+}
+}  // namespace
+}  // namespace gpu_planning_scene
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "node_rostest");
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
