@@ -51,7 +51,7 @@ class BoxPairTest
 
  private:
   // Keeps rounding from separating boxes by the cross product of two edges that are parallel but for rounding.
-  static constexpr double kParallel = 1e-13;
+  static constexpr double kParallel = 1e-14;
 
   Eigen::Matrix3d r_;
   Eigen::Matrix3d abs_r_;

@@ -171,6 +171,7 @@ TEST(CollisionProblem, SharesTheTreesOfEqualShapes)
 TEST(CollisionProblem, PlacesLinkShapesInTheLinkAndObjectsInThePlanningFrame)
 {
   PlanningScene scene = sceneOf("");
+  scene.objects[0].pose.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // x to y, y to -x
   scene.objects[0].shapes[1].pose.translation().y() = 0.5;
   const CollisionProblem problem = makeProblem(scene, "", nullptr);
   const int upper = scene.robot->linkIndex("upper");
@@ -178,7 +179,7 @@ TEST(CollisionProblem, PlacesLinkShapesInTheLinkAndObjectsInThePlanningFrame)
                                      [upper](const Geometry& geometry) { return geometry.body == upper; });
   ASSERT_NE(problem.robot.end(), of_upper);
   EXPECT_TRUE(of_upper->pose.translation().isApprox(Eigen::Vector3d(0, 0, 0.3)));
-  EXPECT_TRUE(problem.world[1].pose.translation().isApprox(Eigen::Vector3d(2.0, 0.5, 0.0)));
+  EXPECT_TRUE(problem.world[1].pose.translation().isApprox(Eigen::Vector3d(1.5, 0.0, 0.0)));
 }
 
 TEST(CollisionProblem, LeavesOutBodiesThatAreInNoCheckedPair)

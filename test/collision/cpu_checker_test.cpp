@@ -161,14 +161,19 @@ TEST_F(CpuCheckerTest, ANewSceneReplacesTheOldOneUnlessItIsRefused)
   EXPECT_THROW(checker_.setScene(nullptr), Error);
   EXPECT_EQ(expected.valid, checker_.check(states_.data(), kCount).valid);
 
-  auto empty = std::make_shared<PlanningScene>(*scene_);
-  empty->objects.clear();
-  empty->revision = 18;
-  checker_.setScene(empty);
-  const BatchResult alone = checker_.check(states_.data(), kCount);
-  EXPECT_EQ(18u, alone.revision);
-  EXPECT_NE(expected.valid, alone.valid);
-  EXPECT_EQ(0u, checker_.report().world_pairs);
+  auto other = std::make_shared<PlanningScene>(*scene_);
+  other->objects = generateObstacles({30, {0.0, 0.0, 0.0}, 0.6, 1.8, 0.6}, 6);
+  other->objects[0].pose = Eigen::Isometry3d::Identity();
+  other->objects[0].pose.translation().z() = 0.6;
+  other->objects[0].shapes = {{sheetMesh(3.0)}};
+  other->revision = 18;
+  checker_.setScene(other);
+  const BatchResult result = checker_.check(states_.data(), kCount);
+  EXPECT_EQ(18u, result.revision);
+  EXPECT_NE(expected.valid, result.valid);
+  EXPECT_EQ(CpuChecker(other).check(states_.data(), kCount).valid, result.valid);
+  EXPECT_EQ(CpuChecker(other).check(states_.data(), kCount, "head").valid,
+            checker_.check(states_.data(), kCount, "head").valid);
 }
 }  // namespace
 }  // namespace gpu_planning_scene
