@@ -33,7 +33,8 @@ process_tree()
 # is_running PID:STARTTIME: still that process, and no zombie.
 is_running()
 {
-  [[ "$(process_field "${1%:*}" 19)" == "${1#*:}" && "$(process_field "${1%:*}" 0)" != Z ]]
+  local start
+  start="$(process_field "${1%:*}" 19)" && [[ "$start" == "${1#*:}" && "$(process_field "${1%:*}" 0)" == [^Z] ]]
 }
 
 # stop PID: asks a process of ours to end (it ends those below it, as roslaunch and ninja do); after `grace` it ends what

@@ -24,6 +24,7 @@ class InstallDependencies(unittest.TestCase):
         lines = (SCRIPTS / "dependencies.txt").read_text().splitlines()
         self.packages = [line.split()[0] for line in lines if line and not line.startswith("#")]
         self.stub("id", "echo 0")
+        self.stub("getent", "echo 127.0.0.1 localhost")
         self.stub("apt-get", f'echo "apt-get $*" >> {self.calls}')
 
     def stub(self, name, body):
@@ -89,6 +90,14 @@ class InstallDependencies(unittest.TestCase):
         self.stub("apt-get", f'echo "$*" >> {self.calls}; [[ "$*" != *update* ]]')
         self.assertEqual(self.run_script().returncode, 0)
         self.assertIn("install", self.calls.read_text())
+
+    def test_names_localhost_where_nothing_does(self):
+        self.have(self.packages)
+        self.stub("id", "echo 1000")
+        self.stub("getent", '[[ "$*" != "hosts localhost" ]]')
+        self.stub("sudo", f'echo "$*: $(cat)" >> {self.calls}')
+        self.assertEqual(self.run_script().returncode, 0)
+        self.assertEqual(self.calls.read_text(), "tee -a /etc/hosts: 127.0.0.1 localhost\n")
 
     def test_says_so_where_it_is_not_debian(self):
         self.assert_one_line(self.run_script(), "not Debian", "dependencies.txt")
