@@ -155,6 +155,7 @@ TEST_F(CpuCheckerTest, RefusesWhatItCannotCheckAndGoesOn)
 TEST_F(CpuCheckerTest, ANewSceneReplacesTheOldOneUnlessItIsRefused)
 {
   const BatchResult expected = checker_.check(states_.data(), kCount);
+  checker_.check(states_.data(), kCount, "head");
   auto broken = std::make_shared<PlanningScene>(*scene_);
   broken->objects[0].shapes.push_back({Sphere{0.0}});
   EXPECT_THROW(checker_.setScene(broken), Error);
