@@ -30,10 +30,10 @@ void main()
   const uint state = candidate.x;
   const uint robot = pairRobot(candidate.y);
   const uint other = pairOther(candidate.y);
-  const Pose a = fetchPose(robot_poses, state * robot_count + robot);
+  const Pose a = fetchPose(robot_poses, poseIndex(state, robot));
   Pose b;
   if (other < robot_count)
-    b = fetchPose(robot_poses, state * robot_count + other);
+    b = fetchPose(robot_poses, poseIndex(state, other));
   else
     b = fetchPose(world_poses, other - robot_count);
   const Pose pose = relativePose(a, b);

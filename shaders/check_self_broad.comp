@@ -12,14 +12,14 @@ void main()
   const uint i = invocationIndex();
   if (i >= state_count * robot_count)
     return;
-  const uint state = i / robot_count;
-  const uint robot = i % robot_count;
+  const uint state = stateOf(i);
+  const uint robot = robotOf(i);
   const vec4 mine = spheres[i];
   const uint end = partners[robot + 1u];
   for (uint k = partners[robot]; k < end; ++k)
   {
     const uint other = partners[robot_count + 1u + k];
-    const vec4 theirs = spheres[state * robot_count + other];
+    const vec4 theirs = spheres[other * state_count + state];
     const vec3 apart = mine.xyz - theirs.xyz;
     const float reach = mine.w + theirs.w;
     if (dot(apart, apart) <= reach * reach)

@@ -18,10 +18,10 @@ void main()
   const uint i = invocationIndex();
   if (i >= state_count * robot_count)
     return;
-  const uint state = i / robot_count;
-  const uint robot = i % robot_count;
+  const uint state = stateOf(i);
+  const uint robot = robotOf(i);
   const Box box = fetchNode(geometries[robot].x).box;
-  const Pose pose = fetchPose(robot_poses, i);
+  const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
   const vec3 center = apply(pose, box.center);
   const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent));
   const mat3 q = mat3(abs(pose.rotation[0]), abs(pose.rotation[1]), abs(pose.rotation[2]));

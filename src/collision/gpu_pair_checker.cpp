@@ -106,15 +106,6 @@ void GpuPairChecker::findCandidates(std::uint32_t states)
     program->set(1, scene_.robotCount());
   }
   lists_.candidates.buffer().bindStorage(BINDING_OUT_2);
-  if (scene_.hasSelfPairs())
-  {
-    spheres_.reserve(std::size_t{ states } * scene_.robotCount() * 16);
-    spheres_.bindStorage(BINDING_OUT);
-    spheres_program_.dispatch(groups);
-    self_program_.set(2, lists_.capacity.candidates);
-    scene_.partners().bindStorage(BINDING_IN);
-    self_program_.dispatch(groups);
-  }
   if (scene_.worldCount() > 0)
   {
     world_program_.set(2, lists_.capacity.candidates);
@@ -123,6 +114,15 @@ void GpuPairChecker::findCandidates(std::uint32_t states)
     scene_.worldOrder().bindStorage(BINDING_IN);
     scene_.worldPairs().bindStorage(BINDING_IN_2);
     world_program_.dispatch(groups);
+  }
+  if (scene_.hasSelfPairs())
+  {
+    spheres_.reserve(std::size_t{ states } * scene_.robotCount() * 16);
+    spheres_.bindStorage(BINDING_OUT);
+    spheres_program_.dispatch(groups);
+    self_program_.set(2, lists_.capacity.candidates);
+    scene_.partners().bindStorage(BINDING_IN);
+    self_program_.dispatch(groups);
   }
 }
 
