@@ -30,6 +30,7 @@ void main()
   box.high = high + (abs(high) * 1.1920929e-7 + 1e-37);
   box.reference = i;
   box.count = 1u;
+  box.opened = false;
   boxes[2u * i] = packLow(box);
   boxes[2u * i + 1u] = packHigh(box);
 }

@@ -8,7 +8,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "cluster.glsl"
 layout(location = 0) uniform uint round_index;
 layout(std430, binding = 0) readonly buffer Clusters { uvec4 clusters[]; };
-layout(std430, binding = 1) readonly buffer ClusterMesh { uint cluster_mesh[]; };
+layout(std430, binding = 1) readonly buffer ClusterInfo { uvec2 cluster_info[]; };
 layout(std430, binding = 2) readonly buffer Rounds { uint rounds[]; };
 layout(std430, binding = 3) writeonly buffer Nearest { uint nearest[]; };
 
@@ -18,11 +18,11 @@ void main()
   const uint cluster_count = rounds[round_index * ROUND_STRIDE + ROUND_CLUSTERS];
   if (i >= cluster_count)
     return;
-  const uint mesh = cluster_mesh[i];
+  const uint mesh = cluster_info[i].x;
   if (round_index >= NEAREST_ROUNDS)
   {
     const uint partner = ((i + round_index) & 1u) == 0u ? i + 1u : i - 1u;  // 0 - 1 wraps and is out of range
-    nearest[i] = partner < cluster_count && cluster_mesh[partner] == mesh ? partner : i;
+    nearest[i] = partner < cluster_count && cluster_info[partner].x == mesh ? partner : i;
     return;
   }
   const vec3 low = uintBitsToFloat(clusters[2u * i].xyz);
@@ -37,7 +37,7 @@ void main()
     const vec3 union_high = max(high, uintBitsToFloat(clusters[2u * j + 1u].xyz));
     const float area = halfArea(union_high - union_low);
     const bool better = best == i || area < best_area || (area == best_area && (i ^ j) < (i ^ best));
-    if (j != i && cluster_mesh[j] == mesh && better)
+    if (j != i && cluster_info[j].x == mesh && better)
     {
       best = j;
       best_area = area;

@@ -6,11 +6,14 @@ struct Cluster
   vec3 high;
   uint reference;  // count 1: a primitive; more: the number of the pair that its children lie in
   uint count;
+  bool opened;     // whether it is cheaper to open it than to test all its triangles
 };
+
+#define OPENED_BIT 0x80000000u
 
 Cluster unpackCluster(uvec4 a, uvec4 b)
 {
-  return Cluster(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), a.w, b.w);
+  return Cluster(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz), a.w, b.w & ~OPENED_BIT, (b.w & OPENED_BIT) != 0u);
 }
 
 uvec4 packLow(Cluster c)
@@ -20,7 +23,7 @@ uvec4 packLow(Cluster c)
 
 uvec4 packHigh(Cluster c)
 {
-  return uvec4(floatBitsToUint(c.high), c.count);
+  return uvec4(floatBitsToUint(c.high), c.count | (c.opened ? OPENED_BIT : 0u));
 }
 
 float halfArea(vec3 extent)

@@ -1,5 +1,5 @@
 // The last step of the build, from the roots down: nodes get their final form, and every triangle its place, so that a
-// subtree's triangles are contiguous and a subtree of at most leaf_size triangles becomes a leaf.
+// subtree's triangles are contiguous and a subtree of at most leaf_size triangles that is not worth opening becomes a leaf.
 #include "cluster.glsl"
 layout(location = 1) uniform uint root_base;      // where the roots of this forest lie among the nodes
 layout(location = 2) uniform uint leaf_size;
@@ -10,7 +10,7 @@ layout(std430, binding = 7) writeonly buffer LeafOrder { uint leaf_order[]; };
 // Places a subtree whose triangles begin at `start` into node `at`. Pairs of children follow the `roots` roots.
 void place(Cluster c, uint at, uint start, uint first_pair_node)
 {
-  const bool leaf = c.count <= leaf_size;
+  const bool leaf = c.count == 1u || (c.count <= leaf_size && !c.opened);
   if (c.count == 1u)
     leaf_order[start] = c.reference;
   else

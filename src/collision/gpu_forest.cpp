@@ -186,7 +186,7 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   for (int i = 0; i < 2; ++i)
   {
     clusters_[i].reserve(count * 32);
-    cluster_mesh_[i].reserve(count * kUint);
+    cluster_info_[i].reserve(count * 2 * kUint);
   }
   nearest_.reserve(count * kUint);
   sums_.reserve(divideUp(count, CHUNK) * 2 * kUint);
@@ -196,7 +196,7 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   mesh_of_.bindStorage(1);
   boxes_.bindStorage(2);
   clusters_[0].bindStorage(3);
-  cluster_mesh_[0].bindStorage(4);
+  cluster_info_[0].bindStorage(4);
   gather_program_.set(0, static_cast<std::uint32_t>(count));
   gather_program_.dispatch(groupsFor(count));
 
@@ -229,9 +229,9 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   {
     const std::size_t record = round * ROUND_STRIDE * kUint;
     clusters_[round & 1].bindStorage(0);
-    cluster_mesh_[round & 1].bindStorage(1);
+    cluster_info_[round & 1].bindStorage(1);
     clusters_[~round & 1].bindStorage(5);
-    cluster_mesh_[~round & 1].bindStorage(6);
+    cluster_info_[~round & 1].bindStorage(6);
     for (const Program* program : { &nearest_program_, &count_program_, &scan_program_, &write_program_ })
       program->set(0, round);
     nearest_program_.dispatchIndirect(rounds_, record + ROUND_CLUSTER_GROUPS * kUint);
