@@ -27,6 +27,11 @@ struct Implementation
   std::function<std::unique_ptr<StateChecker>(Scene)> make;
 };
 
+void PrintTo(const Implementation& implementation, std::ostream* out)
+{
+  *out << implementation.name;
+}
+
 const Implementation kCpu = {"Cpu", [](Scene scene) { return std::make_unique<CpuChecker>(std::move(scene)); }};
 
 std::unique_ptr<StateChecker> onGpu(Scene scene, Traversal traversal)
@@ -71,6 +76,8 @@ std::string nameOf(const testing::TestParamInfo<Agreement::ParamType>& parameter
   return std::get<0>(parameter.param).name + "_" + std::get<1>(parameter.param);
 }
 INSTANTIATE_TEST_SUITE_P(Checkers, Agreement,
-                         testing::Combine(testing::Values(kCpu, kBreadthFirst, kWorkQueue), testing::ValuesIn(testSceneNames())), nameOf);
+                         testing::Combine(testing::Values(kCpu, kBreadthFirst, kWorkQueue),
+                                          testing::ValuesIn(testSceneNames())),
+                         nameOf);
 }  // namespace
 }  // namespace gpu_planning_scene
