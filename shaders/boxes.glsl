@@ -49,6 +49,17 @@ bool boxesApart(Box a, Box b, Pose pose, float margin)
   return gap > margin;
 }
 
+// Whether a node's box lies within the core of the other tree's solid by more than `margin`: then what it holds is inside.
+// A core that is not there has negative extents, and nothing lies within it.
+bool boxInCore(Box a, Box b, vec3 core_a, vec3 core_b, Pose pose, float margin)
+{
+  const mat3 r = pose.rotation;
+  const mat3 q = mat3(abs(r[0]), abs(r[1]), abs(r[2]));
+  const vec3 b_in_a = abs(apply(pose, b.center)) + q * b.extent + margin;
+  const vec3 a_in_b = abs((a.center - pose.translation) * r) + a.extent * q + margin;
+  return all(lessThan(b_in_a, core_a)) || all(lessThan(a_in_b, core_b));
+}
+
 // The size that decides which of two nodes is taken apart first.
 float boxSize(Box box)
 {

@@ -37,11 +37,11 @@ void main()
   else
     b = fetchPose(world_poses, other - robot_count);
   const Pose pose = relativePose(a, b);
-  const uint root_a = geometries[robot].x;
-  const uint root_b = geometries[other].x;
-  const float slack = uintBitsToFloat(geometries[robot].y) + uintBitsToFloat(geometries[other].y);
-  const Box box_a = fetchNode(root_a).box;
-  const Box box_b = fetchNode(root_b).box;
+  const Instance instance_a = fetchInstance(robot);
+  const Instance instance_b = fetchInstance(other);
+  const float slack = instance_a.slack + instance_b.slack;
+  const Box box_a = fetchNode(instance_a.root).box;
+  const Box box_b = fetchNode(instance_b.root).box;
   // Both poses were rounded to float, multiplied, and are applied to points as far out as the boxes reach.
   const float error = 16.0 * 1.1920929e-7 * (sum(a.translation) + sum(b.translation) + sum(box_a.center) + sum(box_a.extent) +
                                              sum(box_b.center) + sum(box_b.extent));
@@ -57,5 +57,5 @@ void main()
   for (int row = 0; row < 3; ++row)
     items[4u * at + uint(row)] = floatBitsToUint(vec4(rows[row], pose.translation[row]));
   items[4u * at + 3u] = uvec4(state, candidate.y, floatBitsToUint(slack), floatBitsToUint(error));
-  entries[at] = uvec4(at, root_a, root_b, 0u);
+  entries[at] = uvec4(at, instance_a.root, instance_b.root, 0u);
 }

@@ -13,11 +13,10 @@ void main()
   const uint i = invocationIndex();
   if (i >= state_count * robot_count)
     return;
-  const uvec2 geometry = geometries[robotOf(i)];
-  const Box box = fetchNode(geometry.x).box;
-  const float slack = uintBitsToFloat(geometry.y);
+  const Instance instance = fetchInstance(robotOf(i));
+  const Box box = fetchNode(instance.root).box;
   const vec3 center = apply(fetchPose(robot_poses, poseIndex(stateOf(i), robotOf(i))), box.center);
   // 1e-5: rounding of the pose, of the product and of the comparison, relative to all lengths that enter.
   const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent));
-  spheres[i] = vec4(center, length(box.extent) + slack + error);
+  spheres[i] = vec4(center, length(box.extent) + instance.slack + error);
 }

@@ -20,12 +20,13 @@ void main()
     return;
   const uint state = stateOf(i);
   const uint robot = robotOf(i);
-  const Box box = fetchNode(geometries[robot].x).box;
+  const Instance instance = fetchInstance(robot);
+  const Box box = fetchNode(instance.root).box;
   const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
   const vec3 center = apply(pose, box.center);
   const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent));
   const mat3 q = mat3(abs(pose.rotation[0]), abs(pose.rotation[1]), abs(pose.rotation[2]));
-  const vec3 extent = q * box.extent + uintBitsToFloat(geometries[robot].y) + error;
+  const vec3 extent = q * box.extent + instance.slack + error;
 
   // The depth of a tree is at most BUILD_ROUNDS, and one of each two children waits.
   uint stack[BUILD_ROUNDS + 2];

@@ -45,7 +45,7 @@
 #define BINDING_COUNTERS 0
 #define BINDING_FLAGS 1       // one uint a state: STATE_* bits
 #define BINDING_HITS 2        // one uint a state: the pair that was hit
-#define BINDING_GEOMETRIES 3  // two uints an instance: root node, slack (float bits); robot's first, then the world's
+#define BINDING_GEOMETRIES 3  // two uvec4 an instance, see instances.glsl; robot's first, then the world's
 #define BINDING_OUT 4         // what the kernel writes; see its header
 #define BINDING_OUT_2 5
 #define BINDING_IN 6

@@ -4,6 +4,7 @@
 layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
 #include "level.glsl"
+#include "instances.glsl"
 #include "verdicts.glsl"
 layout(std430, binding = BINDING_OUT) writeonly buffer Masks { uint masks[]; };
 layout(std430, binding = BINDING_OUT_2) writeonly buffer Sums { uvec2 sums[]; };
@@ -23,6 +24,9 @@ void main()
     const TreeNode a = fetchNode(entry.y);
     const TreeNode b = fetchNode(entry.z);
     const uint children = isDecided(item.state) ? 0u : childrenOf(a, b);
+    const vec3 core_a = fetchInstance(pairRobot(item.pair)).core;
+    const vec3 core_b = fetchInstance(pairOther(item.pair)).core;
+    bool inside = false;
     uint mask = 0u;
     for (uint c = 0u; c < 4u; ++c)
     {
@@ -30,9 +34,15 @@ void main()
       const TreeNode child_a = fetchNode(nodes.x);
       const TreeNode child_b = fetchNode(nodes.y);
       const bool apart = boxesApart(child_a.box, child_b.box, item.pose, item.slack + item.error);
+      inside = inside || boxInCore(child_a.box, child_b.box, core_a, core_b, item.pose, item.error);
       const bool leaves = child_a.count != 0u && child_b.count != 0u;
       if (!apart && (children >> c & 1u) != 0u)
         mask |= (leaves ? 16u : 1u) << c;
+    }
+    if (inside)
+    {
+      report(item.state, item.pair, STATE_HIT);
+      mask = 0u;
     }
     masks[i] = mask;
     sum += uvec2(bitCount(mask & 15u), bitCount(mask >> 4u));

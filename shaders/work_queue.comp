@@ -10,6 +10,7 @@ layout(local_size_x = QUEUE_LANES) in;
 #include "common.glsl"
 #include "items.glsl"
 #include "boxes.glsl"
+#include "instances.glsl"
 #include "descend.glsl"
 #include "counters.glsl"
 #include "verdicts.glsl"
@@ -60,6 +61,8 @@ void main()
   uint item_index = 0u;
   Item item;
   item.state = 0u;
+  vec3 core_a = vec3(-1.0);
+  vec3 core_b = vec3(-1.0);
   if (gl_LocalInvocationID.x == 0u)
   {
     leaf_pair_count = 0u;
@@ -85,12 +88,16 @@ void main()
       item_index = entry.x;
       item = fetchItem(item_index);
       nodes = entry.yz;
+      core_a = fetchInstance(pairRobot(item.pair)).core;
+      core_b = fetchInstance(pairOther(item.pair)).core;
     }
-    for (uint step = 0u; step < QUEUE_STEPS && walking && waiting + leaves < QUEUE_STACK; ++step)
+    bool inside = false;
+    for (uint step = 0u; step < QUEUE_STEPS && walking && !inside && waiting + leaves < QUEUE_STACK; ++step)
     {
       const TreeNode a = fetchNode(nodes.x);
       const TreeNode b = fetchNode(nodes.y);
       const bool overlap = !boxesApart(a.box, b.box, item.pose, item.slack + item.error);
+      inside = boxInCore(a.box, b.box, core_a, core_b, item.pose, item.error);
       const bool leaf = a.count != 0u && b.count != 0u;
       const bool into_a = descendsIntoA(a, b);
       const uvec2 first = into_a ? uvec2(a.first, nodes.y) : uvec2(nodes.x, b.first);
@@ -110,6 +117,12 @@ void main()
         waiting -= walking ? 1u : 0u;
         nodes = memory[waiting];
       }
+    }
+    if (inside)
+    {
+      report(item.state, item.pair, STATE_HIT);
+      walking = false;
+      waiting = 0u;
     }
     // A stack that is full by itself: its current pair waits for the next pass.
     if (walking && waiting >= QUEUE_STACK)

@@ -1,6 +1,7 @@
 #include "collision/gpu_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -36,6 +37,32 @@ Eigen::AlignedBox3f movedBounds(const Eigen::AlignedBox3d& box, const Eigen::Iso
     moved.max()[axis] = std::nextafter(static_cast<float>(center[axis] + half[axis] + slop), std::numeric_limits<float>::infinity());
   }
   return moved;
+}
+
+/// An instance as shaders/instances.glsl reads it.
+struct InstanceRecord
+{
+  std::uint32_t root;
+  float slack;
+  std::array<std::uint32_t, 2> unused;
+  std::array<float, 3> core;
+  std::uint32_t also_unused;
+};
+static_assert(sizeof(InstanceRecord) == 32, "two uvec4");
+
+/// Half edge lengths of a box around the origin that lies within a solid; negative where none is known. What lies in the
+/// box is inside without any look at the surface.
+Eigen::Vector3f solidCore(const Shape& shape)
+{
+  constexpr double kRounding = 1.0 - 1e-6;
+  Eigen::Vector3d core = Eigen::Vector3d::Constant(-1.0);
+  if (const auto* box = std::get_if<Box>(&shape))
+    core = box->size / 2.0;
+  else if (const auto* sphere = std::get_if<Sphere>(&shape))
+    core.setConstant(sphere->radius / std::sqrt(3.0));
+  else if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+    core = Eigen::Vector3d(cylinder->radius / std::sqrt(2.0), cylinder->radius / std::sqrt(2.0), cylinder->length / 2.0);
+  return (kRounding * core).cast<float>();
 }
 
 bool sameShapes(const std::vector<Shape>& a, const std::vector<Shape>& b)
@@ -118,18 +145,16 @@ std::uint32_t GpuScene::rootOf(std::size_t tree) const
 
 void GpuScene::writeGeometries(const CollisionProblem& problem)
 {
-  std::vector<std::uint32_t> geometries;
+  std::vector<InstanceRecord> geometries;
   for (const std::vector<Geometry>* instances : { &problem.robot, &problem.world })
     for (const Geometry& geometry : *instances)
     {
       const double sagitta = problem.trees[geometry.tree].sagitta;
       const float slack = sagitta > 0.0 ? std::nextafter(static_cast<float>(sagitta), 1.0F) : 0.0F;
-      std::uint32_t bits = 0;
-      std::memcpy(&bits, &slack, sizeof(bits));
-      geometries.push_back(rootOf(geometry.tree));
-      geometries.push_back(bits);
+      const Eigen::Vector3f core = solidCore(problem.shapes[geometry.tree]);
+      geometries.push_back({ rootOf(geometry.tree), slack, {}, { core.x(), core.y(), core.z() }, 0 });
     }
-  geometries_.reserve(geometries.size() * sizeof(std::uint32_t));
+  geometries_.reserve(geometries.size() * sizeof(InstanceRecord));
   geometries_.write(geometries);
 }
 
