@@ -127,10 +127,11 @@ BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own)
   if (own.hasParam("traversal"))
     options.traversal = traversalFromName(textParameter(own, "traversal", ""));
   const double max_batch = numberParameter(own, "max_batch", static_cast<double>(options.max_batch));
-  constexpr double most = 1 << 24;
-  if (!(max_batch >= 1.0 && max_batch <= most) || max_batch != static_cast<double>(static_cast<std::size_t>(max_batch)))
+  constexpr double kMost = 1 << 24;
+  if (!(max_batch >= 1.0 && max_batch <= kMost) ||
+      max_batch != static_cast<double>(static_cast<std::size_t>(max_batch)))
     throw Error("parameter " + own.resolveName("max_batch") + " is not an integer from 1 to " +
-                std::to_string(static_cast<std::size_t>(most)));
+                std::to_string(static_cast<std::size_t>(kMost)));
   options.max_batch = static_cast<std::size_t>(max_batch);
   return options;
 }

@@ -73,8 +73,8 @@ void setTransform(const YamlValue& where, const Joint& joint, const Eigen::Isome
     const Eigen::Matrix3d directions = planarDirections(joint.axis);
     const Eigen::Vector3d position = directions.transpose() * pose.translation();
     const Eigen::Matrix3d rotation = directions.transpose() * pose.linear() * directions;
-    constexpr double tolerance = 1e-6;  // metres, radians: what rounding in a message may leave
-    if (std::abs(position.z()) > tolerance || rotation(2, 2) < 1.0 - 0.5 * tolerance * tolerance)
+    constexpr double kTolerance = 1e-6;  // metres, radians: what rounding in a message may leave
+    if (std::abs(position.z()) > kTolerance || rotation(2, 2) < 1.0 - 0.5 * kTolerance * kTolerance)
       where.fail("the transform leaves the plane of the planar joint '" + joint.name + "'");
     state.set(first, position.x());
     state.set(first + 1, position.y());

@@ -65,14 +65,14 @@ class PairSampler
 
 HitCounts countInRandomStates(const RobotModel& robot, const PairSampler& sampler, const SamplingOptions& options)
 {
-  constexpr std::size_t states_at_once = 1024;
+  constexpr std::size_t kStatesAtOnce = 1024;
   const std::size_t width = robot.variables().size();
   HitCounts counts;
   std::mt19937_64 generator(options.seed);
   ProgressBar progress("sampling", options.samples);
   for (std::size_t done = 0; done < options.samples;)
   {
-    const std::size_t count = std::min(states_at_once, options.samples - done);
+    const std::size_t count = std::min(kStatesAtOnce, options.samples - done);
     std::vector<double> states(count * width);
     for (std::size_t i = 0; i < count; ++i)
       robot.randomState(generator, states.data() + i * width);

@@ -16,13 +16,13 @@ std::string helpText(const Tool& tool, const std::vector<Option>& options)
   for (const Option& option : options)
   {
     std::string line = "  " + option.name + (option.argument.empty() ? "" : " " + option.argument);
-    constexpr std::size_t help_column = 30;
-    if (line.size() + 2 > help_column)
-      line += "\n" + std::string(help_column, ' ');
+    constexpr std::size_t kHelpColumn = 30;
+    if (line.size() + 2 > kHelpColumn)
+      line += "\n" + std::string(kHelpColumn, ' ');
     else
-      line.resize(help_column, ' ');
+      line.resize(kHelpColumn, ' ');
     for (const char c : option.help)
-      line += c == '\n' ? "\n" + std::string(help_column, ' ') : std::string(1, c);
+      line += c == '\n' ? "\n" + std::string(kHelpColumn, ' ') : std::string(1, c);
     text += line + "\n";
   }
   return text;

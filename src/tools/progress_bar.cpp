@@ -30,9 +30,10 @@ void ProgressBar::update(std::size_t done)
     return;
   next_ = now + milliseconds(100);
   drawn_ = true;
-  constexpr std::size_t width = 40;
-  const std::string bar(width * done / total_, '#');
-  std::fprintf(stderr, "\r\033[K%s [%-*s] %zu/%zu", label_.c_str(), static_cast<int>(width), bar.c_str(), done, total_);
+  constexpr std::size_t kWidth = 40;
+  const std::string bar(kWidth * done / total_, '#');
+  std::fprintf(stderr, "\r\033[K%s [%-*s] %zu/%zu", label_.c_str(), static_cast<int>(kWidth), bar.c_str(), done,
+               total_);
   std::fflush(stderr);
 }
 }  // namespace gpu_planning_scene

@@ -28,7 +28,7 @@ std::string parameter(const std::string& name)
 
 class Node : public testing::Test
 {
- protected:
+ public:
   static void SetUpTestSuite()
   {
     robot = RobotModel::fromFiles(parameter("urdf"), parameter("srdf"), {});
@@ -82,17 +82,18 @@ TEST_F(Node, answersFourClientsAtOnceAsTheLibraryDoes)
   BatchCheckerOptions options;
   options.device = parameter("device");
   const auto checker = openChecker(scene, options);
-  constexpr int clients = 4;
-  constexpr int rounds = 5;
+  constexpr int kClients = 4;
+  constexpr int kRounds = 5;
   std::atomic<int> failures{0};
   std::atomic<int> valid{0};
   std::atomic<int> states{0};
   const auto client = [&](int number)
   {
-    for (int round = 0; round < rounds; ++round)
+    for (int round = 0; round < kRounds; ++round)
     {
       const std::size_t count = 1 + 400 * static_cast<std::size_t>(round) + 7 * static_cast<std::size_t>(number);
-      const std::vector<double> batch = randomStates(count, static_cast<std::uint64_t>(100 * number + round));
+      const std::vector<double> batch =
+          randomStates(count, 100 * static_cast<std::uint64_t>(number) + static_cast<std::uint64_t>(round));
       CheckStates call = request(batch);
       const BatchResult expected = checker->check(batch.data(), count);
       if (!ros::service::call(kService, call) || !call.response.success || call.response.valid != expected.valid)
@@ -108,7 +109,8 @@ TEST_F(Node, answersFourClientsAtOnceAsTheLibraryDoes)
     }
   };
   std::vector<std::thread> threads;
-  for (int i = 0; i < clients; ++i)
+  threads.reserve(kClients);
+  for (int i = 0; i < kClients; ++i)
     threads.emplace_back(client, i);
   for (std::thread& thread : threads)
     thread.join();

@@ -42,7 +42,7 @@ CheckStates::Request request(const std::vector<std::string>& names, const std::v
 
 class Service : public testing::Test
 {
- protected:
+ public:
   CheckStates::Response answer(const CheckStates::Request& asked)
   {
     return answerCheckStates(asked, *scene, state, checker);

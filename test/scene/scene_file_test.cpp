@@ -14,7 +14,7 @@ namespace
 {
 class SceneFile : public testing::Test
 {
- protected:
+ public:
   PlanningScene load(const std::string& yaml, std::shared_ptr<const RobotModel> robot = sliderRobot())
   {
     warnings.clear();

@@ -31,7 +31,7 @@ const char* const kState = "robot_state: {joint_state: {name: [slide, turn], pos
 
 class CheckStates : public testing::Test
 {
- protected:
+ public:
   CheckStates()
   {
     urdf = folder.write("slider.urdf", sliderUrdf());

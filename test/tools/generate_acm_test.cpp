@@ -56,7 +56,7 @@ std::map<std::string, std::string> reasonsOf(const RobotModel& robot)
 
 class GenerateAcm : public testing::Test
 {
- protected:
+ public:
   GenerateAcm() : urdf(folder.write("line.urdf", lineUrdf())), out(folder.path("out.srdf")) {}
 
   ProgramOutput generate(std::vector<std::string> arguments) const
