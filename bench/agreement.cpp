@@ -30,7 +30,8 @@ bool compare(const std::string& method, const std::string& name, std::size_t cou
   const std::vector<double> states = scene.randomStates(count, seed);
   const BatchResult result = makeChecker(method, scene.scene)->check(states.data(), count);
   const FclAgreement agreement = compareWithFcl(*scene.scene, states, result);
-  const bool telling = agreement.free >= count / 10 && agreement.free <= count * 9 / 10 && agreement.world_hits >= count / 20;
+  const bool telling =
+      agreement.free >= count / 10 && agreement.free <= count * 9 / 10 && agreement.world_hits >= count / 20;
   std::cout << name << ", " << method << ": " << agreement << ", " << result.undecided_states << " undecided"
             << (telling ? "" : " (too few or too many are free for a comparison)") << std::endl;
   return telling && agreement.failures.empty();
@@ -51,7 +52,7 @@ try
       std::cout << name << ": skipped, there is no " << missing << std::endl;
       continue;
     }
-    for (const char* method : { "cpu", "breadth_first", "work_queue" })
+    for (const char* method : {"cpu", "breadth_first", "work_queue"})
       good = compare(method, name, count, seed) && good;
   }
   return good ? 0 : 1;

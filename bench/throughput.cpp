@@ -1,6 +1,6 @@
-// bench_throughput [STATES [REPEATS [SCENE...]]]: states per second of both traversals, of the CPU checker and of FCL, each on
-// all cores, in one run. The methods take turns, so that a change of the machine's speed meets all of them; figures are
-// medians over the repeats, ratios are medians of the ratios within a repeat. Prints a Markdown table.
+// bench_throughput [STATES [REPEATS [SCENE...]]]: states per second of both traversals, of the CPU checker and of FCL,
+// each on all cores, in one run. The methods take turns, so that a change of the machine's speed meets all of them;
+// figures are medians over the repeats, ratios are medians of the ratios within a repeat. Prints a Markdown table.
 
 #include <algorithm>
 #include <atomic>
@@ -33,7 +33,7 @@ double median(std::vector<double> values)
 /// FCL on all cores: one copy of its models per thread, which takes states until there are none.
 class FclOnAllCores
 {
-public:
+ public:
   explicit FclOnAllCores(const PlanningScene& scene) : robot_(scene.robot)
   {
     const auto problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
@@ -44,7 +44,7 @@ public:
   std::vector<std::uint8_t> check(const std::vector<double>& states, std::size_t count)
   {
     std::vector<std::uint8_t> valid(count);
-    std::atomic<std::size_t> next{ 0 };
+    std::atomic<std::size_t> next{0};
     const auto work = [&](FclPeer& peer)
     {
       std::vector<Eigen::Isometry3d> poses(robot_->links().size());
@@ -65,7 +65,7 @@ public:
     return valid;
   }
 
-private:
+ private:
   std::shared_ptr<const RobotModel> robot_;
   std::vector<std::unique_ptr<FclPeer>> peers_;
 };
@@ -90,11 +90,12 @@ void measure(const std::string& name, std::size_t count, std::size_t repeats)
   const TestScene& scene = testScene(name);
   const std::vector<double> states = scene.randomStates(count, kSeed);
   FclOnAllCores fcl(*scene.scene);
-  std::vector<Method> methods = { { "FCL", [&] { return fcl.check(states, count); } } };
-  const auto add = [&](const std::string& method, const std::shared_ptr<StateChecker>& checker)
-  { methods.push_back({ method, [&states, count, checker] { return checker->check(states.data(), count).valid; } }); };
+  std::vector<Method> methods = {{"FCL", [&] { return fcl.check(states, count); }}};
+  const auto add = [&](const std::string& method, const std::shared_ptr<StateChecker>& checker) {
+    methods.push_back({method, [&states, count, checker] { return checker->check(states.data(), count).valid; }});
+  };
   add("CPU checker", std::make_shared<CpuChecker>(scene.scene));
-  for (const std::size_t batch : { 1024, 16384 })
+  for (const std::size_t batch : {1024, 16384})
   {
     add("breadth-first, " + std::to_string(batch), onGpu(scene, Traversal::BreadthFirst, batch));
     add("work queues, " + std::to_string(batch), onGpu(scene, Traversal::WorkQueue, batch));
@@ -127,9 +128,9 @@ void measure(const std::string& name, std::size_t count, std::size_t repeats)
     for (std::size_t i = 0; i < repeats; ++i)
       ratios.push_back(method.rates[i] / methods.front().rates[i]);
     const auto [low, high] = std::minmax_element(method.rates.begin(), method.rates.end());
-    std::printf("| %s | %zu | %.0f %% | %s | %.0f | %.0f ... %.0f | %.2f |\n", name.c_str(), scene.scene->robot->triangleCount(),
-                100.0 * static_cast<double>(valid) / static_cast<double>(count), method.name.c_str(), median(method.rates), *low,
-                *high, median(ratios));
+    std::printf("| %s | %zu | %.0f %% | %s | %.0f | %.0f ... %.0f | %.2f |\n", name.c_str(),
+                scene.scene->robot->triangleCount(), 100.0 * static_cast<double>(valid) / static_cast<double>(count),
+                method.name.c_str(), median(method.rates), *low, *high, median(ratios));
   }
   std::printf("| %s | | | verdicts unlike FCL's, all methods | %zu | | |\n", name.c_str(), disagreements);
   std::fflush(stdout);
@@ -144,11 +145,12 @@ try
   std::vector<std::string> names(argv + std::min(argc, 3), argv + argc);
   if (names.empty())
     names = testSceneNames();
-  std::printf("%zu random states, seed %llu, %zu repeats, %u cores\n", count, static_cast<unsigned long long>(kSeed), repeats,
-              std::thread::hardware_concurrency());
+  std::printf("%zu random states, seed %llu, %zu repeats, %u cores\n", count, static_cast<unsigned long long>(kSeed),
+              repeats, std::thread::hardware_concurrency());
   for (const Device& device : listDevices())
     std::printf("device %d: %s\n", device.index, device.renderer.c_str());
-  std::printf("\n| scene | triangles | valid | method, batch | states/s | spread | of FCL |\n|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "\n| scene | triangles | valid | method, batch | states/s | spread | of FCL |\n|---|---|---|---|---|---|---|\n");
   for (const std::string& name : names)
     if (const std::string missing = missingFor(name); missing.empty())
       measure(name, count, repeats);

@@ -22,15 +22,15 @@ struct BatchCheckerOptions
   /// "auto" (the first hardware device, else software), "software", an index, or part of a renderer's name.
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
-  std::size_t max_batch = 16384;   ///< states that go to the GPU at once; larger requests are split
-  std::string shader_folder;       ///< empty: where they were installed, or the source tree's (see shaderFolder())
+  std::size_t max_batch = 16384;  ///< states that go to the GPU at once; larger requests are split
+  std::string shader_folder;      ///< empty: where they were installed, or the source tree's (see shaderFolder())
 };
 
 /// Checks states on the GPU: forward kinematics, root tests, tree traversal, triangle tests; undecided states go to a
 /// double-precision traversal of the same trees on the CPU. Owns a GL context and the thread that it is current on.
 class BatchChecker : public StateChecker
 {
-public:
+ public:
   /// Throws Error: no usable EGL device (lists what was tried), a shader that does not compile (with its log).
   BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options);
   ~BatchChecker() override;
@@ -40,7 +40,7 @@ public:
   SceneReport report(const std::string& group = "") override;
   std::string deviceName() const override;
 
-private:
+ private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -9,7 +9,7 @@ namespace gpu_planning_scene
 /// Double-precision traversal of bounding volume trees on all cores, without any GL device.
 class CpuChecker : public StateChecker
 {
-public:
+ public:
   explicit CpuChecker(std::shared_ptr<const PlanningScene> scene);
   ~CpuChecker() override;
 
@@ -18,7 +18,7 @@ public:
   SceneReport report(const std::string& group = "") override;
   std::string deviceName() const override;
 
-private:
+ private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -8,10 +8,10 @@ namespace gpu_planning_scene
 /// An EGL device that can be asked for an OpenGL 4.5 context without a window.
 struct Device
 {
-  int index = -1;          ///< what `--device INDEX` takes
-  std::string renderer;    ///< GL_RENDERER
-  std::string version;     ///< GL_VERSION
-  bool software = false;   ///< llvmpipe and its like
+  int index = -1;         ///< what `--device INDEX` takes
+  std::string renderer;   ///< GL_RENDERER
+  std::string version;    ///< GL_VERSION
+  bool software = false;  ///< llvmpipe and its like
 };
 
 /// Every usable device, in EGL's order. Creates and destroys a context on each.

@@ -9,7 +9,7 @@ namespace gpu_planning_scene
 /// Whoever throws it has changed nothing.
 class Error : public std::runtime_error
 {
-public:
+ public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 }  // namespace gpu_planning_scene

@@ -17,20 +17,20 @@ namespace gpu_planning_scene
 /// Interference Detection on Programmable Graphics Hardware" (2003). Thread-safe: calls are served one after the other.
 class MeshPairChecker
 {
-public:
+ public:
   /// Throws Error as BatchChecker does, and for a shape that is not valid.
   MeshPairChecker(const Shape& a, const Shape& b, const BatchCheckerOptions& options);
   ~MeshPairChecker();
 
-  /// One byte a pose: 1 if b, placed by the pose in a's frame, meets a; 0 if they are apart. Throws Error for a pose that
-  /// is not finite or not a rigid motion.
+  /// One byte a pose: 1 if b, placed by the pose in a's frame, meets a; 0 if they are apart. Throws Error for a pose
+  /// that is not finite or not a rigid motion.
   std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a);
 
   /// How long the last call took, and how many of its poses the CPU had to settle.
   double seconds() const;
   std::size_t undecided() const;
 
-private:
+ private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -64,7 +64,7 @@ struct Tessellation
   double sagitta = 0.0;              ///< metres; 0 for boxes and meshes, which are represented exactly
 };
 
-/// The surface of a shape as triangles. Curved shapes are cut so finely that the sagitta is at most 20 micrometres,
+/// The surface of a shape as triangles. Curved shapes are cut so finely that the sagitta is at most 100 micrometres,
 /// or as finely as 2^15 triangles go.
 Tessellation tessellate(const Shape& shape);
 }  // namespace gpu_planning_scene

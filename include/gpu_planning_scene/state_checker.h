@@ -13,19 +13,19 @@ namespace gpu_planning_scene
 {
 struct BatchResult
 {
-  std::vector<std::uint8_t> valid;                       ///< one per state: 1 free, 0 in collision
-  std::vector<std::array<std::int32_t, 2>> colliding;    ///< body indices of a colliding pair, {-1, -1} where valid
-  std::uint64_t revision = 0;                            ///< of the scene that was checked
-  double seconds = 0.0;                                  ///< wall time of the check, without compiling and building
-  std::size_t undecided_states = 0;                      ///< how many the CPU had to settle
+  std::vector<std::uint8_t> valid;                     ///< one per state: 1 free, 0 in collision
+  std::vector<std::array<std::int32_t, 2>> colliding;  ///< body indices of a colliding pair, {-1, -1} where valid
+  std::uint64_t revision = 0;                          ///< of the scene that was checked
+  double seconds = 0.0;                                ///< wall time of the check, without compiling and building
+  std::size_t undecided_states = 0;                    ///< how many the CPU had to settle
 };
 
 /// What of the scene is checked, and what is left out and why.
 struct SceneReport
 {
-  std::size_t self_pairs = 0;            ///< checked pairs of links
-  std::size_t world_pairs = 0;           ///< checked pairs of a link and an object
-  std::size_t allowed_self_pairs = 0;    ///< left out: the allowed-collision matrix excludes them
+  std::size_t self_pairs = 0;          ///< checked pairs of links
+  std::size_t world_pairs = 0;         ///< checked pairs of a link and an object
+  std::size_t allowed_self_pairs = 0;  ///< left out: the allowed-collision matrix excludes them
   std::size_t allowed_world_pairs = 0;
   std::size_t unmoved_pairs = 0;         ///< left out: the group moves neither body
   std::size_t links_without_shapes = 0;  ///< left out: nothing to collide with
@@ -33,19 +33,19 @@ struct SceneReport
   std::size_t trees = 0;
 };
 
-/// Answers for many robot states at once which are free of collision. Implementations: BatchChecker (GPU) and CpuChecker.
-/// Thread-safe: calls are served one after the other.
+/// Answers for many robot states at once which are free of collision. Implementations: BatchChecker (GPU) and
+/// CpuChecker. Thread-safe: calls are served one after the other.
 class StateChecker
 {
-public:
+ public:
   virtual ~StateChecker() = default;
 
   /// Replaces the scene. Throws Error and keeps the old one if it cannot be used.
   virtual void setScene(std::shared_ptr<const PlanningScene> scene) = 0;
 
-  /// `states`: row-major, `count` rows of robot->variables().size() finite values. `group`: empty for all checked pairs, or
-  /// a planning group: then only pairs with a link that the group moves. Throws Error for an unknown group or a value
-  /// that is not finite.
+  /// `states`: row-major, `count` rows of robot->variables().size() finite values. `group`: empty for all checked
+  /// pairs, or a planning group: then only pairs with a link that the group moves. Throws Error for an unknown group or
+  /// a value that is not finite.
   virtual BatchResult check(const double* states, std::size_t count, const std::string& group = "") = 0;
 
   virtual SceneReport report(const std::string& group = "") = 0;

@@ -85,5 +85,8 @@ SceneReport BatchChecker::report(const std::string& group)
   return impl_->groupProblem(group).report;
 }
 
-std::string BatchChecker::deviceName() const { return impl_->engine.device().renderer; }
+std::string BatchChecker::deviceName() const
+{
+  return impl_->engine.device().renderer;
+}
 }  // namespace gpu_planning_scene

@@ -57,7 +57,7 @@ void BatchEngine::check(std::size_t count, std::size_t link_count, const LinkPos
   const std::vector<Geometry>& robot = problem_->robot;
   const std::vector<Geometry>& world = problem_->world;
   result.valid.assign(count, 1);
-  result.colliding.assign(count, { -1, -1 });
+  result.colliding.assign(count, {-1, -1});
   std::vector<std::size_t> undecided;
   for (std::size_t begin = 0; begin < count; begin += max_batch_)
   {
@@ -71,7 +71,7 @@ void BatchEngine::check(std::size_t count, std::size_t link_count, const LinkPos
       {
         const auto [a, b] = GpuPairChecker::pairOf(verdicts.hits[i]);
         result.valid[begin + i] = 0;
-        result.colliding[begin + i] = { robot[a].body, b < robot.size() ? robot[b].body : world[b - robot.size()].body };
+        result.colliding[begin + i] = {robot[a].body, b < robot.size() ? robot[b].body : world[b - robot.size()].body};
       }
       else if (verdicts.flags[i] & STATE_UNDECIDED)
         undecided.push_back(begin + i);
@@ -110,8 +110,8 @@ void BatchEngine::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t 
   if (!on_cpu_)
     on_cpu_ = std::make_unique<const CpuTraversal>(problem_, forest_);
   forChunks(rows.size(), 1,
-            [&, scratch = CpuTraversal::Scratch(), links = std::vector<Eigen::Isometry3d>(link_count)](std::size_t from,
-                                                                                                std::size_t to) mutable
+            [&, scratch = CpuTraversal::Scratch(), links = std::vector<Eigen::Isometry3d>(link_count)](
+                std::size_t from, std::size_t to) mutable
             {
               for (std::size_t i = from; i < to; ++i)
               {

@@ -20,7 +20,7 @@ namespace gpu_planning_scene
 /// traversal of the same trees. One caller at a time; any thread.
 class BatchEngine
 {
-public:
+ public:
   /// Throws Error: no usable device, a shader that does not compile, max_batch of 0.
   explicit BatchEngine(const BatchCheckerOptions& options);
   ~BatchEngine();
@@ -31,7 +31,8 @@ public:
   /// Restricts the checked pairs to those of `problem`, which has the same trees and instances.
   void selectPairs(std::shared_ptr<const CollisionProblem> problem);
 
-  /// Writes the poses of all links (of bodies that CollisionProblem::robot names) in state `row`. Called from several threads.
+  /// Writes the poses of all links (of bodies that CollisionProblem::robot names) in state `row`. Called from several
+  /// threads.
   using LinkPoses = std::function<void(std::size_t row, Eigen::Isometry3d* link_poses)>;
 
   /// Checks `count` states of a robot of `link_count` links: fills valid, colliding and undecided_states of the result.
@@ -39,7 +40,7 @@ public:
 
   const Device& device() const { return gl_.device(); }
 
-private:
+ private:
   std::vector<float> instancePoses(std::size_t begin, std::size_t count, std::size_t link_count,
                                    const LinkPoses& link_poses) const;
   void settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,
@@ -49,7 +50,7 @@ private:
   GlThread gl_;
   std::unique_ptr<GpuPairChecker> pairs_;  // made, used and destroyed on the GL thread
   std::shared_ptr<const CollisionProblem> problem_;
-  std::shared_ptr<const Forest> forest_;         // read back when a state is undecided for the first time
+  std::shared_ptr<const Forest> forest_;        // read back when a state is undecided for the first time
   std::unique_ptr<const CpuTraversal> on_cpu_;  // of the selected pairs; likewise
 };
 }  // namespace gpu_planning_scene

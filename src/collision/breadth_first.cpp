@@ -8,28 +8,31 @@ namespace gpu_planning_scene
 {
 namespace
 {
-constexpr std::size_t offsetOf(std::size_t counter) { return counter * sizeof(std::uint32_t); }
+constexpr std::size_t offsetOf(std::size_t counter)
+{
+  return counter * sizeof(std::uint32_t);
+}
 }  // namespace
 
 BreadthFirst::BreadthFirst(const std::string& folder, const ListCapacities& capacities)
-  : arguments_(folder)
-  , overlap_(folder, "level_overlap.comp")
-  , scan_(folder, "level_scan.comp")
-  , expand_(folder, "level_expand.comp")
-  , triangles_(folder, "level_triangles.comp")
-  , masks_(std::size_t{ std::max(capacities.node_pairs, capacities.items) } * 4)
-  , sums_((std::size_t{ std::max(capacities.node_pairs, capacities.items) } / LEVEL_CHUNK + 1) * 8)
+  : arguments_(folder),
+    overlap_(folder, "level_overlap.comp"),
+    scan_(folder, "level_scan.comp"),
+    expand_(folder, "level_expand.comp"),
+    triangles_(folder, "level_triangles.comp"),
+    masks_(std::size_t{std::max(capacities.node_pairs, capacities.items)} * 4),
+    sums_((std::size_t{std::max(capacities.node_pairs, capacities.items)} / LEVEL_CHUNK + 1) * 8)
 {
-  leaf_pairs_.reserve(std::size_t{ capacities.leaf_pairs } * 16);
+  leaf_pairs_.reserve(std::size_t{capacities.leaf_pairs} * 16);
 }
 
 bool BreadthFirst::run(BatchLists& lists, std::uint32_t levels)
 {
   const std::uint32_t capacity = std::max(lists.capacity.node_pairs, lists.capacity.items);
-  const auto chunk_lanes = std::uint32_t{ LEVEL_CHUNK } * GROUP_SIZE;
+  const auto chunk_lanes = std::uint32_t{LEVEL_CHUNK} * GROUP_SIZE;
   arguments_.prepare(COUNTER_ITEMS, lists.capacity.items, chunk_lanes, std::numeric_limits<std::uint32_t>::max(),
                      COUNTER_ENTRIES_ODD);
-  for (const Program* program : { &overlap_, &scan_, &expand_ })
+  for (const Program* program : {&overlap_, &scan_, &expand_})
   {
     program->set(2, capacity);
     program->set(3, lists.capacity.leaf_pairs);
@@ -40,7 +43,7 @@ bool BreadthFirst::run(BatchLists& lists, std::uint32_t levels)
   for (std::uint32_t level = 0; level < levels; ++level)
   {
     const std::uint32_t out_counter = level % 2 == 0 ? COUNTER_ENTRIES_ODD : COUNTER_ENTRIES_EVEN;
-    for (const Program* program : { &overlap_, &scan_, &expand_ })
+    for (const Program* program : {&overlap_, &scan_, &expand_})
     {
       program->set(0, in_counter);
       program->set(1, out_counter);

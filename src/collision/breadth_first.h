@@ -4,15 +4,16 @@
 
 namespace gpu_planning_scene
 {
-/// Gress and Zachmann 2003: level by level over packed lists of overlapping node pairs; sums of overlap counts place the
-/// next level's pairs (shaders/level.glsl). The CPU does not wait in between: each level sizes the next one's dispatches.
+/// Gress and Zachmann 2003: level by level over packed lists of overlapping node pairs; sums of overlap counts place
+/// the next level's pairs (shaders/level.glsl). The CPU does not wait in between: each level sizes the next one's
+/// dispatches.
 class BreadthFirst : public GpuTraversal
 {
-public:
+ public:
   BreadthFirst(const std::string& shader_folder, const ListCapacities& capacities);
   bool run(BatchLists& lists, std::uint32_t levels) override;
 
-private:
+ private:
   ArgumentsKernel arguments_;
   Program overlap_, scan_, expand_, triangles_;
   Buffer masks_, sums_;

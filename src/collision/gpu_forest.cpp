@@ -14,9 +14,15 @@ namespace
 {
 constexpr std::size_t kUint = sizeof(std::uint32_t);
 
-std::size_t divideUp(std::size_t value, std::size_t by) { return (value + by - 1) / by; }
+std::size_t divideUp(std::size_t value, std::size_t by)
+{
+  return (value + by - 1) / by;
+}
 
-std::size_t groupsFor(std::size_t lanes) { return divideUp(lanes, GROUP_SIZE); }
+std::size_t groupsFor(std::size_t lanes)
+{
+  return divideUp(lanes, GROUP_SIZE);
+}
 
 std::vector<float> floatVertices(const std::vector<const Mesh*>& meshes)
 {
@@ -41,20 +47,20 @@ std::vector<float> floatVertices(const std::vector<const Mesh*>& meshes)
 }  // namespace
 
 GpuForestBuilder::GpuForestBuilder(const std::string& folder)
-  : boxes_program_(folder, "build_boxes.comp")
-  , bounds_program_(folder, "build_bounds.comp")
-  , morton_program_(folder, "build_morton.comp")
-  , sort_count_program_(folder, "sort_count.comp")
-  , sort_scan_program_(folder, "sort_scan.comp")
-  , sort_scatter_program_(folder, "sort_scatter.comp")
-  , gather_program_(folder, "build_gather.comp")
-  , nearest_program_(folder, "build_nearest.comp")
-  , count_program_(folder, "build_count.comp")
-  , scan_program_(folder, "build_scan.comp")
-  , write_program_(folder, "build_write.comp")
-  , layout_roots_program_(folder, "layout_roots.comp")
-  , layout_pairs_program_(folder, "layout_pairs.comp")
-  , triangles_program_(folder, "gather_triangles.comp")
+  : boxes_program_(folder, "build_boxes.comp"),
+    bounds_program_(folder, "build_bounds.comp"),
+    morton_program_(folder, "build_morton.comp"),
+    sort_count_program_(folder, "sort_count.comp"),
+    sort_scan_program_(folder, "sort_scan.comp"),
+    sort_scatter_program_(folder, "sort_scatter.comp"),
+    gather_program_(folder, "build_gather.comp"),
+    nearest_program_(folder, "build_nearest.comp"),
+    count_program_(folder, "build_count.comp"),
+    scan_program_(folder, "build_scan.comp"),
+    write_program_(folder, "build_write.comp"),
+    layout_roots_program_(folder, "layout_roots.comp"),
+    layout_pairs_program_(folder, "layout_pairs.comp"),
+    triangles_program_(folder, "gather_triangles.comp")
 {
 }
 
@@ -90,8 +96,8 @@ void GpuForestBuilder::buildTriangles(const std::vector<const Mesh*>& meshes, Fo
   checkGl("building trees");
 }
 
-void GpuForestBuilder::buildBoxes(const std::vector<Eigen::AlignedBox3f>& boxes, ForestRegion& region, TexelBuffer& nodes,
-                                  Buffer& leaf_order)
+void GpuForestBuilder::buildBoxes(const std::vector<Eigen::AlignedBox3f>& boxes, ForestRegion& region,
+                                  TexelBuffer& nodes, Buffer& leaf_order)
 {
   std::vector<std::uint32_t> data(boxes.size() * 8);
   for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -105,7 +111,7 @@ void GpuForestBuilder::buildBoxes(const std::vector<Eigen::AlignedBox3f>& boxes,
   }
   boxes_.reserve(data.size() * kUint);
   boxes_.write(data);
-  build(boxes.size(), { 0 }, 1, region, nodes, leaf_order);
+  build(boxes.size(), {0}, 1, region, nodes, leaf_order);
   checkGl("building the tree over objects");
 }
 
@@ -117,15 +123,16 @@ void GpuForestBuilder::build(std::size_t count, const std::vector<std::uint32_t>
     throw Error(std::to_string(count) + " triangles are more than the trees can number");
   region.primitive_count = static_cast<std::uint32_t>(count);
   region.node_count = static_cast<std::uint32_t>(2 * count - mesh_count);
-  nodes.reserve((std::size_t{ region.first_node } + region.node_count) * sizeof(Node));
-  leaf_order.reserve((std::size_t{ region.first_primitive } + count) * kUint);
+  nodes.reserve((std::size_t{region.first_node} + region.node_count) * sizeof(Node));
+  leaf_order.reserve((std::size_t{region.first_primitive} + count) * kUint);
 
   std::vector<std::uint32_t> mesh_of(count);
   std::vector<std::uint32_t> shifted_first(mesh_count);
   for (std::size_t mesh = 0; mesh < mesh_count; ++mesh)
   {
     const std::size_t end = mesh + 1 < mesh_count ? first[mesh + 1] : count;
-    std::fill(mesh_of.begin() + first[mesh], mesh_of.begin() + static_cast<std::ptrdiff_t>(end), static_cast<std::uint32_t>(mesh));
+    std::fill(mesh_of.begin() + first[mesh], mesh_of.begin() + static_cast<std::ptrdiff_t>(end),
+              static_cast<std::uint32_t>(mesh));
     shifted_first[mesh] = first[mesh] + region.first_primitive;
   }
   mesh_of_.reserve(count * kUint);
@@ -163,7 +170,7 @@ void GpuForestBuilder::sortByMorton(std::size_t count, std::size_t mesh_count)
     mesh_of_.bindStorage(1);
     counts_.bindStorage(4);
     keys_[1].bindStorage(5);
-    for (const Program* program : { &sort_count_program_, &sort_scatter_program_ })
+    for (const Program* program : {&sort_count_program_, &sort_scatter_program_})
     {
       program->set(0, n);
       program->set(1, shift);
@@ -232,7 +239,7 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
     cluster_info_[round & 1].bindStorage(1);
     clusters_[~round & 1].bindStorage(5);
     cluster_info_[~round & 1].bindStorage(6);
-    for (const Program* program : { &nearest_program_, &count_program_, &scan_program_, &write_program_ })
+    for (const Program* program : {&nearest_program_, &count_program_, &scan_program_, &write_program_})
       program->set(0, round);
     nearest_program_.dispatchIndirect(rounds_, record + ROUND_CLUSTER_GROUPS * kUint);
     count_program_.dispatchIndirect(rounds_, record + ROUND_CHUNK_GROUPS * kUint);
@@ -262,7 +269,7 @@ void GpuForestBuilder::layOut(std::size_t mesh_count, std::uint32_t leaf_size, c
   pair_starts_.bindStorage(5);
   nodes.buffer().bindStorage(6);
   leaf_order.bindStorage(7);
-  for (const Program* program : { &layout_roots_program_, &layout_pairs_program_ })
+  for (const Program* program : {&layout_roots_program_, &layout_pairs_program_})
   {
     program->set(1, region.first_node);
     program->set(2, leaf_size);

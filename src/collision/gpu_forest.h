@@ -23,27 +23,28 @@ struct ForestRegion
   std::uint32_t depth = 0;  ///< no root lies further than this above a leaf
 };
 
-/// Builds bounding volume trees on the GPU, many at once: Morton order (Lauterbach et al. 2009), then bottom-up merging of
-/// nearest neighbours by surface area (Meister and Bittner 2018, PLOC), which gives trees of SAH quality without a
+/// Builds bounding volume trees on the GPU, many at once: Morton order (Lauterbach et al. 2009), then bottom-up merging
+/// of nearest neighbours by surface area (Meister and Bittner 2018, PLOC), which gives trees of SAH quality without a
 /// separate pass of improvement, then leaves and nodes are laid out from the roots down.
-/// Every primitive lies in exactly one leaf; zero-area and duplicate triangles are primitives like any other; the depth is
-/// at most BUILD_ROUNDS. Used on the context's thread.
+/// Every primitive lies in exactly one leaf; zero-area and duplicate triangles are primitives like any other; the depth
+/// is at most BUILD_ROUNDS. Used on the context's thread.
 class GpuForestBuilder
 {
-public:
+ public:
   explicit GpuForestBuilder(const std::string& shader_folder);
 
-  /// Trees over the triangles of `meshes`, with leaves of at most LEAF_TRIANGLES. Writes the nodes, the leaf order and the
-  /// triangles' vertices (three texels each, in leaf order) after `region`'s first_node and first_primitive, growing the
-  /// buffers as needed, and completes `region`. Throws Error where a mesh's coordinates do not fit into float32.
-  void buildTriangles(const std::vector<const Mesh*>& meshes, ForestRegion& region, TexelBuffer& nodes, Buffer& leaf_order,
-                      TexelBuffer& triangles);
+  /// Trees over the triangles of `meshes`, with leaves of at most LEAF_TRIANGLES. Writes the nodes, the leaf order and
+  /// the triangles' vertices (three texels each, in leaf order) after `region`'s first_node and first_primitive,
+  /// growing the buffers as needed, and completes `region`. Throws Error where a mesh's coordinates do not fit into
+  /// float32.
+  void buildTriangles(const std::vector<const Mesh*>& meshes, ForestRegion& region, TexelBuffer& nodes,
+                      Buffer& leaf_order, TexelBuffer& triangles);
 
   /// One tree over boxes (world objects), a box in each leaf.
   void buildBoxes(const std::vector<Eigen::AlignedBox3f>& boxes, ForestRegion& region, TexelBuffer& nodes,
                   Buffer& leaf_order);
 
-private:
+ private:
   void build(std::size_t primitive_count, const std::vector<std::uint32_t>& first_primitive, std::uint32_t leaf_size,
              ForestRegion& region, TexelBuffer& nodes, Buffer& leaf_order);
   void sortByMorton(std::size_t primitive_count, std::size_t mesh_count);

@@ -12,7 +12,10 @@ namespace
 {
 constexpr std::uint32_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
 
-std::size_t groupsFor(std::size_t lanes) { return (lanes + GROUP_SIZE - 1) / GROUP_SIZE; }
+std::size_t groupsFor(std::size_t lanes)
+{
+  return (lanes + GROUP_SIZE - 1) / GROUP_SIZE;
+}
 
 /// Room that is enough for most batches: what a state leaves behind on average, and some for batches of few states.
 ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
@@ -29,21 +32,21 @@ ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
 
 GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, std::size_t max_states,
                                const ListCapacities& capacities)
-  : scene_(folder)
-  , max_states_(std::max<std::size_t>(1, max_states))
-  , lists_(withDefaults(capacities, max_states_))
-  , traversal_(makeTraversal(traversal, folder, lists_.capacity))
-  , arguments_(folder)
-  , spheres_program_(folder, "check_spheres.comp")
-  , self_program_(folder, "check_self_broad.comp")
-  , world_program_(folder, "check_world_broad.comp")
-  , roots_program_(folder, "check_roots.comp")
+  : scene_(folder),
+    max_states_(std::max<std::size_t>(1, max_states)),
+    lists_(withDefaults(capacities, max_states_)),
+    traversal_(makeTraversal(traversal, folder, lists_.capacity)),
+    arguments_(folder),
+    spheres_program_(folder, "check_spheres.comp"),
+    self_program_(folder, "check_self_broad.comp"),
+    world_program_(folder, "check_world_broad.comp"),
+    roots_program_(folder, "check_roots.comp")
 {
 }
 
 std::pair<std::uint32_t, std::uint32_t> GpuPairChecker::pairOf(std::uint32_t hit)
 {
-  return { hit >> PAIR_OTHER_BITS, hit & ((1U << PAIR_OTHER_BITS) - 1) };
+  return {hit >> PAIR_OTHER_BITS, hit & ((1U << PAIR_OTHER_BITS) - 1)};
 }
 
 void GpuPairChecker::check(const float* poses, std::size_t count, Verdicts& verdicts)
@@ -99,8 +102,8 @@ bool GpuPairChecker::runBatch(const float* poses, std::size_t count)
 
 void GpuPairChecker::findCandidates(std::uint32_t states)
 {
-  const std::size_t groups = groupsFor(std::size_t{ states } * scene_.robotCount());
-  for (const Program* program : { &spheres_program_, &self_program_, &world_program_, &roots_program_ })
+  const std::size_t groups = groupsFor(std::size_t{states} * scene_.robotCount());
+  for (const Program* program : {&spheres_program_, &self_program_, &world_program_, &roots_program_})
   {
     program->set(0, states);
     program->set(1, scene_.robotCount());
@@ -117,7 +120,7 @@ void GpuPairChecker::findCandidates(std::uint32_t states)
   }
   if (scene_.hasSelfPairs())
   {
-    spheres_.reserve(std::size_t{ states } * scene_.robotCount() * 16);
+    spheres_.reserve(std::size_t{states} * scene_.robotCount() * 16);
     spheres_.bindStorage(BINDING_OUT);
     spheres_program_.dispatch(groups);
     self_program_.set(2, lists_.capacity.candidates);

@@ -22,22 +22,23 @@ struct Verdicts
 /// boxes, traversal, triangles. Knows nothing of joints. Used on the context's thread.
 class GpuPairChecker
 {
-public:
-  /// At most `max_states` states go to the GPU at once. `capacities`: 0 where the default for that many states is wanted.
+ public:
+  /// At most `max_states` states go to the GPU at once. `capacities`: 0 where the default for that many states is
+  /// wanted.
   GpuPairChecker(const std::string& shader_folder, Traversal traversal, std::size_t max_states,
                  const ListCapacities& capacities = {});
 
   GpuScene& scene() { return scene_; }
   const GpuScene& scene() const { return scene_; }
 
-  /// `poses`: state by state, 12 floats for each robot instance (writePoseRows), relative to the frame of the world's poses.
-  /// A part of the batch whose lists overflow is split; a single state that still overflows is undecided.
+  /// `poses`: state by state, 12 floats for each robot instance (writePoseRows), relative to the frame of the world's
+  /// poses. A part of the batch whose lists overflow is split; a single state that still overflows is undecided.
   void check(const float* poses, std::size_t count, Verdicts& verdicts);
 
   /// Indices of the instances of a reported pair: into CollisionProblem::robot, and robot followed by world.
   static std::pair<std::uint32_t, std::uint32_t> pairOf(std::uint32_t hit);
 
-private:
+ private:
   void checkPart(const float* poses, std::size_t begin, std::size_t count, Verdicts& verdicts);
   bool runBatch(const float* poses, std::size_t count);
   void findCandidates(std::uint32_t states);

@@ -21,7 +21,7 @@ Eigen::AlignedBox3d localBounds(const Tessellation& tree)
     for (const std::uint32_t corner : triangle)
       box.extend(tree.mesh->vertices[corner]);
   const Eigen::Vector3d sagitta = Eigen::Vector3d::Constant(tree.sagitta);
-  return { box.min() - sagitta, box.max() + sagitta };
+  return {box.min() - sagitta, box.max() + sagitta};
 }
 
 /// A box that holds `box` moved by `pose`, rounded outward to float.
@@ -33,8 +33,10 @@ Eigen::AlignedBox3f movedBounds(const Eigen::AlignedBox3d& box, const Eigen::Iso
   for (int axis = 0; axis < 3; ++axis)
   {
     const double slop = 1e-12 * (std::abs(center[axis]) + half[axis]);
-    moved.min()[axis] = std::nextafter(static_cast<float>(center[axis] - half[axis] - slop), -std::numeric_limits<float>::infinity());
-    moved.max()[axis] = std::nextafter(static_cast<float>(center[axis] + half[axis] + slop), std::numeric_limits<float>::infinity());
+    moved.min()[axis] =
+        std::nextafter(static_cast<float>(center[axis] - half[axis] - slop), -std::numeric_limits<float>::infinity());
+    moved.max()[axis] =
+        std::nextafter(static_cast<float>(center[axis] + half[axis] + slop), std::numeric_limits<float>::infinity());
   }
   return moved;
 }
@@ -50,8 +52,8 @@ struct InstanceRecord
 };
 static_assert(sizeof(InstanceRecord) == 32, "two uvec4");
 
-/// Half edge lengths of a box around the origin that lies within a solid; negative where none is known. What lies in the
-/// box is inside without any look at the surface.
+/// Half edge lengths of a box around the origin that lies within a solid; negative where none is known. What lies in
+/// the box is inside without any look at the surface.
 Eigen::Vector3f solidCore(const Shape& shape)
 {
   constexpr double kRounding = 1.0 - 1e-6;
@@ -61,7 +63,8 @@ Eigen::Vector3f solidCore(const Shape& shape)
   else if (const auto* sphere = std::get_if<Sphere>(&shape))
     core.setConstant(sphere->radius / std::sqrt(3.0));
   else if (const auto* cylinder = std::get_if<Cylinder>(&shape))
-    core = Eigen::Vector3d(cylinder->radius / std::sqrt(2.0), cylinder->radius / std::sqrt(2.0), cylinder->length / 2.0);
+    core =
+        Eigen::Vector3d(cylinder->radius / std::sqrt(2.0), cylinder->radius / std::sqrt(2.0), cylinder->length / 2.0);
   return (kRounding * core).cast<float>();
 }
 
@@ -84,7 +87,7 @@ std::vector<Shape> robotShapes(const CollisionProblem& problem)
   std::size_t count = 0;
   for (const Geometry& geometry : problem.robot)
     count = std::max<std::size_t>(count, geometry.tree + 1);
-  return { problem.shapes.begin(), problem.shapes.begin() + static_cast<std::ptrdiff_t>(count) };
+  return {problem.shapes.begin(), problem.shapes.begin() + static_cast<std::ptrdiff_t>(count)};
 }
 }  // namespace
 
@@ -98,9 +101,9 @@ void writePoseRows(const Eigen::Isometry3d& pose, float* rows)
 void GpuScene::setProblem(const CollisionProblem& problem)
 {
   if (problem.robot.size() > MAX_ROBOT_GEOMETRIES || problem.robot.size() + problem.world.size() > MAX_GEOMETRIES)
-    throw Error(std::to_string(problem.robot.size()) + " shapes of the robot and " + std::to_string(problem.world.size()) +
-                " of the world are more than " + std::to_string(MAX_ROBOT_GEOMETRIES) + " and " +
-                std::to_string(MAX_GEOMETRIES) + "; merge meshes");
+    throw Error(std::to_string(problem.robot.size()) + " shapes of the robot and " +
+                std::to_string(problem.world.size()) + " of the world are more than " +
+                std::to_string(MAX_ROBOT_GEOMETRIES) + " and " + std::to_string(MAX_GEOMETRIES) + "; merge meshes");
   robot_count_ = static_cast<std::uint32_t>(problem.robot.size());
   world_count_ = static_cast<std::uint32_t>(problem.world.size());
   buildShapeTrees(problem);
@@ -127,7 +130,7 @@ void GpuScene::buildShapeTrees(const CollisionProblem& problem)
   if (trees_ > robot_shapes_.size())
     builder_.buildTriangles(meshes(problem.trees, robot_shapes_.size(), trees_), shape_region_, nodes_, leaf_order_,
                             triangles_);
-  depth_bound_ = std::max({ 1U, robot_region_.depth, shape_region_.depth });
+  depth_bound_ = std::max({1U, robot_region_.depth, shape_region_.depth});
   first_triangle_.clear();
   std::uint32_t triangle = 0;
   for (const Tessellation& tree : problem.trees)
@@ -146,13 +149,13 @@ std::uint32_t GpuScene::rootOf(std::size_t tree) const
 void GpuScene::writeGeometries(const CollisionProblem& problem)
 {
   std::vector<InstanceRecord> geometries;
-  for (const std::vector<Geometry>* instances : { &problem.robot, &problem.world })
+  for (const std::vector<Geometry>* instances : {&problem.robot, &problem.world})
     for (const Geometry& geometry : *instances)
     {
       const double sagitta = problem.trees[geometry.tree].sagitta;
       const float slack = sagitta > 0.0 ? std::nextafter(static_cast<float>(sagitta), 1.0F) : 0.0F;
       const Eigen::Vector3f core = solidCore(problem.shapes[geometry.tree]);
-      geometries.push_back({ rootOf(geometry.tree), slack, {}, { core.x(), core.y(), core.z() }, 0 });
+      geometries.push_back({rootOf(geometry.tree), slack, {}, {core.x(), core.y(), core.z()}, 0});
     }
   geometries_.reserve(geometries.size() * sizeof(InstanceRecord));
   geometries_.write(geometries);

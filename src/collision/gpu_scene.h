@@ -10,15 +10,15 @@
 
 namespace gpu_planning_scene
 {
-/// A collision problem in GPU memory: the trees of all distinct shapes, the instances, the tree over world instances and
-/// the pairs that are checked. Used on the context's thread.
+/// A collision problem in GPU memory: the trees of all distinct shapes, the instances, the tree over world instances
+/// and the pairs that are checked. Used on the context's thread.
 class GpuScene
 {
-public:
+ public:
   explicit GpuScene(const std::string& shader_folder) : builder_(shader_folder) {}
 
-  /// Uploads a problem and builds its trees; those of the robot stay if they are the ones that are there. Throws Error if
-  /// the problem is too large for the device; the scene is then unusable until the next setProblem.
+  /// Uploads a problem and builds its trees; those of the robot stay if they are the ones that are there. Throws Error
+  /// if the problem is too large for the device; the scene is then unusable until the next setProblem.
   void setProblem(const CollisionProblem& problem);
 
   /// Restricts the checked pairs to those of `problem`, which has the same trees and instances as the one uploaded.
@@ -41,7 +41,7 @@ public:
   /// The trees as the CPU can walk them; reads back from the GPU.
   Forest readForest() const;
 
-private:
+ private:
   void buildShapeTrees(const CollisionProblem& problem);
   void buildWorldTree(const CollisionProblem& problem);
   void writeGeometries(const CollisionProblem& problem);

@@ -19,10 +19,10 @@ Traversal traversalFromName(const std::string& name)
 BatchLists::BatchLists(const ListCapacities& capacities)
   : capacity(capacities), counters(COUNTER_WORDS * sizeof(std::uint32_t))
 {
-  candidates.reserve(std::size_t{ capacity.candidates } * 16);
-  items.reserve(std::size_t{ capacity.items } * 64);
+  candidates.reserve(std::size_t{capacity.candidates} * 16);
+  items.reserve(std::size_t{capacity.items} * 64);
   for (TexelBuffer& list : node_pairs)
-    list.reserve(std::size_t{ std::max(capacity.node_pairs, capacity.items) } * 16);
+    list.reserve(std::size_t{std::max(capacity.node_pairs, capacity.items)} * 16);
 }
 
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,
@@ -33,8 +33,8 @@ std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::stri
   return std::make_unique<WorkQueue>(shader_folder);
 }
 
-void ArgumentsKernel::prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes, std::uint32_t max_groups,
-                              std::uint32_t cleared) const
+void ArgumentsKernel::prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes,
+                              std::uint32_t max_groups, std::uint32_t cleared) const
 {
   program_.set(0, counter);
   program_.set(1, capacity);
@@ -45,5 +45,8 @@ void ArgumentsKernel::prepare(std::uint32_t counter, std::uint32_t capacity, std
   program_.dispatch(1);
 }
 
-std::size_t ArgumentsKernel::argumentsOffset() { return COUNTER_ARGUMENTS * sizeof(std::uint32_t); }
+std::size_t ArgumentsKernel::argumentsOffset()
+{
+  return COUNTER_ARGUMENTS * sizeof(std::uint32_t);
+}
 }  // namespace gpu_planning_scene

@@ -36,12 +36,11 @@ struct BatchLists
 /// Used on the context's thread, with the scene and the lists bound.
 class GpuTraversal
 {
-public:
+ public:
   virtual ~GpuTraversal() = default;
 
-  /// Traverses from the first node-pair list, counters[COUNTER_ITEMS] entries. `levels`: how many levels the deepest tree
-  /// may have.
-  /// Returns false if something was left undone: a list overflowed, or the device ended work early.
+  /// Traverses from the first node-pair list, counters[COUNTER_ITEMS] entries. `levels`: how many levels the deepest
+  /// tree may have. Returns false if something was left undone: a list overflowed, or the device ended work early.
   virtual bool run(BatchLists& lists, std::uint32_t levels) = 0;
 };
 
@@ -51,15 +50,16 @@ std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::stri
 /// Dispatches that size other dispatches.
 class ArgumentsKernel
 {
-public:
+ public:
   explicit ArgumentsKernel(const std::string& shader_folder) : program_(shader_folder, "check_arguments.comp") {}
 
-  /// Writes indirect arguments for a list of counters[counter] elements, at most `capacity`; sets counters[cleared] to 0.
+  /// Writes indirect arguments for a list of counters[counter] elements, at most `capacity`; sets counters[cleared] to
+  /// 0.
   void prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes, std::uint32_t max_groups,
                std::uint32_t cleared) const;
   static std::size_t argumentsOffset();
 
-private:
+ private:
   Program program_;
 };
 }  // namespace gpu_planning_scene

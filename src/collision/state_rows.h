@@ -19,7 +19,7 @@ template <class Work>
 void forChunks(std::size_t count, std::size_t per_chunk, const Work& work)
 {
   const std::size_t chunks = (count + per_chunk - 1) / per_chunk;
-  std::atomic<std::size_t> next{ 0 };
+  std::atomic<std::size_t> next{0};
   const auto run = [&]
   {
     Work own = work;

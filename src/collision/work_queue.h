@@ -9,13 +9,14 @@ namespace gpu_planning_scene
 /// left to the next pass.
 class WorkQueue : public GpuTraversal
 {
-public:
-  explicit WorkQueue(const std::string& shader_folder) : arguments_(shader_folder), program_(shader_folder, "work_queue.comp")
+ public:
+  explicit WorkQueue(const std::string& shader_folder)
+    : arguments_(shader_folder), program_(shader_folder, "work_queue.comp")
   {
   }
   bool run(BatchLists& lists, std::uint32_t levels) override;
 
-private:
+ private:
   ArgumentsKernel arguments_;
   Program program_;
 };

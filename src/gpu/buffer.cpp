@@ -60,13 +60,16 @@ void Buffer::read(void* data, std::size_t size, std::size_t offset) const
   checkGl("a download");
 }
 
-void Buffer::clear() { clear(0, size_); }
+void Buffer::clear()
+{
+  clear(0, size_);
+}
 
 void Buffer::clear(std::size_t offset, std::size_t size)
 {
   const std::uint32_t zero = 0;
-  glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(size & ~std::size_t{ 3 }),
-                            GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+  glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset),
+                            static_cast<GLsizeiptr>(size & ~std::size_t{3}), GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
   checkGl("clearing a buffer");
 }
 
@@ -77,7 +80,10 @@ void Buffer::copyFrom(const Buffer& other, std::size_t size)
   checkGl("copying a buffer");
 }
 
-void Buffer::bindStorage(std::uint32_t binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_); }
+void Buffer::bindStorage(std::uint32_t binding) const
+{
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
+}
 
 TexelBuffer::~TexelBuffer()
 {
@@ -101,5 +107,8 @@ void TexelBuffer::reserve(std::size_t size)
   checkGl("making a buffer texture");
 }
 
-void TexelBuffer::bindTexture(std::uint32_t unit) const { glBindTextureUnit(unit, texture_); }
+void TexelBuffer::bindTexture(std::uint32_t unit) const
+{
+  glBindTextureUnit(unit, texture_);
+}
 }  // namespace gpu_planning_scene

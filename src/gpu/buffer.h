@@ -10,7 +10,7 @@ namespace gpu_planning_scene
 /// Throws Error where OpenGL fails (out of memory, out of range).
 class Buffer
 {
-public:
+ public:
   Buffer() = default;
   explicit Buffer(std::size_t size);
   ~Buffer();
@@ -36,7 +36,7 @@ public:
     write(data.data(), data.size() * sizeof(T));
   }
 
-private:
+ private:
   std::uint32_t id_ = 0;
   std::size_t size_ = 0;
 };
@@ -45,7 +45,7 @@ private:
 /// quarter of a storage buffer's. Integers, so that bit patterns survive on devices that flush denormals.
 class TexelBuffer
 {
-public:
+ public:
   TexelBuffer() = default;
   ~TexelBuffer();
   TexelBuffer(const TexelBuffer&) = delete;
@@ -57,7 +57,7 @@ public:
   const Buffer& buffer() const { return buffer_; }
   void bindTexture(std::uint32_t unit) const;
 
-private:
+ private:
   Buffer buffer_;
   std::uint32_t texture_ = 0;
 };

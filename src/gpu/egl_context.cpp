@@ -35,10 +35,12 @@ bool isSoftware(const std::string& renderer)
 
 bool isNumber(const std::string& text)
 {
-  return !text.empty() && text.size() < 7 && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
+  return !text.empty() && text.size() < 7 &&
+         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-/// EGL's displays without a window system: one per device, or Mesa's surfaceless platform where devices cannot be listed.
+/// EGL's displays without a window system: one per device, or Mesa's surfaceless platform where devices cannot be
+/// listed.
 std::vector<EGLDisplay> displays()
 {
   std::vector<EGLDisplay> found;
@@ -51,7 +53,8 @@ std::vector<EGLDisplay> displays()
       std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
       eglQueryDevicesEXT(count, devices.data(), &count);
       for (EGLint i = 0; i < count; ++i)
-        found.push_back(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr));
+        found.push_back(
+            eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr));
     }
   }
   if (found.empty() && epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
@@ -80,8 +83,9 @@ EGLContext makeContext(EGLDisplay display, std::string* why_not)
     *why_not = "no desktop OpenGL";
     return EGL_NO_CONTEXT;
   }
-  const EGLint attributes[] = { EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE };
+  const EGLint attributes[] = {
+      EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+      EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
   if (context == EGL_NO_CONTEXT)
   {
@@ -110,7 +114,7 @@ std::vector<Candidate> probe()
   int index = 0;
   for (EGLDisplay display : displays())
   {
-    Candidate candidate{ display, {}, {} };
+    Candidate candidate{display, {}, {}};
     candidate.device.index = index++;
     const EGLContext context = makeContext(display, &candidate.why_not);
     if (context != EGL_NO_CONTEXT)
@@ -173,7 +177,10 @@ EglContext::EglContext(const std::string& selector)
   device_ = chosen->device;
 }
 
-EglContext::~EglContext() { destroy(display_, context_); }
+EglContext::~EglContext()
+{
+  destroy(display_, context_);
+}
 
 std::vector<Device> listDevices()
 {

@@ -11,9 +11,9 @@ namespace gpu_planning_scene
 /// and must be used and destroyed there.
 class EglContext
 {
-public:
-  /// `selector`: "auto" (the first hardware device, else the first software one), "software", an index of listDevices(), or
-  /// part of a renderer's name (case-insensitive). Throws Error that lists the devices if none fits.
+ public:
+  /// `selector`: "auto" (the first hardware device, else the first software one), "software", an index of
+  /// listDevices(), or part of a renderer's name (case-insensitive). Throws Error that lists the devices if none fits.
   explicit EglContext(const std::string& selector);
   ~EglContext();
   EglContext(const EglContext&) = delete;
@@ -21,7 +21,7 @@ public:
 
   const Device& device() const { return device_; }
 
-private:
+ private:
   Device device_;
   void* display_ = nullptr;  // EGLDisplay
   void* context_ = nullptr;  // EGLContext

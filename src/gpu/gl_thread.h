@@ -16,7 +16,7 @@ namespace gpu_planning_scene
 /// A thread that owns an OpenGL context and does one job after the other: a context is current on one thread only.
 class GlThread
 {
-public:
+ public:
   /// Starts the thread and makes the context; throws Error as EglContext does.
   explicit GlThread(const std::string& device_selector);
   /// Finishes the jobs that were given, then destroys the context.
@@ -27,7 +27,7 @@ public:
 
   const Device& device() const { return device_; }
 
-private:
+ private:
   void serve(const std::string& device_selector, std::promise<Device>& started);
 
   std::mutex mutex_;

@@ -32,7 +32,8 @@ void appendFile(const std::string& folder, const std::string& name, std::set<std
     return;
   std::ifstream file(folder + "/" + name);
   if (!file)
-    throw Error("shader file " + folder + "/" + name + " is missing; install the package, or set GPU_PLANNING_SCENE_SHADERS");
+    throw Error("shader file " + folder + "/" + name +
+                " is missing; install the package, or set GPU_PLANNING_SCENE_SHADERS");
   std::string line;
   while (std::getline(file, line))
   {
@@ -85,8 +86,8 @@ std::string shaderFolder()
   for (const std::string& folder : {installed, std::string(GPS_SOURCE_SHADERS)})
     if (std::filesystem::exists(folder + "/interface.h"))
       return folder;
-  throw Error("the shaders are neither in " + installed + " nor in " GPS_SOURCE_SHADERS
-              "; install the package, or set GPU_PLANNING_SCENE_SHADERS");
+  throw Error("the shaders are neither in " + installed +
+              " nor in " GPS_SOURCE_SHADERS "; install the package, or set GPU_PLANNING_SCENE_SHADERS");
 }
 
 std::string readShader(const std::string& folder, const std::string& name)
@@ -134,7 +135,10 @@ Program::~Program()
 
 Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
 
-void Program::set(int location, std::uint32_t value) const { glProgramUniform1ui(id_, location, value); }
+void Program::set(int location, std::uint32_t value) const
+{
+  glProgramUniform1ui(id_, location, value);
+}
 
 void Program::dispatch(std::size_t groups) const
 {
@@ -143,7 +147,8 @@ void Program::dispatch(std::size_t groups) const
   const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
   const std::size_t columns = (groups + rows - 1) / rows;
   if (rows > kMaxGroups)
-    throw Error("a dispatch of " + std::to_string(groups) + " workgroups is more than OpenGL can run; use a smaller batch");
+    throw Error("a dispatch of " + std::to_string(groups) +
+                " workgroups is more than OpenGL can run; use a smaller batch");
   waitForEarlierDispatches();
   glUseProgram(id_);
   glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);

@@ -7,8 +7,8 @@
 
 namespace gpu_planning_scene
 {
-/// The folder that holds the shaders: $GPU_PLANNING_SCENE_SHADERS if set, else where they were installed, else the source
-/// tree. Throws Error if none of them has any.
+/// The folder that holds the shaders: $GPU_PLANNING_SCENE_SHADERS if set, else where they were installed, else the
+/// source tree. Throws Error if none of them has any.
 std::string shaderFolder();
 
 /// Reads a shader and the files that it includes (#include "NAME", from the same folder, each once). Throws Error that
@@ -18,9 +18,9 @@ std::string readShader(const std::string& folder, const std::string& name);
 /// A compute program. Move-only; used on the context's thread.
 class Program
 {
-public:
-  /// Compiles `name` of `folder`; `definitions` are lines that go before its text ("#define X 1\n"). Throws Error with the
-  /// compiler's log.
+ public:
+  /// Compiles `name` of `folder`; `definitions` are lines that go before its text ("#define X 1\n"). Throws Error with
+  /// the compiler's log.
   Program(const std::string& folder, const std::string& name, const std::string& definitions = "");
   ~Program();
   Program(Program&& other) noexcept;
@@ -35,7 +35,7 @@ public:
   /// The same with the group counts that lie in `arguments` at `offset` (three uints).
   void dispatchIndirect(const Buffer& arguments, std::size_t offset) const;
 
-private:
+ private:
   std::uint32_t id_ = 0;
 };
 }  // namespace gpu_planning_scene

@@ -10,7 +10,7 @@ namespace gpu_planning_scene
 namespace
 {
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kTargetSagitta = 20e-6;  // metres
+constexpr double kTargetSagitta = 100e-6;  // metres
 constexpr int kMaxTriangles = 1 << 15;
 
 // What a vertex may be off by from the true surface: a few roundings of numbers of the shape's size.

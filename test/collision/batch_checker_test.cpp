@@ -41,13 +41,14 @@ TEST_P(Invariance, ValidIsTheSameForTraversalsBatchSizesAndOrders)
   const std::size_t width = scene.scene->robot->variables().size();
   BatchChecker reference(scene.scene, with(Traversal::WorkQueue));
   const std::vector<std::uint8_t> valid = reference.check(states.data(), kStates).valid;
-  for (const Traversal traversal : { Traversal::BreadthFirst, Traversal::WorkQueue })
-    for (const std::size_t batch : { 1, 7, 64, 1024, 16384 })
+  for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
+    for (const std::size_t batch : {1, 7, 64, 1024, 16384})
     {
       const std::size_t count = std::min<std::size_t>(kStates, batch * 64);
       BatchChecker checker(scene.scene, with(traversal, batch));
       const BatchResult result = checker.check(states.data(), count);
-      EXPECT_TRUE(std::equal(result.valid.begin(), result.valid.end(), valid.begin())) << "batches of " << batch << ", seed " << kSeed;
+      EXPECT_TRUE(std::equal(result.valid.begin(), result.valid.end(), valid.begin()))
+          << "batches of " << batch << ", seed " << kSeed;
       for (std::size_t i = 0; i < count; ++i)
         ASSERT_EQ(result.colliding[i][0] < 0, result.valid[i] == 1);
     }
@@ -66,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::Values("kr5", "ur5_bookshe
 
 class BatchCheckerTest : public testing::Test
 {
-protected:
+ protected:
   void SetUp() override
   {
     // An arm of two links over a table: no files needed.
@@ -82,25 +83,26 @@ protected:
       <disable_collisions link1="base" link2="upper" reason="Adjacent"/>
       <disable_collisions link1="upper" link2="lower" reason="Adjacent"/></robot>)";
     auto made = std::make_shared<PlanningScene>(RobotModel::fromXml(urdf, srdf, {}));
-    made->objects.push_back({ "post", Eigen::Isometry3d(Eigen::Translation3d(0.67, 0.2, 0.2)), { { Box{ { 0.1, 0.1, 0.1 } } } } });
+    made->objects.push_back(
+        {"post", Eigen::Isometry3d(Eigen::Translation3d(0.67, 0.2, 0.2)), {{Box{{0.1, 0.1, 0.1}}}}});
     made->revision = 41;
     scene_ = made;
   }
 
   std::shared_ptr<const PlanningScene> scene_;
-  std::vector<double> touching_ = { 0.0, 1.2 };  // the lower arm swings into the post
-  std::vector<double> free_ = { 0.0, -1.2 };
+  std::vector<double> touching_ = {0.0, 1.2};  // the lower arm swings into the post
+  std::vector<double> free_ = {0.0, -1.2};
 };
 
 TEST_F(BatchCheckerTest, NamesTheBodiesThatCollideAndTheRevision)
 {
   BatchChecker checker(scene_, with(Traversal::WorkQueue));
   const BatchResult hit = checker.check(touching_.data(), 1);
-  ASSERT_EQ(hit.valid, std::vector<std::uint8_t>{ 0 });
+  ASSERT_EQ(hit.valid, std::vector<std::uint8_t>{0});
   EXPECT_EQ(scene_->bodyName(hit.colliding[0][0]), "lower");
   EXPECT_EQ(scene_->bodyName(hit.colliding[0][1]), "post");
   EXPECT_EQ(hit.revision, 41U);
-  EXPECT_EQ(checker.check(free_.data(), 1).valid, std::vector<std::uint8_t>{ 1 });
+  EXPECT_EQ(checker.check(free_.data(), 1).valid, std::vector<std::uint8_t>{1});
 }
 
 TEST_F(BatchCheckerTest, ChecksNoStatesAtAll)
@@ -112,26 +114,26 @@ TEST_F(BatchCheckerTest, ChecksNoStatesAtAll)
 TEST_F(BatchCheckerTest, RefusesValuesThatAreNotFiniteAndUnknownGroups)
 {
   BatchChecker checker(scene_, with(Traversal::WorkQueue));
-  for (const double wrong : { std::nan(""), HUGE_VAL, -HUGE_VAL })
+  for (const double wrong : {std::nan(""), HUGE_VAL, -HUGE_VAL})
   {
-    const std::vector<double> state = { 0.0, wrong };
+    const std::vector<double> state = {0.0, wrong};
     EXPECT_THROW(checker.check(state.data(), 1), Error);
   }
   EXPECT_THROW(checker.check(free_.data(), 1, "no such group"), Error);
-  EXPECT_EQ(checker.check(touching_.data(), 1).valid, std::vector<std::uint8_t>{ 0 });
+  EXPECT_EQ(checker.check(touching_.data(), 1).valid, std::vector<std::uint8_t>{0});
 }
 
 TEST_F(BatchCheckerTest, RestrictsAGroupToPairsWithALinkThatItMoves)
 {
   // The upper arm stands in the table: only the whole robot collides, the wrist's links do not.
   auto made = std::make_shared<PlanningScene>(*scene_);
-  made->objects = { { "table", Eigen::Isometry3d(Eigen::Translation3d(0.3, 0.0, 0.2)), { { Box{ { 0.1, 0.1, 0.1 } } } } } };
-  for (const Traversal traversal : { Traversal::BreadthFirst, Traversal::WorkQueue })
+  made->objects = {{"table", Eigen::Isometry3d(Eigen::Translation3d(0.3, 0.0, 0.2)), {{Box{{0.1, 0.1, 0.1}}}}}};
+  for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
   {
     BatchChecker checker(made, with(traversal));
-    EXPECT_EQ(checker.check(free_.data(), 1).valid, std::vector<std::uint8_t>{ 0 });
-    EXPECT_EQ(checker.check(free_.data(), 1, "wrist").valid, std::vector<std::uint8_t>{ 1 });
-    EXPECT_EQ(checker.check(free_.data(), 1).valid, std::vector<std::uint8_t>{ 0 });
+    EXPECT_EQ(checker.check(free_.data(), 1).valid, std::vector<std::uint8_t>{0});
+    EXPECT_EQ(checker.check(free_.data(), 1, "wrist").valid, std::vector<std::uint8_t>{1});
+    EXPECT_EQ(checker.check(free_.data(), 1).valid, std::vector<std::uint8_t>{0});
     EXPECT_LT(checker.report("wrist").world_pairs, checker.report().world_pairs);
   }
 }
@@ -143,19 +145,19 @@ TEST_F(BatchCheckerTest, TakesAnotherSceneAndKeepsTheOldOneWhenItCannot)
   moved->objects[0].pose = Eigen::Isometry3d(Eigen::Translation3d(0.67, -0.2, 0.2));
   moved->revision = 42;
   checker.setScene(moved);
-  EXPECT_EQ(checker.check(touching_.data(), 1).valid, std::vector<std::uint8_t>{ 1 });
+  EXPECT_EQ(checker.check(touching_.data(), 1).valid, std::vector<std::uint8_t>{1});
   EXPECT_EQ(checker.check(free_.data(), 1).revision, 42U);
 
   auto too_far = std::make_shared<Mesh>();
   too_far->name = "too_far";
-  too_far->vertices = { { 0, 0, 0 }, { 1e30, 0, 0 }, { 0, 1, 0 } };
-  too_far->triangles = { { 0, 1, 2 } };
+  too_far->vertices = {{0, 0, 0}, {1e30, 0, 0}, {0, 1, 0}};
+  too_far->triangles = {{0, 1, 2}};
   auto broken = std::make_shared<PlanningScene>(*moved);
-  broken->objects.push_back({ "far", Eigen::Isometry3d::Identity(), { { std::shared_ptr<const Mesh>(too_far) } } });
+  broken->objects.push_back({"far", Eigen::Isometry3d::Identity(), {{std::shared_ptr<const Mesh>(too_far)}}});
   broken->revision = 43;
   EXPECT_THROW(checker.setScene(broken), Error);
   const BatchResult after = checker.check(free_.data(), 1);
-  EXPECT_EQ(after.valid, std::vector<std::uint8_t>{ 0 });
+  EXPECT_EQ(after.valid, std::vector<std::uint8_t>{0});
   EXPECT_EQ(after.revision, 42U);
 }
 
@@ -164,7 +166,7 @@ TEST_F(BatchCheckerTest, SceneWithoutObjectsIsCheckedAgainstTheRobotAlone)
   auto empty = std::make_shared<PlanningScene>(*scene_);
   empty->objects.clear();
   BatchChecker checker(empty, with(Traversal::BreadthFirst));
-  EXPECT_EQ(checker.check(touching_.data(), 1).valid, std::vector<std::uint8_t>{ 1 });
+  EXPECT_EQ(checker.check(touching_.data(), 1).valid, std::vector<std::uint8_t>{1});
 }
 
 TEST_F(BatchCheckerTest, AgreesWithTheCpuAtALatticeOfStates)
@@ -172,11 +174,11 @@ TEST_F(BatchCheckerTest, AgreesWithTheCpuAtALatticeOfStates)
   std::vector<double> states;
   for (double shoulder = -3.0; shoulder <= 3.0; shoulder += 0.1)
     for (double elbow = -3.1; elbow <= 3.1; elbow += 0.1)
-      states.insert(states.end(), { shoulder, elbow });
+      states.insert(states.end(), {shoulder, elbow});
   const std::size_t count = states.size() / 2;
   const std::vector<std::uint8_t> expected = CpuChecker(scene_).check(states.data(), count).valid;
   EXPECT_GT(std::count(expected.begin(), expected.end(), 0), 50);
-  for (const Traversal traversal : { Traversal::BreadthFirst, Traversal::WorkQueue })
+  for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
     EXPECT_EQ(BatchChecker(scene_, with(traversal)).check(states.data(), count).valid, expected);
 }
 

@@ -1,4 +1,5 @@
-// What does not fit - lists, stacks, granted iterations - costs time, never an answer. Two meshes are enough to show it.
+// What does not fit - lists, stacks, granted iterations - costs time, never an answer. Two meshes are enough to show
+// it.
 
 #include <random>
 
@@ -21,7 +22,7 @@ constexpr std::uint64_t kSeed = 23;
 /// A wavy closed surface: its inside is hollow, so that answers depend on triangles.
 std::shared_ptr<const Mesh> wavySphere()
 {
-  auto mesh = std::make_shared<Mesh>(*tessellate(Sphere{ 0.05 }).mesh);
+  auto mesh = std::make_shared<Mesh>(*tessellate(Sphere{0.05}).mesh);
   for (Eigen::Vector3d& vertex : mesh->vertices)
     vertex *= 1.0 + 0.2 * std::sin(120.0 * vertex.x()) * std::sin(90.0 * vertex.z());
   return mesh;
@@ -31,18 +32,18 @@ std::shared_ptr<const CollisionProblem> problem()
 {
   auto made = std::make_shared<CollisionProblem>();
   const auto mesh = wavySphere();
-  made->shapes = { mesh };
-  made->trees = { tessellate(mesh) };
-  made->robot = { { 0, 0, Eigen::Isometry3d::Identity() } };
+  made->shapes = {mesh};
+  made->trees = {tessellate(mesh)};
+  made->robot = {{0, 0, Eigen::Isometry3d::Identity()}};
   for (int i = 0; i < 3; ++i)
-    made->world.push_back({ 0, 1 + i, Eigen::Isometry3d(Eigen::Translation3d(0.11 * i, 0.0, 0.0)) });
-  made->world_pairs = { 1, 1, 1 };
+    made->world.push_back({0, 1 + i, Eigen::Isometry3d(Eigen::Translation3d(0.11 * i, 0.0, 0.0))});
+  made->world_pairs = {1, 1, 1};
   return made;
 }
 
 class BatchLimits : public testing::TestWithParam<Traversal>
 {
-protected:
+ protected:
   void SetUp() override
   {
     std::mt19937_64 generator(kSeed);
@@ -171,6 +172,7 @@ TEST_P(BatchLimits, LanesThatTheDeviceEndsEarlyAreNoticed)
 }
 
 INSTANTIATE_TEST_SUITE_P(Traversals, BatchLimits, testing::Values(Traversal::BreadthFirst, Traversal::WorkQueue),
-                         [](const auto& parameter) { return parameter.param == Traversal::WorkQueue ? "WorkQueue" : "BreadthFirst"; });
+                         [](const auto& parameter)
+                         { return parameter.param == Traversal::WorkQueue ? "WorkQueue" : "BreadthFirst"; });
 }  // namespace
 }  // namespace gpu_planning_scene

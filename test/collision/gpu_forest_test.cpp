@@ -29,7 +29,7 @@ std::shared_ptr<Mesh> soup(std::size_t triangles, const std::function<Vector3d()
   {
     for (int i = 0; i < 3; ++i)
       mesh->vertices.push_back(corner());
-    mesh->triangles.push_back({ 3 * t, 3 * t + 1, 3 * t + 2 });
+    mesh->triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
   return mesh;
 }
@@ -47,29 +47,27 @@ std::vector<std::shared_ptr<const Mesh>> hardMeshes()
     return Vector3d(std::cos(at), std::sin(at), 0.1 * at + 0.001 * uniform(generator));
   };
   const auto exponential = [&] { return Vector3d(std::pow(2.0, -120.0 * std::abs(uniform(generator))), 0.0, 0.0); };
-  return { soup(1, anywhere),
-           soup(2, anywhere),
-           soup(20000, spiral),
-           soup(5000, [] { return Vector3d(1, 2, 3); }),  // all alike, all points
-           soup(3000, exponential),                       // every halving leaves all but a few on one side
-           soup(1, anywhere),
-           soup(500, anywhere),                           // all overlap
-           tessellate(Sphere{ 0.3 }).mesh };
+  return {soup(1, anywhere),           soup(2, anywhere),
+          soup(20000, spiral),         soup(5000, [] { return Vector3d(1, 2, 3); }),   // all alike, all points
+          soup(3000, exponential),                           // every halving leaves all but a few on one side
+          soup(1, anywhere),           soup(500, anywhere),  // all overlap
+          tessellate(Sphere{0.3}).mesh};
 }
 
 class GpuForest : public testing::Test
 {
-protected:
-  Forest build(const std::vector<std::shared_ptr<const Mesh>>& robot, const std::vector<std::shared_ptr<const Mesh>>& world)
+ protected:
+  Forest build(const std::vector<std::shared_ptr<const Mesh>>& robot,
+               const std::vector<std::shared_ptr<const Mesh>>& world)
   {
     problem_ = {};
-    for (const auto* meshes : { &robot, &world })
+    for (const auto* meshes : {&robot, &world})
       for (const auto& mesh : *meshes)
       {
-        problem_.trees.push_back({ mesh, 0.0 });
+        problem_.trees.push_back({mesh, 0.0});
         problem_.shapes.emplace_back(mesh);
         auto& instances = meshes == &robot ? problem_.robot : problem_.world;
-        instances.push_back({ static_cast<std::uint32_t>(problem_.trees.size() - 1), 0, Eigen::Isometry3d::Identity() });
+        instances.push_back({static_cast<std::uint32_t>(problem_.trees.size() - 1), 0, Eigen::Isometry3d::Identity()});
       }
     problem_.world_pairs.assign(robot.size() * world.size(), 1);
     scene_.setProblem(problem_);
@@ -86,7 +84,7 @@ protected:
         [&](std::uint32_t index, std::size_t depth, std::vector<std::uint32_t> ancestors)
     {
       ASSERT_LT(index, forest.nodes.size());
-      ASSERT_LE(depth, std::size_t{ BUILD_ROUNDS });
+      ASSERT_LE(depth, std::size_t{BUILD_ROUNDS});
       deepest = std::max(deepest, depth);
       const Node& node = forest.nodes[index];
       ancestors.push_back(index);
@@ -96,7 +94,7 @@ protected:
         visit(node.first + 1, depth + 1, ancestors);
         return;
       }
-      ASSERT_LE(node.count, std::uint32_t{ LEAF_TRIANGLES });
+      ASSERT_LE(node.count, std::uint32_t{LEAF_TRIANGLES});
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
       {
         const std::uint32_t triangle = forest.leaf_triangles[i] - forest.first_triangle[tree];
@@ -108,7 +106,8 @@ protected:
             {
               const Node& box = forest.nodes[ancestor];
               const auto coordinate = static_cast<std::size_t>(axis);
-              ASSERT_LE(std::abs(mesh.vertices[corner][axis] - double{ box.center[coordinate] }), double{ box.half[coordinate] });
+              ASSERT_LE(std::abs(mesh.vertices[corner][axis] - double{box.center[coordinate]}),
+                        double{box.half[coordinate]});
             }
       }
     };
@@ -118,15 +117,15 @@ protected:
     EXPECT_LE(deepest, scene_.depthBound());
   }
 
-  EglContext context_{ "auto" };
-  GpuScene scene_{ shaderFolder() };
+  EglContext context_{"auto"};
+  GpuScene scene_{shaderFolder()};
   CollisionProblem problem_;
 };
 
 TEST_F(GpuForest, HoldsEveryTriangleOnceInBoxesThatContainIt)
 {
   const auto meshes = hardMeshes();
-  const Forest forest = build({ meshes.begin(), meshes.begin() + 4 }, { meshes.begin() + 4, meshes.end() });
+  const Forest forest = build({meshes.begin(), meshes.begin() + 4}, {meshes.begin() + 4, meshes.end()});
   for (std::size_t tree = 0; tree < meshes.size(); ++tree)
     expectValid(forest, tree);
 }
@@ -134,8 +133,8 @@ TEST_F(GpuForest, HoldsEveryTriangleOnceInBoxesThatContainIt)
 TEST_F(GpuForest, IsRebuiltForAnotherWorldAndKeepsTheRobotsTrees)
 {
   const auto meshes = hardMeshes();
-  build({ meshes[2], meshes[6] }, { meshes[0] });
-  const Forest forest = build({ meshes[2], meshes[6] }, { meshes[4], meshes[7], meshes[1] });
+  build({meshes[2], meshes[6]}, {meshes[0]});
+  const Forest forest = build({meshes[2], meshes[6]}, {meshes[4], meshes[7], meshes[1]});
   for (std::size_t tree = 0; tree < 5; ++tree)
     expectValid(forest, tree);
 }
@@ -144,11 +143,11 @@ TEST_F(GpuForest, RefusesCoordinatesThatDoNotFitIntoFloats)
 {
   auto far = std::make_shared<Mesh>();
   far->name = "far.stl";
-  far->vertices = { { 0, 0, 0 }, { 1e30, 0, 0 }, { 0, 1, 0 } };
-  far->triangles = { { 0, 1, 2 } };
+  far->vertices = {{0, 0, 0}, {1e30, 0, 0}, {0, 1, 0}};
+  far->triangles = {{0, 1, 2}};
   try
   {
-    build({ far }, {});
+    build({far}, {});
     FAIL() << "no error";
   }
   catch (const Error& error)
@@ -160,8 +159,8 @@ TEST_F(GpuForest, RefusesCoordinatesThatDoNotFitIntoFloats)
 /// The work of a traversal in random poses near contact, over trees by the GPU and by the CPU's binned SAH build.
 TEST_F(GpuForest, CostsAtMostFifteenPercentMoreToTraverseThanBinnedSah)
 {
-  std::vector<std::shared_ptr<const Mesh>> meshes = { hardMeshes()[2], tessellate(Sphere{ 0.3 }).mesh };
-  for (const std::string name : { "kr5", "drchubo", "ur5_cage" })
+  std::vector<std::shared_ptr<const Mesh>> meshes = {hardMeshes()[2], tessellate(Sphere{0.3}).mesh};
+  for (const std::string name : {"kr5", "drchubo", "ur5_cage"})
   {
     if (const std::string missing = missingFor(name); !missing.empty())
     {
@@ -184,7 +183,8 @@ TEST_F(GpuForest, CostsAtMostFifteenPercentMoreToTraverseThanBinnedSah)
     gpu_cost += traversalCost(gpu, problem_.trees, a, b, seed);
     sah_cost += traversalCost(sah, problem_.trees, a, b, seed);
   }
-  std::cout << meshes.size() << " meshes, seed " << seed << ": cost " << gpu_cost / sah_cost << " of binned SAH's" << std::endl;
+  std::cout << meshes.size() << " meshes, seed " << seed << ": cost " << gpu_cost / sah_cost << " of binned SAH's"
+            << std::endl;
   EXPECT_LE(gpu_cost, 1.15 * sah_cost);
 }
 }  // namespace

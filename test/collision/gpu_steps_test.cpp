@@ -24,18 +24,21 @@ constexpr std::uint64_t kSeed = 17;
 /// One lane per case: runs one function of the shaders on floats.
 class GpuStep : public testing::Test
 {
-protected:
+ protected:
   std::vector<std::uint32_t> run(const std::string& includes, const std::string& call, const std::vector<float>& input,
                                  std::size_t floats_per_case)
   {
-    folder_.write("step.comp", "#include \"interface.h\"\nlayout(local_size_x = GROUP_SIZE) in;\n#include \"common.glsl\"\n" + includes +
-                                   "layout(location = 0) uniform uint case_count;\n"
-                                   "layout(std430, binding = 0) readonly buffer Input { float data[]; };\n"
-                                   "layout(std430, binding = 1) writeonly buffer Output { uint result[]; };\n"
-                                   "uint base;\n"
-                                   "vec3 at(uint i) { return vec3(data[base + 3u * i], data[base + 3u * i + 1u], data[base + 3u * i + 2u]); }\n"
-                                   "void main() { const uint i = invocationIndex(); if (i >= case_count) return; base = i * " +
-                                   std::to_string(floats_per_case) + "u; result[i] = " + call + "; }\n");
+    folder_.write("step.comp",
+                  "#include \"interface.h\"\nlayout(local_size_x = GROUP_SIZE) in;\n#include \"common.glsl\"\n" +
+                      includes +
+                      "layout(location = 0) uniform uint case_count;\n"
+                      "layout(std430, binding = 0) readonly buffer Input { float data[]; };\n"
+                      "layout(std430, binding = 1) writeonly buffer Output { uint result[]; };\n"
+                      "uint base;\n"
+                      "vec3 at(uint i) { return vec3(data[base + 3u * i], data[base + 3u * i + 1u], data[base + 3u * i "
+                      "+ 2u]); }\n"
+                      "void main() { const uint i = invocationIndex(); if (i >= case_count) return; base = i * " +
+                      std::to_string(floats_per_case) + "u; result[i] = " + call + "; }\n");
     const std::size_t cases = input.size() / floats_per_case;
     Buffer in(input.size() * sizeof(float));
     in.write(input);
@@ -69,10 +72,10 @@ protected:
     return rounded.cast<double>();
   }
 
-  EglContext context_{ "auto" };
+  EglContext context_{"auto"};
   ShaderFolder folder_;
-  std::mt19937_64 generator_{ kSeed };
-  std::uniform_real_distribution<double> uniform_{ -1.0, 1.0 };
+  std::mt19937_64 generator_{kSeed};
+  std::uniform_real_distribution<double> uniform_{-1.0, 1.0};
 };
 
 using Triangles = std::array<Triangle, 2>;
@@ -83,13 +86,15 @@ std::vector<float> withBounds(const std::vector<float>& triangles, float error, 
   std::vector<float> input;
   for (std::size_t at = 0; at < triangles.size(); at += 18)
   {
-    input.insert(input.end(), triangles.begin() + static_cast<std::ptrdiff_t>(at), triangles.begin() + static_cast<std::ptrdiff_t>(at) + 18);
-    input.insert(input.end(), { error, slack, 0.0F });
+    input.insert(input.end(), triangles.begin() + static_cast<std::ptrdiff_t>(at),
+                 triangles.begin() + static_cast<std::ptrdiff_t>(at) + 18);
+    input.insert(input.end(), {error, slack, 0.0F});
   }
   return input;
 }
 
-const char* const kTriangleCall = "trianglePair(vec3[3](at(0u), at(1u), at(2u)), vec3[3](at(3u), at(4u), at(5u)), at(6u).x, at(6u).y)";
+const char* const kTriangleCall =
+    "trianglePair(vec3[3](at(0u), at(1u), at(2u)), vec3[3](at(3u), at(4u), at(5u)), at(6u).x, at(6u).y)";
 
 TEST_F(GpuStep, TrianglePairsAreDecidedAsInDoubleOrLeftUndecided)
 {
@@ -144,13 +149,14 @@ TEST_F(GpuStep, TrianglesWithinTheErrorOrTheSlackAreUndecided)
     const Eigen::Matrix3d rotation = anyRotation();
     const Vector3d offset = anyVector(0.3);
     const double height = 5e-5;
-    for (const Vector3d& corner : { Vector3d(-0.1, -0.1, 0), Vector3d(0.2, 0, 0), Vector3d(0, 0.2, 0), Vector3d(0, 0, height),
-                                    Vector3d(0.05, 0, 0.1), Vector3d(0, 0.05, 0.1) })
+    for (const Vector3d& corner : {Vector3d(-0.1, -0.1, 0), Vector3d(0.2, 0, 0), Vector3d(0, 0.2, 0),
+                                   Vector3d(0, 0, height), Vector3d(0.05, 0, 0.1), Vector3d(0, 0.05, 0.1)})
       put(rotation * corner + offset, floats);
   }
   for (const auto& [error, slack, expected] :
-       { std::tuple(0.0F, 0.0F, 0U), std::tuple(1e-4F, 0.0F, STATE_UNDECIDED), std::tuple(0.0F, 1e-4F, STATE_UNDECIDED) })
-    for (const std::uint32_t found : run("#include \"triangle_pair.glsl\"\n", kTriangleCall, withBounds(floats, error, slack), 21))
+       {std::tuple(0.0F, 0.0F, 0U), std::tuple(1e-4F, 0.0F, STATE_UNDECIDED), std::tuple(0.0F, 1e-4F, STATE_UNDECIDED)})
+    for (const std::uint32_t found :
+         run("#include \"triangle_pair.glsl\"\n", kTriangleCall, withBounds(floats, error, slack), 21))
       ASSERT_EQ(found, expected) << "error " << error << ", slack " << slack;
 }
 
@@ -174,10 +180,11 @@ TEST_F(GpuStep, BoxesThatOverlapAreNeverApart)
     overlap.push_back(BoxPairTest(rows).overlap(half_a, half_b, rows * center_b + translation - center_a));
     overlapping += overlap.back() ? 1 : 0;
   }
-  const auto apart = run("#include \"pose.glsl\"\n#include \"boxes.glsl\"\n",
-                         "boxesApart(Box(at(0u), at(1u)), Box(at(2u), at(3u)), Pose(transpose(mat3(at(4u), at(5u), at(6u))), at(7u)), "
-                         "1e-6) ? 1u : 0u",
-                         input, 24);
+  const auto apart =
+      run("#include \"pose.glsl\"\n#include \"boxes.glsl\"\n",
+          "boxesApart(Box(at(0u), at(1u)), Box(at(2u), at(3u)), Pose(transpose(mat3(at(4u), at(5u), at(6u))), at(7u)), "
+          "1e-6) ? 1u : 0u",
+          input, 24);
   std::size_t missed = 0;
   for (std::size_t i = 0; i < kCases; ++i)
   {

@@ -14,7 +14,7 @@ namespace
 {
 class MeshPair : public testing::TestWithParam<Traversal>
 {
-protected:
+ protected:
   BatchCheckerOptions options() const
   {
     BatchCheckerOptions chosen;
@@ -27,8 +27,8 @@ TEST_P(MeshPair, SpheresMeetWhereTheirCentresAreNearerThanTheirRadii)
 {
   constexpr std::uint64_t kSeed = 5;
   constexpr std::size_t kPoses = 3000;
-  const Tessellation large = tessellate(Sphere{ 0.2 });
-  const Tessellation small = tessellate(Sphere{ 0.1 });
+  const Tessellation large = tessellate(Sphere{0.2});
+  const Tessellation small = tessellate(Sphere{0.1});
   // As meshes, so that surfaces are compared: one within the other is not a surface contact.
   MeshPairChecker checker(large.mesh, small.mesh, options());
   std::mt19937_64 generator(kSeed);
@@ -38,7 +38,8 @@ TEST_P(MeshPair, SpheresMeetWhereTheirCentresAreNearerThanTheirRadii)
   std::vector<double> distances;
   for (std::size_t i = 0; i < kPoses; ++i)
   {
-    const Eigen::Vector3d direction = Eigen::Vector3d(normal(generator), normal(generator), normal(generator)).normalized();
+    const Eigen::Vector3d direction =
+        Eigen::Vector3d(normal(generator), normal(generator), normal(generator)).normalized();
     distances.push_back(distance(generator));
     Eigen::Isometry3d pose(Eigen::Translation3d(distances.back() * direction));
     pose.rotate(Eigen::AngleAxisd(normal(generator), direction.unitOrthogonal()));
@@ -65,21 +66,21 @@ TEST_P(MeshPair, SpheresMeetWhereTheirCentresAreNearerThanTheirRadii)
 
 TEST_P(MeshPair, BoxesTouchAtTheirFaces)
 {
-  MeshPairChecker checker(Box{ { 1, 1, 1 } }, Box{ { 0.5, 0.5, 0.5 } }, options());
+  MeshPairChecker checker(Box{{1, 1, 1}}, Box{{0.5, 0.5, 0.5}}, options());
   const auto at = [](double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.1, 0.2)); };
-  EXPECT_EQ(checker.collide({ at(0.75), at(0.75 - 1e-6), at(0.75 + 1e-6), at(0.7), at(0.8), at(5.0) }),
-            (std::vector<std::uint8_t>{ 1, 1, 0, 1, 0, 0 }));
+  EXPECT_EQ(checker.collide({at(0.75), at(0.75 - 1e-6), at(0.75 + 1e-6), at(0.7), at(0.8), at(5.0)}),
+            (std::vector<std::uint8_t>{1, 1, 0, 1, 0, 0}));
 }
 
 TEST_P(MeshPair, NoPosesGiveNoAnswers)
 {
-  MeshPairChecker checker(Box{ { 1, 1, 1 } }, Sphere{ 0.5 }, options());
+  MeshPairChecker checker(Box{{1, 1, 1}}, Sphere{0.5}, options());
   EXPECT_TRUE(checker.collide({}).empty());
 }
 
 TEST_P(MeshPair, PosesThatAreNotRigidMotionsAreRefused)
 {
-  MeshPairChecker checker(Box{ { 1, 1, 1 } }, Sphere{ 0.5 }, options());
+  MeshPairChecker checker(Box{{1, 1, 1}}, Sphere{0.5}, options());
   std::vector<Eigen::Isometry3d> poses(3, Eigen::Isometry3d::Identity());
   poses[1].linear() *= 2.0;
   EXPECT_THROW(checker.collide(poses), Error);
@@ -91,6 +92,7 @@ TEST_P(MeshPair, PosesThatAreNotRigidMotionsAreRefused)
 }
 
 INSTANTIATE_TEST_SUITE_P(Traversals, MeshPair, testing::Values(Traversal::BreadthFirst, Traversal::WorkQueue),
-                         [](const auto& parameter) { return parameter.param == Traversal::WorkQueue ? "WorkQueue" : "BreadthFirst"; });
+                         [](const auto& parameter)
+                         { return parameter.param == Traversal::WorkQueue ? "WorkQueue" : "BreadthFirst"; });
 }  // namespace
 }  // namespace gpu_planning_scene

@@ -42,13 +42,14 @@ TEST(Device, EveryListedOneCanBeChosenByItsIndexAndByPartOfItsRenderer)
 TEST(Device, AutoPrefersHardware)
 {
   const std::vector<Device> devices = listDevices();
-  const bool has_hardware = std::any_of(devices.begin(), devices.end(), [](const Device& device) { return !device.software; });
+  const bool has_hardware =
+      std::any_of(devices.begin(), devices.end(), [](const Device& device) { return !device.software; });
   EXPECT_EQ(EglContext("auto").device().software, !has_hardware);
 }
 
 TEST(Device, OneThatIsNotThereIsRefusedWithAListOfThoseThatAre)
 {
-  for (const std::string selector : { "no such renderer", "999", "99999999999999999999" })
+  for (const std::string selector : {"no such renderer", "999", "99999999999999999999"})
   {
     const std::string error = errorFor(selector);
     EXPECT_NE(error.find("no usable EGL device for '" + selector + "'"), std::string::npos) << error;
@@ -66,6 +67,9 @@ TEST(GlThread, PassesOnWhatAJobThrowsAndGoesOn)
   EXPECT_EQ(ran, 1);
 }
 
-TEST(GlThread, FailsToStartWithoutADevice) { EXPECT_THROW(GlThread("no such renderer"), Error); }
+TEST(GlThread, FailsToStartWithoutADevice)
+{
+  EXPECT_THROW(GlThread("no such renderer"), Error);
+}
 }  // namespace
 }  // namespace gpu_planning_scene

@@ -17,7 +17,7 @@ namespace
 {
 class ProgramTest : public testing::Test
 {
-protected:
+ protected:
   std::string errorOf(const std::string& name) const
   {
     try
@@ -31,7 +31,7 @@ protected:
     return {};
   }
 
-  EglContext context_{ "auto" };
+  EglContext context_{"auto"};
   ShaderFolder folder_;
 };
 
@@ -51,9 +51,10 @@ TEST_F(ProgramTest, ThatIncludesAMissingFileNamesTheFile)
 
 TEST_F(ProgramTest, MayHaveMoreWorkgroupsThanOneDimensionHolds)
 {
-  folder_.write("count.comp", "layout(local_size_x = 1) in;\n#include \"common.glsl\"\n"
-                              "layout(std430, binding = 0) buffer Count { uint count; uint highest; };\n"
-                              "void main() { atomicAdd(count, 1u); atomicMax(highest, invocationIndex()); }\n");
+  folder_.write("count.comp",
+                "layout(local_size_x = 1) in;\n#include \"common.glsl\"\n"
+                "layout(std430, binding = 0) buffer Count { uint count; uint highest; };\n"
+                "void main() { atomicAdd(count, 1u); atomicMax(highest, invocationIndex()); }\n");
   const Program program(folder_.path(), "count.comp");
   Buffer buffer(8);
   buffer.clear();
@@ -91,7 +92,7 @@ TEST_F(ProgramTest, AccessBeyondABufferIsAnError)
 TEST_F(ProgramTest, MoreTexelsThanTheDeviceHoldsAreRefused)
 {
   TexelBuffer texels;
-  EXPECT_THROW(texels.reserve(std::size_t{ 1 } << 50), Error);
+  EXPECT_THROW(texels.reserve(std::size_t{1} << 50), Error);
 }
 }  // namespace
 }  // namespace gpu_planning_scene

@@ -11,7 +11,7 @@ namespace gpu_planning_scene
 namespace
 {
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kTargetSagitta = 20e-6;
+constexpr double kTargetSagitta = 100e-6;
 constexpr std::size_t kMaxTriangles = 1 << 15;
 
 double uniform(std::mt19937_64& generator)

@@ -39,5 +39,8 @@ void ShaderFolder::define(const std::string& name, const std::string& value) con
   write("interface.h", text.str());
 }
 
-void ShaderFolder::write(const std::string& name, const std::string& text) const { std::ofstream(path_ + "/" + name) << text; }
+void ShaderFolder::write(const std::string& name, const std::string& text) const
+{
+  std::ofstream(path_ + "/" + name) << text;
+}
 }  // namespace gpu_planning_scene

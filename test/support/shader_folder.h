@@ -9,7 +9,7 @@ namespace gpu_planning_scene
 /// A temporary copy of the project's shaders that a test may change; removed at the end.
 class ShaderFolder
 {
-public:
+ public:
   ShaderFolder();
   ~ShaderFolder();
   ShaderFolder(const ShaderFolder&) = delete;
@@ -21,7 +21,7 @@ public:
   void define(const std::string& name, const std::string& value) const;
   void write(const std::string& name, const std::string& text) const;
 
-private:
+ private:
   std::string path_;
 };
 }  // namespace gpu_planning_scene

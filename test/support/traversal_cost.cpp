@@ -12,13 +12,16 @@ namespace
 constexpr int kPoses = 12;
 constexpr double kTrianglePair = 3.0;
 
-Eigen::Vector3d vector(const std::array<float, 3>& values) { return { values[0], values[1], values[2] }; }
+Eigen::Vector3d vector(const std::array<float, 3>& values)
+{
+  return {values[0], values[1], values[2]};
+}
 
 double costInPose(const Forest& forest, std::uint32_t root_a, std::uint32_t root_b, const Eigen::Isometry3d& b_in_a)
 {
   const BoxPairTest boxes(b_in_a.linear());
   double cost = 0.0;
-  std::vector<std::array<std::uint32_t, 2>> stack = { { root_a, root_b } };
+  std::vector<std::array<std::uint32_t, 2>> stack = {{root_a, root_b}};
   while (!stack.empty())
   {
     const auto [index_a, index_b] = stack.back();
@@ -34,13 +37,13 @@ double costInPose(const Forest& forest, std::uint32_t root_a, std::uint32_t root
       cost += kTrianglePair * a.count * b.count;
     else if (a.count == 0 && (b.count != 0 || half_a.squaredNorm() >= half_b.squaredNorm()))
     {
-      stack.push_back({ a.first, index_b });
-      stack.push_back({ a.first + 1, index_b });
+      stack.push_back({a.first, index_b});
+      stack.push_back({a.first + 1, index_b});
     }
     else
     {
-      stack.push_back({ index_a, b.first });
-      stack.push_back({ index_a, b.first + 1 });
+      stack.push_back({index_a, b.first});
+      stack.push_back({index_a, b.first + 1});
     }
   }
   return cost;
@@ -69,7 +72,8 @@ double traversalCost(const Forest& forest, const std::vector<Tessellation>& tree
     pose.linear() = Eigen::Quaterniond(normal(generator), normal(generator), normal(generator), normal(generator))
                         .normalized()
                         .toRotationMatrix();
-    const Eigen::Vector3d direction = Eigen::Vector3d(normal(generator), normal(generator), normal(generator)).normalized();
+    const Eigen::Vector3d direction =
+        Eigen::Vector3d(normal(generator), normal(generator), normal(generator)).normalized();
     pose.translation() = box_a.center() + 0.5 * direction.cwiseProduct(box_a.sizes() + box_b.sizes() / 2.0) -
                          pose.linear() * box_b.center();
     cost += costInPose(forest, forest.roots[a], forest.roots[b], pose);
