@@ -19,9 +19,7 @@ std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> s
   {
     if (!listDevices().empty())
       throw;
-    throw Error(std::string(error.what()) +
-                "; install a GPU driver, or Mesa for a software device (Debian: libegl-mesa0 and libgl1-mesa-dri), or "
-                "choose the device 'cpu'");
+    throw Error(std::string(error.what()) + "; or choose the device 'cpu', which needs none");
   }
 }
 }  // namespace gpu_planning_scene

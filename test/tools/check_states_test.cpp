@@ -1,6 +1,7 @@
 // The tool check_states from outside: its answers, its summary, its exit codes.
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <regex>
@@ -176,6 +177,36 @@ TEST_F(CheckStates, aSceneIsNotNeeded)
   const ProgramOutput output = run({"--urdf", urdf, "--random", "10"});
   EXPECT_EQ(0, output.exit_code) << output.err;
   EXPECT_NE(std::string::npos, output.err.find("adjacent (no SRDF was given)")) << output.err;
+}
+
+TEST_F(CheckStates, everyDeviceAndTraversalAnswersTheSame)
+{
+  const auto valid = [](const ProgramOutput& output)
+  {
+    std::string column;
+    for (const std::string& row : linesOf(output.out))
+      column += row[0];
+    return column;
+  };
+  const std::string expected = valid(check({"--random", "2000", "--device", "cpu"}));
+  for (const char* traversal : {"breadth_first", "work_queue"})
+  {
+    const ProgramOutput output =
+        check({"--random", "2000", "--max-batch", "300", "--device", "software", "--traversal", traversal});
+    if (output.err.find("no usable EGL device") != std::string::npos)
+      GTEST_SKIP() << output.err;
+    EXPECT_EQ(expected, valid(output)) << traversal << ": " << output.err;
+  }
+}
+
+TEST_F(CheckStates, withoutADeviceItSaysWhatToDo)
+{
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null", 1);  // what EGL finds where no driver is installed
+  const ProgramOutput output = check({"--random", "1", "--device", "auto"});
+  unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
+  expectError(output, 1, "no usable EGL device");
+  EXPECT_NE(std::string::npos, output.err.find("install")) << output.err;
+  EXPECT_NE(std::string::npos, output.err.find("'cpu'")) << output.err;
 }
 
 TEST_F(CheckStates, saysWhatItIsAndCanDo)
