@@ -5,7 +5,7 @@ if(NOT PYTHON_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that has catkin_pkg")
 endif()
 
-find_package(catkin REQUIRED COMPONENTS message_generation roscpp roslib sensor_msgs std_msgs tf2 tf2_ros)
+find_package(catkin REQUIRED COMPONENTS message_generation roscpp roslib sensor_msgs std_msgs)
 find_package(Eigen3 REQUIRED)
 
 add_service_files(FILES CheckStates.srv)
