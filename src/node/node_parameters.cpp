@@ -113,6 +113,9 @@ std::shared_ptr<const PlanningScene> sceneFromParameters(const ros::NodeHandle& 
   const auto robot = RobotModel::fromXml(urdf, textParameter(node, options.srdf_name, ""), options, warnings);
 
   const std::string scene_file = textParameter(own, "scene", "");
+  if (!scene_file.empty() && scene_file[0] != '/' && scene_file.find("://") == std::string::npos)
+    throw Error("parameter " + own.resolveName("scene") + ": '" + scene_file +
+                "' is neither an absolute path nor a package:// or file:// URI");
   PlanningScene scene = scene_file.empty() ? PlanningScene(robot)
                                            : loadSceneFile(resolveUri(scene_file, "", options.packages), robot,
                                                            options.packages, warnings);

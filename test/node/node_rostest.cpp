@@ -195,6 +195,7 @@ TEST_F(Node, doesNotStartOnWhatItCannotUse)
   expectNoStart({"robot_description:=number_description"}, "number_description is not a string");
   expectNoStart({"robot_description:=missing_description"}, "missing_description is not set");
   expectNoStart({"_scene:=/no/such/scene.yaml"}, "/no/such/scene.yaml");
+  expectNoStart({"_scene:=scene.yaml"}, "neither an absolute path");
   expectNoStart({"_device:=no such renderer"}, "no such renderer");
   expectNoStart({"_traversal:=depth_first"}, "depth_first");
   expectNoStart({"_max_batch:=0"}, "max_batch is not an integer");
