@@ -7,8 +7,9 @@ layout(location = 1) uniform uint mesh_count;
 layout(std430, binding = 2) buffer Rounds { uint rounds[]; };
 layout(std430, binding = 4) buffer Sums { uvec2 sums[]; };
 
-shared uvec2 part_sums[256];
-shared uvec2 total;
+#define SCAN_TYPE uvec2
+#define SCAN_VALUES sums
+#include "scan.glsl"
 
 void setGroups(uint at, uint lanes)
 {
@@ -21,40 +22,12 @@ void setGroups(uint at, uint lanes)
 
 void main()
 {
-  const uint lane = gl_LocalInvocationID.x;
   const uint now = round_index * ROUND_STRIDE;
   const uint next = now + ROUND_STRIDE;
   const uint cluster_count = rounds[now + ROUND_CLUSTERS];
   const bool done = cluster_count == mesh_count;
-  const uint value_count = done ? 0u : (cluster_count + CHUNK - 1u) / CHUNK;
-  const uint part = (value_count + 255u) / 256u;
-  const uint begin = min(lane * part, value_count);
-  const uint end = min(begin + part, value_count);
-  uvec2 sum = uvec2(0u);
-  for (uint i = begin; i < end; ++i)
-    sum += sums[i];
-  part_sums[lane] = sum;
-  barrier();
-  if (lane == 0u)
-  {
-    uvec2 running = uvec2(0u);
-    for (uint i = 0u; i < 256u; ++i)
-    {
-      const uvec2 value = part_sums[i];
-      part_sums[i] = running;
-      running += value;
-    }
-    total = running;
-  }
-  barrier();
-  uvec2 offset = part_sums[lane];
-  for (uint i = begin; i < end; ++i)
-  {
-    const uvec2 value = sums[i];
-    sums[i] = offset;
-    offset += value;
-  }
-  if (lane == 0u)
+  const uvec2 total = scanInPlace(done ? 0u : (cluster_count + CHUNK - 1u) / CHUNK);
+  if (gl_LocalInvocationID.x == 0u)
   {
     const uint remaining = done ? cluster_count : total.x;
     rounds[now + ROUND_PAIRS] = total.y;

@@ -10,41 +10,15 @@ layout(location = 2) uniform uint entry_capacity;
 layout(location = 3) uniform uint leaf_pair_capacity;
 layout(std430, binding = BINDING_OUT_2) buffer Sums { uvec2 sums[]; };
 
-shared uvec2 part_sums[256];
-shared uvec2 total;
+#define SCAN_TYPE uvec2
+#define SCAN_VALUES sums
+#include "scan.glsl"
 
 void main()
 {
-  const uint lane = gl_LocalInvocationID.x;
-  const uint value_count = (min(counters[in_counter], entry_capacity) + LEVEL_CHUNK - 1u) / LEVEL_CHUNK;
-  const uint part = (value_count + 255u) / 256u;
-  const uint begin = min(lane * part, value_count);
-  const uint end = min(begin + part, value_count);
-  uvec2 sum = uvec2(0u);
-  for (uint i = begin; i < end; ++i)
-    sum += sums[i];
-  part_sums[lane] = sum;
-  barrier();
-  if (lane == 0u)
-  {
-    uvec2 running = uvec2(0u);
-    for (uint i = 0u; i < 256u; ++i)
-    {
-      const uvec2 value = part_sums[i];
-      part_sums[i] = running;
-      running += value;
-    }
-    total = running;
-  }
-  barrier();
-  uvec2 offset = part_sums[lane];
-  for (uint i = begin; i < end; ++i)
-  {
-    const uvec2 value = sums[i];
-    sums[i] = offset;
-    offset += value;
-  }
-  if (lane == 0u)
+  const uint entry_count = min(counters[in_counter], entry_capacity);
+  const uvec2 total = scanInPlace((entry_count + LEVEL_CHUNK - 1u) / LEVEL_CHUNK);
+  if (gl_LocalInvocationID.x == 0u)
   {
     if (total.x > entry_capacity || total.y > leaf_pair_capacity)
       counters[COUNTER_OVERFLOW] = 1u;

@@ -20,15 +20,15 @@ BreadthFirst::BreadthFirst(const std::string& folder, const ListCapacities& capa
     scan_(folder, "level_scan.comp"),
     expand_(folder, "level_expand.comp"),
     triangles_(folder, "level_triangles.comp"),
-    masks_(std::size_t{std::max(capacities.node_pairs, capacities.items)} * 4),
-    sums_((std::size_t{std::max(capacities.node_pairs, capacities.items)} / LEVEL_CHUNK + 1) * 8)
+    masks_(std::size_t{capacities.node_pairs} * 4),
+    sums_((std::size_t{capacities.node_pairs} / LEVEL_CHUNK + 1) * 8)
 {
   leaf_pairs_.reserve(std::size_t{capacities.leaf_pairs} * 16);
 }
 
 bool BreadthFirst::run(BatchLists& lists, std::uint32_t levels)
 {
-  const std::uint32_t capacity = std::max(lists.capacity.node_pairs, lists.capacity.items);
+  const std::uint32_t capacity = lists.capacity.node_pairs;
   const auto chunk_lanes = std::uint32_t{LEVEL_CHUNK} * GROUP_SIZE;
   arguments_.prepare(COUNTER_ITEMS, lists.capacity.items, chunk_lanes, std::numeric_limits<std::uint32_t>::max(),
                      COUNTER_ENTRIES_ODD);

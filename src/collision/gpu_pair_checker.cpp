@@ -24,7 +24,8 @@ ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
   { return chosen ? chosen : static_cast<std::uint32_t>(std::min<std::size_t>(max_states * count + 65536, 1U << 26)); };
   capacities.candidates = per_state(capacities.candidates, 48);
   capacities.items = per_state(capacities.items, 24);
-  capacities.node_pairs = per_state(capacities.node_pairs, 64);
+  // The first list of node pairs holds the items' roots.
+  capacities.node_pairs = std::max(per_state(capacities.node_pairs, 64), capacities.items);
   capacities.leaf_pairs = per_state(capacities.leaf_pairs, 64);
   return capacities;
 }

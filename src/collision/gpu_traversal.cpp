@@ -22,7 +22,7 @@ BatchLists::BatchLists(const ListCapacities& capacities)
   candidates.reserve(std::size_t{capacity.candidates} * 16);
   items.reserve(std::size_t{capacity.items} * 64);
   for (TexelBuffer& list : node_pairs)
-    list.reserve(std::size_t{std::max(capacity.node_pairs, capacity.items)} * 16);
+    list.reserve(std::size_t{capacity.node_pairs} * 16);
 }
 
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,

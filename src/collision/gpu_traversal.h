@@ -17,7 +17,7 @@ struct ListCapacities
 {
   std::uint32_t candidates = 0;  ///< pairs of instances whose spheres or outer boxes overlap
   std::uint32_t items = 0;       ///< of them, those whose root boxes overlap
-  std::uint32_t node_pairs = 0;  ///< of one level (breadth-first), or spilled (work queues)
+  std::uint32_t node_pairs = 0;  ///< of one level (breadth-first), or spilled (work queues); at least `items`
   std::uint32_t leaf_pairs = 0;  ///< of one level (breadth-first)
 };
 

@@ -9,7 +9,7 @@ namespace gpu_planning_scene
 {
 bool WorkQueue::run(BatchLists& lists, std::uint32_t /*levels*/)
 {
-  const std::uint32_t capacity = std::max(lists.capacity.node_pairs, lists.capacity.items);
+  const std::uint32_t capacity = lists.capacity.node_pairs;
   program_.set(2, capacity);
   std::uint32_t in_counter = COUNTER_ITEMS;
   lists.counters.clear(COUNTER_LANES_STARTED * sizeof(std::uint32_t), sizeof(std::uint32_t));
