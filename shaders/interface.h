@@ -10,7 +10,7 @@
 // A leaf in one word: its first triangle below this bit, its number of triangles less one above.
 #define LEAF_COUNT_SHIFT 30
 // What testing a triangle costs in a traversal, a node's box being 1 (surface area heuristic).
-#define TRIANGLE_COST 0.7
+#define TRIANGLE_COST 0.4
 // Elements that one lane of the sort and of the compaction handles in sequence.
 #define CHUNK 32
 #define RADIX_BITS 4

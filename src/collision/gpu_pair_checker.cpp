@@ -25,7 +25,7 @@ ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
   capacities.candidates = per_state(capacities.candidates, 48);
   capacities.items = per_state(capacities.items, 24);
   // The first list of node pairs holds the items' roots.
-  capacities.node_pairs = std::max(per_state(capacities.node_pairs, 64), capacities.items);
+  capacities.node_pairs = std::max(per_state(capacities.node_pairs, 128), capacities.items);
   capacities.leaf_pairs = per_state(capacities.leaf_pairs, 64);
   return capacities;
 }
