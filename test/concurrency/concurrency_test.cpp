@@ -1,0 +1,104 @@
+// Several threads check states while another one changes the scene: each answer belongs wholly to the scene whose
+// revision it names.
+
+#include <atomic>
+#include <functional>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr int kCheckingThreads = 3;
+constexpr std::size_t kStates = 40;
+
+/// A slider on a rail, and a wall that is in its way in scenes of odd revision.
+class Scenes
+{
+ public:
+  Scenes()
+  {
+    robot_ = RobotModel::fromXml(R"(<robot name="slider">
+      <link name="rail"/>
+      <link name="carriage"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+      <joint name="slide" type="prismatic"><parent link="rail"/><child link="carriage"/><axis xyz="1 0 0"/>
+        <limit lower="0" upper="1" effort="1" velocity="1"/></joint></robot>)",
+                                 "", {});
+  }
+
+  std::shared_ptr<const PlanningScene> of(std::uint64_t revision) const
+  {
+    auto scene = std::make_shared<PlanningScene>(robot_);
+    const double y = revision % 2 == 1 ? 0.0 : 1.0;
+    scene->objects.push_back({"wall", Eigen::Isometry3d(Eigen::Translation3d(0.8, y, 0.0)), {{Box{{0.1, 0.4, 0.4}}}}});
+    scene->revision = revision;
+    return scene;
+  }
+
+ private:
+  std::shared_ptr<const RobotModel> robot_;
+};
+
+void checkWhileTheSceneChanges(StateChecker& checker, const Scenes& scenes, std::uint64_t revisions)
+{
+  std::vector<double> states;
+  for (std::size_t i = 0; i < kStates; ++i)
+  {
+    states.push_back((static_cast<double>(i) + 0.5) / kStates);
+  }
+  std::atomic<bool> done{false};
+  std::atomic<int> wrong{0};
+  std::atomic<int> answers{0};
+  std::vector<std::thread> threads;
+  threads.reserve(kCheckingThreads);
+  for (int t = 0; t < kCheckingThreads; ++t)
+  {
+    threads.emplace_back(
+        [&]
+        {
+          while (!done)
+          {
+            const BatchResult result = checker.check(states.data(), kStates);
+            for (std::size_t i = 0; i < kStates; ++i)
+            {
+              // The wall is from 0.75 to 0.85, the carriage reaches 0.05 to both sides.
+              const bool hits = result.revision % 2 == 1 && states[i] > 0.7 && states[i] < 0.9;
+              wrong += result.valid[i] == (hits ? 0 : 1) ? 0 : 1;
+            }
+            ++answers;
+          }
+        });
+  }
+  for (std::uint64_t revision = 1; revision <= revisions || answers < 3 * kCheckingThreads; ++revision)
+  {
+    checker.setScene(scenes.of(revision));
+    std::this_thread::yield();
+  }
+  done = true;
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(wrong, 0) << "in " << answers << " answers";
+}
+
+TEST(Concurrency, AnswersOfTheCpuBelongToTheirRevision)
+{
+  const Scenes scenes;
+  CpuChecker checker(scenes.of(0));
+  checkWhileTheSceneChanges(checker, scenes, 100);
+}
+
+TEST(Concurrency, AnswersOfTheGpuBelongToTheirRevision)
+{
+  const Scenes scenes;
+  BatchChecker checker(scenes.of(0), BatchCheckerOptions());
+  checkWhileTheSceneChanges(checker, scenes, 20);
+}
+}  // namespace
+}  // namespace gpu_planning_scene

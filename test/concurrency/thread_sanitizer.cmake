@@ -1,0 +1,17 @@
+# What concurrency.has_no_data_races runs. SOURCE: the repository; FOLDER: where the build goes; GENERATOR: of the build.
+
+# run(WHAT COMMAND...): fails, saying WHAT, with the command's output.
+function(run what)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${what}: ${status}\n${output}")
+  endif()
+endfunction()
+
+run("no build with the thread sanitizer" ${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLDER} -G ${GENERATOR}
+  -DGPU_PLANNING_SCENE_ROS=OFF -DGPU_PLANNING_SCENE_BENCH=OFF -DCMAKE_BUILD_TYPE=Debug
+  "-DCMAKE_CXX_FLAGS=-fsanitize=thread -O1 -g1")
+run("it does not build" ${CMAKE_COMMAND} --build ${FOLDER} --target concurrency_test)
+find_program(program concurrency_test PATHS ${FOLDER}/test/concurrency NO_DEFAULT_PATH REQUIRED)
+run("data races" ${CMAKE_COMMAND} -E env
+  "TSAN_OPTIONS=suppressions=${SOURCE}/test/support/tsan.supp" ${program})
