@@ -12,6 +12,10 @@ function(run what)
 endfunction()
 
 file(REMOVE_RECURSE ${FOLDER})
+# A workspace that is sourced would hide what was installed.
+foreach(name LD_LIBRARY_PATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH)
+  unset(ENV{${name}})
+endforeach()
 # Below DESTDIR, and not by `cmake --install --prefix`: catkin's setup files go to the prefix that BUILD was configured
 # with, whatever --prefix says, and a test must not write there.
 set(ENV{DESTDIR} ${FOLDER}/root)
@@ -30,10 +34,9 @@ foreach(program with_variables with_targets)
   run("${program} gives wrong answers" ${FOLDER}/build/${program})
 endforeach()
 
-# The tools run from where they were installed, without any environment.
+# The tools run from where they were installed, with nothing sourced.
 foreach(tool check_states generate_acm)
-  run("${tool} does not run" ${CMAKE_COMMAND} -E env --unset=LD_LIBRARY_PATH
-    ${prefix}/lib/gpu_planning_scene/${tool} --version)
+  run("${tool} does not run" ${prefix}/lib/gpu_planning_scene/${tool} --version)
 endforeach()
 
 set(share share/gpu_planning_scene)
