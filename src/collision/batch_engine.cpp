@@ -32,12 +32,12 @@ void BatchEngine::setProblem(std::shared_ptr<const CollisionProblem> problem)
 {
   try
   {
-    gl_.run([&] { pairs_->scene().setProblem(*problem); });
+    gl_.run([&] { pairs_->setProblem(*problem); });
   }
   catch (...)
   {
     if (problem_)
-      gl_.run([this] { pairs_->scene().setProblem(*problem_); });
+      gl_.run([this] { pairs_->setProblem(*problem_); });
     throw;
   }
   problem_ = std::move(problem);
@@ -47,7 +47,7 @@ void BatchEngine::setProblem(std::shared_ptr<const CollisionProblem> problem)
 
 void BatchEngine::selectPairs(std::shared_ptr<const CollisionProblem> problem)
 {
-  gl_.run([&] { pairs_->scene().selectPairs(*problem); });
+  gl_.run([&] { pairs_->selectPairs(*problem); });
   problem_ = std::move(problem);
   on_cpu_.reset();
 }

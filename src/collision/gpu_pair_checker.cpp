@@ -22,7 +22,7 @@ ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
 {
   const auto per_state = [&](std::uint32_t chosen, std::size_t count)
   { return chosen ? chosen : static_cast<std::uint32_t>(std::min<std::size_t>(max_states * count + 65536, 1U << 26)); };
-  capacities.candidates = per_state(capacities.candidates, 48);
+  capacities.candidates = per_state(capacities.candidates, 96);
   capacities.items = per_state(capacities.items, 24);
   // The first list of node pairs holds the items' roots.
   capacities.node_pairs = std::max(per_state(capacities.node_pairs, 128), capacities.items);
@@ -35,6 +35,7 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
                                const ListCapacities& capacities)
   : scene_(folder),
     max_states_(std::max<std::size_t>(1, max_states)),
+    part_(max_states_),
     lists_(withDefaults(capacities, max_states_)),
     traversal_(makeTraversal(traversal, folder, lists_.capacity)),
     arguments_(folder),
@@ -50,14 +51,30 @@ std::pair<std::uint32_t, std::uint32_t> GpuPairChecker::pairOf(std::uint32_t hit
   return {hit >> PAIR_OTHER_BITS, hit & ((1U << PAIR_OTHER_BITS) - 1)};
 }
 
+void GpuPairChecker::setProblem(const CollisionProblem& problem)
+{
+  part_ = max_states_;
+  scene_.setProblem(problem);
+}
+
+void GpuPairChecker::selectPairs(const CollisionProblem& problem)
+{
+  part_ = max_states_;
+  scene_.selectPairs(problem);
+}
+
 void GpuPairChecker::check(const float* poses, std::size_t count, Verdicts& verdicts)
 {
   verdicts.flags.assign(count, 0);
   verdicts.hits.assign(count, 0);
   if (scene_.robotCount() == 0)
     return;
-  for (std::size_t begin = 0; begin < count; begin += max_states_)
-    checkPart(poses, begin, std::min(max_states_, count - begin), verdicts);
+  for (std::size_t begin = 0; begin < count;)
+  {
+    const std::size_t part = std::min(part_, count - begin);
+    checkPart(poses, begin, part, verdicts);
+    begin += part;
+  }
 }
 
 void GpuPairChecker::checkPart(const float* poses, std::size_t begin, std::size_t count, Verdicts& verdicts)
@@ -73,6 +90,8 @@ void GpuPairChecker::checkPart(const float* poses, std::size_t begin, std::size_
     verdicts.flags[begin] = STATE_UNDECIDED;
     return;
   }
+  // Batches that follow are likely to be like this one.
+  part_ = (count + 1) / 2;
   checkPart(poses, begin, count / 2, verdicts);
   checkPart(poses, begin + count / 2, count - count / 2, verdicts);
 }

@@ -28,7 +28,9 @@ class GpuPairChecker
   GpuPairChecker(const std::string& shader_folder, Traversal traversal, std::size_t max_states,
                  const ListCapacities& capacities = {});
 
-  GpuScene& scene() { return scene_; }
+  /// See GpuScene.
+  void setProblem(const CollisionProblem& problem);
+  void selectPairs(const CollisionProblem& problem);
   const GpuScene& scene() const { return scene_; }
 
   /// `poses`: state by state, 12 floats for each robot instance (writePoseRows), relative to the frame of the world's
@@ -46,6 +48,7 @@ class GpuPairChecker
 
   GpuScene scene_;
   std::size_t max_states_;
+  std::size_t part_;  // states that go to the GPU at once: fewer than max_states_ after an overflow
   BatchLists lists_;
   std::unique_ptr<GpuTraversal> traversal_;
   ArgumentsKernel arguments_;

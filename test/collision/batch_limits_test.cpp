@@ -57,7 +57,7 @@ class BatchLimits : public testing::TestWithParam<Traversal>
   {
     EglContext context("auto");
     GpuPairChecker checker(folder_.path(), GetParam(), kStates, capacities);
-    checker.scene().setProblem(*problem_);
+    checker.setProblem(*problem_);
     std::vector<float> rows(12 * kStates);
     for (std::size_t i = 0; i < kStates; ++i)
       writePoseRows(poses_[i], &rows[12 * i]);
