@@ -1,5 +1,5 @@
-// What is known of each state.
-layout(std430, binding = BINDING_FLAGS) buffer Flags { uint flags[]; };
+// What is known of each state. Coherent, so that a hit is seen by all workgroups while they run.
+layout(std430, binding = BINDING_FLAGS) coherent buffer Flags { uint flags[]; };
 layout(std430, binding = BINDING_HITS) buffer Hits { uint hits[]; };
 
 bool isDecided(uint state)

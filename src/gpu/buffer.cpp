@@ -11,6 +11,15 @@
 
 namespace gpu_planning_scene
 {
+namespace
+{
+/// Transfers see what shaders have written, and do not overtake it.
+void waitForShaders()
+{
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+}  // namespace
+
 Buffer::Buffer(std::size_t size) : size_(std::max<std::size_t>(size, 16))
 {
   glCreateBuffers(1, &id_);
@@ -47,6 +56,7 @@ void Buffer::write(const void* data, std::size_t size, std::size_t offset)
 {
   if (size == 0)
     return;
+  waitForShaders();
   glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(size), data);
   checkGl("an upload");
 }
@@ -55,7 +65,7 @@ void Buffer::read(void* data, std::size_t size, std::size_t offset) const
 {
   if (size == 0)
     return;
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  waitForShaders();
   glGetNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(size), data);
   checkGl("a download");
 }
@@ -68,6 +78,7 @@ void Buffer::clear()
 void Buffer::clear(std::size_t offset, std::size_t size)
 {
   const std::uint32_t zero = 0;
+  waitForShaders();
   glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset),
                             static_cast<GLsizeiptr>(size & ~std::size_t{3}), GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
   checkGl("clearing a buffer");
@@ -75,7 +86,7 @@ void Buffer::clear(std::size_t offset, std::size_t size)
 
 void Buffer::copyFrom(const Buffer& other, std::size_t size)
 {
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  waitForShaders();
   glCopyNamedBufferSubData(other.id_, id_, 0, 0, static_cast<GLsizeiptr>(size));
   checkGl("copying a buffer");
 }
