@@ -208,7 +208,7 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   gather_program_.dispatch(groupsFor(count));
 
   // One record more than there are rounds: what the last one leaves, and where the final clusters lie.
-  rounds_.reserve((BUILD_ROUNDS + 1) * ROUND_STRIDE * kUint);
+  rounds_.reserve(kUint * (BUILD_ROUNDS + 1) * ROUND_STRIDE);
   rounds_.clear();
   const std::size_t lanes = count == mesh_count ? 0 : count;
   std::vector<std::uint32_t> first(ROUND_STRIDE, 0);
@@ -234,7 +234,7 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   pairs_.bindStorage(7);
   for (std::uint32_t round = 0; round < BUILD_ROUNDS; ++round)
   {
-    const std::size_t record = round * ROUND_STRIDE * kUint;
+    const std::size_t record = kUint * round * ROUND_STRIDE;
     clusters_[round & 1].bindStorage(0);
     cluster_info_[round & 1].bindStorage(1);
     clusters_[~round & 1].bindStorage(5);
@@ -246,7 +246,7 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
     scan_program_.dispatch(1);
     write_program_.dispatchIndirect(rounds_, record + ROUND_CHUNK_GROUPS * kUint);
   }
-  std::vector<std::uint32_t> rounds((BUILD_ROUNDS + 1) * ROUND_STRIDE);
+  std::vector<std::uint32_t> rounds(std::size_t{BUILD_ROUNDS + 1} * ROUND_STRIDE);
   rounds_.read(rounds.data(), rounds.size() * kUint);
   const std::uint32_t remaining = rounds[BUILD_ROUNDS * ROUND_STRIDE + ROUND_CLUSTERS];
   if (remaining != mesh_count)

@@ -106,8 +106,9 @@ Verdict decideBySigns(const Triangle& p, const Triangle& q)
 
   // On which side of the plane of `triangle` the vertices of `other` are; returns whether they are all on one, clearly
   // apart.
-  const auto findSides = [&size](const Triangle& triangle, const Triangle& edge, const std::array<double, 3>& edge_size,
-                                 const Triangle& other, std::array<int, 3>& sides)
+  const auto find_sides = [&size](const Triangle& triangle, const Triangle& edge,
+                                  const std::array<double, 3>& edge_size, const Triangle& other,
+                                  std::array<int, 3>& sides)
   {
     const Vector3d normal = edge[0].cross(edge[1]);
     const double tolerance = 2.0 * kContactTolerance * normal.norm();
@@ -124,7 +125,7 @@ Verdict decideBySigns(const Triangle& p, const Triangle& q)
   };
   std::array<int, 3> side_of_p;  // of the vertices of q
   std::array<int, 3> side_of_q;  // of the vertices of p
-  if (findSides(p, edge_p, edge_p_size, q, side_of_p) || findSides(q, edge_q, edge_q_size, p, side_of_q))
+  if (find_sides(p, edge_p, edge_p_size, q, side_of_p) || find_sides(q, edge_q, edge_q_size, p, side_of_q))
   {
     return Verdict::Apart;
   }

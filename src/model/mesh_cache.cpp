@@ -143,7 +143,7 @@ class SceneFlattener
                   " names a vertex that the file does not have");
     }
     const aiVector3D& vertex = part.mVertices[index];
-    const Eigen::Vector3d placed = pose * Eigen::Vector3d(vertex.x, vertex.y, vertex.z);
+    Eigen::Vector3d placed = pose * Eigen::Vector3d(vertex.x, vertex.y, vertex.z);
     if (!placed.allFinite())
     {
       throw Error("mesh file '" + mesh_->name + "': a vertex of triangle " + std::to_string(mesh_->triangles.size()) +

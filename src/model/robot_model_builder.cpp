@@ -172,7 +172,7 @@ std::string readFile(const std::string& path, const char* what)
   {
     throw Error(std::string("cannot read ") + what + " '" + path + "'");
   }
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (text.empty())
   {
     throw Error(std::string(what) + " '" + path + "' is empty");

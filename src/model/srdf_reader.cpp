@@ -60,9 +60,9 @@ SrdfGroup readGroup(const XmlText& xml, const tinyxml2::XMLElement& element)
 
 SrdfVirtualJoint readVirtualJoint(const XmlText& xml, const tinyxml2::XMLElement& element)
 {
-  const SrdfVirtualJoint joint = {xml.attribute(element, "name"), xml.attribute(element, "type"),
-                                  xml.attribute(element, "parent_frame"), xml.attribute(element, "child_link"),
-                                  xml.where(element)};
+  SrdfVirtualJoint joint = {xml.attribute(element, "name"), xml.attribute(element, "type"),
+                            xml.attribute(element, "parent_frame"), xml.attribute(element, "child_link"),
+                            xml.where(element)};
   if (joint.type != "fixed" && joint.type != "planar" && joint.type != "floating")
   {
     throw Error(joint.where + ": virtual joint '" + joint.name + "' is of type '" + joint.type +

@@ -61,7 +61,7 @@ std::string whereOf(const std::vector<std::string>& messages, const XmlText& xml
       const std::string name = message.substr(begin + 1, message.find(']', begin) - begin - 1);
       for (const char* tag : {"joint", "link"})
       {
-        const std::string where = xml.where(tag, name);
+        std::string where = xml.where(tag, name);
         if (where != xml.name())
         {
           return where;

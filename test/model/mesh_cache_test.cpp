@@ -175,7 +175,7 @@ TEST(MeshCache, whatIsWrongWithAFileIsSaid)
   const std::string truncated = binaryStl(brick()).substr(0, 300);
   const std::string good = folder.write("good.stl", binaryStl(brick()));
 
-  const auto expectError =
+  const auto expect_error =
       [](const std::string& path, const std::string& text, const Eigen::Vector3d& scale = Eigen::Vector3d::Ones())
   {
     const std::string error = errorOf([&] { load(path, scale); });
@@ -183,20 +183,20 @@ TEST(MeshCache, whatIsWrongWithAFileIsSaid)
     EXPECT_NE(error.find(text), std::string::npos) << path << ": " << error;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   };
-  expectError(folder.path("missing.stl"), "does not exist");
-  expectError(folder.path(""), "only .stl");
-  expectError(folder.write("part.step", "x"), "only .stl, .dae, .obj and .ply");
-  expectError(folder.write("text.stl", "This is no mesh."), "cannot be read");
-  expectError(folder.write("truncated.stl", truncated), "cannot be read");
-  expectError(folder.write("zero.stl", ""), "cannot be read");
-  expectError(folder.write("empty_ascii.stl", asciiStl(empty)), "");
-  expectError(folder.write("empty.stl", binaryStl(empty)), "");
-  expectError(folder.write("empty.obj", objText(empty)), "no triangles");
-  expectError(folder.write("empty.ply", plyText(empty)), "");
-  expectError(folder.write("empty.dae", daeText(empty)), "no triangles");
-  expectError(folder.write("infinite.stl", binaryStl(infinite)), "is not finite");
-  expectError(good, "scale", {1.0, 0.0, 1.0});
-  expectError(good, "not finite", {1.0, std::numeric_limits<double>::quiet_NaN(), 1.0});
+  expect_error(folder.path("missing.stl"), "does not exist");
+  expect_error(folder.path(""), "only .stl");
+  expect_error(folder.write("part.step", "x"), "only .stl, .dae, .obj and .ply");
+  expect_error(folder.write("text.stl", "This is no mesh."), "cannot be read");
+  expect_error(folder.write("truncated.stl", truncated), "cannot be read");
+  expect_error(folder.write("zero.stl", ""), "cannot be read");
+  expect_error(folder.write("empty_ascii.stl", asciiStl(empty)), "");
+  expect_error(folder.write("empty.stl", binaryStl(empty)), "");
+  expect_error(folder.write("empty.obj", objText(empty)), "no triangles");
+  expect_error(folder.write("empty.ply", plyText(empty)), "");
+  expect_error(folder.write("empty.dae", daeText(empty)), "no triangles");
+  expect_error(folder.write("infinite.stl", binaryStl(infinite)), "is not finite");
+  expect_error(good, "scale", {1.0, 0.0, 1.0});
+  expect_error(good, "not finite", {1.0, std::numeric_limits<double>::quiet_NaN(), 1.0});
 }
 }  // namespace
 }  // namespace gpu_planning_scene

@@ -25,7 +25,7 @@ struct Surface
   const char* name;
   Shape shape;
   double size;
-  std::function<double(const Eigen::Vector3d&)> offSurface;
+  std::function<double(const Eigen::Vector3d&)> off_surface;
   std::function<Eigen::Vector3d(std::mt19937_64&)> sample;
 };
 
@@ -189,7 +189,7 @@ TEST(Tessellation, verticesLieOnTheSurface)
     const Tessellation tessellation = tessellate(surface.shape);
     for (const Eigen::Vector3d& vertex : tessellation.mesh->vertices)
     {
-      ASSERT_LE(surface.offSurface(vertex), 4e-16 * surface.size) << surface.name << " " << vertex.transpose();
+      ASSERT_LE(surface.off_surface(vertex), 4e-16 * surface.size) << surface.name << " " << vertex.transpose();
     }
   }
 }
