@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cpu_box_pair.h"
+#include "curved_pair.h"
 #include "primitive_solid.h"
 
 namespace gpu_planning_scene
@@ -222,7 +223,10 @@ bool CpuTraversal::solidsMeet(std::uint32_t a, std::uint32_t b, const Isometry3d
   {
     return surfaceMeetsSolid(b, a, b_in_a.inverse(), scratch);
   }
-  return surfacesMeet(a, b, b_in_a, trees_[a].sagitta + trees_[b].sagitta, scratch);
+  // Between the tessellations, which lie within the solids, and the true surfaces.
+  return surfacesMeet(a, b, b_in_a, 0.0, scratch) ||
+         (surfacesMeet(a, b, b_in_a, trees_[a].sagitta + trees_[b].sagitta, scratch) &&
+          curvedSolidsMeet(shape_a, shape_b, b_in_a));
 }
 
 bool CpuTraversal::surfaceMeetsSolid(std::uint32_t a, std::uint32_t solid, const Isometry3d& solid_in_a,

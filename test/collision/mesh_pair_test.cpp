@@ -72,6 +72,35 @@ TEST_P(MeshPair, BoxesTouchAtTheirFaces)
             (std::vector<std::uint8_t>{1, 1, 0, 1, 0, 0}));
 }
 
+TEST_P(MeshPair, CurvedSolidsAreDecidedByTheirTrueSurfaces)
+{
+  // Two cylinders with crossed axes: their distance is that of the axes, less the radii.
+  constexpr std::uint64_t kSeed = 7;
+  MeshPairChecker checker(Cylinder{0.05, 0.4}, Cylinder{0.03, 0.3}, options());
+  std::mt19937_64 generator(kSeed);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  std::vector<Eigen::Isometry3d> poses;
+  std::vector<double> gaps;
+  for (int i = 0; i < 300; ++i)
+  {
+    // Gaps of the size of the tessellations' sagitta, to both sides.
+    gaps.push_back(share(generator) * 2e-4);
+    Eigen::Isometry3d pose(Eigen::AngleAxisd(EIGEN_PI * share(generator), Eigen::Vector3d::UnitZ()));
+    pose.translate(Eigen::Vector3d(0.08 + gaps.back(), 0.0, 0.1 * share(generator)));
+    pose.rotate(Eigen::AngleAxisd(EIGEN_PI * (0.5 + 0.3 * share(generator)), Eigen::Vector3d::UnitX()));
+    poses.push_back(pose);
+  }
+  const std::vector<std::uint8_t> hits = checker.collide(poses);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+  {
+    if (std::abs(gaps[i]) > 2e-6)
+    {
+      EXPECT_EQ(hits[i], gaps[i] < 0.0 ? 1 : 0) << "pose " << i << ", seed " << kSeed << ", gap " << gaps[i];
+    }
+  }
+  EXPECT_GT(checker.undecided(), 10U);
+}
+
 TEST_P(MeshPair, NoPosesGiveNoAnswers)
 {
   MeshPairChecker checker(Box{{1, 1, 1}}, Sphere{0.5}, options());
