@@ -75,7 +75,7 @@ def summary(response, count, seconds):
     lines = [
         f"valid: {100 * numpy.count_nonzero(valid) / count:.1f} %",
         f"rate: {count / response.seconds:.0f} states/s"
-        f" ({response.seconds:.3f} s in the checker, {seconds:.3f} s for the whole ROS call)",
+        f" ({response.seconds:.3f} s in the checker, {seconds:.3f} s for the whole ROS call; median of 5)",
         "commonest colliding pairs:" if pairs else "no state is in collision",
     ]
     return lines + [f"  {first} - {second}: {number} states" for (first, second), number in pairs.most_common(5)]
@@ -94,14 +94,15 @@ def call(arguments):
     check_states = rospy.ServiceProxy(arguments.service, CheckStates)
     request = {"group": arguments.group, "joint_names": [variable.name for variable in variables], "max_contacts": 0}
 
-    # The first call finds pages, threads and shaders cold.
-    check_states(positions=states[:1024].ravel(), **request)
-    begin = time.monotonic()
-    response = check_states(positions=states.ravel(), **request)
-    seconds = time.monotonic() - begin
-    if not response.success:
-        print(f"demo_client: {response.message}", file=sys.stderr)
-        return 1
+    calls = []
+    for _ in range(5):  # the first find pages, threads and shaders cold, others meet a busy machine
+        begin = time.monotonic()
+        response = check_states(positions=states.ravel(), **request)
+        calls.append((time.monotonic() - begin, response))
+        if not response.success:
+            print(f"demo_client: {response.message}", file=sys.stderr)
+            return 1
+    seconds, response = sorted(calls, key=lambda call: call[0])[len(calls) // 2]
     where = f"within {arguments.spread} of the scene's state" if around else "within the joints' limits"
     print(f"states: {len(states)} random ones {where}, seed {arguments.seed}")
     print("\n".join(summary(response, len(states), seconds)))
