@@ -47,6 +47,7 @@ BatchChecker::~BatchChecker() = default;
 
 void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
 {
+  refuseMissingRobot(scene);
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   Impl::GroupProblem whole;
   whole.problem = std::make_shared<const CollisionProblem>(makeProblem(*scene, "", &whole.report));

@@ -7,7 +7,6 @@
 #include "binned_sah.h"
 #include "collision_problem.h"
 #include "cpu_traversal.h"
-#include "gpu_planning_scene/error.h"
 #include "state_rows.h"
 
 namespace gpu_planning_scene
@@ -57,10 +56,7 @@ CpuChecker::~CpuChecker() = default;
 
 void CpuChecker::setScene(std::shared_ptr<const PlanningScene> scene)
 {
-  if (!scene || !scene->robot)
-  {
-    throw Error("there is no planning scene, or it has no robot");
-  }
+  refuseMissingRobot(scene);
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   Impl fresh;
   fresh.scene = std::move(scene);

@@ -7,6 +7,14 @@
 
 namespace gpu_planning_scene
 {
+void refuseMissingRobot(const std::shared_ptr<const PlanningScene>& scene)
+{
+  if (!scene || !scene->robot)
+  {
+    throw Error("there is no planning scene, or it has no robot");
+  }
+}
+
 void refuseNonFinite(const RobotModel& robot, const double* states, std::size_t count)
 {
   const auto& variables = robot.variables();

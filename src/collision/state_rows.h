@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <memory>
 #include <thread>
 #include <vector>
 
-#include "gpu_planning_scene/robot_model.h"
+#include "gpu_planning_scene/planning_scene.h"
 
 namespace gpu_planning_scene
 {
+/// Throws Error if there is no scene, or it has no robot.
+void refuseMissingRobot(const std::shared_ptr<const PlanningScene>& scene);
+
 /// Throws Error if one of `count` rows of the robot's variables holds a value that is not finite.
 void refuseNonFinite(const RobotModel& robot, const double* states, std::size_t count);
 

@@ -161,6 +161,13 @@ TEST_F(BatchCheckerTest, TakesAnotherSceneAndKeepsTheOldOneWhenItCannot)
   EXPECT_EQ(after.revision, 42U);
 }
 
+TEST_F(BatchCheckerTest, RefusesASceneThatIsNotThere)
+{
+  BatchChecker checker(scene_, with(Traversal::WorkQueue));
+  EXPECT_THROW(checker.setScene(nullptr), Error);
+  EXPECT_EQ(checker.check(free_.data(), 1).revision, 41U);
+}
+
 TEST_F(BatchCheckerTest, SceneWithoutObjectsIsCheckedAgainstTheRobotAlone)
 {
   auto empty = std::make_shared<PlanningScene>(*scene_);
