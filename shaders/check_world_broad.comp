@@ -32,7 +32,7 @@ void main()
   uint stack[BUILD_ROUNDS + 2];
   stack[0] = world_root;
   int top = 1;
-  while (top > 0)
+  for (uint steps = 0u; top > 0 && steps < LANE_ITERATIONS; ++steps)
   {
     const TreeNode node = fetchNode(stack[--top]);
     const bool apart = any(greaterThan(abs(node.box.center - center), node.box.extent + extent));
@@ -52,4 +52,7 @@ void main()
         addCandidate(state, packPair(robot, robot_count + world));
     }
   }
+  // Too many objects for one lane: what is left is not lost, the batch is split and its states become undecided.
+  if (top > 0)
+    atomicOr(counters[COUNTER_OVERFLOW], 1u);
 }

@@ -86,4 +86,4 @@
 #define QUEUE_FLUSH 32
 #define QUEUE_LEAF_PAIRS (QUEUE_FLUSH + QUEUE_LANES * QUEUE_STEPS)
 // llvmpipe ends an invocation silently after 65535 loop iterations; a lane hands its work on before that.
-#define QUEUE_ITERATIONS 50000
+#define LANE_ITERATIONS 50000

@@ -150,7 +150,7 @@ void main()
     if (flush)
       testLeafPairs(count);
     iterations += 1u + STEP_ITERATIONS * QUEUE_STEPS + QUEUE_STEPS + (flush ? SLOT_ITERATIONS * (1u + (count * LEAF_TRIANGLES) / QUEUE_LANES) : 0u);
-    running = more && iterations < QUEUE_ITERATIONS;
+    running = more && iterations < LANE_ITERATIONS;
     barrier();
   }
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
@@ -13,6 +12,9 @@ namespace gpu_planning_scene
 namespace
 {
 constexpr std::size_t kUint = sizeof(std::uint32_t);
+
+/// So that no lane of the prefix sums comes near the 65535 iterations after which llvmpipe ends it.
+constexpr std::size_t kMostPrimitives = std::size_t{1} << 23;
 
 std::size_t divideUp(std::size_t value, std::size_t by)
 {
@@ -119,8 +121,9 @@ void GpuForestBuilder::build(std::size_t count, const std::vector<std::uint32_t>
                              ForestRegion& region, TexelBuffer& nodes, Buffer& leaf_order)
 {
   const std::size_t mesh_count = first.size();
-  if (count > std::numeric_limits<std::uint32_t>::max() / 16)
-    throw Error(std::to_string(count) + " triangles are more than the trees can number");
+  if (count > kMostPrimitives)
+    throw Error(std::to_string(count) + " triangles are more than " + std::to_string(kMostPrimitives) +
+                "; use coarser meshes");
   region.primitive_count = static_cast<std::uint32_t>(count);
   region.node_count = static_cast<std::uint32_t>(2 * count - mesh_count);
   nodes.reserve((std::size_t{region.first_node} + region.node_count) * sizeof(Node));

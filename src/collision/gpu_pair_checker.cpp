@@ -21,7 +21,7 @@ std::size_t groupsFor(std::size_t lanes)
 ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
 {
   const auto per_state = [&](std::uint32_t chosen, std::size_t count)
-  { return chosen ? chosen : static_cast<std::uint32_t>(std::min<std::size_t>(max_states * count + 65536, 1U << 26)); };
+  { return chosen ? chosen : static_cast<std::uint32_t>(std::min<std::size_t>(max_states * count + 65536, 1U << 25)); };
   capacities.candidates = per_state(capacities.candidates, 96);
   capacities.items = per_state(capacities.items, 24);
   // The first list of node pairs holds the items' roots.

@@ -149,9 +149,17 @@ TEST_P(BatchLimits, StacksThatAreTooShortSpill)
 
 TEST_P(BatchLimits, WorkThatIsLeftWhenTheIterationsRunOutIsHandedOn)
 {
-  folder_.define("QUEUE_ITERATIONS", "100");
+  folder_.define("LANE_ITERATIONS", "100");
   folder_.define("QUEUE_MAX_GROUPS", "1");
   EXPECT_EQ(resultWithChangedShaders().valid, validOnCpu());
+}
+
+TEST_P(BatchLimits, AWalkThroughTheWorldThatTakesTooLongIsUndecided)
+{
+  folder_.define("LANE_ITERATIONS", "2");
+  const BatchResult result = resultWithChangedShaders();
+  EXPECT_EQ(result.valid, validOnCpu());
+  EXPECT_GT(result.undecided_states, 0U);
 }
 
 TEST_P(BatchLimits, LanesThatTheDeviceEndsEarlyAreNoticed)
