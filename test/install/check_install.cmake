@@ -1,5 +1,5 @@
 # What install.a_package_builds_against_the_installed_one runs. BUILD: the build to install; CONSUMER: the package to
-# build; FOLDER: where all of it goes; PREFIX: the CMAKE_INSTALL_PREFIX of BUILD; SANITIZE: whether BUILD has sanitizers,
+# build, with GENERATOR; FOLDER: where all of it goes; PREFIX: the CMAKE_INSTALL_PREFIX of BUILD; SANITIZE: whether BUILD has sanitizers,
 # which CONSUMER then needs too; GENERATOR: CMake's, since a machine may have only one.
 
 # run(WHAT COMMAND...): fails, saying WHAT, with the command's output. Sets output.
