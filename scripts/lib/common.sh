@@ -25,10 +25,12 @@ use_system_environment()
     ROS_DISTRO ROS_NAMESPACE ROSLISP_PACKAGE_DIRECTORIES
 }
 
-# use_build_folder FOLDER: makes it; a folder left behind by another user (sudo, once) is named rather than tripped over.
+# use_build_folder FOLDER: makes it. What another user left there (sudo, once) is named rather than tripped over.
 use_build_folder()
 {
-  if ! mkdir -p "$1" 2> /dev/null || [[ ! -w "$1" || ! -w "$build" ]]; then
-    die "cannot write to ${1#"$repository"/}: it belongs to $(stat -c %U "$build" 2> /dev/null || echo another user); remove it or run as that user"
-  fi
+  local foreign
+  mkdir -p "$1" 2> /dev/null || die "cannot make ${1#"$repository"/}"
+  foreign="$(find "$1" ! -writable -print -quit)"
+  [[ -z "$foreign" ]] ||
+    die "cannot write to ${foreign#"$repository"/}, which belongs to $(stat -c %U "$foreign"): remove ${1#"$repository"/}, or run as that user"
 }

@@ -1,6 +1,6 @@
 # What install.a_package_builds_against_the_installed_one runs. BUILD: the build to install; CONSUMER: the package to
-# build, with GENERATOR; FOLDER: where all of it goes; PREFIX: the CMAKE_INSTALL_PREFIX of BUILD; SANITIZE: whether BUILD has sanitizers,
-# which CONSUMER then needs too; GENERATOR: CMake's, since a machine may have only one.
+# build; FOLDER: where all of it goes; PREFIX: the CMAKE_INSTALL_PREFIX of BUILD; GENERATOR: CMake's, since a machine may
+# have only one; SANITIZE: whether BUILD has sanitizers, which CONSUMER then needs too.
 
 # run(WHAT COMMAND...): fails, saying WHAT, with the command's output. Sets output.
 function(run what)
@@ -28,8 +28,7 @@ endif()
 run("the package does not install" ${CMAKE_COMMAND} --install ${BUILD})
 unset(ENV{DESTDIR})
 run("find_package does not find it" ${CMAKE_COMMAND} -S ${CONSUMER} -B ${FOLDER}/build -G ${GENERATOR}
-  -DCMAKE_PREFIX_PATH=${prefix}
-  -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${flags} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
+  -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${flags} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
 run("a package does not build against it" ${CMAKE_COMMAND} --build ${FOLDER}/build)
 foreach(program with_variables with_targets)
   run("${program} gives wrong answers" ${FOLDER}/build/${program})
