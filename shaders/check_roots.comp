@@ -1,5 +1,5 @@
-// One lane per candidate: the relative pose, and the test of the root boxes. What remains becomes an item and the node
-// pair that its traversal begins with.
+// One lane per candidate: the relative pose, the test of the root boxes, and whether one is inside the other, a solid.
+// What remains becomes an item and the node pair that its traversal begins with.
 #include "interface.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
@@ -8,6 +8,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "boxes.glsl"
 #include "geometries.glsl"
 #include "counters.glsl"
+#include "verdicts.glsl"
+#include "containment.glsl"
 layout(location = 2) uniform uint candidate_capacity;
 layout(location = 3) uniform uint item_capacity;
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
@@ -46,6 +48,11 @@ void main()
   const float error = 16.0 * 1.1920929e-7 * (sum(a.translation) + sum(b.translation) + sum(box_a.center) + sum(box_a.extent) +
                                              sum(box_b.center) + sum(box_b.extent));
   if (boxesApart(box_a, box_b, pose, slack + error))
+    return;
+  const uint inside = containment(instance_b, instance_a, pose, error) | containment(instance_a, instance_b, inversePose(pose), error);
+  if (inside != 0u)
+    report(state, candidate.y, inside);
+  if ((inside & STATE_HIT) != 0u)
     return;
   const uint at = atomicAdd(counters[COUNTER_ITEMS], 1u);
   if (at >= item_capacity)

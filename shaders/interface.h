@@ -45,7 +45,7 @@
 #define BINDING_COUNTERS 0
 #define BINDING_FLAGS 1       // one uint a state: STATE_* bits
 #define BINDING_HITS 2        // one uint a state: the pair that was hit
-#define BINDING_GEOMETRIES 3  // two uvec4 an instance, see instances.glsl; robot's first, then the world's
+#define BINDING_GEOMETRIES 3  // three uvec4 an instance, see instances.glsl; robot's first, then the world's
 #define BINDING_OUT 4         // what the kernel writes; see its header
 #define BINDING_OUT_2 5
 #define BINDING_IN 6
@@ -53,6 +53,15 @@
 
 #define STATE_HIT 1u
 #define STATE_UNDECIDED 2u
+
+// What an instance's shape is: a mesh is a surface, the others are solids.
+#define SOLID_NONE 0u
+#define SOLID_BOX 1u
+#define SOLID_SPHERE 2u
+#define SOLID_CYLINDER 3u
+#define SOLID_CONE 4u
+// A mesh of more connected components than this is not looked into for containment on the GPU.
+#define MAX_COMPONENTS 64
 
 // A pair of instances in one uint: a robot instance, and a robot instance or (robot count + a world instance).
 #define PAIR_OTHER_BITS 20

@@ -29,3 +29,9 @@ Pose relativePose(Pose a, Pose b)
   const mat3 inverse = transpose(a.rotation);
   return Pose(inverse * b.rotation, inverse * (b.translation - a.translation));
 }
+
+Pose inversePose(Pose pose)
+{
+  const mat3 inverse = transpose(pose.rotation);
+  return Pose(inverse, -(inverse * pose.translation));
+}

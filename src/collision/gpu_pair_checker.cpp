@@ -154,6 +154,7 @@ void GpuPairChecker::testRoots()
   arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, kNoLimit, COUNTER_UNUSED);
   roots_program_.set(2, lists_.capacity.candidates);
   roots_program_.set(3, lists_.capacity.items);
+  scene_.componentPoints().bindStorage(BINDING_IN);
   lists_.items.buffer().bindStorage(BINDING_OUT);
   lists_.node_pairs[0].buffer().bindStorage(BINDING_OUT_2);
   roots_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());

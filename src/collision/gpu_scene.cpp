@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <tuple>
+#include <utility>
 
+#include "collision/components.h"
 #include "gpu_planning_scene/error.h"
 #include "interface.h"
 
@@ -46,26 +49,50 @@ struct InstanceRecord
 {
   std::uint32_t root;
   float slack;
-  std::array<std::uint32_t, 2> unused;
+  std::uint32_t first_point;
+  std::uint32_t point_count;
   std::array<float, 3> core;
-  std::uint32_t also_unused;
+  std::uint32_t kind;
+  std::array<float, 3> size;
+  std::uint32_t unused;
 };
-static_assert(sizeof(InstanceRecord) == 32, "two uvec4");
+static_assert(sizeof(InstanceRecord) == 48, "three uvec4");
 
-/// Half edge lengths of a box around the origin that lies within a solid; negative where none is known. What lies in
-/// the box is inside without any look at the surface.
-Eigen::Vector3f solidCore(const Shape& shape)
+/// Fills in what the shaders know of a solid. Its core is a box around the origin that lies within it: what lies in the
+/// box is inside without any look at the surface.
+void describeSolid(const Shape& shape, InstanceRecord& record)
 {
   constexpr double kRounding = 1.0 - 1e-6;
   Eigen::Vector3d core = Eigen::Vector3d::Constant(-1.0);
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  record.kind = SOLID_NONE;
   if (const auto* box = std::get_if<Box>(&shape))
-    core = box->size / 2.0;
+  {
+    record.kind = SOLID_BOX;
+    core = size = box->size / 2.0;
+  }
   else if (const auto* sphere = std::get_if<Sphere>(&shape))
-    core.setConstant(sphere->radius / std::sqrt(3.0));
+  {
+    record.kind = SOLID_SPHERE;
+    size.setConstant(sphere->radius);
+    core = size / std::sqrt(3.0);
+  }
   else if (const auto* cylinder = std::get_if<Cylinder>(&shape))
-    core =
-        Eigen::Vector3d(cylinder->radius / std::sqrt(2.0), cylinder->radius / std::sqrt(2.0), cylinder->length / 2.0);
-  return (kRounding * core).cast<float>();
+  {
+    record.kind = SOLID_CYLINDER;
+    size = {cylinder->radius, cylinder->radius, cylinder->length / 2.0};
+    core = {cylinder->radius / std::sqrt(2.0), cylinder->radius / std::sqrt(2.0), cylinder->length / 2.0};
+  }
+  else if (const auto* cone = std::get_if<Cone>(&shape))
+  {
+    record.kind = SOLID_CONE;
+    size = {cone->radius, cone->radius, cone->length / 2.0};
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    record.core[axis] = static_cast<float>(kRounding * core[static_cast<Eigen::Index>(axis)]);
+    record.size[axis] = static_cast<float>(size[static_cast<Eigen::Index>(axis)]);
+  }
 }
 
 bool sameShapes(const std::vector<Shape>& a, const std::vector<Shape>& b)
@@ -148,14 +175,33 @@ std::uint32_t GpuScene::rootOf(std::size_t tree) const
 
 void GpuScene::writeGeometries(const CollisionProblem& problem)
 {
+  // One point of each component of each tree.
+  std::vector<std::array<float, 4>> points;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> points_of;
+  for (const Tessellation& tree : problem.trees)
+  {
+    const std::vector<Eigen::Vector3d> found = gpu_planning_scene::componentPoints(*tree.mesh, MAX_COMPONENTS);
+    points_of.emplace_back(static_cast<std::uint32_t>(points.size()), static_cast<std::uint32_t>(found.size()));
+    for (const Eigen::Vector3d& point : found)
+    {
+      const Eigen::Vector3f rounded = point.cast<float>();
+      points.push_back({rounded.x(), rounded.y(), rounded.z(), 0.0F});
+    }
+  }
+  component_points_.reserve(points.size() * sizeof(points.front()));
+  component_points_.write(points);
+
   std::vector<InstanceRecord> geometries;
   for (const std::vector<Geometry>* instances : {&problem.robot, &problem.world})
     for (const Geometry& geometry : *instances)
     {
       const double sagitta = problem.trees[geometry.tree].sagitta;
-      const float slack = sagitta > 0.0 ? std::nextafter(static_cast<float>(sagitta), 1.0F) : 0.0F;
-      const Eigen::Vector3f core = solidCore(problem.shapes[geometry.tree]);
-      geometries.push_back({rootOf(geometry.tree), slack, {}, {core.x(), core.y(), core.z()}, 0});
+      InstanceRecord record{};
+      record.root = rootOf(geometry.tree);
+      record.slack = sagitta > 0.0 ? std::nextafter(static_cast<float>(sagitta), 1.0F) : 0.0F;
+      std::tie(record.first_point, record.point_count) = points_of[geometry.tree];
+      describeSolid(problem.shapes[geometry.tree], record);
+      geometries.push_back(record);
     }
   geometries_.reserve(geometries.size() * sizeof(InstanceRecord));
   geometries_.write(geometries);

@@ -29,6 +29,7 @@ class GpuScene
   const Buffer& partners() const { return partners_; }
   const Buffer& worldOrder() const { return world_order_; }
   const Buffer& worldPairs() const { return world_pairs_; }
+  const Buffer& componentPoints() const { return component_points_; }
 
   std::uint32_t robotCount() const { return robot_count_; }
   std::uint32_t worldCount() const { return world_count_; }
@@ -49,7 +50,7 @@ class GpuScene
 
   GpuForestBuilder builder_;
   TexelBuffer nodes_, triangles_, world_poses_;
-  Buffer leaf_order_, geometries_, partners_, world_order_, world_pairs_;
+  Buffer leaf_order_, geometries_, component_points_, partners_, world_order_, world_pairs_;
   ForestRegion robot_region_, shape_region_;
   std::vector<Shape> robot_shapes_;  // whose trees are in robot_region_
   std::size_t trees_ = 0;
