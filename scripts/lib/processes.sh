@@ -5,54 +5,53 @@
 started=()  # ids of the processes that this script started in the background
 grace=10    # seconds that a process has to end by itself
 temporary="$(mktemp -d)"
+# Everything below this script inherits it, so that it is found even where the process between has ended.
+export GPU_PLANNING_SCENE_SCRIPT="$$.$RANDOM$RANDOM"
 
-# process_field PID N: field N of /proc/PID/stat, counted from the state (0); fails when the process is gone.
-process_field()
+# process_state PID: as in /proc/PID/stat, Z for one that has ended; fails when the process is gone.
+process_state()
 {
-  local line fields
+  local line
   { line="$(< "/proc/$1/stat")"; } 2> /dev/null || return 1
-  read -ra fields <<< "${line##*) }"  # the name before it may hold spaces
-  echo "${fields[$2]}"
+  line="${line##*) }"  # the name before it may hold spaces
+  echo "${line%% *}"
 }
 
-# process_tree PID: prints PID:STARTTIME of the process and all below it, parents first.
-process_tree()
-{
-  cat /proc/[0-9]*/stat 2> /dev/null | awk -v root="$1" '
-    { pid = $1; sub(/^.*\) /, ""); parent[pid] = $2; start[pid] = $20 }
-    function print_tree(pid, child)
-    {
-      print pid ":" start[pid]
-      for (child in parent)
-        if (parent[child] == pid)
-          print_tree(child)
-    }
-    END { if (root in start) print_tree(root) }'
-}
-
-# is_running PID:STARTTIME: still that process, and no zombie.
 is_running()
 {
-  local start
-  start="$(process_field "${1%:*}" 19)" && [[ "$start" == "${1#*:}" && "$(process_field "${1%:*}" 0)" == [^Z] ]]
+  [[ "$(process_state "$1")" == [^Z] ]]
 }
 
-# stop PID: asks a process of ours to end (it ends those below it, as roslaunch and ninja do); after `grace` it ends what
-# is left of it and of those below it.
+# stop PID: asks a process of ours to end (it ends those below it, as roslaunch does); after `grace` it has to.
 stop()
 {
-  local tree process tries=$((grace * 10))
-  is_running "$1:$(process_field "$1" 19)" || return 0
-  mapfile -t tree < <(process_tree "$1")
-  kill -TERM "$1" 2> /dev/null || true
-  for process in "${tree[@]}"; do
-    while is_running "$process" && [[ $((tries--)) -gt 0 ]]; do
-      sleep 0.1
-    done
-    if is_running "$process"; then
-      kill -KILL "${process%:*}" 2> /dev/null || true
-    fi
+  local tries=$((grace * 10))
+  kill -TERM "$1" 2> /dev/null || return 0
+  while is_running "$1" && [[ $((tries--)) -gt 0 ]]; do
+    sleep 0.1
   done
+  kill -KILL "$1" 2> /dev/null || true
+}
+
+# stop_all: the same for everything that is left below this script.
+stop_all()
+{
+  local left signal=TERM tries=$((grace * 10))
+  while mapfile -t left < <(processes_below) && [[ ${#left[@]} -gt 0 ]]; do
+    kill -"$signal" "${left[@]}" 2> /dev/null || true
+    sleep 0.1
+    signal=0  # asked once
+    [[ $((tries--)) -gt 0 ]] || signal=KILL
+  done
+}
+
+processes_below()
+{
+  local mark="GPU_PLANNING_SCENE_SCRIPT=$GPU_PLANNING_SCENE_SCRIPT" file
+  while read -r file; do
+    file="${file#/proc/}"
+    echo "${file%/environ}"
+  done < <(env --unset=GPU_PLANNING_SCENE_SCRIPT grep -lasF "$mark" /proc/[0-9]*/environ)
 }
 
 # start LOG COMMAND...: in the background; its id is in $! afterwards.
@@ -81,8 +80,8 @@ run_beside()
   "$@" < /dev/null &
   own=$!
   started+=("$own")
-  while [[ "$(process_field "$own" 0)" == [^Z] ]]; do
-    if [[ "$(process_field "$other" 0)" != [^Z] ]]; then
+  while is_running "$own"; do
+    if ! is_running "$other"; then
       stop "$own"
       return 1
     fi
@@ -98,6 +97,7 @@ clean_up()
   for ((i = ${#started[@]} - 1; i >= 0; i--)); do
     stop "${started[i]}"
   done
+  stop_all
   rm -rf "$temporary"
   exit "$status"
 }

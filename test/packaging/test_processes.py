@@ -74,6 +74,12 @@ class Processes(unittest.TestCase):
         self.assertEqual(process.wait(60), 143)
         self.assert_nothing_left()
 
+    def test_what_lost_its_parent_is_ended_too(self):
+        orphan = f"run bash -c 'sleep 1234 & echo $! > {self.folder}/orphan'"
+        self.assertEqual(self.start(orphan).wait(60), 0)
+        self.assert_nothing_left()
+        self.assertFalse(is_running(int((self.folder / "orphan").read_text())))
+
     def test_run_passes_on_the_exit_status(self):
         self.assertEqual(self.start('run bash -c "exit 7" || exit $?').wait(60), 7)
 
