@@ -44,10 +44,19 @@ struct Cone
   double length;  ///< along z; the apex is at z = +length / 2
 };
 
-/// Meshes are shared: two shapes with the same pointer are instances of one tree.
-using Shape = std::variant<Box, Sphere, Cylinder, Cone, std::shared_ptr<const Mesh>>;
+/// All points x with normal . x <= offset (as fcl::Halfspace has them); `normal` has unit length. Only world objects
+/// can have one.
+struct HalfSpace
+{
+  Eigen::Vector3d normal;
+  double offset;  ///< metres
+};
 
-/// Throws Error if a dimension is not finite and positive; `where` names the shape in the message.
+/// Meshes are shared: two shapes with the same pointer are instances of one tree.
+using Shape = std::variant<Box, Sphere, Cylinder, Cone, std::shared_ptr<const Mesh>, HalfSpace>;
+
+/// Throws Error if a dimension is not finite and positive, or a normal not of unit length; `where` names the shape in
+/// the message.
 void validateShape(const Shape& shape, const std::string& where);
 
 /// A shape with its pose in the frame of the body (link or object) that it belongs to.
@@ -65,6 +74,6 @@ struct Tessellation
 };
 
 /// The surface of a shape as triangles. Curved shapes are cut so finely that the sagitta is at most 100 micrometres,
-/// or as finely as 2^15 triangles go.
+/// or as finely as 2^15 triangles go. Throws std::logic_error for a half-space, which has no finite surface.
 Tessellation tessellate(const Shape& shape);
 }  // namespace gpu_planning_scene

@@ -95,7 +95,7 @@ std::vector<float> BatchEngine::instancePoses(std::size_t begin, std::size_t cou
               {
                 link_poses(begin + i, links.data());
                 for (std::size_t k = 0; k < instances.size(); ++k)
-                  writePoseRows(links[static_cast<std::size_t>(instances[k].body)] * instances[k].pose,
+                  writePoseRows(links[static_cast<std::size_t>(instances[k].link)] * instances[k].pose,
                                 &poses[(i * instances.size() + k) * 12]);
               }
             });

@@ -47,7 +47,7 @@ class TreeTable
   {
     for (const PlacedShape& placed : shapes)
     {
-      geometries.push_back({treeOf(placed.shape), body, pose * placed.pose});
+      geometries.push_back({treeOf(placed.shape), body, body, pose * placed.pose});
     }
   }
 

@@ -17,7 +17,18 @@ struct Geometry
 {
   std::uint32_t tree;      ///< index into CollisionProblem::trees
   std::int32_t body;       ///< body index of the planning scene
+  std::int32_t link;       ///< robot: the link that it moves with (a carried object's body is not a link); world: -1
   Eigen::Isometry3d pose;  ///< robot: in the link's frame; world: in the planning frame
+  double padding = 0.0;    ///< metres; a robot and a world instance collide at distances up to the sum
+};
+
+/// A half-space of the world, in the planning frame: all points x with normal . x <= offset.
+struct WorldHalfSpace
+{
+  std::int32_t body;
+  Eigen::Vector3d normal;
+  double offset;         ///< metres
+  double padding = 0.0;  ///< metres
 };
 
 /// A scene as the checkers see it: instances of trees and the pairs of them that are checked. It knows nothing of
@@ -26,10 +37,15 @@ struct CollisionProblem
 {
   std::vector<Tessellation> trees;                       ///< distinct shapes; instances share them
   std::vector<Shape> shapes;                             ///< the true shape of each tree
-  std::vector<Geometry> robot;                           ///< move with their body; `body` is a link index
+  std::vector<Geometry> robot;                           ///< move with their link
   std::vector<Geometry> world;                           ///< fixed in the planning frame
   std::vector<std::array<std::uint32_t, 2>> self_pairs;  ///< indices into `robot`
   std::vector<std::uint8_t> world_pairs;  ///< robot.size() x world.size(), row-major; 1 where the pair is checked
+  std::vector<WorldHalfSpace> half_spaces;
+  std::vector<std::uint8_t> half_space_pairs;  ///< robot.size() x half_spaces.size(), row-major
+  /// What GPU coordinates are relative to, in the planning frame: near the robot, so that floats are fine there.
+  /// Changes no answer.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 };
 
 /// Whether two shapes can share a tree: the same mesh, or primitives of the same kind and dimensions.

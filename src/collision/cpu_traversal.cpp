@@ -110,7 +110,7 @@ void CpuTraversal::visitCollisions(const Isometry3d* link_poses, Scratch& scratc
   scratch.bounds.resize(robot.size());
   for (std::size_t i = 0; i < robot.size(); ++i)
   {
-    scratch.poses[i] = link_poses[robot[i].body] * robot[i].pose;
+    scratch.poses[i] = link_poses[robot[i].link] * robot[i].pose;
     scratch.bounds[i] = boundsOf(robot[i].tree, scratch.poses[i]);
   }
   for (std::size_t i = 0; i < robot.size(); ++i)

@@ -180,7 +180,11 @@ void GpuScene::writeGeometries(const CollisionProblem& problem)
   std::vector<std::pair<std::uint32_t, std::uint32_t>> points_of;
   for (const Tessellation& tree : problem.trees)
   {
-    const std::vector<Eigen::Vector3d> found = gpu_planning_scene::componentPoints(*tree.mesh, MAX_COMPONENTS);
+    std::vector<Eigen::Vector3d> found;
+    for (const Component& part : findComponents(*tree.mesh).components)
+      found.push_back(part.point);
+    if (found.size() > MAX_COMPONENTS)
+      found.clear();
     points_of.emplace_back(static_cast<std::uint32_t>(points.size()), static_cast<std::uint32_t>(found.size()));
     for (const Eigen::Vector3d& point : found)
     {

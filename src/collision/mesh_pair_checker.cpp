@@ -20,8 +20,8 @@ std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape&
   auto problem = std::make_shared<CollisionProblem>();
   problem->shapes = {b, a};
   problem->trees = {tessellate(b), tessellate(a)};
-  problem->robot = {{0, 0, Eigen::Isometry3d::Identity()}};
-  problem->world = {{1, 1, Eigen::Isometry3d::Identity()}};
+  problem->robot = {{0, 0, 0, Eigen::Isometry3d::Identity()}};
+  problem->world = {{1, 1, -1, Eigen::Isometry3d::Identity()}};
   problem->world_pairs = {1};
   return problem;
 }

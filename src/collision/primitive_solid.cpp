@@ -210,7 +210,7 @@ Vector3d halfExtents(const Shape& solid)
                                [](const Sphere& sphere) -> Vector3d { return Vector3d::Constant(sphere.radius); },
                                [](const Cylinder& c) { return Vector3d(c.radius, c.radius, 0.5 * c.length); },
                                [](const Cone& c) { return Vector3d(c.radius, c.radius, 0.5 * c.length); },
-                               [](const MeshPointer&) { return Vector3d(0.0, 0.0, 0.0); }},
+                               [](const auto& /*no primitive*/) { return Vector3d(0.0, 0.0, 0.0); }},
                     solid);
 }
 
@@ -220,7 +220,7 @@ double distanceToSolid(const Shape& solid, const Vector3d& point)
                                [&](const Sphere& sphere) { return std::max(0.0, point.norm() - sphere.radius); },
                                [&](const Cylinder& cylinder) { return distanceToFrustum(frustumOf(cylinder), point); },
                                [&](const Cone& cone) { return distanceToFrustum(frustumOf(cone), point); },
-                               [](const MeshPointer&) { return std::numeric_limits<double>::infinity(); }},
+                               [](const auto& /*no primitive*/) { return std::numeric_limits<double>::infinity(); }},
                     solid);
 }
 
@@ -232,7 +232,7 @@ bool triangleMeetsSolid(const Triangle& triangle, const Shape& solid)
                  { return nearestPoint(triangle, Vector3d::Zero()).norm() <= sphere.radius + kContactTolerance; },
                  [&](const Cylinder& cylinder) { return triangleMeetsFrustum(triangle, frustumOf(cylinder)); },
                  [&](const Cone& cone) { return triangleMeetsFrustum(triangle, frustumOf(cone)); },
-                 [](const MeshPointer&) { return false; }},
+                 [](const auto& /*no primitive*/) { return false; }},
       solid);
 }
 }  // namespace gpu_planning_scene

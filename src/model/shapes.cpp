@@ -37,6 +37,13 @@ struct DimensionCheck
     requirePositive(cone.radius, "radius", where);
     requirePositive(cone.length, "length", where);
   }
+  void operator()(const HalfSpace& half_space) const
+  {
+    if (!std::isfinite(half_space.offset) || !(std::abs(half_space.normal.norm() - 1.0) <= 1e-12))
+    {
+      throw Error(where + ": a half-space's offset must be finite and its normal of unit length");
+    }
+  }
   void operator()(const std::shared_ptr<const Mesh>& mesh) const
   {
     if (!mesh)

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <stdexcept>
 
 #include "gpu_planning_scene/shapes.h"
 
@@ -254,6 +255,10 @@ struct Tessellator
   Tessellation operator()(const Cylinder& cylinder) const { return tessellateCylinder(cylinder); }
   Tessellation operator()(const Cone& cone) const { return tessellateCone(cone); }
   Tessellation operator()(const std::shared_ptr<const Mesh>& mesh) const { return {mesh, 0.0}; }
+  Tessellation operator()(const HalfSpace& /*half_space*/) const
+  {
+    throw std::logic_error("a half-space has no finite surface");
+  }
 };
 }  // namespace
 

@@ -15,7 +15,11 @@ const std::string& PlanningScene::bodyName(int body) const
 {
   const std::size_t links = robot->links().size();
   const std::size_t index = static_cast<std::size_t>(body);
-  return index < links ? robot->links()[index].name : objects.at(index - links).id;
+  if (index < links)
+    return robot->links()[index].name;
+  if (index - links < objects.size())
+    return objects[index - links].id;
+  return attached.at(index - links - objects.size()).object.id;
 }
 
 void SceneReader::warn(const std::string& line) const

@@ -33,7 +33,7 @@ std::shared_ptr<const Mesh> twoBalls()
   return mesh;
 }
 
-TEST(ComponentPoints, AreOnePerPartWhateverVerticesAreShared)
+TEST(Components, AreOnePerPartWhateverVerticesAreShared)
 {
   // Every triangle with vertices of its own, as in an STL file.
   const auto balls = twoBalls();
@@ -49,11 +49,39 @@ TEST(ComponentPoints, AreOnePerPartWhateverVerticesAreShared)
   }
   for (const Mesh* mesh : {balls.get(), static_cast<const Mesh*>(&soup)})
   {
-    const auto points = componentPoints(*mesh, 2);
-    ASSERT_EQ(points.size(), 2U);
-    EXPECT_NEAR((points[0] - points[1]).norm(), 0.3, 0.021);
-    EXPECT_TRUE(componentPoints(*mesh, 1).empty());
+    const auto parts = findComponents(*mesh).components;
+    ASSERT_EQ(parts.size(), 2U);
+    EXPECT_NEAR((parts[0].point - parts[1].point).norm(), 0.3, 0.021);
+    EXPECT_TRUE(parts[0].closed && parts[1].closed);
+    EXPECT_NEAR((parts[1].bounds.center() - parts[0].bounds.center()).norm(), 0.3, 1e-3);
   }
+}
+
+/// What findComponents says of the first component of a box after a change to its mesh.
+template <class Change>
+bool closedAfter(const Change& change)
+{
+  Mesh mesh = *tessellate(Box{{1.0, 1.0, 1.0}}).mesh;
+  change(mesh);
+  return findComponents(mesh).components.at(0).closed;
+}
+
+TEST(Components, AreClosedIfEachEdgeHasTwoTrianglesOfOppositeDirection)
+{
+  EXPECT_TRUE(closedAfter([](Mesh&) {}));
+  EXPECT_TRUE(closedAfter(
+      [](Mesh& inverted)
+      {
+        for (auto& t : inverted.triangles)
+        {
+          std::swap(t[0], t[1]);
+        }
+      }));
+  EXPECT_FALSE(closedAfter([](Mesh& cracked) { cracked.triangles.pop_back(); }));
+  EXPECT_FALSE(closedAfter([](Mesh& flipped) { std::swap(flipped.triangles[3][0], flipped.triangles[3][1]); }));
+  EXPECT_FALSE(closedAfter([](Mesh& doubled) { doubled.triangles.push_back(doubled.triangles[5]); }));
+  // A triangle that names a place twice bounds nothing.
+  EXPECT_TRUE(closedAfter([](Mesh& needle) { needle.triangles.push_back({0, 1, 1}); }));
 }
 
 class Containment : public testing::TestWithParam<std::tuple<Traversal, Shape>>

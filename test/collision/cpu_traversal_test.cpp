@@ -46,7 +46,7 @@ class Pairs
       { return buildBinnedSah(trees); })
   {
     addTree(moving);
-    problem_.robot.push_back({0, 0, Isometry3d::Identity()});
+    problem_.robot.push_back({0, 0, 0, Isometry3d::Identity()});
     for (std::size_t k = 0; k < objects.size(); ++k)
     {
       addTree(objects[k].shape);
