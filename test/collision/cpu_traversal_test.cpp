@@ -50,7 +50,8 @@ class Pairs
     for (std::size_t k = 0; k < objects.size(); ++k)
     {
       addTree(objects[k].shape);
-      problem_.world.push_back({static_cast<std::uint32_t>(k + 1), static_cast<std::int32_t>(k + 1), objects[k].pose});
+      problem_.world.push_back(
+          {static_cast<std::uint32_t>(k + 1), static_cast<std::int32_t>(k + 1), -1, objects[k].pose});
     }
     problem_.world_pairs.assign(objects.size(), 1);
     forest_ = build(problem_.trees);
