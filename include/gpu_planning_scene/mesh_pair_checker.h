@@ -18,7 +18,7 @@ namespace gpu_planning_scene
 class MeshPairChecker
 {
  public:
-  /// Throws Error as BatchChecker does, and for a shape that is not valid.
+  /// Throws Error as BatchChecker does, for a shape that is not valid, and where b is a half-space.
   MeshPairChecker(const Shape& a, const Shape& b, const BatchCheckerOptions& options);
   ~MeshPairChecker();
 

@@ -23,10 +23,11 @@ struct BatchResult
 /// What of the scene is checked, and what is left out and why.
 struct SceneReport
 {
-  std::size_t self_pairs = 0;          ///< checked pairs of links
-  std::size_t world_pairs = 0;         ///< checked pairs of a link and an object
+  std::size_t self_pairs = 0;          ///< checked pairs of links and what they carry
+  std::size_t world_pairs = 0;         ///< checked pairs of a link, or what one carries, and an object
   std::size_t allowed_self_pairs = 0;  ///< left out: the allowed-collision matrix excludes them
   std::size_t allowed_world_pairs = 0;
+  std::size_t touch_pairs = 0;           ///< left out: what a link carries, with it, its touch links, its other load
   std::size_t unmoved_pairs = 0;         ///< left out: the group moves neither body
   std::size_t links_without_shapes = 0;  ///< left out: nothing to collide with
   std::size_t triangles = 0;             ///< in the trees, each distinct mesh once

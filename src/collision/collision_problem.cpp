@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 #include <tuple>
 
-#include "gpu_planning_scene/error.h"
+#include "checked_pairs.h"
 #include "primitive_solid.h"
+#include "scene/validate_scene.h"
 
 namespace gpu_planning_scene
 {
@@ -42,16 +42,6 @@ class TreeTable
  public:
   explicit TreeTable(CollisionProblem& problem) : problem_(problem) {}
 
-  void addGeometries(const std::vector<PlacedShape>& shapes, int body, const Eigen::Isometry3d& pose,
-                     std::vector<Geometry>& geometries)
-  {
-    for (const PlacedShape& placed : shapes)
-    {
-      geometries.push_back({treeOf(placed.shape), body, body, pose * placed.pose});
-    }
-  }
-
- private:
   std::uint32_t treeOf(const Shape& shape)
   {
     const auto [entry, is_new] = trees_.try_emplace(keyOf(shape), static_cast<std::uint32_t>(problem_.trees.size()));
@@ -63,99 +53,138 @@ class TreeTable
     return entry->second;
   }
 
+ private:
   CollisionProblem& problem_;
   std::map<ShapeKey, std::uint32_t> trees_;
 };
 
-/// Objects may come from a program as well as from a file. (A robot is checked when it is loaded.)
-void validateObjects(const PlanningScene& scene)
+/// The half-space that `half_space` becomes where its frame is at `pose`. The normal is made a unit again: a pose's
+/// rotation is one but for rounding.
+WorldHalfSpace moved(const HalfSpace& half_space, const Eigen::Isometry3d& pose, std::int32_t body, double padding)
 {
-  std::set<std::string> ids;
-  for (const WorldObject& object : scene.objects)
-  {
-    const std::string where = "object '" + object.id + "'";
-    if (!ids.insert(object.id).second)
-    {
-      throw Error(where + ": there is another object of that name; give each its own");
-    }
-    const auto validate_pose = [&where](const Eigen::Isometry3d& pose)
-    {
-      const Eigen::Matrix3d& r = pose.linear();
-      if (!pose.matrix().allFinite() || !(r * r.transpose()).isIdentity(1e-6) || r.determinant() < 0.0)
-      {
-        throw Error(where + ": a pose is not finite or not a rotation and a translation");
-      }
-    };
-    validate_pose(object.pose);
-    for (const PlacedShape& placed : object.shapes)
-    {
-      validate_pose(placed.pose);
-      validateShape(placed.shape, where);
-    }
-  }
-}
-
-struct BodyPair
-{
-  std::size_t link;   // index of a link
-  std::size_t other;  // index of a later link, or of an object
-};
-
-/// The pairs that the allowed-collision matrix leaves, whatever the group. Bodies without shapes are in none.
-struct CheckedPairs
-{
-  std::vector<BodyPair> self;
-  std::vector<BodyPair> world;
-};
-
-CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<bool>& moved, SceneReport& report)
-{
-  const auto& links = scene.robot->links();
-  CheckedPairs pairs;
-  for (std::size_t i = 0; i < links.size(); ++i)
-  {
-    if (links[i].shapes.empty())
-    {
-      ++report.links_without_shapes;
-      continue;
-    }
-    for (std::size_t j = i + 1; j < links.size(); ++j)
-    {
-      if (links[j].shapes.empty())
-      {
-        continue;
-      }
-      const bool is_allowed = scene.allowed_collisions.allowed(links[i].name, links[j].name);
-      const bool is_moved = moved[i] || moved[j];
-      ++(is_allowed ? report.allowed_self_pairs : is_moved ? report.self_pairs : report.unmoved_pairs);
-      if (!is_allowed)
-      {
-        pairs.self.push_back({i, j});
-      }
-    }
-    for (std::size_t k = 0; k < scene.objects.size(); ++k)
-    {
-      if (scene.objects[k].shapes.empty())
-      {
-        continue;
-      }
-      const bool is_allowed = scene.allowed_collisions.allowed(links[i].name, scene.objects[k].id);
-      ++(is_allowed ? report.allowed_world_pairs : moved[i] ? report.world_pairs : report.unmoved_pairs);
-      if (!is_allowed)
-      {
-        pairs.world.push_back({i, k});
-      }
-    }
-  }
-  return pairs;
+  const Eigen::Vector3d normal = (pose.linear() * half_space.normal).normalized();
+  return {body, normal, half_space.offset + normal.dot(pose.translation()), padding};
 }
 
 /// A half-open range of indices of geometries.
 struct Range
 {
-  std::uint32_t begin = 0;
-  std::uint32_t end = 0;
+  std::size_t begin;
+  std::size_t end;
 };
+
+/// What of CollisionProblem::robot, ::world and ::half_spaces belongs to a body.
+struct Instances
+{
+  std::vector<Range> of_body;  // into the robot's instances, by index of a RobotBody
+  std::vector<Range> of_object;
+  std::vector<Range> half_spaces_of_object;
+};
+
+void addObject(const WorldObject& object, std::int32_t body, TreeTable& trees, CollisionProblem& problem)
+{
+  for (const PlacedShape& placed : object.shapes)
+  {
+    const Eigen::Isometry3d pose = object.pose * placed.pose;
+    if (const auto* half_space = std::get_if<HalfSpace>(&placed.shape))
+    {
+      problem.half_spaces.push_back(moved(*half_space, pose, body, object.padding));
+    }
+    else
+    {
+      problem.world.push_back({trees.treeOf(placed.shape), body, -1, pose, object.padding});
+    }
+  }
+}
+
+/// Adds the bodies that are in a checked pair of any group, the robot's first.
+Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>& bodies, const CheckedPairs& pairs,
+                       CollisionProblem& problem)
+{
+  std::vector<bool> body_needed(bodies.size(), false);
+  std::vector<bool> object_needed(scene.objects.size(), false);
+  for (const CheckedPair& pair : pairs.self)
+  {
+    body_needed[pair.body] = body_needed[pair.other] = true;
+  }
+  for (const CheckedPair& pair : pairs.world)
+  {
+    body_needed[pair.body] = object_needed[pair.other] = true;
+  }
+
+  TreeTable trees(problem);
+  Instances instances;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+  {
+    const RobotBody& body = bodies[i];
+    const double padding = scene.link_padding.empty() ? 0.0 : scene.link_padding[body.link];
+    const std::size_t begin = problem.robot.size();
+    if (body_needed[i])
+    {
+      for (const PlacedShape& placed : *body.shapes)
+      {
+        problem.robot.push_back({trees.treeOf(placed.shape), body.body, body.link, body.pose * placed.pose, padding});
+      }
+    }
+    instances.of_body.push_back({begin, problem.robot.size()});
+  }
+  for (std::size_t k = 0; k < scene.objects.size(); ++k)
+  {
+    const std::size_t begin = problem.world.size();
+    const std::size_t first_half_space = problem.half_spaces.size();
+    if (object_needed[k])
+    {
+      addObject(scene.objects[k], static_cast<std::int32_t>(scene.robot->links().size() + k), trees, problem);
+    }
+    instances.of_object.push_back({begin, problem.world.size()});
+    instances.half_spaces_of_object.push_back({first_half_space, problem.half_spaces.size()});
+  }
+  return instances;
+}
+
+/// Marks a row of a pair matrix from column `columns.begin` to `columns.end`.
+void markPairs(std::vector<std::uint8_t>& matrix, std::size_t width, std::size_t row, const Range& columns)
+{
+  const auto begin = matrix.begin() + static_cast<std::ptrdiff_t>(row * width);
+  std::fill(begin + static_cast<std::ptrdiff_t>(columns.begin), begin + static_cast<std::ptrdiff_t>(columns.end),
+            std::uint8_t{1});
+}
+
+/// Adds the pairs of instances of those pairs of bodies that the group moves.
+void addPairs(const CheckedPairs& pairs, const Instances& instances, CollisionProblem& problem)
+{
+  for (const CheckedPair& pair : pairs.self)
+  {
+    if (!pair.moved)
+    {
+      continue;
+    }
+    const Range& first = instances.of_body[pair.body];
+    const Range& second = instances.of_body[pair.other];
+    for (std::size_t a = first.begin; a < first.end; ++a)
+    {
+      for (std::size_t b = second.begin; b < second.end; ++b)
+      {
+        problem.self_pairs.push_back({static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)});
+      }
+    }
+  }
+  problem.world_pairs.assign(problem.robot.size() * problem.world.size(), 0);
+  problem.half_space_pairs.assign(problem.robot.size() * problem.half_spaces.size(), 0);
+  for (const CheckedPair& pair : pairs.world)
+  {
+    if (!pair.moved)
+    {
+      continue;
+    }
+    const Range& body = instances.of_body[pair.body];
+    for (std::size_t a = body.begin; a < body.end; ++a)
+    {
+      markPairs(problem.world_pairs, problem.world.size(), a, instances.of_object[pair.other]);
+      markPairs(problem.half_space_pairs, problem.half_spaces.size(), a, instances.half_spaces_of_object[pair.other]);
+    }
+  }
+}
 }  // namespace
 
 bool sameShape(const Shape& a, const Shape& b)
@@ -167,9 +196,8 @@ bool sameShape(const Shape& a, const Shape& b)
 
 CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report)
 {
-  validateObjects(scene);
-  const auto& links = scene.robot->links();
-  std::vector<bool> moved(links.size(), group.empty());
+  validateScene(scene);
+  std::vector<bool> moved(scene.robot->links().size(), group.empty());
   if (!group.empty())
   {
     for (const int link : scene.robot->group(group).moved_links)
@@ -178,71 +206,17 @@ CollisionProblem makeProblem(const PlanningScene& scene, const std::string& grou
     }
   }
   SceneReport counts;
-  const CheckedPairs pairs = findCheckedPairs(scene, moved, counts);
-  std::vector<bool> link_needed(links.size(), false);
-  std::vector<bool> object_needed(scene.objects.size(), false);
-  for (const BodyPair& pair : pairs.self)
-  {
-    link_needed[pair.link] = link_needed[pair.other] = true;
-  }
-  for (const BodyPair& pair : pairs.world)
-  {
-    link_needed[pair.link] = object_needed[pair.other] = true;
-  }
+  const std::vector<RobotBody> bodies = robotBodies(scene);
+  const CheckedPairs pairs = findCheckedPairs(scene, bodies, moved, counts);
 
   CollisionProblem problem;
-  TreeTable trees(problem);
-  const auto add_body = [&trees](const std::vector<PlacedShape>& shapes, std::size_t body,
-                                 const Eigen::Isometry3d& pose, std::vector<Geometry>& geometries)
+  const Instances instances = addInstances(scene, bodies, pairs, problem);
+  addPairs(pairs, instances, problem);
+  if (!problem.robot.empty())
   {
-    const auto begin = static_cast<std::uint32_t>(geometries.size());
-    trees.addGeometries(shapes, static_cast<int>(body), pose, geometries);
-    return Range{begin, static_cast<std::uint32_t>(geometries.size())};
-  };
-  std::vector<Range> of_link(links.size());
-  for (std::size_t i = 0; i < links.size(); ++i)
-  {
-    if (link_needed[i])
-    {
-      of_link[i] = add_body(links[i].shapes, i, Eigen::Isometry3d::Identity(), problem.robot);
-    }
-  }
-  std::vector<Range> of_object(scene.objects.size());
-  for (std::size_t k = 0; k < scene.objects.size(); ++k)
-  {
-    const WorldObject& object = scene.objects[k];
-    if (object_needed[k])
-    {
-      of_object[k] = add_body(object.shapes, links.size() + k, object.pose, problem.world);
-    }
-  }
-
-  for (const BodyPair& pair : pairs.self)
-  {
-    if (!moved[pair.link] && !moved[pair.other])
-    {
-      continue;
-    }
-    for (std::uint32_t a = of_link[pair.link].begin; a < of_link[pair.link].end; ++a)
-    {
-      for (std::uint32_t b = of_link[pair.other].begin; b < of_link[pair.other].end; ++b)
-      {
-        problem.self_pairs.push_back({a, b});
-      }
-    }
-  }
-  problem.world_pairs.assign(problem.robot.size() * problem.world.size(), 0);
-  for (const BodyPair& pair : pairs.world)
-  {
-    if (!moved[pair.link])
-    {
-      continue;
-    }
-    for (std::uint32_t a = of_link[pair.link].begin; a < of_link[pair.link].end; ++a)
-    {
-      const auto row = problem.world_pairs.begin() + a * problem.world.size();
-      std::fill(row + of_object[pair.other].begin, row + of_object[pair.other].end, std::uint8_t{1});
-    }
+    std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());
+    scene.robot->linkPoses(scene.robot->defaultState().data(), poses.data());
+    problem.origin = poses[problem.robot.front().link].translation();
   }
 
   counts.trees = problem.trees.size();

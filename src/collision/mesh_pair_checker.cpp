@@ -17,10 +17,20 @@ std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape&
 {
   validateShape(a, "shape a");
   validateShape(b, "shape b");
+  if (std::holds_alternative<HalfSpace>(b))
+    throw Error("shape b is a half-space, which cannot move; give it as shape a");
   auto problem = std::make_shared<CollisionProblem>();
-  problem->shapes = {b, a};
-  problem->trees = {tessellate(b), tessellate(a)};
+  problem->shapes = {b};
+  problem->trees = {tessellate(b)};
   problem->robot = {{0, 0, 0, Eigen::Isometry3d::Identity()}};
+  if (const auto* half_space = std::get_if<HalfSpace>(&a))
+  {
+    problem->half_spaces = {{1, half_space->normal, half_space->offset}};
+    problem->half_space_pairs = {1};
+    return problem;
+  }
+  problem->shapes.push_back(a);
+  problem->trees.push_back(tessellate(a));
   problem->world = {{1, 1, -1, Eigen::Isometry3d::Identity()}};
   problem->world_pairs = {1};
   return problem;

@@ -1,0 +1,85 @@
+#include "checked_pairs.h"
+
+#include <algorithm>
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// Whether `attached` may touch the link, as it is the one that carries it, or one of its touch links.
+bool mayTouch(const AttachedObject& attached, int link)
+{
+  return link == attached.link ||
+         std::find(attached.touch_links.begin(), attached.touch_links.end(), link) != attached.touch_links.end();
+}
+
+/// Pairs that are never checked for what is carried, as in MoveIt: with its link and touch links, and two objects of
+/// one link.
+bool touchByCarrying(const RobotBody& a, const RobotBody& b)
+{
+  if (a.attached && b.attached)
+    return a.link == b.link;
+  if (a.attached)
+    return mayTouch(*a.attached, b.link);
+  return b.attached && mayTouch(*b.attached, a.link);
+}
+}  // namespace
+
+std::vector<RobotBody> robotBodies(const PlanningScene& scene)
+{
+  const auto& links = scene.robot->links();
+  std::vector<RobotBody> bodies;
+  int body = 0;
+  for (const Link& link : links)
+  {
+    if (!link.shapes.empty())
+      bodies.push_back({body, body, &link.name, &link.shapes, Eigen::Isometry3d::Identity(), nullptr});
+    ++body;
+  }
+  body += static_cast<int>(scene.objects.size());
+  for (const AttachedObject& attached : scene.attached)
+  {
+    const WorldObject& object = attached.object;
+    if (!object.shapes.empty())
+      bodies.push_back({body, attached.link, &object.id, &object.shapes, object.pose, &attached});
+    ++body;
+  }
+  return bodies;
+}
+
+CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
+                              const std::vector<bool>& moved, SceneReport& report)
+{
+  const auto& links = scene.robot->links();
+  report.links_without_shapes = static_cast<std::size_t>(
+      std::count_if(links.begin(), links.end(), [](const Link& link) { return link.shapes.empty(); }));
+  CheckedPairs pairs;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < bodies.size(); ++j)
+    {
+      if (touchByCarrying(bodies[i], bodies[j]))
+      {
+        ++report.touch_pairs;
+        continue;
+      }
+      const bool is_allowed = scene.allowed_collisions.allowed(*bodies[i].name, *bodies[j].name);
+      const bool is_moved = moved[bodies[i].link] || moved[bodies[j].link];
+      ++(is_allowed ? report.allowed_self_pairs : is_moved ? report.self_pairs : report.unmoved_pairs);
+      if (!is_allowed)
+        pairs.self.push_back({i, j, is_moved});
+    }
+    for (std::size_t k = 0; k < scene.objects.size(); ++k)
+    {
+      if (scene.objects[k].shapes.empty())
+        continue;
+      const bool is_allowed = scene.allowed_collisions.allowed(*bodies[i].name, scene.objects[k].id);
+      const bool is_moved = moved[bodies[i].link];
+      ++(is_allowed ? report.allowed_world_pairs : is_moved ? report.world_pairs : report.unmoved_pairs);
+      if (!is_allowed)
+        pairs.world.push_back({i, k, is_moved});
+    }
+  }
+  return pairs;
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "gpu_planning_scene/planning_scene.h"
+#include "gpu_planning_scene/state_checker.h"
+
+namespace gpu_planning_scene
+{
+/// A body that moves with the robot: a link, or an object that a link carries.
+struct RobotBody
+{
+  int body;  ///< body index of the planning scene
+  int link;  ///< that it moves with
+  const std::string* name;
+  const std::vector<PlacedShape>* shapes;
+  Eigen::Isometry3d pose;          ///< of the shapes' frame in the link's
+  const AttachedObject* attached;  ///< null for a link
+};
+
+/// The links, then the attached objects, of those that have shapes. Points into the scene.
+std::vector<RobotBody> robotBodies(const PlanningScene& scene);
+
+struct CheckedPair
+{
+  std::size_t body;   ///< index into the robot's bodies
+  std::size_t other;  ///< self pairs: a later one; world pairs: index of an object
+  bool moved;         ///< the group moves at least one of the two
+};
+
+/// What is checked of a scene, whatever the group, by pairs of bodies that have shapes.
+struct CheckedPairs
+{
+  std::vector<CheckedPair> self;
+  std::vector<CheckedPair> world;
+};
+
+/// `moved`: of each link, whether the group moves it. Counts in `report` what is checked and what is left out.
+CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
+                              const std::vector<bool>& moved, SceneReport& report);
+}  // namespace gpu_planning_scene

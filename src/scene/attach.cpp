@@ -1,0 +1,67 @@
+#include <algorithm>
+
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning_scene.h"
+#include "scene/validate_scene.h"
+
+// Objects taken up by a link and put back.
+
+namespace gpu_planning_scene
+{
+namespace
+{
+int requireLink(const RobotModel& robot, const std::string& name, const std::string& where)
+{
+  const int link = robot.linkIndex(name);
+  if (link < 0)
+    throw Error(where + ": robot '" + robot.name() + "' has no link '" + name + "'");
+  return link;
+}
+
+Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* state)
+{
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  robot.linkPoses(state, poses.data());
+  if (!poses[link].matrix().allFinite())
+    throw Error("the robot state is not finite; link '" + robot.links()[link].name + "' has no pose in it");
+  return poses[link];
+}
+}  // namespace
+
+void PlanningScene::attach(const std::string& object, const std::string& link,
+                           const std::vector<std::string>& touch_links, const double* state)
+{
+  const auto found =
+      std::find_if(objects.begin(), objects.end(), [&](const WorldObject& known) { return known.id == object; });
+  if (found == objects.end())
+  {
+    for (const AttachedObject& known : attached)
+      if (known.object.id == object)
+        throw Error("object '" + object + "' is carried by link '" + robot->links().at(known.link).name +
+                    "' already; detach it first");
+    throw Error("object '" + object + "' cannot be attached: the scene has no such object");
+  }
+  if (hasHalfSpace(found->shapes))
+    throw Error("object '" + object + "' has a half-space and cannot be carried; leave it in the world");
+  AttachedObject carried;
+  carried.link = requireLink(*robot, link, "object '" + object + "' cannot be attached");
+  for (const std::string& name : touch_links)
+    carried.touch_links.push_back(requireLink(*robot, name, "touch link of object '" + object + "'"));
+  carried.object = *found;
+  carried.object.pose = linkPose(*robot, carried.link, state).inverse() * found->pose;
+  attached.push_back(std::move(carried));
+  objects.erase(found);
+}
+
+void PlanningScene::detach(const std::string& object, const double* state)
+{
+  const auto found = std::find_if(attached.begin(), attached.end(),
+                                  [&](const AttachedObject& known) { return known.object.id == object; });
+  if (found == attached.end())
+    throw Error("object '" + object + "' cannot be detached: no link carries such an object");
+  WorldObject freed = found->object;
+  freed.pose = linkPose(*robot, found->link, state) * found->object.pose;
+  objects.push_back(std::move(freed));
+  attached.erase(found);
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,92 @@
+#include "scene/validate_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+void validatePose(const Eigen::Isometry3d& pose, const std::string& where)
+{
+  const Eigen::Matrix3d& rotation = pose.linear();
+  if (!pose.matrix().allFinite() || !(rotation * rotation.transpose()).isIdentity(1e-6) || rotation.determinant() < 0.0)
+    throw Error(where + ": a pose is not finite or not a rotation and a translation");
+}
+
+void validatePadding(double padding, const std::string& where)
+{
+  if (!std::isfinite(padding) || padding < 0.0)
+    throw Error(where + ": the padding is " + std::to_string(padding) + "; it must be finite and not negative");
+}
+
+void validateObject(const WorldObject& object)
+{
+  const std::string where = "object '" + object.id + "'";
+  validatePose(object.pose, where);
+  validatePadding(object.padding, where);
+  for (const PlacedShape& placed : object.shapes)
+  {
+    validatePose(placed.pose, where);
+    validateShape(placed.shape, where);
+  }
+}
+
+void validateAttached(const AttachedObject& attached, const RobotModel& robot)
+{
+  validateObject(attached.object);
+  const std::string where = "attached object '" + attached.object.id + "'";
+  const int links = static_cast<int>(robot.links().size());
+  const auto require_link = [&](int link, const char* role)
+  {
+    if (link < 0 || link >= links)
+      throw Error(where + ": its " + role + " is number " + std::to_string(link) + " of " + std::to_string(links) +
+                  "; name a link of the robot by its index");
+  };
+  require_link(attached.link, "link");
+  for (const int link : attached.touch_links)
+    require_link(link, "touch link");
+  if (hasHalfSpace(attached.object.shapes))
+    throw Error(where + " has a half-space, which cannot be carried; leave it in the world");
+}
+}  // namespace
+
+bool hasHalfSpace(const std::vector<PlacedShape>& shapes)
+{
+  return std::any_of(shapes.begin(), shapes.end(),
+                     [](const PlacedShape& placed) { return std::holds_alternative<HalfSpace>(placed.shape); });
+}
+
+void validateScene(const PlanningScene& scene)
+{
+  const auto& links = scene.robot->links();
+  for (const Link& link : links)
+    if (hasHalfSpace(link.shapes))
+      throw Error("link '" + link.name + "' has a half-space, which cannot move; put it into the world");
+  if (!scene.link_padding.empty() && scene.link_padding.size() != links.size())
+    throw Error("link_padding has " + std::to_string(scene.link_padding.size()) + " values for " +
+                std::to_string(links.size()) + " links; give one per link, or none");
+  for (std::size_t i = 0; i < scene.link_padding.size(); ++i)
+    validatePadding(scene.link_padding[i], "link '" + links[i].name + "'");
+
+  std::set<std::string> ids;
+  const auto require_new = [&ids](const std::string& id)
+  {
+    if (!ids.insert(id).second)
+      throw Error("object '" + id + "': there is another object of that name; give each its own");
+  };
+  for (const WorldObject& object : scene.objects)
+  {
+    require_new(object.id);
+    validateObject(object);
+  }
+  for (const AttachedObject& attached : scene.attached)
+  {
+    require_new(attached.object.id);
+    validateAttached(attached, *scene.robot);
+  }
+}
+}  // namespace gpu_planning_scene
