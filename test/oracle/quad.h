@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Geometry>
+
+namespace gpu_planning_scene::oracle
+{
+/// Quadruple precision, 113 bits: sums of doubles of like size and products of two are exact in it.
+__extension__ typedef __float128 Quad;
+
+Quad sqrt(Quad value);
+
+struct SineCosine
+{
+  Quad sine;
+  Quad cosine;
+};
+/// To about 1e-33, for angles up to 1e6.
+SineCosine sineCosine(Quad angle);
+
+inline Quad abs(Quad value)
+{
+  return value < 0 ? -value : value;
+}
+
+struct Vector
+{
+  Quad x = 0;
+  Quad y = 0;
+  Quad z = 0;
+
+  Vector() = default;
+  Vector(Quad x_value, Quad y_value, Quad z_value) : x(x_value), y(y_value), z(z_value) {}
+  explicit Vector(const Eigen::Vector3d& v) : x(v.x()), y(v.y()), z(v.z()) {}
+
+  Eigen::Vector3d toDouble() const { return {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)}; }
+};
+
+inline Vector operator+(const Vector& a, const Vector& b)
+{
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vector operator-(const Vector& a, const Vector& b)
+{
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vector operator-(const Vector& a)
+{
+  return {-a.x, -a.y, -a.z};
+}
+inline Vector operator*(Quad factor, const Vector& a)
+{
+  return {factor * a.x, factor * a.y, factor * a.z};
+}
+inline Quad dot(const Vector& a, const Vector& b)
+{
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline Vector cross(const Vector& a, const Vector& b)
+{
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Quad squaredLength(const Vector& a)
+{
+  return dot(a, a);
+}
+inline Quad length(const Vector& a)
+{
+  return sqrt(squaredLength(a));
+}
+
+/// A rotation, then a translation.
+struct Motion
+{
+  std::array<Vector, 3> rows = {Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1)};  // of the rotation
+  Vector translation;
+
+  Motion() = default;
+  /// The nearest rotation to the pose's matrix, which is one up to the rounding of doubles.
+  explicit Motion(const Eigen::Isometry3d& pose);
+
+  Vector rotate(const Vector& v) const { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }
+  Vector unrotate(const Vector& v) const { return v.x * rows[0] + v.y * rows[1] + v.z * rows[2]; }
+  Vector operator*(const Vector& point) const { return rotate(point) + translation; }
+  Motion operator*(const Motion& other) const;
+  Motion inverse() const;
+
+  Eigen::Isometry3d toDouble() const;
+};
+}  // namespace gpu_planning_scene::oracle
