@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "gpu_planning_scene/error.h"
 #include "scene/scene_reader.h"
@@ -134,6 +135,22 @@ std::shared_ptr<const Mesh> readMesh(const YamlValue& value, SceneReader& reader
   }
 }
 
+/// The plane a x + b y + c z + d = 0: MoveIt's `coef`, or the bare numbers.
+HalfSpace readPlane(const YamlValue& value, const SceneReader& reader)
+{
+  const bool is_map = value.kind() == YamlValue::Kind::Map;
+  if (is_map)
+    value.warnOfUnknownKeys({"coef"}, reader.warnings);
+  const YamlValue& coefficients = is_map ? value.at("coef") : value;
+  const std::vector<double> numbers = coefficients.numbers(4);
+  const Eigen::Vector3d normal(numbers.data());
+  const double length = normal.stableNorm();
+  const double offset = -numbers[3] / length;
+  if (length == 0.0 || !std::isfinite(length) || !std::isfinite(offset))
+    coefficients.fail("the plane [a, b, c, d] has no direction; a, b and c are its normal and cannot all be 0");
+  return {Eigen::Vector3d(normal / length).normalized(), offset};
+}
+
 /// One pose per shape; a lone shape may do without.
 std::vector<Eigen::Isometry3d> readShapePoses(const YamlValue& object, const char* key, std::size_t count)
 {
@@ -153,22 +170,20 @@ std::vector<Eigen::Isometry3d> readShapePoses(const YamlValue& object, const cha
 
 std::vector<PlacedShape> readShapes(const YamlValue& object, SceneReader& reader)
 {
-  std::vector<Shape> primitives;
-  if (const YamlValue* values = object.find("primitives"))
-    for (const YamlValue& value : values->items())
-      primitives.push_back(readPrimitive(value, reader));
-  std::vector<Shape> meshes;
-  if (const YamlValue* values = object.find("meshes"))
-    for (const YamlValue& value : values->items())
-      meshes.push_back(readMesh(value, reader));
-  const auto primitive_poses = readShapePoses(object, "primitive_poses", primitives.size());
-  const auto mesh_poses = readShapePoses(object, "mesh_poses", meshes.size());
-
   std::vector<PlacedShape> shapes;
-  for (std::size_t i = 0; i < primitives.size(); ++i)
-    shapes.push_back({primitives[i], primitive_poses[i]});
-  for (std::size_t i = 0; i < meshes.size(); ++i)
-    shapes.push_back({meshes[i], mesh_poses[i]});
+  const auto add = [&](const char* key, const char* poses_key, const auto& read)
+  {
+    const std::size_t first = shapes.size();
+    if (const YamlValue* values = object.find(key))
+      for (const YamlValue& value : values->items())
+        shapes.push_back({read(value, reader)});
+    const auto poses = readShapePoses(object, poses_key, shapes.size() - first);
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      shapes[first + i].pose = poses[i];
+  };
+  add("primitives", "primitive_poses", readPrimitive);
+  add("meshes", "mesh_poses", readMesh);
+  add("planes", "plane_poses", readPlane);
   return shapes;
 }
 }  // namespace gpu_planning_scene

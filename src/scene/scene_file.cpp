@@ -1,88 +1,9 @@
 #include <algorithm>
-#include <cctype>
-#include <set>
 
-#include "gpu_planning_scene/error.h"
 #include "scene/scene_reader.h"
 
 namespace gpu_planning_scene
 {
-namespace
-{
-/// ROS writes the message's zeros where an object's pose was never set; that pose means "none".
-bool isUnsetPose(const YamlValue& value)
-{
-  for (const char* key : {"position", "orientation"})
-  {
-    const YamlValue* part = value.find(key);
-    if (!part || part->kind() != YamlValue::Kind::Map)
-      return false;
-    for (const auto& member : part->members())
-      if (member.second.number() != 0.0)
-        return false;
-  }
-  return true;
-}
-
-void requireAdd(const YamlValue& object)
-{
-  const YamlValue* operation = object.find("operation");
-  if (!operation)
-    return;
-  std::string name = operation->text();
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (name != "0" && name != "add")
-    operation->fail("operation " + operation->text() +
-                    " in a scene file; it describes a full scene, so objects can only " + "be added (0)");
-}
-
-WorldObject readObject(const YamlValue& value, SceneReader& reader)
-{
-  value.warnOfUnknownKeys({"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes", "mesh_poses",
-                           "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"},
-                          reader.warnings);
-  refuseUnsupportedInObject(value, reader);
-  requireAdd(value);
-  WorldObject object;
-  object.id = value.at("id").text();
-  if (object.id.empty())
-    value.fail("an object without an id");
-  object.pose = readFrame(value.find("header"), reader);
-  const YamlValue* pose = value.find("pose");
-  if (pose && isUnsetPose(*pose))
-    reader.warn(pose->where() + ": the pose of object '" + object.id + "' was never set; taken as no displacement");
-  else if (pose)
-    object.pose = object.pose * readPose(*pose);
-  object.shapes = readShapes(value, reader);
-  if (object.shapes.empty())
-    value.fail("object '" + object.id + "' has no shapes");
-  return object;
-}
-
-std::vector<WorldObject> readObjects(const YamlValue& scene, SceneReader& reader)
-{
-  std::vector<WorldObject> objects;
-  const YamlValue* world = scene.find("world");
-  if (!world)
-    return objects;
-  world->warnOfUnknownKeys({"collision_objects", "octomap"}, reader.warnings);
-  const YamlValue* values = world->find("collision_objects");
-  if (!values)
-    return objects;
-  std::set<std::string> ids;
-  for (const YamlValue& value : values->items())
-  {
-    objects.push_back(readObject(value, reader));
-    const std::string& id = objects.back().id;
-    if (!ids.insert(id).second)
-      value.fail("object '" + id + "' is given twice");
-    if (reader.robot.linkIndex(id) >= 0)
-      value.fail("object '" + id + "' has the name of a link");
-  }
-  return objects;
-}
-}  // namespace
-
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings)
 {
@@ -124,7 +45,8 @@ PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const Robot
     else
       reader.warn(matrix->where() + ": the allowed_collision_matrix is empty; the robot's own is kept");
   }
-  scene.objects = readObjects(file, reader);
+  scene.link_padding = readLinkPadding(file, reader);
+  readObjects(file, reader, scene);
   scene.current_state = reader.state;
   return scene;
 }

@@ -46,10 +46,16 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
 /// False, and `matrix` unchanged, where the value holds no entries.
 bool readMatrix(const YamlValue& value, const SceneReader& reader, AllowedCollisionMatrix& matrix);
 
-/// The primitives and meshes of a collision object, in its frame.
+/// The primitives, meshes and planes of a collision object, in its frame. A plane is the half-space behind it.
 std::vector<PlacedShape> readShapes(const YamlValue& object, SceneReader& reader);
 
-/// `link_padding`, `link_scale`, attached objects, planes and octomaps: fails where they ask for anything.
+/// The objects of the world, and those that links carry (`robot_state.attached_collision_objects`). Every id is new
+/// and no link's.
+void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& result);
+
+/// `link_padding`: one value per link of the robot; empty if the file gives none but zeros.
+std::vector<double> readLinkPadding(const YamlValue& scene, const SceneReader& reader);
+
+/// `link_scale` and octomaps: fails where they ask for anything.
 void refuseUnsupported(const YamlValue& scene);
-void refuseUnsupportedInObject(const YamlValue& object, const SceneReader& reader);
 }  // namespace gpu_planning_scene

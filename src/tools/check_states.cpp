@@ -71,7 +71,8 @@ BatchResult checkAll(StateChecker& checker, StateSource& source, std::size_t bat
 void writeAnswers(std::ostream& out, const BatchResult& result, const PlanningScene& scene)
 {
   std::vector<std::string> names;
-  for (std::size_t body = 0; body < scene.robot->links().size() + scene.objects.size(); ++body)
+  const std::size_t bodies = scene.robot->links().size() + scene.objects.size() + scene.attached.size();
+  for (std::size_t body = 0; body < bodies; ++body)
     names.push_back(csvCell(scene.bodyName(static_cast<int>(body))));
   for (std::size_t i = 0; i < result.valid.size(); ++i)
   {

@@ -41,7 +41,8 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
   lines.push_back("device: " + device);
   lines.push_back("robot: " + robot.name() + ", " + counted(robot.links().size(), "link") + ", " +
                   counted(robot.variables().size(), "variable") + ", planning frame " + robot.planningFrame());
-  lines.push_back("scene: " + counted(scene.objects.size(), "object"));
+  lines.push_back("scene: " + counted(scene.objects.size(), "object") +
+                  (scene.attached.empty() ? std::string() : ", " + counted(scene.attached.size(), "carried object")));
   lines.push_back("triangles: " + std::to_string(robot.triangleCount()) + " of the robot, " +
                   std::to_string(report.triangles) + " in " + counted(report.trees, "tree") +
                   " with the scene's (equal shapes share one)");
@@ -50,6 +51,9 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
   lines.push_back("left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") + " that " +
                   matrixText(scene.matrix_source) + ", " + counted(report.links_without_shapes, "link") +
                   " without collision shapes" +
+                  (report.touch_pairs
+                       ? ", " + counted(report.touch_pairs, "pair") + " of a carried object and what it may touch"
+                       : std::string()) +
                   (report.unmoved_pairs ? ", " + counted(report.unmoved_pairs, "pair") + " that the group does not move"
                                         : std::string()));
   return lines;

@@ -1,6 +1,7 @@
 #include "collision/collision_problem.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -79,6 +80,13 @@ std::set<NamePair> checkedPairs(const PlanningScene& scene, const std::string& g
       if (problem.world_pairs[i * problem.world.size() + k] != 0)
       {
         pairs.insert(sorted(scene.bodyName(problem.robot[i].body), scene.bodyName(problem.world[k].body)));
+      }
+    }
+    for (std::size_t k = 0; k < problem.half_spaces.size(); ++k)
+    {
+      if (problem.half_space_pairs[i * problem.half_spaces.size() + k] != 0)
+      {
+        pairs.insert(sorted(scene.bodyName(problem.robot[i].body), scene.bodyName(problem.half_spaces[k].body)));
       }
     }
   }
@@ -235,6 +243,211 @@ TEST(SceneReport, CountsWhatIsCheckedAndWhatIsLeftOut)
   EXPECT_EQ(3u, report.self_pairs);
   EXPECT_EQ(1u, report.world_pairs);
   EXPECT_EQ(2u + 6u, report.unmoved_pairs);
+}
+
+/// "left" on `upper`, which may touch `fore`; "hook", beside it on `upper`; "lamp" on `head`.
+PlanningScene carryingScene(const std::string& srdf)
+{
+  PlanningScene scene = sceneOf(srdf);
+  scene.objects.push_back({"hook", Eigen::Isometry3d::Identity(), {{Sphere{0.1}}}});
+  scene.objects.push_back({"lamp", Eigen::Isometry3d::Identity(), {{Box{{1, 2, 3}}}}});
+  const std::vector<double> state = scene.robot->defaultState();
+  scene.attach("left", "upper", {"fore"}, state.data());
+  scene.attach("hook", "upper", {}, state.data());
+  scene.attach("lamp", "head", {}, state.data());
+  return scene;
+}
+
+TEST(CheckedPairs, OfCarriedObjectsAreThoseThatTheirLinkDoesNotTouch)
+{
+  const auto scene = carryingScene("");
+  std::set<NamePair> carried = {sorted("left", "base"), sorted("left", "head"), sorted("left", "lamp"),
+                                sorted("hook", "base"), sorted("hook", "head"), sorted("hook", "fore"),
+                                sorted("hook", "lamp"), sorted("lamp", "base"), sorted("lamp", "upper"),
+                                sorted("lamp", "fore")};
+  for (const char* body : {"base", "upper", "fore", "head", "left", "hook", "lamp"})
+  {
+    carried.insert(sorted(body, "right"));
+  }
+  EXPECT_EQ(united({sorted("base", "fore"), sorted("upper", "head"), sorted("fore", "head")}, carried),
+            checkedPairs(scene));
+  SceneReport report;
+  makeProblem(scene, "", &report);
+  EXPECT_EQ(3u + 10u, report.self_pairs);
+  EXPECT_EQ(7u, report.world_pairs);
+  EXPECT_EQ(3u + 1u + 1u, report.touch_pairs);  // with their links, a touch link, each other on a link
+  EXPECT_EQ(0u, report.unmoved_pairs);
+}
+
+TEST(CheckedPairs, OfCarriedObjectsFollowTheMatrix)
+{
+  auto scene = carryingScene("");
+  for (const char* body : {"base", "lamp", "right"})
+  {
+    scene.allowed_collisions.setEntry("left", body, true);
+  }
+  const std::set<NamePair> pairs = checkedPairs(scene);
+  EXPECT_EQ(0u, pairs.count(sorted("left", "base")));
+  EXPECT_EQ(0u, pairs.count(sorted("left", "lamp")));
+  EXPECT_EQ(0u, pairs.count(sorted("left", "right")));
+  EXPECT_EQ(1u, pairs.count(sorted("left", "head")));
+  SceneReport report;
+  makeProblem(scene, "", &report);
+  EXPECT_EQ(3u + 2u, report.allowed_self_pairs);  // three of adjacent links
+  EXPECT_EQ(1u, report.allowed_world_pairs);
+}
+
+TEST(CheckedPairs, OfAGroupHaveACarriedObjectWhoseLinkItMoves)
+{
+  const auto scene = carryingScene(srdfWith(""));
+  const std::set<NamePair> pairs = checkedPairs(scene, "neck");
+  EXPECT_EQ(1u, pairs.count(sorted("lamp", "right")));
+  EXPECT_EQ(1u, pairs.count(sorted("lamp", "base")));
+  EXPECT_EQ(1u, pairs.count(sorted("lamp", "hook")));
+  EXPECT_EQ(1u, pairs.count(sorted("hook", "head")));
+  EXPECT_EQ(0u, pairs.count(sorted("hook", "base")));
+  EXPECT_EQ(0u, pairs.count(sorted("hook", "right")));
+}
+
+TEST(CollisionProblem, PlacesCarriedObjectsInTheirLink)
+{
+  PlanningScene scene = sceneOf("");
+  scene.objects[0].pose.translation().y() = 0.5;
+  scene.objects[0].shapes[1].pose.translation().z() = 0.25;
+  scene.objects[0].padding = 0.5;
+  const int upper = scene.robot->linkIndex("upper");
+  scene.link_padding.assign(scene.robot->links().size(), 0.0);
+  scene.link_padding[upper] = 0.01;
+  std::vector<double> state = scene.robot->defaultState();
+  state[scene.robot->variableIndex("shoulder")] = 1.0;
+  scene.attach("left", "upper", {}, state.data());
+  std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());
+  scene.robot->linkPoses(state.data(), poses.data());
+
+  const CollisionProblem problem = makeProblem(scene, "", nullptr);
+  const int body = static_cast<int>(scene.robot->links().size() + scene.objects.size());
+  std::vector<Geometry> carried;
+  std::copy_if(problem.robot.begin(), problem.robot.end(), std::back_inserter(carried),
+               [body](const Geometry& geometry) { return geometry.body == body; });
+  ASSERT_EQ(2u, carried.size());
+  EXPECT_EQ(upper, carried[1].link);
+  EXPECT_EQ(0.01, carried[1].padding);  // its link's: its own is for when it is in the world
+  EXPECT_TRUE((poses[upper] * carried[1].pose).translation().isApprox(Eigen::Vector3d(2.0, 0.5, 0.25), 1e-15));
+  EXPECT_EQ("left", scene.bodyName(body));
+}
+
+TEST(CollisionProblem, NumbersTheRobotsTreesFirst)
+{
+  PlanningScene scene = carryingScene("");
+  scene.objects.push_back({"ball", Eigen::Isometry3d::Identity(), {{Sphere{0.7}}}});
+  const CollisionProblem problem = makeProblem(scene, "", nullptr);
+  std::uint32_t robot_trees = 0;
+  for (const Geometry& geometry : problem.robot)
+  {
+    robot_trees = std::max(robot_trees, geometry.tree + 1);
+  }
+  std::set<std::uint32_t> used;
+  for (const Geometry& geometry : problem.robot)
+  {
+    used.insert(geometry.tree);
+  }
+  EXPECT_EQ(robot_trees, used.size());
+  EXPECT_EQ(robot_trees, problem.world.back().tree);
+}
+
+TEST(CollisionProblem, PadsLinksAndObjects)
+{
+  PlanningScene scene = sceneOf("");
+  scene.link_padding = {0.01, 0.02, 0.03, 0.04, 0.05};
+  ASSERT_EQ(scene.link_padding.size(), scene.robot->links().size());
+  scene.objects[1].padding = 0.5;
+  const CollisionProblem problem = makeProblem(scene, "", nullptr);
+  for (const Geometry& geometry : problem.robot)
+  {
+    EXPECT_EQ(scene.link_padding[geometry.link], geometry.padding);
+  }
+  for (const Geometry& geometry : problem.world)
+  {
+    EXPECT_EQ(scene.bodyName(geometry.body) == "right" ? 0.5 : 0.0, geometry.padding);
+  }
+}
+
+TEST(CollisionProblem, PlacesHalfSpacesInThePlanningFrame)
+{
+  PlanningScene scene = sceneOf("");
+  WorldObject wedge;
+  wedge.id = "wedge";
+  wedge.padding = 0.125;
+  wedge.pose.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // x to y, y to -x
+  wedge.pose.translation() << 0, 3, 0;
+  PlacedShape plane{HalfSpace{Eigen::Vector3d::UnitX(), 0.5}};
+  plane.pose.translation().x() = 1.0;
+  wedge.shapes = {{Sphere{0.3}}, plane};
+  scene.objects.push_back(wedge);
+  scene.allowed_collisions.setEntry("base", "wedge", true);
+  const CollisionProblem problem = makeProblem(scene, "", nullptr);
+  ASSERT_EQ(1u, problem.half_spaces.size());
+  const WorldHalfSpace& half_space = problem.half_spaces[0];
+  EXPECT_TRUE(half_space.normal.isApprox(Eigen::Vector3d::UnitY(), 1e-15));
+  EXPECT_NEAR(0.5 + 1.0 + 3.0, half_space.offset, 1e-15);
+  EXPECT_EQ("wedge", scene.bodyName(half_space.body));
+  EXPECT_EQ(0.125, half_space.padding);
+  ASSERT_EQ(problem.robot.size(), problem.half_space_pairs.size());
+  for (std::size_t i = 0; i < problem.robot.size(); ++i)
+  {
+    const bool is_base = scene.bodyName(problem.robot[i].body) == "base";
+    EXPECT_EQ(is_base ? 0 : 1, problem.half_space_pairs[i]);
+  }
+}
+
+TEST(CheckedPairs, WithHalfSpacesFollowTheGroup)
+{
+  PlanningScene scene = sceneOf(srdfWith(""));
+  scene.objects = {{"floor", Eigen::Isometry3d::Identity(), {{HalfSpace{Eigen::Vector3d::UnitZ(), -1.0}}}}};
+  EXPECT_EQ(1u, makeProblem(scene, "neck", nullptr).half_spaces.size());
+  const std::set<NamePair> pairs = checkedPairs(scene, "neck");
+  EXPECT_EQ(1u, pairs.count(sorted("head", "floor")));
+  EXPECT_EQ(0u, pairs.count(sorted("fore", "floor")));
+}
+
+TEST(CollisionProblem, HasItsOriginAtTheRobotWhereverThatStands)
+{
+  const auto far = robotOf("<link name='world'/>" + boxLink("base") + boxLink("tip") +
+                           jointXml("place", "fixed", "world", "base", "<origin xyz='100000 -20000 5'/>") +
+                           jointXml("bend", "revolute", "base", "tip", kLimits));
+  PlanningScene scene(far);
+  scene.objects = {{"ball", Eigen::Isometry3d::Identity(), {{Sphere{0.1}}}}};
+  EXPECT_EQ(Eigen::Vector3d(100000, -20000, 5), makeProblem(scene, "", nullptr).origin);
+  EXPECT_EQ(Eigen::Vector3d(0, 0, 0), makeProblem(sceneOf(""), "", nullptr).origin);
+}
+
+TEST(CollisionProblem, RefusesPaddingAndHalfSpacesThatMeanNothing)
+{
+  const auto refused = [](const std::string& what, const std::function<void(PlanningScene&)>& spoil)
+  {
+    PlanningScene scene = carryingScene("");
+    spoil(scene);
+    const std::string message = errorOf([&] { makeProblem(scene, "", nullptr); });
+    EXPECT_NE(std::string::npos, message.find(what)) << message;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused("2 values for 5 links", [](PlanningScene& scene) { scene.link_padding = {0.0, 0.0}; });
+  refused("link 'base': the padding", [](PlanningScene& scene) { scene.link_padding = {-0.1, 0, 0, 0, 0}; });
+  refused("padding", [nan](PlanningScene& scene) { scene.link_padding = {0, 0, 0, 0, nan}; });
+  refused("object 'right': the padding", [](PlanningScene& scene) { scene.objects[0].padding = -0.1; });
+  refused("not finite", [](PlanningScene& scene)
+          { scene.attached[0].object.pose.translation().x() = std::numeric_limits<double>::infinity(); });
+  refused("half-space",
+          [](PlanningScene& scene) {
+            scene.attached[0].object.shapes.push_back({HalfSpace{Eigen::Vector3d::UnitZ(), 0.0}});
+          });
+  refused("unit length",
+          [](PlanningScene& scene) {
+            scene.objects[0].shapes.push_back({HalfSpace{{0.0, 0.0, 2.0}, 0.0}});
+          });
+  refused("another object of that name", [](PlanningScene& scene) { scene.attached[0].object.id = "right"; });
+  refused("its link is number 5 of 5", [](PlanningScene& scene) { scene.attached[0].link = 5; });
+  refused("touch link is number -1", [](PlanningScene& scene) { scene.attached[0].touch_links = {-1}; });
 }
 
 TEST(CollisionProblem, RefusesObjectsThatAreNotValid)

@@ -49,6 +49,22 @@ std::string mesh(const std::string& content)
   return object("      meshes: [{" + content + "}]\n");
 }
 
+std::string sphere()
+{
+  return "primitives: [{type: sphere, dimensions: [1]}]";
+}
+
+std::string ball(const std::string& id)
+{
+  return "{id: " + id + ", " + sphere() + "}";
+}
+
+/// An attached object, whose lines are numbers 3 and on; its `object` comes last.
+std::string attached(const std::string& lines, const std::string& object = ball("a"))
+{
+  return "robot_state:\n  attached_collision_objects:\n    -\n" + lines + "      object: " + object + "\n";
+}
+
 const std::vector<WrongScene>& wrongScenes()
 {
   static const std::vector<WrongScene> scenes = {
@@ -69,7 +85,11 @@ const std::vector<WrongScene>& wrongScenes()
       {"IdOfALink", "world: {collision_objects: [{id: cart, primitives: [{type: sphere, dimensions: [1]}]}]}", 1,
        "name of a link"},
       {"OperationRemove", sphereAnd("      operation: 1\n"), 5, "operation 1"},
-      {"Planes", sphereAnd("      planes: [{coef: [0, 0, 1, 0]}]\n"), 5, "planes are not supported"},
+      {"PlaneWithoutNormal", sphereAnd("      planes: [{coef: [0, 0, 0, 1]}]\n"), 5, "has no direction"},
+      {"PlaneOfThreeNumbers", sphereAnd("      planes: [[0, 0, 1]]\n"), 5, "list of 4 numbers"},
+      {"PlaneWithoutCoef", sphereAnd("      planes: [{}]\n"), 5, "'coef' is missing"},
+      {"PlanePosesTooMany", sphereAnd("      planes: [[0, 0, 1, 0]]\n      plane_poses: [{}, {}]\n"), 6,
+       "2 plane_poses for 1 shapes"},
 
       {"UnknownType", primitive("type: torus, dimensions: [1]"), 4, "unknown primitive type 'torus'"},
       {"TypeNumberFive", primitive("type: 5, dimensions: [1]"), 4, "unknown primitive type '5'"},
@@ -129,10 +149,28 @@ const std::vector<WrongScene>& wrongScenes()
       {"NanJoint", "robot_state:\n  joint_state:\n    name: [slide]\n    position: [.NaN]\n", 4, "not a finite number"},
       {"RevoluteAsMultiDof", "robot_state:\n  multi_dof_joint_state:\n    joint_names: [turn]\n    transforms: [{}]\n",
        3, "neither planar nor floating"},
-      {"AttachedObject", "robot_state:\n  attached_collision_objects:\n    - link_name: cart\n", 3,
-       "attached objects are not supported"},
 
-      {"Padding", "name: a\nlink_padding:\n  - {link_name: cart, padding: 0.01}\n", 3, "link_padding is not supported"},
+      {"AttachedWithoutLink", attached("      touch_links: []\n"), 4, "'link_name' is missing"},
+      {"AttachedWithoutObject", attached("      link_name: cart\n", ""), 4, "'object' is missing"},
+      {"AttachedToUnknownLink", attached("      link_name: crane\n"), 4, "no link 'crane'"},
+      {"UnknownTouchLink", attached("      link_name: cart\n      touch_links: [pole, crane]\n"), 5, "no link 'crane'"},
+      {"AttachedIdOfALink", attached("      link_name: cart\n", ball("pole")), 4, "name of a link"},
+      {"AttachedIdOfAnObject",
+       "world: {collision_objects: [" + ball("a") + "]}\n" + attached("      link_name: cart\n"), 5, "given twice"},
+      {"AttachedRemoved", attached("      link_name: cart\n", "{id: a, operation: 1}"), 5, "operation 1"},
+      {"AttachedPlane", attached("      link_name: cart\n", "{id: a, planes: [[0, 0, 1, 0]]}"), 5, "cannot be carried"},
+      {"AttachedInUnknownFrame",
+       attached("      link_name: cart\n", "{id: a, header: {frame_id: moon}, " + sphere() + "}"), 5,
+       "unknown frame 'moon'"},
+      {"AttachedInAnotherFrameWithoutState",
+       attached("      link_name: cart\n", "{id: a, header: {frame_id: rail}, " + sphere() + "}"), 5, "robot_state"},
+
+      {"NegativePadding", "name: a\nlink_padding:\n  - {link_name: cart, padding: -0.01}\n", 3, "negative"},
+      {"NanPadding", "name: a\nlink_padding:\n  - {link_name: cart, padding: .nan}\n", 3, "not a finite number"},
+      {"PaddingTwice",
+       "name: a\nlink_padding:\n  - {link_name: cart, padding: 0.1}\n  - {link_name: cart, padding: 0.1}\n", 4,
+       "given twice"},
+      {"PaddingWithoutLink", "name: a\nlink_padding:\n  - {padding: 0.1}\n", 3, "'link_name' is missing"},
       {"Scale", "name: a\nlink_scale:\n  - {link_name: cart, scale: 1.1}\n", 3, "link_scale is not supported"},
       {"Octomap", "world:\n  octomap:\n    octomap:\n      data: [1, 2]\n", 4, "octomaps are not supported"},
 

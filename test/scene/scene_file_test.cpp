@@ -284,6 +284,89 @@ TEST_F(SceneFile, multiDofJointsTakeTransforms)
   EXPECT_TRUE(poses[0].isApprox(pose(3, 4, 5, M_PI_2), 1e-15));
 }
 
+TEST_F(SceneFile, paddingIsPerLink)
+{
+  const PlanningScene scene = load(R"(
+link_padding:
+  - {link_name: pole, padding: 0.02}
+  - {link_name: cart, padding: 0.0}
+  - {link_name: crane, padding: 0.5}
+)");
+  ASSERT_EQ(scene.robot->links().size(), scene.link_padding.size());
+  for (std::size_t i = 0; i < scene.link_padding.size(); ++i)
+    EXPECT_EQ(scene.robot->links()[i].name == "pole" ? 0.02 : 0.0, scene.link_padding[i]);
+  EXPECT_TRUE(warned("no link 'crane'"));
+  EXPECT_TRUE(load("link_padding: [{link_name: pole, padding: 0.0}]").link_padding.empty());
+}
+
+TEST_F(SceneFile, planesAreTheHalfSpacesBehindThem)
+{
+  // 2 z - 1 <= 0 in MoveIt's layout, x + 3 <= 0 as bare numbers, turned to y and moved.
+  const PlanningScene scene = load(R"(
+world:
+  collision_objects:
+    - id: floor
+      primitives: [{type: sphere, dimensions: [1]}]
+      planes: [{coef: [0.0, 0.0, 2.0, -1.0]}, [1, 0, 0, 3]]
+      plane_poses:
+        - {}
+        - {position: [0, 5, 0], orientation: [0, 0, 1, 1]}
+)");
+  EXPECT_TRUE(warnings.empty());
+  const auto& shapes = scene.objects.at(0).shapes;
+  ASSERT_EQ(3u, shapes.size());
+  const HalfSpace& first = std::get<HalfSpace>(shapes[1].shape);
+  EXPECT_EQ(Eigen::Vector3d(0, 0, 1), first.normal);
+  EXPECT_EQ(0.5, first.offset);
+  const HalfSpace& second = std::get<HalfSpace>(shapes[2].shape);
+  EXPECT_EQ(Eigen::Vector3d(1, 0, 0), second.normal);
+  EXPECT_EQ(-3.0, second.offset);
+  EXPECT_TRUE(shapes[2].pose.isApprox(pose(0, 5, 0, M_PI_2), 1e-15));
+}
+
+TEST_F(SceneFile, aLonePlaneIsAnObject)
+{
+  const HalfSpace plane = std::get<HalfSpace>(
+      load("world: {collision_objects: [{id: a, planes: [[3e-200, 0, 4e-200, 5e-200]]}]}").objects[0].shapes[0].shape);
+  EXPECT_TRUE(plane.normal.isApprox(Eigen::Vector3d(0.6, 0, 0.8), 1e-15));
+  EXPECT_NEAR(-1.0, plane.offset, 1e-15);
+}
+
+TEST_F(SceneFile, linksMayCarryObjects)
+{
+  const std::string shape = "primitives: [{type: sphere, dimensions: [1]}]";
+  const PlanningScene scene = load(R"(
+robot_state:
+  joint_state: {name: [slide, turn], position: [0.5, 1.5707963267948966]}
+  attached_collision_objects:
+    - link_name: pole
+      object: {id: a, header: {frame_id: pole}, pose: {position: [1, 0, 0]}, operation: 0, )" +
+                                   shape + R"(}
+      touch_links: [cart, nut]
+      detach_posture: {joint_names: [], points: []}
+      weight: 0.0
+    - link_name: pole
+      object: {id: b, pose: {position: [1, 0, 0]}, operation: ADD, )" +
+                                   shape + R"(}
+    - link_name: pole
+      object: {id: c, header: {frame_id: rail}, pose: {position: [1, 0, 0]}, )" +
+                                   shape + R"(}
+)");
+  EXPECT_TRUE(warnings.empty()) << warnings.at(0);
+  ASSERT_EQ(3u, scene.attached.size());
+  const int pole = scene.robot->linkIndex("pole");
+  for (const AttachedObject& carried : scene.attached)
+    EXPECT_EQ(pole, carried.link);
+  EXPECT_EQ((std::vector<int>{scene.robot->linkIndex("cart"), scene.robot->linkIndex("nut")}),
+            scene.attached[0].touch_links);
+  EXPECT_TRUE(scene.attached[0].object.pose.isApprox(pose(1, 0, 0, 0), 1e-15));
+  EXPECT_TRUE(scene.attached[1].object.pose.isApprox(pose(1, 0, 0, 0), 1e-15));
+  // Half a metre in front of the pole, which is turned by 90 degrees.
+  EXPECT_TRUE(scene.attached[2].object.pose.isApprox(pose(0, -0.5, 0, -M_PI_2), 1e-15))
+      << scene.attached[2].object.pose.matrix();
+  EXPECT_EQ("c", scene.bodyName(static_cast<int>(scene.robot->links().size()) + 2));
+}
+
 TEST_F(SceneFile, equalInlineMeshesAreOneMesh)
 {
   const std::string mesh = "{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}";

@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "scene/scene_reader.h"
+#include "scene/validate_scene.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// ROS writes the message's zeros where an object's pose was never set; that pose means "none".
+bool isUnsetPose(const YamlValue& value)
+{
+  for (const char* key : {"position", "orientation"})
+  {
+    const YamlValue* part = value.find(key);
+    if (!part || part->kind() != YamlValue::Kind::Map)
+      return false;
+    for (const auto& member : part->members())
+      if (member.second.number() != 0.0)
+        return false;
+  }
+  return true;
+}
+
+void requireAdd(const YamlValue& object)
+{
+  const YamlValue* operation = object.find("operation");
+  if (!operation)
+    return;
+  std::string name = operation->text();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (name != "0" && name != "add")
+    operation->fail("operation " + operation->text() +
+                    " in a scene file; it describes a full scene, so objects can only " + "be added (0)");
+}
+
+/// The object, with its pose in the frame that its header names.
+WorldObject readObject(const YamlValue& value, SceneReader& reader)
+{
+  value.warnOfUnknownKeys({"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes", "mesh_poses",
+                           "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"},
+                          reader.warnings);
+  const YamlValue* subframes = value.find("subframe_names");
+  if (subframes && !subframes->items().empty())
+    reader.warn(subframes->where() + ": subframes are not used");
+  requireAdd(value);
+  WorldObject object;
+  object.id = value.at("id").text();
+  if (object.id.empty())
+    value.fail("an object without an id");
+  const YamlValue* pose = value.find("pose");
+  if (pose && isUnsetPose(*pose))
+    reader.warn(pose->where() + ": the pose of object '" + object.id + "' was never set; taken as no displacement");
+  else if (pose)
+    object.pose = readPose(*pose);
+  object.shapes = readShapes(value, reader);
+  if (object.shapes.empty())
+    value.fail("object '" + object.id + "' has no shapes");
+  return object;
+}
+
+/// The index of the link that `value` names.
+int readLink(const YamlValue& value, const SceneReader& reader)
+{
+  const int link = reader.robot.linkIndex(value.text());
+  if (link < 0)
+    value.fail("the robot has no link '" + value.text() + "'");
+  return link;
+}
+
+/// The pose in the link's frame of the frame that `header` (may be null) names; without a name, the link's own.
+Eigen::Isometry3d readFrameInLink(const YamlValue* header, int link, const SceneReader& reader)
+{
+  const YamlValue* frame = header ? header->find("frame_id") : nullptr;
+  const std::string& link_name = reader.robot.links()[link].name;
+  if (!frame || frame->text().empty() || frame->text() == link_name || frame->text() == "/" + link_name)
+    return Eigen::Isometry3d::Identity();
+  const Eigen::Isometry3d frame_pose = readFrame(header, reader);
+  if (reader.state.empty())
+    frame->fail("frame '" + frame->text() + "' is not that of link '" + link_name +
+                "', so the file must give the robot_state in which the link carries the object there");
+  std::vector<Eigen::Isometry3d> poses(reader.robot.links().size());
+  reader.robot.linkPoses(reader.state.data(), poses.data());
+  return poses[link].inverse() * frame_pose;
+}
+
+AttachedObject readAttached(const YamlValue& value, SceneReader& reader)
+{
+  value.warnOfUnknownKeys({"link_name", "object", "touch_links", "detach_posture", "weight"}, reader.warnings);
+  AttachedObject attached;
+  attached.link = readLink(value.at("link_name"), reader);
+  const YamlValue& object = value.at("object");
+  attached.object = readObject(object, reader);
+  if (hasHalfSpace(attached.object.shapes))
+    object.at("planes").fail("a plane cannot be carried; object '" + attached.object.id + "' belongs into the world");
+  attached.object.pose = readFrameInLink(object.find("header"), attached.link, reader) * attached.object.pose;
+  if (const YamlValue* links = value.find("touch_links"))
+    for (const YamlValue& link : links->items())
+      attached.touch_links.push_back(readLink(link, reader));
+  return attached;
+}
+
+const std::vector<YamlValue>& itemsOf(const YamlValue* parent, const char* key)
+{
+  static const std::vector<YamlValue> none;
+  const YamlValue* list = parent ? parent->find(key) : nullptr;
+  return list ? list->items() : none;
+}
+}  // namespace
+
+void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& result)
+{
+  std::set<std::string> ids;
+  const auto require_new = [&](const std::string& id, const YamlValue& value)
+  {
+    if (!ids.insert(id).second)
+      value.fail("object '" + id + "' is given twice");
+    if (reader.robot.linkIndex(id) >= 0)
+      value.fail("object '" + id + "' has the name of a link");
+  };
+  const YamlValue* world = scene.find("world");
+  if (world)
+    world->warnOfUnknownKeys({"collision_objects", "octomap"}, reader.warnings);
+  for (const YamlValue& value : itemsOf(world, "collision_objects"))
+  {
+    WorldObject object = readObject(value, reader);
+    object.pose = readFrame(value.find("header"), reader) * object.pose;
+    require_new(object.id, value);
+    result.objects.push_back(std::move(object));
+  }
+  for (const YamlValue& value : itemsOf(scene.find("robot_state"), "attached_collision_objects"))
+  {
+    AttachedObject attached = readAttached(value, reader);
+    require_new(attached.object.id, value);
+    result.attached.push_back(std::move(attached));
+  }
+}
+}  // namespace gpu_planning_scene
