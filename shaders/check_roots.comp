@@ -6,6 +6,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #define WRITES_ITEMS
 #include "items.glsl"
 #include "boxes.glsl"
+#include "error_bounds.glsl"
 #include "geometries.glsl"
 #include "counters.glsl"
 #include "verdicts.glsl"
@@ -18,11 +19,6 @@ layout(binding = UNIT_CANDIDATES) uniform usamplerBuffer candidates;
 layout(std430, binding = BINDING_OUT) writeonly buffer Items { uvec4 items[]; };
 layout(std430, binding = BINDING_OUT_2) writeonly buffer Entries { uvec4 entries[]; };
 
-float sum(vec3 v)
-{
-  return abs(v.x) + abs(v.y) + abs(v.z);
-}
-
 void main()
 {
   const uint i = invocationIndex();
@@ -32,24 +28,25 @@ void main()
   const uint state = candidate.x;
   const uint robot = pairRobot(candidate.y);
   const uint other = pairOther(candidate.y);
-  const Pose a = fetchPose(robot_poses, poseIndex(state, robot));
-  Pose b;
-  if (other < robot_count)
-    b = fetchPose(robot_poses, poseIndex(state, other));
+  const bool world = other >= robot_count;
+  Pose pose_a;
+  if (world)
+    pose_a = fetchPose(world_poses, other - robot_count);
   else
-    b = fetchPose(world_poses, other - robot_count);
-  const Pose pose = relativePose(a, b);
-  const Instance instance_a = fetchInstance(robot);
-  const Instance instance_b = fetchInstance(other);
-  const float slack = instance_a.slack + instance_b.slack;
-  const Box box_a = fetchNode(instance_a.root).box;
-  const Box box_b = fetchNode(instance_b.root).box;
-  // Both poses were rounded to float, multiplied, and are applied to points as far out as the boxes reach.
-  const float error = 16.0 * 1.1920929e-7 * (sum(a.translation) + sum(b.translation) + sum(box_a.center) + sum(box_a.extent) +
-                                             sum(box_b.center) + sum(box_b.extent));
-  if (boxesApart(box_a, box_b, pose, slack + error))
+    pose_a = fetchPose(robot_poses, poseIndex(state, other));
+  const Pose pose_b = fetchPose(robot_poses, poseIndex(state, robot));
+  const Pose pose = relativePose(pose_a, pose_b);
+  const Instance a = fetchInstance(other);
+  const Instance b = fetchInstance(robot);
+  const Box box_a = fetchNode(a.root).box;
+  const Box box_b = fetchNode(b.root).box;
+  const vec3 far_a = farCorner(box_a);
+  const float error = positionError(pose_a, pose_b, pose, far_a, farCorner(box_b));
+  const float distance = world ? a.padding + b.padding : 0.0;
+  const float gap = requiredGap(distance, a.slack + b.slack);
+  if (boxesApart(box_a, box_b, pose, gap + boxError(error)))
     return;
-  const uint inside = containment(instance_b, instance_a, pose, error) | containment(instance_a, instance_b, inversePose(pose), error);
+  const uint inside = containment(b, a, pose, boxError(error)) | containment(a, b, inversePose(pose), inverseError(error, far_a));
   if (inside != 0u)
     report(state, candidate.y, inside);
   if ((inside & STATE_HIT) != 0u)
@@ -61,8 +58,10 @@ void main()
     return;
   }
   const mat3 rows = transpose(pose.rotation);
+  const uint texel = at * ITEM_TEXELS;
   for (int row = 0; row < 3; ++row)
-    items[4u * at + uint(row)] = floatBitsToUint(vec4(rows[row], pose.translation[row]));
-  items[4u * at + 3u] = uvec4(state, candidate.y, floatBitsToUint(slack), floatBitsToUint(error));
-  entries[at] = uvec4(at, instance_a.root, instance_b.root, 0u);
+    items[texel + uint(row)] = floatBitsToUint(vec4(rows[row], pose.translation[row]));
+  items[texel + 3u] = uvec4(state, candidate.y, floatBitsToUint(error), floatBitsToUint(gap));
+  items[texel + 4u] = uvec4(floatBitsToUint(distance), 0u, 0u, 0u);
+  entries[at] = uvec4(at, a.root, b.root, 0u);
 }

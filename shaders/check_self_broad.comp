@@ -22,7 +22,7 @@ void main()
     const vec4 theirs = spheres[other * state_count + state];
     const vec3 apart = mine.xyz - theirs.xyz;
     const float reach = mine.w + theirs.w;
-    if (dot(apart, apart) <= reach * reach)
+    if (!(dot(apart, apart) > reach * reach))
       addCandidate(state, packPair(robot, other));
   }
 }

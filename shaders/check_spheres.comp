@@ -18,5 +18,5 @@ void main()
   const vec3 center = apply(fetchPose(robot_poses, poseIndex(stateOf(i), robotOf(i))), box.center);
   // 1e-5: rounding of the pose, of the product and of the comparison, relative to all lengths that enter.
   const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent));
-  spheres[i] = vec4(center, length(box.extent) + instance.slack + error);
+  spheres[i] = vec4(center, length(box.extent) + instance.slack + CONTRACT_BAND + error);
 }

@@ -26,7 +26,7 @@ void main()
   const vec3 center = apply(pose, box.center);
   const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent));
   const mat3 q = mat3(abs(pose.rotation[0]), abs(pose.rotation[1]), abs(pose.rotation[2]));
-  const vec3 extent = q * box.extent + instance.slack + error;
+  const vec3 extent = q * box.extent + instance.slack + instance.padding + CONTRACT_BAND + error;
 
   // The depth of a tree is at most BUILD_ROUNDS, and one of each two children waits.
   uint stack[BUILD_ROUNDS + 2];

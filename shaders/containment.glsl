@@ -1,6 +1,6 @@
-// Whether a shape has a part inside a solid without touching its surface: one point of each of its connected components
+// Whether a shape has a part inside a primitive without touching its surface: one point of each of its connected components
 // tells, as long as no surfaces meet, which the traversal finds.
-layout(std430, binding = BINDING_IN) readonly buffer ComponentPoints { vec4 component_points[]; };
+#include "components.glsl"
 
 // How far a point is inside a solid, in metres; negative outside, and then no further than the true distance.
 float depthInSolid(Instance solid, vec3 p)
@@ -21,16 +21,24 @@ float depthInSolid(Instance solid, vec3 p)
   return min(side * slope, p.z + size.z);
 }
 
-// STATE_HIT if a point of `inner`, placed by `pose` in the solid's frame, is inside by more than `error`;
+bool isPrimitive(Instance instance)
+{
+  return instance.kind != SOLID_NONE && instance.kind != SOLID_MESH;
+}
+
+// STATE_HIT if a point of `inner`, placed by `pose` in the primitive's frame, is inside by more than `error`;
 // STATE_UNDECIDED if one is within the error, or if there are too many components to look at; else 0.
 uint containment(Instance inner, Instance solid, Pose pose, float error)
 {
-  if (solid.kind == SOLID_NONE)
+  if (!isPrimitive(solid))
     return 0u;
-  if (inner.point_count == 0u)
+  if (inner.component_count == 0u)
     return STATE_UNDECIDED;
-  float depth = -3.4e38;
-  for (uint i = 0u; i < inner.point_count; ++i)
-    depth = max(depth, depthInSolid(solid, apply(pose, component_points[inner.first_point + i].xyz)));
-  return depth > error ? STATE_HIT : (depth > -error ? STATE_UNDECIDED : 0u);
+  uint found = 0u;
+  for (uint i = 0u; i < inner.component_count; ++i)
+  {
+    const float depth = depthInSolid(solid, apply(pose, componentPoint(inner.first_component + i)));
+    found |= depth > error ? STATE_HIT : (depth < -error ? 0u : STATE_UNDECIDED);
+  }
+  return found;
 }

@@ -1,13 +1,14 @@
 // The instances of trees: robot instances first, then the world's.
 struct Instance
 {
-  uint root;         // node
-  float slack;       // the true surface lies at most this much outside of the triangles, metres
-  uint first_point;  // of its components, see containment.glsl
-  uint point_count;  // 0: too many
-  vec3 core;         // half edge lengths of a box around the shape's origin that lies within its solid; negative: there is none
-  uint kind;         // SOLID_*
-  vec3 size;         // of the solid: half edge lengths of a box; radius, radius, half length of the others
+  uint root;             // node
+  float slack;           // the true surface lies at most this much outside of the triangles, metres
+  uint first_component;  // of its shape, see components.glsl
+  uint component_count;  // 0: too many
+  vec3 core;             // half edge lengths of a box around the shape's origin that lies within its solid; negative: there is none
+  uint kind;             // SOLID_*
+  vec3 size;             // of the solid: half edge lengths of a box; radius, radius, half length of the others
+  float padding;         // metres
 };
 
 layout(std430, binding = BINDING_GEOMETRIES) readonly buffer Instances { uvec4 instances[]; };  // three each
@@ -17,7 +18,7 @@ Instance fetchInstance(uint index)
   const uvec4 a = instances[3u * index];
   const uvec4 b = instances[3u * index + 1u];
   const uvec4 c = instances[3u * index + 2u];
-  return Instance(a.x, uintBitsToFloat(a.y), a.z, a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz));
+  return Instance(a.x, uintBitsToFloat(a.y), a.z, a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), uintBitsToFloat(c.w));
 }
 
 uint packPair(uint robot, uint other)

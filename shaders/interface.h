@@ -51,22 +51,41 @@
 #define BINDING_IN 6
 #define BINDING_IN_2 7
 
+// What float32 is trusted with, see docs/error_bounds.md. The relative error of one operation in any rounding mode; the
+// distance within which the contract leaves the answer to one canonical computation on the CPU (1e-9 m) and some.
+#define UNIT_ROUNDOFF 1.1920929e-7
+#define CONTRACT_BAND 1.1e-9
+
+// 0 on a device whose arithmetic is not as assumed: then no triangle test proves anything.
+#ifndef FLOATS_DECIDE
+#define FLOATS_DECIDE 1
+#endif
+
+// 1 in the programs that test triangles for a required distance.
+#ifndef PADDED
+#define PADDED 0
+#endif
+
 #define STATE_HIT 1u
 #define STATE_UNDECIDED 2u
 
-// What an instance's shape is: a mesh is a surface, the others are solids.
+// What an instance's shape is: a mesh without closed components is a surface, the others are solids.
 #define SOLID_NONE 0u
 #define SOLID_BOX 1u
 #define SOLID_SPHERE 2u
 #define SOLID_CYLINDER 3u
 #define SOLID_CONE 4u
+#define SOLID_MESH 5u
 // A mesh of more connected components than this is not looked into for containment on the GPU.
-#define MAX_COMPONENTS 64
+#define MAX_COMPONENTS 1024
 
 // A pair of instances in one uint: a robot instance, and a robot instance or (robot count + a world instance).
 #define PAIR_OTHER_BITS 20
 #define MAX_ROBOT_GEOMETRIES (1 << 12)
 #define MAX_GEOMETRIES (1 << PAIR_OTHER_BITS)
+
+// An item's texels, see items.glsl.
+#define ITEM_TEXELS 5
 
 // Counters, in uints. Each list has a count and, before each dispatch over it, indirect arguments.
 #define COUNTER_CANDIDATES 0

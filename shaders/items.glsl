@@ -1,5 +1,6 @@
-// An item is a pair of tree instances in one state, whose root boxes overlap. Four texels: the rows of b's pose in a's
-// frame, then state, pair, slack and error.
+// An item is a pair of tree instances in one state, whose root boxes overlap. Five texels: the rows of b's pose in a's
+// frame; state, pair, error and gap; the required distance. a is the pair's second instance (of a robot and a world
+// instance the world's, so that it is the smaller shape whose points are moved), b its first.
 #include "pose.glsl"
 
 struct Item
@@ -7,8 +8,8 @@ struct Item
   Pose pose;
   uint state;
   uint pair;
-  float slack;  // the true surfaces lie at most this much outside of the triangles, metres (sum of both)
-  float error;  // bound on the displacement of b's points by rounding, metres
+  float error;  // bound on the displacement of b's points against a's by rounding, metres
+  float gap;    // triangles that are further apart than this do not make the pair collide, metres
 };
 
 #ifndef WRITES_ITEMS
@@ -16,10 +17,16 @@ layout(binding = UNIT_ITEMS) uniform usamplerBuffer item_texels;
 
 Item fetchItem(uint index)
 {
-  const int at = int(4u * index);
+  const int at = int(index) * ITEM_TEXELS;
   const uvec4 tail = texelFetch(item_texels, at + 3);
   const Pose pose = poseFromRows(uintBitsToFloat(texelFetch(item_texels, at)), uintBitsToFloat(texelFetch(item_texels, at + 1)),
                                  uintBitsToFloat(texelFetch(item_texels, at + 2)));
   return Item(pose, tail.x, tail.y, uintBitsToFloat(tail.z), uintBitsToFloat(tail.w));
+}
+
+// At a distance up to this one, in metres, the pair collides.
+float fetchDistance(uint index)
+{
+  return uintBitsToFloat(texelFetch(item_texels, int(index) * ITEM_TEXELS + 4).x);
 }
 #endif

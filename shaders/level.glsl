@@ -4,6 +4,7 @@
 // leave for a list of their own.
 #include "items.glsl"
 #include "boxes.glsl"
+#include "error_bounds.glsl"
 #include "counters.glsl"
 layout(location = 0) uniform uint in_counter;
 layout(location = 1) uniform uint out_counter;

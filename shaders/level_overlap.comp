@@ -24,8 +24,8 @@ void main()
     const TreeNode a = fetchNode(entry.y);
     const TreeNode b = fetchNode(entry.z);
     const uint children = isDecided(item.state) ? 0u : childrenOf(a, b);
-    const vec3 core_a = fetchInstance(pairRobot(item.pair)).core;
-    const vec3 core_b = fetchInstance(pairOther(item.pair)).core;
+    const vec3 core_a = fetchInstance(pairOther(item.pair)).core;
+    const vec3 core_b = fetchInstance(pairRobot(item.pair)).core;
     bool inside = false;
     uint mask = 0u;
     for (uint c = 0u; c < 4u; ++c)
@@ -33,8 +33,8 @@ void main()
       const uvec2 nodes = childPair(entry.yz, a, b, c);
       const TreeNode child_a = fetchNode(nodes.x);
       const TreeNode child_b = fetchNode(nodes.y);
-      const bool apart = boxesApart(child_a.box, child_b.box, item.pose, item.slack + item.error);
-      inside = inside || boxInCore(child_a.box, child_b.box, core_a, core_b, item.pose, item.error);
+      const bool apart = boxesApart(child_a.box, child_b.box, item.pose, item.gap + boxError(item.error));
+      inside = inside || boxInCore(child_a.box, child_b.box, core_a, core_b, item.pose, boxError(item.error));
       const bool leaves = child_a.count != 0u && child_b.count != 0u;
       if (!apart && (children >> c & 1u) != 0u)
         mask |= (leaves ? 16u : 1u) << c;

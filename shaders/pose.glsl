@@ -20,14 +20,17 @@ Pose fetchPose(usamplerBuffer poses, uint index)
 
 vec3 apply(Pose pose, vec3 point)
 {
-  return pose.rotation * point + pose.translation;
+  precise const vec3 turned = pose.rotation * point;
+  precise const vec3 moved = turned + pose.translation;
+  return moved;
 }
 
 // The pose of b in a's frame, both given in the same frame.
 Pose relativePose(Pose a, Pose b)
 {
   const mat3 inverse = transpose(a.rotation);
-  return Pose(inverse * b.rotation, inverse * (b.translation - a.translation));
+  precise const vec3 between = b.translation - a.translation;
+  return Pose(inverse * b.rotation, inverse * between);
 }
 
 Pose inversePose(Pose pose)

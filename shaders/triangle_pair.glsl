@@ -1,52 +1,55 @@
-// Two triangles: proven to meet (STATE_HIT), proven to be apart (0), or undecided (STATE_UNDECIDED).
-// a and b are the corners in one frame, metres. Uses the six distances of corners to the other's plane and the nine
-// volumes that an edge of a spans with an edge of b (Devillers and Guigue 2002 decide by their signs):
-// a hit is an edge that pierces the other triangle, apart is a separating axis out of the two normals and the nine
-// products of edges. Signs count only beyond a bound on the rounding: `error` metres for the position of b against a, and
-// a few units of 2^-23 for the arithmetic. Apart also needs a gap of more than `slack` metres. Degenerate and coplanar
-// triangles come out undecided or apart, never hit.
-uint trianglePair(vec3 a[3], vec3 b[3], float error, float slack)
+// Two triangles: proven to meet (STATE_HIT), proven to be more than `gap` apart (0), or undecided (STATE_UNDECIDED).
+// a and b are the corners in one frame, metres; b's are off by at most `error` against a's. Uses the six distances of
+// corners to the other's plane and the nine volumes that an edge of a spans with an edge of b (Devillers and Guigue 2002
+// decide by their signs): a hit is an edge that pierces the other triangle, apart is a separating axis out of the two
+// normals and the nine products of edges. A sign counts only beyond the bound on what it may be off by, and an axis, which
+// need not be exact, only if all corners lie on their sides of it (docs/error_bounds.md). Comparisons are written so that
+// a value that is no number proves nothing.
+uint trianglePair(vec3 a[3], vec3 b[3], float error, float gap)
 {
-  const float u = 1.1920929e-7;
-  // Everything relative to a's first corner: differences of close numbers lose nothing.
-  const vec3 ea[3] = vec3[3](a[1] - a[0], a[2] - a[1], a[0] - a[2]);
-  const vec3 eb[3] = vec3[3](b[1] - b[0], b[2] - b[1], b[0] - b[2]);
-  const vec3 na = cross(ea[0], ea[1]);
-  const vec3 nb = cross(eb[0], eb[1]);
-
-  float length_a = 0.0;
-  float length_b = 0.0;
-  float reach = 0.0;  // the largest distance between corners that enters a product
-  float scale = 0.0;  // the largest coordinate: edges of b carry its rounding
+  precise vec3 r[3];  // b's corners from a's first: differences of close numbers lose nothing
+  precise vec3 ea[3];
+  precise vec3 eb[3];
+  float squared_a = 0.0;
+  float squared_b = 0.0;
+  float squared_r = 0.0;
   for (int i = 0; i < 3; ++i)
   {
-    const vec3 r = b[i] - a[0];
-    length_a = max(length_a, dot(ea[i], ea[i]));
-    length_b = max(length_b, dot(eb[i], eb[i]));
-    reach = max(reach, dot(r, r));
-    const vec3 size = max(abs(a[i]), abs(b[i]));
-    scale = max(scale, max(size.x, max(size.y, size.z)));
+    const int next = (i + 1) % 3;
+    r[i] = b[i] - a[0];
+    ea[i] = a[next] - a[i];
+    eb[i] = b[next] - b[i];
+    squared_a = max(squared_a, dot(ea[i], ea[i]));
+    squared_b = max(squared_b, dot(eb[i], eb[i]));
+    squared_r = max(squared_r, dot(r[i], r[i]));
   }
-  length_a = sqrt(length_a);
-  length_b = sqrt(length_b);
-  reach = sqrt(reach) + length_a + length_b;
-  const float offset = error + 16.0 * u * reach;  // of a point from a plane, per unit of the normal's longest edges
-  const float turn = 8.0 * u * scale * reach;     // what the rounding of b's edges adds, per edge of the other factor
-  const float error_b = length_a * (length_a * offset);
-  const float error_a = length_b * (length_b * offset + 2.0 * turn);
-  const float error_v = length_a * (length_b * offset + turn);
-  const float error_span = u * length_a * (length_b * (4.0 * length_b + 32.0 * scale) + length_a * (4.0 * length_b + 8.0 * scale));
+  precise const vec3 na = cross(ea[0], ea[1]);
+  precise const vec3 nb = cross(eb[0], eb[1]);
 
-  float da[3];
-  float db[3];
+  // The longest edges, and the longest way between corners; as long as the true ones may be.
+  const float length_a = sqrt(squared_a) * (1.0 + 8.0 * u) + error;
+  const float length_b = sqrt(squared_b) * (1.0 + 8.0 * u) + 2.0 * error;
+  const float reach = sqrt(squared_r) * (1.0 + 8.0 * u) + length_a + length_b + error;
+  // Of a corner of b above a's plane, of a corner of a above b's plane, and of a volume.
+  const float round_off = 10.0 * u * reach;
+  const float error_b = length_a * (error * (reach + length_a) + round_off * length_a) + TINY;
+  const float error_a = length_b * (error * (4.0 * reach + length_b) + round_off * length_b) + TINY;
+  const float error_v = error * (reach * (0.5 * length_b + 2.0 * length_a) + length_a * length_b) + round_off * length_a * length_b + TINY;
+  // What all corners together must be beyond an axis of length 1, and what the axes are askew by.
+  const float beyond = (error + gap + 6.0 * u * reach) * (1.0 + 16.0 * u);
+  const float error_span = 20.0 * u * length_a * length_b * (length_a + length_b) + TINY;
+
+  precise float da[3];
+  precise float db[3];
   for (int i = 0; i < 3; ++i)
   {
     da[i] = dot(nb, a[i] - b[0]);
-    db[i] = dot(na, b[i] - a[0]);
+    db[i] = dot(na, r[i]);
   }
-  const float gap_a = max(min(da[0], min(da[1], da[2])), -max(da[0], max(da[1], da[2]))) - error_a - slack * length(nb);
-  const float gap_b = max(min(db[0], min(db[1], db[2])), -max(db[0], max(db[1], db[2]))) - error_b - slack * length(na);
-  bool apart = gap_a > 0.0 || gap_b > 0.0;
+  const float gap_a = max(min(da[0], min(da[1], da[2])), -max(da[0], max(da[1], da[2])));
+  const float gap_b = max(min(db[0], min(db[1], db[2])), -max(db[0], max(db[1], db[2])));
+  bool apart = gap_a > beyond * length(nb) + 3.0 * u * length_b * length_b * length_b + TINY ||
+               gap_b > beyond * length(na) + 3.0 * u * length_a * length_a * length_a + TINY;
   bool hit = false;
 
   // One bit per edge pair for the sign of its volume, where it is certain.
@@ -55,16 +58,16 @@ uint trianglePair(vec3 a[3], vec3 b[3], float error, float slack)
   for (int i = 0; i < 3; ++i)
   {
     const int i1 = (i + 1) % 3;
-    const float span_b = dot(nb, ea[i]);  // b's extent along the product of edges, from edge j to the corner opposite
+    precise const float span_b = dot(nb, ea[i]);  // b's extent along the product of edges, from edge j to the corner opposite
     bool all_above = true;
     bool all_below = true;
     for (int j = 0; j < 3; ++j)
     {
-      const vec3 axis = cross(ea[i], eb[j]);
-      const float volume = dot(axis, b[j] - a[i]);
-      const float span_a = -dot(na, eb[j]);  // the same of a
+      precise const vec3 axis = cross(ea[i], eb[j]);
+      precise const float volume = dot(axis, b[j] - a[i]);
+      precise const float span_a = -dot(na, eb[j]);  // the same of a
       const float separation = max(volume + min(0.0, span_b) - max(0.0, span_a), min(0.0, span_a) - volume - max(0.0, span_b));
-      apart = apart || separation > error_v + error_span + slack * length(axis);
+      apart = apart || separation > beyond * length(axis) + error_span;
       all_above = all_above && volume > error_v;
       all_below = all_below && volume < -error_v;
       b_edge_above[j] = b_edge_above[j] && volume > error_v;

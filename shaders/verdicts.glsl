@@ -10,6 +10,9 @@ bool isDecided(uint state)
 // `found`: STATE_* bits. Any hit may be the one that is reported.
 void report(uint state, uint pair, uint found)
 {
+#if !FLOATS_DECIDE
+  found = STATE_UNDECIDED;
+#endif
   if ((found & STATE_HIT) != 0u)
     hits[state] = pair;
   atomicOr(flags[state], found);

@@ -10,6 +10,7 @@ layout(local_size_x = QUEUE_LANES) in;
 #include "common.glsl"
 #include "items.glsl"
 #include "boxes.glsl"
+#include "error_bounds.glsl"
 #include "instances.glsl"
 #include "descend.glsl"
 #include "counters.glsl"
@@ -88,16 +89,16 @@ void main()
       item_index = entry.x;
       item = fetchItem(item_index);
       nodes = entry.yz;
-      core_a = fetchInstance(pairRobot(item.pair)).core;
-      core_b = fetchInstance(pairOther(item.pair)).core;
+      core_a = fetchInstance(pairOther(item.pair)).core;
+      core_b = fetchInstance(pairRobot(item.pair)).core;
     }
     bool inside = false;
     for (uint step = 0u; step < QUEUE_STEPS && walking && !inside && waiting + leaves < QUEUE_STACK; ++step)
     {
       const TreeNode a = fetchNode(nodes.x);
       const TreeNode b = fetchNode(nodes.y);
-      const bool overlap = !boxesApart(a.box, b.box, item.pose, item.slack + item.error);
-      inside = boxInCore(a.box, b.box, core_a, core_b, item.pose, item.error);
+      const bool overlap = !boxesApart(a.box, b.box, item.pose, item.gap + boxError(item.error));
+      inside = boxInCore(a.box, b.box, core_a, core_b, item.pose, boxError(item.error));
       const bool leaf = a.count != 0u && b.count != 0u;
       const bool into_a = descendsIntoA(a, b);
       const uvec2 first = into_a ? uvec2(a.first, nodes.y) : uvec2(nodes.x, b.first);

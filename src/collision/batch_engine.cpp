@@ -13,6 +13,16 @@ namespace
 {
 /// Large enough that threads do not meet often, small enough that they end together.
 constexpr std::size_t kStatesPerChunk = 256;
+
+/// Of the second one of a reported pair, see GpuPairChecker::pairOf.
+std::int32_t otherBody(const CollisionProblem& problem, std::size_t index)
+{
+  if (index < problem.robot.size())
+    return problem.robot[index].body;
+  index -= problem.robot.size();
+  return index < problem.world.size() ? problem.world[index].body
+                                      : problem.half_spaces[index - problem.world.size()].body;
+}
 }  // namespace
 
 BatchEngine::BatchEngine(const BatchCheckerOptions& options) : max_batch_(options.max_batch), gl_(options.device)
@@ -55,7 +65,6 @@ void BatchEngine::selectPairs(std::shared_ptr<const CollisionProblem> problem)
 void BatchEngine::check(std::size_t count, std::size_t link_count, const LinkPoses& link_poses, BatchResult& result)
 {
   const std::vector<Geometry>& robot = problem_->robot;
-  const std::vector<Geometry>& world = problem_->world;
   result.valid.assign(count, 1);
   result.colliding.assign(count, {-1, -1});
   std::vector<std::size_t> undecided;
@@ -71,7 +80,7 @@ void BatchEngine::check(std::size_t count, std::size_t link_count, const LinkPos
       {
         const auto [a, b] = GpuPairChecker::pairOf(verdicts.hits[i]);
         result.valid[begin + i] = 0;
-        result.colliding[begin + i] = {robot[a].body, b < robot.size() ? robot[b].body : world[b - robot.size()].body};
+        result.colliding[begin + i] = {robot[a].body, otherBody(*problem_, b)};
       }
       else if (verdicts.flags[i] & STATE_UNDECIDED)
         undecided.push_back(begin + i);
@@ -82,7 +91,8 @@ void BatchEngine::check(std::size_t count, std::size_t link_count, const LinkPos
     settleOnCpu(undecided, link_count, link_poses, result);
 }
 
-/// The poses of all robot instances as GpuPairChecker takes them: kinematics in double, each pose rounded once.
+/// The poses of all robot instances as GpuPairChecker takes them: kinematics in double, each pose brought near the
+/// origin and rounded once.
 std::vector<float> BatchEngine::instancePoses(std::size_t begin, std::size_t count, std::size_t link_count,
                                               const LinkPoses& link_poses) const
 {
@@ -95,8 +105,11 @@ std::vector<float> BatchEngine::instancePoses(std::size_t begin, std::size_t cou
               {
                 link_poses(begin + i, links.data());
                 for (std::size_t k = 0; k < instances.size(); ++k)
-                  writePoseRows(links[static_cast<std::size_t>(instances[k].link)] * instances[k].pose,
-                                &poses[(i * instances.size() + k) * 12]);
+                {
+                  Eigen::Isometry3d pose = links[static_cast<std::size_t>(instances[k].link)] * instances[k].pose;
+                  pose.translation() -= problem_->origin;
+                  writePoseRows(pose, &poses[(i * instances.size() + k) * 12]);
+                }
               }
             });
   return poses;

@@ -39,6 +39,8 @@ class BatchEngine
   void check(std::size_t count, std::size_t link_count, const LinkPoses& link_poses, BatchResult& result);
 
   const Device& device() const { return gl_.device(); }
+  /// See GpuPairChecker.
+  const std::string& floatFault() const { return pairs_->floatFault(); }
 
  private:
   std::vector<float> instancePoses(std::size_t begin, std::size_t count, std::size_t link_count,

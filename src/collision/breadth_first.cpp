@@ -14,19 +14,20 @@ constexpr std::size_t offsetOf(std::size_t counter)
 }
 }  // namespace
 
-BreadthFirst::BreadthFirst(const std::string& folder, const ListCapacities& capacities)
+BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definitions, const ListCapacities& capacities)
   : arguments_(folder),
-    overlap_(folder, "level_overlap.comp"),
+    overlap_(folder, "level_overlap.comp", definitions),
     scan_(folder, "level_scan.comp"),
-    expand_(folder, "level_expand.comp"),
-    triangles_(folder, "level_triangles.comp"),
+    expand_(folder, "level_expand.comp", definitions),
+    triangles_(folder, "level_triangles.comp", definitions),
+    padded_triangles_(folder, "level_triangles.comp", definitions + kPadded),
     masks_(std::size_t{capacities.node_pairs} * 4),
     sums_((std::size_t{capacities.node_pairs} / LEVEL_CHUNK + 1) * 8)
 {
   leaf_pairs_.reserve(std::size_t{capacities.leaf_pairs} * 16);
 }
 
-bool BreadthFirst::run(BatchLists& lists, std::uint32_t levels)
+bool BreadthFirst::run(BatchLists& lists, std::uint32_t levels, bool padded)
 {
   const std::uint32_t capacity = lists.capacity.node_pairs;
   const auto chunk_lanes = std::uint32_t{LEVEL_CHUNK} * GROUP_SIZE;
@@ -56,7 +57,7 @@ bool BreadthFirst::run(BatchLists& lists, std::uint32_t levels)
     lists.node_pairs[1 - level % 2].buffer().bindStorage(BINDING_IN);
     leaf_pairs_.buffer().bindStorage(BINDING_IN_2);
     expand_.dispatchIndirect(lists.counters, offsetOf(COUNTER_CHUNK_ARGUMENTS));
-    triangles_.dispatchIndirect(lists.counters, offsetOf(COUNTER_LEAF_ARGUMENTS));
+    (padded ? padded_triangles_ : triangles_).dispatchIndirect(lists.counters, offsetOf(COUNTER_LEAF_ARGUMENTS));
     in_counter = out_counter;
   }
   std::array<std::uint32_t, COUNTER_WORDS> counters{};

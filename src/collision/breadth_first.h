@@ -10,12 +10,12 @@ namespace gpu_planning_scene
 class BreadthFirst : public GpuTraversal
 {
  public:
-  BreadthFirst(const std::string& shader_folder, const ListCapacities& capacities);
-  bool run(BatchLists& lists, std::uint32_t levels) override;
+  BreadthFirst(const std::string& shader_folder, const std::string& definitions, const ListCapacities& capacities);
+  bool run(BatchLists& lists, std::uint32_t levels, bool padded) override;
 
  private:
   ArgumentsKernel arguments_;
-  Program overlap_, scan_, expand_, triangles_;
+  Program overlap_, scan_, expand_, triangles_, padded_triangles_;
   Buffer masks_, sums_;
   TexelBuffer leaf_pairs_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"
 #include "interface.h"
 
@@ -33,16 +34,20 @@ ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
 
 GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, std::size_t max_states,
                                const ListCapacities& capacities)
-  : scene_(folder),
+  : float_fault_(findFloatFault(folder)),
+    definitions_(float_fault_.empty() ? "" : "#define FLOATS_DECIDE 0\n"),
+    scene_(folder),
     max_states_(std::max<std::size_t>(1, max_states)),
     part_(max_states_),
     lists_(withDefaults(capacities, max_states_)),
-    traversal_(makeTraversal(traversal, folder, lists_.capacity)),
+    traversal_(makeTraversal(traversal, folder, definitions_, lists_.capacity)),
     arguments_(folder),
     spheres_program_(folder, "check_spheres.comp"),
     self_program_(folder, "check_self_broad.comp"),
     world_program_(folder, "check_world_broad.comp"),
-    roots_program_(folder, "check_roots.comp")
+    roots_program_(folder, "check_roots.comp", definitions_),
+    half_spaces_program_(folder, "check_half_spaces.comp", definitions_),
+    inside_program_(folder, "check_inside.comp", definitions_)
 {
 }
 
@@ -113,11 +118,27 @@ bool GpuPairChecker::runBatch(const float* poses, std::size_t count)
   lists_.flags.bindStorage(BINDING_FLAGS);
   lists_.hits.bindStorage(BINDING_HITS);
 
+  testHalfSpaces(static_cast<std::uint32_t>(count));
   findCandidates(static_cast<std::uint32_t>(count));
   testRoots();
-  const bool finished = traversal_->run(lists_, scene_.depthBound());
+  const bool finished = traversal_->run(lists_, scene_.depthBound(), scene_.isPadded());
+  if (finished)
+    testContainment();
   checkGl("a batch");
   return finished;
+}
+
+void GpuPairChecker::testHalfSpaces(std::uint32_t states)
+{
+  if (scene_.halfSpaceCount() == 0)
+    return;
+  half_spaces_program_.set(0, states);
+  half_spaces_program_.set(1, scene_.robotCount());
+  half_spaces_program_.set(2, scene_.halfSpaceCount());
+  half_spaces_program_.set(3, scene_.worldCount());
+  scene_.halfSpaces().bindStorage(BINDING_IN);
+  scene_.halfSpacePairs().bindStorage(BINDING_IN_2);
+  half_spaces_program_.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
 }
 
 void GpuPairChecker::findCandidates(std::uint32_t states)
@@ -154,9 +175,23 @@ void GpuPairChecker::testRoots()
   arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, kNoLimit, COUNTER_UNUSED);
   roots_program_.set(2, lists_.capacity.candidates);
   roots_program_.set(3, lists_.capacity.items);
-  scene_.componentPoints().bindStorage(BINDING_IN);
+  scene_.components().bindStorage(BINDING_IN);
   lists_.items.buffer().bindStorage(BINDING_OUT);
   lists_.node_pairs[0].buffer().bindStorage(BINDING_OUT_2);
   roots_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
+}
+
+/// Of meshes in meshes and of primitives in meshes; what primitives contain, testRoots has seen.
+void GpuPairChecker::testContainment()
+{
+  if (!scene_.hasMeshSolids())
+    return;
+  arguments_.prepare(COUNTER_ITEMS, lists_.capacity.items, GROUP_SIZE, kNoLimit, COUNTER_UNUSED);
+  inside_program_.set(2, lists_.capacity.items);
+  inside_program_.set(3, scene_.firstWorldPrimitive());
+  scene_.components().bindStorage(BINDING_IN);
+  scene_.leafOrder().bindStorage(BINDING_OUT);
+  scene_.solidTriangles().bindStorage(BINDING_OUT_2);
+  inside_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
 }
 }  // namespace gpu_planning_scene

@@ -33,26 +33,34 @@ class GpuPairChecker
   void selectPairs(const CollisionProblem& problem);
   const GpuScene& scene() const { return scene_; }
 
+  /// What is wrong with the device's float arithmetic, in one line; then every triangle test leaves its state
+  /// undecided. Empty where it is as docs/error_bounds.md assumes.
+  const std::string& floatFault() const { return float_fault_; }
+
   /// `poses`: state by state, 12 floats for each robot instance (writePoseRows), relative to the frame of the world's
   /// poses. A part of the batch whose lists overflow is split; a single state that still overflows is undecided.
   void check(const float* poses, std::size_t count, Verdicts& verdicts);
 
-  /// Indices of the instances of a reported pair: into CollisionProblem::robot, and robot followed by world.
+  /// Indices of a reported pair: into CollisionProblem::robot, and into robot, world and half-spaces in succession.
   static std::pair<std::uint32_t, std::uint32_t> pairOf(std::uint32_t hit);
 
  private:
   void checkPart(const float* poses, std::size_t begin, std::size_t count, Verdicts& verdicts);
   bool runBatch(const float* poses, std::size_t count);
+  void testHalfSpaces(std::uint32_t states);
   void findCandidates(std::uint32_t states);
   void testRoots();
+  void testContainment();
 
+  std::string float_fault_;
+  std::string definitions_;  // of the programs that test triangles
   GpuScene scene_;
   std::size_t max_states_;
   std::size_t part_;  // states that go to the GPU at once: fewer than max_states_ after an overflow
   BatchLists lists_;
   std::unique_ptr<GpuTraversal> traversal_;
   ArgumentsKernel arguments_;
-  Program spheres_program_, self_program_, world_program_, roots_program_;
+  Program spheres_program_, self_program_, world_program_, roots_program_, half_spaces_program_, inside_program_;
   TexelBuffer poses_;
   Buffer spheres_;
 };

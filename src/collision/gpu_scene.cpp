@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "collision/components.h"
+#include "collision/primitive_solid.h"
 #include "gpu_planning_scene/error.h"
 #include "interface.h"
 
@@ -27,15 +28,15 @@ Eigen::AlignedBox3d localBounds(const Tessellation& tree)
   return {box.min() - sagitta, box.max() + sagitta};
 }
 
-/// A box that holds `box` moved by `pose`, rounded outward to float.
-Eigen::AlignedBox3f movedBounds(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& pose)
+/// A box that holds `box` moved by `pose` and grown by `padding`, rounded outward to float.
+Eigen::AlignedBox3f movedBounds(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& pose, double padding)
 {
   const Eigen::Vector3d center = pose * box.center();
   const Eigen::Vector3d half = pose.linear().cwiseAbs() * (box.sizes() / 2.0);
   Eigen::AlignedBox3f moved;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double slop = 1e-12 * (std::abs(center[axis]) + half[axis]);
+    const double slop = padding + 1e-12 * (std::abs(center[axis]) + half[axis]);
     moved.min()[axis] =
         std::nextafter(static_cast<float>(center[axis] - half[axis] - slop), -std::numeric_limits<float>::infinity());
     moved.max()[axis] =
@@ -49,12 +50,12 @@ struct InstanceRecord
 {
   std::uint32_t root;
   float slack;
-  std::uint32_t first_point;
-  std::uint32_t point_count;
+  std::uint32_t first_component;
+  std::uint32_t component_count;
   std::array<float, 3> core;
   std::uint32_t kind;
   std::array<float, 3> size;
-  std::uint32_t unused;
+  float padding;
 };
 static_assert(sizeof(InstanceRecord) == 48, "three uvec4");
 
@@ -95,6 +96,17 @@ void describeSolid(const Shape& shape, InstanceRecord& record)
   }
 }
 
+/// A bit for each flag, 32 to a word.
+void writeBits(const std::vector<std::uint8_t>& flags, Buffer& buffer)
+{
+  std::vector<std::uint32_t> bits(flags.size() / 32 + 1, 0);
+  for (std::size_t i = 0; i < flags.size(); ++i)
+    if (flags[i])
+      bits[i / 32] |= 1U << (i % 32);
+  buffer.reserve(bits.size() * sizeof(std::uint32_t));
+  buffer.write(bits);
+}
+
 bool sameShapes(const std::vector<Shape>& a, const std::vector<Shape>& b)
 {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), sameShape);
@@ -127,7 +139,8 @@ void writePoseRows(const Eigen::Isometry3d& pose, float* rows)
 
 void GpuScene::setProblem(const CollisionProblem& problem)
 {
-  if (problem.robot.size() > MAX_ROBOT_GEOMETRIES || problem.robot.size() + problem.world.size() > MAX_GEOMETRIES)
+  if (problem.robot.size() > MAX_ROBOT_GEOMETRIES ||
+      problem.robot.size() + problem.world.size() + problem.half_spaces.size() > MAX_GEOMETRIES)
     throw Error(std::to_string(problem.robot.size()) + " shapes of the robot and " +
                 std::to_string(problem.world.size()) + " of the world are more than " +
                 std::to_string(MAX_ROBOT_GEOMETRIES) + " and " + std::to_string(MAX_GEOMETRIES) + "; merge meshes");
@@ -136,6 +149,7 @@ void GpuScene::setProblem(const CollisionProblem& problem)
   buildShapeTrees(problem);
   buildWorldTree(problem);
   writeGeometries(problem);
+  writeHalfSpaces(problem);
   selectPairs(problem);
 }
 
@@ -165,6 +179,7 @@ void GpuScene::buildShapeTrees(const CollisionProblem& problem)
     first_triangle_.push_back(triangle);
     triangle += static_cast<std::uint32_t>(tree.mesh->triangles.size());
   }
+  triangle_count_ = triangle;
 }
 
 std::uint32_t GpuScene::rootOf(std::size_t tree) const
@@ -173,28 +188,41 @@ std::uint32_t GpuScene::rootOf(std::size_t tree) const
   return static_cast<std::uint32_t>(tree < robot_trees ? tree : shape_region_.first_node + tree - robot_trees);
 }
 
+/// The components of all trees as shaders/components.glsl reads them, and which triangles bound solids.
+GpuScene::ComponentRanges GpuScene::writeComponents(const CollisionProblem& problem)
+{
+  std::vector<std::array<float, 4>> records;
+  std::vector<std::uint8_t> bounds_solid(triangle_count_, 0);
+  ComponentRanges ranges;
+  has_mesh_solids_ = false;
+  for (std::size_t tree = 0; tree < trees_; ++tree)
+  {
+    const MeshComponents parts = findComponents(*problem.trees[tree].mesh);
+    const bool known = parts.components.size() <= MAX_COMPONENTS;
+    ranges.push_back({static_cast<std::uint32_t>(records.size() / 3),
+                      known ? static_cast<std::uint32_t>(parts.components.size()) : 0U,
+                      isMesh(problem.shapes[tree]) && parts.hasSolid()});
+    has_mesh_solids_ = has_mesh_solids_ || ranges.back().mesh_solid;
+    if (known)
+      for (const Component& part : parts.components)
+        for (const Eigen::Vector3d& vector :
+             {part.point, Eigen::Vector3d(part.bounds.center()), Eigen::Vector3d(part.bounds.sizes() / 2.0)})
+        {
+          const Eigen::Vector3f rounded = vector.cast<float>();
+          records.push_back({rounded.x(), rounded.y(), rounded.z(), 0.0F});
+        }
+    std::copy(parts.bounds_solid.begin(), parts.bounds_solid.end(), bounds_solid.begin() + first_triangle_[tree]);
+  }
+  components_.reserve(records.size() * sizeof(records.front()));
+  components_.write(records);
+  writeBits(bounds_solid, solid_triangles_);
+  return ranges;
+}
+
 void GpuScene::writeGeometries(const CollisionProblem& problem)
 {
-  // One point of each component of each tree.
-  std::vector<std::array<float, 4>> points;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> points_of;
-  for (const Tessellation& tree : problem.trees)
-  {
-    std::vector<Eigen::Vector3d> found;
-    for (const Component& part : findComponents(*tree.mesh).components)
-      found.push_back(part.point);
-    if (found.size() > MAX_COMPONENTS)
-      found.clear();
-    points_of.emplace_back(static_cast<std::uint32_t>(points.size()), static_cast<std::uint32_t>(found.size()));
-    for (const Eigen::Vector3d& point : found)
-    {
-      const Eigen::Vector3f rounded = point.cast<float>();
-      points.push_back({rounded.x(), rounded.y(), rounded.z(), 0.0F});
-    }
-  }
-  component_points_.reserve(points.size() * sizeof(points.front()));
-  component_points_.write(points);
-
+  const ComponentRanges components = writeComponents(problem);
+  padded_ = false;
   std::vector<InstanceRecord> geometries;
   for (const std::vector<Geometry>* instances : {&problem.robot, &problem.world})
     for (const Geometry& geometry : *instances)
@@ -203,12 +231,32 @@ void GpuScene::writeGeometries(const CollisionProblem& problem)
       InstanceRecord record{};
       record.root = rootOf(geometry.tree);
       record.slack = sagitta > 0.0 ? std::nextafter(static_cast<float>(sagitta), 1.0F) : 0.0F;
-      std::tie(record.first_point, record.point_count) = points_of[geometry.tree];
+      record.first_component = components[geometry.tree].first;
+      record.component_count = components[geometry.tree].count;
+      record.padding = static_cast<float>(geometry.padding);
+      padded_ = padded_ || geometry.padding > 0.0;
       describeSolid(problem.shapes[geometry.tree], record);
+      if (components[geometry.tree].mesh_solid)
+        record.kind = SOLID_MESH;
       geometries.push_back(record);
     }
   geometries_.reserve(geometries.size() * sizeof(InstanceRecord));
   geometries_.write(geometries);
+}
+
+void GpuScene::writeHalfSpaces(const CollisionProblem& problem)
+{
+  half_space_count_ = static_cast<std::uint32_t>(problem.half_spaces.size());
+  std::vector<std::array<float, 4>> records;
+  for (const WorldHalfSpace& half_space : problem.half_spaces)
+  {
+    const Eigen::Vector3f normal = half_space.normal.cast<float>();
+    const auto offset = static_cast<float>(half_space.offset - half_space.normal.dot(problem.origin));
+    records.push_back({normal.x(), normal.y(), normal.z(), offset});
+    records.push_back({static_cast<float>(half_space.padding), 0.0F, 0.0F, 0.0F});
+  }
+  half_spaces_.reserve(records.size() * sizeof(std::array<float, 4>));
+  half_spaces_.write(records);
 }
 
 void GpuScene::buildWorldTree(const CollisionProblem& problem)
@@ -222,8 +270,10 @@ void GpuScene::buildWorldTree(const CollisionProblem& problem)
   std::vector<float> poses(12 * problem.world.size());
   for (std::size_t i = 0; i < problem.world.size(); ++i)
   {
-    bounds.push_back(movedBounds(local[problem.world[i].tree], problem.world[i].pose));
-    writePoseRows(problem.world[i].pose, &poses[12 * i]);
+    const Geometry& object = problem.world[i];
+    const Eigen::Isometry3d pose = Eigen::Translation3d(-problem.origin) * object.pose;
+    bounds.push_back(movedBounds(local[object.tree], pose, object.padding));
+    writePoseRows(pose, &poses[12 * i]);
   }
   world_poses_.reserve(poses.size() * sizeof(float));
   world_poses_.buffer().write(poses);
@@ -248,12 +298,8 @@ void GpuScene::selectPairs(const CollisionProblem& problem)
   partners_.write(partners);
   has_self_pairs_ = !problem.self_pairs.empty();
 
-  std::vector<std::uint32_t> bits(problem.world_pairs.size() / 32 + 1, 0);
-  for (std::size_t i = 0; i < problem.world_pairs.size(); ++i)
-    if (problem.world_pairs[i])
-      bits[i / 32] |= 1U << (i % 32);
-  world_pairs_.reserve(bits.size() * sizeof(std::uint32_t));
-  world_pairs_.write(bits);
+  writeBits(problem.world_pairs, world_pairs_);
+  writeBits(problem.half_space_pairs, half_space_pairs_);
 }
 
 void GpuScene::bind() const

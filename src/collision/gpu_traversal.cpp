@@ -20,17 +20,17 @@ BatchLists::BatchLists(const ListCapacities& capacities)
   : capacity(capacities), counters(COUNTER_WORDS * sizeof(std::uint32_t))
 {
   candidates.reserve(std::size_t{capacity.candidates} * 16);
-  items.reserve(std::size_t{capacity.items} * 64);
+  items.reserve(std::size_t{capacity.items} * ITEM_TEXELS * 16);
   for (TexelBuffer& list : node_pairs)
     list.reserve(std::size_t{capacity.node_pairs} * 16);
 }
 
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,
-                                            const ListCapacities& capacities)
+                                            const std::string& definitions, const ListCapacities& capacities)
 {
   if (traversal == Traversal::BreadthFirst)
-    return std::make_unique<BreadthFirst>(shader_folder, capacities);
-  return std::make_unique<WorkQueue>(shader_folder);
+    return std::make_unique<BreadthFirst>(shader_folder, definitions, capacities);
+  return std::make_unique<WorkQueue>(shader_folder, definitions);
 }
 
 void ArgumentsKernel::prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes,

@@ -40,12 +40,17 @@ class GpuTraversal
   virtual ~GpuTraversal() = default;
 
   /// Traverses from the first node-pair list, counters[COUNTER_ITEMS] entries. `levels`: how many levels the deepest
-  /// tree may have. Returns false if something was left undone: a list overflowed, or the device ended work early.
-  virtual bool run(BatchLists& lists, std::uint32_t levels) = 0;
+  /// tree may have. `padded`: some pairs have a required distance. Returns false if something was left undone: a list
+  /// overflowed, or the device ended work early.
+  virtual bool run(BatchLists& lists, std::uint32_t levels, bool padded) = 0;
 };
 
+/// For a program that tests triangles, see shaders/leaf_pair.glsl.
+inline const std::string kPadded = "#define PADDED 1\n";
+
+/// `definitions`: for the programs, see Program.
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,
-                                            const ListCapacities& capacities);
+                                            const std::string& definitions, const ListCapacities& capacities);
 
 /// Dispatches that size other dispatches.
 class ArgumentsKernel

@@ -7,10 +7,11 @@
 
 namespace gpu_planning_scene
 {
-bool WorkQueue::run(BatchLists& lists, std::uint32_t /*levels*/)
+bool WorkQueue::run(BatchLists& lists, std::uint32_t /*levels*/, bool padded)
 {
+  const Program& program = padded ? padded_program_ : program_;
   const std::uint32_t capacity = lists.capacity.node_pairs;
-  program_.set(2, capacity);
+  program.set(2, capacity);
   std::uint32_t in_counter = COUNTER_ITEMS;
   lists.counters.clear(COUNTER_LANES_STARTED * sizeof(std::uint32_t), sizeof(std::uint32_t));
   std::array<std::uint32_t, COUNTER_WORDS> counters{};
@@ -18,8 +19,8 @@ bool WorkQueue::run(BatchLists& lists, std::uint32_t /*levels*/)
   for (std::uint32_t pass = 0;; ++pass)
   {
     const std::uint32_t out_counter = pass % 2 == 0 ? COUNTER_ENTRIES_ODD : COUNTER_ENTRIES_EVEN;
-    program_.set(0, in_counter);
-    program_.set(1, out_counter);
+    program.set(0, in_counter);
+    program.set(1, out_counter);
     lists.counters.clear(COUNTER_NEXT_ENTRY * sizeof(std::uint32_t), sizeof(std::uint32_t));
     lists.counters.clear(out_counter * sizeof(std::uint32_t), sizeof(std::uint32_t));
     lists.node_pairs[pass % 2].bindTexture(UNIT_ENTRIES);
@@ -27,7 +28,7 @@ bool WorkQueue::run(BatchLists& lists, std::uint32_t /*levels*/)
     do
     {
       arguments_.prepare(in_counter, capacity, QUEUE_LANES, QUEUE_MAX_GROUPS, COUNTER_UNUSED);
-      program_.dispatchIndirect(lists.counters, ArgumentsKernel::argumentsOffset());
+      program.dispatchIndirect(lists.counters, ArgumentsKernel::argumentsOffset());
       lists.counters.read(counters.data(), sizeof(counters));
       if (counters[COUNTER_OVERFLOW] != 0 || counters[COUNTER_LANES_ENDED] != counters[COUNTER_LANES_STARTED])
         return false;

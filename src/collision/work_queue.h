@@ -10,14 +10,16 @@ namespace gpu_planning_scene
 class WorkQueue : public GpuTraversal
 {
  public:
-  explicit WorkQueue(const std::string& shader_folder)
-    : arguments_(shader_folder), program_(shader_folder, "work_queue.comp")
+  WorkQueue(const std::string& shader_folder, const std::string& definitions)
+    : arguments_(shader_folder),
+      program_(shader_folder, "work_queue.comp", definitions),
+      padded_program_(shader_folder, "work_queue.comp", definitions + kPadded)
   {
   }
-  bool run(BatchLists& lists, std::uint32_t levels) override;
+  bool run(BatchLists& lists, std::uint32_t levels, bool padded) override;
 
  private:
   ArgumentsKernel arguments_;
-  Program program_;
+  Program program_, padded_program_;
 };
 }  // namespace gpu_planning_scene

@@ -1,0 +1,81 @@
+// One lane per (state, robot instance): whether the shape reaches into a half-space of the world. The lowest corner above
+// the plane decides, found by a walk of the shape's tree; tessellations lie within their solids.
+#include "interface.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common.glsl"
+#include "pose.glsl"
+#include "boxes.glsl"
+#include "error_bounds.glsl"
+#include "geometries.glsl"
+#include "verdicts.glsl"
+#include "triangles.glsl"
+layout(location = 2) uniform uint half_space_count;
+layout(location = 3) uniform uint world_count;
+layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
+// Two vec4 each: the plane's normal and offset; the padding.
+layout(std430, binding = BINDING_IN) readonly buffer HalfSpaces { vec4 half_spaces[]; };
+layout(std430, binding = BINDING_IN_2) readonly buffer HalfSpacePairs { uint half_space_pairs[]; };  // bits [robot][half-space]
+
+// STATE_* bits: a corner is proven to lie at most `distance` above the plane; one may lie at most `gap` above it.
+// Normal and offset are in the tree's frame.
+uint reachesDown(uint root, vec3 normal, float offset, float error, float distance, float gap)
+{
+  uint stack[BUILD_ROUNDS + 2];
+  stack[0] = root;
+  int top = 1;
+  uint found = 0u;
+  for (uint steps = 0u; top > 0 && found != STATE_HIT; ++steps)
+  {
+    if (steps > uint(LANE_ITERATIONS) / (4u * LEAF_TRIANGLES))
+      return STATE_UNDECIDED;
+    const TreeNode node = fetchNode(stack[--top]);
+    const float height = dot(normal, node.box.center) - offset;
+    const float extent = dot(abs(normal), node.box.extent);
+    if (height - extent > gap + error)
+      continue;
+    if (node.count == 0u)
+    {
+      stack[top] = node.first;
+      stack[top + 1] = node.first + 1u;
+      top += 2;
+      continue;
+    }
+    for (uint i = node.first; i < node.first + node.count; ++i)
+    {
+      vec3 corners[3];
+      fetchTriangle(i, corners);
+      for (int k = 0; k < 3; ++k)
+      {
+        const float above = dot(normal, corners[k]) - offset;
+        found |= above + error <= distance ? STATE_HIT : (above > gap + error ? 0u : STATE_UNDECIDED);
+      }
+    }
+  }
+  return found;
+}
+
+void main()
+{
+  const uint i = invocationIndex();
+  if (i >= state_count * robot_count)
+    return;
+  const uint state = stateOf(i);
+  const uint robot = robotOf(i);
+  const Instance instance = fetchInstance(robot);
+  const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
+  const vec3 far = farCorner(fetchNode(instance.root).box);
+  for (uint k = 0u; k < half_space_count; ++k)
+  {
+    const uint bit = robot * half_space_count + k;
+    if ((half_space_pairs[bit >> 5u] >> (bit & 31u) & 1u) == 0u)
+      continue;
+    const vec4 plane = half_spaces[2u * k];
+    const float distance = instance.padding + half_spaces[2u * k + 1u].x;
+    const vec3 normal = plane.xyz * pose.rotation;
+    precise const float offset = plane.w - dot(plane.xyz, pose.translation);
+    const uint found = reachesDown(instance.root, normal, offset, planeError(pose, far, plane.w), distance * (1.0 - 4.0 * u),
+                                   requiredGap(distance, instance.slack));
+    if (found != 0u)
+      report(state, packPair(robot, robot_count + world_count + k), found);
+  }
+}

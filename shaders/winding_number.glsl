@@ -1,0 +1,115 @@
+// Whether a point is inside the solid that a mesh's closed components bound: the signed crossings of a ray along a
+// coordinate axis add up to the winding number. A ray that comes too near to an edge, or begins too near to the surface,
+// tells nothing.
+layout(std430, binding = BINDING_OUT) readonly buffer LeafOrder { uint leaf_order[]; };
+layout(std430, binding = BINDING_OUT_2) readonly buffer SolidTriangles { uint solid_triangles[]; };  // bits
+layout(location = 3) uniform uint first_world_primitive;  // of the shapes that the robot does not have
+
+// Triangles count where they belong to a closed component.
+bool boundsSolid(uint primitive)
+{
+  const uint triangle = leaf_order[primitive] + (primitive < first_world_primitive ? 0u : first_world_primitive);
+  return (solid_triangles[triangle >> 5u] >> (triangle & 31u) & 1u) != 0u;
+}
+
+// Twice the area that an edge spans with the origin.
+float spanned(vec2 from, vec2 to)
+{
+  return from.x * to.y - from.y * to.x;
+}
+
+// +1 or -1 if the ray from the origin along +z crosses the triangle, by its direction; 0 if it does not;
+// UNCERTAIN_CROSSING if that is not certain. Corners are off by at most `error`.
+#define UNCERTAIN_CROSSING 1000
+
+int crossing(vec3 c[3], float error)
+{
+  vec3 lowest = c[0];
+  vec3 highest = c[0];
+  float size = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    lowest = min(lowest, c[i]);
+    highest = max(highest, c[i]);
+    size = max(size, length(c[i]));
+  }
+  const float off = error + 2.0 * u * size;
+  if (any(greaterThan(lowest.xy, vec2(off))) || any(lessThan(highest, vec3(-off))))
+    return 0;
+  size += error;
+  const float area_error = size * (3.0 * error + 6.0 * u * size) + TINY;
+  precise float area[3];
+  bool above = true;
+  bool below = true;
+  bool some_above = false;
+  bool some_below = false;
+  for (int i = 0; i < 3; ++i)
+  {
+    area[i] = spanned(c[i].xy, c[(i + 1) % 3].xy);
+    above = above && area[i] > area_error;
+    below = below && area[i] < -area_error;
+    some_above = some_above || area[i] > area_error;
+    some_below = some_below || area[i] < -area_error;
+  }
+  if (some_above && some_below)
+    return 0;
+  if (!above && !below)
+    return UNCERTAIN_CROSSING;
+  // The height at which the axis meets the triangle's plane, times the sum of the areas.
+  precise const float height = area[1] * c[0].z + area[2] * c[1].z + area[0] * c[2].z;
+  const float height_error = 3.0 * (area_error * size + (abs(area[0]) + abs(area[1]) + abs(area[2])) * (error + 4.0 * u * size)) + TINY;
+  const int direction = above ? 1 : -1;
+  const float along = above ? height : -height;
+  return along > height_error ? direction : (along < -height_error ? 0 : UNCERTAIN_CROSSING);
+}
+
+// STATE_HIT if `point`, off by at most `error`, is inside; 0 if it is outside; STATE_UNDECIDED if no ray tells, or if
+// `iterations`, which counts down, comes to its end.
+uint insideMesh(uint root, vec3 point, float error, inout uint iterations)
+{
+  for (int axis = 0; axis < 3 * FLOATS_DECIDE; ++axis)
+  {
+    uint stack[BUILD_ROUNDS + 2];
+    stack[0] = root;
+    int top = 1;
+    int winding = 0;
+    bool certain = true;
+    for (; top > 0 && certain && iterations > 0u; --iterations)
+    {
+      const TreeNode node = fetchNode(stack[--top]);
+      precise const vec3 to = node.box.center - point;
+      const vec3 reach = node.box.extent + error + 8.0 * u * (node.box.extent + abs(to));
+      bvec3 misses = greaterThan(abs(to), reach);
+      misses[axis] = to[axis] < -reach[axis];
+      if (any(misses))
+        continue;
+      if (node.count == 0u)
+      {
+        stack[top] = node.first;
+        stack[top + 1] = node.first + 1u;
+        top += 2;
+        continue;
+      }
+      for (uint i = node.first; i < node.first + node.count; ++i)
+      {
+        vec3 corners[3];
+        fetchTriangle(i, corners);
+        precise vec3 c[3];
+        for (int k = 0; k < 3; ++k)
+        {
+          // A turn of the coordinates that brings the axis to z.
+          c[k] = corners[k] - point;
+          c[k] = vec3(c[k][(axis + 1) % 3], c[k][(axis + 2) % 3], c[k][axis]);
+        }
+        const int crossed = boundsSolid(i) ? crossing(c, error) : 0;
+        certain = certain && crossed != UNCERTAIN_CROSSING;
+        winding += crossed;
+      }
+    }
+    if (iterations == 0u)
+      return STATE_UNDECIDED;
+    if (certain)
+      return winding != 0 ? STATE_HIT : 0u;
+  }
+  return STATE_UNDECIDED;
+}

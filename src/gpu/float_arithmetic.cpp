@@ -1,0 +1,91 @@
+#include "gpu/float_arithmetic.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <sstream>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "interface.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr std::size_t kCases = 4096;
+
+struct Outcome
+{
+  float sum, sum_error, product, product_error;
+  float left, length, comparison_holds, unused;
+};
+static_assert(sizeof(Outcome) == 32, "two vec4");
+
+/// Numbers of 24 random bits between 2^-12 and 2^12: sums and products of two are exact in double.
+std::vector<std::array<float, 2>> someNumbers()
+{
+  std::mt19937 generator(20031);
+  const auto number = [&]
+  {
+    const auto bits = static_cast<float>(generator() >> 8U | 1U);
+    const int exponent = static_cast<int>(generator() % 24) - 35;
+    return std::ldexp(generator() % 2 == 0 ? bits : -bits, exponent);
+  };
+  std::vector<std::array<float, 2>> numbers(kCases);
+  for (auto& pair : numbers)
+    pair = {number(), number()};
+  return numbers;
+}
+
+/// What is wrong with the outcome for x and y; nullptr if it is right.
+const char* faultOf(double x, double y, const Outcome& found)
+{
+  const double sum = x + y;
+  const double product = x * y;
+  const double length = std::sqrt(2.0 * x * x + y * y);
+  if (std::abs(found.sum - sum) > UNIT_ROUNDOFF * std::abs(sum))
+    return "a sum is not rounded properly";
+  if (static_cast<double>(found.sum) + found.sum_error != sum)
+    return "two-sum does not give the rounding error of a sum";
+  if (std::abs(found.product - product) > UNIT_ROUNDOFF * std::abs(product))
+    return "a product is not rounded properly";
+  if (static_cast<double>(found.product) + found.product_error != product)
+    return "two-product does not give the rounding error of a product";
+  if (found.left != 0.0F)
+    return "a product and a difference are contracted where `precise` forbids it";
+  if (!(std::abs(found.length - length) <= 4.0 * UNIT_ROUNDOFF * length))
+    return "a length is off by more than 2^-21 of itself";
+  if (found.comparison_holds != 0.0F)
+    return "a comparison with no number holds";
+  return nullptr;
+}
+}  // namespace
+
+std::string findFloatFault(const std::string& shader_folder)
+{
+  const std::vector<std::array<float, 2>> numbers = someNumbers();
+  Buffer input(kCases * sizeof(numbers.front()));
+  input.write(numbers);
+  Buffer output(kCases * sizeof(Outcome));
+  input.bindStorage(BINDING_IN);
+  output.bindStorage(BINDING_OUT);
+  const Program program(shader_folder, "float_arithmetic.comp");
+  program.set(0, kCases);
+  program.dispatch(kCases / GROUP_SIZE);
+  std::vector<Outcome> outcomes(kCases);
+  output.read(outcomes.data(), kCases * sizeof(Outcome));
+  for (std::size_t i = 0; i < kCases; ++i)
+    if (const char* fault = faultOf(numbers[i][0], numbers[i][1], outcomes[i]))
+    {
+      std::ostringstream line;
+      line.precision(9);
+      line << "float32 arithmetic: " << fault << " (for " << numbers[i][0] << " and " << numbers[i][1]
+           << "); the CPU decides every pair whose boxes overlap";
+      return line.str();
+    }
+  return {};
+}
+}  // namespace gpu_planning_scene
