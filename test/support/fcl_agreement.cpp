@@ -56,6 +56,7 @@ FclAgreement compareWithFcl(const PlanningScene& scene, const std::vector<double
 {
   const RobotModel& robot = *scene.robot;
   const auto first_object = static_cast<std::int32_t>(robot.links().size());
+  const auto first_attached = first_object + static_cast<std::int32_t>(scene.objects.size());
   FclPeer peer(std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr)));
   FclAgreement agreement;
   agreement.states = result.valid.size();
@@ -66,7 +67,7 @@ FclAgreement compareWithFcl(const PlanningScene& scene, const std::vector<double
     peer.setState(poses.data());
     const auto hit = peer.firstCollision();
     agreement.free += hit ? 0 : 1;
-    agreement.world_hits += hit && (*hit)[1] >= first_object ? 1 : 0;
+    agreement.world_hits += hit && (*hit)[1] >= first_object && (*hit)[1] < first_attached ? 1 : 0;
     if (result.valid[i] != 0)
     {
       hit ? judgeFree(scene, peer, i, agreement) : void(++agreement.agreed);

@@ -9,6 +9,7 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
+#include "gpu_planning_scene/error.h"
 #include "support/inside.h"
 
 namespace gpu_planning_scene
@@ -57,6 +58,17 @@ FclGeometry makeGeometry(const Shape& shape, const Tessellation& tessellation)
   }
   geometry->computeLocalAABB();
   return geometry;
+}
+
+/// Better no comparison than one with another problem.
+void refuseUnsupported(const CollisionProblem& problem)
+{
+  const auto is_padded = [](const Geometry& geometry) { return geometry.padding > 0.0; };
+  if (!problem.half_spaces.empty() || std::any_of(problem.robot.begin(), problem.robot.end(), is_padded) ||
+      std::any_of(problem.world.begin(), problem.world.end(), is_padded))
+  {
+    throw Error("the FCL peer knows neither half-spaces nor padding; compare with a scene that has none");
+  }
 }
 }  // namespace
 
@@ -141,6 +153,7 @@ struct FclPeer::Impl
 
 FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem) : impl_(std::make_unique<Impl>())
 {
+  refuseUnsupported(*problem);
   impl_->problem = std::move(problem);
   const CollisionProblem& p = *impl_->problem;
   for (std::size_t i = 0; i < p.trees.size(); ++i)
@@ -165,7 +178,8 @@ void FclPeer::setState(const Isometry3d* link_poses)
   for (std::size_t i = 0; i < impl_->robot.size(); ++i)
   {
     Impl::Placed& placed = impl_->robot[i];
-    placed.pose = link_poses[placed.body] * impl_->problem->robot[i].pose;
+    const Geometry& geometry = impl_->problem->robot[i];
+    placed.pose = link_poses[geometry.link] * geometry.pose;
     placed.bounds = impl_->boundsOf(placed.tree, placed.pose);
   }
 }

@@ -20,6 +20,7 @@ class FclPeer
  public:
   using BodyPair = std::array<std::int32_t, 2>;
 
+  /// Throws Error for a problem with half-spaces or padding.
   explicit FclPeer(std::shared_ptr<const CollisionProblem> problem);
   ~FclPeer();
 
