@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "gpu_planning_scene/shapes.h"
+#include "oracle/triangle.h"
+
+namespace gpu_planning_scene::oracle
+{
+/// A box in a shape's frame, in doubles: it holds all that it stands for.
+struct BoundingBox
+{
+  Eigen::Vector3d center;
+  Eigen::Vector3d half;
+};
+
+/// A lower bound of the distance of what two boxes hold, for b placed in a's frame: less what doubles may be off by.
+double leastDistance(const BoundingBox& a, const BoundingBox& b, const Eigen::Isometry3d& b_in_a);
+
+/// A mesh with a tree of boxes over its triangles, and what it bounds.
+class PreparedMesh
+{
+ public:
+  explicit PreparedMesh(const Mesh& mesh);
+
+  /// Leaves have one triangle. The root is node 0, an inner node's children follow in pairs.
+  struct Node
+  {
+    BoundingBox box;
+    std::uint32_t child = 0;  ///< 0: a leaf
+    std::uint32_t triangle = 0;
+  };
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+
+  /// One vertex of each connected component.
+  const std::vector<Eigen::Vector3d>& componentPoints() const { return component_points_; }
+  bool hasSolid() const { return !solid_triangles_.empty(); }
+
+  /// Whether the winding number around the point, of the closed components, is not 0. A point on the surface may count
+  /// as either.
+  bool solidHolds(const Vector& point) const;
+
+ private:
+  void findComponents(const Mesh& mesh);
+  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end, std::vector<std::uint32_t>& order,
+             const std::vector<Eigen::AlignedBox3d>& boxes);
+
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+  std::vector<Eigen::Vector3d> component_points_;
+  std::vector<std::array<Eigen::Vector3d, 3>> solid_triangles_;
+  Eigen::AlignedBox3d solid_box_;
+};
+}  // namespace gpu_planning_scene::oracle

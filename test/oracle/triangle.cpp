@@ -1,0 +1,162 @@
+#include "oracle/triangle.h"
+
+#include <algorithm>
+
+namespace gpu_planning_scene::oracle
+{
+namespace
+{
+Quad clampToUnit(Quad value)
+{
+  return value < 0 ? Quad(0) : value > 1 ? Quad(1) : value;
+}
+
+Vector nearestOnSegment(const Vector& p, const Vector& q, const Vector& point)
+{
+  const Vector along = q - p;
+  const Quad squared = squaredLength(along);
+  return squared > 0 ? p + clampToUnit(dot(point - p, along) / squared) * along : p;
+}
+
+/// The squared distance of two segments. Away from the ends the lines' common perpendicular has the foot points; else
+/// the distance is that of an end from the other segment. Every candidate is the distance of two points of the
+/// segments, so a rounding in the choice of one can only make it the lesser of two nearly equal distances.
+Quad squaredDistance(const Vector& p, const Vector& q, const Vector& r, const Vector& s)
+{
+  Quad best = squaredLength(p - nearestOnSegment(r, s, p));
+  best = std::min(best, squaredLength(q - nearestOnSegment(r, s, q)));
+  best = std::min(best, squaredLength(r - nearestOnSegment(p, q, r)));
+  best = std::min(best, squaredLength(s - nearestOnSegment(p, q, s)));
+  const Vector u = q - p;
+  const Vector v = s - r;
+  const Vector w = r - p;
+  const Vector normal = cross(u, v);
+  const Quad squared = squaredLength(normal);
+  if (squared > 0)
+  {
+    const Quad on_first = dot(cross(w, v), normal) / squared;
+    if (on_first > 0 && on_first < 1)
+    {
+      const Vector foot = p + on_first * u;
+      best = std::min(best, squaredLength(foot - nearestOnSegment(r, s, foot)));
+    }
+  }
+  return best;
+}
+
+/// Whether a point of the triangle's plane, or one that is moved there along the normal, is in the triangle.
+bool aboveFace(const Triangle& triangle, const Vector& point)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    if (dot(triangle.inward[i], point - triangle.corners[i]) < 0)
+      return false;
+  }
+  return true;
+}
+
+std::array<Quad, 3> heights(const Triangle& plane, const Triangle& other)
+{
+  std::array<Quad, 3> result;
+  for (int i = 0; i < 3; ++i)
+    result[i] = dot(plane.normal, other.corners[i] - plane.corners[0]);
+  return result;
+}
+
+/// Whether all corners are on one side of the plane, at least `limit` from it.
+bool apartBy(const std::array<Quad, 3>& heights, Quad limit)
+{
+  const auto [least, most] = std::minmax({heights[0], heights[1], heights[2]});
+  return limit > 0 && (least >= limit || most <= -limit);
+}
+
+/// Whether an edge of `other`, whose corners have those heights above `face`, crosses it.
+bool pierced(const Triangle& face, const Triangle& other, const std::array<Quad, 3>& heights)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    const int k = (i + 1) % 3;
+    if ((heights[i] < 0) == (heights[k] < 0))
+      continue;
+    const Quad at = heights[i] / (heights[i] - heights[k]);
+    if (aboveFace(face, other.corners[i] + at * (other.corners[k] - other.corners[i])))
+      return true;
+  }
+  return false;
+}
+
+/// The least distance from a corner of `other` to the plane of `face` where the foot point is in the face.
+Quad leastHeight(const Triangle& face, const Triangle& other, const std::array<Quad, 3>& heights, Quad best)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    if (abs(heights[i]) < best && aboveFace(face, other.corners[i]))
+      best = abs(heights[i]);
+  }
+  return best;
+}
+}  // namespace
+
+Triangle::Triangle(const std::array<Vector, 3>& vertices) : corners(vertices)
+{
+  const std::array<Vector, 3> edges = {corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
+  const Quad longest = std::max({squaredLength(edges[0]), squaredLength(edges[1]), squaredLength(edges[2])});
+  normal = cross(edges[0], edges[1]);
+  const Quad doubled_area = length(normal);
+  has_face = doubled_area > Quad(1e-25) * longest;
+  if (!has_face)
+    return;
+  normal = (1 / doubled_area) * normal;
+  for (int i = 0; i < 3; ++i)
+    inward[i] = cross(normal, edges[i]);
+}
+
+Quad distance(const Triangle& a, const Triangle& b, Quad limit)
+{
+  std::array<Quad, 3> b_above_a;
+  std::array<Quad, 3> a_above_b;
+  if (a.has_face)
+  {
+    b_above_a = heights(a, b);
+    if (apartBy(b_above_a, limit))
+      return limit;
+    if (pierced(a, b, b_above_a))
+      return 0;
+  }
+  if (b.has_face)
+  {
+    a_above_b = heights(b, a);
+    if (apartBy(a_above_b, limit))
+      return limit;
+    if (pierced(b, a, a_above_b))
+      return 0;
+  }
+  Quad squared = squaredLength(a.corners[0] - b.corners[0]);
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+      squared = std::min(squared,
+                         squaredDistance(a.corners[i], a.corners[(i + 1) % 3], b.corners[k], b.corners[(k + 1) % 3]));
+  }
+  Quad best = sqrt(squared);
+  if (a.has_face)
+    best = leastHeight(a, b, b_above_a, best);
+  if (b.has_face)
+    best = leastHeight(b, a, a_above_b, best);
+  return best;
+}
+
+Vector nearestPoint(const Triangle& triangle, const Vector& point)
+{
+  if (triangle.has_face && aboveFace(triangle, point))
+    return point - dot(triangle.normal, point - triangle.corners[0]) * triangle.normal;
+  Vector best = triangle.corners[0];
+  for (int i = 0; i < 3; ++i)
+  {
+    const Vector candidate = nearestOnSegment(triangle.corners[i], triangle.corners[(i + 1) % 3], point);
+    if (squaredLength(point - candidate) < squaredLength(point - best))
+      best = candidate;
+  }
+  return best;
+}
+}  // namespace gpu_planning_scene::oracle
