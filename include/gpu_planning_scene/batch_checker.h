@@ -39,6 +39,7 @@ class BatchChecker : public StateChecker
   BatchResult check(const double* states, std::size_t count, const std::string& group = "") override;
   SceneReport report(const std::string& group = "") override;
   std::string deviceName() const override;
+  std::string deviceWarning() const override;
 
  private:
   struct Impl;

@@ -53,5 +53,9 @@ class StateChecker
 
   /// What it runs on: GL_RENDERER, or "CPU".
   virtual std::string deviceName() const = 0;
+
+  /// One line if the device's float32 arithmetic is not as the error bounds assume, so that the CPU decides every pair
+  /// that comes near; else empty. Answers are right all the same.
+  virtual std::string deviceWarning() const { return {}; }
 };
 }  // namespace gpu_planning_scene

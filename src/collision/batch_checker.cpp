@@ -86,6 +86,11 @@ SceneReport BatchChecker::report(const std::string& group)
   return impl_->groupProblem(group).report;
 }
 
+std::string BatchChecker::deviceWarning() const
+{
+  return impl_->engine.floatFault();
+}
+
 std::string BatchChecker::deviceName() const
 {
   return impl_->engine.device().renderer;

@@ -24,6 +24,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own)
   for (const std::string& warning : warnings)
     ROS_WARN_STREAM(warning);
   const std::shared_ptr<StateChecker> checker = openChecker(scene, options);
+  if (const std::string warning = checker->deviceWarning(); !warning.empty())
+    ROS_WARN_STREAM(warning);
   for (const std::string& line : describeScene(*scene, checker->report(), checker->deviceName()))
     ROS_INFO_STREAM(line);
 

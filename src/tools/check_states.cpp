@@ -134,6 +134,8 @@ void run(const CommandLine& arguments)
 
   const BatchCheckerOptions options = checkerOptionsFrom(arguments);
   const auto checker = openChecker(scene, options);
+  if (const std::string warning = checker->deviceWarning(); !warning.empty())
+    std::cerr << "warning: " << warning << "\n";
   const BatchResult result = checkAll(*checker, *source, options.max_batch, group);
 
   if (out_path.empty())

@@ -93,6 +93,9 @@ std::vector<float> withBounds(const std::vector<float>& triangles, float error, 
   return input;
 }
 
+const char* const kTriangleIncludes =
+    "#include \"pose.glsl\"\n#include \"boxes.glsl\"\n#include \"error_bounds.glsl\"\n#include \"triangle_pair.glsl\"\n"
+    "#include \"triangle_distance.glsl\"\n";
 const char* const kTriangleCall =
     "trianglePair(vec3[3](at(0u), at(1u), at(2u)), vec3[3](at(3u), at(4u), at(5u)), at(6u).x, at(6u).y)";
 
@@ -123,7 +126,7 @@ TEST_F(GpuStep, TrianglePairsAreDecidedAsInDoubleOrLeftUndecided)
         corner = put(corner, floats);
     cases.push_back(pair);
   }
-  const auto result = run("#include \"triangle_pair.glsl\"\n", kTriangleCall, withBounds(floats, 0.0F, 0.0F), 21);
+  const auto result = run(kTriangleIncludes, kTriangleCall, withBounds(floats, 0.0F, 0.0F), 21);
   std::size_t hits = 0;
   std::size_t undecided = 0;
   for (std::size_t i = 0; i < kCases; ++i)
@@ -155,8 +158,7 @@ TEST_F(GpuStep, TrianglesWithinTheErrorOrTheSlackAreUndecided)
   }
   for (const auto& [error, slack, expected] :
        {std::tuple(0.0F, 0.0F, 0U), std::tuple(1e-4F, 0.0F, STATE_UNDECIDED), std::tuple(0.0F, 1e-4F, STATE_UNDECIDED)})
-    for (const std::uint32_t found :
-         run("#include \"triangle_pair.glsl\"\n", kTriangleCall, withBounds(floats, error, slack), 21))
+    for (const std::uint32_t found : run(kTriangleIncludes, kTriangleCall, withBounds(floats, error, slack), 21))
       ASSERT_EQ(found, expected) << "error " << error << ", slack " << slack;
 }
 
