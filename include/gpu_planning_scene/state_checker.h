@@ -18,6 +18,7 @@ struct BatchResult
   std::uint64_t revision = 0;                          ///< of the scene that was checked
   double seconds = 0.0;                                ///< wall time of the check, without compiling and building
   std::size_t undecided_states = 0;                    ///< how many the CPU had to settle
+  double undecided_seconds = 0.0;                      ///< of `seconds`, what it took to settle them
 };
 
 /// What of the scene is checked, and what is left out and why.

@@ -1,6 +1,7 @@
 #include "collision/batch_engine.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "collision/state_rows.h"
@@ -87,8 +88,10 @@ void BatchEngine::check(std::size_t count, std::size_t link_count, const LinkPos
     }
   }
   result.undecided_states = undecided.size();
+  const auto start = std::chrono::steady_clock::now();
   if (!undecided.empty())
     settleOnCpu(undecided, link_count, link_poses, result);
+  result.undecided_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// The poses of all robot instances as GpuPairChecker takes them: kinematics in double, each pose brought near the

@@ -35,7 +35,8 @@ class BatchEngine
   /// threads.
   using LinkPoses = std::function<void(std::size_t row, Eigen::Isometry3d* link_poses)>;
 
-  /// Checks `count` states of a robot of `link_count` links: fills valid, colliding and undecided_states of the result.
+  /// Checks `count` states of a robot of `link_count` links: fills the result but for revision and
+  /// seconds.
   void check(std::size_t count, std::size_t link_count, const LinkPoses& link_poses, BatchResult& result);
 
   const Device& device() const { return gl_.device(); }
