@@ -24,7 +24,7 @@ layout(std430, binding = BINDING_OUT) writeonly buffer Spill { uvec4 spilled[]; 
 
 // Loop iterations of one step and of one slot of a leaf pair, in case the compiler does not unroll the inner loops.
 #define STEP_ITERATIONS 4u
-#define SLOT_ITERATIONS 20u
+#define SLOT_ITERATIONS (20u + 60u * PADDED)
 
 shared uint leaf_pair_count;
 shared uint busy;

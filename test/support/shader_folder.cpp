@@ -39,6 +39,18 @@ void ShaderFolder::define(const std::string& name, const std::string& value) con
   write("interface.h", text.str());
 }
 
+void ShaderFolder::replace(const std::string& name, const std::string& text, const std::string& by) const
+{
+  std::ifstream in(path_ + "/" + name);
+  std::ostringstream read;
+  read << in.rdbuf();
+  std::string changed = read.str();
+  const std::size_t place = changed.find(text);
+  if (place == std::string::npos || changed.find(text, place + 1) != std::string::npos)
+    throw std::runtime_error(name + " does not have '" + text + "' exactly once");
+  write(name, changed.replace(place, text.size(), by));
+}
+
 void ShaderFolder::write(const std::string& name, const std::string& text) const
 {
   std::ofstream(path_ + "/" + name) << text;

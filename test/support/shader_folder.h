@@ -19,6 +19,8 @@ class ShaderFolder
 
   /// Gives a constant of interface.h another value; throws std::runtime_error if it is not there.
   void define(const std::string& name, const std::string& value) const;
+  /// Replaces the one place where a file has `text`; throws std::runtime_error if there is not exactly one.
+  void replace(const std::string& name, const std::string& text, const std::string& by) const;
   void write(const std::string& name, const std::string& text) const;
 
  private:
