@@ -177,7 +177,7 @@ TEST_P(GpuContract, TheOriginChangesNoAnswerFarFromTheWorlds)
 TEST_P(GpuContract, ADeviceWithOtherArithmeticIsReportedAndAnswersAreRightAllTheSame)
 {
   ShaderFolder folder;
-  folder.replace("float_arithmetic.comp", "4097.0 * x", "4096.0 * x");
+  folder.replace("float_arithmetic.comp", "4097.0 * x", "1.0 * x");
   BatchCheckerOptions other = options();
   other.shader_folder = folder.path();
   BatchEngine engine(other);
