@@ -1,0 +1,51 @@
+#include "support/carrying_scene.h"
+
+namespace gpu_planning_scene
+{
+WorldObject boxInGripper(const RobotModel& robot, const double* state)
+{
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  robot.linkPoses(state, poses.data());
+  WorldObject box;
+  box.id = "held_box";
+  // The gripper's x axis points from its base to the finger tips.
+  box.pose = poses[robot.linkIndex("robotiq_85_base_link")] * Eigen::Translation3d(0.15, 0.0, 0.0);
+  box.shapes = {{Box{{0.06, 0.05, 0.2}}}};
+  return box;
+}
+
+const std::vector<std::string>& gripperLinks()
+{
+  static const std::vector<std::string> links = {"robotiq_85_base_link",
+                                                 "robotiq_85_left_knuckle_link",
+                                                 "robotiq_85_right_knuckle_link",
+                                                 "robotiq_85_left_finger_link",
+                                                 "robotiq_85_right_finger_link",
+                                                 "robotiq_85_left_inner_knuckle_link",
+                                                 "robotiq_85_right_inner_knuckle_link",
+                                                 "robotiq_85_left_finger_tip_link",
+                                                 "robotiq_85_right_finger_tip_link"};
+  return links;
+}
+
+TestScene carryingScene()
+{
+  TestScene made = testScene("ur5_cage");
+  made.name = "ur5_cage, carrying, padded";
+  PlanningScene scene = *made.scene;
+  scene.link_padding.assign(scene.robot->links().size(), 0.005);
+  for (WorldObject& object : scene.objects)
+    object.padding = 0.002;
+  const std::vector<double> state = scene.robot->defaultState();
+  scene.objects.push_back(boxInGripper(*scene.robot, state.data()));
+  scene.attach("held_box", "ee_link", gripperLinks(), state.data());
+  WorldObject floor;
+  floor.id = "floor";
+  floor.shapes = {{HalfSpace{Eigen::Vector3d::UnitZ(), 0.02}}};
+  scene.objects.push_back(floor);
+  for (const char* link : {"base_link", "shoulder_link"})
+    scene.allowed_collisions.setEntry(link, "floor", true);
+  made.scene = std::make_shared<const PlanningScene>(std::move(scene));
+  return made;
+}
+}  // namespace gpu_planning_scene
