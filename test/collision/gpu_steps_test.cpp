@@ -1,5 +1,7 @@
 // Steps of the shaders against plain C++ in double precision: proofs must be true, and doubt must be rare.
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <iostream>
 #include <random>
@@ -160,6 +162,108 @@ TEST_F(GpuStep, TrianglesWithinTheErrorOrTheSlackAreUndecided)
        {std::tuple(0.0F, 0.0F, 0U), std::tuple(1e-4F, 0.0F, STATE_UNDECIDED), std::tuple(0.0F, 1e-4F, STATE_UNDECIDED)})
     for (const std::uint32_t found : run(kTriangleIncludes, kTriangleCall, withBounds(floats, error, slack), 21))
       ASSERT_EQ(found, expected) << "error " << error << ", slack " << slack;
+}
+
+TEST_F(GpuStep, DistancesOfTrianglesAreBoundedOrLeftUndecided)
+{
+  constexpr std::size_t kCases = 20000;
+  std::vector<float> floats;
+  std::vector<Triangles> cases;
+  std::vector<double> required;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    const Vector3d center = anyVector(0.5);
+    Triangles pair;
+    for (int k = 0; k < 3; ++k)
+    {
+      pair[0][k] = center + anyVector(0.1);
+      pair[1][k] = center + Vector3d(0.15, 0.05, 0.0) + anyVector(0.1);
+    }
+    if (i % 10 == 0)
+      pair[0][2] = pair[0][0] + 0.5 * (pair[0][1] - pair[0][0]) + anyVector(1e-6);
+    if (i % 50 == 0)
+      pair[1][2] = pair[1][1];
+    for (Triangle& triangle : pair)
+      for (Vector3d& corner : triangle)
+        corner = put(corner, floats);
+    // Half of them at distances near to what is required.
+    double low = 0.0;
+    double high = 1.0;
+    for (int step = 0; step < 40 && i % 2 == 0; ++step)
+      (trianglesWithin(pair[0], pair[1], (low + high) / 2.0) ? high : low) = (low + high) / 2.0;
+    const double distance = i % 2 == 0 ? high + 1e-5 * uniform_(generator_) : 0.05 + 0.04 * uniform_(generator_);
+    required.push_back(put(Vector3d(1e-6, std::abs(distance), 0.0), floats).y());
+    cases.push_back(pair);
+  }
+  const auto result =
+      run(kTriangleIncludes,
+          "triangleDistance(vec3[3](at(0u), at(1u), at(2u)), vec3[3](at(3u), at(4u), at(5u)), at(6u).x, "
+          "at(6u).y, at(6u).y + 1e-9)",
+          floats, 21);
+  std::size_t undecided = 0;
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    // Claimed for triangles that are a micrometre off, either way.
+    const bool within = trianglesWithin(cases[i][0], cases[i][1], required[i] - 0.9e-6);
+    const bool beyond = !trianglesWithin(cases[i][0], cases[i][1], required[i] + 0.9e-6);
+    EXPECT_FALSE(result[i] == STATE_HIT && !within) << "case " << i << ", seed " << kSeed;
+    EXPECT_FALSE(result[i] == 0U && !beyond) << "case " << i << ", seed " << kSeed;
+    hits += result[i] == STATE_HIT ? 1 : 0;
+    undecided += result[i] == STATE_UNDECIDED ? 1 : 0;
+  }
+  std::cout << kCases << " pairs, " << hits << " too near, " << undecided << " undecided, seed " << kSeed << std::endl;
+  EXPECT_GT(hits, kCases / 10);
+  EXPECT_LT(undecided, kCases / 5);
+}
+
+TEST_F(GpuStep, PointsLieWithinTheirBoundOfWhereExactPosesPutThem)
+{
+  constexpr std::size_t kCases = 20000;
+  std::vector<float> floats;
+  std::vector<Vector3d> exact;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    // Arms of 1 cm to 10 m; every fifth world pose turned not at all.
+    const double size = std::pow(10.0, -0.5 + 1.5 * uniform_(generator_));
+    std::array<Eigen::Isometry3d, 2> poses;
+    for (Eigen::Isometry3d& pose : poses)
+    {
+      pose.linear() = i % 5 == 0 && &pose == &poses[0] ? Eigen::Matrix3d::Identity() : anyRotation();
+      pose.translation() = anyVector(size);
+      for (int row = 0; row < 3; ++row)
+        put(pose.linear().row(row).transpose(), floats);
+      put(pose.translation(), floats);
+    }
+    const Vector3d point = anyVector(0.3 * size);
+    put(point, floats);
+    exact.push_back(poses[0].inverse() * (poses[1] * point));
+  }
+  const std::string pose_a = "Pose(transpose(mat3(at(0u), at(1u), at(2u))), at(3u))";
+  const std::string pose_b = "Pose(transpose(mat3(at(4u), at(5u), at(6u))), at(7u))";
+  const std::string relative = "relativePose(" + pose_a + ", " + pose_b + ")";
+  const auto number = [&](const std::string& expression)
+  { return run(kTriangleIncludes, "floatBitsToUint(" + expression + ")", floats, 27); };
+  const auto value = [](std::uint32_t bits)
+  {
+    float result;
+    std::memcpy(&result, &bits, sizeof(result));
+    return static_cast<double>(result);
+  };
+  std::array<std::vector<std::uint32_t>, 3> found;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    found[axis] = number("apply(" + relative + ", at(8u))." + std::string(1, "xyz"[axis]));
+  const auto bound = number("positionError(" + pose_a + ", " + pose_b + ", " + relative + ", vec3(0.0), abs(at(8u)))");
+  double largest = 0.0;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    const Vector3d point(value(found[0][i]), value(found[1][i]), value(found[2][i]));
+    const double share = (point - exact[i]).norm() / value(bound[i]);
+    largest = std::max(largest, share);
+    EXPECT_LT(share, 1.0) << "case " << i << ", seed " << kSeed;
+  }
+  std::cout << "at most " << largest << " of the bound, seed " << kSeed << std::endl;
+  EXPECT_GT(largest, 0.02);  // a bound that is far too wide would cost undecided states
 }
 
 TEST_F(GpuStep, BoxesThatOverlapAreNeverApart)
