@@ -6,6 +6,7 @@
 
 #include "binned_sah.h"
 #include "collision_problem.h"
+#include "cpu_forest.h"
 #include "cpu_traversal.h"
 #include "state_rows.h"
 
@@ -26,7 +27,7 @@ struct CpuChecker::Impl
 
   std::mutex mutex;
   std::shared_ptr<const PlanningScene> scene;
-  std::shared_ptr<const Forest> forest;
+  std::shared_ptr<const CpuForest> forest;  // all groups have the same trees
   std::map<std::string, GroupProblem> groups;
 
   const GroupProblem& groupProblem(const std::string& group)
@@ -40,7 +41,8 @@ struct CpuChecker::Impl
     auto problem = std::make_shared<const CollisionProblem>(makeProblem(*scene, group, &made.report));
     if (!forest)
     {
-      forest = std::make_shared<const Forest>(buildBinnedSah(problem->trees));
+      forest =
+          std::make_shared<const CpuForest>(*problem, std::make_shared<const Forest>(buildBinnedSah(problem->trees)));
     }
     made.traversal = std::make_unique<const CpuTraversal>(problem, forest);
     return groups.emplace(group, std::move(made)).first->second;

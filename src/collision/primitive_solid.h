@@ -7,17 +7,24 @@
 
 namespace gpu_planning_scene
 {
-/// Primitives as what they are: solids with their true, curved surface. All shapes here are primitives, not meshes, and
-/// everything is in the shape's frame. Touching counts; distances up to about kContactTolerance count as touching.
+/// Primitives as what they are: solids with their true, curved surface. All shapes here are primitives, not meshes or
+/// half-spaces. Answers are canonical decisions (see kSlack) on distances that are right to about 1e-12 m.
 
 bool isMesh(const Shape& shape);
 
 /// Of the smallest box that is centred at the origin and contains the solid.
 Eigen::Vector3d halfExtents(const Shape& solid);
 
-/// How far a point is from the solid; 0 inside.
+/// How far a point in the solid's frame is from it; 0 inside.
 double distanceToSolid(const Shape& solid, const Eigen::Vector3d& point);
 
-/// Whether a closed triangle and the solid have a point in common: also where the triangle lies inside.
-bool triangleMeetsSolid(const Triangle& triangle, const Shape& solid);
+/// The farthest that the solid reaches along a direction of unit length, in its frame.
+double reachAlong(const Shape& solid, const Eigen::Vector3d& direction);
+
+/// Whether a closed triangle, in the solid's frame, and the solid, with a required distance, collide: also where the
+/// triangle lies inside. Does not depend on the order of the vertices.
+bool triangleWithinSolid(const Triangle& triangle, const Shape& solid, double required);
+
+/// Whether two solids with a required distance collide, `b` placed in the frame of `a`.
+bool solidsWithin(const Shape& a, const Shape& b, const Eigen::Isometry3d& b_in_a, double required);
 }  // namespace gpu_planning_scene

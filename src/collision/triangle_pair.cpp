@@ -4,17 +4,27 @@
 #include <cmath>
 #include <limits>
 
+#include "collision/exact_orientation.h"
+#include "collision/precise_distance.h"
+
 namespace gpu_planning_scene
 {
 namespace
 {
 using Eigen::Vector3d;
 
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+double sizeOf(const Vector3d& v)
+{
+  return v.lpNorm<Eigen::Infinity>();
+}
+
 /// A bound on the rounding error of the volume u x v . w of three differences of coordinates, by their largest
 /// components: six products of three factors, each with less than eight roundings.
 double volumeError(double u_size, double v_size, double w_size)
 {
-  return 6.0 * 8.0 * std::numeric_limits<double>::epsilon() * u_size * v_size * w_size;
+  return 6.0 * 8.0 * kEpsilon * u_size * v_size * w_size;
 }
 
 /// 0 where rounding may have changed the sign.
@@ -23,60 +33,43 @@ int clearSign(double value, double error)
   return value > error ? 1 : value < -error ? -1 : 0;
 }
 
-/// Whether the projections of two triangles on an axis are so far apart that their distance exceeds the tolerance.
-bool separates(const Vector3d& axis, const Triangle& p, const Triangle& q)
+/// The vertices of two triangles from one of them, and how much room rounding needs.
+class PairProjections
 {
-  const double p0 = axis.dot(p[0] - q[0]);
-  const double p1 = axis.dot(p[1] - q[0]);
-  const double p2 = axis.dot(p[2] - q[0]);
-  const double q1 = axis.dot(q[1] - q[0]);
-  const double q2 = axis.dot(q[2] - q[0]);
-  const double gap =
-      std::max(std::min({p0, p1, p2}) - std::max({0.0, q1, q2}), std::min({0.0, q1, q2}) - std::max({p0, p1, p2}));
-  // Twice the tolerance leaves room for the rounding of the projections.
-  return gap > 2.0 * kContactTolerance * axis.norm();
-}
-
-double squaredDistanceOfSegments(const Vector3d& p0, const Vector3d& p1, const Vector3d& q0, const Vector3d& q1)
-{
-  const Vector3d u = p1 - p0;
-  const Vector3d v = q1 - q0;
-  const Vector3d w = p0 - q0;
-  const auto clamp_to_segment = [](double numerator, double denominator)
-  { return denominator > 0.0 ? std::clamp(numerator / denominator, 0.0, 1.0) : 0.0; };
-  const double uu = u.squaredNorm();
-  const double vv = v.squaredNorm();
-  // The nearest points are inside both segments, or one of them is an end.
-  double best = (w + clamp_to_segment(-w.dot(u), uu) * u).squaredNorm();
-  best = std::min(best, (p0 + clamp_to_segment((q1 - p0).dot(u), uu) * u - q1).squaredNorm());
-  best = std::min(best, (w - clamp_to_segment(w.dot(v), vv) * v).squaredNorm());
-  best = std::min(best, (q0 + clamp_to_segment((p1 - q0).dot(v), vv) * v - p1).squaredNorm());
-  const Vector3d n = u.cross(v);
-  const double nn = n.squaredNorm();
-  const double s = v.cross(w).dot(n);
-  const double t = u.cross(w).dot(n);
-  if (nn > 0.0 && s >= 0.0 && s <= nn && t >= 0.0 && t <= nn)
+ public:
+  PairProjections(const Triangle& p, const Triangle& q)
+    : vertices_{p[0] - q[0], p[1] - q[0], p[2] - q[0], q[1] - q[0], q[2] - q[0]}
   {
-    best = std::min(best, (w + (s / nn) * u - (t / nn) * v).squaredNorm());
-  }
-  return best;
-}
-
-/// Of two triangles of which no edge of one passes through the inside of the other.
-double squaredDistanceOfOutlines(const Triangle& a, const Triangle& b)
-{
-  double best = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i)
-  {
-    best = std::min(best, (nearestPoint(a, b[i]) - b[i]).squaredNorm());
-    best = std::min(best, (nearestPoint(b, a[i]) - a[i]).squaredNorm());
-    for (int j = 0; j < 3; ++j)
+    double size = 0.0;
+    for (const Vector3d& vertex : vertices_)
     {
-      best = std::min(best, squaredDistanceOfSegments(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]));
+      size = std::max(size, sizeOf(vertex));
     }
+    // Each coordinate difference and each of the three products and two sums of a projection rounds by epsilon / 2 of
+    // no more than sqrt(3) size times the axis.
+    error_ = 8.0 * kEpsilon * size;
   }
-  return best;
-}
+
+  double size() const { return error_ / (8.0 * kEpsilon); }
+
+  /// Whether the projections on an axis of any length are certainly farther apart than `distance`: then the triangles
+  /// are. No matter where the axis comes from.
+  bool apartAlong(const Vector3d& axis, double distance) const
+  {
+    const double p0 = axis.dot(vertices_[0]);
+    const double p1 = axis.dot(vertices_[1]);
+    const double p2 = axis.dot(vertices_[2]);
+    const double q1 = axis.dot(vertices_[3]);
+    const double q2 = axis.dot(vertices_[4]);
+    const double gap =
+        std::max(std::min({p0, p1, p2}) - std::max({0.0, q1, q2}), std::min({0.0, q1, q2}) - std::max({p0, p1, p2}));
+    return gap > (distance + error_) * axis.norm();
+  }
+
+ private:
+  std::array<Vector3d, 5> vertices_;
+  double error_;
+};
 
 enum class Verdict
 {
@@ -85,13 +78,12 @@ enum class Verdict
   Undecided
 };
 
-/// Decides what is clear: apart if an axis separates them by more than the tolerance; a hit by the signs of volumes:
-/// those of one triangle and a vertex of the other (sides of planes) and those of two edges (how the line of an edge
-/// passes the edges of the other triangle, as in Pluecker coordinates; see e.g. Devillers and Guigue, "Faster
+/// Decides what is clear: apart if an axis separates the triangles by more than `distance`; a hit by the signs of
+/// volumes: those of one triangle and a vertex of the other (sides of planes) and those of two edges (how the line of
+/// an edge passes the edges of the other triangle, as in Pluecker coordinates; see e.g. Devillers and Guigue, "Faster
 /// Triangle-Triangle Intersection Tests", 2002).
-Verdict decideBySigns(const Triangle& p, const Triangle& q)
+Verdict decideBySigns(const Triangle& p, const Triangle& q, const PairProjections& projections, double distance)
 {
-  const auto size = [](const Vector3d& v) { return v.lpNorm<Eigen::Infinity>(); };
   Triangle edge_p;
   Triangle edge_q;
   std::array<double, 3> edge_p_size;
@@ -100,24 +92,25 @@ Verdict decideBySigns(const Triangle& p, const Triangle& q)
   {
     edge_p[i] = p[(i + 1) % 3] - p[i];
     edge_q[i] = q[(i + 1) % 3] - q[i];
-    edge_p_size[i] = size(edge_p[i]);
-    edge_q_size[i] = size(edge_q[i]);
+    edge_p_size[i] = sizeOf(edge_p[i]);
+    edge_q_size[i] = sizeOf(edge_q[i]);
   }
 
   // On which side of the plane of `triangle` the vertices of `other` are; returns whether they are all on one, clearly
   // apart.
-  const auto find_sides = [&size](const Triangle& triangle, const Triangle& edge,
-                                  const std::array<double, 3>& edge_size, const Triangle& other,
-                                  std::array<int, 3>& sides)
+  const auto find_sides = [distance](const Triangle& triangle, const Triangle& edge,
+                                     const std::array<double, 3>& edge_size, const Triangle& other,
+                                     std::array<int, 3>& sides)
   {
     const Vector3d normal = edge[0].cross(edge[1]);
-    const double tolerance = 2.0 * kContactTolerance * normal.norm();
+    // The second term bounds the error of the normal: little of a sliver's normal may be left.
+    const double tolerance = distance * (normal.norm() + 16.0 * kEpsilon * edge_size[0] * edge_size[1]);
     int apart = 0;
     for (int i = 0; i < 3; ++i)
     {
       const Vector3d between = other[i] - triangle[1];
       const double volume = normal.dot(between);
-      const double error = volumeError(edge_size[0], edge_size[1], size(between));
+      const double error = volumeError(edge_size[0], edge_size[1], sizeOf(between));
       sides[i] = clearSign(volume, error);
       apart += clearSign(volume, error + tolerance);
     }
@@ -137,9 +130,9 @@ Verdict decideBySigns(const Triangle& p, const Triangle& q)
     {
       const Vector3d axis = edge_p[i].cross(edge_q[j]);
       const Vector3d between = q[j] - p[i];
-      const double error = volumeError(edge_p_size[i], edge_q_size[j], size(between));
+      const double error = volumeError(edge_p_size[i], edge_q_size[j], sizeOf(between));
       turn[i][j] = clearSign(axis.dot(between), error);
-      if (turn[i][j] != 0 && separates(axis, p, q))
+      if (turn[i][j] != 0 && projections.apartAlong(axis, distance))
       {
         return Verdict::Apart;
       }
@@ -159,6 +152,98 @@ Verdict decideBySigns(const Triangle& p, const Triangle& q)
     }
   }
   return Verdict::Undecided;
+}
+
+/// Two points, one of each shape, and the vector from the one to the other.
+struct Nearest
+{
+  double squared_distance = std::numeric_limits<double>::infinity();
+  Vector3d between = Vector3d::Zero();
+
+  void offer(const Vector3d& candidate)
+  {
+    const double squared = candidate.squaredNorm();
+    if (squared < squared_distance)
+    {
+      squared_distance = squared;
+      between = candidate;
+    }
+  }
+};
+
+/// The nearest points inside both segments, if there are such.
+void offerNearestOfSegments(const Vector3d& p0, const Vector3d& p1, const Vector3d& q0, const Vector3d& q1,
+                            Nearest& nearest)
+{
+  const Vector3d u = p1 - p0;
+  const Vector3d v = q1 - q0;
+  const Vector3d w = p0 - q0;
+  const Vector3d n = u.cross(v);
+  const double nn = n.squaredNorm();
+  const double s = v.cross(w).dot(n);
+  const double t = u.cross(w).dot(n);
+  if (nn > 0.0 && s >= 0.0 && s <= nn && t >= 0.0 && t <= nn)
+  {
+    nearest.offer(w + (s / nn) * u - (t / nn) * v);
+  }
+}
+
+/// Of two triangles of which no edge of one passes through the inside of the other. Whatever rounding does to the
+/// choice of the points, they are points of the triangles: their distance is an upper bound.
+Nearest nearestOfOutlines(const Triangle& a, const Triangle& b)
+{
+  Nearest nearest;
+  for (int i = 0; i < 3; ++i)
+  {
+    nearest.offer(nearestPoint(a, b[i]) - b[i]);
+    nearest.offer(a[i] - nearestPoint(b, a[i]));
+    for (int j = 0; j < 3; ++j)
+    {
+      offerNearestOfSegments(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3], nearest);
+    }
+  }
+  return nearest;
+}
+
+/// Whether the segment passes through the inside of the triangle, from one side to the other, by exact signs.
+bool segmentPierces(const Vector3d& start, const Vector3d& end, const Triangle& triangle)
+{
+  if (exactOrientation(triangle[0], triangle[1], triangle[2], start) *
+          exactOrientation(triangle[0], triangle[1], triangle[2], end) >=
+      0)
+  {
+    return false;
+  }
+  const int turn = exactOrientation(start, end, triangle[0], triangle[1]);
+  return turn != 0 && turn == exactOrientation(start, end, triangle[1], triangle[2]) &&
+         turn == exactOrientation(start, end, triangle[2], triangle[0]);
+}
+
+bool edgePierces(const Triangle& a, const Triangle& b)
+{
+  for (int i = 0; i < 3; ++i)
+  {
+    if (segmentPierces(a[i], a[(i + 1) % 3], b) || segmentPierces(b[i], b[(i + 1) % 3], a))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+double largestCoordinate(const Triangle& a, const Triangle& b)
+{
+  double size = 0.0;
+  for (int i = 0; i < 3; ++i)
+  {
+    size = std::max({size, sizeOf(a[i]), sizeOf(b[i])});
+  }
+  return size;
+}
+
+bool lexicographicallyLess(const Vector3d& a, const Vector3d& b)
+{
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 }  // namespace
 
@@ -201,18 +286,43 @@ Vector3d nearestPoint(const Triangle& triangle, const Vector3d& point)
   return best;
 }
 
+Triangle sortedTriangle(const Triangle& triangle)
+{
+  Triangle sorted = triangle;
+  std::sort(sorted.begin(), sorted.end(), lexicographicallyLess);
+  return sorted;
+}
+
+bool precedes(const Triangle& a, const Triangle& b)
+{
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), lexicographicallyLess);
+}
+
 bool trianglesMeet(const Triangle& a, const Triangle& b)
 {
-  const Verdict verdict = decideBySigns(a, b);
+  return trianglesWithin(a, b, 0.0);
+}
+
+bool trianglesWithin(const Triangle& a, const Triangle& b, double required)
+{
+  // What is decided before the last line is certain, so it cannot depend on the order of vertices and triangles.
+  const double threshold = required + kSlack;
+  const PairProjections projections(a, b);
+  const Verdict verdict = decideBySigns(a, b, projections, threshold);
   if (verdict != Verdict::Undecided)
   {
     return verdict == Verdict::Hit;
   }
-  return squaredDistanceOfOutlines(a, b) <= kContactTolerance * kContactTolerance;
-}
-
-bool trianglesWithin(const Triangle& a, const Triangle& b, double margin)
-{
-  return trianglesMeet(a, b) || squaredDistanceOfOutlines(a, b) <= margin * margin;
+  const Nearest nearest = nearestOfOutlines(a, b);
+  const double distance = std::sqrt(nearest.squared_distance);
+  if (distance + 16.0 * kEpsilon * (largestCoordinate(a, b) + projections.size()) <= threshold)
+  {
+    return true;
+  }
+  if (projections.apartAlong(nearest.between, threshold))
+  {
+    return false;
+  }
+  return edgePierces(a, b) || preciseDistance(a, b) <= threshold;
 }
 }  // namespace gpu_planning_scene

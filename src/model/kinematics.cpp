@@ -1,6 +1,6 @@
 #include "kinematics.h"
 
-#include <cmath>
+#include "sine.h"
 
 namespace gpu_planning_scene
 {
@@ -18,7 +18,11 @@ Eigen::Matrix4d planarMotion(const Eigen::Matrix3d& directions, const double* va
 {
   Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
   motion.topRightCorner<3, 1>() = directions.leftCols<2>() * Eigen::Vector2d(variables[0], variables[1]);
-  motion.topLeftCorner<3, 3>() = Eigen::AngleAxisd(variables[2], directions.col(2)).toRotationMatrix();
+  const Eigen::Vector3d normal = directions.col(2);
+  const Eigen::Matrix3d along = normal * normal.transpose();
+  const auto [sine, cosine] = sineCosine(variables[2]);
+  motion.topLeftCorner<3, 3>() =
+      along + cosine * (Eigen::Matrix3d::Identity() - along) + sine * crossProductMatrix(normal);
   return motion;
 }
 
@@ -92,8 +96,8 @@ Eigen::Matrix4d Kinematics::relativePose(const Step& step, const double* state)
     case JointType::Revolute:
     case JointType::Continuous:
     {
-      const double angle = step.multiplier * state[step.variable] + step.offset;
-      return step.constant + std::cos(angle) * step.first + std::sin(angle) * step.second;
+      const auto [sine, cosine] = sineCosine(step.multiplier * state[step.variable] + step.offset);
+      return step.constant + cosine * step.first + sine * step.second;
     }
     case JointType::Prismatic:
       return step.constant + (step.multiplier * state[step.variable] + step.offset) * step.first;

@@ -92,7 +92,7 @@ bool collideByBruteForce(const Shape& a, const Tessellation& surface_a, const Sh
     const Triangle in_b = triangleOf(*surface_a.mesh, i, a_in_b);
     if (!isMesh(b))
     {
-      if (triangleMeetsSolid(in_b, b))
+      if (triangleWithinSolid(in_b, b, 0.0))
       {
         return true;
       }

@@ -109,7 +109,7 @@ TEST_P(PrimitiveSolid, MeetsATriangleWhereItsDistanceIsZero)
       t[2] = 0.5 * (t[0] + t[1]);  // a segment
     }
     const double apart = distance(t, GetParam());
-    const bool meets = triangleMeetsSolid(t, GetParam());
+    const bool meets = triangleWithinSolid(t, GetParam(), 0.0);
     hits += meets;
     if (apart > 1e-7)
     {
@@ -127,16 +127,16 @@ TEST_P(PrimitiveSolid, MeetsATriangleWhereItsDistanceIsZero)
 TEST_P(PrimitiveSolid, ContainsASmallTriangleAndIsCutByAHugeOne)
 {
   const Triangle small = {Vector3d(0.01, 0, 0), Vector3d(0, 0.01, 0), Vector3d(0, 0, 0.01)};
-  EXPECT_TRUE(triangleMeetsSolid(small, GetParam()));
+  EXPECT_TRUE(triangleWithinSolid(small, GetParam(), 0.0));
   const Vector3d half = halfExtents(GetParam());
   for (const Vector3d& normal : {Vector3d(0, 0, 1), Vector3d(1, 0, 0), Vector3d(1, 2, 3), Vector3d(1, 0, 1e-9)})
   {
     const auto [u, v] = directionsAcross(normal.normalized());
     const Triangle huge = {-50 * u - 40 * v, 50 * u - 40 * v, 60 * v};
-    EXPECT_TRUE(triangleMeetsSolid(huge, GetParam())) << normal.transpose();
+    EXPECT_TRUE(triangleWithinSolid(huge, GetParam(), 0.0)) << normal.transpose();
     const Vector3d beyond = (half.norm() + 0.01) * normal.normalized();
     const Triangle above = {huge[0] + beyond, huge[1] + beyond, huge[2] + beyond};
-    EXPECT_FALSE(triangleMeetsSolid(above, GetParam())) << normal.transpose();
+    EXPECT_FALSE(triangleWithinSolid(above, GetParam(), 0.0)) << normal.transpose();
   }
 }
 std::string kindOf(const testing::TestParamInfo<Shape>& parameter)
@@ -155,7 +155,7 @@ TEST(PrimitiveSolid, TouchesAtTheTrueSurfaceAndNotBeyond)
     const Vector3d n = outward.normalized();
     const auto [u, v] = directionsAcross(n);
     const Vector3d at = point + gap * n;
-    return triangleMeetsSolid({at - u - v, at + u - v, at + 1.5 * v}, shape);
+    return triangleWithinSolid({at - u - v, at + u - v, at + 1.5 * v}, shape, 0.0);
   };
   const double angle = 0.7;  // at no vertex of any tessellation
   const Vector3d radial(std::cos(angle), std::sin(angle), 0.0);

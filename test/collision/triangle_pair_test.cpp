@@ -224,16 +224,16 @@ TEST(TrianglePair, KeepsTouchingAndFreesANanometreOfClearance)
   }
 }
 
-TEST(TrianglePair, WithinMeansDistanceAtMostTheMargin)
+TEST(TrianglePair, WithinMeansDistanceAtMostTheRequiredOne)
 {
   const Triangle flat = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
   const Triangle above_face = {Vector3d(0.2, 0.2, 0.5), Vector3d(0.3, 0.2, 1), Vector3d(0.2, 0.3, 1)};
   const Triangle edge_on = {Vector3d(0.5, -0.3, -1), Vector3d(0.5, -0.3, 1), Vector3d(0.5, -2, 0)};
   const Triangle piercing = {Vector3d(0.2, 0.2, -1), Vector3d(0.2, 0.2, 1), Vector3d(0.25, 0.2, 1)};
-  EXPECT_TRUE(trianglesWithin(flat, above_face, 0.5 + 1e-12));
-  EXPECT_FALSE(trianglesWithin(flat, above_face, 0.5 - 1e-12));
-  EXPECT_TRUE(trianglesWithin(flat, edge_on, 0.3 + 1e-12));
-  EXPECT_FALSE(trianglesWithin(flat, edge_on, 0.3 - 1e-12));
+  EXPECT_TRUE(trianglesWithin(flat, above_face, 0.5));
+  EXPECT_FALSE(trianglesWithin(flat, above_face, 0.5 - 1.001e-9));
+  EXPECT_TRUE(trianglesWithin(flat, edge_on, 0.3));
+  EXPECT_FALSE(trianglesWithin(flat, edge_on, 0.3 - 1.001e-9));
   EXPECT_TRUE(trianglesWithin(flat, piercing, 0.0));
 }
 }  // namespace

@@ -1,0 +1,51 @@
+#include "collision/cpu_forest.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "collision/primitive_solid.h"
+
+namespace gpu_planning_scene
+{
+CpuForest::CpuForest(const CollisionProblem& problem, std::shared_ptr<const Forest> forest)
+  : forest_(std::move(forest)), shapes_(problem.shapes)
+{
+  std::vector<std::vector<std::uint8_t>> bounds_solid;  // of each tree's triangles
+  for (std::size_t i = 0; i < shapes_.size(); ++i)
+  {
+    const std::uint32_t root = forest_->roots[i];
+    bounds_solid.emplace_back();
+    if (!isMesh(shapes_[i]))
+    {
+      trees_.push_back({root, Eigen::Vector3d::Zero(), halfExtents(shapes_[i]), false, {}, {}});
+      continue;
+    }
+    MeshComponents found = findComponents(*problem.trees[i].mesh);
+    Eigen::AlignedBox3d solid_bounds;
+    for (const Component& component : found.components)
+    {
+      if (component.closed)
+      {
+        solid_bounds.extend(component.bounds);
+      }
+    }
+    const Node& box = forest_->nodes[root];
+    trees_.push_back({root, centerOf(box), halfOf(box), true, std::move(found.components), solid_bounds});
+    bounds_solid.back() = std::move(found.bounds_solid);
+  }
+
+  const auto& first_triangle = forest_->first_triangle;
+  triangles_.reserve(forest_->leaf_triangles.size());
+  bounds_solid_.reserve(forest_->leaf_triangles.size());
+  for (const std::uint32_t number : forest_->leaf_triangles)
+  {
+    const auto after = std::upper_bound(first_triangle.begin(), first_triangle.end(), number);
+    const std::size_t tree = after - first_triangle.begin() - 1;
+    const Mesh& mesh = *problem.trees[tree].mesh;
+    const std::uint32_t triangle = number - first_triangle[tree];
+    const auto& corners = mesh.triangles[triangle];
+    triangles_.push_back({mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]});
+    bounds_solid_.push_back(trees_[tree].mesh ? bounds_solid[tree][triangle] : 0);
+  }
+}
+}  // namespace gpu_planning_scene

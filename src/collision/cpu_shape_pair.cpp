@@ -1,0 +1,223 @@
+#include "collision/cpu_shape_pair.h"
+
+#include "collision/cpu_box_pair.h"
+#include "collision/primitive_solid.h"
+#include "collision/winding_number.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using Eigen::AlignedBox3d;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// Boxes are grown by this much, so that neither rounding in the box tests nor kSlack loses a pair.
+constexpr double kBoxMargin = 1e-9;  // metres
+
+/// Loses nothing where both are far from the origin of the frame that they are given in.
+Isometry3d relativePose(const Isometry3d& a, const Isometry3d& b)
+{
+  Isometry3d b_in_a;
+  b_in_a.linear().noalias() = a.linear().transpose() * b.linear();
+  b_in_a.translation().noalias() = a.linear().transpose() * (b.translation() - a.translation());
+  b_in_a.makeAffine();
+  return b_in_a;
+}
+}  // namespace
+
+AlignedBox3d CpuShapePair::boundsOf(std::uint32_t tree, const Isometry3d& pose) const
+{
+  const Vector3d center = pose * forest_->tree(tree).center;
+  const Vector3d half = (pose.linear().cwiseAbs() * forest_->tree(tree).half).array() + kBoxMargin;
+  return {center - half, center + half};
+}
+
+bool CpuShapePair::collide(std::uint32_t a, const Isometry3d& pose_a, std::uint32_t b, const Isometry3d& pose_b,
+                           double required, Scratch& scratch) const
+{
+  const CpuForest::Tree& tree_a = forest_->tree(a);
+  const CpuForest::Tree& tree_b = forest_->tree(b);
+  const Isometry3d b_in_a = relativePose(pose_a, pose_b);
+  const Vector3d grown = tree_a.half.array() + (required + kBoxMargin);
+  if (!BoxPairTest(b_in_a.linear()).overlap(grown, tree_b.half, b_in_a * tree_b.center - tree_a.center))
+  {
+    return false;
+  }
+  if (tree_a.mesh && tree_b.mesh)
+  {
+    return surfacesMeet(a, b, b_in_a, required, scratch) || holdsComponent(a, b, b_in_a, scratch) ||
+           holdsComponent(b, a, b_in_a.inverse(), scratch);
+  }
+  if (!tree_a.mesh && !tree_b.mesh)
+  {
+    return solidsWithin(forest_->shape(a), forest_->shape(b), b_in_a, required);
+  }
+  // A triangle inside the primitive meets it as well; the primitive inside the mesh is left.
+  const Isometry3d a_in_b = b_in_a.inverse();
+  return tree_a.mesh ? surfaceMeetsSolid(a, b, a_in_b, required, scratch) ||
+                           isInsideSolid(*forest_, a, b_in_a.translation(), scratch.nodes)
+                     : surfaceMeetsSolid(b, a, b_in_a, required, scratch) ||
+                           isInsideSolid(*forest_, b, a_in_b.translation(), scratch.nodes);
+}
+
+bool CpuShapePair::surfaceMeetsSolid(std::uint32_t mesh, std::uint32_t solid, const Isometry3d& mesh_in_solid,
+                                     double required, Scratch& scratch) const
+{
+  const Shape& shape = forest_->shape(solid);
+  const bool box = std::holds_alternative<Box>(shape);
+  const BoxPairTest pair_test(mesh_in_solid.linear());
+  const double margin = required + kBoxMargin;
+  const Vector3d grown = forest_->tree(solid).half.array() + margin;
+
+  scratch.nodes.assign(1, forest_->tree(mesh).root);
+  while (!scratch.nodes.empty())
+  {
+    const Node& node = forest_->node(scratch.nodes.back());
+    scratch.nodes.pop_back();
+    const Vector3d half = halfOf(node);
+    const Vector3d center = mesh_in_solid * centerOf(node);
+    if (!pair_test.overlap(grown, half, center) ||
+        ((!box || required > 0.0) && distanceToSolid(shape, center) > half.norm() + margin))
+    {
+      continue;
+    }
+    if (node.count == 0)
+    {
+      scratch.nodes.push_back(node.first);
+      scratch.nodes.push_back(node.first + 1);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      const Triangle& t = forest_->triangle(i);
+      if (triangleWithinSolid({mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]}, shape, required))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Simultaneous traversal: the pairs of overlapping nodes, of which the larger is opened.
+bool CpuShapePair::surfacesMeet(std::uint32_t a, std::uint32_t b, const Isometry3d& b_in_a, double required,
+                                Scratch& scratch) const
+{
+  const BoxPairTest pair_test(b_in_a.linear());
+  const Eigen::Array3d growth = Eigen::Array3d::Constant(required + kBoxMargin);
+  scratch.node_pairs.assign(1, {forest_->tree(a).root, forest_->tree(b).root});
+  while (!scratch.node_pairs.empty())
+  {
+    const auto [index_a, index_b] = scratch.node_pairs.back();
+    scratch.node_pairs.pop_back();
+    const Node& node_a = forest_->node(index_a);
+    const Node& node_b = forest_->node(index_b);
+    const Vector3d half_a = halfOf(node_a).array() + growth;
+    const Vector3d half_b = halfOf(node_b);
+    if (!pair_test.overlap(half_a, half_b, b_in_a * centerOf(node_b) - centerOf(node_a)))
+    {
+      continue;
+    }
+    const bool leaf_a = node_a.count != 0;
+    const bool leaf_b = node_b.count != 0;
+    if (leaf_a && leaf_b)
+    {
+      if (leavesMeet(node_a, node_b, b_in_a, required))
+      {
+        return true;
+      }
+    }
+    else if (leaf_b || (!leaf_a && half_a.squaredNorm() >= half_b.squaredNorm()))
+    {
+      scratch.node_pairs.push_back({node_a.first, index_b});
+      scratch.node_pairs.push_back({node_a.first + 1, index_b});
+    }
+    else
+    {
+      scratch.node_pairs.push_back({index_a, node_b.first});
+      scratch.node_pairs.push_back({index_a, node_b.first + 1});
+    }
+  }
+  return false;
+}
+
+bool CpuShapePair::leavesMeet(const Node& a, const Node& b, const Isometry3d& b_in_a, double required) const
+{
+  for (std::uint32_t j = b.first; j < b.first + b.count; ++j)
+  {
+    const Triangle& t = forest_->triangle(j);
+    const Triangle triangle_b = {b_in_a * t[0], b_in_a * t[1], b_in_a * t[2]};
+    for (std::uint32_t i = a.first; i < a.first + a.count; ++i)
+    {
+      if (trianglesWithin(forest_->triangle(i), triangle_b, required))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Whether a component of one mesh lies inside the solid of the other, where no surfaces meet: then any point of it
+/// tells.
+bool CpuShapePair::holdsComponent(std::uint32_t outer, std::uint32_t inner, const Isometry3d& inner_in_outer,
+                                  Scratch& scratch) const
+{
+  const AlignedBox3d& bounds = forest_->tree(outer).solid_bounds;
+  if (bounds.isEmpty())
+  {
+    return false;
+  }
+  const double diagonal = bounds.diagonal().norm() + kBoxMargin;
+  for (const Component& component : forest_->tree(inner).components)
+  {
+    // A side of its box is a distance of two of its points along an axis, so nothing with a longer one fits in.
+    const Vector3d point = inner_in_outer * component.point;
+    if (bounds.contains(point) && component.bounds.sizes().maxCoeff() <= diagonal &&
+        isInsideSolid(*forest_, outer, point, scratch.nodes))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool CpuShapePair::collide(std::uint32_t tree, const Isometry3d& pose, const PlacedHalfSpace& half_space,
+                           double required, Scratch& scratch) const
+{
+  const Vector3d normal = pose.linear().transpose() * half_space.normal;  // in the shape's frame
+  const double most = half_space.offset - half_space.normal.dot(pose.translation()) + required + kSlack;
+  if (!forest_->tree(tree).mesh)
+  {
+    return -reachAlong(forest_->shape(tree), -normal) <= most;
+  }
+  scratch.nodes.assign(1, forest_->tree(tree).root);
+  while (!scratch.nodes.empty())
+  {
+    const Node& node = forest_->node(scratch.nodes.back());
+    scratch.nodes.pop_back();
+    if (normal.dot(centerOf(node)) - normal.cwiseAbs().dot(halfOf(node)) > most + kBoxMargin)
+    {
+      continue;
+    }
+    if (node.count == 0)
+    {
+      scratch.nodes.push_back(node.first);
+      scratch.nodes.push_back(node.first + 1);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      for (const Vector3d& vertex : forest_->triangle(i))
+      {
+        if (normal.dot(vertex) <= most)
+        {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "collision/cpu_forest.h"
+
+namespace gpu_planning_scene
+{
+/// A plane, and all below it: points x with normal . x <= offset.
+struct PlacedHalfSpace
+{
+  Eigen::Vector3d normal;
+  double offset;
+};
+
+/// Decides pairs of placed shapes, as the contract says and kSlack explains: solids by their true surfaces, meshes by
+/// their triangles and by what their closed components hold. Distances are right to 1e-10 m for coordinates within a
+/// kilometre; a pair's answer does not depend on the trees.
+class CpuShapePair
+{
+ public:
+  /// Work space of one thread.
+  struct Scratch
+  {
+    std::vector<std::array<std::uint32_t, 2>> node_pairs;
+    std::vector<std::uint32_t> nodes;
+  };
+
+  explicit CpuShapePair(std::shared_ptr<const CpuForest> forest) : forest_(std::move(forest)) {}
+
+  /// Whether two shapes, by their trees, collide where `required` is the pair's required distance.
+  bool collide(std::uint32_t a, const Eigen::Isometry3d& pose_a, std::uint32_t b, const Eigen::Isometry3d& pose_b,
+               double required, Scratch& scratch) const;
+
+  bool collide(std::uint32_t tree, const Eigen::Isometry3d& pose, const PlacedHalfSpace& half_space, double required,
+               Scratch& scratch) const;
+
+  /// The tree's root box, placed and made a little larger than rounding makes it smaller.
+  Eigen::AlignedBox3d boundsOf(std::uint32_t tree, const Eigen::Isometry3d& pose) const;
+
+ private:
+  bool surfaceMeetsSolid(std::uint32_t mesh, std::uint32_t solid, const Eigen::Isometry3d& mesh_in_solid,
+                         double required, Scratch& scratch) const;
+  bool surfacesMeet(std::uint32_t a, std::uint32_t b, const Eigen::Isometry3d& b_in_a, double required,
+                    Scratch& scratch) const;
+  bool leavesMeet(const Node& a, const Node& b, const Eigen::Isometry3d& b_in_a, double required) const;
+  bool holdsComponent(std::uint32_t outer, std::uint32_t inner, const Eigen::Isometry3d& inner_in_outer,
+                      Scratch& scratch) const;
+
+  std::shared_ptr<const CpuForest> forest_;
+};
+}  // namespace gpu_planning_scene

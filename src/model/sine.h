@@ -1,0 +1,14 @@
+#pragma once
+
+namespace gpu_planning_scene
+{
+struct SineCosine
+{
+  double sine;
+  double cosine;
+};
+
+/// Both to within 1e-16 plus half a unit in the last place, by additions and multiplications alone: the same bits on
+/// every machine and with every C library. Beyond |x| = 2^20 the C library's, which may differ between machines.
+SineCosine sineCosine(double x);
+}  // namespace gpu_planning_scene
