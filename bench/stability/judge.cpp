@@ -1,0 +1,158 @@
+#include "stability/judge.h"
+
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <sstream>
+
+#include "collision/state_rows.h"
+#include "gpu_planning_scene/error.h"
+#include "oracle/oracle.h"
+#include "stability/peers.h"
+
+namespace gpu_planning_scene::stability
+{
+namespace
+{
+constexpr double kKnownTo = 2e-11;  // metres: roundings of the construction, far from the origin
+
+struct Judged
+{
+  Case made;
+  oracle::Verdict truth = oracle::Verdict::Either;
+  std::array<bool, MethodCount> applies{};
+  std::array<bool, MethodCount> collides{};
+};
+
+struct Places
+{
+  explicit Places(const Case& c)
+    : a(c.a), b(c.b), pose_a(oracle::Motion(c.link_a) * oracle::Motion(c.a_in_link)), pose_b(c.pose_b)
+  {
+  }
+  oracle::PreparedShape a;
+  oracle::PreparedShape b;
+  oracle::Motion pose_a;
+  oracle::Motion pose_b;
+};
+
+double requiredDistance(const Case& c)
+{
+  return c.self ? 0.0 : c.padding_a + c.padding_b;
+}
+
+void checkConstruction(const Case& c, const Places& places)
+{
+  if (!c.known)
+    return;
+  const double distance = oracle::distance(places.a, places.pose_a, places.b, places.pose_b);
+  if (std::abs(distance - *c.known) > kKnownTo)
+  {
+    std::ostringstream message;
+    message << "the oracle finds a distance of " << distance << " m where a case was made with " << *c.known << " m";
+    throw Error(message.str());
+  }
+}
+
+void askPeers(const Family& family, Judged& judged)
+{
+  const auto answer = [&](Method method, bool collides)
+  {
+    judged.applies[method] = true;
+    judged.collides[method] = collides;
+  };
+  answer(FclDefault, fclCollides(judged.made, false));
+  answer(FclOwn, fclCollides(judged.made, true));
+  if (family.triangles)
+    answer(PlainFloat, floatCollides(judged.made));
+  if (family.convex)
+    answer(BulletHulls, bulletCollides(judged.made));
+}
+
+Judged judgeOne(const Family& family, std::uint64_t seed, std::size_t index)
+{
+  Judged judged;
+  judged.made = family.make(seed, index);
+  const Places places(judged.made);
+  checkConstruction(judged.made, places);
+  judged.truth = oracle::verdict(places.a, places.pose_a, places.b, places.pose_b, requiredDistance(judged.made));
+  askPeers(family, judged);
+  return judged;
+}
+
+std::string describe(const Judged& judged, Method method)
+{
+  const Places places(judged.made);
+  std::ostringstream text;
+  text.precision(12);
+  text << "says " << (judged.collides[method] ? "collision" : "free") << ", true distance "
+       << oracle::distance(places.a, places.pose_a, places.b, places.pose_b) << " m, required "
+       << requiredDistance(judged.made) << " m";
+  return text.str();
+}
+}  // namespace
+
+Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& ours,
+          const std::function<void(const Failure&)>& report)
+{
+  std::vector<Judged> all(count);
+  std::exception_ptr error;
+  std::mutex mutex;
+  forChunks(count, 4,
+            [&](std::size_t begin, std::size_t end)
+            {
+              for (std::size_t i = begin; i < end; ++i)
+              {
+                try
+                {
+                  all[i] = judgeOne(family, seed, i);
+                }
+                catch (...)
+                {
+                  const std::lock_guard<std::mutex> lock(mutex);
+                  error = std::current_exception();
+                }
+              }
+            });
+  if (error)
+    std::rethrow_exception(error);
+
+  std::vector<Case> cases;
+  for (const Judged& judged : all)
+    cases.push_back(judged.made);
+  const Ours::Answers answers = ours.check(cases, family.origin);
+  Row row;
+  row.family = family.name;
+  row.undecided = answers.undecided;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Judged& judged = all[i];
+    row.colliding += judged.truth == oracle::Verdict::Collides ? 1 : 0;
+    row.free += judged.truth == oracle::Verdict::Free ? 1 : 0;
+    row.either += judged.truth == oracle::Verdict::Either ? 1 : 0;
+    const bool exact_of_first = answers.exact[i - i % family.copies] != 0;
+    for (std::size_t m = 0; m < MethodCount; ++m)
+    {
+      const auto method = static_cast<Method>(m);
+      const bool own = methodNames()[m].ours;
+      if (own)
+      {
+        judged.applies[m] = true;
+        judged.collides[m] = (method == WorkQueues     ? answers.work_queue
+                              : method == BreadthFirst ? answers.breadth_first
+                                                       : answers.exact)[i] != 0;
+      }
+      if (!judged.applies[m])
+        continue;
+      Cell& cell = row.cells[m];
+      const std::size_t wrong_before = cell.wrong();
+      stability::count(cell, judged.truth, judged.collides[m]);
+      if (own && judged.truth == oracle::Verdict::Either && judged.collides[m] != exact_of_first)
+        ++cell.inconsistent;
+      if (own && cell.wrong() > wrong_before)
+        report({family.name, i, method, describe(judged, method)});
+    }
+  }
+  return row;
+}
+}  // namespace gpu_planning_scene::stability

@@ -1,0 +1,153 @@
+#include "stability/ours.h"
+
+#include <algorithm>
+
+#include "collision/batch_engine.h"
+#include "collision/binned_sah.h"
+#include "collision/cpu_traversal.h"
+
+namespace gpu_planning_scene::stability
+{
+namespace
+{
+constexpr std::size_t kCasesPerProblem = 64;
+constexpr double kFarApart = 1e5;  // metres: more than any case's size
+
+std::uint32_t treeOf(const Shape& shape, CollisionProblem& problem)
+{
+  const auto same =
+      std::find_if(problem.shapes.begin(), problem.shapes.end(), [&](const Shape& s) { return sameShape(s, shape); });
+  if (same != problem.shapes.end())
+    return static_cast<std::uint32_t>(same - problem.shapes.begin());
+  problem.shapes.push_back(shape);
+  problem.trees.push_back(tessellate(shape));
+  return static_cast<std::uint32_t>(problem.shapes.size() - 1);
+}
+
+BatchCheckerOptions engineOptions(const std::string& device, const std::string& shaders, Traversal traversal)
+{
+  BatchCheckerOptions options;
+  options.device = device;
+  options.shader_folder = shaders;
+  options.traversal = traversal;
+  options.max_batch = kCasesPerProblem;
+  return options;
+}
+
+/// Cases begin .. end as one problem. Case i is on link i, and on link count + i where it has two.
+struct Part
+{
+  const Case* cases;
+  std::size_t count;
+  std::shared_ptr<CollisionProblem> problem = std::make_shared<CollisionProblem>();
+
+  Part(const Case* first, std::size_t case_count, const Eigen::Vector3d& origin) : cases(first), count(case_count)
+  {
+    problem->origin = origin;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const auto link = static_cast<std::int32_t>(i);
+      problem->robot.push_back({treeOf(cases[i].a, *problem), link, link, cases[i].a_in_link, cases[i].padding_a});
+    }
+    const auto links = static_cast<std::int32_t>(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const auto other = links + static_cast<std::int32_t>(i);
+      if (const auto* half_space = std::get_if<HalfSpace>(&cases[i].b))
+        problem->half_spaces.push_back({other, half_space->normal, half_space->offset, cases[i].padding_b});
+      else if (cases[i].self)
+      {
+        problem->self_pairs.push_back(
+            {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(problem->robot.size())});
+        problem->robot.push_back(
+            {treeOf(cases[i].b, *problem), other, other, Eigen::Isometry3d::Identity(), cases[i].padding_b});
+      }
+      else
+        problem->world.push_back({treeOf(cases[i].b, *problem), other, -1, cases[i].pose_b, cases[i].padding_b});
+    }
+    problem->world_pairs.assign(problem->robot.size() * problem->world.size(), 0);
+    problem->half_space_pairs.assign(problem->robot.size() * problem->half_spaces.size(), 0);
+    std::size_t object = 0;
+    std::size_t half_space = 0;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if (std::holds_alternative<HalfSpace>(cases[i].b))
+        problem->half_space_pairs[i * problem->half_spaces.size() + half_space++] = 1;
+      else if (!cases[i].self)
+        problem->world_pairs[i * problem->world.size() + object++] = 1;
+    }
+  }
+
+  std::size_t linkCount() const { return 2 * count; }
+
+  void linkPoses(std::size_t state, Eigen::Isometry3d* poses) const
+  {
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      poses[i] = cases[i].link_a;
+      poses[count + i] = cases[i].pose_b;
+      if (i == state)
+        continue;
+      const auto* half_space = std::get_if<HalfSpace>(&cases[i].b);
+      poses[i].translation() += kFarApart * (half_space ? half_space->normal : Eigen::Vector3d::UnitX());
+    }
+  }
+};
+}  // namespace
+
+struct Ours::Impl
+{
+  BatchEngine work_queue;
+  BatchEngine breadth_first;
+
+  static std::size_t append(BatchEngine& engine, const Part& part, std::vector<std::uint8_t>& answers)
+  {
+    BatchResult result;
+    engine.setProblem(part.problem);
+    engine.check(
+        part.count, part.linkCount(), [&](std::size_t row, Eigen::Isometry3d* poses) { part.linkPoses(row, poses); },
+        result);
+    for (const std::uint8_t valid : result.valid)
+      answers.push_back(valid ? 0 : 1);
+    return result.undecided_states;
+  }
+
+  static void appendExact(const Part& part, std::vector<std::uint8_t>& answers)
+  {
+    const CpuTraversal traversal(part.problem, std::make_shared<const Forest>(buildBinnedSah(part.problem->trees)));
+    CpuTraversal::Scratch scratch;
+    std::vector<Eigen::Isometry3d> poses(part.linkCount());
+    for (std::size_t i = 0; i < part.count; ++i)
+    {
+      part.linkPoses(i, poses.data());
+      answers.push_back(traversal.firstCollision(poses.data(), scratch) ? 1 : 0);
+    }
+  }
+};
+
+Ours::Ours(const std::string& device, const std::string& shaders)
+  : impl_(new Impl{BatchEngine(engineOptions(device, shaders, Traversal::WorkQueue)),
+                   BatchEngine(engineOptions(device, shaders, Traversal::BreadthFirst))})
+{
+}
+
+Ours::~Ours() = default;
+
+Ours::Answers Ours::check(const std::vector<Case>& cases, const Eigen::Vector3d& origin)
+{
+  Answers answers;
+  for (std::size_t begin = 0; begin < cases.size(); begin += kCasesPerProblem)
+  {
+    const Part part(&cases[begin], std::min(kCasesPerProblem, cases.size() - begin), origin);
+    answers.undecided += Impl::append(impl_->work_queue, part, answers.work_queue);
+    Impl::append(impl_->breadth_first, part, answers.breadth_first);
+    Impl::appendExact(part, answers.exact);
+  }
+  return answers;
+}
+
+std::string Ours::deviceName() const
+{
+  return impl_->work_queue.device().renderer;
+}
+}  // namespace gpu_planning_scene::stability

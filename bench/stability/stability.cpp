@@ -1,0 +1,106 @@
+// stability: what each method answers where answers are hard to get right. See docs/stability.md.
+
+#include <chrono>
+#include <fstream>
+#include <iostream>
+
+#include "stability/judge.h"
+#include "tools/command_line.h"
+
+using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::stability;
+
+namespace
+{
+constexpr std::size_t kFullCases = 2048;
+constexpr std::size_t kQuickCases = 64;
+constexpr std::size_t kReported = 5;  // wrong answers of a family that are told one by one
+
+std::ofstream openFile(const CommandLine& arguments, const std::string& option)
+{
+  std::ofstream file;
+  if (!arguments.has(option))
+    return file;
+  file.open(arguments.required(option));
+  if (!file)
+    throw Error(arguments.required(option) + ": cannot be written; give " + option + " another path");
+  return file;
+}
+
+/// Those whose name contains the text.
+std::vector<Family> chosenFamilies(const std::string& text)
+{
+  std::vector<Family> chosen;
+  std::string names;
+  for (const Family& family : allFamilies())
+  {
+    if (family.name.find(text) != std::string::npos)
+      chosen.push_back(family);
+    names += (names.empty() ? "" : ", ") + family.name;
+  }
+  if (chosen.empty())
+    throw UsageError("no family's name contains '" + text + "'; there are: " + names);
+  return chosen;
+}
+
+void runStability(const CommandLine& arguments)
+{
+  const std::vector<Family> families = chosenFamilies(arguments.value("--family", ""));
+  const auto seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
+  const auto cases = static_cast<std::size_t>(
+      arguments.integer("--cases", arguments.has("--quick") ? kQuickCases : kFullCases, 1, 1 << 24));
+  std::ofstream csv = openFile(arguments, "--csv");
+  std::ofstream markdown = openFile(arguments, "--markdown");
+  Ours ours(arguments.value("--device", "auto"), arguments.value("--shaders", ""));
+  std::cerr << "device: " << ours.deviceName() << ", seed " << seed << ", " << cases << " cases of each of "
+            << families.size() << " families\n";
+
+  std::vector<Row> rows;
+  std::size_t wrong = 0;
+  for (const Family& family : families)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    std::cerr << family.name << std::flush;
+    std::size_t failures = 0;
+    const auto report = [&](const Failure& failure)
+    {
+      if (++failures <= kReported)
+        std::cerr << "\n  " << methodNames()[failure.method].name << " is wrong in case " << failure.index << ": "
+                  << failure.what;
+    };
+    rows.push_back(judge(family, seed, cases, ours, report));
+    wrong += failures;
+    if (failures > kReported)
+      std::cerr << "\n  and " << failures - kReported << " more wrong answers";
+    std::cerr << (failures > 0 ? "\n  " : ": ")
+              << std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() << " s, "
+              << rows.back().undecided << " settled by the CPU" << std::endl;
+  }
+  writeMarkdown(markdown.is_open() ? markdown : std::cout, {seed, cases, ours.deviceName()}, rows);
+  if (csv.is_open())
+    writeCsv(csv, rows);
+  if (wrong > 0)
+    throw Error(std::to_string(wrong) + " wrong answers of the project's own methods with seed " +
+                std::to_string(seed));
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  return runTool(
+      {"stability",
+       "[--quick] [--seed N] [--cases N] [--csv FILE] [--markdown FILE] [--device D]",
+       "Holds the answers of this project's methods, and of others, against true distances in quadruple precision, in\n"
+       "cases that are hard to get right. Prints the table of wrong answers (Markdown). Exit status 1 if an answer of\n"
+       "this project is wrong.",
+       {{"--quick", "", "64 cases of each family instead of 2048"},
+        {"--seed", "N", "of the random cases (default 1)"},
+        {"--cases", "N", "how many of each family"},
+        {"--family", "TEXT", "only families whose name contains it"},
+        {"--csv", "FILE", "writes the table for scripts/stability_chart"},
+        {"--markdown", "FILE", "writes the table there instead of printing it"},
+        {"--device", "D", "auto (default), software, an index, or part of a renderer's name"},
+        {"--shaders", "DIR", "a folder of shaders instead of the installed one"}},
+       runStability},
+      argc, argv);
+}

@@ -1,0 +1,82 @@
+#include "stability/table.h"
+
+#include <ostream>
+
+namespace gpu_planning_scene::stability
+{
+const std::array<MethodName, MethodCount>& methodNames()
+{
+  static const std::array<MethodName, MethodCount> kNames = {{
+      {"FCL, default (libccd)", "fcl", false},
+      {"FCL, its own GJK", "fcl_own", false},
+      {"float32, no filter", "float32", false},
+      {"Bullet, hulls", "bullet", false},
+      {"ours, work queues", "work_queue", true},
+      {"ours, breadth-first", "breadth_first", true},
+      {"ours, exact checker", "exact", true},
+  }};
+  return kNames;
+}
+
+void count(Cell& cell, oracle::Verdict truth, bool collides)
+{
+  ++cell.cases;
+  if (truth == oracle::Verdict::Collides && !collides)
+    ++cell.false_free;
+  if (truth == oracle::Verdict::Free && collides)
+    ++cell.false_collision;
+}
+
+void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& rows)
+{
+  std::size_t cases = 0;
+  for (const Row& row : rows)
+    cases += row.colliding + row.free + row.either;
+  out << cases << " cases, up to " << run.cases << " of each family, seed " << run.seed << ", on " << run.device
+      << ".\n\n"
+      << "A cell is *wrong answers: false \"free\" + false \"collision\"*; 0 is none, - that the method has no such "
+         "feature.\n\n"
+      << "| cases | colliding / free / either |";
+  for (const MethodName& method : methodNames())
+    out << ' ' << method.name << " |";
+  out << "\n| --- | --- |";
+  for (std::size_t i = 0; i < MethodCount; ++i)
+    out << " --- |";
+  out << '\n';
+  for (const Row& row : rows)
+  {
+    out << "| " << row.family << " | " << row.colliding << " / " << row.free << " / " << row.either << " |";
+    for (const Cell& cell : row.cells)
+    {
+      if (cell.cases == 0)
+        out << " - |";
+      else if (cell.wrong() == 0)
+        out << " 0 |";
+      else
+      {
+        out << " **" << cell.wrong() << "**: " << cell.false_free << " + " << cell.false_collision;
+        if (cell.inconsistent > 0)
+          out << ", " << cell.inconsistent << " inconsistent";
+        out << " |";
+      }
+    }
+    out << '\n';
+  }
+}
+
+void writeCsv(std::ostream& out, const std::vector<Row>& rows)
+{
+  out << "family,colliding,free,either,undecided,method,title,ours,cases,false_free,false_collision,inconsistent\n";
+  for (const Row& row : rows)
+  {
+    for (std::size_t i = 0; i < MethodCount; ++i)
+    {
+      const Cell& cell = row.cells[i];
+      const MethodName& method = methodNames()[i];
+      out << '"' << row.family << "\"," << row.colliding << ',' << row.free << ',' << row.either << ',' << row.undecided
+          << ',' << method.short_name << ",\"" << method.name << "\"," << method.ours << ',' << cell.cases << ','
+          << cell.false_free << ',' << cell.false_collision << ',' << cell.inconsistent << '\n';
+    }
+  }
+}
+}  // namespace gpu_planning_scene::stability
