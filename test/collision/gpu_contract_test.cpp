@@ -160,12 +160,12 @@ TEST_P(GpuContract, ACavityIsFreeAndAnOpenMeshHoldsNothing)
   auto beside_a_closed_one = std::make_shared<Mesh>(*open);
   append(*beside_a_closed_one, Box{{0.1, 0.1, 0.1}}, at(2.0, 0.01, 0.01));
   for (const auto& [shell, expected] :
-       {std::pair(hollow, std::vector<int>{1, 0}), std::pair(open, std::vector<int>{1, 1}),
-        std::pair(beside_a_closed_one, std::vector<int>{1, 1})})
+       {std::pair(hollow, std::vector<int>{1, 0, 1}), std::pair(open, std::vector<int>{1, 1, 1}),
+        std::pair(beside_a_closed_one, std::vector<int>{1, 1, 1})})
   {
     CollisionProblem problem = problemOf(meshOf(Sphere{0.02}));
     addObject(problem, Shape(std::shared_ptr<const Mesh>(shell)), at(0.0));
-    EXPECT_EQ(freeAt(problem, {at(0.011, 0.012, 0.013), at(0.251, 0.012, 0.013)}), expected);
+    EXPECT_EQ(freeAt(problem, {at(0.011, 0.012, 0.013), at(0.251, 0.012, 0.013), at(0.011, -0.012, -0.013)}), expected);
   }
 }
 
