@@ -36,13 +36,15 @@ struct MakeGeometry
 };
 }  // namespace
 
-bool fclCollides(const Case& c, bool own_narrow_phase)
+std::optional<bool> fclCollides(const Case& c, bool own_narrow_phase)
 {
+  const double required = c.padding_a + c.padding_b;
+  if (required > 0.0 && std::holds_alternative<HalfSpace>(c.b))
+    return std::nullopt;
   const FclGeometry a = std::visit(MakeGeometry(), c.a);
   const FclGeometry b = std::visit(MakeGeometry(), c.b);
   const Eigen::Isometry3d pose_a = c.link_a * c.a_in_link;
   const fcl::GJKSolverType solver = own_narrow_phase ? fcl::GST_INDEP : fcl::GST_LIBCCD;
-  const double required = c.padding_a + c.padding_b;
   if (required > 0.0)
   {
     fcl::DistanceRequestd request;

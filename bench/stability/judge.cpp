@@ -56,10 +56,10 @@ void checkConstruction(const Case& c, const Places& places)
 
 void askPeers(const Family& family, Judged& judged)
 {
-  const auto answer = [&](Method method, bool collides)
+  const auto answer = [&](Method method, std::optional<bool> collides)
   {
-    judged.applies[method] = true;
-    judged.collides[method] = collides;
+    judged.applies[method] = collides.has_value();
+    judged.collides[method] = collides.value_or(false);
   };
   answer(FclDefault, fclCollides(judged.made, false));
   answer(FclOwn, fclCollides(judged.made, true));

@@ -7,8 +7,9 @@
 namespace gpu_planning_scene::stability
 {
 /// FCL: meshes as BVHModel<OBBRSS>, primitives as its own; a required distance above 0 by its distance query. Which of
-/// its two narrow phases finds contacts of convex shapes: libccd (the default), or its own.
-bool fclCollides(const Case& c, bool own_narrow_phase);
+/// its two narrow phases finds contacts of convex shapes: libccd (the default), or its own. Nothing where it has no
+/// such query: distances of half-spaces.
+std::optional<bool> fclCollides(const Case& c, bool own_narrow_phase);
 
 /// Every triangle against every other by the separating-axis test in float32, without error bounds: how a check on a
 /// GPU is commonly written. Surfaces only.
