@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <numeric>
-#include <tuple>
-#include <utility>
+#include <unordered_map>
 
 namespace gpu_planning_scene
 {
@@ -33,10 +33,28 @@ class DisjointSets
   std::vector<std::uint32_t> parent_;
 };
 
+using Place = std::array<double, 3>;
+
+struct PlaceHash
+{
+  std::size_t operator()(const Place& place) const
+  {
+    std::uint64_t hash = 0;
+    for (const double coordinate : place)
+    {
+      // Equal numbers have equal hashes: -0 and 0 among them.
+      hash = (hash ^ std::hash<double>()(coordinate)) * 0x9E3779B97F4A7C15U;
+      hash ^= hash >> 29U;
+    }
+    return hash;
+  }
+};
+
 /// For each vertex the number of its place; equal places have equal numbers.
 std::vector<std::uint32_t> weldedVertices(const Mesh& mesh)
 {
-  std::map<std::tuple<double, double, double>, std::uint32_t> places;
+  std::unordered_map<Place, std::uint32_t, PlaceHash> places;
+  places.reserve(mesh.vertices.size());
   std::vector<std::uint32_t> welded;
   welded.reserve(mesh.vertices.size());
   for (const Eigen::Vector3d& vertex : mesh.vertices)
@@ -47,39 +65,55 @@ std::vector<std::uint32_t> weldedVertices(const Mesh& mesh)
   return welded;
 }
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+using Corners = std::array<std::uint32_t, 3>;
 
-/// How often triangles run along each directed edge.
-class EdgeUses
+bool hasArea(const Corners& c)
 {
- public:
-  void add(const std::array<std::uint32_t, 3>& corners)
+  return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
+}
+
+/// Calls visit(triangle) for triangles with an edge that is not shared by exactly two, in opposite directions.
+template <class Visit>
+void visitUnpaired(const std::vector<Corners>& triangles, std::size_t places, const Visit& visit)
+{
+  struct Use
   {
-    for (std::size_t i = 0; i < 3; ++i)
+    std::uint32_t higher;  // the edge's other end
+    std::uint32_t triangle;
+    bool upwards;  // runs from the lower end to the higher one
+  };
+  // The uses of each edge lie together, by its lower end.
+  std::vector<std::uint32_t> begin(places + 1, 0);
+  const auto for_edges = [&](const auto& each)
+  {
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t i = 0; i < 3 && hasArea(triangles[t]); ++i)
+        each(t, triangles[t][i], triangles[t][(i + 1) % 3]);
+  };
+  for_edges([&](std::uint32_t, std::uint32_t a, std::uint32_t b) { ++begin[std::min(a, b) + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Use> uses(begin.back());
+  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+  for_edges(
+      [&](std::uint32_t t, std::uint32_t a, std::uint32_t b) {
+        uses[next[std::min(a, b)]++] = {std::max(a, b), t, a < b};
+      });
+  for (std::size_t place = 0; place < places; ++place)
+  {
+    const auto first = uses.begin() + begin[place];
+    const auto last = uses.begin() + begin[place + 1];
+    std::sort(first, last, [](const Use& a, const Use& b) { return a.higher < b.higher; });
+    for (auto use = first; use != last;)
     {
-      ++uses_[{corners[i], corners[(i + 1) % 3]}];
+      const auto end = std::find_if(use, last, [&](const Use& other) { return other.higher != use->higher; });
+      if (end - use != 2 || use->upwards == std::next(use)->upwards)
+        std::for_each(use, end, [&](const Use& unpaired) { visit(unpaired.triangle); });
+      use = end;
     }
   }
+}
 
-  /// Whether each edge of the triangle is run along once in each direction.
-  bool allPaired(const std::array<std::uint32_t, 3>& corners) const
-  {
-    for (std::size_t i = 0; i < 3; ++i)
-    {
-      const std::uint32_t a = corners[i];
-      const std::uint32_t b = corners[(i + 1) % 3];
-      const auto back = uses_.find({b, a});
-      if (uses_.at({a, b}) != 1 || back == uses_.end() || back->second != 1)
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> uses_;
-};
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 }  // namespace
 
 bool MeshComponents::hasSolid() const
@@ -90,65 +124,38 @@ bool MeshComponents::hasSolid() const
 MeshComponents findComponents(const Mesh& mesh)
 {
   const std::vector<std::uint32_t> welded = weldedVertices(mesh);
-  const auto corners_of = [&](std::size_t triangle) -> std::array<std::uint32_t, 3>
-  {
-    const auto& t = mesh.triangles[triangle];
-    return {welded[t[0]], welded[t[1]], welded[t[2]]};
-  };
-  const auto has_area = [](const std::array<std::uint32_t, 3>& c)
-  { return c[0] != c[1] && c[1] != c[2] && c[2] != c[0]; };
-
+  std::vector<Corners> triangles;
+  triangles.reserve(mesh.triangles.size());
   DisjointSets sets(mesh.vertices.size());
-  EdgeUses uses;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  for (const auto& t : mesh.triangles)
   {
-    const auto corners = corners_of(i);
-    sets.unite(corners[0], corners[1]);
-    sets.unite(corners[1], corners[2]);
-    if (has_area(corners))
-    {
-      uses.add(corners);
-    }
+    triangles.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+    sets.unite(triangles.back()[0], triangles.back()[1]);
+    sets.unite(triangles.back()[1], triangles.back()[2]);
   }
 
   MeshComponents found;
-  std::vector<std::size_t> number_of(mesh.vertices.size(), kNone);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  std::vector<std::size_t> number_of_set(mesh.vertices.size(), kNone);
+  const auto component_of = [&](std::size_t t) -> std::size_t& { return number_of_set[sets.find(triangles[t][0])]; };
+  for (std::size_t t = 0; t < triangles.size(); ++t)
   {
-    std::size_t& number = number_of[sets.find(corners_of(i)[0])];
+    std::size_t& number = component_of(t);
     if (number == kNone)
     {
       number = found.components.size();
-      found.components.push_back({mesh.vertices[mesh.triangles[i][0]], {}, false});
+      found.components.push_back({mesh.vertices[mesh.triangles[t][0]], {}, false});
     }
-    for (const std::uint32_t vertex : mesh.triangles[i])
-    {
-      found.components[number].bounds.extend(mesh.vertices[vertex]);
-    }
+    Component& component = found.components[number];
+    component.closed = component.closed || hasArea(triangles[t]);
+    for (const std::uint32_t vertex : mesh.triangles[t])
+      component.bounds.extend(mesh.vertices[vertex]);
   }
-  // A component without any triangle that has area stays open.
-  std::vector<std::uint8_t> broken(found.components.size(), 0);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-  {
-    const auto corners = corners_of(i);
-    const std::size_t number = number_of[sets.find(corners[0])];
-    if (has_area(corners))
-    {
-      found.components[number].closed = true;
-      broken[number] |= uses.allPaired(corners) ? 0 : 1;
-    }
-  }
-  for (std::size_t number = 0; number < broken.size(); ++number)
-  {
-    found.components[number].closed = found.components[number].closed && broken[number] == 0;
-  }
-  found.bounds_solid.reserve(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-  {
-    const auto corners = corners_of(i);
-    found.bounds_solid.push_back(has_area(corners) && found.components[number_of[sets.find(corners[0])]].closed ? 1
-                                                                                                                : 0);
-  }
+  visitUnpaired(triangles, mesh.vertices.size(),
+                [&](std::uint32_t t) { found.components[component_of(t)].closed = false; });
+
+  found.bounds_solid.reserve(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    found.bounds_solid.push_back(hasArea(triangles[t]) && found.components[component_of(t)].closed ? 1 : 0);
   return found;
 }
 }  // namespace gpu_planning_scene
