@@ -42,7 +42,6 @@ struct MakeShape
     auto hull = std::make_unique<btConvexHullShape>();
     for (const Eigen::Vector3d& vertex : mesh->vertices)
       hull->addPoint(toBullet(vertex), false);
-    hull->setMargin(0);
     hull->recalcLocalAabb();
     return hull;
   }
@@ -68,6 +67,12 @@ bool bulletCollides(const Case& c)
 {
   const auto shape_a = std::visit(MakeShape(), c.a);
   const auto shape_b = std::visit(MakeShape(), c.b);
+  // A margin would round the corners. A sphere's is its radius.
+  for (btConvexShape* shape : {shape_a.get(), shape_b.get()})
+  {
+    if (shape->getShapeType() != SPHERE_SHAPE_PROXYTYPE)
+      shape->setMargin(0);
+  }
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher(&configuration);
   btDbvtBroadphase broadphase;

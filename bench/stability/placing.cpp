@@ -18,7 +18,8 @@ HalfSpace movedBy(const Eigen::Isometry3d& pose, const HalfSpace& half_space)
 
 Case placed(Random& random, Shape a, Shape b, const Eigen::Isometry3d& b_in_a, const Place& place)
 {
-  Eigen::Isometry3d motion = random.motion(place.distance);
+  Eigen::Isometry3d motion =
+      random.below(3) == 0 ? random.alignedMotion(place.distance) : random.motion(place.distance);
   motion.translation() += place.origin;
   Case made;
   Eigen::Isometry3d pose_a = motion;

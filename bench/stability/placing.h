@@ -7,7 +7,8 @@
 
 namespace gpu_planning_scene::stability
 {
-/// How cases are placed in the world: a random motion of both, by up to `distance` along each axis, from `origin`.
+/// How cases are placed in the world: a random motion of both, by up to `distance` along each axis, from `origin`. One
+/// in three has quarter turns only, which keep exact contacts exact.
 struct Place
 {
   double distance = 1.0;

@@ -46,6 +46,22 @@ class Random
     return pose;
   }
 
+  /// Quarter turns, and a translation in steps of 1/1024 m of up to `distance` along each axis: what is in one plane
+  /// along two axes stays so, in doubles too.
+  Eigen::Isometry3d alignedMotion(double distance)
+  {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    const int first = below(3);
+    const int second = (first + 1 + below(2)) % 3;
+    const double sign = coin() ? 1.0 : -1.0;
+    pose.linear().col(0) = sign * Eigen::Vector3d::Unit(first);
+    pose.linear().col(1) = (coin() ? 1.0 : -1.0) * Eigen::Vector3d::Unit(second);
+    pose.linear().col(2) = pose.linear().col(0).cross(pose.linear().col(1));
+    for (int i = 0; i < 3; ++i)
+      pose.translation()[i] = std::round(1024.0 * uniform(-distance, distance)) / 1024.0;
+    return pose;
+  }
+
   /// 0, or plus or minus 1e-3, 1e-4, ... 1e-12 metres.
   double offset() { return powerOfTen(3, 12); }
   /// 0, or plus or minus 10^-first ... 10^-last.

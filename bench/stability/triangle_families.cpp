@@ -38,7 +38,7 @@ Case vertexOnFace(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
   const double offset = random.offset();
-  const MeshPtr other = triangleMesh({random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0.0},
+  const MeshPtr other = triangleMesh({random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), 0.0},
                                      {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(0.2, 1.0)},
                                      {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(0.2, 1.0)});
   Case made = placed(random, flatTriangle(random), other, lifted(0.0, 0.0, offset));
