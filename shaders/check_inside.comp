@@ -22,16 +22,16 @@ uint meshContainment(Instance inner, Instance solid, Pose pose, float error, ino
   if (inner.component_count == 0u)
     return STATE_UNDECIDED;
   const Box bounds = fetchNode(solid.root).box;
-  const mat3 q = mat3(abs(pose.rotation[0]), abs(pose.rotation[1]), abs(pose.rotation[2]));
+  const float diagonal = 2.0 * length(bounds.extent) * (1.0 + 8.0 * u);
   uint found = 0u;
   for (uint i = 0u; i < inner.component_count && iterations > 0u; ++i, --iterations)
   {
-    // What is inside has its whole box among the corners of the solid's.
-    const Box box = componentBox(inner.first_component + i);
-    const vec3 sticks_out = abs(apply(pose, box.center) - bounds.center) + q * box.extent - bounds.extent;
-    if (any(greaterThan(sticks_out, vec3(error))))
+    // What is inside is no longer than the solid's box from corner to corner, and all its points are in that box.
+    const uint component = inner.first_component + i;
+    const vec3 point = apply(pose, componentPoint(component));
+    if (componentSize(component) > diagonal || any(greaterThan(abs(point - bounds.center) - bounds.extent, vec3(error))))
       continue;
-    found |= insideMesh(solid.root, apply(pose, componentPoint(inner.first_component + i)), error, iterations);
+    found |= insideMesh(solid.root, point, error, iterations);
   }
   return iterations > 0u ? found : STATE_UNDECIDED;
 }

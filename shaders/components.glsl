@@ -1,12 +1,12 @@
-// The connected components of the shapes: for each one a point of it, the centre and the half edge lengths of its box.
-layout(std430, binding = BINDING_IN) readonly buffer Components { vec4 components[]; };  // three each
+// The connected components of the shapes: for each one a point of it, and the longest edge of its box, rounded down.
+layout(std430, binding = BINDING_IN) readonly buffer Components { vec4 components[]; };
 
 vec3 componentPoint(uint component)
 {
-  return components[3u * component].xyz;
+  return components[component].xyz;
 }
 
-Box componentBox(uint component)
+float componentSize(uint component)
 {
-  return Box(components[3u * component + 1u].xyz, components[3u * component + 2u].xyz);
+  return components[component].w;
 }

@@ -199,18 +199,17 @@ GpuScene::ComponentRanges GpuScene::writeComponents(const CollisionProblem& prob
   {
     const MeshComponents parts = findComponents(*problem.trees[tree].mesh);
     const bool known = parts.components.size() <= MAX_COMPONENTS;
-    ranges.push_back({static_cast<std::uint32_t>(records.size() / 3),
+    ranges.push_back({static_cast<std::uint32_t>(records.size()),
                       known ? static_cast<std::uint32_t>(parts.components.size()) : 0U,
                       isMesh(problem.shapes[tree]) && parts.hasSolid()});
     has_mesh_solids_ = has_mesh_solids_ || ranges.back().mesh_solid;
     if (known)
       for (const Component& part : parts.components)
-        for (const Eigen::Vector3d& vector :
-             {part.point, Eigen::Vector3d(part.bounds.center()), Eigen::Vector3d(part.bounds.sizes() / 2.0)})
-        {
-          const Eigen::Vector3f rounded = vector.cast<float>();
-          records.push_back({rounded.x(), rounded.y(), rounded.z(), 0.0F});
-        }
+      {
+        const Eigen::Vector3f point = part.point.cast<float>();
+        const auto size = static_cast<float>((1.0 - 1e-6) * part.bounds.sizes().maxCoeff());
+        records.push_back({point.x(), point.y(), point.z(), size});
+      }
     std::copy(parts.bounds_solid.begin(), parts.bounds_solid.end(), bounds_solid.begin() + first_triangle_[tree]);
   }
   components_.reserve(records.size() * sizeof(records.front()));
