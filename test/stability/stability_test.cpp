@@ -1,0 +1,72 @@
+// The stability program finds nothing wrong, and it would: with the shaders' error bounds, their undecided answers or
+// the containment stage taken away, it fails.
+
+#include <gtest/gtest.h>
+
+#include "support/shader_folder.h"
+#include "tools/run_program.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+ProgramOutput runStability(const std::vector<std::string>& arguments)
+{
+  return runProgram(GPS_STABILITY, arguments);
+}
+
+/// What the program finds wrong with changed shaders; `family`: part of a name.
+void expectFailure(const ShaderFolder& shaders, const std::string& family)
+{
+  const ProgramOutput output = runStability({"--cases", "64", "--family", family, "--shaders", shaders.path()});
+  EXPECT_EQ(output.exit_code, 1) << output.err;
+  EXPECT_NE(output.err.find("wrong answers"), std::string::npos) << output.err;
+  EXPECT_NE(output.err.find("ours, work queues is wrong"), std::string::npos) << output.err;
+  EXPECT_NE(output.err.find("ours, breadth-first is wrong"), std::string::npos) << output.err;
+  EXPECT_EQ(output.err.find("ours, exact checker is wrong"), std::string::npos) << output.err;
+}
+}  // namespace
+
+TEST(Stability, NoAnswerIsWrongInAnyFamily)
+{
+  const ProgramOutput output = runStability({"--quick", "--cases", "8"});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_NE(output.out.find("| random rigid motions |"), std::string::npos) << output.out;
+}
+
+TEST(Stability, NoticesErrorBoundsOfZero)
+{
+  const ShaderFolder shaders;
+  shaders.define("UNIT_ROUNDOFF", "0.0");
+  expectFailure(shaders, "random rigid motions");
+}
+
+TEST(Stability, NoticesUndecidedAnswersThatAreDropped)
+{
+  const ShaderFolder shaders;
+  shaders.replace("verdicts.glsl", "atomicOr(flags[state], found);", "atomicOr(flags[state], found & STATE_HIT);");
+  expectFailure(shaders, "random rigid motions");
+}
+
+TEST(Stability, NoticesThatContainmentInMeshesIsNotTested)
+{
+  const ShaderFolder shaders;
+  shaders.replace("check_inside.comp", "void main()\n{\n", "void main()\n{\n  return;\n");
+  expectFailure(shaders, "in or near a closed mesh");
+}
+
+TEST(Stability, NoticesThatContainmentInPrimitivesIsNotTested)
+{
+  const ShaderFolder shaders;
+  shaders.replace("check_roots.comp", "if (inside != 0u)", "if (false)");
+  shaders.replace("check_roots.comp", "if ((inside & STATE_HIT) != 0u)", "if (false)");
+  expectFailure(shaders, "mesh in or near a primitive");
+}
+
+TEST(Stability, TellsOfAFamilyThatIsNotThere)
+{
+  const ProgramOutput output = runStability({"--family", "nothing like this"});
+  EXPECT_EQ(output.exit_code, 2);
+  EXPECT_NE(output.err.find("random rigid motions"), std::string::npos) << output.err;
+}
+}  // namespace gpu_planning_scene
