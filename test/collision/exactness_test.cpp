@@ -77,9 +77,10 @@ TEST_P(Exact, CloseToContact)
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, Exact,
-                         testing::Values(Slice{"kr5", "kr5", 400, 100}, Slice{"ur5_robotiq", "ur5_cage", 200, 100},
-                                         Slice{"wam", "wam", 200, 100}, Slice{"drchubo", "drchubo", 100, 20},
-                                         Slice{"carrying", "ur5_cage", 60, 40}),
+                         testing::Values(Slice{"kr5", "kr5", 400, 100},
+                                         Slice{"ur5_robotiq", "ur5_table_pick", 200, 100},
+                                         Slice{"wam", "wam", 200, 100}, Slice{"drchubo", "drchubo", 50, 10},
+                                         Slice{"carrying", "ur5_table_pick", 30, 20}),
                          [](const auto& parameter) { return std::string(parameter.param.name); });
 }  // namespace
 }  // namespace gpu_planning_scene

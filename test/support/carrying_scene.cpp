@@ -8,9 +8,9 @@ WorldObject boxInGripper(const RobotModel& robot, const double* state)
   robot.linkPoses(state, poses.data());
   WorldObject box;
   box.id = "held_box";
-  // The gripper's x axis points from its base to the finger tips.
-  box.pose = poses[robot.linkIndex("robotiq_85_base_link")] * Eigen::Translation3d(0.15, 0.0, 0.0);
-  box.shapes = {{Box{{0.06, 0.05, 0.2}}}};
+  // The fingers point along z and close along x, 79 mm apart: they squeeze the box by 3 mm each.
+  box.pose = poses[robot.linkIndex("robotiq_85_base_link")] * Eigen::Translation3d(0.0, 0.0, 0.15);
+  box.shapes = {{Box{{0.085, 0.2, 0.06}}}};
   return box;
 }
 
@@ -30,8 +30,8 @@ const std::vector<std::string>& gripperLinks()
 
 TestScene carryingScene()
 {
-  TestScene made = testScene("ur5_cage");
-  made.name = "ur5_cage, carrying, padded";
+  TestScene made = testScene("ur5_table_pick");
+  made.name = "ur5_table_pick, carrying, padded";
   PlanningScene scene = *made.scene;
   scene.link_padding.assign(scene.robot->links().size(), 0.005);
   for (WorldObject& object : scene.objects)

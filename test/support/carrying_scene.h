@@ -11,7 +11,7 @@ namespace gpu_planning_scene
 WorldObject boxInGripper(const RobotModel& robot, const double* state);
 const std::vector<std::string>& gripperLinks();
 
-/// "ur5_cage" with all that the scene lacks: a box that the gripper carries, links padded by 5 mm and objects by 2 mm,
-/// and a floor, which is a half-space.
+/// "ur5_table_pick" with all that the scene lacks: a box that the gripper carries, links padded by 5 mm and objects by
+/// 2 mm, and a floor, which is a half-space.
 TestScene carryingScene();
 }  // namespace gpu_planning_scene
