@@ -93,8 +93,9 @@ class DirectionSearch
 
   bool separates(const Vector3d& m, const Vector3d& u, const Vector3d& v, double reach)
   {
-    const double step = kGapAccuracy / (difference_.radius() + difference_.center().norm() + distance_);
-    // Also along a line F changes by no more than that length per unit of alpha or beta.
+    // F changes by no more than the sizes for each unit of alpha or beta.
+    const double step = std::max(kGapAccuracy / (difference_.radius() + difference_.center().norm() + distance_),
+                                 16.0 * kEpsilon * reach);
     const auto along_v = [&](double alpha)
     { return maximum([&](double beta) { return excess(m + alpha * u + beta * v); }, reach, step); };
     return maximum(along_v, reach, step) > 0.0;

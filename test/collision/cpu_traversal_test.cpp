@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/moving_shape.h"
 #include "collision/primitive_solid.h"
 #include "support/inside.h"
 #include "support/obstacles.h"
@@ -16,65 +17,6 @@ namespace
 {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-Isometry3d randomPose(std::mt19937_64& generator, double reach)
-{
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> shift(-reach, reach);
-  Isometry3d pose = Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond(normal(generator), normal(generator), normal(generator), normal(generator))
-                      .normalized()
-                      .toRotationMatrix();
-  pose.translation() = Vector3d(shift(generator), shift(generator), shift(generator));
-  return pose;
-}
-
-Isometry3d at(double x, double y, double z)
-{
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = Vector3d(x, y, z);
-  return pose;
-}
-
-/// One moving shape, body 0, and objects, bodies 1 and up: no robot is needed.
-class Pairs
-{
- public:
-  Pairs(
-      const Shape& moving, const std::vector<PlacedShape>& objects,
-      const std::function<Forest(const std::vector<Tessellation>&)>& build = [](const auto& trees)
-      { return buildBinnedSah(trees); })
-  {
-    addTree(moving);
-    problem_.robot.push_back({0, 0, 0, Isometry3d::Identity()});
-    for (std::size_t k = 0; k < objects.size(); ++k)
-    {
-      addTree(objects[k].shape);
-      problem_.world.push_back(
-          {static_cast<std::uint32_t>(k + 1), static_cast<std::int32_t>(k + 1), -1, objects[k].pose});
-    }
-    problem_.world_pairs.assign(objects.size(), 1);
-    forest_ = build(problem_.trees);
-    traversal_ = std::make_unique<CpuTraversal>(std::make_shared<const CollisionProblem>(problem_),
-                                                std::make_shared<const Forest>(forest_));
-  }
-
-  bool collide(const Isometry3d& pose) { return traversal_->firstCollision(&pose, scratch_).has_value(); }
-  std::vector<CpuTraversal::BodyPair> all(const Isometry3d& pose) { return traversal_->allCollisions(&pose, scratch_); }
-  const std::vector<Tessellation>& trees() const { return problem_.trees; }
-
- private:
-  void addTree(const Shape& shape)
-  {
-    problem_.trees.push_back(tessellate(shape));
-    problem_.shapes.push_back(shape);
-  }
-
-  CollisionProblem problem_;
-  Forest forest_;
-  std::unique_ptr<CpuTraversal> traversal_;
-  CpuTraversal::Scratch scratch_;
-};
 
 Triangle triangleOf(const Mesh& mesh, std::size_t t, const Isometry3d& pose)
 {
@@ -135,7 +77,7 @@ TEST(CpuTraversal, FindsWhatTestingEverythingFindsForAllKindsOfShapes)
   {
     for (const Shape& b : allKinds())
     {
-      Pairs pairs(a, {{b, Isometry3d::Identity()}});
+      MovingShape pairs(a, {{b, Isometry3d::Identity()}});
       int hits = 0;
       const int poses = isMesh(a) && isMesh(b) ? 30 : 60;
       for (int i = 0; i < poses; ++i)
@@ -145,7 +87,7 @@ TEST(CpuTraversal, FindsWhatTestingEverythingFindsForAllKindsOfShapes)
                                   ? collideByBruteForce(a, pairs.trees()[0], b, pairs.trees()[1], pose.inverse())
                                   : collideByBruteForce(b, pairs.trees()[1], a, pairs.trees()[0], pose);
         hits += expected;
-        ASSERT_EQ(expected, pairs.collide(pose))
+        ASSERT_EQ(expected, pairs.collides(pose))
             << "seed " << seed << ", kinds " << a.index() << " and " << b.index() << ", pose " << i;
       }
       EXPECT_GT(hits, 0) << a.index() << " and " << b.index();
@@ -209,12 +151,12 @@ TEST(CpuTraversal, AnswersTheSameForAnyValidTree)
   const std::uint64_t seed = 2;
   std::mt19937_64 generator(seed);
   const Shape torus = torusMesh(0.1, 0.04);
-  Pairs good(torus, {{torus, Isometry3d::Identity()}});
-  Pairs careless(torus, {{torus, Isometry3d::Identity()}}, buildCarelessly);
+  MovingShape good(torus, {{torus, Isometry3d::Identity()}});
+  MovingShape careless(torus, {{torus, Isometry3d::Identity()}}, {}, buildCarelessly);
   for (int i = 0; i < 20; ++i)
   {
     const Isometry3d pose = randomPose(generator, 0.15);
-    ASSERT_EQ(good.collide(pose), careless.collide(pose)) << "seed " << seed << ", pose " << i;
+    ASSERT_EQ(good.collides(pose), careless.collides(pose)) << "seed " << seed << ", pose " << i;
   }
 }
 
@@ -226,10 +168,10 @@ TEST(CpuTraversal, TouchingCollidesAndANanometreOfClearanceDoesNot)
   {
     for (const double distance : {0.0, 100.0})
     {
-      Pairs pairs(shape, {{table, at(distance, 0.0, 0.0)}});
-      EXPECT_TRUE(pairs.collide(at(distance, 0.3, 0.125))) << shape.index();
-      EXPECT_FALSE(pairs.collide(at(distance, 0.3, 0.125 + 1e-9))) << shape.index();
-      EXPECT_TRUE(pairs.collide(at(distance, 0.3, 0.125 - 1e-9))) << shape.index();
+      MovingShape pairs(shape, {{table, at(distance, 0.0, 0.0)}});
+      EXPECT_TRUE(pairs.collides(at(distance, 0.3, 0.125))) << shape.index();
+      EXPECT_FALSE(pairs.collides(at(distance, 0.3, 0.125 + 1e-9))) << shape.index();
+      EXPECT_TRUE(pairs.collides(at(distance, 0.3, 0.125 - 1e-9))) << shape.index();
     }
   }
 }
@@ -242,9 +184,9 @@ TEST(CpuTraversal, WhatIsInsideAPrimitiveCollides)
     for (const Shape& large :
          {Shape(Box{{1.0, 1.0, 1.0}}), Shape(Sphere{0.5}), Shape(Cylinder{0.5, 1.0}), Shape(Cone{0.5, 1.0})})
     {
-      EXPECT_TRUE(Pairs(small, {{large, Isometry3d::Identity()}}).collide(at(0.02, 0.03, 0.1)))
+      EXPECT_TRUE(MovingShape(small, {{large, Isometry3d::Identity()}}).collides(at(0.02, 0.03, 0.1)))
           << small.index() << " in " << large.index();
-      EXPECT_TRUE(Pairs(large, {{small, Isometry3d::Identity()}}).collide(at(-0.02, -0.03, -0.1)))
+      EXPECT_TRUE(MovingShape(large, {{small, Isometry3d::Identity()}}).collides(at(-0.02, -0.03, -0.1)))
           << small.index() << " in " << large.index();
     }
   }
@@ -260,7 +202,7 @@ TEST(CpuTraversal, FindsEveryObjectThatCollidesAmongHundreds)
     objects.push_back({Box{{0.05, 0.1, 0.15}}, randomPose(generator, 1.0)});
   }
   const Box moving{{0.3, 0.4, 0.5}};
-  Pairs pairs(moving, objects);
+  MovingShape pairs(moving, objects);
   for (int i = 0; i < 20; ++i)
   {
     const Isometry3d pose = randomPose(generator, 1.0);
@@ -275,7 +217,7 @@ TEST(CpuTraversal, FindsEveryObjectThatCollidesAmongHundreds)
     }
     EXPECT_FALSE(expected.empty());
     EXPECT_EQ(expected, pairs.all(pose)) << "seed " << seed << ", pose " << i;
-    EXPECT_TRUE(pairs.collide(pose));
+    EXPECT_TRUE(pairs.collides(pose));
   }
 }
 }  // namespace
