@@ -30,7 +30,8 @@ void forChunks(std::size_t count, std::size_t per_chunk, const Work& work)
     for (std::size_t chunk = next++; chunk < chunks; chunk = next++)
       own(chunk * per_chunk, std::min(count, (chunk + 1) * per_chunk));
   };
-  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  // Asking takes longer than checking a state.
+  static const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::thread> helpers;
   for (std::size_t i = 1; i < std::min(cores, chunks); ++i)
     helpers.emplace_back(run);
