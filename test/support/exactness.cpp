@@ -152,7 +152,7 @@ Exactness ExactnessCheck::compare(const std::vector<double>& states, bool cleara
   std::vector<BatchResult> results = {on_cpu};
   const auto add = [&](BatchChecker& checker, const char* name, Exactness::Undecided& undecided)
   {
-    checker.check(states.data(), std::min<std::size_t>(count, 1024));  // what is done once is not to be timed
+    checker.check(states.data(), count);  // what is done once is not to be timed
     results.push_back(checker.check(states.data(), count));
     undecided = {results.back().undecided_states, results.back().undecided_seconds, results.back().seconds};
     compareSizes(checker, name, states, on_cpu.valid, exactness);
