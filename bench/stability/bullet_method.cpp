@@ -83,7 +83,7 @@ bool bulletCollides(const Case& c)
   b.setCollisionShape(shape_b.get());
   a.setWorldTransform(toBullet(c.link_a * c.a_in_link));
   b.setWorldTransform(toBullet(c.pose_b));
-  Contact contact(static_cast<btScalar>(c.padding_a + c.padding_b));
+  Contact contact(static_cast<btScalar>(requiredDistance(c)));
   world.contactPairTest(&a, &b, contact);
   return contact.found;
 }

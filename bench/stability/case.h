@@ -27,6 +27,12 @@ struct Case
   std::optional<double> known;  ///< the distance by construction, where that gives it to 1e-11 m
 };
 
+/// Up to which distance the two collide. Pairs of a robot's own bodies are not padded.
+inline double requiredDistance(const Case& c)
+{
+  return c.self ? 0.0 : c.padding_a + c.padding_b;
+}
+
 /// A kind of cases. Case `index` depends on the seed and the index alone, so that each can be had again.
 struct Family
 {
@@ -47,7 +53,8 @@ std::vector<Family> allFamilies();
 
 // Its parts.
 std::vector<Family> triangleFamilies();
-std::vector<Family> meshFamilies();
+std::vector<Family> contactFamilies();
+std::vector<Family> containmentFamilies();
 std::vector<Family> primitiveFamilies();
 std::vector<Family> paddingFamilies();
 }  // namespace gpu_planning_scene::stability

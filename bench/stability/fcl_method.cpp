@@ -38,7 +38,7 @@ struct MakeGeometry
 
 std::optional<bool> fclCollides(const Case& c, bool own_narrow_phase)
 {
-  const double required = c.padding_a + c.padding_b;
+  const double required = requiredDistance(c);
   if (required > 0.0 && std::holds_alternative<HalfSpace>(c.b))
     return std::nullopt;
   const FclGeometry a = std::visit(MakeGeometry(), c.a);

@@ -36,11 +36,6 @@ struct Places
   oracle::Motion pose_b;
 };
 
-double requiredDistance(const Case& c)
-{
-  return c.self ? 0.0 : c.padding_a + c.padding_b;
-}
-
 void checkConstruction(const Case& c, const Places& places)
 {
   if (!c.known)

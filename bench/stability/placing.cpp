@@ -1,5 +1,6 @@
 #include "stability/placing.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "oracle/oracle.h"
@@ -18,8 +19,8 @@ HalfSpace movedBy(const Eigen::Isometry3d& pose, const HalfSpace& half_space)
 
 Case placed(Random& random, Shape a, Shape b, const Eigen::Isometry3d& b_in_a, const Place& place)
 {
-  Eigen::Isometry3d motion =
-      random.below(3) == 0 ? random.alignedMotion(place.distance) : random.motion(place.distance);
+  const bool aligned = random.below(3) == 0;
+  Eigen::Isometry3d motion = aligned ? random.alignedMotion(place.distance) : random.motion(place.distance);
   motion.translation() += place.origin;
   Case made;
   Eigen::Isometry3d pose_a = motion;
@@ -38,6 +39,25 @@ Case placed(Random& random, Shape a, Shape b, const Eigen::Isometry3d& b_in_a, c
   made.b = std::move(b);
   made.link_a = pose_a;
   made.pose_b = pose_b;
+  if (!aligned && random.coin())
+  {
+    made.a_in_link = random.motion(0.3);
+    made.link_a = pose_a * made.a_in_link.inverse();
+  }
+  return made;
+}
+
+Case withPadding(Random& random, Case made)
+{
+  const oracle::PreparedShape a(made.a);
+  const oracle::PreparedShape b(made.b);
+  const double apart =
+      oracle::distance(a, oracle::Motion(made.link_a) * oracle::Motion(made.a_in_link), b, oracle::Motion(made.pose_b));
+  const double required = std::max(0.0, apart + random.powerOfTen(3, 8));
+  const double share = random.below(3) == 0 ? 1.0 : random.uniform(0.0, 1.0);
+  made.padding_a = share * required;
+  made.padding_b = required - made.padding_a;
+  made.known.reset();
   return made;
 }
 

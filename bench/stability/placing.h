@@ -18,6 +18,9 @@ struct Place
 /// A case from shapes with `b` placed in a's frame: both are moved at random, and change sides at random.
 Case placed(Random& random, Shape a, Shape b, const Eigen::Isometry3d& b_in_a, const Place& place = {});
 
+/// Makes the required distance the true one, or 1e-3 ... 1e-8 m more or less, split between robot and world.
+Case withPadding(Random& random, Case made);
+
 /// Where b is in a's frame when it is turned at random, placed so that a point of b meets a point of a, and moved
 /// from there in a random direction until they are just apart: the last place of contact, moved on by `offset`.
 Eigen::Isometry3d justApart(Random& random, const Shape& a, const Eigen::Vector3d& point_a, const Shape& b,

@@ -2,7 +2,6 @@
 
 #include "stability/case.h"
 
-#include "oracle/oracle.h"
 #include "stability/placing.h"
 #include "stability/shapes.h"
 
@@ -144,6 +143,57 @@ Case primitiveContained(std::uint64_t seed, std::size_t index)
   return placed(random, outer, inner[random.below(4)], pose);
 }
 
+/// One of them a box or curved.
+Case anyContact(Random& random, const Place& place)
+{
+  const Shape a = someConvex(random);
+  const Shape b = someShape(random);
+  return placed(random, a, b, nearPlace(random, a, b, random.offset()), place);
+}
+
+const Vector3d kFarAway(-5e4, 6e4, 6e4);
+
+Case thinShapes(std::uint64_t seed, std::size_t index)
+{
+  Random random(seed, index);
+  constexpr double kThin[] = {1e-2, 1e-3, 1e-4};
+  const double thin = kThin[random.below(3)];
+  const Shape shapes[] = {Cylinder{thin, 1.0}, Cylinder{0.5, thin},   Cone{thin, 1.0},
+                          Cone{0.5, thin},     Box{{1.0, 1.0, thin}}, Box{{1.0, thin, thin}}};
+  const Shape a = shapes[random.below(6)];
+  const Shape b = random.coin() ? shapes[random.below(6)] : someShape(random);
+  return placed(random, a, b, nearPlace(random, a, b, random.offset()));
+}
+
+Shape scaledShape(Random& random, double scale)
+{
+  const double radius = 0.5 * someSize(random) * scale;
+  const double length = someSize(random) * scale;
+  switch (random.below(5))
+  {
+    case 0:
+      return Box{{length, radius, 0.5 * scale}};
+    case 1:
+      return Sphere{radius};
+    case 2:
+      return Cylinder{radius, length};
+    case 3:
+      return Cone{radius, length};
+    default:
+      return scaled(*randomTetrahedron(random), scale);
+  }
+}
+
+Case scaledSizes(std::uint64_t seed, std::size_t index)
+{
+  Random random(seed, index);
+  constexpr double kScales[] = {1e-3, 1e-2, 10.0};
+  const double scale = kScales[random.below(3)];
+  const Shape a = scaledShape(random, scale);
+  const Shape b = scaledShape(random, scale);
+  return placed(random, a, b, nearPlace(random, a, b, random.offset()));
+}
+
 Case onHalfSpace(Random& random, double offset)
 {
   const Shape ground = HalfSpace{Vector3d::UnitZ(), 0.0};
@@ -161,20 +211,6 @@ Case halfSpaces(std::uint64_t seed, std::size_t index)
   return onHalfSpace(random, random.offset());
 }
 
-/// Makes the required distance the true one, or 1e-3 ... 1e-8 m more or less, split between robot and world.
-Case padded(Random& random, Case made)
-{
-  const oracle::PreparedShape a(made.a);
-  const oracle::PreparedShape b(made.b);
-  const double apart =
-      oracle::distance(a, oracle::Motion(made.link_a) * oracle::Motion(made.a_in_link), b, oracle::Motion(made.pose_b));
-  const double required = std::max(0.0, apart + random.powerOfTen(3, 8));
-  const double share = random.below(3) == 0 ? 1.0 : random.uniform(0.0, 1.0);
-  made.padding_a = share * required;
-  made.padding_b = required - made.padding_a;
-  return made;
-}
-
 double someGap(Random& random)
 {
   return random.logUniform(1e-4, 0.3);
@@ -185,7 +221,7 @@ Case paddedMeshes(std::uint64_t seed, std::size_t index)
   Random random(seed, index);
   const Shape a = someMesh(random);
   const Shape b = someMesh(random);
-  return padded(random, placed(random, a, b, nearPlace(random, a, b, someGap(random))));
+  return withPadding(random, placed(random, a, b, nearPlace(random, a, b, someGap(random))));
 }
 
 Case paddedPrimitives(std::uint64_t seed, std::size_t index)
@@ -193,19 +229,19 @@ Case paddedPrimitives(std::uint64_t seed, std::size_t index)
   Random random(seed, index);
   const Shape a = someConvex(random);
   const Shape b = someShape(random);
-  return padded(random, placed(random, a, b, nearPlace(random, a, b, someGap(random))));
+  return withPadding(random, placed(random, a, b, nearPlace(random, a, b, someGap(random))));
 }
 
 Case paddedHalfSpaces(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
-  return padded(random, onHalfSpace(random, someGap(random)));
+  return withPadding(random, onHalfSpace(random, someGap(random)));
 }
 }  // namespace
 
 std::vector<Family> primitiveFamilies()
 {
-  return {
+  std::vector<Family> families = {
       {"box - box", contacts(someBox, someBox), true, true},
       {"sphere - box", contacts(someSphere, someBox), false, true},
       {"sphere - mesh", contacts(someSphere, someMesh), false},
@@ -221,7 +257,26 @@ std::vector<Family> primitiveFamilies()
       {"half-space - all shapes", halfSpaces, false},
       {"mesh in or near a primitive", containedInPrimitive, false},
       {"primitive in or near a mesh", primitiveContained, false},
+      {"needles and sheets", thinShapes, false},
+      {"all shapes, scaled 1e-3 to 10", scaledSizes, false},
+      {"all shapes, up to 1e3 m from the root",
+       [](std::uint64_t seed, std::size_t index)
+       {
+         Random random(seed, index);
+         return anyContact(random, {570.0, Vector3d::Zero()});
+       },
+       false},
   };
+  Family far{"all shapes, 1e5 m from the origin",
+             [](std::uint64_t seed, std::size_t index)
+             {
+               Random random(seed, index);
+               return anyContact(random, {1.0, kFarAway});
+             },
+             false};
+  far.origin = kFarAway;
+  families.push_back(far);
+  return families;
 }
 
 std::vector<Family> paddingFamilies()
@@ -236,7 +291,8 @@ std::vector<Family> paddingFamilies()
 std::vector<Family> allFamilies()
 {
   std::vector<Family> all;
-  for (const auto& part : {triangleFamilies(), meshFamilies(), primitiveFamilies(), paddingFamilies()})
+  for (const auto& part :
+       {triangleFamilies(), contactFamilies(), containmentFamilies(), primitiveFamilies(), paddingFamilies()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -145,4 +145,55 @@ MeshPtr reordered(const Mesh& mesh, int corner_order)
   std::reverse(triangles.begin(), triangles.end());
   return makeMesh(mesh.vertices, std::move(triangles));
 }
+Eigen::Vector3d randomSize(Random& random)
+{
+  return {random.uniform(0.2, 1.0), random.uniform(0.2, 1.0), random.uniform(0.2, 1.0)};
+}
+
+MeshPtr randomClosed(Random& random)
+{
+  switch (random.below(3))
+  {
+    case 0:
+      return randomTetrahedron(random);
+    case 1:
+      return boxMesh(randomSize(random));
+    default:
+      return bumpyBall(random, 4);
+  }
+}
+
+MeshPtr hollowBox(double cavity)
+{
+  return joined(*boxMesh(Eigen::Vector3d::Ones()), *inverted(*boxMesh(Eigen::Vector3d::Constant(cavity))));
+}
+
+MeshPtr damagedBall(Random& random)
+{
+  const MeshPtr ball = bumpyBall(random, 4);
+  auto vertices = ball->vertices;
+  auto triangles = ball->triangles;
+  auto& some = triangles[random.below(static_cast<int>(triangles.size()))];
+  switch (random.below(4))
+  {
+    case 0:  // its corner is another vertex, some 1e-9 ... 1e-3 m off
+      vertices.push_back(vertices[some[0]] + random.logUniform(1e-9, 1e-3) * random.direction());
+      some[0] = static_cast<std::uint32_t>(vertices.size() - 1);
+      break;
+    case 1:
+      std::swap(some[0], some[1]);
+      break;
+    case 2:
+    {
+      const auto copy = some;
+      triangles.push_back(copy);
+      break;
+    }
+    default:
+      vertices[some[0]] = -1.2 * vertices[some[0]];
+      break;
+  }
+  return makeMesh(std::move(vertices), std::move(triangles));
+}
+
 }  // namespace gpu_planning_scene::stability

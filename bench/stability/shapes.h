@@ -21,8 +21,17 @@ MeshPtr sliver(Random& random, double aspect);
 /// A closed mesh of four triangles.
 MeshPtr randomTetrahedron(Random& random);
 MeshPtr boxMesh(const Eigen::Vector3d& size);
+/// 0.2 to 1 m along each axis.
+Eigen::Vector3d randomSize(Random& random);
 /// A closed ball of radius 0.5, with bumps: not convex.
 MeshPtr bumpyBall(Random& random, int rings);
+
+/// A tetrahedron, a box or a ball.
+MeshPtr randomClosed(Random& random);
+/// A box of 1 m with a cavity in the shape of a box.
+MeshPtr hollowBox(double cavity);
+/// A ball with a crack, a flipped triangle, a duplicate one, or passing through itself.
+MeshPtr damagedBall(Random& random);
 
 MeshPtr inverted(const Mesh& mesh);
 /// x is negated, the triangles stay: inside out.

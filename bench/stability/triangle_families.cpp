@@ -106,6 +106,8 @@ Case vertexOrders(std::uint64_t seed, std::size_t index)
   Random random(seed, index / kOrders);
   Case made = nearContact(random, randomTriangle(random), randomTriangle(random));
   const auto order = static_cast<int>(index % kOrders);
+  made.link_a = made.link_a * made.a_in_link;
+  made.a_in_link.setIdentity();
   made.a = reordered(*std::get<MeshPtr>(made.a), order % 6);
   made.b = reordered(*std::get<MeshPtr>(made.b), order / 6 % 6);
   if (order >= 36)
@@ -209,8 +211,7 @@ Case nearlyParallel(std::uint64_t seed, std::size_t index)
   return placed(random, a, b, justApart(a, b, tilted, Vector3d::UnitZ(), random.offset()));
 }
 
-/// Two triangles that name one edge, or one corner, at any angle: they touch whatever rounding does to the pose of
-/// both.
+/// Two triangles that name one edge, or one corner, at any angle, in the same place: rounding does not part them.
 Case sharing(std::uint64_t seed, std::size_t index, bool edge)
 {
   Random random(seed, index);
@@ -220,6 +221,8 @@ Case sharing(std::uint64_t seed, std::size_t index, bool edge)
   const MeshPtr b =
       edge ? triangleMesh(q, p, random.inCube(0.5)) : triangleMesh(p, random.inCube(0.5), random.inCube(0.5));
   Case made = placed(random, a, b, Isometry3d::Identity());
+  made.link_a = made.pose_b;
+  made.a_in_link.setIdentity();
   made.known = 0.0;
   return made;
 }
