@@ -126,8 +126,7 @@ int main(int argc, char** argv)
       "[--quick] [--states N] [--robot NAME] [--seed S]",
       "Holds the answers of both traversals, at several batch sizes, and of the CPU checker against an oracle in\n"
       "quadruple precision: 100,000 random states of kr5, 10,000 of ur5_robotiq, drchubo and wam, 1000 of\n"
-      "ur5_carrying (a box in the gripper, padding, a floor); and of each robot 10,000 states, of the last 1000, "
-      "within\n"
+      "ur5_carrying (a box in the gripper, padding, a floor); and of each 10,000 states, of the last 1000, within\n"
       "about 1e-4 ... 1e-10 m of contact, found by bisection, one half on the free side.\n"
       "Prints a Markdown table: wrong answers by the contract, verdicts unlike the CPU checker's, states that the\n"
       "contract leaves open, and the share of states, and of the time, that floats leave undecided.\n"
