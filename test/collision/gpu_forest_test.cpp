@@ -67,7 +67,8 @@ class GpuForest : public testing::Test
         problem_.trees.push_back({mesh, 0.0});
         problem_.shapes.emplace_back(mesh);
         auto& instances = meshes == &robot ? problem_.robot : problem_.world;
-        instances.push_back({static_cast<std::uint32_t>(problem_.trees.size() - 1), 0, Eigen::Isometry3d::Identity()});
+        instances.push_back(
+            {static_cast<std::uint32_t>(problem_.trees.size() - 1), 0, 0, Eigen::Isometry3d::Identity()});
       }
     problem_.world_pairs.assign(robot.size() * world.size(), 1);
     scene_.setProblem(problem_);
