@@ -56,10 +56,15 @@ enum class Verdict
 
 /// `nearest` becomes the nearest point of the difference that was found. Both verdicts are certain: there is a point of
 /// the difference that near, or a plane that holds it off.
-Verdict decideByDescent(const Difference& difference, double distance, Vector3d& nearest)
+Verdict decideByDescent(const Difference& difference, double distance, const Vector3d& guess, Vector3d& nearest)
 {
   const double rounding = difference.rounding();
-  Simplex simplex(difference.nearestAlong(difference.center()));
+  nearest = difference.nearestAlong(guess);
+  if (guess.dot(nearest) > (distance + rounding) * guess.norm())
+  {
+    return Verdict::Apart;
+  }
+  Simplex simplex(nearest);
   for (int i = 0; i < kMaxIterations; ++i)
   {
     nearest = simplex.nearest();
@@ -183,7 +188,7 @@ bool isSeparable(const Difference& difference, double distance, const Vector3d& 
 }
 }  // namespace
 
-bool convexWithin(const Convex& a, const Convex& b, double distance)
+bool convexWithin(const Convex& a, const Convex& b, double distance, const Vector3d& from_b)
 {
   const Difference difference(a, b);
   if (difference.center().norm() > difference.radius() + distance + difference.rounding())
@@ -191,7 +196,7 @@ bool convexWithin(const Convex& a, const Convex& b, double distance)
     return false;
   }
   Vector3d nearest;
-  const Verdict verdict = decideByDescent(difference, distance, nearest);
+  const Verdict verdict = decideByDescent(difference, distance, from_b, nearest);
   return verdict == Verdict::Undecided ? !isSeparable(difference, distance, nearest) : verdict == Verdict::Within;
 }
 }  // namespace gpu_planning_scene

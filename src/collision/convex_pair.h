@@ -19,6 +19,7 @@ class Convex
 };
 
 /// Whether the distance of two convex sets, whose coordinates are in one frame, is at most `distance` (above 0). Right
-/// where the true distance is not within about 1e-14 times the sets' size of it, or within 1e-12 m.
-bool convexWithin(const Convex& a, const Convex& b, double distance);
+/// where the true distance is not within about 1e-14 times the sets' size of it, or within 1e-12 m. `from_b` is a guess
+/// at the direction from b to a, of any length but 0: a good one saves time.
+bool convexWithin(const Convex& a, const Convex& b, double distance, const Eigen::Vector3d& from_b);
 }  // namespace gpu_planning_scene

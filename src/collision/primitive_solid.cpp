@@ -25,27 +25,45 @@ struct Overloaded : Functions...
 template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
-/// The distance of a point from a cylinder or a cone, whose radius is linear in z, in the half plane of distance from
-/// the axis and z.
-double distanceToFrustum(double bottom_radius, double top_radius, double half_length, const Vector3d& point)
+/// From the nearest point of a cylinder or a cone, whose radius is linear in z, to a point; 0 inside. In the half plane
+/// of distance from the axis and z.
+Vector3d fromFrustum(double bottom_radius, double top_radius, double half_length, const Vector3d& point)
 {
   const Vector2d p(point.head<2>().norm(), point.z());
   const double radius = bottom_radius + (top_radius - bottom_radius) * (p.y() + half_length) / (2.0 * half_length);
   if (std::abs(p.y()) <= half_length && p.x() <= radius)
   {
-    return 0.0;
+    return Vector3d::Zero();
   }
-  const auto to_segment = [&p](const Vector2d& start, const Vector2d& end)
+  Vector2d best = Vector2d::Constant(std::numeric_limits<double>::infinity());
+  const auto offer_segment = [&p, &best](const Vector2d& start, const Vector2d& end)
   {
     const Vector2d step = end - start;
     const double length = step.squaredNorm();
     const double t = length > 0.0 ? std::clamp((p - start).dot(step) / length, 0.0, 1.0) : 0.0;
-    return (start + t * step - p).norm();
+    const Vector2d offset = p - (start + t * step);
+    best = offset.squaredNorm() < best.squaredNorm() ? offset : best;
   };
   const Vector2d bottom(bottom_radius, -half_length);
   const Vector2d top(top_radius, half_length);
-  return std::min({to_segment(bottom, top), to_segment(Vector2d(0.0, -half_length), bottom),
-                   to_segment(Vector2d(0.0, half_length), top)});
+  offer_segment(bottom, top);
+  offer_segment(Vector2d(0.0, -half_length), bottom);
+  offer_segment(Vector2d(0.0, half_length), top);
+  const Vector2d outward = p.x() > 0.0 ? Vector2d(point.head<2>() / p.x()) : Vector2d::UnitX();
+  return {best.x() * outward.x(), best.x() * outward.y(), best.y()};
+}
+
+/// From the nearest point of a solid, not a sphere, to a point; 0 inside.
+Vector3d fromSolid(const Shape& solid, const Vector3d& point)
+{
+  return std::visit(
+      Overloaded{[&](const Box& box) -> Vector3d
+                 { return point - point.cwiseMin(0.5 * box.size).cwiseMax(-0.5 * box.size); },
+                 [&](const Cylinder& c) { return fromFrustum(c.radius, c.radius, 0.5 * c.length, point); },
+                 [&](const Cone& c) { return fromFrustum(c.radius, 0.0, 0.5 * c.length, point); },
+                 [](const auto& /*no primitive*/) -> Vector3d
+                 { return Vector3d::Constant(std::numeric_limits<double>::infinity()); }},
+      solid);
 }
 
 /// The point of a disk around the z axis that is farthest in a direction.
@@ -182,13 +200,11 @@ Vector3d halfExtents(const Shape& solid)
 
 double distanceToSolid(const Shape& solid, const Vector3d& point)
 {
-  return std::visit(
-      Overloaded{[&](const Box& box) { return (point.cwiseAbs() - 0.5 * box.size).cwiseMax(0.0).norm(); },
-                 [&](const Sphere& sphere) { return std::max(0.0, point.norm() - sphere.radius); },
-                 [&](const Cylinder& c) { return distanceToFrustum(c.radius, c.radius, 0.5 * c.length, point); },
-                 [&](const Cone& c) { return distanceToFrustum(c.radius, 0.0, 0.5 * c.length, point); },
-                 [](const auto& /*no primitive*/) { return std::numeric_limits<double>::infinity(); }},
-      solid);
+  if (const Sphere* sphere = std::get_if<Sphere>(&solid))
+  {
+    return std::max(0.0, point.norm() - sphere->radius);
+  }
+  return fromSolid(solid, point).norm();
 }
 
 double reachAlong(const Shape& solid, const Vector3d& direction)
@@ -205,12 +221,14 @@ bool triangleWithinSolid(const Triangle& triangle, const Shape& solid, double re
   }
   const Triangle sorted = sortedTriangle(triangle);
   const ConvexTriangle convex(sorted);
-  const double from_center = distanceToSolid(solid, convex.center());
+  const Vector3d to_center = fromSolid(solid, convex.center());
+  const double from_center = to_center.norm();
   if (from_center <= required)
   {
     return true;
   }
-  return from_center <= convex.radius() + 2.0 * distance && convexWithin(convex, ConvexSolid(solid), distance);
+  return from_center <= convex.radius() + 2.0 * distance &&
+         convexWithin(convex, ConvexSolid(solid), distance, to_center);
 }
 
 bool solidsWithin(const Shape& a, const Shape& b, const Eigen::Isometry3d& b_in_a, double required)
@@ -224,6 +242,6 @@ bool solidsWithin(const Shape& a, const Shape& b, const Eigen::Isometry3d& b_in_
   {
     return distanceToSolid(b, b_in_a.inverse().translation()) <= sphere->radius + distance;
   }
-  return convexWithin(ConvexSolid(a), PlacedConvexSolid(b, b_in_a), distance);
+  return convexWithin(ConvexSolid(a), PlacedConvexSolid(b, b_in_a), distance, -b_in_a.translation());
 }
 }  // namespace gpu_planning_scene

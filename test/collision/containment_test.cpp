@@ -149,6 +149,11 @@ TEST(Containment, AnOpenComponentDoesNotSpoilTheSolidOfAClosedOne)
   const MeshPointer mixed = together(boxMesh(1.0), opened(moved(boxMesh(4.0), Vector3d(5, 0, 0))));
   expectCollision(true, Sphere{0.1}, mixed, at(0.1, 0.2, 0), "in the closed one");
   expectCollision(false, Sphere{0.1}, mixed, at(5.1, 0.2, 0), "in the open one");
+  const MeshPointer hollow = together(together(boxMesh(2.0), inverted(boxMesh(1.0))), opened(boxMesh(0.6)));
+  for (const Vector3d& place : {Vector3d(0.2, 0, 0), Vector3d(-0.2, 0, 0), Vector3d(0, 0.2, 0), Vector3d(0, -0.2, 0)})
+  {
+    expectCollision(false, Sphere{0.05}, hollow, at(place.x(), place.y(), place.z()), "in an open one in a cavity");
+  }
 }
 
 TEST(Containment, PaddingDoesNotMakeOutsideInside)
