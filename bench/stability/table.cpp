@@ -6,7 +6,7 @@ namespace gpu_planning_scene::stability
 {
 const std::array<MethodName, MethodCount>& methodNames()
 {
-  static const std::array<MethodName, MethodCount> kNames = {{
+  static const std::array<MethodName, MethodCount> names = {{
       {"FCL, default (libccd)", "fcl", false},
       {"FCL, its own GJK", "fcl_own", false},
       {"float32, no filter", "float32", false},
@@ -15,7 +15,7 @@ const std::array<MethodName, MethodCount>& methodNames()
       {"ours, breadth-first", "breadth_first", true},
       {"ours, exact checker", "exact", true},
   }};
-  return kNames;
+  return names;
 }
 
 void count(Cell& cell, oracle::Verdict truth, bool collides)
