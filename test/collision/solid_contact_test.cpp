@@ -285,6 +285,26 @@ TEST_P(SolidContact, TurnedSolidsOverlapOrNotAsPointsOfThemSay)
   }
   EXPECT_GT(apart, 10);
 }
+TEST(SphereContact, OfAHugeTriangleAndASmallSphereIsDecidedByTheirDistance)
+{
+  const std::uint64_t seed = 44;
+  Features features(seed);
+  const Sphere sphere{0.001};
+  for (int i = 0; i < 300; ++i)
+  {
+    const double thin = std::pow(10.0, -(i % 9));
+    const Triangle triangle = {Vector3d(-500, -100 * thin, 0), Vector3d(400, -150 * thin, 0),
+                               Vector3d(50, 300 * thin, 0)};
+    const Feature on_sphere = features.of(Shape(sphere), 0);
+    const Feature on_triangle = features.of(triangle, i / 9 % 3);
+    const double distance = pick(std::vector<double>{4.9e-10, 5.1e-10, 1e-9, 0.0}, i);
+    const Isometry3d pose = placed(on_sphere, on_triangle, distance, 7.0 * features.share());
+    EXPECT_EQ(distance < kSlack,
+              triangleWithinSolid({pose * triangle[0], pose * triangle[1], pose * triangle[2]}, sphere, 0.0))
+        << "seed " << seed << ", case " << i;
+  }
+}
+
 std::string nameOf(const testing::TestParamInfo<int>& info)
 {
   constexpr std::array<const char*, 6> kNames = {"Box", "Sphere", "Cylinder", "Cone", "Rod", "Plate"};

@@ -17,8 +17,11 @@ void expectRight(double x)
   const auto [sine, cosine] = sineCosine(x);
   const Precise true_sine = sin(Precise(x));
   const Precise true_cosine = cos(Precise(x));
-  // A unit in the last place, and next to a zero what is left of a number of that size.
-  const auto bound = [](const Precise& value) { return 2.3e-16 * std::abs(static_cast<double>(value)) + 1e-20; };
+  const auto bound = [](const Precise& value)
+  {
+    const double size = std::abs(static_cast<double>(value));
+    return 0.8 * (std::nextafter(size, 2.0) - size) + 1e-20;
+  };
   EXPECT_LE(std::abs(static_cast<double>(true_sine - sine)), bound(true_sine)) << "sine of " << x;
   EXPECT_LE(std::abs(static_cast<double>(true_cosine - cosine)), bound(true_cosine)) << "cosine of " << x;
 }
