@@ -1,6 +1,5 @@
 #include "stability/placing.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "oracle/oracle.h"
@@ -53,7 +52,8 @@ Case withPadding(Random& random, Case made)
   const oracle::PreparedShape b(made.b);
   const double apart =
       oracle::distance(a, oracle::Motion(made.link_a) * oracle::Motion(made.a_in_link), b, oracle::Motion(made.pose_b));
-  const double required = std::max(0.0, apart + random.powerOfTen(3, 8));
+  const double offset = random.powerOfTen(3, 8);
+  const double required = apart + offset > 0.0 ? apart + offset : apart + 1e-3;
   const double share = random.below(3) == 0 ? 1.0 : random.uniform(0.0, 1.0);
   made.padding_a = share * required;
   made.padding_b = required - made.padding_a;
@@ -78,7 +78,7 @@ Eigen::Isometry3d justApart(const Shape& a, const Shape& b, const Eigen::Isometr
   double free = 1.0;
   while (!apart(free))
     free *= 2.0;
-  for (int i = 0; i < 60 && touching + 1e-16 < free; ++i)
+  for (int i = 0; i < 60 && touching + 1e-13 < free; ++i)
   {
     const double middle = 0.5 * (touching + free);
     (apart(middle) ? free : touching) = middle;

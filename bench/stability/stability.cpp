@@ -15,7 +15,7 @@ namespace
 {
 constexpr std::size_t kFullCases = 2048;
 constexpr std::size_t kQuickCases = 64;
-constexpr std::size_t kLeastSets = 8;  // of cases that are copies of each other
+constexpr std::size_t kLeastSets = 4;  // of cases that are copies of each other
 constexpr std::size_t kReported = 5;   // wrong answers of a family that are told one by one
 
 std::ofstream openFile(const CommandLine& arguments, const std::string& option)
@@ -70,8 +70,8 @@ void runStability(const CommandLine& arguments)
         std::cerr << "\n  " << methodNames()[failure.method].name << " is wrong in case " << failure.index << ": "
                   << failure.what;
     };
-    // Whole sets of copies, and more than one.
-    const std::size_t count = family.copies == 1 ? cases : std::max(cases / family.copies, kLeastSets) * family.copies;
+    // A set of copies tells more than one case and less than as many.
+    const std::size_t count = family.copies == 1 ? cases : std::max(cases / 8, kLeastSets) * family.copies;
     rows.push_back(judge(family, seed, count, ours, report));
     wrong += failures;
     if (failures > kReported)
