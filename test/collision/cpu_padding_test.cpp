@@ -83,9 +83,11 @@ TEST(CpuPadding, DoesNotCountBetweenLinks)
   problem->self_pairs = {{0, 1}};
   const CpuTraversal traversal(problem, std::make_shared<const Forest>(buildBinnedSah(problem->trees)));
   CpuTraversal::Scratch scratch;
+  // Turned, so that the boxes along the axes overlap.
+  const Eigen::Isometry3d turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
   for (const double gap : {0.0, 0.05, 1e-8})
   {
-    const std::array<Eigen::Isometry3d, 2> poses = {at(0, 0, 0), at(1.0 + gap, 0.2, 0.2)};
+    const std::array<Eigen::Isometry3d, 2> poses = {turn, turn * at(1.0 + gap, 0.2, 0.2)};
     EXPECT_EQ(gap == 0.0, traversal.firstCollision(poses.data(), scratch).has_value()) << gap;
   }
 }
