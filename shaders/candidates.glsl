@@ -1,7 +1,7 @@
 // The list of (state, pair) whose root boxes are still to be tested.
 #include "counters.glsl"
 layout(location = 2) uniform uint candidate_capacity;
-layout(std430, binding = BINDING_OUT_2) writeonly buffer Candidates { uvec4 candidates[]; };
+layout(std430, binding = BINDING_B) writeonly buffer Candidates { uvec4 candidates[]; };
 
 void addCandidate(uint state, uint pair)
 {

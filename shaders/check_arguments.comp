@@ -16,6 +16,7 @@ void main()
   const uint count = min(counters[counter], capacity);
   const uint groups = min((count + lanes - 1u) / lanes, max_groups);
   setGroups(arguments, groups);
+  // Right where the lanes count themselves: setGroups rounds up only past QUEUE_MAX_GROUPS.
   counters[COUNTER_LANES_STARTED] += groups * lanes;
   counters[cleared] = 0u;
 }

@@ -1,4 +1,4 @@
-// One lane per (state, robot instance): whether the shape reaches into a half-space of the world. The lowest corner above
+// One lane per (state, robot instance): whether the shape reaches into one half-space of the world. The lowest corner above
 // the plane decides, found by a walk of the shape's tree; tessellations lie within their solids.
 #include "interface.h"
 layout(local_size_x = GROUP_SIZE) in;
@@ -11,10 +11,11 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "triangles.glsl"
 layout(location = 2) uniform uint half_space_count;
 layout(location = 3) uniform uint world_count;
+layout(location = 4) uniform uint half_space;
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
 // Two vec4 each: the plane's normal and offset; the padding.
-layout(std430, binding = BINDING_IN) readonly buffer HalfSpaces { vec4 half_spaces[]; };
-layout(std430, binding = BINDING_IN_2) readonly buffer HalfSpacePairs { uint half_space_pairs[]; };  // bits [robot][half-space]
+layout(std430, binding = BINDING_C) readonly buffer HalfSpaces { vec4 half_spaces[]; };
+layout(std430, binding = BINDING_D) readonly buffer HalfSpacePairs { uint half_space_pairs[]; };  // bits [robot][half-space]
 
 // STATE_* bits: a corner is proven to lie at most `distance` above the plane; one may lie at most `gap` above it.
 // Normal and offset are in the tree's frame.
@@ -24,10 +25,8 @@ uint reachesDown(uint root, vec3 normal, float offset, float error, float distan
   stack[0] = root;
   int top = 1;
   uint found = 0u;
-  for (uint steps = 0u; top > 0 && found != STATE_HIT; ++steps)
+  for (uint steps = 0u; top > 0 && (found & STATE_HIT) == 0u && steps < uint(LANE_ITERATIONS) / (4u * LEAF_TRIANGLES); ++steps)
   {
-    if (steps > uint(LANE_ITERATIONS) / (4u * LEAF_TRIANGLES))
-      return STATE_UNDECIDED;
     const TreeNode node = fetchNode(stack[--top]);
     const float height = dot(normal, node.box.center) - offset;
     const float extent = dot(abs(normal), node.box.extent);
@@ -47,11 +46,12 @@ uint reachesDown(uint root, vec3 normal, float offset, float error, float distan
       for (int k = 0; k < 3; ++k)
       {
         const float above = dot(normal, corners[k]) - offset;
-        found |= above + error <= distance ? STATE_HIT : (above > gap + error ? 0u : STATE_UNDECIDED);
+        found |= above + error <= distance ? STATE_HIT : (above > gap + error && FLOATS_DECIDE != 0 ? 0u : STATE_UNDECIDED);
       }
     }
   }
-  return found;
+  // What is left of the tree was not looked at, whoever ended the loop.
+  return top > 0 && (found & STATE_HIT) == 0u ? STATE_UNDECIDED : found;
 }
 
 void main()
@@ -61,21 +61,17 @@ void main()
     return;
   const uint state = stateOf(i);
   const uint robot = robotOf(i);
+  const uint bit = robot * half_space_count + half_space;
+  if ((half_space_pairs[bit >> 5u] >> (bit & 31u) & 1u) == 0u)
+    return;
   const Instance instance = fetchInstance(robot);
   const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
-  const vec3 far = farCorner(fetchNode(instance.root).box);
-  for (uint k = 0u; k < half_space_count; ++k)
-  {
-    const uint bit = robot * half_space_count + k;
-    if ((half_space_pairs[bit >> 5u] >> (bit & 31u) & 1u) == 0u)
-      continue;
-    const vec4 plane = half_spaces[2u * k];
-    const float distance = instance.padding + half_spaces[2u * k + 1u].x;
-    const vec3 normal = plane.xyz * pose.rotation;
-    precise const float offset = plane.w - dot(plane.xyz, pose.translation);
-    const uint found = reachesDown(instance.root, normal, offset, planeError(pose, far, plane.w), distance * (1.0 - 4.0 * u),
-                                   requiredGap(distance, instance.slack));
-    if (found != 0u)
-      report(state, packPair(robot, robot_count + world_count + k), found);
-  }
+  const vec4 plane = half_spaces[2u * half_space];
+  const float distance = instance.padding + half_spaces[2u * half_space + 1u].x;
+  const float error = planeError(pose, farCorner(fetchNode(instance.root).box), plane.w);
+  const vec3 normal = plane.xyz * pose.rotation;
+  precise const float offset = plane.w - dot(plane.xyz, pose.translation);
+  const uint found = reachesDown(instance.root, normal, offset, error, distance * (1.0 - 4.0 * u), requiredGap(distance, instance.slack));
+  if (found != 0u)
+    report(state, packPair(robot, robot_count + world_count + half_space), found);
 }

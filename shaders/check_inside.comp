@@ -24,7 +24,8 @@ uint meshContainment(Instance inner, Instance solid, Pose pose, float error, ino
   const Box bounds = fetchNode(solid.root).box;
   const float diagonal = 2.0 * length(bounds.extent) * (1.0 + 8.0 * u);
   uint found = 0u;
-  for (uint i = 0u; i < inner.component_count && iterations > 0u; ++i, --iterations)
+  uint i = 0u;
+  for (; i < inner.component_count && iterations > 0u; ++i, --iterations)
   {
     // What is inside is no longer than the solid's box from corner to corner, and all its points are in that box.
     const uint component = inner.first_component + i;
@@ -33,7 +34,8 @@ uint meshContainment(Instance inner, Instance solid, Pose pose, float error, ino
       continue;
     found |= insideMesh(solid.root, point, error, iterations);
   }
-  return iterations > 0u ? found : STATE_UNDECIDED;
+  // Components that were not looked at, whoever ended the loop, are not known to be outside.
+  return i < inner.component_count ? found | STATE_UNDECIDED : found;
 }
 
 void main()

@@ -16,8 +16,8 @@ layout(location = 3) uniform uint item_capacity;
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
 layout(binding = UNIT_WORLD_POSES) uniform usamplerBuffer world_poses;
 layout(binding = UNIT_CANDIDATES) uniform usamplerBuffer candidates;
-layout(std430, binding = BINDING_OUT) writeonly buffer Items { uvec4 items[]; };
-layout(std430, binding = BINDING_OUT_2) writeonly buffer Entries { uvec4 entries[]; };
+layout(std430, binding = BINDING_A) writeonly buffer Items { uvec4 items[]; };
+layout(std430, binding = BINDING_B) writeonly buffer Entries { uvec4 entries[]; };
 
 void main()
 {

@@ -4,8 +4,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
 #include "geometries.glsl"
 #include "candidates.glsl"
-layout(std430, binding = BINDING_OUT) readonly buffer Spheres { vec4 spheres[]; };
-layout(std430, binding = BINDING_IN) readonly buffer Partners { uint partners[]; };  // robot_count + 1 offsets, then instances
+layout(std430, binding = BINDING_A) readonly buffer Spheres { vec4 spheres[]; };
+layout(std430, binding = BINDING_C) readonly buffer Partners { uint partners[]; };  // robot_count + 1 offsets, then instances
 
 void main()
 {

@@ -6,7 +6,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "boxes.glsl"
 #include "geometries.glsl"
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
-layout(std430, binding = BINDING_OUT) writeonly buffer Spheres { vec4 spheres[]; };
+layout(std430, binding = BINDING_A) writeonly buffer Spheres { vec4 spheres[]; };
 
 void main()
 {

@@ -10,8 +10,8 @@ layout(local_size_x = GROUP_SIZE) in;
 layout(location = 3) uniform uint world_count;
 layout(location = 4) uniform uint world_root;
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
-layout(std430, binding = BINDING_IN) readonly buffer WorldOrder { uint world_order[]; };     // leaf order of the tree
-layout(std430, binding = BINDING_IN_2) readonly buffer WorldPairs { uint world_pairs[]; };   // bits [robot][world]
+layout(std430, binding = BINDING_C) readonly buffer WorldOrder { uint world_order[]; };     // leaf order of the tree
+layout(std430, binding = BINDING_D) readonly buffer WorldPairs { uint world_pairs[]; };   // bits [robot][world]
 
 void main()
 {
@@ -24,6 +24,7 @@ void main()
   const Box box = fetchNode(instance.root).box;
   const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
   const vec3 center = apply(pose, box.center);
+  // What the object's own box needs, its rounding outwards in layout.glsl provides.
   const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent));
   const mat3 q = mat3(abs(pose.rotation[0]), abs(pose.rotation[1]), abs(pose.rotation[2]));
   const vec3 extent = q * box.extent + instance.slack + instance.padding + CONTRACT_BAND + error;

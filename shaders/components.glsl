@@ -1,5 +1,5 @@
 // The connected components of the shapes: for each one a point of it, and the longest edge of its box, rounded down.
-layout(std430, binding = BINDING_IN) readonly buffer Components { vec4 components[]; };
+layout(std430, binding = BINDING_C) readonly buffer Components { vec4 components[]; };
 
 vec3 componentPoint(uint component)
 {

@@ -44,10 +44,10 @@ float inverseError(float position_error, vec3 far_a)
 // exceed their triangles by, and the distance within which the contract leaves the answer to the CPU.
 float requiredGap(float distance, float slack)
 {
-  return (distance + slack) * (1.0 + 8.0 * u) + CONTRACT_BAND;
+  return (distance + slack) * (1.0 + 16.0 * u) + CONTRACT_BAND;
 }
 
-// Of the height of a robot's point above a plane of the world, likewise.
+// What the height of a robot's point above a plane of the world may be off by.
 float planeError(Pose pose, vec3 far, float offset)
 {
   return u * (10.0 * length(pose.translation) + 16.0 * length(far) + 4.0 * abs(offset));

@@ -5,10 +5,10 @@
 layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
 layout(location = 0) uniform uint case_count;
-layout(std430, binding = BINDING_IN) readonly buffer Numbers { vec2 numbers[]; };
+layout(std430, binding = BINDING_C) readonly buffer Numbers { vec2 numbers[]; };
 // Two vec4 a case: sum and its error, product and its error; what is left of the product without contraction, the length
-// of (x, y, x), 1 if a comparison with no number holds, unused.
-layout(std430, binding = BINDING_OUT) writeonly buffer Results { vec4 results[]; };
+// of (x, y, x), 1 if a comparison with no number holds, the dot product of (x, y, x) and (y, y, x).
+layout(std430, binding = BINDING_A) writeonly buffer Results { vec4 results[]; };
 
 void split(float x, out float high, out float low)
 {
@@ -40,5 +40,5 @@ void main()
   const float no_number = (numbers[i].x - x) / (numbers[i].y - y);
   const bool holds = no_number > 1.0 || no_number < 1.0 || no_number == 1.0;
   results[2u * i] = vec4(sum, sum_error, product, product_error);
-  results[2u * i + 1u] = vec4(left, length(vec3(x, y, x)), holds ? 1.0 : 0.0, 0.0);
+  results[2u * i + 1u] = vec4(left, length(vec3(x, y, x)), holds ? 1.0 : 0.0, dot(vec3(x, y, x), vec3(y, y, x)));
 }

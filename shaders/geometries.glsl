@@ -1,4 +1,4 @@
-// The states and instances of a batch, and how a pair of instances is packed.
+// The states and instances of a batch, and which of them an invocation works for.
 #include "instances.glsl"
 layout(location = 0) uniform uint state_count;
 layout(location = 1) uniform uint robot_count;

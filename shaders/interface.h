@@ -46,10 +46,10 @@
 #define BINDING_FLAGS 1       // one uint a state: STATE_* bits
 #define BINDING_HITS 2        // one uint a state: the pair that was hit
 #define BINDING_GEOMETRIES 3  // three uvec4 an instance, see instances.glsl; robot's first, then the world's
-#define BINDING_OUT 4         // what the kernel writes; see its header
-#define BINDING_OUT_2 5
-#define BINDING_IN 6
-#define BINDING_IN_2 7
+#define BINDING_A 4           // these differ from kernel to kernel
+#define BINDING_B 5
+#define BINDING_C 6
+#define BINDING_D 7
 
 // What float32 is trusted with, see docs/error_bounds.md. The relative error of one operation in any rounding mode; the
 // distance within which the contract leaves the answer to one canonical computation on the CPU (1e-9 m) and some.

@@ -10,6 +10,7 @@ layout(location = 0) uniform uint in_counter;
 layout(location = 1) uniform uint out_counter;
 layout(location = 2) uniform uint entry_capacity;
 layout(location = 3) uniform uint leaf_pair_capacity;
+layout(location = 4) uniform uint in_capacity;  // of the list read
 layout(binding = UNIT_ENTRIES) uniform usamplerBuffer entries;
 
 // The pairs that a node pair is taken apart into: both nodes' children where both are inner nodes, the inner node's

@@ -5,15 +5,15 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "level.glsl"
 #include "verdicts.glsl"
 #include "leaf_pair.glsl"
-layout(std430, binding = BINDING_OUT) readonly buffer Masks { uint masks[]; };
-layout(std430, binding = BINDING_OUT_2) readonly buffer Sums { uvec2 sums[]; };
-layout(std430, binding = BINDING_IN) writeonly buffer NextEntries { uvec4 next_entries[]; };
-layout(std430, binding = BINDING_IN_2) writeonly buffer LeafPairs { uvec4 leaf_pairs[]; };
+layout(std430, binding = BINDING_A) readonly buffer Masks { uint masks[]; };
+layout(std430, binding = BINDING_B) readonly buffer Sums { uvec2 sums[]; };
+layout(std430, binding = BINDING_C) writeonly buffer NextEntries { uvec4 next_entries[]; };
+layout(std430, binding = BINDING_D) writeonly buffer LeafPairs { uvec4 leaf_pairs[]; };
 
 void main()
 {
   const uint lane = invocationIndex();
-  const uint entry_count = min(counters[in_counter], entry_capacity);
+  const uint entry_count = min(counters[in_counter], in_capacity);
   if (lane * LEVEL_CHUNK >= entry_count)
     return;
   uvec2 at = sums[lane];

@@ -6,13 +6,13 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "level.glsl"
 #include "instances.glsl"
 #include "verdicts.glsl"
-layout(std430, binding = BINDING_OUT) writeonly buffer Masks { uint masks[]; };
-layout(std430, binding = BINDING_OUT_2) writeonly buffer Sums { uvec2 sums[]; };
+layout(std430, binding = BINDING_A) writeonly buffer Masks { uint masks[]; };
+layout(std430, binding = BINDING_B) writeonly buffer Sums { uvec2 sums[]; };
 
 void main()
 {
   const uint lane = invocationIndex();
-  const uint entry_count = min(counters[in_counter], entry_capacity);
+  const uint entry_count = min(counters[in_counter], in_capacity);
   if (lane * LEVEL_CHUNK >= entry_count)
     return;
   uvec2 sum = uvec2(0u);

@@ -8,7 +8,8 @@ layout(location = 0) uniform uint in_counter;
 layout(location = 1) uniform uint out_counter;
 layout(location = 2) uniform uint entry_capacity;
 layout(location = 3) uniform uint leaf_pair_capacity;
-layout(std430, binding = BINDING_OUT_2) buffer Sums { uvec2 sums[]; };
+layout(location = 4) uniform uint in_capacity;  // of the list read
+layout(std430, binding = BINDING_B) buffer Sums { uvec2 sums[]; };
 
 #define SCAN_TYPE uvec2
 #define SCAN_VALUES sums
@@ -16,7 +17,7 @@ layout(std430, binding = BINDING_OUT_2) buffer Sums { uvec2 sums[]; };
 
 void main()
 {
-  const uint entry_count = min(counters[in_counter], entry_capacity);
+  const uint entry_count = min(counters[in_counter], in_capacity);
   const uvec2 total = scanInPlace((entry_count + LEVEL_CHUNK - 1u) / LEVEL_CHUNK);
   if (gl_LocalInvocationID.x == 0u)
   {

@@ -32,9 +32,9 @@ uint trianglePair(vec3 a[3], vec3 b[3], float error, float gap)
   const float reach = sqrt(squared_r) * (1.0 + 8.0 * u) + length_a + length_b + error;
   // Of a corner of b above a's plane, of a corner of a above b's plane, and of a volume.
   const float round_off = 10.0 * u * reach;
-  const float error_b = length_a * (error * (reach + length_a) + round_off * length_a) + TINY;
+  const float error_b = length_a * (error * (2.0 * reach + length_a) + round_off * length_a) + TINY;
   const float error_a = length_b * (error * (4.0 * reach + length_b) + round_off * length_b) + TINY;
-  const float error_v = error * (reach * (0.5 * length_b + 2.0 * length_a) + length_a * length_b) + round_off * length_a * length_b + TINY;
+  const float error_v = error * (reach * (length_b + 2.0 * length_a) + length_a * length_b) + round_off * length_a * length_b + TINY;
   // What all corners together must be beyond an axis of length 1, and what the axes are askew by.
   const float beyond = (error + gap + 6.0 * u * reach) * (1.0 + 16.0 * u);
   const float error_span = 20.0 * u * length_a * length_b * (length_a + length_b) + TINY;

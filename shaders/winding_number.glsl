@@ -1,8 +1,8 @@
 // Whether a point is inside the solid that a mesh's closed components bound: the signed crossings of a ray along a
 // coordinate axis add up to the winding number. A ray that comes too near to an edge, or begins too near to the surface,
 // tells nothing.
-layout(std430, binding = BINDING_OUT) readonly buffer LeafOrder { uint leaf_order[]; };
-layout(std430, binding = BINDING_OUT_2) readonly buffer SolidTriangles { uint solid_triangles[]; };  // bits
+layout(std430, binding = BINDING_A) readonly buffer LeafOrder { uint leaf_order[]; };
+layout(std430, binding = BINDING_B) readonly buffer SolidTriangles { uint solid_triangles[]; };  // bits
 layout(location = 3) uniform uint first_world_primitive;  // of the shapes that the robot does not have
 
 // Triangles count where they belong to a closed component.
@@ -106,7 +106,7 @@ uint insideMesh(uint root, vec3 point, float error, inout uint iterations)
         winding += crossed;
       }
     }
-    if (iterations == 0u)
+    if (certain && top > 0)
       return STATE_UNDECIDED;
     if (certain)
       return winding != 0 ? STATE_HIT : 0u;

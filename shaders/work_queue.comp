@@ -19,10 +19,12 @@ layout(local_size_x = QUEUE_LANES) in;
 layout(location = 0) uniform uint in_counter;   // COUNTER_ENTRIES_* of the list read, and of the one written
 layout(location = 1) uniform uint out_counter;
 layout(location = 2) uniform uint entry_capacity;
+layout(location = 3) uniform uint in_capacity;  // of the list read
 layout(binding = UNIT_ENTRIES) uniform usamplerBuffer entries;
-layout(std430, binding = BINDING_OUT) writeonly buffer Spill { uvec4 spilled[]; };
+layout(std430, binding = BINDING_A) writeonly buffer Spill { uvec4 spilled[]; };
 
-// Loop iterations of one step and of one slot of a leaf pair, in case the compiler does not unroll the inner loops.
+// Loop iterations of one step and of one slot of a leaf pair, where the compiler does not unroll the inner loops. Should they
+// be more, lanes end early, and the count of lanes below finds it out.
 #define STEP_ITERATIONS 4u
 #define SLOT_ITERATIONS (20u + 60u * PADDED)
 
@@ -52,7 +54,7 @@ void testLeafPairs(uint count)
 
 void main()
 {
-  const uint entry_count = min(counters[in_counter], entry_capacity);
+  const uint entry_count = min(counters[in_counter], in_capacity);
   uvec2 memory[QUEUE_STACK];
   uint waiting = 0u;   // node pairs in memory, from below
   uint leaves = 0u;    // leaf pairs in memory, from above

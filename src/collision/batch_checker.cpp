@@ -3,6 +3,8 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "collision/batch_engine.h"
@@ -34,7 +36,7 @@ struct BatchChecker::Impl
   BatchEngine engine;
   std::shared_ptr<const PlanningScene> scene;
   std::map<std::string, GroupProblem> groups;
-  std::string selected_group;  // whose pairs the engine has now
+  std::optional<std::string> selected_group;  // whose pairs the engine has now
 };
 
 BatchChecker::BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
@@ -55,7 +57,7 @@ void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   impl_->scene = std::move(scene);
   impl_->groups.clear();
   impl_->groups.emplace("", std::move(whole));
-  impl_->selected_group.clear();
+  impl_->selected_group = "";
 }
 
 BatchResult BatchChecker::check(const double* states, std::size_t count, const std::string& group)
@@ -67,6 +69,7 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
   refuseNonFinite(robot, states, count);
   if (impl_->selected_group != group)
   {
+    impl_->selected_group.reset();  // for as long as it is not known which pairs the engine has
     impl_->engine.selectPairs(problem);
     impl_->selected_group = group;
   }

@@ -48,14 +48,15 @@ bool BreadthFirst::run(BatchLists& lists, std::uint32_t levels, bool padded)
     {
       program->set(0, in_counter);
       program->set(1, out_counter);
+      program->set(4, level == 0 ? lists.capacity.items : capacity);
     }
     lists.node_pairs[level % 2].bindTexture(UNIT_ENTRIES);
-    masks_.bindStorage(BINDING_OUT);
-    sums_.bindStorage(BINDING_OUT_2);
+    masks_.bindStorage(BINDING_A);
+    sums_.bindStorage(BINDING_B);
     overlap_.dispatchIndirect(lists.counters, offsetOf(COUNTER_ARGUMENTS));
     scan_.dispatch(1);
-    lists.node_pairs[1 - level % 2].buffer().bindStorage(BINDING_IN);
-    leaf_pairs_.buffer().bindStorage(BINDING_IN_2);
+    lists.node_pairs[1 - level % 2].buffer().bindStorage(BINDING_C);
+    leaf_pairs_.buffer().bindStorage(BINDING_D);
     expand_.dispatchIndirect(lists.counters, offsetOf(COUNTER_CHUNK_ARGUMENTS));
     (padded ? padded_triangles_ : triangles_).dispatchIndirect(lists.counters, offsetOf(COUNTER_LEAF_ARGUMENTS));
     in_counter = out_counter;

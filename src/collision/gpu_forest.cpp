@@ -21,11 +21,6 @@ std::size_t divideUp(std::size_t value, std::size_t by)
   return (value + by - 1) / by;
 }
 
-std::size_t groupsFor(std::size_t lanes)
-{
-  return divideUp(lanes, GROUP_SIZE);
-}
-
 std::vector<float> floatVertices(const std::vector<const Mesh*>& meshes)
 {
   std::size_t count = 0;
@@ -39,7 +34,7 @@ std::vector<float> floatVertices(const std::vector<const Mesh*>& meshes)
         for (int axis = 0; axis < 3; ++axis)
         {
           const double value = mesh->vertices[corner][axis];
-          if (!(std::abs(value) < 1e18))  // its square, a box's surface, must be a float too
+          if (!(std::abs(value) < 1e9))  // products of four lengths, as in the bounds of errors, must be floats too
             throw Error("mesh " + mesh->name + ": coordinate " + std::to_string(value) +
                         " m is out of range; check the mesh's unit and scale");
           vertices.push_back(static_cast<float>(value));

@@ -13,11 +13,6 @@ namespace
 {
 constexpr std::uint32_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
 
-std::size_t groupsFor(std::size_t lanes)
-{
-  return (lanes + GROUP_SIZE - 1) / GROUP_SIZE;
-}
-
 /// Room that is enough for most batches: what a state leaves behind on average, and some for batches of few states.
 ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
 {
@@ -136,9 +131,14 @@ void GpuPairChecker::testHalfSpaces(std::uint32_t states)
   half_spaces_program_.set(1, scene_.robotCount());
   half_spaces_program_.set(2, scene_.halfSpaceCount());
   half_spaces_program_.set(3, scene_.worldCount());
-  scene_.halfSpaces().bindStorage(BINDING_IN);
-  scene_.halfSpacePairs().bindStorage(BINDING_IN_2);
-  half_spaces_program_.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
+  scene_.halfSpaces().bindStorage(BINDING_C);
+  scene_.halfSpacePairs().bindStorage(BINDING_D);
+  // One at a time: what one lane may do is limited.
+  for (std::uint32_t half_space = 0; half_space < scene_.halfSpaceCount(); ++half_space)
+  {
+    half_spaces_program_.set(4, half_space);
+    half_spaces_program_.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
+  }
 }
 
 void GpuPairChecker::findCandidates(std::uint32_t states)
@@ -149,23 +149,23 @@ void GpuPairChecker::findCandidates(std::uint32_t states)
     program->set(0, states);
     program->set(1, scene_.robotCount());
   }
-  lists_.candidates.buffer().bindStorage(BINDING_OUT_2);
+  lists_.candidates.buffer().bindStorage(BINDING_B);
   if (scene_.worldCount() > 0)
   {
     world_program_.set(2, lists_.capacity.candidates);
     world_program_.set(3, scene_.worldCount());
     world_program_.set(4, scene_.worldRoot());
-    scene_.worldOrder().bindStorage(BINDING_IN);
-    scene_.worldPairs().bindStorage(BINDING_IN_2);
+    scene_.worldOrder().bindStorage(BINDING_C);
+    scene_.worldPairs().bindStorage(BINDING_D);
     world_program_.dispatch(groups);
   }
   if (scene_.hasSelfPairs())
   {
     spheres_.reserve(std::size_t{states} * scene_.robotCount() * 16);
-    spheres_.bindStorage(BINDING_OUT);
+    spheres_.bindStorage(BINDING_A);
     spheres_program_.dispatch(groups);
     self_program_.set(2, lists_.capacity.candidates);
-    scene_.partners().bindStorage(BINDING_IN);
+    scene_.partners().bindStorage(BINDING_C);
     self_program_.dispatch(groups);
   }
 }
@@ -175,9 +175,9 @@ void GpuPairChecker::testRoots()
   arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, kNoLimit, COUNTER_UNUSED);
   roots_program_.set(2, lists_.capacity.candidates);
   roots_program_.set(3, lists_.capacity.items);
-  scene_.components().bindStorage(BINDING_IN);
-  lists_.items.buffer().bindStorage(BINDING_OUT);
-  lists_.node_pairs[0].buffer().bindStorage(BINDING_OUT_2);
+  scene_.components().bindStorage(BINDING_C);
+  lists_.items.buffer().bindStorage(BINDING_A);
+  lists_.node_pairs[0].buffer().bindStorage(BINDING_B);
   roots_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
 }
 
@@ -189,9 +189,9 @@ void GpuPairChecker::testContainment()
   arguments_.prepare(COUNTER_ITEMS, lists_.capacity.items, GROUP_SIZE, kNoLimit, COUNTER_UNUSED);
   inside_program_.set(2, lists_.capacity.items);
   inside_program_.set(3, scene_.firstWorldPrimitive());
-  scene_.components().bindStorage(BINDING_IN);
-  scene_.leafOrder().bindStorage(BINDING_OUT);
-  scene_.solidTriangles().bindStorage(BINDING_OUT_2);
+  scene_.components().bindStorage(BINDING_C);
+  scene_.leafOrder().bindStorage(BINDING_A);
+  scene_.solidTriangles().bindStorage(BINDING_B);
   inside_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
 }
 }  // namespace gpu_planning_scene

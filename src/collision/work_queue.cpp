@@ -19,20 +19,22 @@ bool WorkQueue::run(BatchLists& lists, std::uint32_t /*levels*/, bool padded)
   for (std::uint32_t pass = 0;; ++pass)
   {
     const std::uint32_t out_counter = pass % 2 == 0 ? COUNTER_ENTRIES_ODD : COUNTER_ENTRIES_EVEN;
+    const std::uint32_t in_capacity = pass == 0 ? lists.capacity.items : capacity;
     program.set(0, in_counter);
     program.set(1, out_counter);
+    program.set(3, in_capacity);
     lists.counters.clear(COUNTER_NEXT_ENTRY * sizeof(std::uint32_t), sizeof(std::uint32_t));
     lists.counters.clear(out_counter * sizeof(std::uint32_t), sizeof(std::uint32_t));
     lists.node_pairs[pass % 2].bindTexture(UNIT_ENTRIES);
-    lists.node_pairs[1 - pass % 2].buffer().bindStorage(BINDING_OUT);
+    lists.node_pairs[1 - pass % 2].buffer().bindStorage(BINDING_A);
     do
     {
-      arguments_.prepare(in_counter, capacity, QUEUE_LANES, QUEUE_MAX_GROUPS, COUNTER_UNUSED);
+      arguments_.prepare(in_counter, in_capacity, QUEUE_LANES, QUEUE_MAX_GROUPS, COUNTER_UNUSED);
       program.dispatchIndirect(lists.counters, ArgumentsKernel::argumentsOffset());
       lists.counters.read(counters.data(), sizeof(counters));
       if (counters[COUNTER_OVERFLOW] != 0 || counters[COUNTER_LANES_ENDED] != counters[COUNTER_LANES_STARTED])
         return false;
-    } while (counters[COUNTER_NEXT_ENTRY] < std::min(counters[in_counter], capacity));
+    } while (counters[COUNTER_NEXT_ENTRY] < std::min(counters[in_counter], in_capacity));
     if (counters[out_counter] == 0)
       return true;
     in_counter = out_counter;

@@ -20,7 +20,7 @@ constexpr std::size_t kCases = 4096;
 struct Outcome
 {
   float sum, sum_error, product, product_error;
-  float left, length, comparison_holds, unused;
+  float left, length, comparison_holds, dot;
 };
 static_assert(sizeof(Outcome) == 32, "two vec4");
 
@@ -58,6 +58,8 @@ const char* faultOf(double x, double y, const Outcome& found)
     return "a product and a difference are contracted where `precise` forbids it";
   if (!(std::abs(found.length - length) <= 4.0 * UNIT_ROUNDOFF * length))
     return "a length is off by more than 2^-21 of itself";
+  if (std::abs(found.dot - (x * y + y * y + x * x)) > 3.0 * UNIT_ROUNDOFF * (std::abs(x * y) + y * y + x * x))
+    return "a dot product is off by more than 3 units of 2^-23 of its terms";
   if (found.comparison_holds != 0.0F)
     return "a comparison with no number holds";
   return nullptr;
@@ -70,8 +72,8 @@ std::string findFloatFault(const std::string& shader_folder)
   Buffer input(kCases * sizeof(numbers.front()));
   input.write(numbers);
   Buffer output(kCases * sizeof(Outcome));
-  input.bindStorage(BINDING_IN);
-  output.bindStorage(BINDING_OUT);
+  input.bindStorage(BINDING_C);
+  output.bindStorage(BINDING_A);
   const Program program(shader_folder, "float_arithmetic.comp");
   program.set(0, kCases);
   program.dispatch(kCases / GROUP_SIZE);

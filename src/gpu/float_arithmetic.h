@@ -5,8 +5,8 @@
 namespace gpu_planning_scene
 {
 /// Tests the device's float32 for what docs/error_bounds.md assumes, with a kernel that is compiled as all others are:
-/// two-sum and two-product exact, nothing contracted where `precise` forbids it, lengths right to 4 units of 2^-23,
-/// comparisons with no number false. Returns one line that says what is wrong, or an empty string. Used on the
-/// context's thread.
+/// two-sum and two-product exact, nothing contracted where `precise` forbids it, lengths right to 4 units of 2^-23 and
+/// dot products to 3, comparisons with no number false. Returns one line that says what is wrong, or an empty string.
+/// Used on the context's thread.
 std::string findFloatFault(const std::string& shader_folder);
 }  // namespace gpu_planning_scene

@@ -12,6 +12,7 @@
 
 #include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
+#include "interface.h"
 
 namespace gpu_planning_scene
 {
@@ -96,6 +97,11 @@ std::string readShader(const std::string& folder, const std::string& name)
   std::string text;
   appendFile(folder, name, seen, text);
   return text;
+}
+
+std::size_t groupsFor(std::size_t lanes)
+{
+  return (lanes + GROUP_SIZE - 1) / GROUP_SIZE;
 }
 
 Program::Program(const std::string& folder, const std::string& name, const std::string& definitions)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -14,6 +15,9 @@ std::string shaderFolder();
 /// Reads a shader and the files that it includes (#include "NAME", from the same folder, each once). Throws Error that
 /// names a missing file.
 std::string readShader(const std::string& folder, const std::string& name);
+
+/// Workgroups of GROUP_SIZE that have at least `lanes` lanes.
+std::size_t groupsFor(std::size_t lanes);
 
 /// A compute program. Move-only; used on the context's thread.
 class Program

@@ -134,6 +134,31 @@ TEST_P(GpuContract, AHalfSpaceHoldsAllBelowItsPlane)
   EXPECT_EQ(check(problem, {height(0.0)}).colliding[0], (std::array<std::int32_t, 2>{0, 1}));
 }
 
+TEST_P(GpuContract, NoneOfManyHalfSpacesIsForgotten)
+{
+  // A sheet just above most of the planes: each makes its walk as long as it gets, and a device may limit all of a
+  // lane's walks together.
+  auto sheet = std::make_shared<Mesh>();
+  constexpr int kCells = 50;
+  for (int i = 0; i <= kCells; ++i)
+    for (int j = 0; j <= kCells; ++j)
+      sheet->vertices.emplace_back(0.02 * i - 0.5, 0.02 * j - 0.5, -(0.02 * i - 0.5) - (0.02 * j - 0.5));
+  for (std::uint32_t i = 0; i < kCells; ++i)
+    for (std::uint32_t j = 0; j < kCells; ++j)
+    {
+      const std::uint32_t corner = i * (kCells + 1) + j;
+      sheet->triangles.push_back({corner, corner + kCells + 1, corner + 1});
+      sheet->triangles.push_back({corner + 1, corner + kCells + 1, corner + kCells + 2});
+    }
+  CollisionProblem problem = problemOf(Shape(std::shared_ptr<const Mesh>(sheet)));
+  const Vector3d parallel = Vector3d::Ones().normalized();
+  for (std::int32_t k = 0; k < 40; ++k)
+    problem.half_spaces.push_back({k + 1, parallel, -1e-4});
+  problem.half_spaces.push_back({41, Vector3d::UnitZ(), 0.0});
+  problem.half_space_pairs.assign(problem.half_spaces.size(), 1);
+  EXPECT_EQ(check(problem, {at(0.0)}).valid, (std::vector<std::uint8_t>{0}));
+}
+
 TEST_P(GpuContract, WhatIsInsideAClosedMeshCollidesWhicheverWayItFaces)
 {
   for (const bool inverted : {false, true})
