@@ -21,7 +21,7 @@ MeshPtr flatTriangle(Random& random)
 {
   return triangleMesh({random.uniform(-0.6, -0.3), random.uniform(-0.6, -0.3), 0.0},
                       {random.uniform(0.4, 0.6), random.uniform(-0.6, -0.2), 0.0},
-                      {random.uniform(-0.2, 0.2), random.uniform(0.4, 0.6), 0.0});
+                      {random.uniform(-0.1, 0.1), random.uniform(0.4, 0.6), 0.0});
 }
 
 Case facesTouch(std::uint64_t seed, std::size_t index)
@@ -38,7 +38,7 @@ Case vertexOnFace(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
   const double offset = random.offset();
-  const MeshPtr other = triangleMesh({random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), 0.0},
+  const MeshPtr other = triangleMesh({random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03), 0.0},
                                      {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(0.2, 1.0)},
                                      {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(0.2, 1.0)});
   Case made = placed(random, flatTriangle(random), other, lifted(0.0, 0.0, offset));
