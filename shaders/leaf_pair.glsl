@@ -33,7 +33,7 @@ void testLeafTriangle(uint item_index, uint i, uint leaf_a, uint leaf_b)
   {
     vec3 b[3];
     fetchMovedTriangle((leaf_b & mask) + min(j, last_b), item.pose, b);
-    const uint pair = FLOATS_DECIDE != 0 ? trianglePair(a, b, item.error, item.gap) : STATE_UNDECIDED;
+    const uint pair = FLOATS_DECIDE != 0 ? trianglePair(a, b, item.pose.translation, item.error, item.gap) : STATE_UNDECIDED;
     found |= pair;
     open |= pair == STATE_UNDECIDED ? 1u << j : 0u;
   }

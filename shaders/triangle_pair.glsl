@@ -1,11 +1,12 @@
 // Two triangles: proven to meet (STATE_HIT), proven to be more than `gap` apart (0), or undecided (STATE_UNDECIDED).
-// a and b are the corners in one frame, metres; b's are off by at most `error` against a's. Uses the six distances of
+// a and b are the corners in one frame, metres; b's, which were placed with their shape's origin at `origin_b`, are off by at
+// most `error` against a's. Uses the six distances of
 // corners to the other's plane and the nine volumes that an edge of a spans with an edge of b (Devillers and Guigue 2002
 // decide by their signs): a hit is an edge that pierces the other triangle, apart is a separating axis out of the two
 // normals and the nine products of edges. A sign counts only beyond the bound on what it may be off by, and an axis, which
 // need not be exact, only if all corners lie on their sides of it (docs/error_bounds.md). Comparisons are written so that
 // a value that is no number proves nothing.
-uint trianglePair(vec3 a[3], vec3 b[3], float error, float gap)
+uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
 {
   precise vec3 r[3];  // b's corners from a's first: differences of close numbers lose nothing
   precise vec3 ea[3];
@@ -13,6 +14,9 @@ uint trianglePair(vec3 a[3], vec3 b[3], float error, float gap)
   float squared_a = 0.0;
   float squared_b = 0.0;
   float squared_r = 0.0;
+  float far_a = 0.0;
+  float far_b = 0.0;
+  float placed_b = 0.0;
   for (int i = 0; i < 3; ++i)
   {
     const int next = (i + 1) % 3;
@@ -22,19 +26,27 @@ uint trianglePair(vec3 a[3], vec3 b[3], float error, float gap)
     squared_a = max(squared_a, dot(ea[i], ea[i]));
     squared_b = max(squared_b, dot(eb[i], eb[i]));
     squared_r = max(squared_r, dot(r[i], r[i]));
+    far_a = max(far_a, length(a[i]));
+    far_b = max(far_b, length(b[i] - origin_b));
+    placed_b = max(placed_b, length(b[i]));
   }
   precise const vec3 na = cross(ea[0], ea[1]);
   precise const vec3 nb = cross(eb[0], eb[1]);
 
-  // The longest edges, and the longest way between corners; as long as the true ones may be.
-  const float length_a = sqrt(squared_a) * (1.0 + 8.0 * u) + error;
-  const float length_b = sqrt(squared_b) * (1.0 + 8.0 * u) + 2.0 * error;
+  // What edges are off by: the placing of b moves all its corners alike but for their own roundings. The longest edges, and
+  // the longest way between corners; as long as the true ones may be.
+  float length_a = sqrt(squared_a) * (1.0 + 8.0 * u);
+  float length_b = sqrt(squared_b) * (1.0 + 8.0 * u);
+  const float edge_a = u * (1.1 * far_a + length_a);
+  const float edge_b = u * (11.7 * far_b + 2.2 * placed_b + 13.0 * length_b);
+  length_a += edge_a;
+  length_b += edge_b;
   const float reach = sqrt(squared_r) * (1.0 + 8.0 * u) + length_a + length_b + error;
-  // Of a corner of b above a's plane, of a corner of a above b's plane, and of a volume.
-  const float round_off = 10.0 * u * reach;
-  const float error_b = length_a * (error * (2.0 * reach + length_a) + round_off * length_a) + TINY;
-  const float error_a = length_b * (error * (4.0 * reach + length_b) + round_off * length_b) + TINY;
-  const float error_v = error * (reach * (length_b + 2.0 * length_a) + length_a * length_b) + round_off * length_a * length_b + TINY;
+  // What a determinant is off by: of a corner of b above a's plane, of a corner of a above b's plane, and of a volume.
+  const float error_r = error + 8.0 * u * reach;
+  const float error_b = length_a * (2.0 * edge_a * reach + length_a * error_r) + TINY;
+  const float error_a = length_b * (2.0 * edge_b * reach + length_b * error_r) + TINY;
+  const float error_v = (edge_a * length_b + length_a * edge_b) * reach + length_a * length_b * error_r + TINY;
   // What all corners together must be beyond an axis of length 1, and what the axes are askew by.
   const float beyond = (error + gap + 6.0 * u * reach) * (1.0 + 16.0 * u);
   const float error_span = 20.0 * u * length_a * length_b * (length_a + length_b) + TINY;

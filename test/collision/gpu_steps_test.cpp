@@ -99,7 +99,7 @@ const char* const kTriangleIncludes =
     "#include \"pose.glsl\"\n#include \"boxes.glsl\"\n#include \"error_bounds.glsl\"\n#include \"triangle_pair.glsl\"\n"
     "#include \"triangle_distance.glsl\"\n";
 const char* const kTriangleCall =
-    "trianglePair(vec3[3](at(0u), at(1u), at(2u)), vec3[3](at(3u), at(4u), at(5u)), at(6u).x, at(6u).y)";
+    "trianglePair(vec3[3](at(0u), at(1u), at(2u)), vec3[3](at(3u), at(4u), at(5u)), vec3(0.0), at(6u).x, at(6u).y)";
 
 TEST_F(GpuStep, TrianglePairsAreDecidedAsInDoubleOrLeftUndecided)
 {
