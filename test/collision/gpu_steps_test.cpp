@@ -266,6 +266,86 @@ TEST_F(GpuStep, PointsLieWithinTheirBoundOfWhereExactPosesPutThem)
   EXPECT_GT(largest, 0.02);  // a bound that is far too wide would cost undecided states
 }
 
+TEST_F(GpuStep, WhatIsProvenOfPlacedTrianglesHoldsForTheExactPoses)
+{
+  constexpr std::size_t kCases = 6000;
+  std::vector<float> floats;
+  std::vector<bool> meet;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    // Triangles of 1 mm to 1 m in frames near and far, moved to within nanometres to micrometres of where they begin to
+    // meet.
+    const double arm = std::pow(10.0, 0.75 + 0.75 * uniform_(generator_));
+    std::array<Triangle, 2> triangles;
+    std::array<Eigen::Isometry3d, 2> poses;
+    for (int k = 0; k < 2; ++k)
+    {
+      const double size = std::pow(10.0, -1.5 + 1.5 * uniform_(generator_));
+      const Vector3d center = anyVector(0.3);
+      for (Vector3d& corner : triangles[k])
+        corner = center + anyVector(size);
+      poses[k].linear() = anyRotation();
+      poses[k].translation() = anyVector(arm);
+    }
+    const auto placed = [&](int k) {
+      return Triangle{poses[k] * triangles[k][0], poses[k] * triangles[k][1], poses[k] * triangles[k][2]};
+    };
+    const Triangle a = placed(0);
+    const auto center = [](const Triangle& t) { return Vector3d((t[0] + t[1] + t[2]) / 3.0); };
+    const Vector3d from = poses[1].translation() + center(a) - center(placed(1));  // there they meet, or nearly
+    const Vector3d way = anyVector(1.0).normalized();
+    double low = 0.0;
+    double high = 3.0;
+    for (int step = 0; step < 45; ++step)
+    {
+      const double middle = (low + high) / 2.0;
+      poses[1].translation() = from + middle * way;
+      (trianglesMeet(a, placed(1)) ? low : high) = middle;
+    }
+    poses[1].translation() =
+        from + (high + std::pow(10.0, -6.5 + 2.0 * uniform_(generator_)) * (i % 2 == 0 ? 1 : -1)) * way;
+    meet.push_back(trianglesMeet(a, placed(1)));
+    for (const Triangle& triangle : triangles)
+      for (const Vector3d& corner : triangle)
+        put(corner, floats);
+    for (const Eigen::Isometry3d& pose : poses)
+    {
+      for (int row = 0; row < 3; ++row)
+        put(pose.linear().row(row).transpose(), floats);
+      put(pose.translation(), floats);
+    }
+  }
+  const std::string includes = std::string(kTriangleIncludes) + R"(
+    uint placedPair(vec3 a[3], vec3 b[3], Pose pose_a, Pose pose_b)
+    {
+      const Pose pose = relativePose(pose_a, pose_b);
+      const vec3 far_a = max(max(abs(a[0]), abs(a[1])), abs(a[2]));
+      const vec3 far_b = max(max(abs(b[0]), abs(b[1])), abs(b[2]));
+      vec3 moved[3];
+      for (int i = 0; i < 3; ++i)
+        moved[i] = apply(pose, b[i]);
+      return trianglePair(a, moved, pose.translation, positionError(pose_a, pose_b, pose, far_a, far_b), 1e-9);
+    }
+)";
+  const auto result = run(includes,
+                          "placedPair(vec3[3](at(0u), at(1u), at(2u)), vec3[3](at(3u), at(4u), at(5u)), "
+                          "Pose(transpose(mat3(at(6u), at(7u), at(8u))), at(9u)), "
+                          "Pose(transpose(mat3(at(10u), at(11u), at(12u))), at(13u)))",
+                          floats, 42);
+  std::array<std::size_t, 3> count{};
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    EXPECT_FALSE(result[i] == STATE_HIT && !meet[i]) << "case " << i << ", seed " << kSeed;
+    EXPECT_FALSE(result[i] == 0U && meet[i]) << "case " << i << ", seed " << kSeed;
+    ++count[result[i]];
+  }
+  std::cout << count[STATE_HIT] << " hit, " << count[0] << " apart, " << count[STATE_UNDECIDED] << " undecided, seed "
+            << kSeed << std::endl;
+  EXPECT_GT(count[STATE_HIT], kCases / 50);
+  EXPECT_GT(count[0], kCases / 50);
+  EXPECT_GT(count[STATE_UNDECIDED], kCases / 10);
+}
+
 TEST_F(GpuStep, BoxesThatOverlapAreNeverApart)
 {
   constexpr std::size_t kCases = 60000;
