@@ -32,8 +32,8 @@ void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& ro
   std::size_t cases = 0;
   for (const Row& row : rows)
     cases += row.colliding + row.free + row.either;
-  out << cases << " cases, up to " << run.cases << " of each family, seed " << run.seed << ", on " << run.device
-      << ".\n\n"
+  out << "# The stability table\n\n"
+      << cases << " cases, " << run.cases << " of most families, seed " << run.seed << ", on " << run.device << ".\n\n"
       << "A cell is *wrong answers: false \"free\" + false \"collision\"*; 0 is none, - that the method has no such "
          "feature.\n\n"
       << "| cases | colliding / free / either |";
