@@ -52,7 +52,7 @@ std::optional<bool> fclCollides(const Case& c, bool own_narrow_phase)
     fcl::DistanceResultd result;
     return fcl::distance(a.get(), pose_a, b.get(), c.pose_b, request, result) <= required;
   }
-  fcl::CollisionRequestd request(1, true);
+  fcl::CollisionRequestd request(1, false);
   request.gjk_solver_type = solver;
   fcl::CollisionResultd result;
   return fcl::collide(a.get(), pose_a, b.get(), c.pose_b, request, result) > 0;

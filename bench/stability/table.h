@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <vector>
 

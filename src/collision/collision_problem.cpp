@@ -6,6 +6,7 @@
 
 #include "checked_pairs.h"
 #include "primitive_solid.h"
+#include "scene/rigid_pose.h"
 #include "scene/validate_scene.h"
 
 namespace gpu_planning_scene
@@ -81,11 +82,17 @@ struct Instances
   std::vector<Range> half_spaces_of_object;
 };
 
+/// Of two poses that the scene's validation has seen.
+Eigen::Isometry3d rigidProduct(const Eigen::Isometry3d& body, const Eigen::Isometry3d& shape)
+{
+  return rigid(body, "a body's pose") * rigid(shape, "a shape's pose");
+}
+
 void addObject(const WorldObject& object, std::int32_t body, TreeTable& trees, CollisionProblem& problem)
 {
   for (const PlacedShape& placed : object.shapes)
   {
-    const Eigen::Isometry3d pose = object.pose * placed.pose;
+    const Eigen::Isometry3d pose = rigidProduct(object.pose, placed.pose);
     if (const auto* half_space = std::get_if<HalfSpace>(&placed.shape))
     {
       problem.half_spaces.push_back(moved(*half_space, pose, body, object.padding));
@@ -123,7 +130,8 @@ Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>&
     {
       for (const PlacedShape& placed : *body.shapes)
       {
-        problem.robot.push_back({trees.treeOf(placed.shape), body.body, body.link, body.pose * placed.pose, padding});
+        problem.robot.push_back(
+            {trees.treeOf(placed.shape), body.body, body.link, rigidProduct(body.pose, placed.pose), padding});
       }
     }
     instances.of_body.push_back({begin, problem.robot.size()});

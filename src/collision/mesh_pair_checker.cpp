@@ -5,14 +5,12 @@
 
 #include "collision/batch_engine.h"
 #include "gpu_planning_scene/error.h"
+#include "scene/rigid_pose.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
-/// A rotation's columns may be off by this much: poses come from products of others.
-constexpr double kRotationTolerance = 1e-6;
-
 std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape& b)
 {
   validateShape(a, "shape a");
@@ -36,15 +34,13 @@ std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape&
   return problem;
 }
 
-void refuseNonRigid(const std::vector<Eigen::Isometry3d>& poses)
+std::vector<Eigen::Isometry3d> rigidPoses(const std::vector<Eigen::Isometry3d>& poses)
 {
+  std::vector<Eigen::Isometry3d> result;
+  result.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i)
-  {
-    const Eigen::Matrix3d rotation = poses[i].linear();
-    if (!poses[i].matrix().allFinite() || !(rotation.transpose() * rotation).isIdentity(kRotationTolerance) ||
-        rotation.determinant() < 0.0)
-      throw Error("pose " + std::to_string(i) + " is not a rigid motion; give a finite translation and a rotation");
-  }
+    result.push_back(rigid(poses[i], "pose " + std::to_string(i)));
+  return result;
 }
 }  // namespace
 
@@ -68,11 +64,11 @@ MeshPairChecker::~MeshPairChecker() = default;
 std::vector<std::uint8_t> MeshPairChecker::collide(const std::vector<Eigen::Isometry3d>& b_in_a)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  refuseNonRigid(b_in_a);
+  const std::vector<Eigen::Isometry3d> poses = rigidPoses(b_in_a);
   const auto start = std::chrono::steady_clock::now();
   BatchResult result;
   impl_->engine.check(
-      b_in_a.size(), 1, [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = b_in_a[row]; }, result);
+      poses.size(), 1, [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses[row]; }, result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::vector<std::uint8_t> hits;
   hits.reserve(result.valid.size());

@@ -8,7 +8,8 @@
 namespace gpu_planning_scene
 {
 /// Primitives as what they are: solids with their true, curved surface. All shapes here are primitives, not meshes or
-/// half-spaces. Answers are canonical decisions (see kSlack) on distances that are right to about 1e-12 m.
+/// half-spaces. Answers are canonical decisions (see kSlack) on distances that are
+/// right to about 1e-14 of the shapes' size, so to 1e-12 m for those of up to 100 m.
 
 bool isMesh(const Shape& shape);
 

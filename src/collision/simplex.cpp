@@ -1,5 +1,8 @@
 #include "collision/simplex.h"
 
+#include <cmath>
+#include <limits>
+
 namespace gpu_planning_scene
 {
 using Eigen::Vector3d;
@@ -51,19 +54,26 @@ void Simplex::offerTriangle(Face& best, int a, int b, int c) const
   offerSegment(best, c, a);
 }
 
-/// Of four points.
+/// Of four points: certainly, whatever was rounded. Of nearly flat ones nothing is certain.
 bool Simplex::holdsOrigin() const
 {
   const Vector3d ab = points_[1] - points_[0];
   const Vector3d ac = points_[2] - points_[0];
   const Vector3d ad = points_[3] - points_[0];
+  const Vector3d& corner = points_[0];
+  // A volume rounds by less than 48 epsilon of the product of its edges.
+  const auto error = [](const Vector3d& u, const Vector3d& v, const Vector3d& w)
+  { return 48.0 * std::numeric_limits<double>::epsilon() * std::sqrt(u.squaredNorm() * v.squaredNorm()) * w.norm(); };
   const double volume = ab.dot(ac.cross(ad));
   const double sign = volume > 0.0 ? 1.0 : -1.0;
-  const double share_b = -sign * points_[0].dot(ac.cross(ad));
-  const double share_c = -sign * points_[0].dot(ad.cross(ab));
-  const double share_d = -sign * points_[0].dot(ab.cross(ac));
-  return volume != 0.0 && share_b > 0.0 && share_c > 0.0 && share_d > 0.0 &&
-         share_b + share_c + share_d < sign * volume;
+  const double share_b = -sign * corner.dot(ac.cross(ad));
+  const double share_c = -sign * corner.dot(ad.cross(ab));
+  const double share_d = -sign * corner.dot(ab.cross(ac));
+  const double error_b = error(corner, ac, ad);
+  const double error_c = error(corner, ad, ab);
+  const double error_d = error(corner, ab, ac);
+  return share_b > error_b && share_c > error_c && share_d > error_d &&
+         sign * volume - share_b - share_c - share_d > error(ab, ac, ad) + error_b + error_c + error_d;
 }
 
 void Simplex::add(const Vector3d& point)

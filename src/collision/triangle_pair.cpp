@@ -14,6 +14,8 @@ namespace
 using Eigen::Vector3d;
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// A square that is smaller has lost digits, or will, to underflow; then nothing is certain.
+constexpr double kUnderflow = 1e-280;
 
 double sizeOf(const Vector3d& v)
 {
@@ -24,7 +26,7 @@ double sizeOf(const Vector3d& v)
 /// components: six products of three factors, each with less than eight roundings.
 double volumeError(double u_size, double v_size, double w_size)
 {
-  return 6.0 * 8.0 * kEpsilon * u_size * v_size * w_size;
+  return 6.0 * 8.0 * kEpsilon * u_size * v_size * w_size + std::numeric_limits<double>::min();
 }
 
 /// 0 where rounding may have changed the sign.
@@ -63,7 +65,8 @@ class PairProjections
     const double q2 = axis.dot(vertices_[4]);
     const double gap =
         std::max(std::min({p0, p1, p2}) - std::max({0.0, q1, q2}), std::min({0.0, q1, q2}) - std::max({p0, p1, p2}));
-    return gap > (distance + error_) * axis.norm();
+    const double squared = axis.squaredNorm();
+    return squared > kUnderflow && gap > (distance + error_) * std::sqrt(squared);
   }
 
  private:
@@ -104,7 +107,10 @@ Verdict decideBySigns(const Triangle& p, const Triangle& q, const PairProjection
   {
     const Vector3d normal = edge[0].cross(edge[1]);
     // The second term bounds the error of the normal: little of a sliver's normal may be left.
-    const double tolerance = distance * (normal.norm() + 16.0 * kEpsilon * edge_size[0] * edge_size[1]);
+    const double squared = normal.squaredNorm();
+    const double tolerance = squared > kUnderflow
+                                 ? distance * (std::sqrt(squared) + 16.0 * kEpsilon * edge_size[0] * edge_size[1])
+                                 : std::numeric_limits<double>::infinity();
     int apart = 0;
     for (int i = 0; i < 3; ++i)
     {

@@ -5,18 +5,12 @@
 #include <set>
 
 #include "gpu_planning_scene/error.h"
+#include "scene/rigid_pose.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
-void validatePose(const Eigen::Isometry3d& pose, const std::string& where)
-{
-  const Eigen::Matrix3d& rotation = pose.linear();
-  if (!pose.matrix().allFinite() || !(rotation * rotation.transpose()).isIdentity(1e-6) || rotation.determinant() < 0.0)
-    throw Error(where + ": a pose is not finite or not a rotation and a translation");
-}
-
 void validatePadding(double padding, const std::string& where)
 {
   if (!std::isfinite(padding) || padding < 0.0)
@@ -26,11 +20,11 @@ void validatePadding(double padding, const std::string& where)
 void validateObject(const WorldObject& object)
 {
   const std::string where = "object '" + object.id + "'";
-  validatePose(object.pose, where);
+  rigid(object.pose, where);
   validatePadding(object.padding, where);
   for (const PlacedShape& placed : object.shapes)
   {
-    validatePose(placed.pose, where);
+    rigid(placed.pose, where);
     validateShape(placed.shape, where);
   }
 }
@@ -73,10 +67,12 @@ void validateScene(const PlanningScene& scene)
     validatePadding(scene.link_padding[i], "link '" + links[i].name + "'");
 
   std::set<std::string> ids;
+  for (const Link& link : links)
+    ids.insert(link.name);
   const auto require_new = [&ids](const std::string& id)
   {
     if (!ids.insert(id).second)
-      throw Error("object '" + id + "': there is another object of that name; give each its own");
+      throw Error("object '" + id + "': there is a link or another object of that name; give each its own");
   };
   for (const WorldObject& object : scene.objects)
   {

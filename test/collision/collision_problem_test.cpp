@@ -446,8 +446,22 @@ TEST(CollisionProblem, RefusesPaddingAndHalfSpacesThatMeanNothing)
             scene.objects[0].shapes.push_back({HalfSpace{{0.0, 0.0, 2.0}, 0.0}});
           });
   refused("another object of that name", [](PlanningScene& scene) { scene.attached[0].object.id = "right"; });
+  refused("a link or another object", [](PlanningScene& scene) { scene.objects[0].id = "base"; });
   refused("its link is number 5 of 5", [](PlanningScene& scene) { scene.attached[0].link = 5; });
   refused("touch link is number -1", [](PlanningScene& scene) { scene.attached[0].touch_links = {-1}; });
+}
+
+TEST(CollisionProblem, TakesTheNearestRotationOfAPoseThatIsAlmostOne)
+{
+  PlanningScene scene = sceneOf("");
+  const Eigen::Matrix3d exact = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()).toRotationMatrix();
+  scene.objects[0].pose.linear() = (1.0 + 4e-7) * exact;
+  scene.objects[0].shapes[0].pose.linear() = Eigen::Matrix3d::Identity();
+  const CollisionProblem problem = makeProblem(scene, "", nullptr);
+  ASSERT_FALSE(problem.world.empty());
+  const Eigen::Matrix3d& found = problem.world[0].pose.linear();
+  EXPECT_TRUE((found * found.transpose()).isIdentity(1e-14)) << found;
+  EXPECT_TRUE(found.isApprox(exact, 1e-14)) << found;
 }
 
 TEST(CollisionProblem, RefusesObjectsThatAreNotValid)

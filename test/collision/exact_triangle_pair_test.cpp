@@ -293,6 +293,22 @@ TEST(ContactOfTriangles, AnyTwoTrianglesAreDecidedByTheTrueDistance)
   }
 }
 
+TEST(ContactOfTriangles, SizesWhoseSquaresUnderflowAreDecidedByTheDistance)
+{
+  for (const double size : {1e-100, 1e-165, 1e-300})
+  {
+    const Triangle a = {Vector3d(0, 0, 0), Vector3d(size, 0, 0), Vector3d(0, size, 0)};
+    for (const Vector3d& place : {Vector3d(0, 0, 0.005), Vector3d(0.003, 0.004, 0)})
+    {
+      const Triangle b = {place, place + Vector3d(size, 0, 0), place + Vector3d(0, size, size)};
+      EXPECT_TRUE(trianglesWithin(a, b, 0.01)) << size;
+      EXPECT_FALSE(trianglesWithin(a, b, 0.004)) << size;
+    }
+    const Triangle close = {Vector3d(2 * size, 0, size), Vector3d(3 * size, 0, 0), Vector3d(0, 4 * size, size)};
+    EXPECT_TRUE(trianglesMeet(a, close)) << size;
+  }
+}
+
 TEST(ContactOfTriangles, ASliverThatPiercesDeeplyIsAHit)
 {
   // The needle passes through the middle of a triangle that is 1e-5 m wide, and beside it.

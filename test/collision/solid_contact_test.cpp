@@ -3,8 +3,8 @@
 // d is their distance, whatever the shapes are.
 
 #include <cmath>
-#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -285,6 +285,32 @@ TEST_P(SolidContact, TurnedSolidsOverlapOrNotAsPointsOfThemSay)
   }
   EXPECT_GT(apart, 10);
 }
+TEST(BoxContact, ASliverAboveALongThinBoxIsFree)
+{
+  // All corners are at least 2.6e-9 m above the box. The simplices of a search for the distance are nearly flat here.
+  const std::vector<std::pair<Box, Triangle>> cases = {
+      {{{39.811815600992063, 3.5879585704587723e-07, 0.58235358181467145}},
+       {Vector3d(7.4944935299905122, 8.5264545792534179e-08, 0.29117679396769786),
+        Vector3d(7.4944935708168599, -1.3328012889075351e-08, 0.29117679402575275),
+        Vector3d(25.250104633250089, -2.2420525075685296, 24.219300654079557)}},
+      {{{16.574118340170006, 1.1520922528354761e-07, 0.1596401576043511}},
+       {Vector3d(6.6440927634382705, -1.6855816775976309e-08, 0.079820086885196137),
+        Vector3d(6.644092797840969, 2.6889920008422484e-08, 0.079820086905739288),
+        Vector3d(17.224793137649218, 10.318222768352559, 4.2827971092365065)}},
+      {{{27.654271504564495, 5.9199322076329048e-07, 0.56932318913447388}},
+       {Vector3d(9.2027494182875778, 1.6194623888125851e-07, 0.2846615971976415),
+        Vector3d(9.202759526311814, -2.2872191957132697e-06, 0.28466334833836021),
+        Vector3d(-1.7375000472487674, -8.8417630664831641, 5.3946616060045187)}},
+      {{{58.022063176053734, 8.8222087413681513e-08, 0.76098902999225693}},
+       {Vector3d(-25.116253838917327, -2.87901647715048e-08, 0.38049451887268221),
+        Vector3d(-25.116243175989741, -1.4302066026713872e-06, 0.38049451887268221),
+        Vector3d(-30.858032759559471, 11.781129637206865, 6.1872226123909746)}}};
+  for (const auto& [box, sliver] : cases)
+  {
+    EXPECT_FALSE(triangleWithinSolid(sliver, box, 0.0)) << box.size.transpose();
+  }
+}
+
 TEST(SphereContact, OfAHugeTriangleAndASmallSphereIsDecidedByTheirDistance)
 {
   const std::uint64_t seed = 44;

@@ -30,11 +30,17 @@ Motion shift(const Vector& translation)
   return result;
 }
 
+/// In the plane of a normal: x runs along the coordinate direction after the one that the normal is nearest to, brought
+/// into the plane, y across.
 Motion planar(const Eigen::Vector3d& axis, const double* variables)
 {
-  const Eigen::Matrix3d directions = planarDirections(axis);
-  return shift(Quad(variables[0]) * Vector(directions.col(0)) + Quad(variables[1]) * Vector(directions.col(1))) *
-         rotation(Vector(axis), variables[2]);
+  int nearest;
+  axis.cwiseAbs().maxCoeff(&nearest);
+  const Vector next(Eigen::Vector3d(Eigen::Vector3d::Unit((nearest + 1) % 3)));
+  const Vector normal = (1 / length(Vector(axis))) * Vector(axis);
+  const Vector in_plane = next - dot(next, normal) * normal;
+  const Vector x = (1 / length(in_plane)) * in_plane;
+  return shift(Quad(variables[0]) * x + Quad(variables[1]) * cross(normal, x)) * rotation(normal, variables[2]);
 }
 
 /// Translation, then the quaternion x, y, z, w: v + 2 (w q x v + q x (q x v)) / |q, w|^2, or v if that is 0.

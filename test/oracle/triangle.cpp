@@ -145,18 +145,4 @@ Quad distance(const Triangle& a, const Triangle& b, Quad limit)
     best = leastHeight(b, a, a_above_b, best);
   return best;
 }
-
-Vector nearestPoint(const Triangle& triangle, const Vector& point)
-{
-  if (triangle.has_face && aboveFace(triangle, point))
-    return point - dot(triangle.normal, point - triangle.corners[0]) * triangle.normal;
-  Vector best = triangle.corners[0];
-  for (int i = 0; i < 3; ++i)
-  {
-    const Vector candidate = nearestOnSegment(triangle.corners[i], triangle.corners[(i + 1) % 3], point);
-    if (squaredLength(point - candidate) < squaredLength(point - best))
-      best = candidate;
-  }
-  return best;
-}
 }  // namespace gpu_planning_scene::oracle

@@ -20,7 +20,4 @@ struct Triangle
 
 /// Their distance; 0 where they meet. From `limit` up the answer is some lower bound of at least `limit`.
 Quad distance(const Triangle& a, const Triangle& b, Quad limit);
-
-/// The point of the triangle that is nearest to `point`.
-Vector nearestPoint(const Triangle& triangle, const Vector& point);
 }  // namespace gpu_planning_scene::oracle

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Geometry>
+
+namespace gpu_planning_scene
+{
+/// The pose with the rotation that is nearest to its matrix: all that follows takes a rotation's transpose for its
+/// inverse. Poses that come from single precision or from long products are off by some digits. Throws Error that
+/// begins with `where` if the pose is not finite, or off by more than 1e-6.
+Eigen::Isometry3d rigid(const Eigen::Isometry3d& pose, const std::string& where);
+}  // namespace gpu_planning_scene
