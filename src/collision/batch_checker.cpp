@@ -42,7 +42,7 @@ struct BatchChecker::Impl
 BatchChecker::BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
   : impl_(std::make_unique<Impl>(options))
 {
-  setScene(std::move(scene));
+  BatchChecker::setScene(std::move(scene));
 }
 
 BatchChecker::~BatchChecker() = default;

@@ -51,7 +51,7 @@ struct CpuChecker::Impl
 
 CpuChecker::CpuChecker(std::shared_ptr<const PlanningScene> scene) : impl_(std::make_unique<Impl>())
 {
-  setScene(std::move(scene));
+  CpuChecker::setScene(std::move(scene));
 }
 
 CpuChecker::~CpuChecker() = default;
