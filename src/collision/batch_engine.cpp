@@ -122,7 +122,11 @@ void BatchEngine::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t 
                               BatchResult& result)
 {
   if (!forest_)
-    gl_.run([this] { forest_ = std::make_shared<const Forest>(pairs_->scene().readForest()); });
+  {
+    auto read = std::make_shared<Forest>();
+    gl_.run([&] { *read = pairs_->scene().readForest(); });
+    forest_ = std::make_shared<const CpuForest>(*problem_, std::move(read));
+  }
   if (!on_cpu_)
     on_cpu_ = std::make_unique<const CpuTraversal>(problem_, forest_);
   forChunks(rows.size(), 1,

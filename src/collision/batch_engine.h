@@ -53,7 +53,7 @@ class BatchEngine
   GlThread gl_;
   std::unique_ptr<GpuPairChecker> pairs_;  // made, used and destroyed on the GL thread
   std::shared_ptr<const CollisionProblem> problem_;
-  std::shared_ptr<const Forest> forest_;        // read back when a state is undecided for the first time
+  std::shared_ptr<const CpuForest> forest_;     // read back when a state is undecided for the first time
   std::unique_ptr<const CpuTraversal> on_cpu_;  // of the selected pairs; likewise
 };
 }  // namespace gpu_planning_scene

@@ -304,11 +304,6 @@ bool precedes(const Triangle& a, const Triangle& b)
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), lexicographicallyLess);
 }
 
-bool trianglesMeet(const Triangle& a, const Triangle& b)
-{
-  return trianglesWithin(a, b, 0.0);
-}
-
 bool trianglesWithin(const Triangle& a, const Triangle& b, double required)
 {
   // What is decided before the last line is certain, so it cannot depend on the order of vertices and triangles.

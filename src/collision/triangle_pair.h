@@ -13,11 +13,9 @@ using Triangle = std::array<Eigen::Vector3d, 3>;
 /// demands: rounding of poses and of the distances here, which are right to 1e-10 m within a kilometre, cannot.
 constexpr double kSlack = 0.5e-9;  // metres
 
-/// Whether two closed triangles have a point in common, or nearly: distance up to kSlack counts. Triangles may be
-/// coplanar, or degenerate to a segment or a point. Does not depend on the order of vertices and triangles.
-bool trianglesMeet(const Triangle& a, const Triangle& b);
-
-/// Whether two closed triangles with a required distance collide: their distance is at most `required` + kSlack.
+/// Whether two closed triangles with a required distance collide: their distance is at most `required` + kSlack (0:
+/// they meet, or nearly). Triangles may be coplanar, or degenerate to a segment or a point. Does not depend on the
+/// order of vertices and triangles.
 bool trianglesWithin(const Triangle& a, const Triangle& b, double required);
 
 /// The point of a closed triangle, possibly degenerate, that is nearest to `point`, to about 1e-16 times the square of

@@ -42,7 +42,7 @@ bool collideByBruteForce(const Shape& a, const Tessellation& surface_a, const Sh
     }
     for (std::size_t j = 0; j < surface_b.mesh->triangles.size(); ++j)
     {
-      if (trianglesMeet(in_b, triangleOf(*surface_b.mesh, j, Isometry3d::Identity())))
+      if (trianglesWithin(in_b, triangleOf(*surface_b.mesh, j, Isometry3d::Identity()), 0.0))
       {
         return true;
       }

@@ -305,7 +305,7 @@ TEST(ContactOfTriangles, SizesWhoseSquaresUnderflowAreDecidedByTheDistance)
       EXPECT_FALSE(trianglesWithin(a, b, 0.004)) << size;
     }
     const Triangle close = {Vector3d(2 * size, 0, size), Vector3d(3 * size, 0, 0), Vector3d(0, 4 * size, size)};
-    EXPECT_TRUE(trianglesMeet(a, close)) << size;
+    EXPECT_TRUE(trianglesWithin(a, close, 0.0)) << size;
   }
 }
 
@@ -317,8 +317,8 @@ TEST(ContactOfTriangles, ASliverThatPiercesDeeplyIsAHit)
   expectCanonical(thin, needle(0.0), 0.0, "through");
   expectCanonical(thin, needle(4.9e-6), 0.0, "near the edge");
   expectCanonical(thin, needle(5.1e-6), 0.0, "beside");
-  EXPECT_TRUE(trianglesMeet(thin, needle(4.9e-6)));
-  EXPECT_FALSE(trianglesMeet(thin, needle(5.1e-6)));
+  EXPECT_TRUE(trianglesWithin(thin, needle(4.9e-6), 0.0));
+  EXPECT_FALSE(trianglesWithin(thin, needle(5.1e-6), 0.0));
 }
 }  // namespace
 }  // namespace gpu_planning_scene

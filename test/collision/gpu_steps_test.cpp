@@ -133,7 +133,7 @@ TEST_F(GpuStep, TrianglePairsAreDecidedAsInDoubleOrLeftUndecided)
   std::size_t undecided = 0;
   for (std::size_t i = 0; i < kCases; ++i)
   {
-    const bool meet = trianglesMeet(cases[i][0], cases[i][1]);
+    const bool meet = trianglesWithin(cases[i][0], cases[i][1], 0.0);
     hits += meet ? 1 : 0;
     undecided += result[i] == STATE_UNDECIDED ? 1 : 0;
     EXPECT_TRUE(result[i] == (meet ? STATE_HIT : 0U) || result[i] == STATE_UNDECIDED)
@@ -300,11 +300,11 @@ TEST_F(GpuStep, WhatIsProvenOfPlacedTrianglesHoldsForTheExactPoses)
     {
       const double middle = (low + high) / 2.0;
       poses[1].translation() = from + middle * way;
-      (trianglesMeet(a, placed(1)) ? low : high) = middle;
+      (trianglesWithin(a, placed(1), 0.0) ? low : high) = middle;
     }
     poses[1].translation() =
         from + (high + std::pow(10.0, -6.5 + 2.0 * uniform_(generator_)) * (i % 2 == 0 ? 1 : -1)) * way;
-    meet.push_back(trianglesMeet(a, placed(1)));
+    meet.push_back(trianglesWithin(a, placed(1), 0.0));
     for (const Triangle& triangle : triangles)
       for (const Vector3d& corner : triangle)
         put(corner, floats);

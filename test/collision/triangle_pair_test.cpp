@@ -149,10 +149,10 @@ TEST_P(TrianglePair, AgreesWithExactIntegersOnAGridInEveryPlaceAndSize)
     const Eigen::Isometry3d somewhere = randomPose(generator, 1.0);
     for (const double scale : {1.0, 0.01, 100.0})
     {
-      ASSERT_EQ(expected, trianglesMeet(placed(p, Eigen::Isometry3d::Identity(), scale),
-                                        placed(q, Eigen::Isometry3d::Identity(), scale)))
+      ASSERT_EQ(expected, trianglesWithin(placed(p, Eigen::Isometry3d::Identity(), scale),
+                                          placed(q, Eigen::Isometry3d::Identity(), scale), 0.0))
           << "seed " << seed << ", pair " << i << ", scale " << scale;
-      ASSERT_EQ(expected, trianglesMeet(placed(p, somewhere, scale), placed(q, somewhere, scale)))
+      ASSERT_EQ(expected, trianglesWithin(placed(p, somewhere, scale), placed(q, somewhere, scale), 0.0))
           << "seed " << seed << ", pair " << i << ", moved, scale " << scale;
     }
   }
@@ -171,15 +171,15 @@ TEST(TrianglePair, DoesNotDependOnTheOrderOfVerticesAndTriangles)
   {
     const Triangle p = placed(randomTriangle(generator, 2), randomPose(generator, 0.1), 0.1);
     const Triangle q = placed(randomTriangle(generator, 2), randomPose(generator, 0.1), 0.1);
-    const bool expected = trianglesMeet(p, q);
+    const bool expected = trianglesWithin(p, q, 0.0);
     for (const auto& a : kOrders)
     {
       for (const auto& b : kOrders)
       {
         const Triangle p_again = {p[a[0]], p[a[1]], p[a[2]]};
         const Triangle q_again = {q[b[0]], q[b[1]], q[b[2]]};
-        ASSERT_EQ(expected, trianglesMeet(p_again, q_again)) << "seed " << seed << ", pair " << i;
-        ASSERT_EQ(expected, trianglesMeet(q_again, p_again)) << "seed " << seed << ", pair " << i;
+        ASSERT_EQ(expected, trianglesWithin(p_again, q_again, 0.0)) << "seed " << seed << ", pair " << i;
+        ASSERT_EQ(expected, trianglesWithin(q_again, p_again, 0.0)) << "seed " << seed << ", pair " << i;
       }
     }
   }
@@ -194,8 +194,8 @@ TEST(TrianglePair, SeesASmallTriangleAtTheBorderOfAHugeOne)
       return Triangle{Vector3d(x, 3.001, -0.005), Vector3d(x + 0.01, 3.0, 0.004), Vector3d(x + 0.01, 3.002, 0.005)};
     };
     const double crossing = 0.01 * 0.005 / 0.010;  // where the third side passes z = 0, beyond x
-    EXPECT_TRUE(trianglesMeet(ground, small_at(-crossing - overlap))) << overlap;
-    EXPECT_FALSE(trianglesMeet(ground, small_at(-crossing + overlap))) << overlap;
+    EXPECT_TRUE(trianglesWithin(ground, small_at(-crossing - overlap), 0.0)) << overlap;
+    EXPECT_FALSE(trianglesWithin(ground, small_at(-crossing + overlap), 0.0)) << overlap;
   }
 }
 
@@ -217,8 +217,9 @@ TEST(TrianglePair, KeepsTouchingAndFreesANanometreOfClearance)
     const auto moved = [&pose](const Triangle& t) { return Triangle{pose * t[0], pose * t[1], pose * t[2]}; };
     for (int kind = 0; kind < 3; ++kind)
     {
-      EXPECT_TRUE(trianglesMeet(moved(flat), moved(resting_at(0.0)[kind]))) << "seed " << seed << ", contact " << kind;
-      EXPECT_FALSE(trianglesMeet(moved(flat), moved(resting_at(1e-9)[kind])))
+      EXPECT_TRUE(trianglesWithin(moved(flat), moved(resting_at(0.0)[kind]), 0.0))
+          << "seed " << seed << ", contact " << kind;
+      EXPECT_FALSE(trianglesWithin(moved(flat), moved(resting_at(1e-9)[kind]), 0.0))
           << "seed " << seed << ", contact " << kind;
     }
   }
