@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "gpu_planning_scene/state_checker.h"
@@ -17,13 +18,15 @@ enum class Traversal
 /// "breadth_first" or "work_queue"; throws Error otherwise.
 Traversal traversalFromName(const std::string& name);
 
-struct BatchCheckerOptions
+struct BatchCheckerOptions : CheckerOptions
 {
   /// "auto" (the first hardware device, else software), "software", an index, or part of a renderer's name.
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
   std::size_t max_batch = 16384;  ///< states that go to the GPU at once; larger requests are split
-  std::string shader_folder;      ///< empty: where they were installed, or the source tree's (see shaderFolder())
+  /// Batches of fewer states go to the CPU; 0: never. Unset: measured for each scene, whichever is faster.
+  std::optional<std::size_t> cpu_below;
+  std::string shader_folder;  ///< empty: where they were installed, or the source tree's (see shaderFolder())
 };
 
 /// Checks states on the GPU: forward kinematics, root tests, tree traversal, triangle tests; undecided states go to a

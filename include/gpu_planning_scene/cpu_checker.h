@@ -10,7 +10,7 @@ namespace gpu_planning_scene
 class CpuChecker : public StateChecker
 {
  public:
-  explicit CpuChecker(std::shared_ptr<const PlanningScene> scene);
+  explicit CpuChecker(std::shared_ptr<const PlanningScene> scene, const CheckerOptions& options = {});
   ~CpuChecker() override;
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;

@@ -11,6 +11,24 @@
 
 namespace gpu_planning_scene
 {
+/// What is left out of a scene because it can change no answer. Each can be switched off, which costs time alone.
+struct Reductions
+{
+  bool reach = true;              ///< pairs that bounds on reach, from the joints' limits, prove can never meet
+  bool unmoved_pairs = true;      ///< pairs that no joint moves against each other are decided once per scene
+  bool shared_trees = true;       ///< equal meshes and equal primitives share one tree
+  bool direct_primitives = true;  ///< the GPU tests boxes as boxes, not as triangles
+};
+
+struct CheckerOptions
+{
+  /// Metres, at least 0. Above 0, traversal ends at two nodes that overlap and whose diagonals add up to no more than
+  /// this, and calls it a collision: never a false "free"; a false "collision" only of bodies that are no further apart
+  /// than their required distance and this. 0: exact.
+  double tolerance = 0.0;
+  Reductions reductions;
+};
+
 struct BatchResult
 {
   std::vector<std::uint8_t> valid;                     ///< one per state: 1 free, 0 in collision

@@ -25,6 +25,7 @@ struct CpuChecker::Impl
     std::unique_ptr<const CpuTraversal> traversal;
   };
 
+  CheckerOptions options;
   std::mutex mutex;
   std::shared_ptr<const PlanningScene> scene;
   std::shared_ptr<const CpuForest> forest;  // all groups have the same trees
@@ -49,8 +50,10 @@ struct CpuChecker::Impl
   }
 };
 
-CpuChecker::CpuChecker(std::shared_ptr<const PlanningScene> scene) : impl_(std::make_unique<Impl>())
+CpuChecker::CpuChecker(std::shared_ptr<const PlanningScene> scene, const CheckerOptions& options)
+  : impl_(std::make_unique<Impl>())
 {
+  impl_->options = options;
   CpuChecker::setScene(std::move(scene));
 }
 
@@ -61,6 +64,7 @@ void CpuChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   refuseMissingRobot(scene);
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   Impl fresh;
+  fresh.options = impl_->options;
   fresh.scene = std::move(scene);
   fresh.groupProblem("");
   impl_->scene = std::move(fresh.scene);
