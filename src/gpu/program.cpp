@@ -11,6 +11,7 @@
 #include <epoxy/gl.h>
 
 #include "gpu/gl_check.h"
+#include "gpu/program_cache.h"
 #include "gpu_planning_scene/error.h"
 #include "interface.h"
 
@@ -67,6 +68,37 @@ std::string linkLog(GLuint program)
   return log;
 }
 
+/// A new linked program; `name` is for messages.
+GLuint compile(const std::string& source, const std::string& name)
+{
+  const char* text = source.c_str();
+  const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint good = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+  if (!good)
+  {
+    const std::string log = compileLog(shader);
+    glDeleteShader(shader);
+    throw Error("shader " + name + " does not compile: " + log);
+  }
+  const GLuint program = glCreateProgram();
+  glProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+  glAttachShader(program, shader);
+  glLinkProgram(program);
+  glDetachShader(program, shader);
+  glDeleteShader(shader);
+  glGetProgramiv(program, GL_LINK_STATUS, &good);
+  if (!good)
+  {
+    const std::string log = linkLog(program);
+    glDeleteProgram(program);
+    throw Error("shader " + name + " does not link: " + log);
+  }
+  return program;
+}
+
 /// Seen from this library, so that an installation can be moved.
 std::string installedShaderFolder()
 {
@@ -107,28 +139,11 @@ std::size_t groupsFor(std::size_t lanes)
 Program::Program(const std::string& folder, const std::string& name, const std::string& definitions)
 {
   const std::string source = "#version 450\n" + definitions + readShader(folder, name);
-  const char* text = source.c_str();
-  const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
-  glShaderSource(shader, 1, &text, nullptr);
-  glCompileShader(shader);
-  GLint good = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-  if (!good)
+  id_ = loadCachedProgram(source);
+  if (id_ == 0)
   {
-    const std::string log = compileLog(shader);
-    glDeleteShader(shader);
-    throw Error("shader " + name + " does not compile: " + log);
-  }
-  id_ = glCreateProgram();
-  glAttachShader(id_, shader);
-  glLinkProgram(id_);
-  glDeleteShader(shader);
-  glGetProgramiv(id_, GL_LINK_STATUS, &good);
-  if (!good)
-  {
-    const std::string log = linkLog(id_);
-    glDeleteProgram(id_);
-    throw Error("shader " + name + " does not link: " + log);
+    id_ = compile(source, name);
+    cacheProgram(id_, source);
   }
   checkGl(("compiling " + name).c_str());
 }

@@ -23,8 +23,8 @@ std::size_t groupsFor(std::size_t lanes);
 class Program
 {
  public:
-  /// Compiles `name` of `folder`; `definitions` are lines that go before its text ("#define X 1\n"). Throws Error with
-  /// the compiler's log.
+  /// Compiles `name` of `folder`, or takes it from the program cache; `definitions` are lines that go before its text
+  /// ("#define X 1\n"). Throws Error with the compiler's log.
   Program(const std::string& folder, const std::string& name, const std::string& definitions = "");
   ~Program();
   Program(Program&& other) noexcept;
