@@ -13,7 +13,7 @@ void main()
   const uint i = invocationIndex();
   if (i >= triangle_count)
     return;
-  const uint source = leaf_order[first + i] * 9u;
+  const uint source = (leaf_order[first + i] - first) * 9u;
   for (uint corner = 0u; corner < 3u; ++corner)
   {
     const uint at = source + 3u * corner;

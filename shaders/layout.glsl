@@ -3,6 +3,7 @@
 #include "cluster.glsl"
 layout(location = 1) uniform uint root_base;      // where the roots of this forest lie among the nodes
 layout(location = 2) uniform uint leaf_size;
+layout(location = 4) uniform uint primitive_base;  // the number of its first triangle
 layout(std430, binding = 5) buffer PairStarts { uint pair_starts[]; };         // the first triangle below each pair
 layout(std430, binding = 6) writeonly buffer Nodes { uvec4 nodes[]; };         // two a node, see forest.h
 layout(std430, binding = 7) writeonly buffer LeafOrder { uint leaf_order[]; };
@@ -12,7 +13,7 @@ void place(Cluster c, uint at, uint start, uint first_pair_node)
 {
   const bool leaf = c.count == 1u || (c.count <= leaf_size && !c.opened);
   if (c.count == 1u)
-    leaf_order[start] = c.reference;
+    leaf_order[start] = primitive_base + c.reference;
   else
     pair_starts[c.reference] = start;
   const vec3 center = 0.5 * c.low + 0.5 * c.high;

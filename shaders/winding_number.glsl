@@ -3,12 +3,11 @@
 // tells nothing.
 layout(std430, binding = BINDING_A) readonly buffer LeafOrder { uint leaf_order[]; };
 layout(std430, binding = BINDING_B) readonly buffer SolidTriangles { uint solid_triangles[]; };  // bits
-layout(location = 3) uniform uint first_world_primitive;  // of the shapes that the robot does not have
 
 // Triangles count where they belong to a closed component.
 bool boundsSolid(uint primitive)
 {
-  const uint triangle = leaf_order[primitive] + (primitive < first_world_primitive ? 0u : first_world_primitive);
+  const uint triangle = leaf_order[primitive];
   return (solid_triangles[triangle >> 5u] >> (triangle & 31u) & 1u) != 0u;
 }
 

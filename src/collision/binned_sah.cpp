@@ -27,25 +27,6 @@ double area(const AlignedBox3d& box)
   return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
 }
 
-/// The smallest float box around `box`: the centre is rounded, so the half lengths must reach both ends from there.
-void setBox(const AlignedBox3d& box, Node& node)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double lower = box.min()[axis];
-    const double upper = box.max()[axis];
-    const float center = static_cast<float>(0.5 * (lower + upper));
-    const double reach = std::max(upper - center, center - lower);
-    float half = static_cast<float>(reach);
-    while (static_cast<double>(center) + half < upper || static_cast<double>(center) - half > lower)
-    {
-      half = std::nextafter(half, std::numeric_limits<float>::infinity());
-    }
-    node.center[axis] = center;
-    node.half[axis] = half;
-  }
-}
-
 struct Split
 {
   double cost = std::numeric_limits<double>::infinity();
@@ -166,6 +147,25 @@ class Builder
   BoxTree tree_;
 };
 }  // namespace
+
+/// The centre is rounded, so the half lengths must reach both ends from there.
+void setBox(const AlignedBox3d& box, Node& node)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double lower = box.min()[axis];
+    const double upper = box.max()[axis];
+    const float center = static_cast<float>(0.5 * (lower + upper));
+    const double reach = std::max(upper - center, center - lower);
+    float half = static_cast<float>(reach);
+    while (static_cast<double>(center) + half < upper || static_cast<double>(center) - half > lower)
+    {
+      half = std::nextafter(half, std::numeric_limits<float>::infinity());
+    }
+    node.center[axis] = center;
+    node.half[axis] = half;
+  }
+}
 
 BoxTree buildBinnedSah(const std::vector<AlignedBox3d>& boxes, std::uint32_t max_leaf_size)
 {

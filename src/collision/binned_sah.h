@@ -22,6 +22,9 @@ struct BoxTree
 /// Hierarchies" (2007). Depth is bounded by 64 + log2(boxes). No boxes: no nodes.
 BoxTree buildBinnedSah(const std::vector<Eigen::AlignedBox3d>& boxes, std::uint32_t max_leaf_size);
 
+/// The smallest float box of a node that holds `box`.
+void setBox(const Eigen::AlignedBox3d& box, Node& node);
+
 /// A tree per mesh with that build, leaves of up to kLeafTriangles. The builder where there is no GL device, and the
 /// yardstick for the trees that the GPU builds. Every mesh has at least one triangle.
 Forest buildBinnedSah(const std::vector<Tessellation>& meshes);

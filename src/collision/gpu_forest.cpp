@@ -1,7 +1,6 @@
 #include "collision/gpu_forest.h"
 
 #include <cmath>
-#include <cstring>
 
 #include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
@@ -91,25 +90,6 @@ void GpuForestBuilder::buildTriangles(const std::vector<const Mesh*>& meshes, Fo
   triangles_program_.set(1, region.primitive_count);
   triangles_program_.dispatch(groupsFor(count));
   checkGl("building trees");
-}
-
-void GpuForestBuilder::buildBoxes(const std::vector<Eigen::AlignedBox3f>& boxes, ForestRegion& region,
-                                  TexelBuffer& nodes, Buffer& leaf_order)
-{
-  std::vector<std::uint32_t> data(boxes.size() * 8);
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-  {
-    const auto number = static_cast<std::uint32_t>(i);
-    const std::uint32_t one = 1;
-    std::memcpy(&data[8 * i], boxes[i].min().data(), 12);
-    std::memcpy(&data[8 * i + 3], &number, 4);
-    std::memcpy(&data[8 * i + 4], boxes[i].max().data(), 12);
-    std::memcpy(&data[8 * i + 7], &one, 4);
-  }
-  boxes_.reserve(data.size() * kUint);
-  boxes_.write(data);
-  build(boxes.size(), {0}, 1, region, nodes, leaf_order);
-  checkGl("building the tree over objects");
 }
 
 void GpuForestBuilder::build(std::size_t count, const std::vector<std::uint32_t>& first, std::uint32_t leaf_size,
@@ -271,6 +251,7 @@ void GpuForestBuilder::layOut(std::size_t mesh_count, std::uint32_t leaf_size, c
   {
     program->set(1, region.first_node);
     program->set(2, leaf_size);
+    program->set(4, region.first_primitive);
   }
   layout_roots_program_.set(0, static_cast<std::uint32_t>(mesh_count));
   layout_roots_program_.dispatch(groupsFor(mesh_count));

@@ -40,10 +40,6 @@ class GpuForestBuilder
   void buildTriangles(const std::vector<const Mesh*>& meshes, ForestRegion& region, TexelBuffer& nodes,
                       Buffer& leaf_order, TexelBuffer& triangles);
 
-  /// One tree over boxes (world objects), a box in each leaf.
-  void buildBoxes(const std::vector<Eigen::AlignedBox3f>& boxes, ForestRegion& region, TexelBuffer& nodes,
-                  Buffer& leaf_order);
-
  private:
   void build(std::size_t primitive_count, const std::vector<std::uint32_t>& first_primitive, std::uint32_t leaf_size,
              ForestRegion& region, TexelBuffer& nodes, Buffer& leaf_order);

@@ -188,7 +188,6 @@ void GpuPairChecker::testContainment()
     return;
   arguments_.prepare(COUNTER_ITEMS, lists_.capacity.items, GROUP_SIZE, kNoLimit, COUNTER_UNUSED);
   inside_program_.set(2, lists_.capacity.items);
-  inside_program_.set(3, scene_.firstWorldPrimitive());
   scene_.components().bindStorage(BINDING_C);
   scene_.leafOrder().bindStorage(BINDING_A);
   scene_.solidTriangles().bindStorage(BINDING_B);

@@ -5,10 +5,9 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <tuple>
+#include <numeric>
 #include <utility>
 
-#include "collision/components.h"
 #include "collision/primitive_solid.h"
 #include "gpu_planning_scene/error.h"
 #include "interface.h"
@@ -17,32 +16,15 @@ namespace gpu_planning_scene
 {
 namespace
 {
-/// The box of a shape's triangles, grown by its sagitta.
-Eigen::AlignedBox3d localBounds(const Tessellation& tree)
+/// The box of an instance's true surface, grown by its padding and a little more than rounding loses.
+Eigen::AlignedBox3d placedBounds(const Eigen::AlignedBox3d& triangles, double sagitta, const Eigen::Isometry3d& pose,
+                                 double padding)
 {
-  Eigen::AlignedBox3d box;
-  for (const auto& triangle : tree.mesh->triangles)
-    for (const std::uint32_t corner : triangle)
-      box.extend(tree.mesh->vertices[corner]);
-  const Eigen::Vector3d sagitta = Eigen::Vector3d::Constant(tree.sagitta);
-  return {box.min() - sagitta, box.max() + sagitta};
-}
-
-/// A box that holds `box` moved by `pose` and grown by `padding`, rounded outward to float.
-Eigen::AlignedBox3f movedBounds(const Eigen::AlignedBox3d& box, const Eigen::Isometry3d& pose, double padding)
-{
-  const Eigen::Vector3d center = pose * box.center();
-  const Eigen::Vector3d half = pose.linear().cwiseAbs() * (box.sizes() / 2.0);
-  Eigen::AlignedBox3f moved;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double slop = padding + 1e-12 * (std::abs(center[axis]) + half[axis]);
-    moved.min()[axis] =
-        std::nextafter(static_cast<float>(center[axis] - half[axis] - slop), -std::numeric_limits<float>::infinity());
-    moved.max()[axis] =
-        std::nextafter(static_cast<float>(center[axis] + half[axis] + slop), std::numeric_limits<float>::infinity());
-  }
-  return moved;
+  const Eigen::Vector3d center = pose * triangles.center();
+  const Eigen::Vector3d half =
+      pose.linear().cwiseAbs() * (triangles.sizes() / 2.0 + Eigen::Vector3d::Constant(sagitta));
+  const Eigen::Vector3d grown = half + Eigen::Vector3d::Constant(padding) + 1e-12 * (center.cwiseAbs() + half);
+  return {center - grown, center + grown};
 }
 
 /// An instance as shaders/instances.glsl reads it.
@@ -107,27 +89,6 @@ void writeBits(const std::vector<std::uint8_t>& flags, Buffer& buffer)
   buffer.write(bits);
 }
 
-bool sameShapes(const std::vector<Shape>& a, const std::vector<Shape>& b)
-{
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), sameShape);
-}
-
-std::vector<const Mesh*> meshes(const std::vector<Tessellation>& trees, std::size_t begin, std::size_t end)
-{
-  std::vector<const Mesh*> found;
-  for (std::size_t i = begin; i < end; ++i)
-    found.push_back(trees[i].mesh.get());
-  return found;
-}
-
-/// The shapes that the robot's instances use; makeProblem numbers their trees first.
-std::vector<Shape> robotShapes(const CollisionProblem& problem)
-{
-  std::size_t count = 0;
-  for (const Geometry& geometry : problem.robot)
-    count = std::max<std::size_t>(count, geometry.tree + 1);
-  return {problem.shapes.begin(), problem.shapes.begin() + static_cast<std::ptrdiff_t>(count)};
-}
 }  // namespace
 
 void writePoseRows(const Eigen::Isometry3d& pose, float* rows)
@@ -146,97 +107,37 @@ void GpuScene::setProblem(const CollisionProblem& problem)
                 std::to_string(MAX_ROBOT_GEOMETRIES) + " and " + std::to_string(MAX_GEOMETRIES) + "; merge meshes");
   robot_count_ = static_cast<std::uint32_t>(problem.robot.size());
   world_count_ = static_cast<std::uint32_t>(problem.world.size());
-  buildShapeTrees(problem);
-  buildWorldTree(problem);
+  trees_.setShapes(problem.trees);
+  tree_count_ = problem.trees.size();
+  writeWorld(problem);
   writeGeometries(problem);
   writeHalfSpaces(problem);
   selectPairs(problem);
 }
 
-void GpuScene::buildShapeTrees(const CollisionProblem& problem)
-{
-  std::vector<Shape> shapes = robotShapes(problem);
-  trees_ = problem.trees.size();
-  if (!sameShapes(shapes, robot_shapes_))
-  {
-    robot_shapes_.clear();
-    robot_region_ = {};
-    if (!shapes.empty())
-      builder_.buildTriangles(meshes(problem.trees, 0, shapes.size()), robot_region_, nodes_, leaf_order_, triangles_);
-    robot_shapes_ = std::move(shapes);
-  }
-  shape_region_ = {};
-  shape_region_.first_node = robot_region_.node_count;
-  shape_region_.first_primitive = robot_region_.primitive_count;
-  if (trees_ > robot_shapes_.size())
-    builder_.buildTriangles(meshes(problem.trees, robot_shapes_.size(), trees_), shape_region_, nodes_, leaf_order_,
-                            triangles_);
-  depth_bound_ = std::max({1U, robot_region_.depth, shape_region_.depth});
-  first_triangle_.clear();
-  std::uint32_t triangle = 0;
-  for (const Tessellation& tree : problem.trees)
-  {
-    first_triangle_.push_back(triangle);
-    triangle += static_cast<std::uint32_t>(tree.mesh->triangles.size());
-  }
-  triangle_count_ = triangle;
-}
-
-std::uint32_t GpuScene::rootOf(std::size_t tree) const
-{
-  const std::size_t robot_trees = robot_shapes_.size();
-  return static_cast<std::uint32_t>(tree < robot_trees ? tree : shape_region_.first_node + tree - robot_trees);
-}
-
-/// The components of all trees as shaders/components.glsl reads them, and which triangles bound solids.
-GpuScene::ComponentRanges GpuScene::writeComponents(const CollisionProblem& problem)
-{
-  std::vector<std::array<float, 4>> records;
-  std::vector<std::uint8_t> bounds_solid(triangle_count_, 0);
-  ComponentRanges ranges;
-  has_mesh_solids_ = false;
-  for (std::size_t tree = 0; tree < trees_; ++tree)
-  {
-    const MeshComponents parts = findComponents(*problem.trees[tree].mesh);
-    const bool known = parts.components.size() <= MAX_COMPONENTS;
-    ranges.push_back({static_cast<std::uint32_t>(records.size()),
-                      known ? static_cast<std::uint32_t>(parts.components.size()) : 0U,
-                      isMesh(problem.shapes[tree]) && parts.hasSolid()});
-    has_mesh_solids_ = has_mesh_solids_ || ranges.back().mesh_solid;
-    if (known)
-      for (const Component& part : parts.components)
-      {
-        const Eigen::Vector3f point = part.point.cast<float>();
-        const auto size = static_cast<float>((1.0 - 1e-6) * part.bounds.sizes().maxCoeff());
-        records.push_back({point.x(), point.y(), point.z(), size});
-      }
-    std::copy(parts.bounds_solid.begin(), parts.bounds_solid.end(), bounds_solid.begin() + first_triangle_[tree]);
-  }
-  components_.reserve(records.size() * sizeof(records.front()));
-  components_.write(records);
-  writeBits(bounds_solid, solid_triangles_);
-  return ranges;
-}
-
 void GpuScene::writeGeometries(const CollisionProblem& problem)
 {
-  const ComponentRanges components = writeComponents(problem);
   padded_ = false;
+  has_mesh_solids_ = false;
   std::vector<InstanceRecord> geometries;
   for (const std::vector<Geometry>* instances : {&problem.robot, &problem.world})
     for (const Geometry& geometry : *instances)
     {
       const double sagitta = problem.trees[geometry.tree].sagitta;
       InstanceRecord record{};
-      record.root = rootOf(geometry.tree);
+      const GpuTrees::Tree& tree = trees_.tree(geometry.tree);
+      record.root = tree.root;
       record.slack = sagitta > 0.0 ? std::nextafter(static_cast<float>(sagitta), 1.0F) : 0.0F;
-      record.first_component = components[geometry.tree].first;
-      record.component_count = components[geometry.tree].count;
+      record.first_component = tree.first_component;
+      record.component_count = tree.component_count;
       record.padding = static_cast<float>(geometry.padding);
       padded_ = padded_ || geometry.padding > 0.0;
       describeSolid(problem.shapes[geometry.tree], record);
-      if (components[geometry.tree].mesh_solid)
+      if (tree.has_solid && isMesh(problem.shapes[geometry.tree]))
+      {
         record.kind = SOLID_MESH;
+        has_mesh_solids_ = true;
+      }
       geometries.push_back(record);
     }
   geometries_.reserve(geometries.size() * sizeof(InstanceRecord));
@@ -258,28 +159,36 @@ void GpuScene::writeHalfSpaces(const CollisionProblem& problem)
   half_spaces_.write(records);
 }
 
-void GpuScene::buildWorldTree(const CollisionProblem& problem)
+void GpuScene::writeWorld(const CollisionProblem& problem)
 {
-  if (world_count_ == 0)
-    return;
-  std::vector<Eigen::AlignedBox3d> local;
-  for (const Tessellation& tree : problem.trees)
-    local.push_back(localBounds(tree));
-  std::vector<Eigen::AlignedBox3f> bounds;
+  std::vector<Eigen::AlignedBox3d> bounds;
   std::vector<float> poses(12 * problem.world.size());
   for (std::size_t i = 0; i < problem.world.size(); ++i)
   {
     const Geometry& object = problem.world[i];
     const Eigen::Isometry3d pose = Eigen::Translation3d(-problem.origin) * object.pose;
-    bounds.push_back(movedBounds(local[object.tree], pose, object.padding));
+    bounds.push_back(
+        placedBounds(trees_.tree(object.tree).bounds, problem.trees[object.tree].sagitta, pose, object.padding));
     writePoseRows(pose, &poses[12 * i]);
   }
+  object_tree_ = ObjectTree(std::move(bounds), object_tree_);
   world_poses_.reserve(poses.size() * sizeof(float));
   world_poses_.buffer().write(poses);
-  ForestRegion region;
-  region.first_node = shape_region_.first_node + shape_region_.node_count;
-  builder_.buildBoxes(bounds, region, nodes_, world_order_);
-  world_root_ = region.first_node;
+
+  // Leaf order and nodes as the shaders have them: children by their place among all nodes, boxes with what rounding in
+  // the tests of boxes needs (as in shaders/layout.glsl).
+  std::vector<Node> nodes = object_tree_.nodes();
+  world_root_ = trees_.reserveNodes(nodes.size());
+  for (Node& node : nodes)
+  {
+    if (node.count == 0)
+      node.first += world_root_;
+    for (float& half : node.half)
+      half = half * (1.0F + 4.0F * std::numeric_limits<float>::epsilon()) + 1e-37F;
+  }
+  trees_.nodes().buffer().write(nodes.data(), nodes.size() * sizeof(Node), world_root_ * sizeof(Node));
+  world_order_.reserve(object_tree_.order().size() * sizeof(std::uint32_t));
+  world_order_.write(object_tree_.order());
 }
 
 void GpuScene::selectPairs(const CollisionProblem& problem)
@@ -303,25 +212,16 @@ void GpuScene::selectPairs(const CollisionProblem& problem)
 
 void GpuScene::bind() const
 {
-  nodes_.bindTexture(UNIT_NODES);
-  triangles_.bindTexture(UNIT_TRIANGLES);
+  trees_.nodes().bindTexture(UNIT_NODES);
+  trees_.triangles().bindTexture(UNIT_TRIANGLES);
   world_poses_.bindTexture(UNIT_WORLD_POSES);
   geometries_.bindStorage(BINDING_GEOMETRIES);
 }
 
 Forest GpuScene::readForest() const
 {
-  Forest forest;
-  forest.nodes.resize(shape_region_.first_node + shape_region_.node_count);
-  nodes_.buffer().read(forest.nodes.data(), forest.nodes.size() * sizeof(Node));
-  forest.leaf_triangles.resize(shape_region_.first_primitive + shape_region_.primitive_count);
-  leaf_order_.read(forest.leaf_triangles.data(), forest.leaf_triangles.size() * sizeof(std::uint32_t));
-  // The world's shapes are numbered from 0 in their own forest.
-  for (std::size_t i = shape_region_.first_primitive; i < forest.leaf_triangles.size(); ++i)
-    forest.leaf_triangles[i] += shape_region_.first_primitive;
-  forest.first_triangle = first_triangle_;
-  for (std::size_t i = 0; i < trees_; ++i)
-    forest.roots.push_back(rootOf(i));
-  return forest;
+  std::vector<std::size_t> numbers(tree_count_);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return trees_.readForest(numbers);
 }
 }  // namespace gpu_planning_scene
