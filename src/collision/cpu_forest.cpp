@@ -1,6 +1,5 @@
 #include "collision/cpu_forest.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "collision/primitive_solid.h"
@@ -34,18 +33,30 @@ CpuForest::CpuForest(const CollisionProblem& problem, std::shared_ptr<const Fore
     bounds_solid.back() = std::move(found.bounds_solid);
   }
 
-  const auto& first_triangle = forest_->first_triangle;
-  triangles_.reserve(forest_->leaf_triangles.size());
-  bounds_solid_.reserve(forest_->leaf_triangles.size());
-  for (const std::uint32_t number : forest_->leaf_triangles)
+  // The forest may hold more trees than these.
+  triangles_.resize(forest_->leaf_triangles.size());
+  bounds_solid_.resize(forest_->leaf_triangles.size());
+  std::vector<std::uint32_t> open;
+  for (std::size_t tree = 0; tree < shapes_.size(); ++tree)
   {
-    const auto after = std::upper_bound(first_triangle.begin(), first_triangle.end(), number);
-    const std::size_t tree = after - first_triangle.begin() - 1;
     const Mesh& mesh = *problem.trees[tree].mesh;
-    const std::uint32_t triangle = number - first_triangle[tree];
-    const auto& corners = mesh.triangles[triangle];
-    triangles_.push_back({mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]});
-    bounds_solid_.push_back(trees_[tree].mesh ? bounds_solid[tree][triangle] : 0);
+    open.assign(1, forest_->roots[tree]);
+    while (!open.empty())
+    {
+      const Node& node = forest_->nodes[open.back()];
+      open.pop_back();
+      if (node.count == 0)
+      {
+        open.insert(open.end(), {node.first, node.first + 1});
+      }
+      for (std::uint32_t place = node.first; place < node.first + node.count; ++place)
+      {
+        const std::uint32_t triangle = forest_->leaf_triangles[place] - forest_->first_triangle[tree];
+        const auto& corners = mesh.triangles[triangle];
+        triangles_[place] = {mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]};
+        bounds_solid_[place] = trees_[tree].mesh ? bounds_solid[tree][triangle] : 0;
+      }
+    }
   }
 }
 }  // namespace gpu_planning_scene

@@ -21,7 +21,7 @@ struct Node
 };
 static_assert(sizeof(Node) == 32, "two RGBA32UI texels");
 
-/// The trees of several meshes in one array of nodes.
+/// The trees of several meshes in one array of nodes. There may be others in it too.
 /// Triangles are numbered through all meshes: mesh m's triangle t is number first_triangle[m] + t.
 struct Forest
 {
