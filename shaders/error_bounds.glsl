@@ -3,6 +3,8 @@
 const float u = UNIT_ROUNDOFF;
 // Products that are smaller than this may have lost all their digits to underflow.
 const float TINY = 1e-30;
+// What is larger than this has a square that is right to its last digits.
+const float LEAST_SQUARED = 1e-18;
 
 // The corner of a box that is furthest from its shape's origin, mirrored to positive coordinates.
 vec3 farCorner(Box box)

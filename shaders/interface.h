@@ -105,13 +105,14 @@
 
 // Breadth-first traversal: node pairs that one lane handles in sequence.
 #define LEVEL_CHUNK 8
+// Leaf pairs whose triangles a workgroup spreads over its lanes at once.
+#define LEAF_CHUNK 64
 // Work queues: lanes of a workgroup, its most workgroups, steps between two barriers, node pairs that a lane's stack
-// holds, leaf pairs at which the group turns to triangles, and room for what all lanes may add before they do.
+// holds, leaf pairs at which the group turns to triangles.
 #define QUEUE_LANES 32
 #define QUEUE_MAX_GROUPS 2048
 #define QUEUE_STEPS 8
 #define QUEUE_STACK 48
 #define QUEUE_FLUSH 32
-#define QUEUE_LEAF_PAIRS (QUEUE_FLUSH + QUEUE_LANES * QUEUE_STEPS)
 // llvmpipe ends an invocation silently after 65535 loop iterations; a lane hands its work on before that.
 #define LANE_ITERATIONS 50000

@@ -24,6 +24,11 @@ Item fetchItem(uint index)
   return Item(pose, tail.x, tail.y, uintBitsToFloat(tail.z), uintBitsToFloat(tail.w));
 }
 
+uint fetchState(uint index)
+{
+  return texelFetch(item_texels, int(index) * ITEM_TEXELS + 3).x;
+}
+
 // At a distance up to this one, in metres, the pair collides.
 float fetchDistance(uint index)
 {

@@ -1,4 +1,4 @@
-// One lane per (leaf pair, triangle of a's leaf): its tests against b's leaf.
+// One workgroup per GROUP_SIZE leaf pairs: the tests of their triangles.
 #include "interface.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
@@ -6,14 +6,16 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "boxes.glsl"
 #include "counters.glsl"
 #include "verdicts.glsl"
-#include "leaf_pair.glsl"
-layout(binding = UNIT_LEAF_PAIRS) uniform usamplerBuffer leaf_pairs;
+#define LEAF_QUEUE GROUP_SIZE
+#include "leaf_queue.glsl"
+layout(binding = UNIT_LEAF_PAIRS) uniform usamplerBuffer listed_leaf_pairs;
 
 void main()
 {
-  const uint slot = invocationIndex();
-  if (slot / LEAF_TRIANGLES >= counters[COUNTER_LEAF_PAIRS])
-    return;
-  const uvec4 pair = texelFetch(leaf_pairs, int(slot / LEAF_TRIANGLES));
-  testLeafTriangle(pair.x, slot % LEAF_TRIANGLES, pair.y, pair.z);
+  const uint count = counters[COUNTER_LEAF_PAIRS];
+  const uint first = min(groupIndex() * GROUP_SIZE, count);
+  const uint here = min(count - first, uint(GROUP_SIZE));
+  if (gl_LocalInvocationID.x < here)
+    leaf_pairs[gl_LocalInvocationID.x] = texelFetch(listed_leaf_pairs, int(first + gl_LocalInvocationID.x));
+  testLeafPairs(here);
 }

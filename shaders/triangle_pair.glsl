@@ -26,10 +26,13 @@ uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
     squared_a = max(squared_a, dot(ea[i], ea[i]));
     squared_b = max(squared_b, dot(eb[i], eb[i]));
     squared_r = max(squared_r, dot(r[i], r[i]));
-    far_a = max(far_a, length(a[i]));
-    far_b = max(far_b, length(b[i] - origin_b));
-    placed_b = max(placed_b, length(b[i]));
+    far_a = max(far_a, dot(a[i], a[i]));
+    far_b = max(far_b, dot(b[i] - origin_b, b[i] - origin_b));
+    placed_b = max(placed_b, dot(b[i], b[i]));
   }
+  far_a = sqrt(far_a);
+  far_b = sqrt(far_b);
+  placed_b = sqrt(placed_b);
   precise const vec3 na = cross(ea[0], ea[1]);
   precise const vec3 nb = cross(eb[0], eb[1]);
 
@@ -49,6 +52,7 @@ uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
   const float error_v = (edge_a * length_b + length_a * edge_b) * reach + length_a * length_b * error_r + TINY;
   // What all corners together must be beyond an axis of length 1, and what the axes are askew by.
   const float beyond = (error + gap + 6.0 * u * reach) * (1.0 + 16.0 * u);
+  const float squared_beyond = beyond * beyond * (1.0 + 32.0 * u);
   const float error_span = 20.0 * u * length_a * length_b * (length_a + length_b) + TINY;
 
   precise float da[3];
@@ -79,7 +83,8 @@ uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
       precise const float volume = dot(axis, b[j] - a[i]);
       precise const float span_a = -dot(na, eb[j]);  // the same of a
       const float separation = max(volume + min(0.0, span_b) - max(0.0, span_a), min(0.0, span_a) - volume - max(0.0, span_b));
-      apart = apart || separation > beyond * length(axis) + error_span;
+      const float certain = separation - error_span;
+      apart = apart || (certain > LEAST_SQUARED && certain * certain > squared_beyond * dot(axis, axis));
       all_above = all_above && volume > error_v;
       all_below = all_below && volume < -error_v;
       b_edge_above[j] = b_edge_above[j] && volume > error_v;

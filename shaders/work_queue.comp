@@ -15,7 +15,9 @@ layout(local_size_x = QUEUE_LANES) in;
 #include "descend.glsl"
 #include "counters.glsl"
 #include "verdicts.glsl"
-#include "leaf_pair.glsl"
+// Room for what all lanes may add before the group turns to triangles.
+#define LEAF_QUEUE (QUEUE_FLUSH + QUEUE_LANES * QUEUE_STEPS)
+#include "leaf_queue.glsl"
 layout(location = 0) uniform uint in_counter;   // COUNTER_ENTRIES_* of the list read, and of the one written
 layout(location = 1) uniform uint out_counter;
 layout(location = 2) uniform uint entry_capacity;
@@ -23,14 +25,12 @@ layout(location = 3) uniform uint in_capacity;  // of the list read
 layout(binding = UNIT_ENTRIES) uniform usamplerBuffer entries;
 layout(std430, binding = BINDING_A) writeonly buffer Spill { uvec4 spilled[]; };
 
-// Loop iterations of one step and of one slot of a leaf pair, where the compiler does not unroll the inner loops. Should they
-// be more, lanes end early, and the count of lanes below finds it out.
+// Loop iterations of one step, where the compiler does not unroll the inner loops. Should they be more, lanes end early,
+// and the count of lanes below finds it out.
 #define STEP_ITERATIONS 4u
-#define SLOT_ITERATIONS (20u + 60u * PADDED)
 
 shared uint leaf_pair_count;
 shared uint busy;
-shared uvec4 leaf_pairs[QUEUE_LEAF_PAIRS];  // item, then the leaves as leafReference() has them
 
 // The state is undecided if the list is full: its answer is never lost.
 void spill(uint item, uvec2 nodes, uint state)
@@ -40,16 +40,6 @@ void spill(uint item, uvec2 nodes, uint state)
     spilled[at] = uvec4(item, nodes, 0u);
   else
     reportUndecided(state);
-}
-
-void testLeafPairs(uint count)
-{
-  const uint slots = count * LEAF_TRIANGLES;
-  for (uint slot = gl_LocalInvocationID.x; slot < slots; slot += QUEUE_LANES)
-  {
-    const uvec4 pair = leaf_pairs[slot / LEAF_TRIANGLES];
-    testLeafTriangle(pair.x, slot % LEAF_TRIANGLES, pair.y, pair.z);
-  }
 }
 
 void main()
@@ -106,8 +96,8 @@ void main()
       const uvec2 first = into_a ? uvec2(a.first, nodes.y) : uvec2(nodes.x, b.first);
       const uvec2 second = into_a ? uvec2(a.first + 1u, nodes.y) : uvec2(nodes.x, b.first + 1u);
       const uvec2 leaf_pair = uvec2(leafReference(a), leafReference(b));
-      if (overlap)
-        memory[leaf ? QUEUE_STACK - 1u - leaves : waiting] = leaf ? leaf_pair : second;
+      // Stored in any case, kept if they overlap: a condition would be a branch for each lane.
+      memory[leaf ? QUEUE_STACK - 1u - leaves : waiting] = leaf ? leaf_pair : second;
       leaves += overlap && leaf ? 1u : 0u;
       waiting += overlap && !leaf ? 1u : 0u;
       if (overlap && !leaf)
@@ -150,9 +140,7 @@ void main()
       if (flush)
         leaf_pair_count = 0u;
     }
-    if (flush)
-      testLeafPairs(count);
-    iterations += 1u + STEP_ITERATIONS * QUEUE_STEPS + QUEUE_STEPS + (flush ? SLOT_ITERATIONS * (1u + (count * LEAF_TRIANGLES) / QUEUE_LANES) : 0u);
+    iterations += 1u + (STEP_ITERATIONS + 2u) * QUEUE_STEPS + testLeafPairs(flush ? count : 0u);
     running = more && iterations < LANE_ITERATIONS;
     barrier();
   }
