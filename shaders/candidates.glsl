@@ -1,13 +1,13 @@
 // The list of (state, pair) whose root boxes are still to be tested.
 #include "counters.glsl"
 layout(location = 2) uniform uint candidate_capacity;
-layout(std430, binding = BINDING_B) writeonly buffer Candidates { uvec4 candidates[]; };
+layout(std430, binding = BINDING_B) writeonly buffer Candidates { uvec2 candidates[]; };
 
 void addCandidate(uint state, uint pair)
 {
   const uint at = atomicAdd(counters[COUNTER_CANDIDATES], 1u);
   if (at < candidate_capacity)
-    candidates[at] = uvec4(state, pair, 0u, 0u);
+    candidates[at] = uvec2(state, pair);
   else
     atomicOr(counters[COUNTER_OVERFLOW], 1u);
 }

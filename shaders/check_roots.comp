@@ -24,7 +24,8 @@ void main()
   const uint i = invocationIndex();
   if (i >= min(counters[COUNTER_CANDIDATES], candidate_capacity))
     return;
-  const uvec4 candidate = texelFetch(candidates, int(i));
+  const uvec4 two = texelFetch(candidates, int(i / 2u));
+  const uvec2 candidate = i % 2u == 0u ? two.xy : two.zw;
   const uint state = candidate.x;
   const uint robot = pairRobot(candidate.y);
   const uint other = pairOther(candidate.y);

@@ -4,8 +4,13 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
 #include "geometries.glsl"
 #include "candidates.glsl"
-layout(std430, binding = BINDING_A) readonly buffer Spheres { vec4 spheres[]; };
-layout(std430, binding = BINDING_C) readonly buffer Partners { uint partners[]; };  // robot_count + 1 offsets, then instances
+layout(binding = UNIT_SPHERES) uniform usamplerBuffer spheres;
+layout(binding = UNIT_PARTNERS) uniform usamplerBuffer partners;
+
+vec4 sphereOf(uint robot, uint state)
+{
+  return uintBitsToFloat(texelFetch(spheres, int(robot * state_count + state)));
+}
 
 void main()
 {
@@ -14,15 +19,16 @@ void main()
     return;
   const uint state = stateOf(i);
   const uint robot = robotOf(i);
-  const vec4 mine = spheres[i];
-  const uint end = partners[robot + 1u];
-  for (uint k = partners[robot]; k < end; ++k)
+  const vec4 mine = sphereOf(robot, state);
+  const uvec4 range = texelFetch(partners, int(robot));
+  for (uint k = range.x; k < range.y; ++k)
   {
-    const uint other = partners[robot_count + 1u + k];
-    const vec4 theirs = spheres[other * state_count + state];
+    const uint other = texelFetch(partners, int(k)).x;
+    const vec4 theirs = sphereOf(other, state);
     const vec3 apart = mine.xyz - theirs.xyz;
     const float reach = mine.w + theirs.w;
-    if (!(dot(apart, apart) > reach * reach))
+    // A loop: it costs only those that take it.
+    for (bool near = !(dot(apart, apart) > reach * reach); near; near = false)
       addCandidate(state, packPair(robot, other));
   }
 }

@@ -8,10 +8,17 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "pose.glsl"
 #include "boxes.glsl"
 layout(location = 3) uniform uint world_count;
-layout(location = 4) uniform uint world_root;
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
-layout(std430, binding = BINDING_C) readonly buffer WorldOrder { uint world_order[]; };     // leaf order of the tree
-layout(std430, binding = BINDING_D) readonly buffer WorldPairs { uint world_pairs[]; };   // bits [robot][world]
+// A node: its box's centre, and which node comes next where the boxes are apart; half extents, and the instance or NO_OBJECT.
+// Where they overlap, the next node in the list comes next, so no stack is needed; past the last one the walk ends.
+layout(binding = UNIT_OBJECT_TREE) uniform usamplerBuffer object_tree;
+layout(binding = UNIT_WORLD_PAIRS) uniform usamplerBuffer world_pairs;
+
+bool isChecked(uint robot, uint world)
+{
+  const uint bit = robot * world_count + world;
+  return (texelFetch(world_pairs, int(bit >> 7u))[bit >> 5u & 3u] >> (bit & 31u) & 1u) != 0u;
+}
 
 void main()
 {
@@ -29,31 +36,19 @@ void main()
   const mat3 q = mat3(abs(pose.rotation[0]), abs(pose.rotation[1]), abs(pose.rotation[2]));
   const vec3 extent = q * box.extent + instance.slack + instance.padding + CONTRACT_BAND + error;
 
-  // The depth of a tree is at most BUILD_ROUNDS, and one of each two children waits.
-  uint stack[BUILD_ROUNDS + 2];
-  stack[0] = world_root;
-  int top = 1;
-  for (uint steps = 0u; top > 0 && steps < LANE_ITERATIONS; ++steps)
+  const uint node_count = 2u * world_count - 1u;
+  uint at = 0u;
+  for (uint steps = 0u; at < node_count && steps < LANE_ITERATIONS; ++steps)
   {
-    const TreeNode node = fetchNode(stack[--top]);
-    const bool apart = any(greaterThan(abs(node.box.center - center), node.box.extent + extent));
-    if (apart)
-      continue;
-    if (node.count == 0u)
-    {
-      stack[top] = node.first;
-      stack[top + 1] = node.first + 1u;
-      top += 2;
-    }
-    else
-    {
-      const uint world = world_order[node.first];
-      const uint bit = robot * world_count + world;
-      if ((world_pairs[bit >> 5u] >> (bit & 31u) & 1u) != 0u)
-        addCandidate(state, packPair(robot, robot_count + world));
-    }
+    const uvec4 head = texelFetch(object_tree, int(2u * at));
+    const uvec4 tail = texelFetch(object_tree, int(2u * at + 1u));
+    const bool apart = any(greaterThan(abs(uintBitsToFloat(head.xyz) - center), uintBitsToFloat(tail.xyz) + extent));
+    // A loop: it costs only those that take it.
+    for (bool leaf = !apart && tail.w != NO_OBJECT && isChecked(robot, tail.w); leaf; leaf = false)
+      addCandidate(state, packPair(robot, robot_count + tail.w));
+    at = apart ? head.w : at + 1u;
   }
   // Too many objects for one lane: what is left is not lost, the batch is split and its states become undecided.
-  if (top > 0)
+  if (at < node_count)
     atomicOr(counters[COUNTER_OVERFLOW], 1u);
 }

@@ -11,13 +11,14 @@ struct Instance
   float padding;         // metres
 };
 
-layout(std430, binding = BINDING_GEOMETRIES) readonly buffer Instances { uvec4 instances[]; };  // three each
+layout(binding = UNIT_INSTANCES) uniform usamplerBuffer instance_texels;
 
 Instance fetchInstance(uint index)
 {
-  const uvec4 a = instances[3u * index];
-  const uvec4 b = instances[3u * index + 1u];
-  const uvec4 c = instances[3u * index + 2u];
+  const int at = int(3u * index);
+  const uvec4 a = texelFetch(instance_texels, at);
+  const uvec4 b = texelFetch(instance_texels, at + 1);
+  const uvec4 c = texelFetch(instance_texels, at + 2);
   return Instance(a.x, uintBitsToFloat(a.y), a.z, a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), uintBitsToFloat(c.w));
 }
 

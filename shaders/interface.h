@@ -41,15 +41,19 @@
 #define UNIT_ENTRIES 5
 #define UNIT_LEAF_PAIRS 6
 #define UNIT_CANDIDATES 7
+#define UNIT_INSTANCES 8     // three texels an instance, see instances.glsl; robot's first, then the world's
+#define UNIT_OBJECT_TREE 9   // two texels a node, see check_world_broad.comp
+#define UNIT_WORLD_PAIRS 10  // bits [robot][world], 128 a texel
+#define UNIT_PARTNERS 11     // robot instances: where their partners lie, then the partners
+#define UNIT_SPHERES 12      // [robot][state]
 // Storage buffers.
 #define BINDING_COUNTERS 0
 #define BINDING_FLAGS 1       // one uint a state: STATE_* bits
 #define BINDING_HITS 2        // one uint a state: the pair that was hit
-#define BINDING_GEOMETRIES 3  // three uvec4 an instance, see instances.glsl; robot's first, then the world's
-#define BINDING_A 4           // these differ from kernel to kernel
-#define BINDING_B 5
-#define BINDING_C 6
-#define BINDING_D 7
+#define BINDING_A 3           // these differ from kernel to kernel
+#define BINDING_B 4
+#define BINDING_C 5
+#define BINDING_D 6
 
 // What float32 is trusted with, see docs/error_bounds.md. The relative error of one operation in any rounding mode; the
 // distance within which the contract leaves the answer to one canonical computation on the CPU (1e-9 m) and some.
@@ -83,6 +87,9 @@
 #define PAIR_OTHER_BITS 20
 #define MAX_ROBOT_GEOMETRIES (1 << 12)
 #define MAX_GEOMETRIES (1 << PAIR_OTHER_BITS)
+
+// A node of the tree over objects that is not a leaf.
+#define NO_OBJECT 0xffffffffu
 
 // An item's texels, see items.glsl.
 #define ITEM_TEXELS 5

@@ -154,18 +154,15 @@ void GpuPairChecker::findCandidates(std::uint32_t states)
   {
     world_program_.set(2, lists_.capacity.candidates);
     world_program_.set(3, scene_.worldCount());
-    world_program_.set(4, scene_.worldRoot());
-    scene_.worldOrder().bindStorage(BINDING_C);
-    scene_.worldPairs().bindStorage(BINDING_D);
     world_program_.dispatch(groups);
   }
   if (scene_.hasSelfPairs())
   {
     spheres_.reserve(std::size_t{states} * scene_.robotCount() * 16);
-    spheres_.bindStorage(BINDING_A);
+    spheres_.buffer().bindStorage(BINDING_A);
+    spheres_.bindTexture(UNIT_SPHERES);
     spheres_program_.dispatch(groups);
     self_program_.set(2, lists_.capacity.candidates);
-    scene_.partners().bindStorage(BINDING_C);
     self_program_.dispatch(groups);
   }
 }

@@ -78,17 +78,50 @@ void describeSolid(const Shape& shape, InstanceRecord& record)
   }
 }
 
-/// A bit for each flag, 32 to a word.
-void writeBits(const std::vector<std::uint8_t>& flags, Buffer& buffer)
+/// A bit for each flag, 32 to a word, in whole texels.
+std::vector<std::uint32_t> packedBits(const std::vector<std::uint8_t>& flags)
 {
-  std::vector<std::uint32_t> bits(flags.size() / 32 + 1, 0);
+  std::vector<std::uint32_t> bits((flags.size() / 128 + 1) * 4, 0);
   for (std::size_t i = 0; i < flags.size(); ++i)
     if (flags[i])
       bits[i / 32] |= 1U << (i % 32);
-  buffer.reserve(bits.size() * sizeof(std::uint32_t));
-  buffer.write(bits);
+  return bits;
 }
 
+template <class T>
+void write(const std::vector<T>& data, TexelBuffer& buffer)
+{
+  buffer.reserve(data.size() * sizeof(T));
+  buffer.buffer().write(data);
+}
+
+/// A node of the tree over objects as shaders/check_world_broad.comp walks it.
+struct ObjectNode
+{
+  std::array<float, 3> center;
+  std::uint32_t next;  // where the walk goes on if the boxes are apart
+  std::array<float, 3> half;
+  std::uint32_t object;
+};
+static_assert(sizeof(ObjectNode) == 32, "two texels");
+
+/// Adds a subtree in the order of a walk, the first child after its parent. Boxes with what rounding in the tests of
+/// boxes needs (as in shaders/layout.glsl). The depth of a tree is bounded, see buildBinnedSah.
+void appendSubtree(const ObjectTree& tree, std::uint32_t root, std::vector<ObjectNode>& walk)
+{
+  const Node& node = tree.nodes()[root];
+  ObjectNode made{node.center, 0, node.half, node.count == 0 ? NO_OBJECT : tree.order()[node.first]};
+  for (float& half : made.half)
+    half = half * (1.0F + 4.0F * std::numeric_limits<float>::epsilon()) + 1e-37F;
+  const std::size_t place = walk.size();
+  walk.push_back(made);
+  if (node.count == 0)
+  {
+    appendSubtree(tree, node.first, walk);
+    appendSubtree(tree, node.first + 1, walk);
+  }
+  walk[place].next = static_cast<std::uint32_t>(walk.size());
+}
 }  // namespace
 
 void writePoseRows(const Eigen::Isometry3d& pose, float* rows)
@@ -119,9 +152,9 @@ void GpuScene::writeGeometries(const CollisionProblem& problem)
 {
   padded_ = false;
   has_mesh_solids_ = false;
-  std::vector<InstanceRecord> geometries;
-  for (const std::vector<Geometry>* instances : {&problem.robot, &problem.world})
-    for (const Geometry& geometry : *instances)
+  std::vector<InstanceRecord> instances;
+  for (const std::vector<Geometry>* geometries : {&problem.robot, &problem.world})
+    for (const Geometry& geometry : *geometries)
     {
       const double sagitta = problem.trees[geometry.tree].sagitta;
       InstanceRecord record{};
@@ -138,10 +171,9 @@ void GpuScene::writeGeometries(const CollisionProblem& problem)
         record.kind = SOLID_MESH;
         has_mesh_solids_ = true;
       }
-      geometries.push_back(record);
+      instances.push_back(record);
     }
-  geometries_.reserve(geometries.size() * sizeof(InstanceRecord));
-  geometries_.write(geometries);
+  write(instances, instances_);
 }
 
 void GpuScene::writeHalfSpaces(const CollisionProblem& problem)
@@ -172,42 +204,35 @@ void GpuScene::writeWorld(const CollisionProblem& problem)
     writePoseRows(pose, &poses[12 * i]);
   }
   object_tree_ = ObjectTree(std::move(bounds), object_tree_);
-  world_poses_.reserve(poses.size() * sizeof(float));
-  world_poses_.buffer().write(poses);
+  write(poses, world_poses_);
 
-  // Leaf order and nodes as the shaders have them: children by their place among all nodes, boxes with what rounding in
-  // the tests of boxes needs (as in shaders/layout.glsl).
-  std::vector<Node> nodes = object_tree_.nodes();
-  world_root_ = trees_.reserveNodes(nodes.size());
-  for (Node& node : nodes)
-  {
-    if (node.count == 0)
-      node.first += world_root_;
-    for (float& half : node.half)
-      half = half * (1.0F + 4.0F * std::numeric_limits<float>::epsilon()) + 1e-37F;
-  }
-  trees_.nodes().buffer().write(nodes.data(), nodes.size() * sizeof(Node), world_root_ * sizeof(Node));
-  world_order_.reserve(object_tree_.order().size() * sizeof(std::uint32_t));
-  world_order_.write(object_tree_.order());
+  std::vector<ObjectNode> walk;
+  if (world_count_ > 0)
+    appendSubtree(object_tree_, 0, walk);
+  write(walk, object_nodes_);
 }
 
 void GpuScene::selectPairs(const CollisionProblem& problem)
 {
-  // Offsets of each robot instance's partners, then the partners; a pair is with its lower instance.
+  // Where each robot instance's partners begin and end, then the partners; a pair is with its lower instance.
   std::vector<std::vector<std::uint32_t>> of(robot_count_);
   for (const auto& pair : problem.self_pairs)
     of[std::min(pair[0], pair[1])].push_back(std::max(pair[0], pair[1]));
-  std::vector<std::uint32_t> partners(robot_count_ + 1, 0);
+  std::vector<std::array<std::uint32_t, 4>> partners(robot_count_);
   for (std::uint32_t i = 0; i < robot_count_; ++i)
-    partners[i + 1] = partners[i] + static_cast<std::uint32_t>(of[i].size());
-  for (const auto& list : of)
-    partners.insert(partners.end(), list.begin(), list.end());
-  partners_.reserve(partners.size() * sizeof(std::uint32_t));
-  partners_.write(partners);
+  {
+    partners[i][0] = static_cast<std::uint32_t>(partners.size());
+    for (const std::uint32_t other : of[i])
+      partners.push_back({other});
+    partners[i][1] = static_cast<std::uint32_t>(partners.size());
+  }
+  write(partners, partners_);
   has_self_pairs_ = !problem.self_pairs.empty();
 
-  writeBits(problem.world_pairs, world_pairs_);
-  writeBits(problem.half_space_pairs, half_space_pairs_);
+  write(packedBits(problem.world_pairs), world_pairs_);
+  const std::vector<std::uint32_t> half_space_bits = packedBits(problem.half_space_pairs);
+  half_space_pairs_.reserve(half_space_bits.size() * sizeof(std::uint32_t));
+  half_space_pairs_.write(half_space_bits);
 }
 
 void GpuScene::bind() const
@@ -215,7 +240,10 @@ void GpuScene::bind() const
   trees_.nodes().bindTexture(UNIT_NODES);
   trees_.triangles().bindTexture(UNIT_TRIANGLES);
   world_poses_.bindTexture(UNIT_WORLD_POSES);
-  geometries_.bindStorage(BINDING_GEOMETRIES);
+  instances_.bindTexture(UNIT_INSTANCES);
+  object_nodes_.bindTexture(UNIT_OBJECT_TREE);
+  world_pairs_.bindTexture(UNIT_WORLD_PAIRS);
+  partners_.bindTexture(UNIT_PARTNERS);
 }
 
 Forest GpuScene::readForest() const

@@ -25,11 +25,8 @@ class GpuScene
   /// Restricts the checked pairs to those of `problem`, which has the same trees and instances as the one uploaded.
   void selectPairs(const CollisionProblem& problem);
 
-  /// Binds what all kernels read: nodes, triangles, world poses, instances.
+  /// Binds what the kernels read as textures: nodes, triangles, world poses, instances, the object tree, pairs.
   void bind() const;
-  const Buffer& partners() const { return partners_; }
-  const Buffer& worldOrder() const { return world_order_; }
-  const Buffer& worldPairs() const { return world_pairs_; }
   const Buffer& components() const { return trees_.components(); }
   const Buffer& leafOrder() const { return trees_.leafOrder(); }
   const Buffer& solidTriangles() const { return trees_.solidTriangles(); }
@@ -38,7 +35,6 @@ class GpuScene
 
   std::uint32_t robotCount() const { return robot_count_; }
   std::uint32_t worldCount() const { return world_count_; }
-  std::uint32_t worldRoot() const { return world_root_; }
   std::uint32_t halfSpaceCount() const { return half_space_count_; }
   bool hasSelfPairs() const { return has_self_pairs_; }
   /// Whether some pairs have a required distance.
@@ -58,12 +54,11 @@ class GpuScene
 
   GpuTrees trees_;
   ObjectTree object_tree_;
-  TexelBuffer world_poses_;
-  Buffer geometries_, partners_, world_order_, world_pairs_, half_spaces_, half_space_pairs_;
+  TexelBuffer world_poses_, instances_, object_nodes_, world_pairs_, partners_;
+  Buffer half_spaces_, half_space_pairs_;
   std::size_t tree_count_ = 0;
   std::uint32_t robot_count_ = 0;
   std::uint32_t world_count_ = 0;
-  std::uint32_t world_root_ = 0;
   std::uint32_t half_space_count_ = 0;
   bool has_self_pairs_ = false;
   bool padded_ = false;
