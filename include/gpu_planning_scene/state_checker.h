@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,11 +47,20 @@ struct SceneReport
   std::size_t world_pairs = 0;         ///< checked pairs of a link, or what one carries, and an object
   std::size_t allowed_self_pairs = 0;  ///< left out: the allowed-collision matrix excludes them
   std::size_t allowed_world_pairs = 0;
-  std::size_t touch_pairs = 0;           ///< left out: what a link carries, with it, its touch links, its other load
-  std::size_t unmoved_pairs = 0;         ///< left out: the group moves neither body
-  std::size_t links_without_shapes = 0;  ///< left out: nothing to collide with
-  std::size_t triangles = 0;             ///< in the trees, each distinct mesh once
-  std::size_t trees = 0;
+  std::size_t touch_pairs = 0;              ///< left out: what a link carries, with it, its touch links, its other load
+  std::size_t unmoved_pairs = 0;            ///< left out: the group moves neither body
+  std::size_t links_without_shapes = 0;     ///< left out: nothing to collide with
+  std::size_t unreachable_self_pairs = 0;   ///< left out: within the joints' limits the two never come near
+  std::size_t unreachable_world_pairs = 0;  ///< likewise
+  std::size_t unreachable_objects = 0;      ///< left out: no link comes near them
+  std::size_t settled_pairs = 0;            ///< left out: decided once, as no joint moves one against the other
+  /// One of those that collides, so that every state does: body indices.
+  std::optional<std::array<std::int32_t, 2>> always_colliding;
+  std::size_t triangles = 0;     ///< in the trees
+  std::size_t trees = 0;         ///< of distinct shapes
+  std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal one
+  /// Batches of fewer states go to the CPU, as it is faster there; no value: there is no choice, or none was asked for.
+  std::optional<std::size_t> cpu_below;
 };
 
 /// Answers for many robot states at once which are free of collision. Implementations: BatchChecker (GPU) and

@@ -47,6 +47,12 @@ std::vector<RobotBody> robotBodies(const PlanningScene& scene)
   return bodies;
 }
 
+std::size_t countMoved(const std::vector<CheckedPair>& pairs)
+{
+  return static_cast<std::size_t>(
+      std::count_if(pairs.begin(), pairs.end(), [](const CheckedPair& pair) { return pair.moved; }));
+}
+
 CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
                               const std::vector<bool>& moved, SceneReport& report)
 {

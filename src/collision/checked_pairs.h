@@ -39,6 +39,9 @@ struct CheckedPairs
   std::vector<CheckedPair> world;
 };
 
+/// How many of the pairs the group moves.
+std::size_t countMoved(const std::vector<CheckedPair>& pairs);
+
 /// `moved`: of each link, whether the group moves it. Counts in `report` what is checked and what is left out.
 CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
                               const std::vector<bool>& moved, SceneReport& report);

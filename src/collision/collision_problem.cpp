@@ -1,13 +1,15 @@
 #include "collision_problem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <tuple>
 
 #include "checked_pairs.h"
+#include "gpu_planning_scene/error.h"
 #include "primitive_solid.h"
+#include "problem_maker.h"
 #include "scene/rigid_pose.h"
-#include "scene/validate_scene.h"
 
 namespace gpu_planning_scene
 {
@@ -41,21 +43,23 @@ ShapeKey keyOf(const Shape& shape)
 class TreeTable
 {
  public:
-  explicit TreeTable(CollisionProblem& problem) : problem_(problem) {}
+  TreeTable(CollisionProblem& problem, bool share) : problem_(problem), share_(share) {}
 
   std::uint32_t treeOf(const Shape& shape)
   {
-    const auto [entry, is_new] = trees_.try_emplace(keyOf(shape), static_cast<std::uint32_t>(problem_.trees.size()));
-    if (is_new)
+    const auto next = static_cast<std::uint32_t>(problem_.trees.size());
+    const auto [entry, is_new] = trees_.try_emplace(keyOf(shape), next);
+    if (is_new || !share_)
     {
-      problem_.trees.push_back(tessellate(shape));
+      problem_.trees.push_back(is_new ? tessellate(shape) : problem_.trees[entry->second]);
       problem_.shapes.push_back(shape);
     }
-    return entry->second;
+    return share_ ? entry->second : next;
   }
 
  private:
   CollisionProblem& problem_;
+  bool share_;
   std::map<ShapeKey, std::uint32_t> trees_;
 };
 
@@ -106,7 +110,7 @@ void addObject(const WorldObject& object, std::int32_t body, TreeTable& trees, C
 
 /// Adds the bodies that are in a checked pair of any group, the robot's first.
 Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>& bodies, const CheckedPairs& pairs,
-                       CollisionProblem& problem)
+                       bool share_trees, CollisionProblem& problem)
 {
   std::vector<bool> body_needed(bodies.size(), false);
   std::vector<bool> object_needed(scene.objects.size(), false);
@@ -119,7 +123,7 @@ Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>&
     body_needed[pair.body] = object_needed[pair.other] = true;
   }
 
-  TreeTable trees(problem);
+  TreeTable trees(problem, share_trees);
   Instances instances;
   for (std::size_t i = 0; i < bodies.size(); ++i)
   {
@@ -202,23 +206,25 @@ bool sameShape(const Shape& a, const Shape& b)
   return !(key_a < key_b) && !(key_b < key_a);
 }
 
-CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report)
+bool holdsFor(const CollisionProblem& problem, const double* state)
 {
-  validateScene(scene);
-  std::vector<bool> moved(scene.robot->links().size(), group.empty());
-  if (!group.empty())
-  {
-    for (const int link : scene.robot->group(group).moved_links)
-    {
-      moved[link] = true;
-    }
-  }
-  SceneReport counts;
-  const std::vector<RobotBody> bodies = robotBodies(scene);
-  const CheckedPairs pairs = findCheckedPairs(scene, bodies, moved, counts);
+  return std::all_of(problem.ranges.begin(), problem.ranges.end(),
+                     [state](const VariableRange& range)
+                     { return state[range.variable] >= range.lower && state[range.variable] <= range.upper; });
+}
 
+void refuseTolerance(double tolerance)
+{
+  if (!std::isfinite(tolerance) || tolerance < 0.0)
+    throw Error("the tolerance is " + std::to_string(tolerance) +
+                "; it must be a finite number of metres, at least 0 (0: exact)");
+}
+
+CollisionProblem problemOf(const PlanningScene& scene, const std::vector<RobotBody>& bodies, const CheckedPairs& pairs,
+                           bool share_trees)
+{
   CollisionProblem problem;
-  const Instances instances = addInstances(scene, bodies, pairs, problem);
+  const Instances instances = addInstances(scene, bodies, pairs, share_trees, problem);
   addPairs(pairs, instances, problem);
   if (!problem.robot.empty())
   {
@@ -226,16 +232,14 @@ CollisionProblem makeProblem(const PlanningScene& scene, const std::string& grou
     scene.robot->linkPoses(scene.robot->defaultState().data(), poses.data());
     problem.origin = poses[problem.robot.front().link].translation();
   }
-
-  counts.trees = problem.trees.size();
-  for (const Tessellation& tree : problem.trees)
-  {
-    counts.triangles += tree.mesh->triangles.size();
-  }
-  if (report != nullptr)
-  {
-    *report = counts;
-  }
   return problem;
+}
+
+CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report)
+{
+  CheckerOptions options;
+  options.reductions.reach = false;
+  options.reductions.unmoved_pairs = false;
+  return ProblemMaker(options).make(scene, group, report);
 }
 }  // namespace gpu_planning_scene

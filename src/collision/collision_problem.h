@@ -2,12 +2,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "gpu_planning_scene/planning_scene.h"
+#include "collision/checked_pairs.h"
 #include "gpu_planning_scene/state_checker.h"
 
 namespace gpu_planning_scene
@@ -31,6 +33,13 @@ struct WorldHalfSpace
   double padding = 0.0;  ///< metres
 };
 
+struct VariableRange
+{
+  int variable;
+  double lower;
+  double upper;
+};
+
 /// A scene as the checkers see it: instances of trees and the pairs of them that are checked. It knows nothing of
 /// joints, names or matrices. Two rigid meshes and their relative poses are such a problem as well.
 struct CollisionProblem
@@ -43,6 +52,13 @@ struct CollisionProblem
   std::vector<std::uint8_t> world_pairs;  ///< robot.size() x world.size(), row-major; 1 where the pair is checked
   std::vector<WorldHalfSpace> half_spaces;
   std::vector<std::uint8_t> half_space_pairs;  ///< robot.size() x half_spaces.size(), row-major
+  /// Metres: see CheckerOptions.
+  double tolerance = 0.0;
+  /// Bodies, ascending, that collide in every state, if there are any; they are in none of the pairs above.
+  std::optional<std::array<std::int32_t, 2>> always_colliding;
+  /// Where a variable of a state is out of its range, pairs that are not in the problem may collide. Empty where
+  /// nothing was left out for that.
+  std::vector<VariableRange> ranges;
   /// What GPU coordinates are relative to, in the planning frame: near the robot, so that floats are fine there.
   /// Changes no answer.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -51,10 +67,21 @@ struct CollisionProblem
 /// Whether two shapes can share a tree: the same mesh, or primitives of the same kind and dimensions.
 bool sameShape(const Shape& a, const Shape& b);
 
+/// Whether the problem has all that can collide in a state, see CollisionProblem::ranges.
+bool holdsFor(const CollisionProblem& problem, const double* state);
+
+/// Throws Error unless it is finite and at least 0.
+void refuseTolerance(double tolerance);
+
+/// The problem of some pairs of bodies of a scene that validateScene has seen; the pairs of instances are those that
+/// the group moves. Bodies that are in none of `pairs` are left out. Trees and instances do not depend on the group, so
+/// one forest serves all groups.
+CollisionProblem problemOf(const PlanningScene& scene, const std::vector<RobotBody>& bodies, const CheckedPairs& pairs,
+                           bool share_trees);
+
 /// What of `scene` is checked for `group` (empty: all): the pairs that the allowed-collision matrix does not allow and,
 /// for a group, that have a link which the group moves. Throws Error for an unknown group, two objects of
-/// one name, or an object whose shapes or poses are not valid. `report` may be null.
-/// Bodies that are in no such pair of any group are left out. Trees and geometries do not depend on the group, only the
-/// pairs do, so one forest serves all groups.
+/// one name, or an object whose shapes or poses are not valid. `report` may be null. Nothing else is left out: see
+/// ProblemMaker.
 CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report);
 }  // namespace gpu_planning_scene

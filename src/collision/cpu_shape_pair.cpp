@@ -15,6 +15,9 @@ using Eigen::Vector3d;
 // Boxes are grown by this much, so that neither rounding in the box tests nor kSlack loses a pair.
 constexpr double kBoxMargin = 1e-9;  // metres
 
+// How far within the tolerance nodes have to be to be called a collision: more than rounding moves them.
+constexpr double kToleranceMargin = 1e-9;  // metres
+
 /// Loses nothing where both are far from the origin of the frame that they are given in.
 Isometry3d relativePose(const Isometry3d& a, const Isometry3d& b)
 {
@@ -69,6 +72,7 @@ bool CpuShapePair::surfaceMeetsSolid(std::uint32_t mesh, std::uint32_t solid, co
   const BoxPairTest pair_test(mesh_in_solid.linear());
   const double margin = required + kBoxMargin;
   const Vector3d grown = forest_->tree(solid).half.array() + margin;
+  const double near_enough = required + tolerance_ - kToleranceMargin;
 
   scratch.nodes.assign(1, forest_->tree(mesh).root);
   while (!scratch.nodes.empty())
@@ -77,10 +81,23 @@ bool CpuShapePair::surfaceMeetsSolid(std::uint32_t mesh, std::uint32_t solid, co
     scratch.nodes.pop_back();
     const Vector3d half = halfOf(node);
     const Vector3d center = mesh_in_solid * centerOf(node);
-    if (!pair_test.overlap(grown, half, center) ||
-        ((!box || required > 0.0) && distanceToSolid(shape, center) > half.norm() + margin))
+    if (!pair_test.overlap(grown, half, center))
     {
       continue;
+    }
+    if (!box || required > 0.0 || tolerance_ > 0.0)
+    {
+      const double distance = distanceToSolid(shape, center);
+      const double radius = half.norm();
+      if (distance > radius + margin)
+      {
+        continue;
+      }
+      // A node holds a triangle, all of which is within its radius of its centre.
+      if (tolerance_ > 0.0 && distance + radius <= near_enough)
+      {
+        return true;
+      }
     }
     if (node.count == 0)
     {
@@ -101,11 +118,18 @@ bool CpuShapePair::surfaceMeetsSolid(std::uint32_t mesh, std::uint32_t solid, co
 }
 
 /// Simultaneous traversal: the pairs of overlapping nodes, of which the larger is opened.
+/// With a tolerance it ends at two nodes whose centres are so close that no point of one is further from a point of the
+/// other than the required distance and the tolerance: each node holds a triangle, all of which is within the node's
+/// radius (half its diagonal) of its centre. Nodes without required distance that overlap, with diagonals that add up
+/// to no more than the tolerance, are such: their centres are no further apart than the sum of the radii, which is half
+/// the tolerance. For a required distance v the overlap of boxes grown by v would prove less, as their corners reach as
+/// far as v times the root of 3.
 bool CpuShapePair::surfacesMeet(std::uint32_t a, std::uint32_t b, const Isometry3d& b_in_a, double required,
                                 Scratch& scratch) const
 {
   const BoxPairTest pair_test(b_in_a.linear());
   const Eigen::Array3d growth = Eigen::Array3d::Constant(required + kBoxMargin);
+  const double near_enough = required + tolerance_ - kToleranceMargin;
   scratch.node_pairs.assign(1, {forest_->tree(a).root, forest_->tree(b).root});
   while (!scratch.node_pairs.empty())
   {
@@ -115,9 +139,14 @@ bool CpuShapePair::surfacesMeet(std::uint32_t a, std::uint32_t b, const Isometry
     const Node& node_b = forest_->node(index_b);
     const Vector3d half_a = halfOf(node_a).array() + growth;
     const Vector3d half_b = halfOf(node_b);
-    if (!pair_test.overlap(half_a, half_b, b_in_a * centerOf(node_b) - centerOf(node_a)))
+    const Vector3d from_a_to_b = b_in_a * centerOf(node_b) - centerOf(node_a);
+    if (!pair_test.overlap(half_a, half_b, from_a_to_b))
     {
       continue;
+    }
+    if (tolerance_ > 0.0 && from_a_to_b.norm() + halfOf(node_a).norm() + half_b.norm() <= near_enough)
+    {
+      return true;
     }
     const bool leaf_a = node_a.count != 0;
     const bool leaf_b = node_b.count != 0;

@@ -21,6 +21,9 @@ struct PlacedHalfSpace
 /// Decides pairs of placed shapes, as the contract says and kSlack explains: solids by their true surfaces, meshes by
 /// their triangles and by what their closed components hold. Distances are right to 1e-10 m for coordinates within a
 /// kilometre; a pair's answer does not depend on the trees.
+/// With a tolerance above 0, pairs of which one is a mesh may be called colliding without a look at their triangles,
+/// where nodes of the trees show that they are no further apart than the required distance and the tolerance. Then
+/// answers within the tolerance do depend on the trees.
 class CpuShapePair
 {
  public:
@@ -31,7 +34,11 @@ class CpuShapePair
     std::vector<std::uint32_t> nodes;
   };
 
-  explicit CpuShapePair(std::shared_ptr<const CpuForest> forest) : forest_(std::move(forest)) {}
+  /// `tolerance`: metres, at least 0.
+  explicit CpuShapePair(std::shared_ptr<const CpuForest> forest, double tolerance = 0.0)
+    : forest_(std::move(forest)), tolerance_(tolerance)
+  {
+  }
 
   /// Whether two shapes, by their trees, collide where `required` is the pair's required distance.
   bool collide(std::uint32_t a, const Eigen::Isometry3d& pose_a, std::uint32_t b, const Eigen::Isometry3d& pose_b,
@@ -53,5 +60,6 @@ class CpuShapePair
                       Scratch& scratch) const;
 
   std::shared_ptr<const CpuForest> forest_;
+  double tolerance_;
 };
 }  // namespace gpu_planning_scene

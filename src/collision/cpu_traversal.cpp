@@ -30,7 +30,7 @@ CpuTraversal::CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std:
 }
 
 CpuTraversal::CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest)
-  : problem_(std::move(problem)), pair_(std::move(forest))
+  : problem_(std::move(problem)), pair_(std::move(forest), problem_->tolerance)
 {
   for (const Geometry& object : problem_->world)
   {
@@ -78,6 +78,10 @@ void CpuTraversal::findNearObjects(const AlignedBox3d& bounds, Scratch& scratch)
 template <class Visit>
 void CpuTraversal::visitCollisions(const Isometry3d* link_poses, Scratch& scratch, const Visit& visit) const
 {
+  if (problem_->always_colliding && visit(*problem_->always_colliding))
+  {
+    return;
+  }
   const auto& robot = problem_->robot;
   const auto& half_spaces = problem_->half_spaces;
   scratch.poses.resize(robot.size());

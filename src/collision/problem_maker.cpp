@@ -1,0 +1,84 @@
+#include "collision/problem_maker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "collision/binned_sah.h"
+#include "collision/cpu_traversal.h"
+#include "scene/validate_scene.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::vector<bool> movedLinks(const RobotModel& robot, const std::string& group)
+{
+  std::vector<bool> moved(robot.links().size(), group.empty());
+  if (!group.empty())
+    for (const int link : robot.group(group).moved_links)
+      moved[static_cast<std::size_t>(link)] = true;
+  return moved;
+}
+
+}  // namespace
+
+ProblemMaker::ProblemMaker(const CheckerOptions& options) : options_(options)
+{
+  refuseTolerance(options.tolerance);
+}
+
+CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::string& group, SceneReport* report)
+{
+  validateScene(scene);
+  SceneReport counts;
+  const std::vector<RobotBody> bodies = robotBodies(scene);
+  CheckedPairs pairs = findCheckedPairs(scene, bodies, movedLinks(*scene.robot, group), counts);
+  std::vector<VariableRange> ranges;
+  if (options_.reductions.reach)
+    ranges = reducer_.leaveOutUnreachable(scene, bodies, pairs, counts);
+  if (options_.reductions.unmoved_pairs)
+  {
+    const CheckedPairs fixed = PairReducer::takeFixed(scene, bodies, pairs);
+    const std::size_t self = countMoved(fixed.self);
+    const std::size_t world = countMoved(fixed.world);
+    counts.self_pairs -= self;
+    counts.world_pairs -= world;
+    counts.settled_pairs = self + world;
+    counts.always_colliding = firstCollision(scene, bodies, fixed);
+  }
+
+  CollisionProblem problem = problemOf(scene, bodies, pairs, options_.reductions.shared_trees);
+  problem.tolerance = options_.tolerance;
+  problem.always_colliding = counts.always_colliding;
+  problem.ranges = std::move(ranges);
+  counts.trees = problem.trees.size();
+  counts.shared_trees = problem.robot.size() + problem.world.size() - problem.trees.size();
+  for (const Tessellation& tree : problem.trees)
+    counts.triangles += tree.mesh->triangles.size();
+  if (report != nullptr)
+    *report = counts;
+  return problem;
+}
+
+/// The relative pose of a pair that no joint moves is the same in all states, but for rounding: the contract leaves
+/// open what becomes of a distance that this could move across the required one, as it is within the checker's slack.
+std::optional<std::array<std::int32_t, 2>> ProblemMaker::firstCollision(const PlanningScene& scene,
+                                                                        const std::vector<RobotBody>& bodies,
+                                                                        const CheckedPairs& fixed)
+{
+  const auto problem = std::make_shared<const CollisionProblem>(problemOf(scene, bodies, fixed, true));
+  if (problem->robot.empty())
+    return std::nullopt;
+  if (!fixed_forest_ || !std::equal(fixed_shapes_.begin(), fixed_shapes_.end(), problem->shapes.begin(),
+                                    problem->shapes.end(), sameShape))
+  {
+    fixed_forest_ =
+        std::make_shared<const CpuForest>(*problem, std::make_shared<const Forest>(buildBinnedSah(problem->trees)));
+    fixed_shapes_ = problem->shapes;
+  }
+  std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());
+  scene.robot->linkPoses(scene.robot->defaultState().data(), poses.data());
+  CpuTraversal::Scratch scratch;
+  return CpuTraversal(problem, fixed_forest_).firstCollision(poses.data(), scratch);
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "collision/collision_problem.h"
+#include "collision/cpu_forest.h"
+#include "collision/pair_reducer.h"
+
+namespace gpu_planning_scene
+{
+/// Makes problems of scenes, one after the other, without what the reductions leave out. What it learns of a robot and
+/// its meshes is kept for the next scene.
+class ProblemMaker
+{
+ public:
+  /// Throws Error for a negative tolerance, or one that is not finite.
+  explicit ProblemMaker(const CheckerOptions& options);
+
+  /// As makeProblem. Where Reductions::reach left pairs out, the problem holds for states within its ranges only.
+  CollisionProblem make(const PlanningScene& scene, const std::string& group, SceneReport* report);
+
+ private:
+  std::optional<std::array<std::int32_t, 2>> firstCollision(const PlanningScene& scene,
+                                                            const std::vector<RobotBody>& bodies,
+                                                            const CheckedPairs& fixed);
+
+  CheckerOptions options_;
+  PairReducer reducer_;
+  std::vector<Shape> fixed_shapes_;  // whose trees the next has
+  std::shared_ptr<const CpuForest> fixed_forest_;
+};
+}  // namespace gpu_planning_scene
