@@ -1,6 +1,7 @@
 #include "cpu_traversal.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace gpu_planning_scene
@@ -75,81 +76,126 @@ void CpuTraversal::findNearObjects(const AlignedBox3d& bounds, Scratch& scratch)
   }
 }
 
-template <class Visit>
-void CpuTraversal::visitCollisions(const Isometry3d* link_poses, Scratch& scratch, const Visit& visit) const
+void CpuTraversal::startState(Scratch& scratch) const
 {
-  if (problem_->always_colliding && visit(*problem_->always_colliding))
+  const std::size_t checks = problem_->robot.size() + problem_->self_pairs.size();
+  if (scratch.order.size() != checks)
   {
-    return;
+    scratch.order.resize(checks);
+    std::iota(scratch.order.begin(), scratch.order.end(), 0u);
+    scratch.hits.assign(checks, 0);
   }
-  const auto& robot = problem_->robot;
+  scratch.poses.resize(problem_->robot.size());
+  scratch.bounds.resize(problem_->robot.size());
+  scratch.placed.assign(problem_->robot.size(), 0);
+}
+
+void CpuTraversal::place(std::uint32_t instance, const Isometry3d* link_poses, Scratch& scratch) const
+{
+  if (scratch.placed[instance] == 0)
+  {
+    const Geometry& geometry = problem_->robot[instance];
+    scratch.poses[instance] = link_poses[geometry.link] * geometry.pose;
+    scratch.bounds[instance] = pair_.boundsOf(geometry.tree, scratch.poses[instance]);
+    scratch.placed[instance] = 1;
+  }
+}
+
+template <class Visit>
+bool CpuTraversal::checkWorld(std::uint32_t instance, Scratch& scratch, const Visit& visit) const
+{
+  const Geometry& robot = problem_->robot[instance];
   const auto& half_spaces = problem_->half_spaces;
-  scratch.poses.resize(robot.size());
-  scratch.bounds.resize(robot.size());
-  for (std::size_t i = 0; i < robot.size(); ++i)
+  findNearObjects(grown(scratch.bounds[instance], robot.padding), scratch);
+  for (const std::uint32_t object : scratch.near_objects)
   {
-    scratch.poses[i] = link_poses[robot[i].link] * robot[i].pose;
-    scratch.bounds[i] = pair_.boundsOf(robot[i].tree, scratch.poses[i]);
-  }
-  for (std::size_t i = 0; i < robot.size(); ++i)
-  {
-    findNearObjects(grown(scratch.bounds[i], robot[i].padding), scratch);
-    for (const std::uint32_t object : scratch.near_objects)
-    {
-      const Geometry& other = problem_->world[object];
-      if (problem_->world_pairs[i * problem_->world.size() + object] != 0 &&
-          pair_.collide(robot[i].tree, scratch.poses[i], other.tree, other.pose, robot[i].padding + other.padding,
-                        scratch.pair) &&
-          visit(bodyPair(robot[i].body, other.body)))
-      {
-        return;
-      }
-    }
-    for (std::size_t k = 0; k < half_spaces.size(); ++k)
-    {
-      const WorldHalfSpace& other = half_spaces[k];
-      if (problem_->half_space_pairs[i * half_spaces.size() + k] != 0 &&
-          pair_.collide(robot[i].tree, scratch.poses[i], {other.normal, other.offset}, robot[i].padding + other.padding,
-                        scratch.pair) &&
-          visit(bodyPair(robot[i].body, other.body)))
-      {
-        return;
-      }
-    }
-  }
-  for (const auto& [first, second] : problem_->self_pairs)
-  {
-    if (scratch.bounds[first].intersects(scratch.bounds[second]) &&
-        pair_.collide(robot[first].tree, scratch.poses[first], robot[second].tree, scratch.poses[second], 0.0,
+    const Geometry& other = problem_->world[object];
+    if (problem_->world_pairs[instance * problem_->world.size() + object] != 0 &&
+        pair_.collide(robot.tree, scratch.poses[instance], other.tree, other.pose, robot.padding + other.padding,
                       scratch.pair) &&
-        visit(bodyPair(robot[first].body, robot[second].body)))
+        visit(bodyPair(robot.body, other.body)))
     {
-      return;
+      return true;
     }
   }
+  for (std::size_t k = 0; k < half_spaces.size(); ++k)
+  {
+    const WorldHalfSpace& other = half_spaces[k];
+    if (problem_->half_space_pairs[instance * half_spaces.size() + k] != 0 &&
+        pair_.collide(robot.tree, scratch.poses[instance], {other.normal, other.offset}, robot.padding + other.padding,
+                      scratch.pair) &&
+        visit(bodyPair(robot.body, other.body)))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <class Visit>
+bool CpuTraversal::check(std::uint32_t number, const Isometry3d* link_poses, Scratch& scratch, const Visit& visit) const
+{
+  const auto& robot = problem_->robot;
+  if (number < robot.size())
+  {
+    place(number, link_poses, scratch);
+    return checkWorld(number, scratch, visit);
+  }
+  const auto [first, second] = problem_->self_pairs[number - robot.size()];
+  place(first, link_poses, scratch);
+  place(second, link_poses, scratch);
+  return scratch.bounds[first].intersects(scratch.bounds[second]) &&
+         pair_.collide(robot[first].tree, scratch.poses[first], robot[second].tree, scratch.poses[second], 0.0,
+                       scratch.pair) &&
+         visit(bodyPair(robot[first].body, robot[second].body));
 }
 
 std::optional<CpuTraversal::BodyPair> CpuTraversal::firstCollision(const Isometry3d* link_poses, Scratch& scratch) const
 {
-  std::optional<BodyPair> found;
-  visitCollisions(link_poses, scratch,
-                  [&found](const BodyPair& pair)
-                  {
-                    found = pair;
-                    return true;
-                  });
+  std::optional<BodyPair> found = problem_->always_colliding;
+  if (found)
+  {
+    return found;
+  }
+  startState(scratch);
+  for (std::size_t k = 0; k < scratch.order.size(); ++k)
+  {
+    const std::uint32_t number = scratch.order[k];
+    const auto visit = [&found](const BodyPair& pair)
+    {
+      found = pair;
+      return true;
+    };
+    if (check(number, link_poses, scratch, visit))
+    {
+      const std::uint32_t hits = ++scratch.hits[number];
+      for (; k > 0 && scratch.hits[scratch.order[k - 1]] < hits; --k)
+      {
+        std::swap(scratch.order[k - 1], scratch.order[k]);
+      }
+      return found;
+    }
+  }
   return found;
 }
 
 std::vector<CpuTraversal::BodyPair> CpuTraversal::allCollisions(const Isometry3d* link_poses, Scratch& scratch) const
 {
   std::vector<BodyPair> found;
-  visitCollisions(link_poses, scratch,
-                  [&found](const BodyPair& pair)
-                  {
-                    found.push_back(pair);
-                    return false;
-                  });
+  if (problem_->always_colliding)
+  {
+    found.push_back(*problem_->always_colliding);
+  }
+  startState(scratch);
+  for (const std::uint32_t number : scratch.order)
+  {
+    const auto visit = [&found](const BodyPair& pair)
+    {
+      found.push_back(pair);
+      return false;
+    };
+    check(number, link_poses, scratch, visit);
+  }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;

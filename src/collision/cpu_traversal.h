@@ -23,11 +23,15 @@ class CpuTraversal
  public:
   using BodyPair = std::array<std::int32_t, 2>;  // body indices, ascending
 
-  /// Work space of one thread, reused from call to call.
+  /// Work space of one thread, reused from call to call. Keeps which checks found collisions, so that the next state
+  /// begins with those: the order changes no answer but which of several colliding pairs is found.
   struct Scratch
   {
-    std::vector<Eigen::Isometry3d> poses;     // of robot geometries, in the planning frame
-    std::vector<Eigen::AlignedBox3d> bounds;  // of robot geometries, in the planning frame
+    std::vector<std::uint32_t> order;         // of checks, see check
+    std::vector<std::uint32_t> hits;          // of each check
+    std::vector<std::uint8_t> placed;         // the instances of which these are known:
+    std::vector<Eigen::Isometry3d> poses;     // in the planning frame
+    std::vector<Eigen::AlignedBox3d> bounds;  // in the planning frame
     std::vector<std::uint32_t> near_objects;
     CpuShapePair::Scratch pair;
   };
@@ -46,9 +50,14 @@ class CpuTraversal
   std::vector<BodyPair> allCollisions(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
 
  private:
-  /// Calls visit(body pair) for colliding pairs of geometries until it returns true.
+  /// A check is one of a robot instance against the world, by its index, or, counted on from there, one of a self pair.
+  /// Calls visit(body pair) for what collides until it returns true, and returns whether it did.
   template <class Visit>
-  void visitCollisions(const Eigen::Isometry3d* link_poses, Scratch& scratch, const Visit& visit) const;
+  bool check(std::uint32_t number, const Eigen::Isometry3d* link_poses, Scratch& scratch, const Visit& visit) const;
+  template <class Visit>
+  bool checkWorld(std::uint32_t instance, Scratch& scratch, const Visit& visit) const;
+  void startState(Scratch& scratch) const;
+  void place(std::uint32_t instance, const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
   void findNearObjects(const Eigen::AlignedBox3d& bounds, Scratch& scratch) const;
 
   std::shared_ptr<const CollisionProblem> problem_;

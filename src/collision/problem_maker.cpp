@@ -1,9 +1,8 @@
 #include "collision/problem_maker.h"
 
-#include <algorithm>
+#include <memory>
 #include <utility>
 
-#include "collision/binned_sah.h"
 #include "collision/cpu_traversal.h"
 #include "scene/validate_scene.h"
 
@@ -69,16 +68,9 @@ std::optional<std::array<std::int32_t, 2>> ProblemMaker::firstCollision(const Pl
   const auto problem = std::make_shared<const CollisionProblem>(problemOf(scene, bodies, fixed, true));
   if (problem->robot.empty())
     return std::nullopt;
-  if (!fixed_forest_ || !std::equal(fixed_shapes_.begin(), fixed_shapes_.end(), problem->shapes.begin(),
-                                    problem->shapes.end(), sameShape))
-  {
-    fixed_forest_ =
-        std::make_shared<const CpuForest>(*problem, std::make_shared<const Forest>(buildBinnedSah(problem->trees)));
-    fixed_shapes_ = problem->shapes;
-  }
   std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());
   scene.robot->linkPoses(scene.robot->defaultState().data(), poses.data());
   CpuTraversal::Scratch scratch;
-  return CpuTraversal(problem, fixed_forest_).firstCollision(poses.data(), scratch);
+  return CpuTraversal(problem, fixed_forest_.forestOf(*problem)).firstCollision(poses.data(), scratch);
 }
 }  // namespace gpu_planning_scene

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <memory>
+#include <array>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "collision/collision_problem.h"
-#include "collision/cpu_forest.h"
+#include "collision/forest_cache.h"
 #include "collision/pair_reducer.h"
 
 namespace gpu_planning_scene
@@ -27,7 +29,6 @@ class ProblemMaker
 
   CheckerOptions options_;
   PairReducer reducer_;
-  std::vector<Shape> fixed_shapes_;  // whose trees the next has
-  std::shared_ptr<const CpuForest> fixed_forest_;
+  ForestCache fixed_forest_;
 };
 }  // namespace gpu_planning_scene
