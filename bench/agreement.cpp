@@ -21,6 +21,7 @@ std::unique_ptr<StateChecker> makeChecker(const std::string& method, const std::
     return std::make_unique<CpuChecker>(scene);
   BatchCheckerOptions options;
   options.traversal = traversalFromName(method);
+  options.cpu_below = 0;
   return std::make_unique<BatchChecker>(scene, options);
 }
 

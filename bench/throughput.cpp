@@ -82,6 +82,7 @@ std::shared_ptr<BatchChecker> onGpu(const TestScene& scene, Traversal traversal,
   BatchCheckerOptions options;
   options.traversal = traversal;
   options.max_batch = max_batch;
+  options.cpu_below = 0;
   return std::make_shared<BatchChecker>(scene.scene, options);
 }
 

@@ -59,7 +59,7 @@ struct SceneReport
   std::size_t triangles = 0;     ///< in the trees
   std::size_t trees = 0;         ///< of distinct shapes
   std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal one
-  /// Batches of fewer states go to the CPU, as it is faster there; no value: there is no choice, or none was asked for.
+  /// Batches of fewer states go to the CPU (the largest number: all); no value: there is no choice.
   std::optional<std::size_t> cpu_below;
 };
 

@@ -1,43 +1,160 @@
 #include "gpu_planning_scene/batch_checker.h"
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 
 #include "collision/batch_engine.h"
+#include "collision/break_even.h"
+#include "collision/cpu_scene.h"
 #include "collision/state_rows.h"
 
 namespace gpu_planning_scene
 {
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+// Scenes that change often must not spend their time on measuring: a group's threshold is kept from scene to scene
+// until this many times the time that measuring it took has passed.
+constexpr double kMeasuringPause = 50.0;
+
+double secondsSince(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+}  // namespace
+
 struct BatchChecker::Impl
 {
-  struct GroupProblem
+  /// From how many states on a group's batches go to the GPU.
+  struct Threshold
   {
-    SceneReport report;
-    std::shared_ptr<const CollisionProblem> problem;
+    std::size_t states;
+    std::shared_ptr<const PlanningScene> scene;  // for which it was measured
+    Clock::time_point keep_until;
   };
 
-  explicit Impl(const BatchCheckerOptions& options) : engine(options) {}
-
-  const GroupProblem& groupProblem(const std::string& group)
+  explicit Impl(const BatchCheckerOptions& options)
+    : fixed_threshold(options.cpu_below), on_cpu(options), engine(options)
   {
-    const auto known = groups.find(group);
-    if (known != groups.end())
-      return known->second;
-    GroupProblem made;
-    made.problem = std::make_shared<const CollisionProblem>(makeProblem(*scene, group, &made.report));
-    return groups.emplace(group, std::move(made)).first->second;
   }
 
+  std::size_t width() const { return on_cpu.scene()->robot->variables().size(); }
+  void checkOnGpu(const double* states, std::size_t count, const std::string& group, BatchResult& result);
+  void check(const double* states, std::size_t count, const std::string& group, BatchResult& result);
+  std::size_t threshold(const std::string& group, const double* states, std::size_t count);
+  std::size_t measure(const std::string& group, const double* states, std::size_t count);
+
   std::mutex mutex;
+  std::optional<std::size_t> fixed_threshold;
+  CpuScene on_cpu;
   BatchEngine engine;
-  std::shared_ptr<const PlanningScene> scene;
-  std::map<std::string, GroupProblem> groups;
   std::optional<std::string> selected_group;  // whose pairs the engine has now
+  std::map<std::string, Threshold> thresholds;
 };
+
+/// States that the group's problem holds for.
+void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, const std::string& group,
+                                    BatchResult& result)
+{
+  if (selected_group != group)
+  {
+    const auto& problem = on_cpu.problem(group);
+    selected_group.reset();  // for as long as it is not known which pairs the engine has
+    engine.selectPairs(problem);
+    selected_group = group;
+  }
+  const RobotModel& robot = *on_cpu.scene()->robot;
+  engine.check(
+      count, robot.links().size(),
+      [&](std::size_t row, Eigen::Isometry3d* poses) { robot.linkPoses(states + row * width(), poses); }, result);
+}
+
+/// Splits off the states that the group's problem does not hold for, which only the CPU can answer.
+void BatchChecker::Impl::check(const double* states, std::size_t count, const std::string& group, BatchResult& result)
+{
+  const CollisionProblem& problem = *on_cpu.problem(group);
+  if (count == 0 || problem.always_colliding || count < threshold(group, states, count))
+    return on_cpu.check(states, count, group, result);
+  std::vector<std::size_t> rows[2];  // for the GPU, for the CPU
+  for (std::size_t i = 0; i < count; ++i)
+    rows[holdsFor(problem, states + i * width()) ? 0 : 1].push_back(i);
+  if (rows[1].empty())
+    return checkOnGpu(states, count, group, result);
+  result.valid.resize(count);
+  result.colliding.resize(count);
+  for (const auto& part : rows)
+  {
+    std::vector<double> values;
+    for (const std::size_t row : part)
+      values.insert(values.end(), states + row * width(), states + (row + 1) * width());
+    BatchResult answers;
+    if (&part == rows)
+      checkOnGpu(values.data(), part.size(), group, answers);
+    else
+      on_cpu.check(values.data(), part.size(), group, answers);
+    result.undecided_states += answers.undecided_states;
+    result.undecided_seconds += answers.undecided_seconds;
+    for (std::size_t i = 0; i < part.size(); ++i)
+    {
+      result.valid[part[i]] = answers.valid[i];
+      result.colliding[part[i]] = answers.colliding[i];
+    }
+  }
+}
+
+std::size_t BatchChecker::Impl::threshold(const std::string& group, const double* states, std::size_t count)
+{
+  if (fixed_threshold)
+    return *fixed_threshold;
+  const auto known = thresholds.find(group);
+  const Clock::time_point start = Clock::now();
+  if (known != thresholds.end() && (known->second.scene == on_cpu.scene() || start < known->second.keep_until))
+    return known->second.states;
+  const std::size_t measured = measure(group, states, count);
+  const auto pause = std::chrono::duration_cast<Clock::duration>(kMeasuringPause * (Clock::now() - start));
+  thresholds.insert_or_assign(group, Threshold{measured, on_cpu.scene(), Clock::now() + pause});
+  return measured;
+}
+
+/// With the caller's own states, over and over, if there are enough to tell what they are like; else with random ones.
+std::size_t BatchChecker::Impl::measure(const std::string& group, const double* states, std::size_t count)
+{
+  constexpr std::size_t kEnough = 256;
+  const RobotModel& robot = *on_cpu.scene()->robot;
+  const CollisionProblem& problem = *on_cpu.problem(group);
+  std::vector<double> sample(kMostTimed * width());
+  std::mt19937_64 generator;
+  for (std::size_t i = 0; i < kMostTimed; ++i)
+  {
+    double* row = &sample[i * width()];
+    const double* own = states + (count == 0 ? 0 : i % count) * width();
+    if (count >= kEnough && holdsFor(problem, own))
+      std::copy(own, own + width(), row);
+    else
+      robot.randomState(generator, row);
+  }
+  const auto timed = [&](auto&& check)
+  {
+    return [&, check](std::size_t size)
+    {
+      BatchResult answers;
+      const Clock::time_point start = Clock::now();
+      check(sample.data(), size, answers);
+      return secondsSince(start);
+    };
+  };
+  return breakEven(timed([&](const double* rows, std::size_t size, BatchResult& answers)
+                         { on_cpu.check(rows, size, group, answers); }),
+                   timed([&](const double* rows, std::size_t size, BatchResult& answers)
+                         { checkOnGpu(rows, size, group, answers); }));
+}
 
 BatchChecker::BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
   : impl_(std::make_unique<Impl>(options))
@@ -49,44 +166,46 @@ BatchChecker::~BatchChecker() = default;
 
 void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
 {
-  refuseMissingRobot(scene);
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  Impl::GroupProblem whole;
-  whole.problem = std::make_shared<const CollisionProblem>(makeProblem(*scene, "", &whole.report));
-  impl_->engine.setProblem(whole.problem);
-  impl_->scene = std::move(scene);
-  impl_->groups.clear();
-  impl_->groups.emplace("", std::move(whole));
+  const std::shared_ptr<const PlanningScene> previous = impl_->on_cpu.scene();
+  impl_->on_cpu.setScene(std::move(scene));
+  try
+  {
+    impl_->engine.setProblem(impl_->on_cpu.problem(""));
+  }
+  catch (...)
+  {
+    if (previous)
+      impl_->on_cpu.setScene(previous);
+    impl_->selected_group.reset();
+    throw;
+  }
   impl_->selected_group = "";
 }
 
 BatchResult BatchChecker::check(const double* states, std::size_t count, const std::string& group)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  const RobotModel& robot = *impl_->scene->robot;
-  const std::size_t width = robot.variables().size();
-  const auto& problem = impl_->groupProblem(group).problem;
-  refuseNonFinite(robot, states, count);
-  if (impl_->selected_group != group)
-  {
-    impl_->selected_group.reset();  // for as long as it is not known which pairs the engine has
-    impl_->engine.selectPairs(problem);
-    impl_->selected_group = group;
-  }
+  const PlanningScene& scene = *impl_->on_cpu.scene();
+  const bool decided = impl_->on_cpu.problem(group)->always_colliding.has_value();
+  refuseNonFinite(*scene.robot, states, count);
+  if (count != 0 && !decided)
+    impl_->threshold(group, states, count);  // measured now, if it must be, and not as part of the check
   BatchResult result;
-  result.revision = impl_->scene->revision;
-  const auto start = std::chrono::steady_clock::now();
-  impl_->engine.check(
-      count, robot.links().size(),
-      [&](std::size_t row, Eigen::Isometry3d* poses) { robot.linkPoses(states + row * width, poses); }, result);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.revision = scene.revision;
+  const Clock::time_point start = Clock::now();
+  impl_->check(states, count, group, result);
+  result.seconds = secondsSince(start);
   return result;
 }
 
 SceneReport BatchChecker::report(const std::string& group)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  return impl_->groupProblem(group).report;
+  SceneReport report = impl_->on_cpu.report(group);
+  if (!report.always_colliding)
+    report.cpu_below = impl_->threshold(group, nullptr, 0);
+  return report;
 }
 
 std::string BatchChecker::deviceWarning() const

@@ -11,13 +11,14 @@ namespace gpu_planning_scene
 {
 namespace
 {
-std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape& b)
+std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape& b, double tolerance)
 {
   validateShape(a, "shape a");
   validateShape(b, "shape b");
   if (std::holds_alternative<HalfSpace>(b))
     throw Error("shape b is a half-space, which cannot move; give it as shape a");
   auto problem = std::make_shared<CollisionProblem>();
+  problem->tolerance = tolerance;
   problem->shapes = {b};
   problem->trees = {tessellate(b)};
   problem->robot = {{0, 0, 0, Eigen::Isometry3d::Identity()}};
@@ -56,7 +57,8 @@ struct MeshPairChecker::Impl
 MeshPairChecker::MeshPairChecker(const Shape& a, const Shape& b, const BatchCheckerOptions& options)
   : impl_(std::make_unique<Impl>(options))
 {
-  impl_->engine.setProblem(pairProblem(a, b));
+  refuseTolerance(options.tolerance);
+  impl_->engine.setProblem(pairProblem(a, b, options.tolerance));
 }
 
 MeshPairChecker::~MeshPairChecker() = default;

@@ -1,5 +1,7 @@
 #include "node/node_parameters.h"
 
+#include <cmath>
+
 #include <ros/package.h>
 
 #include "gpu_planning_scene/error.h"
@@ -136,6 +138,10 @@ BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own)
     throw Error("parameter " + own.resolveName("max_batch") + " is not an integer from 1 to " +
                 std::to_string(static_cast<std::size_t>(kMost)));
   options.max_batch = static_cast<std::size_t>(max_batch);
+  options.tolerance = numberParameter(own, "tolerance", options.tolerance);
+  if (!(options.tolerance >= 0.0 && std::isfinite(options.tolerance)))
+    throw Error("parameter " + own.resolveName("tolerance") +
+                " is negative or not finite; give metres, or 0 for exact answers");
   return options;
 }
 }  // namespace gpu_planning_scene

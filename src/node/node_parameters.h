@@ -18,7 +18,7 @@ namespace gpu_planning_scene
 std::shared_ptr<const PlanningScene> sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own,
                                                          std::vector<std::string>* warnings);
 
-/// ~device, ~traversal and ~max_batch.
+/// ~device, ~traversal, ~max_batch and ~tolerance.
 BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own);
 
 /// A value of ~packages: a map NAME: DIR, or a list of such maps or of "NAME=DIR" or "NAME: DIR".

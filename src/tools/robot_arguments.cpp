@@ -20,7 +20,11 @@ std::vector<Option> deviceOptions()
            "auto (default): a GPU, else a software device;\nsoftware; an index; part of a renderer's name;\n"
            "or cpu: no GL device at all, in double precision"},
           {"--traversal", "NAME", "work_queue (default) or breadth_first; cpu has its own"},
-          {"--max-batch", "N", "states that go to the device at once (default 16384)"}};
+          {"--max-batch", "N", "states that go to the device at once (default 16384)"},
+          {"--tolerance", "METRES",
+           "0 (default): exact; else bodies that are no further apart than\nthis (and their padding) may be called "
+           "colliding, "
+           "to save time"}};
 }
 
 PackageResolver packagesFrom(const CommandLine& arguments)
@@ -62,6 +66,7 @@ BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments)
   }
   options.max_batch =
       static_cast<std::size_t>(arguments.integer("--max-batch", static_cast<long long>(options.max_batch), 1, 1 << 24));
+  options.tolerance = arguments.number("--tolerance", options.tolerance, 0.0, 1e3);
   return options;
 }
 

@@ -11,7 +11,7 @@
 namespace gpu_planning_scene
 {
 /// What every tool asks of a robot (--urdf, --srdf, --package, --unbounded-translation) and of a device (--device,
-/// --traversal, --max-batch).
+/// --traversal, --max-batch, --tolerance).
 std::vector<Option> robotOptions();
 std::vector<Option> deviceOptions();
 

@@ -1,6 +1,7 @@
 #include "tools/scene_text.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace gpu_planning_scene
 {
@@ -18,6 +19,11 @@ std::string matrixText(MatrixSource source)
       break;
   }
   return "are adjacent (no SRDF was given)";
+}
+std::string batchesText(std::size_t cpu_below)
+{
+  return cpu_below == std::numeric_limits<std::size_t>::max() ? "batches of any size"
+                                                              : "batches of fewer than " + counted(cpu_below, "state");
 }
 }  // namespace
 
@@ -43,9 +49,10 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
                   counted(robot.variables().size(), "variable") + ", planning frame " + robot.planningFrame());
   lines.push_back("scene: " + counted(scene.objects.size(), "object") +
                   (scene.attached.empty() ? std::string() : ", " + counted(scene.attached.size(), "carried object")));
-  lines.push_back("triangles: " + std::to_string(robot.triangleCount()) + " of the robot, " +
-                  std::to_string(report.triangles) + " in " + counted(report.trees, "tree") +
-                  " with the scene's (equal shapes share one)");
+  lines.push_back(
+      "triangles: " + std::to_string(robot.triangleCount()) + " of the robot, " + std::to_string(report.triangles) +
+      " in " + counted(report.trees, "tree") + " with the scene's" +
+      (report.shared_trees ? ", " + counted(report.shared_trees, "more shape") + " equal to one of them" : ""));
   lines.push_back("checked pairs: " + std::to_string(report.self_pairs) + " of links, " +
                   std::to_string(report.world_pairs) + " of a link and an object");
   lines.push_back("left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") + " that " +
@@ -56,6 +63,17 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
                        : std::string()) +
                   (report.unmoved_pairs ? ", " + counted(report.unmoved_pairs, "pair") + " that the group does not move"
                                         : std::string()));
+  if (report.unreachable_self_pairs + report.unreachable_world_pairs != 0)
+    lines.push_back("out of reach: " + counted(report.unreachable_self_pairs, "pair") + " of links, " +
+                    counted(report.unreachable_world_pairs, "pair") + " of a link and an object, and with them " +
+                    counted(report.unreachable_objects, "object"));
+  if (report.settled_pairs != 0)
+    lines.push_back("decided once, as no joint moves them: " + counted(report.settled_pairs, "pair"));
+  if (report.always_colliding)
+    lines.push_back("in collision in every state: " + scene.bodyName((*report.always_colliding)[0]) + " - " +
+                    scene.bodyName((*report.always_colliding)[1]));
+  if (report.cpu_below && *report.cpu_below != 0)
+    lines.push_back("on the CPU, which is faster there: " + batchesText(*report.cpu_below));
   return lines;
 }
 

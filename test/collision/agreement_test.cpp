@@ -38,6 +38,7 @@ std::unique_ptr<StateChecker> onGpu(Scene scene, Traversal traversal)
 {
   BatchCheckerOptions options;
   options.traversal = traversal;
+  options.cpu_below = 0;
   return std::make_unique<BatchChecker>(std::move(scene), options);
 }
 

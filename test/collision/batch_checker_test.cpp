@@ -23,6 +23,7 @@ BatchCheckerOptions with(Traversal traversal, std::size_t max_batch = 16384)
   BatchCheckerOptions options;
   options.traversal = traversal;
   options.max_batch = max_batch;
+  options.cpu_below = 0;
   return options;
 }
 

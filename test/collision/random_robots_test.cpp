@@ -147,6 +147,7 @@ TEST_P(RandomRobots, HaveTheVerdictsOfTheCpuOnTheGpu)
   {
     BatchCheckerOptions options;
     options.traversal = traversal;
+    options.cpu_below = 0;
     options.max_batch = below(2) == 0 ? 16384 : 64;
     EXPECT_EQ(BatchChecker(made, options).check(states.data(), kStates).valid, expected)
         << "seed " << GetParam() << ", " << made->robot->links().size() << " links, " << made->objects.size()

@@ -27,6 +27,7 @@ std::unique_ptr<BatchChecker> batchChecker(const TestScene& scene, Traversal tra
 {
   BatchCheckerOptions options;
   options.traversal = traversal;
+  options.cpu_below = 0;
   return std::make_unique<BatchChecker>(scene.scene, options);
 }
 

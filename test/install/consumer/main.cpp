@@ -26,7 +26,9 @@ try
   const double angles[] = {0.0, 1.57, 3.14, -1.57, 1.5};
   const std::vector<std::uint8_t> expected = {1, 0, 1, 1, 0};
   const auto on_cpu = CpuChecker(scene).check(angles, 5).valid;
-  BatchChecker checker(scene, BatchCheckerOptions());
+  BatchCheckerOptions options;
+  options.cpu_below = 0;
+  BatchChecker checker(scene, options);
   const auto on_gpu = checker.check(angles, 5).valid;
   std::printf("%s\n", checker.deviceName().c_str());
 #ifdef WITH_MESSAGES
