@@ -1,0 +1,62 @@
+// From which batch size on the slower starter is the faster one.
+#include "collision/break_even.h"
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "model/model_testing.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// Says that it took a constant time and a time for each item; `spent` counts what it said.
+TimedWork work(double fixed, double per_item, double* spent = nullptr)
+{
+  return [=](std::size_t size)
+  {
+    const double seconds = fixed + per_item * static_cast<double>(size);
+    if (spent)
+      *spent += seconds;
+    return seconds;
+  };
+}
+
+TEST(BreakEven, IsWhereTheLinesCross)
+{
+  EXPECT_NEAR(static_cast<double>(breakEven(work(2e-6, 4e-6), work(202e-6, 2e-6))), 100.0, 1.0);
+  EXPECT_NEAR(static_cast<double>(breakEven(work(0.0, 10e-6), work(1e-3, 0.0))), 100.0, 1.0);
+}
+
+TEST(BreakEven, IsNoneWhereOneIsFasterAlways)
+{
+  EXPECT_EQ(breakEven(work(1e-6, 1e-6), work(1e-3, 2e-6)), kNoBatch);
+  EXPECT_EQ(breakEven(work(1e-6, 3e-6), work(1e-6, 2e-6)), 0U);
+}
+
+TEST(BreakEven, TakesLittleTime)
+{
+  double spent = 0.0;
+  breakEven(work(2e-6, 5e-6, &spent), work(3e-3, 10e-6, &spent));
+  EXPECT_LT(spent, 0.05);
+}
+
+TEST(BreakEven, IsMeasuredForASceneAndChangesNoAnswer)
+{
+  auto scene = std::make_shared<PlanningScene>(
+      robotOf(boxLink("a") + boxLink("b") +
+              jointXml("slide", "prismatic", "a", "b", std::string("<axis xyz='1 0 0'/>") + kLimits)));
+  scene->allowed_collisions = AllowedCollisionMatrix();
+  std::vector<double> states;
+  for (int i = 0; i < 500; ++i)
+    states.push_back(-1.0 + 0.006 * i);
+  BatchChecker checker(scene, BatchCheckerOptions());
+  ASSERT_TRUE(checker.report().cpu_below);
+  const std::vector<std::uint8_t> expected = CpuChecker(scene).check(states.data(), 500).valid;
+  EXPECT_EQ(checker.check(states.data(), 500).valid, expected);
+  for (std::size_t i = 0; i < 500; i += 100)
+    EXPECT_EQ(checker.check(&states[i], 1).valid[0], expected[i]);
+}
+}  // namespace
+}  // namespace gpu_planning_scene
