@@ -52,7 +52,6 @@ void BatchEngine::setProblem(std::shared_ptr<const CollisionProblem> problem)
     throw;
   }
   problem_ = std::move(problem);
-  forest_.reset();
   on_cpu_.reset();
 }
 
@@ -121,14 +120,8 @@ std::vector<float> BatchEngine::instancePoses(std::size_t begin, std::size_t cou
 void BatchEngine::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,
                               BatchResult& result)
 {
-  if (!forest_)
-  {
-    auto read = std::make_shared<Forest>();
-    gl_.run([&] { *read = pairs_->scene().readForest(); });
-    forest_ = std::make_shared<const CpuForest>(*problem_, std::move(read));
-  }
   if (!on_cpu_)
-    on_cpu_ = std::make_unique<const CpuTraversal>(problem_, forest_);
+    on_cpu_ = trees_.traversalOf(problem_);
   forChunks(rows.size(), 1,
             [&, scratch = CpuTraversal::Scratch(), links = std::vector<Eigen::Isometry3d>(link_count)](
                 std::size_t from, std::size_t to) mutable

@@ -10,6 +10,7 @@
 
 #include "collision/collision_problem.h"
 #include "collision/cpu_traversal.h"
+#include "collision/forest_cache.h"
 #include "collision/gpu_pair_checker.h"
 #include "gpu/gl_thread.h"
 #include "gpu_planning_scene/batch_checker.h"
@@ -53,7 +54,7 @@ class BatchEngine
   GlThread gl_;
   std::unique_ptr<GpuPairChecker> pairs_;  // made, used and destroyed on the GL thread
   std::shared_ptr<const CollisionProblem> problem_;
-  std::shared_ptr<const CpuForest> forest_;     // read back when a state is undecided for the first time
-  std::unique_ptr<const CpuTraversal> on_cpu_;  // of the selected pairs; likewise
+  ForestCache trees_;                           // for the undecided states
+  std::unique_ptr<const CpuTraversal> on_cpu_;  // of the selected pairs; made when a state is undecided
 };
 }  // namespace gpu_planning_scene

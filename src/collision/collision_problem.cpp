@@ -3,55 +3,33 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 #include "checked_pairs.h"
 #include "gpu_planning_scene/error.h"
-#include "primitive_solid.h"
 #include "problem_maker.h"
 #include "scene/rigid_pose.h"
+#include "shape_key.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
-/// Equal for shapes that can share a tree: the same kind and dimensions, or the same mesh.
-struct ShapeKey
-{
-  std::size_t kind;
-  Eigen::Vector3d dimensions;
-  const Mesh* mesh;
-
-  bool operator<(const ShapeKey& other) const
-  {
-    return std::tie(kind, dimensions.x(), dimensions.y(), dimensions.z(), mesh) <
-           std::tie(other.kind, other.dimensions.x(), other.dimensions.y(), other.dimensions.z(), other.mesh);
-  }
-};
-
-ShapeKey keyOf(const Shape& shape)
-{
-  if (isMesh(shape))
-  {
-    return {shape.index(), Eigen::Vector3d::Zero(), std::get<std::shared_ptr<const Mesh>>(shape).get()};
-  }
-  // A primitive is known by its kind and extents.
-  return {shape.index(), halfExtents(shape), nullptr};
-}
-
 /// Adds the trees of shapes to a problem, each distinct one once.
 class TreeTable
 {
  public:
-  TreeTable(CollisionProblem& problem, bool share) : problem_(problem), share_(share) {}
+  TreeTable(CollisionProblem& problem, bool share, TessellationCache& tessellations)
+    : problem_(problem), share_(share), tessellations_(tessellations)
+  {
+  }
 
   std::uint32_t treeOf(const Shape& shape)
   {
     const auto next = static_cast<std::uint32_t>(problem_.trees.size());
-    const auto [entry, is_new] = trees_.try_emplace(keyOf(shape), next);
+    const auto [entry, is_new] = trees_.try_emplace(ShapeKey(shape), next);
     if (is_new || !share_)
     {
-      problem_.trees.push_back(is_new ? tessellate(shape) : problem_.trees[entry->second]);
+      problem_.trees.push_back(is_new ? tessellations_.of(shape) : problem_.trees[entry->second]);
       problem_.shapes.push_back(shape);
     }
     return share_ ? entry->second : next;
@@ -60,6 +38,7 @@ class TreeTable
  private:
   CollisionProblem& problem_;
   bool share_;
+  TessellationCache& tessellations_;
   std::map<ShapeKey, std::uint32_t> trees_;
 };
 
@@ -110,7 +89,7 @@ void addObject(const WorldObject& object, std::int32_t body, TreeTable& trees, C
 
 /// Adds the bodies that are in a checked pair of any group, the robot's first.
 Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>& bodies, const CheckedPairs& pairs,
-                       bool share_trees, CollisionProblem& problem)
+                       bool share_trees, TessellationCache& tessellations, CollisionProblem& problem)
 {
   std::vector<bool> body_needed(bodies.size(), false);
   std::vector<bool> object_needed(scene.objects.size(), false);
@@ -123,7 +102,7 @@ Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>&
     body_needed[pair.body] = object_needed[pair.other] = true;
   }
 
-  TreeTable trees(problem, share_trees);
+  TreeTable trees(problem, share_trees, tessellations);
   Instances instances;
   for (std::size_t i = 0; i < bodies.size(); ++i)
   {
@@ -201,8 +180,8 @@ void addPairs(const CheckedPairs& pairs, const Instances& instances, CollisionPr
 
 bool sameShape(const Shape& a, const Shape& b)
 {
-  const ShapeKey key_a = keyOf(a);
-  const ShapeKey key_b = keyOf(b);
+  const ShapeKey key_a(a);
+  const ShapeKey key_b(b);
   return !(key_a < key_b) && !(key_b < key_a);
 }
 
@@ -221,10 +200,10 @@ void refuseTolerance(double tolerance)
 }
 
 CollisionProblem problemOf(const PlanningScene& scene, const std::vector<RobotBody>& bodies, const CheckedPairs& pairs,
-                           bool share_trees)
+                           bool share_trees, TessellationCache& tessellations)
 {
   CollisionProblem problem;
-  const Instances instances = addInstances(scene, bodies, pairs, share_trees, problem);
+  const Instances instances = addInstances(scene, bodies, pairs, share_trees, tessellations, problem);
   addPairs(pairs, instances, problem);
   if (!problem.robot.empty())
   {

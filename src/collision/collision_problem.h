@@ -8,8 +8,9 @@
 
 #include <Eigen/Geometry>
 
-#include "gpu_planning_scene/planning_scene.h"
 #include "collision/checked_pairs.h"
+#include "collision/tessellation_cache.h"
+#include "gpu_planning_scene/planning_scene.h"
 #include "gpu_planning_scene/state_checker.h"
 
 namespace gpu_planning_scene
@@ -77,7 +78,7 @@ void refuseTolerance(double tolerance);
 /// the group moves. Bodies that are in none of `pairs` are left out. Trees and instances do not depend on the group, so
 /// one forest serves all groups.
 CollisionProblem problemOf(const PlanningScene& scene, const std::vector<RobotBody>& bodies, const CheckedPairs& pairs,
-                           bool share_trees);
+                           bool share_trees, TessellationCache& tessellations);
 
 /// What of `scene` is checked for `group` (empty: all): the pairs that the allowed-collision matrix does not allow and,
 /// for a group, that have a link which the group moves. Throws Error for an unknown group, two objects of

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -22,37 +23,38 @@ inline Eigen::Vector3d halfOf(const Node& node)
   return {node.half[0], node.half[1], node.half[2]};
 }
 
-/// The trees of a collision problem with what the CPU's queries want to know of them, laid out for these. Immutable.
+/// A shape's tree with what the CPU's queries want to know of it, laid out for these. Immutable.
+struct CpuTree
+{
+  Shape shape;
+  Eigen::Vector3d center;  ///< of a box that holds the shape: its true surface, not only its tessellation
+  Eigen::Vector3d half;
+  bool mesh;
+  MeshComponents parts;              ///< of a mesh
+  Eigen::AlignedBox3d solid_bounds;  ///< of the closed components together; empty if there are none
+
+  std::vector<Node> nodes;                 ///< node 0 is the root
+  std::vector<Triangle> triangles;         ///< in the order of the leaves, which index them
+  std::vector<std::uint8_t> bounds_solid;  ///< one per triangle: 1 if it is one of a closed component
+};
+
+/// The trees of a collision problem. Immutable.
 class CpuForest
 {
  public:
-  struct Tree
-  {
-    std::uint32_t root;
-    Eigen::Vector3d center;  ///< of a box that holds the shape: its true surface, not only its tessellation
-    Eigen::Vector3d half;
-    bool mesh;
-    std::vector<Component> components;  ///< of a mesh
-    Eigen::AlignedBox3d solid_bounds;   ///< of the closed ones together; empty if there are none
-  };
-
+  CpuForest() = default;
   /// `forest` holds a valid tree for each of the problem's trees.
-  CpuForest(const CollisionProblem& problem, std::shared_ptr<const Forest> forest);
+  CpuForest(const CollisionProblem& problem, const Forest& forest);
 
-  const Tree& tree(std::uint32_t number) const { return trees_[number]; }
-  const Shape& shape(std::uint32_t tree) const { return shapes_[tree]; }
-  const Node& node(std::uint32_t number) const { return forest_->nodes[number]; }
+  /// Trees that `previous` has, by their mesh and shape, are taken from there. `build` makes the others: a valid tree
+  /// for each of the given tessellations.
+  using Build = std::function<Forest(const std::vector<Tessellation>& shapes)>;
+  CpuForest(const CollisionProblem& problem, const CpuForest& previous, const Build& build);
 
-  /// By place in the forest's leaf_triangles, as leaves have them.
-  const Triangle& triangle(std::uint32_t place) const { return triangles_[place]; }
-  /// Whether that triangle is one of a closed component.
-  bool boundsSolid(std::uint32_t place) const { return bounds_solid_[place] != 0; }
+  const CpuTree& tree(std::uint32_t number) const { return *trees_[number]; }
 
  private:
-  std::shared_ptr<const Forest> forest_;
-  std::vector<Shape> shapes_;
-  std::vector<Tree> trees_;
-  std::vector<Triangle> triangles_;
-  std::vector<std::uint8_t> bounds_solid_;
+  std::vector<std::shared_ptr<const CpuTree>> trees_;
+  std::vector<Tessellation> shapes_;  // of each tree
 };
 }  // namespace gpu_planning_scene

@@ -9,12 +9,6 @@ namespace gpu_planning_scene
 namespace
 {
 constexpr std::size_t kStatesPerChunk = 16;
-
-std::unique_ptr<const CpuTraversal> traversalOf(const std::shared_ptr<const CollisionProblem>& problem,
-                                                ForestCache& forest)
-{
-  return std::make_unique<const CpuTraversal>(problem, forest.forestOf(*problem));
-}
 }  // namespace
 
 CpuScene::CpuScene(const CheckerOptions& options) : options_(options), maker_(options) {}
@@ -43,7 +37,7 @@ CpuScene::Group& CpuScene::groupOf(const std::string& group)
 void CpuScene::prepare(Group& group)
 {
   if (!group.within.on_cpu)
-    group.within.on_cpu = traversalOf(group.problem, forest_);
+    group.within.on_cpu = forest_.traversalOf(group.problem);
 }
 
 void CpuScene::prepareOutside(const std::string& name, Group& group)
@@ -53,7 +47,7 @@ void CpuScene::prepareOutside(const std::string& name, Group& group)
   CheckerOptions options = options_;
   options.reductions.reach = false;
   const auto problem = std::make_shared<const CollisionProblem>(ProblemMaker(options).make(*scene_, name, nullptr));
-  group.outside.on_cpu = traversalOf(problem, forest_outside_);
+  group.outside.on_cpu = forest_outside_.traversalOf(problem);
 }
 
 void CpuScene::checkRow(const double* state, std::size_t row, const Group& group, CpuTraversal::Scratch& within,

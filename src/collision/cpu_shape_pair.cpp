@@ -27,20 +27,61 @@ Isometry3d relativePose(const Isometry3d& a, const Isometry3d& b)
   b_in_a.makeAffine();
   return b_in_a;
 }
+
+bool leavesMeet(const CpuTree& tree_a, const Node& a, const CpuTree& tree_b, const Node& b, const Isometry3d& b_in_a,
+                double required)
+{
+  for (std::uint32_t j = b.first; j < b.first + b.count; ++j)
+  {
+    const Triangle& t = tree_b.triangles[j];
+    const Triangle triangle_b = {b_in_a * t[0], b_in_a * t[1], b_in_a * t[2]};
+    for (std::uint32_t i = a.first; i < a.first + a.count; ++i)
+    {
+      if (trianglesWithin(tree_a.triangles[i], triangle_b, required))
+      {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Whether a component of one mesh lies inside the solid of the other, where no surfaces meet: then any point of it
+/// tells.
+bool holdsComponent(const CpuTree& outer, const CpuTree& inner, const Isometry3d& inner_in_outer,
+                    std::vector<std::uint32_t>& stack)
+{
+  const AlignedBox3d& bounds = outer.solid_bounds;
+  if (bounds.isEmpty())
+  {
+    return false;
+  }
+  const double diagonal = bounds.diagonal().norm() + kBoxMargin;
+  for (const Component& component : inner.parts.components)
+  {
+    // A side of its box is a distance of two of its points along an axis, so nothing with a longer one fits in.
+    const Vector3d point = inner_in_outer * component.point;
+    if (bounds.contains(point) && component.bounds.sizes().maxCoeff() <= diagonal && isInsideSolid(outer, point, stack))
+    {
+      return true;
+    }
+  }
+  return false;
+}
 }  // namespace
 
-AlignedBox3d CpuShapePair::boundsOf(std::uint32_t tree, const Isometry3d& pose) const
+AlignedBox3d boundsOf(const CpuTree& tree, const Isometry3d& pose)
 {
-  const Vector3d center = pose * forest_->tree(tree).center;
-  const Vector3d half = (pose.linear().cwiseAbs() * forest_->tree(tree).half).array() + kBoxMargin;
+  const Vector3d center = pose * tree.center;
+  const Vector3d half = (pose.linear().cwiseAbs() * tree.half).array() + kBoxMargin;
   return {center - half, center + half};
 }
 
 bool CpuShapePair::collide(std::uint32_t a, const Isometry3d& pose_a, std::uint32_t b, const Isometry3d& pose_b,
                            double required, Scratch& scratch) const
 {
-  const CpuForest::Tree& tree_a = forest_->tree(a);
-  const CpuForest::Tree& tree_b = forest_->tree(b);
+  const CpuTree& tree_a = forest_->tree(a);
+  const CpuTree& tree_b = forest_->tree(b);
   const Isometry3d b_in_a = relativePose(pose_a, pose_b);
   const Vector3d grown = tree_a.half.array() + (required + kBoxMargin);
   if (!BoxPairTest(b_in_a.linear()).overlap(grown, tree_b.half, b_in_a * tree_b.center - tree_a.center))
@@ -49,35 +90,36 @@ bool CpuShapePair::collide(std::uint32_t a, const Isometry3d& pose_a, std::uint3
   }
   if (tree_a.mesh && tree_b.mesh)
   {
-    return surfacesMeet(a, b, b_in_a, required, scratch) || holdsComponent(a, b, b_in_a, scratch) ||
-           holdsComponent(b, a, b_in_a.inverse(), scratch);
+    return surfacesMeet(tree_a, tree_b, b_in_a, required, scratch) ||
+           holdsComponent(tree_a, tree_b, b_in_a, scratch.nodes) ||
+           holdsComponent(tree_b, tree_a, b_in_a.inverse(), scratch.nodes);
   }
   if (!tree_a.mesh && !tree_b.mesh)
   {
-    return solidsWithin(forest_->shape(a), forest_->shape(b), b_in_a, required);
+    return solidsWithin(tree_a.shape, tree_b.shape, b_in_a, required);
   }
   // A triangle inside the primitive meets it as well; the primitive inside the mesh is left.
   const Isometry3d a_in_b = b_in_a.inverse();
-  return tree_a.mesh ? surfaceMeetsSolid(a, b, a_in_b, required, scratch) ||
-                           isInsideSolid(*forest_, a, b_in_a.translation(), scratch.nodes)
-                     : surfaceMeetsSolid(b, a, b_in_a, required, scratch) ||
-                           isInsideSolid(*forest_, b, a_in_b.translation(), scratch.nodes);
+  return tree_a.mesh ? surfaceMeetsSolid(tree_a, tree_b, a_in_b, required, scratch) ||
+                           isInsideSolid(tree_a, b_in_a.translation(), scratch.nodes)
+                     : surfaceMeetsSolid(tree_b, tree_a, b_in_a, required, scratch) ||
+                           isInsideSolid(tree_b, a_in_b.translation(), scratch.nodes);
 }
 
-bool CpuShapePair::surfaceMeetsSolid(std::uint32_t mesh, std::uint32_t solid, const Isometry3d& mesh_in_solid,
+bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, const Isometry3d& mesh_in_solid,
                                      double required, Scratch& scratch) const
 {
-  const Shape& shape = forest_->shape(solid);
+  const Shape& shape = solid.shape;
   const bool box = std::holds_alternative<Box>(shape);
   const BoxPairTest pair_test(mesh_in_solid.linear());
   const double margin = required + kBoxMargin;
-  const Vector3d grown = forest_->tree(solid).half.array() + margin;
+  const Vector3d grown = solid.half.array() + margin;
   const double near_enough = required + tolerance_ - kToleranceMargin;
 
-  scratch.nodes.assign(1, forest_->tree(mesh).root);
+  scratch.nodes.assign(1, 0);
   while (!scratch.nodes.empty())
   {
-    const Node& node = forest_->node(scratch.nodes.back());
+    const Node& node = mesh.nodes[scratch.nodes.back()];
     scratch.nodes.pop_back();
     const Vector3d half = halfOf(node);
     const Vector3d center = mesh_in_solid * centerOf(node);
@@ -107,7 +149,7 @@ bool CpuShapePair::surfaceMeetsSolid(std::uint32_t mesh, std::uint32_t solid, co
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
     {
-      const Triangle& t = forest_->triangle(i);
+      const Triangle& t = mesh.triangles[i];
       if (triangleWithinSolid({mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]}, shape, required))
       {
         return true;
@@ -124,19 +166,19 @@ bool CpuShapePair::surfaceMeetsSolid(std::uint32_t mesh, std::uint32_t solid, co
 /// to no more than the tolerance, are such: their centres are no further apart than the sum of the radii, which is half
 /// the tolerance. For a required distance v the overlap of boxes grown by v would prove less, as their corners reach as
 /// far as v times the root of 3.
-bool CpuShapePair::surfacesMeet(std::uint32_t a, std::uint32_t b, const Isometry3d& b_in_a, double required,
+bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, double required,
                                 Scratch& scratch) const
 {
   const BoxPairTest pair_test(b_in_a.linear());
   const Eigen::Array3d growth = Eigen::Array3d::Constant(required + kBoxMargin);
   const double near_enough = required + tolerance_ - kToleranceMargin;
-  scratch.node_pairs.assign(1, {forest_->tree(a).root, forest_->tree(b).root});
+  scratch.node_pairs.assign(1, {0, 0});
   while (!scratch.node_pairs.empty())
   {
     const auto [index_a, index_b] = scratch.node_pairs.back();
     scratch.node_pairs.pop_back();
-    const Node& node_a = forest_->node(index_a);
-    const Node& node_b = forest_->node(index_b);
+    const Node& node_a = a.nodes[index_a];
+    const Node& node_b = b.nodes[index_b];
     const Vector3d half_a = halfOf(node_a).array() + growth;
     const Vector3d half_b = halfOf(node_b);
     const Vector3d from_a_to_b = b_in_a * centerOf(node_b) - centerOf(node_a);
@@ -152,7 +194,7 @@ bool CpuShapePair::surfacesMeet(std::uint32_t a, std::uint32_t b, const Isometry
     const bool leaf_b = node_b.count != 0;
     if (leaf_a && leaf_b)
     {
-      if (leavesMeet(node_a, node_b, b_in_a, required))
+      if (leavesMeet(a, node_a, b, node_b, b_in_a, required))
       {
         return true;
       }
@@ -171,60 +213,20 @@ bool CpuShapePair::surfacesMeet(std::uint32_t a, std::uint32_t b, const Isometry
   return false;
 }
 
-bool CpuShapePair::leavesMeet(const Node& a, const Node& b, const Isometry3d& b_in_a, double required) const
-{
-  for (std::uint32_t j = b.first; j < b.first + b.count; ++j)
-  {
-    const Triangle& t = forest_->triangle(j);
-    const Triangle triangle_b = {b_in_a * t[0], b_in_a * t[1], b_in_a * t[2]};
-    for (std::uint32_t i = a.first; i < a.first + a.count; ++i)
-    {
-      if (trianglesWithin(forest_->triangle(i), triangle_b, required))
-      {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-/// Whether a component of one mesh lies inside the solid of the other, where no surfaces meet: then any point of it
-/// tells.
-bool CpuShapePair::holdsComponent(std::uint32_t outer, std::uint32_t inner, const Isometry3d& inner_in_outer,
-                                  Scratch& scratch) const
-{
-  const AlignedBox3d& bounds = forest_->tree(outer).solid_bounds;
-  if (bounds.isEmpty())
-  {
-    return false;
-  }
-  const double diagonal = bounds.diagonal().norm() + kBoxMargin;
-  for (const Component& component : forest_->tree(inner).components)
-  {
-    // A side of its box is a distance of two of its points along an axis, so nothing with a longer one fits in.
-    const Vector3d point = inner_in_outer * component.point;
-    if (bounds.contains(point) && component.bounds.sizes().maxCoeff() <= diagonal &&
-        isInsideSolid(*forest_, outer, point, scratch.nodes))
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-bool CpuShapePair::collide(std::uint32_t tree, const Isometry3d& pose, const PlacedHalfSpace& half_space,
+bool CpuShapePair::collide(std::uint32_t number, const Isometry3d& pose, const PlacedHalfSpace& half_space,
                            double required, Scratch& scratch) const
 {
+  const CpuTree& tree = forest_->tree(number);
   const Vector3d normal = pose.linear().transpose() * half_space.normal;  // in the shape's frame
   const double most = half_space.offset - half_space.normal.dot(pose.translation()) + required + kSlack;
-  if (!forest_->tree(tree).mesh)
+  if (!tree.mesh)
   {
-    return -reachAlong(forest_->shape(tree), -normal) <= most;
+    return -reachAlong(tree.shape, -normal) <= most;
   }
-  scratch.nodes.assign(1, forest_->tree(tree).root);
+  scratch.nodes.assign(1, 0);
   while (!scratch.nodes.empty())
   {
-    const Node& node = forest_->node(scratch.nodes.back());
+    const Node& node = tree.nodes[scratch.nodes.back()];
     scratch.nodes.pop_back();
     if (normal.dot(centerOf(node)) - normal.cwiseAbs().dot(halfOf(node)) > most + kBoxMargin)
     {
@@ -238,7 +240,7 @@ bool CpuShapePair::collide(std::uint32_t tree, const Isometry3d& pose, const Pla
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
     {
-      for (const Vector3d& vertex : forest_->triangle(i))
+      for (const Vector3d& vertex : tree.triangles[i])
       {
         if (normal.dot(vertex) <= most)
         {

@@ -47,19 +47,16 @@ class CpuShapePair
   bool collide(std::uint32_t tree, const Eigen::Isometry3d& pose, const PlacedHalfSpace& half_space, double required,
                Scratch& scratch) const;
 
-  /// The tree's root box, placed and made a little larger than rounding makes it smaller.
-  Eigen::AlignedBox3d boundsOf(std::uint32_t tree, const Eigen::Isometry3d& pose) const;
-
  private:
-  bool surfaceMeetsSolid(std::uint32_t mesh, std::uint32_t solid, const Eigen::Isometry3d& mesh_in_solid,
+  bool surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, const Eigen::Isometry3d& mesh_in_solid,
                          double required, Scratch& scratch) const;
-  bool surfacesMeet(std::uint32_t a, std::uint32_t b, const Eigen::Isometry3d& b_in_a, double required,
+  bool surfacesMeet(const CpuTree& a, const CpuTree& b, const Eigen::Isometry3d& b_in_a, double required,
                     Scratch& scratch) const;
-  bool leavesMeet(const Node& a, const Node& b, const Eigen::Isometry3d& b_in_a, double required) const;
-  bool holdsComponent(std::uint32_t outer, std::uint32_t inner, const Eigen::Isometry3d& inner_in_outer,
-                      Scratch& scratch) const;
 
   std::shared_ptr<const CpuForest> forest_;
   double tolerance_;
 };
+
+/// The tree's root box, placed and made a little larger than rounding makes it smaller.
+Eigen::AlignedBox3d boundsOf(const CpuTree& tree, const Eigen::Isometry3d& pose);
 }  // namespace gpu_planning_scene

@@ -12,8 +12,6 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr std::uint32_t kWorldLeafSize = 2;
-
 AlignedBox3d grown(const AlignedBox3d& box, double margin)
 {
   return {box.min().array() - margin, box.max().array() + margin};
@@ -25,25 +23,38 @@ CpuTraversal::BodyPair bodyPair(std::int32_t a, std::int32_t b)
 }
 }  // namespace
 
+std::vector<AlignedBox3d> worldBounds(const CollisionProblem& problem, const CpuForest& forest)
+{
+  std::vector<AlignedBox3d> bounds;
+  bounds.reserve(problem.world.size());
+  for (const Geometry& object : problem.world)
+  {
+    bounds.push_back(grown(boundsOf(forest.tree(object.tree), object.pose), object.padding));
+  }
+  return bounds;
+}
+
 CpuTraversal::CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const Forest> forest)
-  : CpuTraversal(problem, std::make_shared<const CpuForest>(*problem, std::move(forest)))
+  : problem_(std::move(problem)),
+    forest_(std::make_shared<const CpuForest>(*problem_, *forest)),
+    pair_(forest_, problem_->tolerance),
+    objects_(std::make_shared<const ObjectTree>(worldBounds(*problem_, *forest_), ObjectTree()))
 {
 }
 
-CpuTraversal::CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest)
-  : problem_(std::move(problem)), pair_(std::move(forest), problem_->tolerance)
+CpuTraversal::CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest,
+                           std::shared_ptr<const ObjectTree> objects)
+  : problem_(std::move(problem)),
+    forest_(std::move(forest)),
+    pair_(forest_, problem_->tolerance),
+    objects_(std::move(objects))
 {
-  for (const Geometry& object : problem_->world)
-  {
-    world_bounds_.push_back(grown(pair_.boundsOf(object.tree, object.pose), object.padding));
-  }
-  world_tree_ = buildBinnedSah(world_bounds_, kWorldLeafSize);
 }
 
 void CpuTraversal::findNearObjects(const AlignedBox3d& bounds, Scratch& scratch) const
 {
   scratch.near_objects.clear();
-  if (world_tree_.nodes.empty())
+  if (objects_->nodes().empty())
   {
     return;
   }
@@ -53,7 +64,7 @@ void CpuTraversal::findNearObjects(const AlignedBox3d& bounds, Scratch& scratch)
   stack.assign(1, 0u);
   while (!stack.empty())
   {
-    const Node& node = world_tree_.nodes[stack.back()];
+    const Node& node = objects_->nodes()[stack.back()];
     stack.pop_back();
     if (((centerOf(node) - center).cwiseAbs().array() > (halfOf(node) + half).array()).any())
     {
@@ -65,13 +76,10 @@ void CpuTraversal::findNearObjects(const AlignedBox3d& bounds, Scratch& scratch)
       stack.push_back(node.first + 1);
       continue;
     }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+    const std::uint32_t object = objects_->order()[node.first];
+    if (objects_->box(object).intersects(bounds))
     {
-      const std::uint32_t object = world_tree_.order[i];
-      if (world_bounds_[object].intersects(bounds))
-      {
-        scratch.near_objects.push_back(object);
-      }
+      scratch.near_objects.push_back(object);
     }
   }
 }
@@ -96,7 +104,7 @@ void CpuTraversal::place(std::uint32_t instance, const Isometry3d* link_poses, S
   {
     const Geometry& geometry = problem_->robot[instance];
     scratch.poses[instance] = link_poses[geometry.link] * geometry.pose;
-    scratch.bounds[instance] = pair_.boundsOf(geometry.tree, scratch.poses[instance]);
+    scratch.bounds[instance] = boundsOf(forest_->tree(geometry.tree), scratch.poses[instance]);
     scratch.placed[instance] = 1;
   }
 }

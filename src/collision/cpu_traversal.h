@@ -8,11 +8,11 @@
 
 #include <Eigen/Geometry>
 
-#include "binned_sah.h"
 #include "collision_problem.h"
 #include "cpu_forest.h"
 #include "cpu_shape_pair.h"
 #include "forest.h"
+#include "object_tree.h"
 
 namespace gpu_planning_scene
 {
@@ -39,8 +39,9 @@ class CpuTraversal
   /// `forest` holds a valid tree for each of the problem's trees, whoever built it.
   CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const Forest> forest);
 
-  /// The same with a forest that was made ready for a problem with the same trees.
-  CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest);
+  /// The same with what was made ready for a problem with the same trees and instances, see worldBounds.
+  CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest,
+               std::shared_ptr<const ObjectTree> objects);
 
   /// The bodies of a colliding pair, if there is one. `link_poses`: of every link, in the planning frame. Thread-safe
   /// as long as each thread has its own scratch.
@@ -61,8 +62,11 @@ class CpuTraversal
   void findNearObjects(const Eigen::AlignedBox3d& bounds, Scratch& scratch) const;
 
   std::shared_ptr<const CollisionProblem> problem_;
+  std::shared_ptr<const CpuForest> forest_;
   CpuShapePair pair_;
-  std::vector<Eigen::AlignedBox3d> world_bounds_;  // padded
-  BoxTree world_tree_;
+  std::shared_ptr<const ObjectTree> objects_;
 };
+
+/// The boxes of the world's instances, grown by their padding: what the tree over objects is made of.
+std::vector<Eigen::AlignedBox3d> worldBounds(const CollisionProblem& problem, const CpuForest& forest);
 }  // namespace gpu_planning_scene

@@ -1,19 +1,16 @@
 #include "collision/forest_cache.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "collision/binned_sah.h"
 
 namespace gpu_planning_scene
 {
-std::shared_ptr<const CpuForest> ForestCache::forestOf(const CollisionProblem& problem)
+std::unique_ptr<const CpuTraversal> ForestCache::traversalOf(std::shared_ptr<const CollisionProblem> problem)
 {
-  const std::vector<Shape>& shapes = problem.shapes;
-  if (!forest_ || !std::equal(shapes_.begin(), shapes_.end(), shapes.begin(), shapes.end(), sameShape))
-  {
-    forest_ = std::make_shared<const CpuForest>(problem, std::make_shared<const Forest>(buildBinnedSah(problem.trees)));
-    shapes_ = shapes;
-  }
-  return forest_;
+  const auto build = [](const std::vector<Tessellation>& shapes) { return buildBinnedSah(shapes); };
+  forest_ = std::make_shared<const CpuForest>(*problem, forest_ ? *forest_ : CpuForest(), build);
+  objects_ = std::make_shared<const ObjectTree>(worldBounds(*problem, *forest_), objects_ ? *objects_ : ObjectTree());
+  return std::make_unique<const CpuTraversal>(std::move(problem), forest_, objects_);
 }
 }  // namespace gpu_planning_scene

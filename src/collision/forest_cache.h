@@ -1,21 +1,23 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "collision/collision_problem.h"
 #include "collision/cpu_forest.h"
+#include "collision/cpu_traversal.h"
+#include "collision/object_tree.h"
 
 namespace gpu_planning_scene
 {
-/// The trees of the last problem, for the next one with the same shapes.
+/// Trees on the CPU, kept for the next problem: only those of new shapes are built, and the tree over objects is
+/// refitted.
 class ForestCache
 {
  public:
-  std::shared_ptr<const CpuForest> forestOf(const CollisionProblem& problem);
+  std::unique_ptr<const CpuTraversal> traversalOf(std::shared_ptr<const CollisionProblem> problem);
 
  private:
-  std::vector<Shape> shapes_;
   std::shared_ptr<const CpuForest> forest_;
+  std::shared_ptr<const ObjectTree> objects_;
 };
 }  // namespace gpu_planning_scene

@@ -46,7 +46,7 @@ CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::strin
     counts.always_colliding = firstCollision(scene, bodies, fixed);
   }
 
-  CollisionProblem problem = problemOf(scene, bodies, pairs, options_.reductions.shared_trees);
+  CollisionProblem problem = problemOf(scene, bodies, pairs, options_.reductions.shared_trees, tessellations_);
   problem.tolerance = options_.tolerance;
   problem.always_colliding = counts.always_colliding;
   problem.ranges = std::move(ranges);
@@ -65,12 +65,12 @@ std::optional<std::array<std::int32_t, 2>> ProblemMaker::firstCollision(const Pl
                                                                         const std::vector<RobotBody>& bodies,
                                                                         const CheckedPairs& fixed)
 {
-  const auto problem = std::make_shared<const CollisionProblem>(problemOf(scene, bodies, fixed, true));
+  const auto problem = std::make_shared<const CollisionProblem>(problemOf(scene, bodies, fixed, true, tessellations_));
   if (problem->robot.empty())
     return std::nullopt;
   std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());
   scene.robot->linkPoses(scene.robot->defaultState().data(), poses.data());
   CpuTraversal::Scratch scratch;
-  return CpuTraversal(problem, fixed_forest_.forestOf(*problem)).firstCollision(poses.data(), scratch);
+  return fixed_forest_.traversalOf(problem)->firstCollision(poses.data(), scratch);
 }
 }  // namespace gpu_planning_scene

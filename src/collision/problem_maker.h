@@ -29,6 +29,7 @@ class ProblemMaker
 
   CheckerOptions options_;
   PairReducer reducer_;
+  TessellationCache tessellations_;
   ForestCache fixed_forest_;
 };
 }  // namespace gpu_planning_scene

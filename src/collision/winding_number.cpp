@@ -82,15 +82,15 @@ std::optional<int> crossing(const Vector3d& start, const Vector3d& end, const Tr
 }
 
 /// The sum of the crossings of closed components; nothing if one of them is degenerate.
-std::optional<int> sumOfCrossings(const CpuForest& forest, std::uint32_t root, const Vector3d& start,
-                                  const Vector3d& end, std::vector<std::uint32_t>& stack)
+std::optional<int> sumOfCrossings(const CpuTree& tree, const Vector3d& start, const Vector3d& end,
+                                  std::vector<std::uint32_t>& stack)
 {
   const SegmentBoxTest test(start, end);
   int sum = 0;
-  stack.assign(1, root);
+  stack.assign(1, 0);
   while (!stack.empty())
   {
-    const Node& node = forest.node(stack.back());
+    const Node& node = tree.nodes[stack.back()];
     stack.pop_back();
     if (!test.overlap(centerOf(node), halfOf(node)))
     {
@@ -104,11 +104,11 @@ std::optional<int> sumOfCrossings(const CpuForest& forest, std::uint32_t root, c
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
     {
-      if (!forest.boundsSolid(i))
+      if (tree.bounds_solid[i] == 0)
       {
         continue;
       }
-      const std::optional<int> found = crossing(start, end, forest.triangle(i));
+      const std::optional<int> found = crossing(start, end, tree.triangles[i]);
       if (!found)
       {
         return {};
@@ -144,10 +144,9 @@ Vector3d pointOutside(const Eigen::AlignedBox3d& bounds, const Vector3d& point, 
 }
 }  // namespace
 
-bool isInsideSolid(const CpuForest& forest, std::uint32_t tree, const Vector3d& point,
-                   std::vector<std::uint32_t>& stack)
+bool isInsideSolid(const CpuTree& tree, const Vector3d& point, std::vector<std::uint32_t>& stack)
 {
-  const Eigen::AlignedBox3d& bounds = forest.tree(tree).solid_bounds;
+  const Eigen::AlignedBox3d& bounds = tree.solid_bounds;
   if (!bounds.contains(point))
   {
     return false;
@@ -155,8 +154,7 @@ bool isInsideSolid(const CpuForest& forest, std::uint32_t tree, const Vector3d& 
   constexpr int kMaxAttempts = 1000;
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt)
   {
-    const std::optional<int> sum =
-        sumOfCrossings(forest, forest.tree(tree).root, point, pointOutside(bounds, point, attempt), stack);
+    const std::optional<int> sum = sumOfCrossings(tree, point, pointOutside(bounds, point, attempt), stack);
     if (sum)
     {
       return *sum != 0;

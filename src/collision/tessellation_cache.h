@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "collision/shape_key.h"
+#include "gpu_planning_scene/shapes.h"
+
+namespace gpu_planning_scene
+{
+/// Tessellations that somebody still has: the next scene gets the same meshes for equal primitives, by which trees are
+/// known.
+class TessellationCache
+{
+ public:
+  Tessellation of(const Shape& shape);
+
+ private:
+  struct Entry
+  {
+    std::weak_ptr<const Mesh> mesh;
+    double sagitta = 0.0;
+  };
+
+  std::map<ShapeKey, Entry> primitives_;
+  std::size_t size_when_cleared_ = 0;
+};
+}  // namespace gpu_planning_scene
