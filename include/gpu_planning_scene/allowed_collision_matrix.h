@@ -1,8 +1,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
-#include <utility>
 
 #include "gpu_planning_scene/robot_model.h"
 
@@ -13,6 +13,8 @@ namespace gpu_planning_scene
 /// without either the pair is checked.
 class AllowedCollisionMatrix
 {
+  struct Body;
+
  public:
   /// The SRDF's matrix; without an SRDF the adjacent links are allowed.
   static AllowedCollisionMatrix fromRobot(const RobotModel& robot);
@@ -21,8 +23,27 @@ class AllowedCollisionMatrix
   void setDefault(const std::string& body, bool allowed);
   bool allowed(const std::string& body_1, const std::string& body_2) const;
 
+  /// What the matrix knows of a body: for looking at many pairs of a body without looking for its name each time.
+  /// Valid as long as the matrix and the name are there and unchanged.
+  class Row
+  {
+   public:
+    bool allowed(const Row& other) const;
+
+   private:
+    friend class AllowedCollisionMatrix;
+    const std::string* name_ = nullptr;
+    const Body* body_ = nullptr;  // null: nothing
+  };
+  Row row(const std::string& body) const;
+
  private:
-  std::map<std::pair<std::string, std::string>, bool> entries_;  // keys in ascending order
-  std::map<std::string, bool> defaults_;
+  struct Body
+  {
+    std::map<std::string, bool> entries;  // by the other body; each pair is with both
+    std::optional<bool> by_default;
+  };
+
+  std::map<std::string, Body> bodies_;
 };
 }  // namespace gpu_planning_scene

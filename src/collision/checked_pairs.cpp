@@ -59,6 +59,13 @@ CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<Robo
   const auto& links = scene.robot->links();
   report.links_without_shapes = static_cast<std::size_t>(
       std::count_if(links.begin(), links.end(), [](const Link& link) { return link.shapes.empty(); }));
+  const AllowedCollisionMatrix& matrix = scene.allowed_collisions;
+  std::vector<AllowedCollisionMatrix::Row> body_rows;
+  std::vector<AllowedCollisionMatrix::Row> object_rows;
+  for (const RobotBody& body : bodies)
+    body_rows.push_back(matrix.row(*body.name));
+  for (const WorldObject& object : scene.objects)
+    object_rows.push_back(matrix.row(object.id));
   CheckedPairs pairs;
   for (std::size_t i = 0; i < bodies.size(); ++i)
   {
@@ -69,7 +76,7 @@ CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<Robo
         ++report.touch_pairs;
         continue;
       }
-      const bool is_allowed = scene.allowed_collisions.allowed(*bodies[i].name, *bodies[j].name);
+      const bool is_allowed = body_rows[i].allowed(body_rows[j]);
       const bool is_moved = moved[bodies[i].link] || moved[bodies[j].link];
       ++(is_allowed ? report.allowed_self_pairs : is_moved ? report.self_pairs : report.unmoved_pairs);
       if (!is_allowed)
@@ -79,7 +86,7 @@ CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<Robo
     {
       if (scene.objects[k].shapes.empty())
         continue;
-      const bool is_allowed = scene.allowed_collisions.allowed(*bodies[i].name, scene.objects[k].id);
+      const bool is_allowed = body_rows[i].allowed(object_rows[k]);
       const bool is_moved = moved[bodies[i].link];
       ++(is_allowed ? report.allowed_world_pairs : is_moved ? report.world_pairs : report.unmoved_pairs);
       if (!is_allowed)

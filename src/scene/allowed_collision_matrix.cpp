@@ -2,14 +2,6 @@
 
 namespace gpu_planning_scene
 {
-namespace
-{
-std::pair<std::string, std::string> key(const std::string& body_1, const std::string& body_2)
-{
-  return body_1 < body_2 ? std::make_pair(body_1, body_2) : std::make_pair(body_2, body_1);
-}
-}  // namespace
-
 AllowedCollisionMatrix AllowedCollisionMatrix::fromRobot(const RobotModel& robot)
 {
   AllowedCollisionMatrix matrix;
@@ -41,31 +33,45 @@ AllowedCollisionMatrix AllowedCollisionMatrix::fromRobot(const RobotModel& robot
 
 void AllowedCollisionMatrix::setEntry(const std::string& body_1, const std::string& body_2, bool allowed)
 {
-  entries_[key(body_1, body_2)] = allowed;
+  bodies_[body_1].entries[body_2] = allowed;
+  bodies_[body_2].entries[body_1] = allowed;
 }
 
 void AllowedCollisionMatrix::setDefault(const std::string& body, bool allowed)
 {
-  defaults_[body] = allowed;
+  bodies_[body].by_default = allowed;
 }
 
 bool AllowedCollisionMatrix::allowed(const std::string& body_1, const std::string& body_2) const
 {
-  const auto entry = entries_.find(key(body_1, body_2));
-  if (entry != entries_.end())
+  return row(body_1).allowed(row(body_2));
+}
+
+AllowedCollisionMatrix::Row AllowedCollisionMatrix::row(const std::string& body) const
+{
+  Row row;
+  row.name_ = &body;
+  const auto known = bodies_.find(body);
+  row.body_ = known != bodies_.end() ? &known->second : nullptr;
+  return row;
+}
+
+bool AllowedCollisionMatrix::Row::allowed(const Row& other) const
+{
+  const std::optional<bool> first = body_ != nullptr ? body_->by_default : std::nullopt;
+  const std::optional<bool> second = other.body_ != nullptr ? other.body_->by_default : std::nullopt;
+  if (body_ != nullptr && other.body_ != nullptr)
   {
-    return entry->second;
+    const auto entry = body_->entries.find(*other.name_);
+    if (entry != body_->entries.end())
+    {
+      return entry->second;
+    }
   }
-  const auto default_1 = defaults_.find(body_1);
-  const auto default_2 = defaults_.find(body_2);
-  if (default_1 != defaults_.end() && default_2 != defaults_.end())
+  if (first && second)
   {
-    return default_1->second && default_2->second;
+    return *first && *second;
   }
-  if (default_1 != defaults_.end())
-  {
-    return default_1->second;
-  }
-  return default_2 != defaults_.end() && default_2->second;
+  return first ? *first : second && *second;
 }
 }  // namespace gpu_planning_scene
