@@ -1,5 +1,6 @@
 #include "real_robots.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -8,9 +9,37 @@ namespace gpu_planning_scene
 {
 namespace
 {
-const std::string kDart = std::string(GPS_DART_DATA_DIR) + "/urdf/";
-const std::string kShared = std::string(GPS_SHARED_DIR) + "/robots/";
+/// Empty: the folders that the build was told.
+std::string& chosenFolder()
+{
+  static std::string folder = []
+  {
+    const char* set = std::getenv("GPU_PLANNING_SCENE_DATA");
+    return std::string(set != nullptr ? set : "");
+  }();
+  return folder;
+}
+
+std::string chosenOr(const std::string& built_in)
+{
+  return chosenFolder().empty() ? built_in : chosenFolder();
+}
+
+std::string dartRobot(const std::string& path)
+{
+  return chosenOr(GPS_DART_DATA_DIR) + "/urdf/" + path;
+}
 }  // namespace
+
+void useDataFolder(const std::string& folder)
+{
+  chosenFolder() = folder;
+}
+
+std::string problemFolder(const std::string& set)
+{
+  return chosenOr(GPS_SHARED_DIR) + "/problems/ur5/" + set;
+}
 
 bool RealRobot::available() const
 {
@@ -32,22 +61,22 @@ std::shared_ptr<const RobotModel> RealRobot::load(std::vector<std::string>* warn
 
 RealRobot kr5()
 {
-  return {"KR5", kDart + "KR5/KR5 sixx R650.urdf", "", {}};
+  return {"KR5", dartRobot("KR5/KR5 sixx R650.urdf"), "", {}};
 }
 
 RealRobot wam()
 {
-  return {"WAM", kDart + "wam/wam.urdf", "", {{"herb_description", kDart + "wam"}}};
+  return {"WAM", dartRobot("wam/wam.urdf"), "", {{"herb_description", dartRobot("wam")}}};
 }
 
 RealRobot drchubo()
 {
-  return {"DRC-Hubo", kDart + "drchubo/drchubo.urdf", "", {{"drchubo", kDart + "drchubo"}}};
+  return {"DRC-Hubo", dartRobot("drchubo/drchubo.urdf"), "", {{"drchubo", dartRobot("drchubo")}}};
 }
 
 RealRobot ur5Robotiq()
 {
-  const std::string folder = kShared + "ur5_robotiq";
+  const std::string folder = chosenOr(GPS_SHARED_DIR) + "/robots/ur5_robotiq";
   return {"ur5_robotiq", folder + "/urdf/ur5.urdf", folder + "/srdf/ur5.srdf", {{"ur5_robotiq", folder}}};
 }
 

@@ -8,6 +8,13 @@
 
 namespace gpu_planning_scene
 {
+/// From now on the robots and problems are those of `folder`: urdf/ with the robots of Debian's dart-doc, robots/ and
+/// problems/ as in ../shared. Without it they are in $GPU_PLANNING_SCENE_DATA if set, else where the build was told.
+void useDataFolder(const std::string& folder);
+
+/// Where a set of problems of ur5_robotiq lies: scenes and motion requests.
+std::string problemFolder(const std::string& set);
+
 /// A robot that is not part of the project: Debian's dart-doc has some, ../shared another.
 struct RealRobot
 {

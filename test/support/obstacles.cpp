@@ -27,6 +27,15 @@ void addGridTriangles(std::uint32_t rows, std::uint32_t columns, bool closed, Me
     }
   }
 }
+
+WorldObject boxObject(const std::string& id, const Vector3d& center, const Vector3d& size)
+{
+  WorldObject object;
+  object.id = id;
+  object.pose.translation() = center;
+  object.shapes.push_back({Box{size}});
+  return object;
+}
 }  // namespace
 
 std::shared_ptr<const Mesh> torusMesh(double radius, double tube_radius)
@@ -65,6 +74,70 @@ std::shared_ptr<const Mesh> sheetMesh(double size)
   }
   addGridTriangles(kSteps, kSteps, false, *mesh);
   return mesh;
+}
+
+std::vector<WorldObject> boxesAround(const Vector3d& center, std::size_t count, double radius, double size)
+{
+  std::vector<WorldObject> objects;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double angle = 2.0 * M_PI * static_cast<double>(i) / static_cast<double>(count);
+    const double height =
+        0.5 * radius * std::cos(2.0 * M_PI * 3.0 * static_cast<double>(i) / static_cast<double>(count));
+    const Vector3d place = center + Vector3d(radius * std::cos(angle), radius * std::sin(angle), height);
+    objects.push_back(boxObject("box_" + std::to_string(i), place, {size, 0.7 * size, 0.5 * size}));
+    objects.back().pose.rotate(Eigen::AngleAxisd(angle, Vector3d(0.3, 0.2, 1.0).normalized()));
+  }
+  return objects;
+}
+
+std::vector<WorldObject> shelf(const Vector3d& center, const Vector3d& size, std::size_t boards)
+{
+  constexpr double kBoard = 0.02;
+  const Vector3d middle = center + Vector3d(0.0, 0.0, 0.5 * size.z());
+  std::vector<WorldObject> objects = {
+      boxObject("back", middle + Vector3d(0.5 * size.x(), 0.0, 0.0), {kBoard, size.y(), size.z()}),
+      boxObject("left", middle + Vector3d(0.0, 0.5 * size.y(), 0.0), {size.x(), kBoard, size.z()}),
+      boxObject("right", middle - Vector3d(0.0, 0.5 * size.y(), 0.0), {size.x(), kBoard, size.z()})};
+  for (std::size_t i = 1; i <= boards; ++i)
+  {
+    const double height = size.z() * static_cast<double>(i) / static_cast<double>(boards);
+    objects.push_back(
+        boxObject("board_" + std::to_string(i), center + Vector3d(0.0, 0.0, height), {size.x(), size.y(), kBoard}));
+  }
+  return objects;
+}
+
+std::vector<WorldObject> table(const Vector3d& center, const Vector3d& size)
+{
+  constexpr double kTop = 0.04;
+  constexpr double kLeg = 0.06;
+  std::vector<WorldObject> objects = {
+      boxObject("top", center - Vector3d(0.0, 0.0, 0.5 * kTop), {size.x(), size.y(), kTop}),
+      boxObject("parcel", center + Vector3d(-0.1, 0.3, 0.1), {0.2, 0.2, 0.2}),
+      boxObject("screen", center + Vector3d(0.15, 0.0, 0.25), {0.04, 0.6, 0.4})};
+  WorldObject cup;
+  cup.id = "cup";
+  cup.pose.translation() = center + Vector3d(-0.15, -0.2, 0.08);
+  cup.shapes.push_back({Cylinder{0.05, 0.15}});
+  objects.push_back(cup);
+  for (int i = 0; i < 4; ++i)
+  {
+    const Vector3d corner((i % 2 == 0 ? 0.5 : -0.5) * (size.x() - kLeg), (i < 2 ? 0.5 : -0.5) * (size.y() - kLeg),
+                          -0.5 * size.z());
+    objects.push_back(boxObject("leg_" + std::to_string(i), center + corner, {kLeg, kLeg, size.z() - 2.0 * kTop}));
+  }
+  return objects;
+}
+
+std::vector<WorldObject> corridor(const Vector3d& center, const Vector3d& size)
+{
+  constexpr double kWall = 0.1;
+  const double wall_at = 0.5 * (size.y() + kWall);
+  return {boxObject("left_wall", center + Vector3d(0.0, wall_at, 0.0), {size.x(), kWall, size.z()}),
+          boxObject("right_wall", center - Vector3d(0.0, wall_at, 0.0), {size.x(), kWall, size.z()}),
+          boxObject("lintel", center + Vector3d(0.3, 0.0, 0.5 * size.z()), {0.2, size.y(), 0.4}),
+          boxObject("post", center + Vector3d(0.55, 0.0, 0.0), {kWall, kWall, size.z()})};
 }
 
 std::vector<WorldObject> generateObstacles(const ObstacleField& field, std::uint64_t seed)

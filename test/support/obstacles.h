@@ -25,6 +25,18 @@ struct ObstacleField
 /// Obstacles of every kind of shape, closed and open meshes among them, in random poses. The same for the same seed.
 std::vector<WorldObject> generateObstacles(const ObstacleField& field, std::uint64_t seed);
 
+/// `count` boxes in a ring around `center`, turned, at different heights; their edges up to `size` long.
+std::vector<WorldObject> boxesAround(const Eigen::Vector3d& center, std::size_t count, double radius, double size);
+
+/// Boards, sides and a back, open towards -x. `center`: of its foot.
+std::vector<WorldObject> shelf(const Eigen::Vector3d& center, const Eigen::Vector3d& size, std::size_t boards);
+
+/// A top on four legs, and three things on it. `center`: of its top's surface; `size`: with the legs.
+std::vector<WorldObject> table(const Eigen::Vector3d& center, const Eigen::Vector3d& size);
+
+/// Two walls along x, a lintel across them and a post between; its inner size.
+std::vector<WorldObject> corridor(const Eigen::Vector3d& center, const Eigen::Vector3d& size);
+
 /// A torus around z: a closed mesh with a hole.
 std::shared_ptr<const Mesh> torusMesh(double radius, double tube_radius);
 

@@ -8,6 +8,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "model/real_robots.h"
+#include "support/generated_arm.h"
 #include "support/obstacles.h"
 #include "tools/acm_generator.h"
 #include "tools/srdf_writer.h"
@@ -19,16 +20,23 @@ namespace
 constexpr std::uint64_t kObstacleSeed = 1;
 
 const std::string kUr5Prefix = "ur5_";
+const std::string kArmPrefix = "arm_";
+constexpr std::size_t kArmTriangles = 10000;
+
+bool startsWith(const std::string& name, const std::string& start)
+{
+  return name.rfind(start, 0) == 0;
+}
 
 /// The folder of the problem set that a scene's name ends in.
-std::string problemFolder(const std::string& name)
+std::string problemFolderOf(const std::string& name)
 {
-  return std::string(GPS_SHARED_DIR) + "/problems/ur5/" + name.substr(kUr5Prefix.size());
+  return problemFolder(name.substr(kUr5Prefix.size()));
 }
 
 RealRobot robotOf(const std::string& name)
 {
-  if (name.rfind(kUr5Prefix, 0) == 0)
+  if (startsWith(name, kUr5Prefix))
   {
     return ur5Robotiq();
   }
@@ -36,7 +44,7 @@ RealRobot robotOf(const std::string& name)
   {
     return wam();
   }
-  return name == "drchubo" ? drchubo() : kr5();
+  return startsWith(name, "drchubo") ? drchubo() : kr5();
 }
 
 /// Random states of every variable's full range.
@@ -88,34 +96,86 @@ std::shared_ptr<const RobotModel> loadWithGeneratedSrdf(const RealRobot& robot)
   return RobotModel::fromXml(robot.urdfText(), srdf, options);
 }
 
+/// Loaded once per process: generating the matrix of DRC-Hubo takes a while.
+std::shared_ptr<const RobotModel> drchuboModel()
+{
+  static const std::shared_ptr<const RobotModel> model = loadWithGeneratedSrdf(drchubo());
+  return model;
+}
+
+TestScene loadUr5(const std::string& name)
+{
+  const std::string folder = problemFolderOf(name);
+  const auto model = ur5Robotiq().load();
+  TestScene made = inFullRanges(name, loadSceneFile(folder + "/scene0001.yaml", model, {}));
+  limitTo(goalOf(folder + "/request0001.yaml", *model), 0.7, made);
+  return made;
+}
+
+/// Legs apart, forearms level, fingers half closed: at the default pose most of the links' neighbours touch.
+std::vector<double> atWork(const RobotModel& drchubo)
+{
+  std::vector<double> state = drchubo.defaultState();
+  for (std::size_t i = 0; i < state.size(); ++i)
+    if (const std::string& name = drchubo.variables()[i].name; startsWith(name, "LF") || startsWith(name, "RF"))
+      state[i] = -0.4;
+  for (const auto& [name, value] :
+       {std::pair("LHR", 0.2), {"RHR", -0.2}, {"LSR", 0.3}, {"RSR", -0.3}, {"LEP", -1.4}, {"REP", -1.4}})
+    state.at(drchubo.variableIndex(name)) = value;
+  return state;
+}
+
+TestScene loadDrchubo(const std::string& name)
+{
+  PlanningScene scene(drchuboModel());
+  const bool at_work = name != "drchubo";
+  scene.objects = name == "drchubo_table"      ? table({0.64, 0.0, -0.36}, {0.6, 1.4, 0.6})
+                  : name == "drchubo_corridor" ? corridor({0.0, 0.0, 0.0}, {3.0, 1.1, 2.0})
+                                               : generateObstacles({12, {0.0, 0.0, 0.0}, 0.5, 0.9, 0.3}, kObstacleSeed);
+  TestScene made = inFullRanges(name, scene);
+  limitTo(at_work ? atWork(*scene.robot) : scene.robot->defaultState(), at_work ? 0.25 : 0.5, made);
+  return made;
+}
+
+/// KR5's URDF has y up, and its foot is at y = -0.5.
+std::vector<WorldObject> forKr5(std::vector<WorldObject> objects)
+{
+  Eigen::Isometry3d upright(Eigen::AngleAxisd(-M_PI / 2.0, Eigen::Vector3d::UnitX()));
+  upright.pretranslate(Eigen::Vector3d(0.0, -0.5, 0.0));
+  for (WorldObject& object : objects)
+    object.pose = upright * object.pose;
+  return objects;
+}
+
+/// In a frame with z up, the robot's foot at its origin.
+std::vector<WorldObject> furnitureOf(const std::string& name)
+{
+  const bool boxes = name == "kr5_boxes" || name == "arm_boxes";
+  return boxes ? boxesAround({0.0, 0.0, 0.5}, 8, 0.5, 0.3) : shelf({0.5, 0.0, 0.0}, {0.5, 1.4, 1.5}, 4);
+}
+
+std::vector<WorldObject> objectsOf(const std::string& name)
+{
+  const Eigen::Vector3d shoulder(0.0, 0.0, 0.6);
+  if (name == "wam")
+    return generateObstacles({12, shoulder, 0.5, 0.9, 0.3}, kObstacleSeed);
+  if (name == "kr5")
+    return generateObstacles({24, shoulder, 0.3, 0.7, 0.3}, kObstacleSeed);
+  if (name == "kr5_crowded")
+    return generateObstacles({400, shoulder, 0.6, 4.0, 0.2}, kObstacleSeed);
+  return startsWith(name, "kr5") ? forKr5(furnitureOf(name)) : furnitureOf(name);
+}
+
 TestScene load(const std::string& name)
 {
-  const RealRobot robot = robotOf(name);
-  if (name.rfind(kUr5Prefix, 0) == 0)
-  {
-    const std::string folder = problemFolder(name);
-    const auto model = robot.load();
-    TestScene made = inFullRanges(name, loadSceneFile(folder + "/scene0001.yaml", model, {}));
-    limitTo(goalOf(folder + "/request0001.yaml", *model), 0.7, made);
-    return made;
-  }
-  if (name == "drchubo")
-  {
-    PlanningScene scene(loadWithGeneratedSrdf(robot));
-    scene.objects = generateObstacles({12, {0.0, 0.0, 0.0}, 0.5, 0.9, 0.3}, kObstacleSeed);
-    TestScene made = inFullRanges(name, scene);
-    limitTo(scene.robot->defaultState(), 0.5, made);
-    return made;
-  }
-  if (name == "wam")
-  {
-    PlanningScene scene(loadWithGeneratedSrdf(robot));
-    scene.objects = generateObstacles({12, {0.0, 0.0, 0.6}, 0.5, 0.9, 0.3}, kObstacleSeed);
-    return inFullRanges(name, scene);
-  }
-  PlanningScene scene(robot.load());
-  scene.objects = name == "kr5" ? generateObstacles({24, {0.0, 0.0, 0.6}, 0.3, 0.7, 0.3}, kObstacleSeed)
-                                : generateObstacles({400, {0.0, 0.0, 0.6}, 0.6, 4.0, 0.2}, kObstacleSeed);
+  if (startsWith(name, kUr5Prefix))
+    return loadUr5(name);
+  if (startsWith(name, "drchubo"))
+    return loadDrchubo(name);
+  PlanningScene scene(startsWith(name, kArmPrefix) ? GeneratedArm(kArmTriangles).load()
+                      : name == "wam"              ? loadWithGeneratedSrdf(wam())
+                                                   : kr5().load());
+  scene.objects = objectsOf(name);
   return inFullRanges(name, scene);
 }
 }  // namespace
@@ -152,16 +212,32 @@ const std::vector<std::string>& testSceneNames()
   return names;
 }
 
+const std::vector<std::string>& benchmarkSceneNames()
+{
+  static const std::vector<std::string> names = []
+  {
+    std::vector<std::string> all = testSceneNames();
+    for (const char* name : {"kr5_boxes", "kr5_shelf", "drchubo_table", "drchubo_corridor", "arm_boxes", "arm_shelf"})
+      all.emplace_back(name);
+    return all;
+  }();
+  return names;
+}
+
 std::string missingFor(const std::string& name)
 {
+  if (startsWith(name, kArmPrefix))
+  {
+    return "";
+  }
   const RealRobot robot = robotOf(name);
   if (!robot.available())
   {
     return robot.urdf;
   }
-  if (name.rfind(kUr5Prefix, 0) == 0)
+  if (startsWith(name, kUr5Prefix) && !std::filesystem::exists(problemFolderOf(name)))
   {
-    return std::filesystem::exists(problemFolder(name)) ? "" : problemFolder(name);
+    return problemFolderOf(name);
   }
   return "";
 }

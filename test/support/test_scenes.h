@@ -26,6 +26,10 @@ struct TestScene
 /// "kr5", "kr5_crowded" (hundreds of objects), "wam", "drchubo", "ur5_SET" for the seven sets of problems.
 const std::vector<std::string>& testSceneNames();
 
+/// Those, and more: "kr5_boxes" (8 boxes), "kr5_shelf", "drchubo_table", "drchubo_corridor"; and "arm_boxes" and
+/// "arm_shelf", whose robot the project makes itself, so that they can be had anywhere.
+const std::vector<std::string>& benchmarkSceneNames();
+
 /// Which file or folder the scene needs that is not there; empty if it can be loaded.
 std::string missingFor(const std::string& name);
 

@@ -1,0 +1,156 @@
+#include "support/generated_arm.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using Eigen::Vector3d;
+
+/// A link: a tube along its z axis, and the joint that carries it, at the end of the link before.
+struct ArmLink
+{
+  double radius;
+  double length;
+  const char* axis;
+  double limit;  // radians, to both sides
+};
+
+constexpr std::array<ArmLink, 7> kLinks = {{{0.12, 0.30, "", 0.0},
+                                            {0.09, 0.12, "0 0 1", 2.9},
+                                            {0.07, 0.34, "0 1 0", 1.8},
+                                            {0.06, 0.14, "0 1 0", 2.4},
+                                            {0.05, 0.22, "0 0 1", 3.0},
+                                            {0.04, 0.10, "0 1 0", 2.0},
+                                            {0.03, 0.08, "0 0 1", 3.0}}};
+
+std::string linkName(std::size_t i)
+{
+  return "link_" + std::to_string(i);
+}
+
+void writeStl(const std::string& path, const Mesh& mesh)
+{
+  std::ofstream file(path, std::ios::binary);
+  const std::array<char, 80> header{};
+  file.write(header.data(), header.size());
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  file.write(reinterpret_cast<const char*>(&count), sizeof count);
+  for (const auto& triangle : mesh.triangles)
+  {
+    std::array<float, 12> record{};  // a normal of zeros, and the corners
+    for (int corner = 0; corner < 3; ++corner)
+      for (int axis = 0; axis < 3; ++axis)
+        record[3 + 3 * corner + axis] = static_cast<float>(mesh.vertices[triangle[corner]][axis]);
+    const std::uint16_t attribute = 0;
+    file.write(reinterpret_cast<const char*>(record.data()), sizeof record);
+    file.write(reinterpret_cast<const char*>(&attribute), sizeof attribute);
+  }
+  if (!file.flush())
+    throw Error(path + ": cannot be written; is there room in the folder for temporary files?");
+}
+
+std::string urdf()
+{
+  std::ostringstream text;
+  text << "<robot name=\"generated_arm\">\n";
+  for (std::size_t i = 0; i < kLinks.size(); ++i)
+  {
+    text << "<link name=\"" << linkName(i) << "\"><collision><geometry><mesh filename=\"" << linkName(i)
+         << ".stl\"/></geometry></collision></link>\n";
+    if (i == 0)
+      continue;
+    // Out of the end of the link before, by a little, so that neighbours' tubes overlap as those of real robots do.
+    text << "<joint name=\"joint_" << i << "\" type=\"revolute\"><parent link=\"" << linkName(i - 1)
+         << "\"/><child link=\"" << linkName(i) << "\"/><origin xyz=\"0 0 " << kLinks[i - 1].length - kLinks[i].radius
+         << "\"/><axis xyz=\"" << kLinks[i].axis << "\"/><limit lower=\"" << -kLinks[i].limit << "\" upper=\""
+         << kLinks[i].limit << "\" effort=\"1\" velocity=\"1\"/></joint>\n";
+  }
+  text << "</robot>\n";
+  return text.str();
+}
+
+/// Links that are next to each other, or next but one, overlap whatever the joints.
+std::string srdf()
+{
+  std::ostringstream text;
+  text << "<robot name=\"generated_arm\">\n";
+  for (std::size_t i = 0; i < kLinks.size(); ++i)
+    for (std::size_t k = i + 1; k < std::min(i + 3, kLinks.size()); ++k)
+      text << "<disable_collisions link1=\"" << linkName(i) << "\" link2=\"" << linkName(k)
+           << "\" reason=\"Adjacent\"/>\n";
+  text << "</robot>\n";
+  return text.str();
+}
+}  // namespace
+
+std::shared_ptr<const Mesh> bumpyTube(double radius, double length, std::size_t triangles)
+{
+  // As many columns as make its triangles about as wide as high.
+  const double ratio = 2.0 * M_PI * radius / (length + 2.0 * radius);
+  const auto columns =
+      static_cast<std::uint32_t>(std::max(6.0, std::round(std::sqrt(0.5 * static_cast<double>(triangles) * ratio))));
+  const auto rings = std::max<std::uint32_t>(2, static_cast<std::uint32_t>(triangles / (2 * columns)));
+  auto mesh = std::make_shared<Mesh>();
+  mesh->name = "tube";
+  mesh->vertices.emplace_back(0.0, 0.0, 0.0);
+  for (std::uint32_t i = 0; i < rings; ++i)
+    for (std::uint32_t k = 0; k < columns; ++k)
+    {
+      const double along = (i + 1.0) / (rings + 1.0);
+      const double angle = 2.0 * M_PI * k / columns;
+      const double rounded = std::sqrt(std::sqrt(4.0 * along * (1.0 - along)));
+      const double here = radius * rounded * (0.95 + 0.05 * std::sin(7.0 * angle) * std::sin(20.0 * along));
+      mesh->vertices.emplace_back(here * std::cos(angle), here * std::sin(angle), length * along);
+    }
+  mesh->vertices.emplace_back(0.0, 0.0, length);
+  const auto at = [&](std::uint32_t ring, std::uint32_t column) { return 1 + ring * columns + column % columns; };
+  const auto last = static_cast<std::uint32_t>(mesh->vertices.size() - 1);
+  for (std::uint32_t k = 0; k < columns; ++k)
+  {
+    mesh->triangles.push_back({0, at(0, k + 1), at(0, k)});
+    for (std::uint32_t i = 0; i + 1 < rings; ++i)
+    {
+      mesh->triangles.push_back({at(i, k), at(i, k + 1), at(i + 1, k + 1)});
+      mesh->triangles.push_back({at(i, k), at(i + 1, k + 1), at(i + 1, k)});
+    }
+    mesh->triangles.push_back({at(rings - 1, k), at(rings - 1, k + 1), last});
+  }
+  return mesh;
+}
+
+GeneratedArm::GeneratedArm(std::size_t triangles)
+{
+  std::string name = (std::filesystem::temp_directory_path() / "generated_armXXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    throw Error("no folder for the generated robot can be made in " + std::filesystem::temp_directory_path().string() +
+                "; set TMPDIR");
+  folder_ = name;
+  std::ofstream(folder_ + "/arm.urdf") << urdf();
+  std::ofstream(folder_ + "/arm.srdf") << srdf();
+  for (std::size_t i = 0; i < kLinks.size(); ++i)
+    writeStl(folder_ + "/" + linkName(i) + ".stl",
+             *bumpyTube(kLinks[i].radius, kLinks[i].length, triangles / kLinks.size()));
+}
+
+GeneratedArm::~GeneratedArm()
+{
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+std::shared_ptr<const RobotModel> GeneratedArm::load() const
+{
+  return RobotModel::fromFiles(folder_ + "/arm.urdf", folder_ + "/arm.srdf", {});
+}
+}  // namespace gpu_planning_scene
