@@ -1,15 +1,13 @@
 #include "support/fcl_peer.h"
 
 #include <algorithm>
+#include <limits>
 
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/geometry/shape/cone.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
 #include "gpu_planning_scene/error.h"
+#include "support/fcl_models.h"
 #include "support/inside.h"
 
 namespace gpu_planning_scene
@@ -19,56 +17,19 @@ namespace
 using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using FclGeometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
 constexpr double kNudge = 1e-6;  // metres
 
-FclGeometry makeBvh(const Mesh& mesh)
-{
-  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-  std::vector<fcl::Triangle> triangles;
-  for (const auto& t : mesh.triangles)
-  {
-    triangles.emplace_back(t[0], t[1], t[2]);
-  }
-  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(mesh.vertices.size()));
-  model->addSubModel(mesh.vertices, triangles);
-  model->endModel();
-  return model;
-}
-
-FclGeometry makeGeometry(const Shape& shape, const Tessellation& tessellation)
-{
-  FclGeometry geometry;
-  if (const auto* sphere = std::get_if<Sphere>(&shape))
-  {
-    geometry = std::make_shared<fcl::Sphered>(sphere->radius);
-  }
-  else if (const auto* cylinder = std::get_if<Cylinder>(&shape))
-  {
-    geometry = std::make_shared<fcl::Cylinderd>(cylinder->radius, cylinder->length);
-  }
-  else if (const auto* cone = std::get_if<Cone>(&shape))
-  {
-    geometry = std::make_shared<fcl::Coned>(cone->radius, cone->length);
-  }
-  else
-  {
-    geometry = makeBvh(*tessellation.mesh);
-  }
-  geometry->computeLocalAABB();
-  return geometry;
-}
-
 /// Better no comparison than one with another problem.
-void refuseUnsupported(const CollisionProblem& problem)
+void refuseUnsupported(const CollisionProblem& problem, FclTree tree)
 {
+  if (!problem.half_spaces.empty())
+    throw Error("the FCL peer knows no half-spaces; compare with a scene that has none");
   const auto is_padded = [](const Geometry& geometry) { return geometry.padding > 0.0; };
-  if (!problem.half_spaces.empty() || std::any_of(problem.robot.begin(), problem.robot.end(), is_padded) ||
-      std::any_of(problem.world.begin(), problem.world.end(), is_padded))
-  {
-    throw Error("the FCL peer knows neither half-spaces nor padding; compare with a scene that has none");
-  }
+  if (tree != FclTree::Obbrss && tree != FclTree::Kios &&
+      (std::any_of(problem.robot.begin(), problem.robot.end(), is_padded) ||
+       std::any_of(problem.world.begin(), problem.world.end(), is_padded)))
+    throw Error("FCL finds distances with trees of OBBRSS and kIOS only; compare with a scene without padding");
 }
 }  // namespace
 
@@ -81,9 +42,12 @@ struct FclPeer::Impl
     std::uint32_t tree;
     Isometry3d pose;
     AlignedBox3d bounds;
+    double padding;
+    std::shared_ptr<FclMovedTree> moved;  // of trees that have to be
   };
 
   std::shared_ptr<const CollisionProblem> problem;
+  FclTree volumes = FclTree::Obbrss;
   std::vector<FclGeometry> geometries;  // one per tree
   std::vector<Placed> robot;
   std::vector<Placed> world;
@@ -102,17 +66,40 @@ struct FclPeer::Impl
     pose_b.pretranslate(shift_of_b);
     const fcl::CollisionRequestd request(1, true);
     fcl::CollisionResultd result;
-    return fcl::collide(geometries[a.tree].get(), a.pose, geometries[b.tree].get(), pose_b, request, result) > 0;
+    const auto* model_a = a.moved ? a.moved->at(a.pose) : geometries[a.tree].get();
+    const auto* model_b = b.moved ? b.moved->at(pose_b) : geometries[b.tree].get();
+    return fcl::collide(model_a, a.moved ? Isometry3d::Identity() : a.pose, model_b,
+                        b.moved ? Isometry3d::Identity() : pose_b, request, result) > 0;
   }
 
-  double distance(const Placed& a, const Placed& b) const
+  /// At least `limit` if the distance is; then FCL may have stopped looking.
+  double distance(const Placed& a, const Placed& b, double limit = std::numeric_limits<double>::max()) const
   {
     const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
+    result.min_distance = limit;
     return fcl::distance(geometries[a.tree].get(), a.pose, geometries[b.tree].get(), b.pose, request, result);
   }
 
-  /// Calls visit(a, b) for the checked pairs of geometries until it returns true.
+  /// The boxes of a pair first, then the pair. `padded`: whether paddings count.
+  bool collide(const Placed& a, const Placed& b, bool padded) const
+  {
+    const double required = padded ? a.padding + b.padding : 0.0;
+    if (a.bounds.squaredExteriorDistance(b.bounds) > required * required)
+      return false;
+    if (required == 0.0)
+      return hit(a, b);
+    return distance(a, b, required * (1.0 + 1e-9)) <= required;
+  }
+
+  void makeMovedTrees()
+  {
+    for (std::vector<Placed>* all : {&robot, &world})
+      for (Placed& placed : *all)
+        placed.moved = makeFclMovedTree(problem->shapes[placed.tree], problem->trees[placed.tree], volumes);
+  }
+
+  /// Calls visit(a, b, whether the pair is padded) for the checked pairs of geometries until it returns true.
   template <class Visit>
   void visitPairs(const Visit& visit) const
   {
@@ -120,7 +107,7 @@ struct FclPeer::Impl
     {
       for (std::size_t k = 0; k < world.size(); ++k)
       {
-        if (problem->world_pairs[i * world.size() + k] != 0 && visit(robot[i], world[k]))
+        if (problem->world_pairs[i * world.size() + k] != 0 && visit(robot[i], world[k], true))
         {
           return;
         }
@@ -128,47 +115,54 @@ struct FclPeer::Impl
     }
     for (const auto& [first, second] : problem->self_pairs)
     {
-      if (visit(robot[first], robot[second]))
+      if (visit(robot[first], robot[second], false))
       {
         return;
       }
     }
   }
 
-  /// Calls visit(a, b) for the checked pairs of geometries of two bodies.
+  /// The same for the checked pairs of geometries of two bodies.
   template <class Visit>
   void visitPairsOf(const BodyPair& pair, const Visit& visit) const
   {
     visitPairs(
-        [&](const Placed& a, const Placed& b)
+        [&](const Placed& a, const Placed& b, bool padded)
         {
           if (BodyPair{a.body, b.body} == pair || BodyPair{b.body, a.body} == pair)
           {
-            visit(a, b);
+            visit(a, b, padded);
           }
           return false;
         });
   }
 };
 
-FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem) : impl_(std::make_unique<Impl>())
+FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree) : impl_(std::make_unique<Impl>())
 {
-  refuseUnsupported(*problem);
+  refuseUnsupported(*problem, tree);
   impl_->problem = std::move(problem);
+  impl_->volumes = tree;
   const CollisionProblem& p = *impl_->problem;
   for (std::size_t i = 0; i < p.trees.size(); ++i)
   {
-    impl_->geometries.push_back(makeGeometry(p.shapes[i], p.trees[i]));
+    impl_->geometries.push_back(makeFclGeometry(p.shapes[i], p.trees[i], tree));
   }
   for (const Geometry& geometry : p.robot)
   {
-    impl_->robot.push_back({geometry.body, geometry.tree, geometry.pose, {}});
+    impl_->robot.push_back({geometry.body, geometry.tree, geometry.pose, {}, geometry.padding, nullptr});
   }
   for (const Geometry& geometry : p.world)
   {
-    impl_->world.push_back(
-        {geometry.body, geometry.tree, geometry.pose, impl_->boundsOf(geometry.tree, geometry.pose)});
+    impl_->world.push_back({geometry.body, geometry.tree, geometry.pose, impl_->boundsOf(geometry.tree, geometry.pose),
+                            geometry.padding, nullptr});
   }
+  impl_->makeMovedTrees();
+}
+
+FclPeer::FclPeer(const FclPeer& other) : impl_(std::make_unique<Impl>(*other.impl_))
+{
+  impl_->makeMovedTrees();
 }
 
 FclPeer::~FclPeer() = default;
@@ -188,9 +182,9 @@ std::optional<FclPeer::BodyPair> FclPeer::firstCollision() const
 {
   std::optional<BodyPair> found;
   impl_->visitPairs(
-      [&](const Impl::Placed& a, const Impl::Placed& b)
+      [&](const Impl::Placed& a, const Impl::Placed& b, bool padded)
       {
-        if (a.bounds.intersects(b.bounds) && impl_->hit(a, b))
+        if (impl_->collide(a, b, padded))
         {
           found = BodyPair{a.body, b.body};
         }
@@ -203,9 +197,9 @@ std::vector<FclPeer::BodyPair> FclPeer::allCollisions() const
 {
   std::vector<BodyPair> found;
   impl_->visitPairs(
-      [&](const Impl::Placed& a, const Impl::Placed& b)
+      [&](const Impl::Placed& a, const Impl::Placed& b, bool padded)
       {
-        if (a.bounds.intersects(b.bounds) && impl_->hit(a, b))
+        if (impl_->collide(a, b, padded))
         {
           found.push_back({a.body, b.body});
         }
@@ -219,14 +213,15 @@ std::vector<FclPeer::BodyPair> FclPeer::allCollisions() const
 bool FclPeer::collides(const BodyPair& pair) const
 {
   bool hit = false;
-  impl_->visitPairsOf(pair, [&](const Impl::Placed& a, const Impl::Placed& b) { hit = hit || impl_->hit(a, b); });
+  impl_->visitPairsOf(pair, [&](const Impl::Placed& a, const Impl::Placed& b, bool padded)
+                      { hit = hit || impl_->collide(a, b, padded); });
   return hit;
 }
 
 bool FclPeer::freeWhenMovedApart(const BodyPair& pair) const
 {
   Vector3d between = Vector3d::UnitX();
-  impl_->visitPairsOf(pair, [&](const Impl::Placed& a, const Impl::Placed& b)
+  impl_->visitPairsOf(pair, [&](const Impl::Placed& a, const Impl::Placed& b, bool /*padded*/)
                       { between = (b.bounds.center() - a.bounds.center()).normalized(); });
   const std::array<Vector3d, 7> directions = {between,           Vector3d::UnitX(),  -Vector3d::UnitX(),
                                               Vector3d::UnitY(), -Vector3d::UnitY(), Vector3d::UnitZ(),
@@ -235,7 +230,7 @@ bool FclPeer::freeWhenMovedApart(const BodyPair& pair) const
                      [&](const Vector3d& direction)
                      {
                        bool hit = false;
-                       impl_->visitPairsOf(pair, [&](const Impl::Placed& a, const Impl::Placed& b)
+                       impl_->visitPairsOf(pair, [&](const Impl::Placed& a, const Impl::Placed& b, bool /*padded*/)
                                            { hit = hit || impl_->hit(a, b, kNudge * direction); });
                        return !hit;
                      });
@@ -244,16 +239,29 @@ bool FclPeer::freeWhenMovedApart(const BodyPair& pair) const
 bool FclPeer::within(const BodyPair& pair, double distance) const
 {
   bool found = false;
-  impl_->visitPairsOf(
-      pair, [&](const Impl::Placed& a, const Impl::Placed& b) { found = found || impl_->distance(a, b) <= distance; });
+  impl_->visitPairsOf(pair, [&](const Impl::Placed& a, const Impl::Placed& b, bool /*padded*/)
+                      { found = found || impl_->distance(a, b) <= distance; });
   return found;
+}
+
+double FclPeer::clearance(double limit) const
+{
+  impl_->visitPairs(
+      [&](const Impl::Placed& a, const Impl::Placed& b, bool padded)
+      {
+        const double required = padded ? a.padding + b.padding : 0.0;
+        if (a.bounds.exteriorDistance(b.bounds) < limit + required)
+          limit = std::min(limit, impl_->distance(a, b, limit + required) - required);
+        return false;
+      });
+  return limit;
 }
 
 bool FclPeer::oneInsideTheOther(const BodyPair& pair) const
 {
   bool found = false;
   impl_->visitPairsOf(pair,
-                      [&](const Impl::Placed& a, const Impl::Placed& b)
+                      [&](const Impl::Placed& a, const Impl::Placed& b, bool /*padded*/)
                       {
                         const auto& shapes = impl_->problem->shapes;
                         const auto& trees = impl_->problem->trees;

@@ -9,20 +9,24 @@
 #include <Eigen/Geometry>
 
 #include "collision/collision_problem.h"
+#include "support/fcl_models.h"
 
 namespace gpu_planning_scene
 {
-/// FCL 0.7 as the peer of tests and benchmarks: meshes and boxes as BVHModel<OBBRSS>, spheres, cylinders and cones as
-/// FCL's shapes, contacts on, the boxes of a pair tested first, the world before the robot itself, the end at the first
-/// contact. Not thread-safe: one per thread.
+/// FCL 0.7 as the peer of tests and benchmarks: meshes and boxes as BVHModel, spheres, cylinders and cones as FCL's
+/// shapes, contacts on, the boxes of a pair tested first, the world before the robot itself, the end at the first
+/// contact. Padded pairs by its distances, up to the padding. Not thread-safe: one per thread.
 class FclPeer
 {
  public:
   using BodyPair = std::array<std::int32_t, 2>;
 
-  /// Throws Error for a problem with half-spaces or padding.
-  explicit FclPeer(std::shared_ptr<const CollisionProblem> problem);
+  /// Throws Error for a problem with half-spaces, and for one with padding unless the tree knows distances.
+  explicit FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree = FclTree::Obbrss);
+  /// Shares what queries do not change.
+  FclPeer(const FclPeer& other);
   ~FclPeer();
+  FclPeer& operator=(const FclPeer&) = delete;
 
   /// The poses that all further calls are about: of every link, in the planning frame.
   void setState(const Eigen::Isometry3d* link_poses);
@@ -40,6 +44,9 @@ class FclPeer
 
   /// Whether the distance of a pair of bodies is at most `distance`, by FCL.
   bool within(const BodyPair& pair, double distance) const;
+
+  /// The least, over all checked pairs, of distance less padding, if it is below `limit`; else `limit`.
+  double clearance(double limit) const;
 
   /// Whether one body of a pair has a vertex in a solid of the other: in a primitive, or in a mesh by the parity of the
   /// crossings of rays.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gpu_planning_scene/error.h"
+#include "support/obstacles.h"
 
 namespace gpu_planning_scene
 {
@@ -33,6 +34,21 @@ constexpr std::array<ArmLink, 7> kLinks = {{{0.12, 0.30, "", 0.0},
                                             {0.05, 0.22, "0 0 1", 3.0},
                                             {0.04, 0.10, "0 1 0", 2.0},
                                             {0.03, 0.08, "0 0 1", 3.0}}};
+
+/// A tube with rounded ends along z from 0 to the link's length, with bumps of a tenth of its radius.
+std::shared_ptr<const Mesh> tube(const ArmLink& link, std::size_t triangles)
+{
+  // As many columns as make its triangles about as wide as high.
+  const double ratio = 2.0 * M_PI * link.radius / (link.length + 2.0 * link.radius);
+  return closedSurface("tube", triangles, ratio,
+                       [&](double along, double angle) -> Vector3d
+                       {
+                         const double rounded = std::sqrt(std::sqrt(std::max(0.0, 4.0 * along * (1.0 - along))));
+                         const double bumps = 0.95 + 0.05 * std::sin(7.0 * angle) * std::sin(20.0 * along);
+                         const double radius = link.radius * rounded * bumps;
+                         return {radius * std::cos(angle), radius * std::sin(angle), link.length * along};
+                       });
+}
 
 std::string linkName(std::size_t i)
 {
@@ -94,41 +110,6 @@ std::string srdf()
 }
 }  // namespace
 
-std::shared_ptr<const Mesh> bumpyTube(double radius, double length, std::size_t triangles)
-{
-  // As many columns as make its triangles about as wide as high.
-  const double ratio = 2.0 * M_PI * radius / (length + 2.0 * radius);
-  const auto columns =
-      static_cast<std::uint32_t>(std::max(6.0, std::round(std::sqrt(0.5 * static_cast<double>(triangles) * ratio))));
-  const auto rings = std::max<std::uint32_t>(2, static_cast<std::uint32_t>(triangles / (2 * columns)));
-  auto mesh = std::make_shared<Mesh>();
-  mesh->name = "tube";
-  mesh->vertices.emplace_back(0.0, 0.0, 0.0);
-  for (std::uint32_t i = 0; i < rings; ++i)
-    for (std::uint32_t k = 0; k < columns; ++k)
-    {
-      const double along = (i + 1.0) / (rings + 1.0);
-      const double angle = 2.0 * M_PI * k / columns;
-      const double rounded = std::sqrt(std::sqrt(4.0 * along * (1.0 - along)));
-      const double here = radius * rounded * (0.95 + 0.05 * std::sin(7.0 * angle) * std::sin(20.0 * along));
-      mesh->vertices.emplace_back(here * std::cos(angle), here * std::sin(angle), length * along);
-    }
-  mesh->vertices.emplace_back(0.0, 0.0, length);
-  const auto at = [&](std::uint32_t ring, std::uint32_t column) { return 1 + ring * columns + column % columns; };
-  const auto last = static_cast<std::uint32_t>(mesh->vertices.size() - 1);
-  for (std::uint32_t k = 0; k < columns; ++k)
-  {
-    mesh->triangles.push_back({0, at(0, k + 1), at(0, k)});
-    for (std::uint32_t i = 0; i + 1 < rings; ++i)
-    {
-      mesh->triangles.push_back({at(i, k), at(i, k + 1), at(i + 1, k + 1)});
-      mesh->triangles.push_back({at(i, k), at(i + 1, k + 1), at(i + 1, k)});
-    }
-    mesh->triangles.push_back({at(rings - 1, k), at(rings - 1, k + 1), last});
-  }
-  return mesh;
-}
-
 GeneratedArm::GeneratedArm(std::size_t triangles)
 {
   std::string name = (std::filesystem::temp_directory_path() / "generated_armXXXXXX").string();
@@ -139,8 +120,7 @@ GeneratedArm::GeneratedArm(std::size_t triangles)
   std::ofstream(folder_ + "/arm.urdf") << urdf();
   std::ofstream(folder_ + "/arm.srdf") << srdf();
   for (std::size_t i = 0; i < kLinks.size(); ++i)
-    writeStl(folder_ + "/" + linkName(i) + ".stl",
-             *bumpyTube(kLinks[i].radius, kLinks[i].length, triangles / kLinks.size()));
+    writeStl(folder_ + "/" + linkName(i) + ".stl", *tube(kLinks[i], triangles / kLinks.size()));
 }
 
 GeneratedArm::~GeneratedArm()

@@ -25,7 +25,4 @@ class GeneratedArm
  private:
   std::string folder_;
 };
-
-/// A closed mesh: a tube with rounded ends along z from 0 to `length`, with bumps of a tenth of its radius.
-std::shared_ptr<const Mesh> bumpyTube(double radius, double length, std::size_t triangles);
 }  // namespace gpu_planning_scene

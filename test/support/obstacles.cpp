@@ -1,5 +1,6 @@
 #include "support/obstacles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -37,6 +38,34 @@ WorldObject boxObject(const std::string& id, const Vector3d& center, const Vecto
   return object;
 }
 }  // namespace
+
+std::shared_ptr<const Mesh> closedSurface(const std::string& name, std::size_t triangles, double ratio,
+                                          const std::function<Vector3d(double, double)>& position)
+{
+  const double count = 0.5 * static_cast<double>(triangles);
+  const auto columns = static_cast<std::uint32_t>(std::max(6.0, std::round(std::sqrt(count * ratio))));
+  const auto rings = static_cast<std::uint32_t>(std::max(2.0, std::round(count / columns)));
+  auto mesh = std::make_shared<Mesh>();
+  mesh->name = name;
+  for (std::uint32_t i = 0; i < rings; ++i)
+    for (std::uint32_t k = 0; k < columns; ++k)
+      mesh->vertices.push_back(position((i + 1.0) / (rings + 1.0), 2.0 * M_PI * k / columns));
+  const auto first_end = static_cast<std::uint32_t>(mesh->vertices.size());
+  mesh->vertices.push_back(position(0.0, 0.0));
+  mesh->vertices.push_back(position(1.0, 0.0));
+  const auto at = [&](std::uint32_t ring, std::uint32_t column) { return ring * columns + column % columns; };
+  for (std::uint32_t k = 0; k < columns; ++k)
+  {
+    mesh->triangles.push_back({first_end, at(0, k + 1), at(0, k)});
+    for (std::uint32_t i = 0; i + 1 < rings; ++i)
+    {
+      mesh->triangles.push_back({at(i, k), at(i, k + 1), at(i + 1, k + 1)});
+      mesh->triangles.push_back({at(i, k), at(i + 1, k + 1), at(i + 1, k)});
+    }
+    mesh->triangles.push_back({at(rings - 1, k), at(rings - 1, k + 1), first_end + 1});
+  }
+  return mesh;
+}
 
 std::shared_ptr<const Mesh> torusMesh(double radius, double tube_radius)
 {

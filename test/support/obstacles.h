@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -36,6 +38,11 @@ std::vector<WorldObject> table(const Eigen::Vector3d& center, const Eigen::Vecto
 
 /// Two walls along x, a lintel across them and a post between; its inner size.
 std::vector<WorldObject> corridor(const Eigen::Vector3d& center, const Eigen::Vector3d& size);
+
+/// A closed mesh of about `triangles` triangles: rings of vertices from one end, `along` = 0, to the other, 1, where it
+/// closes to a point. `ratio`: of its girth to its length. `position(along, angle)`: in metres.
+std::shared_ptr<const Mesh> closedSurface(const std::string& name, std::size_t triangles, double ratio,
+                                          const std::function<Eigen::Vector3d(double, double)>& position);
 
 /// A torus around z: a closed mesh with a hole.
 std::shared_ptr<const Mesh> torusMesh(double radius, double tube_radius);

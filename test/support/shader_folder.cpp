@@ -8,13 +8,15 @@
 
 namespace gpu_planning_scene
 {
-ShaderFolder::ShaderFolder()
+ShaderFolder::ShaderFolder() : ShaderFolder(GPS_SOURCE_DIR "/shaders") {}
+
+ShaderFolder::ShaderFolder(const std::string& original)
 {
   std::string name = (std::filesystem::temp_directory_path() / "shadersXXXXXX").string();
   if (!mkdtemp(name.data()))
     throw std::runtime_error("no temporary folder");
   path_ = name;
-  std::filesystem::copy(GPS_SOURCE_DIR "/shaders", path_, std::filesystem::copy_options::recursive);
+  std::filesystem::copy(original, path_, std::filesystem::copy_options::recursive);
 }
 
 ShaderFolder::~ShaderFolder()

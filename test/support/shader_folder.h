@@ -6,11 +6,12 @@
 
 namespace gpu_planning_scene
 {
-/// A temporary copy of the project's shaders that a test may change; removed at the end.
+/// A temporary copy of shaders that a test or benchmark may change; removed at the end.
 class ShaderFolder
 {
  public:
-  ShaderFolder();
+  ShaderFolder();  ///< of the source tree's
+  explicit ShaderFolder(const std::string& original);
   ~ShaderFolder();
   ShaderFolder(const ShaderFolder&) = delete;
   ShaderFolder& operator=(const ShaderFolder&) = delete;

@@ -103,6 +103,12 @@ std::shared_ptr<const RobotModel> drchuboModel()
   return model;
 }
 
+const GeneratedArm& generatedArm()
+{
+  static const GeneratedArm arm(kArmTriangles);
+  return arm;
+}
+
 TestScene loadUr5(const std::string& name)
 {
   const std::string folder = problemFolderOf(name);
@@ -172,7 +178,7 @@ TestScene load(const std::string& name)
     return loadUr5(name);
   if (startsWith(name, "drchubo"))
     return loadDrchubo(name);
-  PlanningScene scene(startsWith(name, kArmPrefix) ? GeneratedArm(kArmTriangles).load()
+  PlanningScene scene(startsWith(name, kArmPrefix) ? generatedArm().load()
                       : name == "wam"              ? loadWithGeneratedSrdf(wam())
                                                    : kr5().load());
   scene.objects = objectsOf(name);
@@ -240,6 +246,20 @@ std::string missingFor(const std::string& name)
     return problemFolderOf(name);
   }
   return "";
+}
+
+std::shared_ptr<const RobotModel> loadRobotOf(const std::string& name)
+{
+  return startsWith(name, kArmPrefix) ? generatedArm().load() : robotOf(name).load();
+}
+
+TestScene withPadding(const TestScene& scene, double padding)
+{
+  TestScene padded = scene;
+  PlanningScene changed = *scene.scene;
+  changed.link_padding.assign(changed.robot->links().size(), padding);
+  padded.scene = std::make_shared<const PlanningScene>(std::move(changed));
+  return padded;
 }
 
 const TestScene& testScene(const std::string& name)

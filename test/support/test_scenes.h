@@ -33,6 +33,12 @@ const std::vector<std::string>& benchmarkSceneNames();
 /// Which file or folder the scene needs that is not there; empty if it can be loaded.
 std::string missingFor(const std::string& name);
 
+/// Reads the scene's robot once more, without the matrix that testScene() may have generated: what loading takes.
+std::shared_ptr<const RobotModel> loadRobotOf(const std::string& name);
+
+/// The same scene with all links padded (metres).
+TestScene withPadding(const TestScene& scene, double padding);
+
 /// Loads a scene, once per process.
 const TestScene& testScene(const std::string& name);
 }  // namespace gpu_planning_scene

@@ -1,0 +1,229 @@
+// benchmark: speed and accuracy of the project's methods and of its peers; see --help. Needs no ROS.
+//
+// Robots and scenes that are not part of the project are looked for in one folder, --data DIR or the environment's
+// GPU_PLANNING_SCENE_DATA, else where the build was told (GPS_DART_DATA_DIR, GPS_SHARED_DIR). In such a folder lie
+//   urdf/KR5, urdf/wam, urdf/drchubo                        as in data/ of Debian's package dart-doc
+//   robots/ur5_robotiq, problems/ur5/SET/scene0001.yaml and request0001.yaml   as in ../shared
+// Any of them may be missing: their scenes are left out, and the program says so. The scenes arm_boxes and arm_shelf
+// need nothing: the project makes their robot itself (test/support/generated_arm).
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <thread>
+
+#include "benchmark/csv_table.h"
+#include "benchmark/settings.h"
+#include "benchmark/state_kinds.h"
+#include "benchmark/statistics.h"
+#include "gpu/egl_context.h"
+#include "model/real_robots.h"
+#include "support/test_scenes.h"
+#include "tools/command_line.h"
+
+using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::benchmark;
+
+namespace
+{
+const std::vector<std::string> kParts = {"throughput", "latency", "build", "growth", "meshes"};
+const std::vector<std::string> kQuickScenes = {"kr5_boxes", "ur5_cage", "arm_boxes", "arm_shelf"};
+constexpr std::size_t kQuickSceneCount = 2;
+
+std::vector<std::string> split(const std::string& text)
+{
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word, ',');)
+    if (!word.empty())
+      words.push_back(word);
+  return words;
+}
+
+std::string join(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+/// The words of an option, each of which `known` has; all that are known where it is not given.
+std::vector<std::string> chosen(const CommandLine& arguments, const std::string& option,
+                                const std::vector<std::string>& known)
+{
+  if (!arguments.has(option))
+    return known;
+  const std::vector<std::string> words = split(arguments.required(option));
+  for (const std::string& word : words)
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw UsageError(option + ": there is no '" + word + "'; there are: " + join(known));
+  if (words.empty())
+    throw UsageError(option + ": names nothing; there are: " + join(known));
+  return words;
+}
+
+std::vector<double> numbers(const CommandLine& arguments, const std::string& option, const std::string& fallback,
+                            double least, double most)
+{
+  std::vector<double> result;
+  for (const std::string& word : split(arguments.value(option, fallback)))
+    result.push_back(CommandLine({{option, "X", ""}}, 3, std::array{"", option.c_str(), word.c_str()}.data())
+                         .number(option, 0.0, least, most));
+  return result;
+}
+
+/// Those that can be loaded. Scenes that were asked for have to be there.
+std::vector<std::string> chosenScenes(const CommandLine& arguments)
+{
+  const bool named = arguments.has("--scenes");
+  std::vector<std::string> names = chosen(arguments, "--scenes", benchmarkSceneNames());
+  if (!named && arguments.has("--quick"))
+    names = kQuickScenes;
+  std::vector<std::string> there;
+  for (const std::string& name : names)
+  {
+    const std::string missing = missingFor(name);
+    if (named && !missing.empty())
+      throw Error("scene " + name + " needs " + missing + ", which is not there; give its folder with --data");
+    if (!missing.empty())
+      std::cerr << "scene " << name << " is left out: there is no " << missing << '\n';
+    else
+      there.push_back(name);
+  }
+  if (!named && arguments.has("--quick"))
+    there.resize(std::min(there.size(), kQuickSceneCount));
+  return there;
+}
+
+std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
+{
+  const std::vector<MethodInfo> all = allMethods();
+  std::vector<std::string> names;
+  for (const MethodInfo& method : all)
+    names.push_back(method.name);
+  names = chosen(arguments, "--methods", names);
+  std::vector<MethodInfo> methods;
+  for (const MethodInfo& method : all)
+    if (std::find(names.begin(), names.end(), method.name) != names.end())
+      methods.push_back(method);
+  return methods;
+}
+
+Settings readSettings(const CommandLine& arguments)
+{
+  Settings settings;
+  settings.quick = arguments.has("--quick");
+  settings.out = arguments.value("--out", "benchmark");
+  settings.method.device = arguments.value("--device", "auto");
+  settings.method.max_batch = static_cast<std::size_t>(arguments.integer("--max-batch", 0, 0, 1LL << 24));
+  settings.states =
+      static_cast<std::size_t>(arguments.integer("--states", settings.quick ? 512 : 16384, 16, 1LL << 30));
+  settings.repeats = static_cast<std::size_t>(arguments.integer("--repeats", settings.quick ? 2 : 5, 1, 1000));
+  settings.seconds = arguments.number("--seconds", settings.quick ? 0.1 : 1.0, 0.001, 1e4);
+  settings.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
+  settings.paddings = numbers(arguments, "--padding", settings.quick ? "0" : "0,0.01", 0.0, 1.0);
+  for (const double batch : numbers(arguments, "--batches", settings.quick ? "512" : "1024,16384", 1.0, 1e8))
+    settings.batches.push_back(static_cast<std::size_t>(batch));
+  settings.kinds = chosen(arguments, "--kinds", stateKinds());
+  settings.methods = chosenMethods(arguments);
+  settings.scenes = chosenScenes(arguments);
+  return settings;
+}
+
+std::string processorName()
+{
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("model name", 0) == 0)
+      return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+/// What the numbers are of.
+void writeRun(const Settings& settings)
+{
+  CsvTable table(settings.out, "run.csv", {"what", "value"});
+  const Device device = EglContext(settings.method.device).device();
+  table.add({"device", device.renderer});
+  table.add({"opengl", device.version});
+  table.add({"processor", processorName()});
+  table.add({"cores", static_cast<std::size_t>(std::thread::hardware_concurrency())});
+  table.add({"states", settings.states});
+  table.add({"repeats", settings.repeats});
+  table.add({"seed", static_cast<std::size_t>(settings.seed)});
+  table.add({"quick", settings.quick ? "yes" : "no"});
+  std::cerr << "device: " << device.renderer << "; " << std::thread::hardware_concurrency() << " cores, "
+            << processorName() << "\nscenes: " << join(settings.scenes) << std::endl;
+}
+
+void run(const CommandLine& arguments)
+{
+  if (arguments.has("--data"))
+  {
+    if (!std::filesystem::is_directory(arguments.required("--data")))
+      throw Error("--data: there is no folder " + arguments.required("--data"));
+    useDataFolder(std::filesystem::absolute(arguments.required("--data")).lexically_normal().string());
+  }
+  const std::vector<std::string> parts = chosen(arguments, "--parts", kParts);
+  const Settings settings = readSettings(arguments);
+  std::error_code failed;
+  std::filesystem::create_directories(settings.out, failed);
+  if (failed)
+    throw Error("--out: cannot make the folder " + settings.out + ": " + failed.message());
+  writeRun(settings);
+
+  std::size_t wrong = 0;
+  for (const std::string& part : parts)
+  {
+    const double seconds = secondsOf(
+        [&]
+        {
+          if (part == "throughput")
+            wrong += measureThroughput(settings);
+          else if (part == "latency")
+            measureLatency(settings);
+          else if (part == "build")
+            measureBuilds(settings);
+          else if (part == "growth")
+            measureGrowth(settings);
+          else
+            wrong += measureMeshPairs(settings);
+        });
+    std::cerr << part << ": " << static_cast<int>(seconds) << " s" << std::endl;
+  }
+  std::cout << settings.out << '\n';
+  if (wrong > 0)
+    throw Error(std::to_string(wrong) + " wrong answers of methods that are to be exact");
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  return runTool(
+      {"benchmark",
+       "[--quick] [--out DIR] [--data DIR] [--scenes A,B] [--methods A,B] ...",
+       "Measures states per second, wrong answers and their size, latency, build and update times, memory, and\n"
+       "growth, of this project's methods and of FCL, Bullet and fitted spheres, and writes them as CSV tables.\n"
+       "scripts/charts draws them. Exit status 1 if a method that is to be exact gives a wrong answer.\n"
+       "Without the robots of Debian's dart-doc (see --data), those scenes are left out.",
+       {{"--quick", "", "all methods, two scenes, few states: under a minute"},
+        {"--out", "DIR", "folder for the tables (default benchmark)"},
+        {"--data", "DIR", "folder with urdf/KR5, urdf/drchubo, urdf/wam, robots/ur5_robotiq, problems/ur5"},
+        {"--parts", "A,B", "of " + join(kParts) + " (default all)"},
+        {"--scenes", "A,B", "of " + join(benchmarkSceneNames())},
+        {"--methods", "A,B", "see the error for a name that there is not"},
+        {"--kinds", "A,B", "of states: " + join(stateKinds())},
+        {"--padding", "X,Y", "metres (default 0,0.01; with --quick 0)"},
+        {"--batches", "N,M", "sizes of batches of the GPU's methods (default 1024,16384)"},
+        {"--max-batch", "N", "states that go to the GPU at once (default: the library's)"},
+        {"--states", "N", "of each kind (default 16384)"},
+        {"--repeats", "N", "(default 5)"},
+        {"--seconds", "S", "a method that takes longer in a repeat gets fewer states (default 1)"},
+        {"--seed", "N", "of the states (default 1)"},
+        {"--device", "D", "auto, software, an index or part of a renderer's name"}},
+       run},
+      argc, argv);
+}

@@ -1,0 +1,52 @@
+// What it takes to begin, and to follow a scene that changes: loading a robot, building, the first check, moving one
+// object; and the memory of it.
+
+#include <algorithm>
+
+#include "benchmark/csv_table.h"
+#include "benchmark/memory.h"
+#include "benchmark/settings.h"
+#include "benchmark/statistics.h"
+#include "benchmark/updates.h"
+#include "support/test_scenes.h"
+#include "tools/progress_bar.h"
+
+namespace gpu_planning_scene::benchmark
+{
+namespace
+{
+constexpr std::size_t kBatch = 16384;  // states of the check that takes the most memory
+}  // namespace
+
+void measureBuilds(const Settings& settings)
+{
+  CsvTable table(settings.out, "build.csv",
+                 {"scene", "triangles", "objects", "method", "title", "family", "load_robot_s", "build_s",
+                  "first_check_s", "next_check_s", "update_s", "peak_host_mib", "device_mib"});
+  const DeviceMemory device(settings.method.device);
+  ProgressBar progress("build", settings.scenes.size() * settings.methods.size());
+  std::size_t done = 0;
+  for (const std::string& name : settings.scenes)
+  {
+    const TestScene& scene = testScene(name);
+    const double load = secondsOf([&] { loadRobotOf(name); });
+    const std::vector<double> states = scene.randomStates(settings.quick ? 256 : kBatch, settings.seed);
+    for (const MethodInfo& info : settings.methods)
+    {
+      progress.update(done++);
+      if (!info.responsive)
+        continue;
+      forgetPeak();
+      const double device_before = device.used();
+      std::unique_ptr<Method> method;
+      const double build = secondsOf([&] { method = info.make(scene.scene, settings.method); });
+      const double first = secondsOf([&] { method->check(states.data(), 1); });
+      const double next = secondsOf([&] { method->check(states.data(), 1); });
+      method->check(states.data(), states.size() / scene.lower.size());
+      const double update = secondsOfUpdate(*method, scene, settings.quick ? 2 : 9);
+      table.add({name, scene.scene->robot->triangleCount(), scene.scene->objects.size(), info.name, info.title,
+                 info.family, load, build, first, next, update, peakHostMemory(), device.used() - device_before});
+    }
+  }
+}
+}  // namespace gpu_planning_scene::benchmark

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace gpu_planning_scene::benchmark
+{
+/// A cell of a table. Numbers that are not known are left empty.
+struct Cell
+{
+  Cell(const std::string& word);
+  Cell(const char* word);
+  Cell(double number);
+  Cell(std::size_t number);
+  std::string text;
+};
+
+/// A CSV file with a line of titles. Each row is on disk once it is added.
+class CsvTable
+{
+ public:
+  /// Throws Error if the file cannot be written.
+  CsvTable(const std::string& folder, const std::string& name, const std::vector<std::string>& columns);
+  /// As many cells as columns.
+  void add(const std::vector<Cell>& cells);
+
+ private:
+  std::string path_;
+  std::size_t columns_;
+  std::ofstream file_;
+};
+}  // namespace gpu_planning_scene::benchmark

@@ -1,0 +1,119 @@
+#include "benchmark/geometric_error.h"
+
+#include <algorithm>
+
+namespace gpu_planning_scene::benchmark
+{
+namespace
+{
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kFarthest = 1.0;   // metres
+constexpr double kNearest = 1e-12;  // metres
+constexpr int kHalvings = 12;
+
+std::shared_ptr<const CpuForest> forestOf(const CollisionProblem& problem)
+{
+  return std::make_shared<const CpuForest>(problem, std::make_shared<const Forest>(buildBinnedSah(problem.trees)));
+}
+
+/// The problem with no other pairs than those of two bodies.
+std::shared_ptr<const CollisionProblem> restrictedTo(const CollisionProblem& problem,
+                                                     const CpuTraversal::BodyPair& pair)
+{
+  const auto is_pair = [&](std::int32_t a, std::int32_t b) {
+    return CpuTraversal::BodyPair{std::min(a, b), std::max(a, b)} == pair;
+  };
+  auto restricted = std::make_shared<CollisionProblem>(problem);
+  auto& self = restricted->self_pairs;
+  self.erase(
+      std::remove_if(self.begin(), self.end(),
+                     [&](const auto& p) { return !is_pair(problem.robot[p[0]].body, problem.robot[p[1]].body); }),
+      self.end());
+  for (std::size_t i = 0; i < problem.robot.size(); ++i)
+    for (std::size_t k = 0; k < problem.world.size(); ++k)
+      if (!is_pair(problem.robot[i].body, problem.world[k].body))
+        restricted->world_pairs[i * problem.world.size() + k] = 0;
+  return restricted;
+}
+
+/// Towards the faces, edges and corners of a cube.
+std::vector<Vector3d> directions()
+{
+  std::vector<Vector3d> all;
+  for (int i = 0; i < 27; ++i)
+    if (const Vector3d direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1); !direction.isZero())
+      all.push_back(direction.normalized());
+  return all;
+}
+}  // namespace
+
+GeometricError::GeometricError(const PlanningScene& scene)
+  : robot_(scene.robot),
+    problem_(std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr))),
+    forest_(forestOf(*problem_)),
+    exact_(problem_, forest_),
+    fcl_(problem_)
+{
+}
+
+double GeometricError::clearance(const double* state)
+{
+  std::vector<Isometry3d> poses(robot_->links().size());
+  robot_->linkPoses(state, poses.data());
+  fcl_.setState(poses.data());
+  return std::max(kNearest, fcl_.clearance(kFarthest));
+}
+
+double GeometricError::depth(const double* state)
+{
+  std::vector<Isometry3d> poses(robot_->links().size());
+  robot_->linkPoses(state, poses.data());
+  double deepest = kNearest;
+  for (const auto& pair : exact_.allCollisions(poses.data(), scratch_))
+    deepest = std::max(deepest, pairDepth(pair, poses));
+  return deepest;
+}
+
+double GeometricError::pairDepth(const CpuTraversal::BodyPair& pair, const std::vector<Isometry3d>& poses)
+{
+  const auto restricted = restrictedTo(*problem_, pair);
+  const CpuTraversal exact(restricted, forest_);
+  const auto moved = std::find_if(problem_->robot.begin(), problem_->robot.end(),
+                                  [&](const Geometry& geometry) { return geometry.body == pair[0]; });
+  const auto link = static_cast<std::size_t>(
+      moved != problem_->robot.end() ? moved->link
+                                     : std::find_if(problem_->robot.begin(), problem_->robot.end(),
+                                                    [&](const Geometry& geometry) { return geometry.body == pair[1]; })
+                                           ->link);
+  const auto apart = [&](const Vector3d& shift)
+  {
+    std::vector<Isometry3d> shifted = poses;
+    shifted[link].pretranslate(shift);
+    return !exact.firstCollision(shifted.data(), scratch_).has_value();
+  };
+  double least = kFarthest;
+  for (const Vector3d& direction : directions())
+  {
+    if (!apart(least * direction))
+      continue;
+    // From below by doubling, then by halving what is left.
+    double touching = 0.0;
+    double free = kNearest;
+    while (free < least && !apart(free * direction))
+    {
+      touching = free;
+      free *= 2.0;
+    }
+    free = std::min(free, least);
+    for (int i = 0; i < kHalvings; ++i)
+    {
+      const double middle = 0.5 * (touching + free);
+      (apart(middle * direction) ? free : touching) = middle;
+    }
+    least = free;
+  }
+  return least;
+}
+}  // namespace gpu_planning_scene::benchmark

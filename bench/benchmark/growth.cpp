@@ -1,0 +1,139 @@
+// How the time of a state grows with the size of the batch, the triangles of the robot, and the objects of the world.
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmark/csv_table.h"
+#include "benchmark/settings.h"
+#include "benchmark/statistics.h"
+#include "benchmark/updates.h"
+#include "support/generated_arm.h"
+#include "support/obstacles.h"
+#include "support/test_scenes.h"
+#include "tools/progress_bar.h"
+
+namespace gpu_planning_scene::benchmark
+{
+namespace
+{
+constexpr std::size_t kStates = 4096;
+constexpr std::size_t kMostTrianglesOfPeers = 1000000;  // FCL's trees of more do not fit into small machines
+
+class Growth
+{
+ public:
+  explicit Growth(const Settings& settings)
+    : settings_(settings),
+      table_(settings.out, "growth.csv",
+             {"with", "amount", "method", "title", "family", "batch", "us_a_state", "cpu_us_a_state", "load_robot_s",
+              "build_s", "update_s"}),
+      progress_("growth", 1)
+  {
+  }
+
+  /// One scene, calls of `batch` states, for each method.
+  void measure(const std::string& with, std::size_t amount, const TestScene& scene, double load)
+  {
+    const std::size_t count = settings_.quick ? 256 : kStates;
+    for (const MethodInfo& info : settings_.methods)
+    {
+      if (!info.responsive || (with == "triangles" && amount > kMostTrianglesOfPeers && info.family == "FCL"))
+        continue;
+      std::unique_ptr<Method> method;
+      const double build = secondsOf([&] { method = info.make(scene.scene, settings_.method); });
+      time(with, amount, info, *method, scene.randomStates(count, settings_.seed), count,
+           {load, build, secondsOfUpdate(*method, scene, settings_.quick ? 2 : 9)});
+    }
+  }
+
+  void measureBatches(const TestScene& scene, std::size_t most)
+  {
+    const std::vector<double> states = scene.randomStates(most, settings_.seed);
+    for (const MethodInfo& info : settings_.methods)
+    {
+      if (!info.responsive)
+        continue;
+      const std::unique_ptr<Method> method = info.make(scene.scene, settings_.method);
+      for (std::size_t batch = 1; batch <= most; batch *= 4)
+        time("states", batch, info, *method, states, batch, {});
+    }
+  }
+
+ private:
+  struct Once
+  {
+    double load = NAN;
+    double build = NAN;
+    double update = NAN;
+  };
+
+  /// The median of calls that take a second together, of three at least.
+  void time(const std::string& with, std::size_t amount, const MethodInfo& info, Method& method,
+            const std::vector<double>& states, std::size_t batch, const Once& once)
+  {
+    method.check(states.data(), batch);
+    std::vector<double> wall;
+    std::vector<double> cpu;
+    const Stopwatch all;
+    while (wall.size() < 3 || (all.seconds() < settings_.seconds && wall.size() < 100))
+    {
+      const Stopwatch watch;
+      method.check(states.data(), batch);
+      wall.push_back(1e6 * watch.seconds() / static_cast<double>(batch));
+      cpu.push_back(1e6 * watch.cpuSeconds() / static_cast<double>(batch));
+    }
+    table_.add({with, amount, info.name, info.title, info.family, batch, median(wall), median(cpu), once.load,
+                once.build, once.update});
+    progress_.update(0);
+  }
+
+  const Settings& settings_;
+  CsvTable table_;
+  ProgressBar progress_;
+};
+
+TestScene sceneOf(const std::shared_ptr<const RobotModel>& robot, std::vector<WorldObject> objects)
+{
+  PlanningScene scene(robot);
+  scene.objects = std::move(objects);
+  TestScene made;
+  for (const Variable& variable : robot->variables())
+  {
+    made.lower.push_back(variable.lower);
+    made.upper.push_back(variable.upper);
+  }
+  made.scene = std::make_shared<const PlanningScene>(std::move(scene));
+  return made;
+}
+
+/// As many obstacles in a cubic metre whatever their number: the world grows outwards.
+std::vector<WorldObject> world(std::size_t objects)
+{
+  const double inner = 0.5;
+  const double outer = std::cbrt(inner * inner * inner + 0.16 * static_cast<double>(objects));
+  return generateObstacles({objects, {0.0, 0.0, 0.5}, inner, outer, 0.2}, 1);
+}
+}  // namespace
+
+void measureGrowth(const Settings& settings)
+{
+  Growth growth(settings);
+  growth.measureBatches(testScene(settings.scenes.front()), settings.quick ? 256 : 65536);
+  const std::vector<WorldObject> boxes = boxesAround({0.0, 0.0, 0.5}, 8, 0.5, 0.3);
+  const std::vector<std::size_t> triangles = settings.quick
+                                                 ? std::vector<std::size_t>{1000, 10000}
+                                                 : std::vector<std::size_t>{1000, 10000, 100000, 1000000, 3000000};
+  for (const std::size_t amount : triangles)
+  {
+    const GeneratedArm arm(amount);
+    std::shared_ptr<const RobotModel> robot;
+    const double load = secondsOf([&] { robot = arm.load(); });
+    growth.measure("triangles", amount, sceneOf(robot, boxes), load);
+  }
+  const std::vector<std::size_t> objects =
+      settings.quick ? std::vector<std::size_t>{1, 100} : std::vector<std::size_t>{1, 10, 100, 1000, 10000};
+  const auto robot = GeneratedArm(10000).load();
+  for (const std::size_t amount : objects)
+    growth.measure("objects", amount, sceneOf(robot, world(amount)), NAN);
+}
+}  // namespace gpu_planning_scene::benchmark

@@ -1,0 +1,49 @@
+#include "benchmark/memory.h"
+
+#include <fstream>
+#include <limits>
+
+#include <epoxy/gl.h>
+
+namespace gpu_planning_scene::benchmark
+{
+namespace
+{
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kKibInMib = 1024.0;
+}  // namespace
+
+double peakHostMemory()
+{
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (word == "VmHWM:")
+    {
+      double kib = kUnknown;
+      status >> kib;
+      return kib / kKibInMib;
+    }
+  return kUnknown;
+}
+
+void forgetPeak()
+{
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+DeviceMemory::DeviceMemory(const std::string& device)
+  : context_(std::make_unique<EglContext>(device)), known_(epoxy_has_gl_extension("GL_NVX_gpu_memory_info"))
+{
+}
+
+double DeviceMemory::used() const
+{
+  if (!known_)
+    return kUnknown;
+  GLint total = 0;
+  GLint available = 0;
+  glGetIntegerv(GL_GPU_MEMORY_INFO_TOTAL_AVAILABLE_MEMORY_NVX, &total);
+  glGetIntegerv(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, &available);
+  return (total - available) / kKibInMib;
+}
+}  // namespace gpu_planning_scene::benchmark

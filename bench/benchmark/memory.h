@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "gpu/egl_context.h"
+
+namespace gpu_planning_scene::benchmark
+{
+/// The most memory that this process held since the last call of forgetPeak(), in MiB; not a number where the system
+/// does not tell.
+double peakHostMemory();
+void forgetPeak();
+
+/// What a GPU's driver tells of its memory (GL_NVX_gpu_memory_info).
+class DeviceMemory
+{
+ public:
+  explicit DeviceMemory(const std::string& device);
+  /// Of all processes, in MiB; not a number where the driver does not tell.
+  double used() const;
+
+ private:
+  std::unique_ptr<EglContext> context_;
+  bool known_;
+};
+}  // namespace gpu_planning_scene::benchmark

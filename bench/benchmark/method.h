@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "collision/collision_problem.h"
+#include "gpu_planning_scene/planning_scene.h"
+
+namespace gpu_planning_scene::benchmark
+{
+/// Something that answers for a scene which states are free.
+class Method
+{
+ public:
+  virtual ~Method() = default;
+  /// One byte a state: 1 free, 0 in collision.
+  virtual std::vector<std::uint8_t> check(const double* states, std::size_t count) = 0;
+  /// Takes another scene of the same robot. False: it has to be built anew for that.
+  virtual bool update(const std::shared_ptr<const PlanningScene>& /*scene*/) { return false; }
+  /// States of the last check that the GPU left to the CPU.
+  virtual std::size_t undecided() const { return 0; }
+};
+
+struct MethodOptions
+{
+  std::string device = "auto";
+  std::size_t max_batch = 0;  ///< 0: the library's default
+};
+
+struct MethodInfo
+{
+  std::string name;         ///< on the command line and in tables
+  std::string title;        ///< in charts
+  std::string family;       ///< one colour in charts
+  bool exact = false;       ///< a wrong answer is an error
+  bool batched = false;     ///< its speed depends on the size of batches
+  bool paddable = true;     ///< can check padded scenes
+  bool responsive = false;  ///< measured for single states, updates and growth too
+  std::function<std::unique_ptr<Method>(const std::shared_ptr<const PlanningScene>&, const MethodOptions&)> make;
+};
+
+/// The project's own, and its peers.
+std::vector<MethodInfo> ourMethods();
+std::vector<MethodInfo> peerMethods();
+/// Both. The first is the exact checker; FCL with OBBRSS, which others are compared with, is among them.
+std::vector<MethodInfo> allMethods();
+
+constexpr const char* kReferenceMethod = "fcl_obbrss";
+
+/// A peer's view of a problem: link poses in, a verdict out. Not thread-safe.
+class Peer
+{
+ public:
+  virtual ~Peer() = default;
+  virtual bool collides(const Eigen::Isometry3d* link_poses) = 0;
+  /// Another for another thread; it may share what does not change.
+  virtual std::unique_ptr<Peer> copy() const = 0;
+};
+
+using PeerMaker = std::function<std::unique_ptr<Peer>(const std::shared_ptr<const CollisionProblem>&)>;
+
+/// The peers that can be asked about two meshes alone, with their names as in peerMethods().
+std::vector<std::pair<std::string, PeerMaker>> meshPeers();
+
+std::unique_ptr<Peer> makeBulletHulls(const std::shared_ptr<const CollisionProblem>& problem);
+/// `count`: spheres for each shape.
+std::unique_ptr<Peer> makeSpheres(const std::shared_ptr<const CollisionProblem>& problem, std::size_t count);
+}  // namespace gpu_planning_scene::benchmark

@@ -1,0 +1,134 @@
+#include "benchmark/method.h"
+#include "gpu/program.h"
+#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "support/shader_folder.h"
+
+namespace gpu_planning_scene::benchmark
+{
+namespace
+{
+class CheckerMethod : public Method
+{
+ public:
+  explicit CheckerMethod(std::unique_ptr<StateChecker> checker) : checker_(std::move(checker)) {}
+
+  std::vector<std::uint8_t> check(const double* states, std::size_t count) override
+  {
+    BatchResult result = checker_->check(states, count);
+    undecided_ = result.undecided_states;
+    return std::move(result.valid);
+  }
+  bool update(const std::shared_ptr<const PlanningScene>& scene) override
+  {
+    checker_->setScene(scene);
+    return true;
+  }
+  std::size_t undecided() const override { return undecided_; }
+
+ private:
+  std::unique_ptr<StateChecker> checker_;
+  std::size_t undecided_ = 0;
+};
+
+BatchCheckerOptions batchOptions(const MethodOptions& options)
+{
+  BatchCheckerOptions made;
+  made.device = options.device;
+  if (options.max_batch != 0)
+    made.max_batch = options.max_batch;
+  return made;
+}
+
+/// The GPU alone, with one traversal.
+MethodInfo onGpu(const std::string& name, const std::string& title, Traversal traversal)
+{
+  MethodInfo info;
+  info.name = name;
+  info.title = title;
+  info.family = "ours";
+  info.exact = true;
+  info.batched = true;
+  info.responsive = true;
+  info.make = [traversal](const auto& scene, const MethodOptions& options)
+  {
+    BatchCheckerOptions made = batchOptions(options);
+    made.traversal = traversal;
+    made.cpu_below = 0;
+    return std::make_unique<CheckerMethod>(std::make_unique<BatchChecker>(scene, made));
+  };
+  return info;
+}
+
+/// As a user gets it: the GPU or the CPU, whichever is faster. `millimetres`: the tolerance.
+MethodInfo automatic(int millimetres)
+{
+  MethodInfo info;
+  info.name = millimetres == 0 ? "ours_auto" : "ours_tolerance_" + std::to_string(millimetres) + "mm";
+  info.title = millimetres == 0 ? "ours, exact" : "ours, " + std::to_string(millimetres) + " mm";
+  info.family = millimetres == 0 ? "ours" : "ours, tolerance";
+  info.exact = millimetres == 0;
+  info.batched = millimetres == 0;
+  info.responsive = millimetres == 0;
+  info.make = [millimetres](const auto& scene, const MethodOptions& options)
+  {
+    BatchCheckerOptions made = batchOptions(options);
+    made.tolerance = 1e-3 * millimetres;
+    return std::make_unique<CheckerMethod>(std::make_unique<BatchChecker>(scene, made));
+  };
+  return info;
+}
+
+/// How a check on a GPU is commonly written: the same shaders, but a float is taken for what it says.
+class FloatsAlone : public Method
+{
+ public:
+  FloatsAlone(const std::shared_ptr<const PlanningScene>& scene, BatchCheckerOptions options) : shaders_(shaderFolder())
+  {
+    shaders_.define("UNIT_ROUNDOFF", "0.0");
+    shaders_.define("CONTRACT_BAND", "0.0");
+    shaders_.replace("verdicts.glsl", "atomicOr(flags[state], found);", "atomicOr(flags[state], found & STATE_HIT);");
+    options.shader_folder = shaders_.path();
+    options.cpu_below = 0;
+    checker_ = std::make_unique<CheckerMethod>(std::make_unique<BatchChecker>(scene, options));
+  }
+
+  std::vector<std::uint8_t> check(const double* states, std::size_t count) override
+  {
+    return checker_->check(states, count);
+  }
+  std::size_t undecided() const override { return checker_->undecided(); }
+
+ private:
+  ShaderFolder shaders_;
+  std::unique_ptr<CheckerMethod> checker_;
+};
+}  // namespace
+
+std::vector<MethodInfo> ourMethods()
+{
+  std::vector<MethodInfo> methods;
+  MethodInfo exact;
+  exact.name = "exact_cpu";
+  exact.title = "ours, exact checker (CPU)";
+  exact.family = "exact checker";
+  exact.exact = true;
+  exact.responsive = true;
+  exact.make = [](const auto& scene, const MethodOptions&)
+  { return std::make_unique<CheckerMethod>(std::make_unique<CpuChecker>(scene)); };
+  methods.push_back(exact);
+  methods.push_back(automatic(0));
+  methods.push_back(onGpu("ours_work_queue", "ours, work queues", Traversal::WorkQueue));
+  methods.push_back(onGpu("ours_breadth_first", "ours, breadth-first", Traversal::BreadthFirst));
+  for (const int millimetres : {1, 2, 5, 10, 20, 50})
+    methods.push_back(automatic(millimetres));
+  MethodInfo floats;
+  floats.name = "ours_float32";
+  floats.title = "ours, float32 only";
+  floats.family = "float32 only";
+  floats.make = [](const auto& scene, const MethodOptions& options)
+  { return std::make_unique<FloatsAlone>(scene, batchOptions(options)); };
+  methods.push_back(floats);
+  return methods;
+}
+}  // namespace gpu_planning_scene::benchmark

@@ -1,0 +1,195 @@
+// Robots made of balls, in float, against primitives by their distance: the idea of VAMP (Thomason, Kingston and
+// Kavraki, "Motions in Microseconds via Vectorized Sampling-Based Planning", 2024), one state at a time.
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmark/method.h"
+#include "benchmark/sphere_fit.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::benchmark
+{
+namespace
+{
+using Eigen::Vector3f;
+
+/// The ball around all of a shape, then those that it was fitted with.
+struct Fitted
+{
+  Ball bound;
+  std::vector<Ball> balls;
+};
+
+float outside(float along, float half)
+{
+  return std::max(0.0F, std::abs(along) - half);
+}
+
+/// The distance of a point in the shape's frame from the solid.
+struct DistanceFrom
+{
+  Vector3f p;
+
+  float operator()(const Box& box) const
+  {
+    return (p.cwiseAbs() - 0.5F * box.size.cast<float>()).cwiseMax(0.0F).norm();
+  }
+  float operator()(const Sphere& sphere) const { return std::max(0.0F, p.norm() - static_cast<float>(sphere.radius)); }
+  float operator()(const Cylinder& c) const
+  {
+    return std::hypot(std::max(0.0F, p.head<2>().norm() - static_cast<float>(c.radius)),
+                      outside(p.z(), static_cast<float>(0.5 * c.length)));
+  }
+  float operator()(const Cone& cone) const
+  {
+    // In the half-plane through the axis, seen from the apex: the side runs to (radius, -length).
+    const auto radius = static_cast<float>(cone.radius);
+    const auto length = static_cast<float>(cone.length);
+    const float away = p.head<2>().norm();
+    const float below = 0.5F * length - p.z();
+    if (below > length)
+      return std::hypot(std::max(0.0F, away - radius), below - length);
+    if (away * length <= radius * below)
+      return 0.0F;
+    const float share = (away * radius + below * length) / (radius * radius + length * length);
+    const float on_side = std::clamp(share, 0.0F, 1.0F);
+    return std::hypot(away - on_side * radius, below - on_side * length);
+  }
+  float operator()(const std::shared_ptr<const Mesh>&) const { return 0.0F; }  // meshes of the world are balls
+  float operator()(const HalfSpace&) const { return 0.0F; }                    // refused
+};
+
+bool near(const Ball& a, const Ball& b, float required)
+{
+  const float reach = a.radius + b.radius + required;
+  return (a.center - b.center).squaredNorm() <= reach * reach;
+}
+
+class Spheres : public Peer
+{
+ public:
+  Spheres(std::shared_ptr<const CollisionProblem> problem, std::size_t count) : problem_(std::move(problem))
+  {
+    if (!problem_->half_spaces.empty())
+      throw Error("the peer of spheres knows no half-spaces; compare with a scene that has none");
+    auto fitted = std::make_shared<std::vector<Fitted>>();
+    std::vector<bool> made_of_balls;
+    for (const Shape& shape : problem_->shapes)
+      made_of_balls.push_back(std::holds_alternative<std::shared_ptr<const Mesh>>(shape));
+    for (const Geometry& geometry : problem_->robot)
+      made_of_balls[geometry.tree] = true;
+    for (std::size_t i = 0; i < problem_->trees.size(); ++i)
+    {
+      const Mesh& mesh = *problem_->trees[i].mesh;
+      fitted->push_back({boundingBall(mesh), made_of_balls[i] ? fitBalls(mesh, count) : std::vector<Ball>()});
+    }
+    fitted_ = std::move(fitted);
+    for (const Geometry& geometry : problem_->robot)
+      robot_.push_back({&(*fitted_)[geometry.tree]});
+    for (const Geometry& geometry : problem_->world)
+    {
+      Obstacle obstacle{&problem_->shapes[geometry.tree], geometry.pose.inverse().cast<float>(), {}, {}};
+      const Fitted& fit = (*fitted_)[geometry.tree];
+      const Eigen::Isometry3f pose = geometry.pose.cast<float>();
+      obstacle.bound = {pose * fit.bound.center, fit.bound.radius};
+      if (std::holds_alternative<std::shared_ptr<const Mesh>>(*obstacle.shape))
+        for (const Ball& ball : fit.balls)
+          obstacle.balls.push_back({pose * ball.center, ball.radius});
+      world_.push_back(std::move(obstacle));
+    }
+  }
+
+  bool collides(const Eigen::Isometry3d* link_poses) override
+  {
+    for (std::size_t i = 0; i < robot_.size(); ++i)
+    {
+      const Geometry& geometry = problem_->robot[i];
+      robot_[i].pose = (link_poses[geometry.link] * geometry.pose).cast<float>();
+      robot_[i].bound = {robot_[i].pose * robot_[i].fit->bound.center, robot_[i].fit->bound.radius};
+      robot_[i].placed = false;
+    }
+    for (std::size_t i = 0; i < robot_.size(); ++i)
+      for (std::size_t k = 0; k < world_.size(); ++k)
+        if (problem_->world_pairs[i * world_.size() + k] != 0 && meetsWorld(i, k))
+          return true;
+    return std::any_of(problem_->self_pairs.begin(), problem_->self_pairs.end(),
+                       [&](const auto& pair) { return meet(robot_[pair[0]], robot_[pair[1]]); });
+  }
+
+  std::unique_ptr<Peer> copy() const override { return std::make_unique<Spheres>(*this); }
+
+ private:
+  struct Part
+  {
+    const Fitted* fit;
+    Eigen::Isometry3f pose = Eigen::Isometry3f::Identity();
+    Ball bound = {};
+    bool placed = false;  // whether its balls are where the state has them
+    std::vector<Ball> balls = {};
+  };
+
+  struct Obstacle
+  {
+    const Shape* shape;
+    Eigen::Isometry3f inverse;
+    Ball bound;
+    std::vector<Ball> balls;  // of a mesh
+  };
+
+  static const std::vector<Ball>& ballsOf(Part& part)
+  {
+    if (!part.placed)
+    {
+      part.balls.resize(part.fit->balls.size());
+      for (std::size_t i = 0; i < part.balls.size(); ++i)
+        part.balls[i] = {part.pose * part.fit->balls[i].center, part.fit->balls[i].radius};
+      part.placed = true;
+    }
+    return part.balls;
+  }
+
+  static bool meets(const Ball& ball, const Obstacle& obstacle, float required)
+  {
+    if (!obstacle.balls.empty())
+      return std::any_of(obstacle.balls.begin(), obstacle.balls.end(),
+                         [&](const Ball& other) { return near(ball, other, required); });
+    return std::visit(DistanceFrom{obstacle.inverse * ball.center}, *obstacle.shape) <= ball.radius + required;
+  }
+
+  bool meetsWorld(std::size_t i, std::size_t k)
+  {
+    const auto required = static_cast<float>(problem_->robot[i].padding + problem_->world[k].padding);
+    if (!near(robot_[i].bound, world_[k].bound, required) || !meets(robot_[i].bound, world_[k], required))
+      return false;
+    const std::vector<Ball>& balls = ballsOf(robot_[i]);
+    return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) { return meets(ball, world_[k], required); });
+  }
+
+  static bool meet(Part& a, Part& b)
+  {
+    if (!near(a.bound, b.bound, 0.0F))
+      return false;
+    const std::vector<Ball>& others = ballsOf(b);
+    const std::vector<Ball>& balls = ballsOf(a);
+    return std::any_of(balls.begin(), balls.end(),
+                       [&](const Ball& ball)
+                       {
+                         return near(ball, b.bound, 0.0F) &&
+                                std::any_of(others.begin(), others.end(),
+                                            [&](const Ball& other) { return near(ball, other, 0.0F); });
+                       });
+  }
+
+  std::shared_ptr<const CollisionProblem> problem_;
+  std::shared_ptr<const std::vector<Fitted>> fitted_;
+  std::vector<Part> robot_;
+  std::vector<Obstacle> world_;
+};
+}  // namespace
+
+std::unique_ptr<Peer> makeSpheres(const std::shared_ptr<const CollisionProblem>& problem, std::size_t count)
+{
+  return std::make_unique<Spheres>(problem, count);
+}
+}  // namespace gpu_planning_scene::benchmark

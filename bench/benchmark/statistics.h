@@ -1,0 +1,44 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <limits>
+#include <vector>
+
+namespace gpu_planning_scene::benchmark
+{
+/// The value that `share` of all are not above; not a number if there are none.
+inline double percentile(std::vector<double> values, double share)
+{
+  if (values.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+inline double median(const std::vector<double>& values)
+{
+  return percentile(values, 0.5);
+}
+
+/// Time since it was made: of the clock, and of all cores that this process had.
+class Stopwatch
+{
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double cpuSeconds() const { return static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC; }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_ = std::clock();
+};
+
+template <class Work>
+double secondsOf(const Work& work)
+{
+  const Stopwatch watch;
+  work();
+  return watch.seconds();
+}
+}  // namespace gpu_planning_scene::benchmark

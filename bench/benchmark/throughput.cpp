@@ -1,0 +1,218 @@
+// States per second, and wrong answers: every method on every scene. The methods take turns within a repeat, so that a
+// change of the machine's speed meets all of them; ratios are medians of the ratios within a repeat.
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <optional>
+
+#include "benchmark/csv_table.h"
+#include "benchmark/geometric_error.h"
+#include "benchmark/settings.h"
+#include "benchmark/state_kinds.h"
+#include "benchmark/statistics.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "support/test_scenes.h"
+#include "tools/progress_bar.h"
+
+namespace gpu_planning_scene::benchmark
+{
+namespace
+{
+constexpr std::size_t kTrial = 256;           // states that tell how fast a method is
+constexpr std::size_t kErrorsMeasured = 100;  // of a method's wrong answers of each kind
+
+/// A method with one batch size.
+struct Run
+{
+  const MethodInfo* info;
+  std::shared_ptr<Method> method;
+  std::size_t batch;  // 0: all at once
+  std::size_t count = 0;
+  std::size_t undecided = 0;
+  std::vector<std::uint8_t> answers = {};
+  std::vector<double> rates = {};
+  std::vector<double> cpu = {};
+};
+
+/// The states that one row of the tables is about.
+struct Batch
+{
+  const TestScene* scene;
+  std::string kind;
+  double padding;
+  std::vector<double> states;
+  std::vector<std::uint8_t> truth;
+};
+
+std::vector<Run> makeRuns(const TestScene& scene, double padding, const Settings& settings)
+{
+  std::vector<Run> runs;
+  for (const MethodInfo& info : settings.methods)
+  {
+    if (padding > 0.0 && !info.paddable)
+      continue;
+    const std::shared_ptr<Method> method = info.make(scene.scene, settings.method);
+    if (!info.batched)
+      runs.push_back({&info, method, 0});
+    else
+      for (const std::size_t batch : settings.batches)
+        runs.push_back({&info, method, batch});
+  }
+  return runs;
+}
+
+/// In pieces of the run's batch size.
+std::vector<std::uint8_t> checkAll(Run& run, const Batch& batch)
+{
+  const std::size_t width = batch.scene->lower.size();
+  const std::size_t piece = run.batch == 0 ? run.count : run.batch;
+  std::vector<std::uint8_t> answers;
+  run.undecided = 0;
+  for (std::size_t begin = 0; begin < run.count; begin += piece)
+  {
+    const auto part = run.method->check(&batch.states[begin * width], std::min(piece, run.count - begin));
+    answers.insert(answers.end(), part.begin(), part.end());
+    run.undecided += run.method->undecided();
+  }
+  return answers;
+}
+
+/// What compiles or is learned at first is not to be timed; then as many states as the time allows, and their answers.
+void warmUp(Run& run, const Batch& batch, const Settings& settings)
+{
+  const std::size_t all = batch.truth.size();
+  const std::size_t trial = std::min(kTrial, all);
+  run.method->check(batch.states.data(), std::min<std::size_t>(16, all));
+  const double seconds = secondsOf([&] { run.method->check(batch.states.data(), trial); });
+  const double affordable = settings.seconds / seconds * static_cast<double>(trial);
+  run.count = affordable >= static_cast<double>(all) ? all : std::max(trial, static_cast<std::size_t>(affordable));
+  run.rates.clear();
+  run.cpu.clear();
+  run.answers = checkAll(run, batch);
+}
+
+class Tables
+{
+ public:
+  explicit Tables(const std::string& folder)
+    : throughput_(folder, "throughput.csv",
+                  {"scene", "robot", "triangles", "objects", "kind", "padding_m", "valid_share", "method", "title",
+                   "family", "batch", "states", "repeats", "states_per_s", "states_per_s_min", "states_per_s_max",
+                   "of_fcl_obbrss", "cpu_us_a_state", "undecided_share"}),
+      accuracy_(folder, "accuracy.csv",
+                {"scene", "kind", "padding_m", "method", "title", "family", "claims_exact", "states", "wrong_free",
+                 "wrong_collision", "wrong_per_million", "measured", "largest_clearance_m", "largest_depth_m",
+                 "largest_error_m"})
+  {
+  }
+
+  void addThroughput(const Batch& batch, const Run& run, const Run* reference)
+  {
+    const PlanningScene& scene = *batch.scene->scene;
+    std::vector<double> ratios;
+    for (std::size_t i = 0; reference != nullptr && i < run.rates.size(); ++i)
+      ratios.push_back(run.rates[i] / reference->rates[i]);
+    const auto valid = static_cast<double>(std::count(batch.truth.begin(), batch.truth.end(), 1));
+    const auto [least, most] = std::minmax_element(run.rates.begin(), run.rates.end());
+    throughput_.add({batch.scene->name, scene.robot->name(), scene.robot->triangleCount(), scene.objects.size(),
+                     batch.kind, batch.padding, valid / static_cast<double>(batch.truth.size()), run.info->name,
+                     run.info->title, run.info->family, run.batch == 0 ? run.count : run.batch, run.count,
+                     run.rates.size(), median(run.rates), *least, *most, median(ratios), median(run.cpu),
+                     static_cast<double>(run.undecided) / static_cast<double>(run.count)});
+  }
+
+  /// Returns how many answers are wrong.
+  std::size_t addAccuracy(const Batch& batch, const Run& run, GeometricError& error)
+  {
+    std::vector<std::size_t> wrong_free;
+    std::vector<std::size_t> wrong_collision;
+    for (std::size_t i = 0; i < run.count; ++i)
+      if (run.answers[i] != batch.truth[i])
+        (run.answers[i] != 0 ? wrong_free : wrong_collision).push_back(i);
+    std::size_t measured = 0;
+    const auto largest = [&](const std::vector<std::size_t>& wrong, const auto& size)
+    {
+      double most = 0.0;
+      const std::size_t step = wrong.size() / kErrorsMeasured + 1;
+      for (std::size_t i = 0; i < wrong.size(); i += step, ++measured)
+        most = std::max(most, size(&batch.states[wrong[i] * batch.scene->lower.size()]));
+      return most;
+    };
+    const double clearance = largest(wrong_collision, [&](const double* state) { return error.clearance(state); });
+    const double depth = largest(wrong_free, [&](const double* state) { return error.depth(state); });
+    const std::size_t wrong = wrong_free.size() + wrong_collision.size();
+    accuracy_.add({batch.scene->name, batch.kind, batch.padding, run.info->name, run.info->title, run.info->family,
+                   run.info->exact ? "yes" : "no", run.count, wrong_free.size(), wrong_collision.size(),
+                   1e6 * static_cast<double>(wrong) / static_cast<double>(run.count), measured, clearance, depth,
+                   std::max(clearance, depth)});
+    return wrong;
+  }
+
+ private:
+  CsvTable throughput_;
+  CsvTable accuracy_;
+};
+
+/// Returns the wrong answers of methods that claim to be exact.
+std::size_t measureBatch(const Batch& batch, std::vector<Run>& runs, GeometricError& error, const Settings& settings,
+                         Tables& tables)
+{
+  const std::string label = batch.scene->name + ", " + batch.kind + (batch.padding > 0.0 ? ", padded" : "");
+  ProgressBar progress(label, runs.size() * (settings.repeats + 2));
+  std::size_t done = 0;
+  for (Run& run : runs)
+  {
+    progress.update(done++);
+    warmUp(run, batch, settings);
+  }
+  for (std::size_t repeat = 0; repeat < settings.repeats; ++repeat)
+    for (Run& run : runs)
+    {
+      progress.update(done++);
+      const Stopwatch watch;
+      checkAll(run, batch);
+      run.rates.push_back(static_cast<double>(run.count) / watch.seconds());
+      run.cpu.push_back(1e6 * watch.cpuSeconds() / static_cast<double>(run.count));
+    }
+  const auto reference =
+      std::find_if(runs.begin(), runs.end(), [](const Run& run) { return run.info->name == kReferenceMethod; });
+  std::size_t wrong = 0;
+  for (const Run& run : runs)
+  {
+    progress.update(done++);
+    tables.addThroughput(batch, run, reference == runs.end() ? nullptr : &*reference);
+    const std::size_t of_this = tables.addAccuracy(batch, run, error);
+    if (run.info->exact && of_this > 0)
+    {
+      wrong += of_this;
+      std::cerr << label << ": " << run.info->title << " in batches of " << run.batch << " gives " << of_this
+                << " wrong answers\n";
+    }
+  }
+  return wrong;
+}
+}  // namespace
+
+std::size_t measureThroughput(const Settings& settings)
+{
+  Tables tables(settings.out);
+  std::size_t wrong = 0;
+  for (const std::string& name : settings.scenes)
+    for (const double padding : settings.paddings)
+    {
+      const TestScene scene = padding > 0.0 ? withPadding(testScene(name), padding) : testScene(name);
+      GeometricError error(*scene.scene);
+      CpuChecker exact(scene.scene);
+      std::vector<Run> runs = makeRuns(scene, padding, settings);
+      for (const std::string& kind : settings.kinds)
+      {
+        Batch batch{&scene, kind, padding, makeStates(scene, kind, settings.states, settings.seed), {}};
+        batch.truth = exact.check(batch.states.data(), settings.states).valid;
+        wrong += measureBatch(batch, runs, error, settings, tables);
+      }
+      std::cerr << name << (padding > 0.0 ? ", padded" : "") << ": measured" << std::endl;
+    }
+  return wrong;
+}
+}  // namespace gpu_planning_scene::benchmark
