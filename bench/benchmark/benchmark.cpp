@@ -28,7 +28,7 @@ using namespace gpu_planning_scene::benchmark;
 
 namespace
 {
-const std::vector<std::string> kParts = {"throughput", "latency", "build", "growth", "meshes"};
+const std::vector<std::string> kParts = {"build", "latency", "throughput", "growth", "meshes"};
 const std::vector<std::string> kQuickScenes = {"kr5_boxes", "ur5_cage", "arm_boxes", "arm_shelf"};
 constexpr std::size_t kQuickSceneCount = 2;
 
@@ -120,12 +120,12 @@ Settings readSettings(const CommandLine& arguments)
   settings.method.device = arguments.value("--device", "auto");
   settings.method.max_batch = static_cast<std::size_t>(arguments.integer("--max-batch", 0, 0, 1LL << 24));
   settings.states =
-      static_cast<std::size_t>(arguments.integer("--states", settings.quick ? 512 : 16384, 16, 1LL << 30));
+      static_cast<std::size_t>(arguments.integer("--states", settings.quick ? 256 : 16384, 16, 1LL << 30));
   settings.repeats = static_cast<std::size_t>(arguments.integer("--repeats", settings.quick ? 2 : 5, 1, 1000));
-  settings.seconds = arguments.number("--seconds", settings.quick ? 0.1 : 1.0, 0.001, 1e4);
+  settings.seconds = arguments.number("--seconds", settings.quick ? 0.03 : 1.0, 0.001, 1e4);
   settings.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
   settings.paddings = numbers(arguments, "--padding", settings.quick ? "0" : "0,0.01", 0.0, 1.0);
-  for (const double batch : numbers(arguments, "--batches", settings.quick ? "512" : "1024,16384", 1.0, 1e8))
+  for (const double batch : numbers(arguments, "--batches", settings.quick ? "256" : "1024,16384", 1.0, 1e8))
     settings.batches.push_back(static_cast<std::size_t>(batch));
   settings.kinds = chosen(arguments, "--kinds", stateKinds());
   settings.methods = chosenMethods(arguments);

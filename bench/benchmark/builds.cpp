@@ -36,7 +36,7 @@ void measureBuilds(const Settings& settings)
       progress.update(done++);
       if (!info.responsive)
         continue;
-      forgetPeak();
+      const HostMemory host;
       const double device_before = device.used();
       std::unique_ptr<Method> method;
       const double build = secondsOf([&] { method = info.make(scene.scene, settings.method); });
@@ -45,7 +45,7 @@ void measureBuilds(const Settings& settings)
       method->check(states.data(), states.size() / scene.lower.size());
       const double update = secondsOfUpdate(*method, scene, settings.quick ? 2 : 9);
       table.add({name, scene.scene->robot->triangleCount(), scene.scene->objects.size(), info.name, info.title,
-                 info.family, load, build, first, next, update, peakHostMemory(), device.used() - device_before});
+                 info.family, load, build, first, next, update, host.peak(), device.used() - device_before});
     }
   }
 }

@@ -1,15 +1,13 @@
 // Bullet as robots' planners use it: each mesh replaced by its convex hull, GJK on pairs whose boxes meet. Hollows are
 // filled by that, so it calls free states colliding; that is the point of showing it.
 
-#include <algorithm>
-
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
 #include <LinearMath/btConvexHullComputer.h>
 #include <btBulletCollisionCommon.h>
 
-#include "benchmark/method.h"
+#include "benchmark/pairwise_peer.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::benchmark
@@ -66,10 +64,10 @@ struct MakeShape
   }
 };
 
-class BulletHulls : public Peer
+class BulletHulls : public PairwisePeer
 {
  public:
-  explicit BulletHulls(const std::shared_ptr<const CollisionProblem>& problem) : problem_(problem)
+  explicit BulletHulls(const std::shared_ptr<const CollisionProblem>& problem) : PairwisePeer(problem)
   {
     for (const Shape& shape : problem->shapes)
     {
@@ -78,24 +76,8 @@ class BulletHulls : public Peer
       if (shapes_.back()->getShapeType() != SPHERE_SHAPE_PROXYTYPE)
         shapes_.back()->setMargin(0);
     }
-    if (!problem->half_spaces.empty())
-      throw Error("the Bullet peer knows no half-spaces; compare with a scene that has none");
     for (const Geometry& geometry : problem->world)
-      world_.push_back(place(geometry, geometry.pose));
-  }
-
-  bool collides(const Eigen::Isometry3d* link_poses) override
-  {
-    robot_.clear();
-    for (const Geometry& geometry : problem_->robot)
-      robot_.push_back(place(geometry, link_poses[geometry.link] * geometry.pose));
-    for (std::size_t i = 0; i < robot_.size(); ++i)
-      for (std::size_t k = 0; k < world_.size(); ++k)
-        if (problem_->world_pairs[i * world_.size() + k] != 0 &&
-            meet(robot_[i], world_[k], robot_[i].padding + world_[k].padding))
-          return true;
-    return std::any_of(problem_->self_pairs.begin(), problem_->self_pairs.end(),
-                       [&](const auto& pair) { return meet(robot_[pair[0]], robot_[pair[1]], 0); });
+      world_.push_back(placed(geometry, geometry.pose));
   }
 
   std::unique_ptr<Peer> copy() const override { return std::make_unique<BulletHulls>(*this); }
@@ -107,14 +89,25 @@ class BulletHulls : public Peer
     btTransform pose;
     btVector3 lower;
     btVector3 upper;
-    btScalar padding;
   };
 
-  Placed place(const Geometry& geometry, const Eigen::Isometry3d& pose) const
+  void place(const Eigen::Isometry3d* link_poses) override
   {
-    Placed placed{shapes_[geometry.tree].get(), toBullet(pose), {}, {}, static_cast<btScalar>(geometry.padding)};
-    placed.shape->getAabb(placed.pose, placed.lower, placed.upper);
-    return placed;
+    robot_.clear();
+    for (const Geometry& geometry : problem().robot)
+      robot_.push_back(placed(geometry, link_poses[geometry.link] * geometry.pose));
+  }
+  bool meetsWorld(std::size_t robot, std::size_t world, double required) override
+  {
+    return meet(robot_[robot], world_[world], static_cast<btScalar>(required));
+  }
+  bool meetsSelf(std::size_t first, std::size_t second) override { return meet(robot_[first], robot_[second], 0); }
+
+  Placed placed(const Geometry& geometry, const Eigen::Isometry3d& pose) const
+  {
+    Placed result{shapes_[geometry.tree].get(), toBullet(pose), {}, {}};
+    result.shape->getAabb(result.pose, result.lower, result.upper);
+    return result;
   }
 
   static bool meet(const Placed& a, const Placed& b, btScalar required)
@@ -136,14 +129,13 @@ class BulletHulls : public Peer
     return found.m_hasResult && found.m_distance <= required;
   }
 
-  std::shared_ptr<const CollisionProblem> problem_;
   std::vector<std::shared_ptr<btConvexShape>> shapes_;
   std::vector<Placed> robot_;
   std::vector<Placed> world_;
 };
 }  // namespace
 
-std::unique_ptr<Peer> makeBulletHulls(const std::shared_ptr<const CollisionProblem>& problem)
+std::unique_ptr<PairwisePeer> makeBulletHulls(const std::shared_ptr<const CollisionProblem>& problem)
 {
   return std::make_unique<BulletHulls>(problem);
 }

@@ -11,6 +11,7 @@ using Eigen::Vector3d;
 
 constexpr double kFarthest = 1.0;   // metres
 constexpr double kNearest = 1e-12;  // metres
+constexpr double kContract = 1e-9;  // metres: how far off the contract allows answers to be
 constexpr int kHalvings = 12;
 
 std::shared_ptr<const CpuForest> forestOf(const CollisionProblem& problem)
@@ -47,6 +48,67 @@ std::vector<Vector3d> directions()
       all.push_back(direction.normalized());
   return all;
 }
+
+/// A colliding pair, of which one body is moved away.
+class Separation
+{
+ public:
+  Separation(const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
+             const CpuTraversal::BodyPair& pair, const std::vector<Isometry3d>& poses)
+    : exact_(restrictedTo(problem, pair), forest), poses_(poses), shifted_(poses), link_(linkOf(problem, pair))
+  {
+  }
+
+  bool apart(const Vector3d& shift)
+  {
+    shifted_[link_] = poses_[link_];
+    shifted_[link_].pretranslate(shift);
+    return !exact_.firstCollision(shifted_.data(), scratch_).has_value();
+  }
+
+ private:
+  /// Of the pair's bodies one at least is the robot's, or is carried.
+  static std::size_t linkOf(const CollisionProblem& problem, const CpuTraversal::BodyPair& pair)
+  {
+    const auto moved =
+        std::find_if(problem.robot.begin(), problem.robot.end(),
+                     [&](const Geometry& geometry) { return geometry.body == pair[0] || geometry.body == pair[1]; });
+    return static_cast<std::size_t>(moved->link);
+  }
+
+  CpuTraversal exact_;
+  CpuTraversal::Scratch scratch_;
+  const std::vector<Isometry3d>& poses_;
+  std::vector<Isometry3d> shifted_;
+  std::size_t link_;
+};
+
+/// The least way along one of the directions.
+double depthOf(Separation& pair)
+{
+  double least = kFarthest;
+  for (const Vector3d& direction : directions())
+  {
+    if (!pair.apart(least * direction))
+      continue;
+    // From below by doubling, then by halving what is left.
+    double touching = 0.0;
+    double free = kNearest;
+    while (free < least && !pair.apart(free * direction))
+    {
+      touching = free;
+      free *= 2.0;
+    }
+    free = std::min(free, least);
+    for (int i = 0; i < kHalvings; ++i)
+    {
+      const double middle = 0.5 * (touching + free);
+      (pair.apart(middle * direction) ? free : touching) = middle;
+    }
+    least = free;
+  }
+  return least;
+}
 }  // namespace
 
 GeometricError::GeometricError(const PlanningScene& scene)
@@ -58,62 +120,47 @@ GeometricError::GeometricError(const PlanningScene& scene)
 {
 }
 
-double GeometricError::clearance(const double* state)
+std::vector<Isometry3d> GeometricError::posesOf(const double* state) const
 {
   std::vector<Isometry3d> poses(robot_->links().size());
   robot_->linkPoses(state, poses.data());
-  fcl_.setState(poses.data());
+  return poses;
+}
+
+bool GeometricError::isOpen(const double* state, bool valid)
+{
+  const std::vector<Isometry3d> poses = posesOf(state);
+  if (valid)
+  {
+    fcl_.setState(poses.data());
+    return fcl_.clearance(2.0 * kContract) <= kContract;
+  }
+  for (const auto& pair : exact_.allCollisions(poses.data(), scratch_))
+  {
+    Separation separation(*problem_, forest_, pair, poses);
+    const std::vector<Vector3d> all = directions();
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const Vector3d& direction) { return separation.apart(kContract * direction); }))
+      return false;
+  }
+  return true;
+}
+
+double GeometricError::clearance(const double* state)
+{
+  fcl_.setState(posesOf(state).data());
   return std::max(kNearest, fcl_.clearance(kFarthest));
 }
 
 double GeometricError::depth(const double* state)
 {
-  std::vector<Isometry3d> poses(robot_->links().size());
-  robot_->linkPoses(state, poses.data());
+  const std::vector<Isometry3d> poses = posesOf(state);
   double deepest = kNearest;
   for (const auto& pair : exact_.allCollisions(poses.data(), scratch_))
-    deepest = std::max(deepest, pairDepth(pair, poses));
-  return deepest;
-}
-
-double GeometricError::pairDepth(const CpuTraversal::BodyPair& pair, const std::vector<Isometry3d>& poses)
-{
-  const auto restricted = restrictedTo(*problem_, pair);
-  const CpuTraversal exact(restricted, forest_);
-  const auto moved = std::find_if(problem_->robot.begin(), problem_->robot.end(),
-                                  [&](const Geometry& geometry) { return geometry.body == pair[0]; });
-  const auto link = static_cast<std::size_t>(
-      moved != problem_->robot.end() ? moved->link
-                                     : std::find_if(problem_->robot.begin(), problem_->robot.end(),
-                                                    [&](const Geometry& geometry) { return geometry.body == pair[1]; })
-                                           ->link);
-  const auto apart = [&](const Vector3d& shift)
   {
-    std::vector<Isometry3d> shifted = poses;
-    shifted[link].pretranslate(shift);
-    return !exact.firstCollision(shifted.data(), scratch_).has_value();
-  };
-  double least = kFarthest;
-  for (const Vector3d& direction : directions())
-  {
-    if (!apart(least * direction))
-      continue;
-    // From below by doubling, then by halving what is left.
-    double touching = 0.0;
-    double free = kNearest;
-    while (free < least && !apart(free * direction))
-    {
-      touching = free;
-      free *= 2.0;
-    }
-    free = std::min(free, least);
-    for (int i = 0; i < kHalvings; ++i)
-    {
-      const double middle = 0.5 * (touching + free);
-      (apart(middle * direction) ? free : touching) = middle;
-    }
-    least = free;
+    Separation separation(*problem_, forest_, pair, poses);
+    deepest = std::max(deepest, depthOf(separation));
   }
-  return least;
+  return deepest;
 }
 }  // namespace gpu_planning_scene::benchmark

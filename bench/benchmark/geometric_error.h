@@ -15,6 +15,10 @@ class GeometricError
  public:
   explicit GeometricError(const PlanningScene& scene);
 
+  /// Whether a state is so near to contact that the contract leaves its answer open: free with a distance of at most
+  /// 1e-9 m above the required one, or colliding by about as little.
+  bool isOpen(const double* state, bool valid);
+
   /// Of a free state that was called colliding: the least distance of a checked pair, less its required distance, by
   /// FCL; at most 1 m.
   double clearance(const double* state);
@@ -24,7 +28,7 @@ class GeometricError
   double depth(const double* state);
 
  private:
-  double pairDepth(const CpuTraversal::BodyPair& pair, const std::vector<Eigen::Isometry3d>& poses);
+  std::vector<Eigen::Isometry3d> posesOf(const double* state) const;
 
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;

@@ -3,6 +3,8 @@
 #include <fstream>
 #include <limits>
 
+#include <malloc.h>
+
 #include <epoxy/gl.h>
 
 namespace gpu_planning_scene::benchmark
@@ -11,13 +13,13 @@ namespace
 {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kKibInMib = 1024.0;
-}  // namespace
 
-double peakHostMemory()
+/// A line of /proc/self/status, in MiB.
+double statusOf(const std::string& name)
 {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;)
-    if (word == "VmHWM:")
+    if (word == name + ":")
     {
       double kib = kUnknown;
       status >> kib;
@@ -25,10 +27,18 @@ double peakHostMemory()
     }
   return kUnknown;
 }
+}  // namespace
 
-void forgetPeak()
+HostMemory::HostMemory()
 {
-  std::ofstream("/proc/self/clear_refs") << "5";
+  malloc_trim(0);                                 // what was freed before is not to hide what comes
+  std::ofstream("/proc/self/clear_refs") << "5";  // the peak so far is forgotten
+  at_first_ = statusOf("VmRSS");
+}
+
+double HostMemory::peak() const
+{
+  return statusOf("VmHWM") - at_first_;
 }
 
 DeviceMemory::DeviceMemory(const std::string& device)

@@ -7,10 +7,17 @@
 
 namespace gpu_planning_scene::benchmark
 {
-/// The most memory that this process held since the last call of forgetPeak(), in MiB; not a number where the system
-/// does not tell.
-double peakHostMemory();
-void forgetPeak();
+/// How much memory this process came to hold, at its peak, beyond what it held at first; in MiB.
+class HostMemory
+{
+ public:
+  HostMemory();
+  /// Not a number where the system does not tell.
+  double peak() const;
+
+ private:
+  double at_first_;
+};
 
 /// What a GPU's driver tells of its memory (GL_NVX_gpu_memory_info).
 class DeviceMemory

@@ -65,8 +65,4 @@ using PeerMaker = std::function<std::unique_ptr<Peer>(const std::shared_ptr<cons
 
 /// The peers that can be asked about two meshes alone, with their names as in peerMethods().
 std::vector<std::pair<std::string, PeerMaker>> meshPeers();
-
-std::unique_ptr<Peer> makeBulletHulls(const std::shared_ptr<const CollisionProblem>& problem);
-/// `count`: spheres for each shape.
-std::unique_ptr<Peer> makeSpheres(const std::shared_ptr<const CollisionProblem>& problem, std::size_t count);
 }  // namespace gpu_planning_scene::benchmark

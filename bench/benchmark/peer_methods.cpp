@@ -1,7 +1,7 @@
 #include <atomic>
 #include <thread>
 
-#include "benchmark/method.h"
+#include "benchmark/pairwise_peer.h"
 #include "support/fcl_peer.h"
 
 namespace gpu_planning_scene::benchmark
@@ -13,9 +13,9 @@ namespace
 class OnAllCores : public Method
 {
  public:
-  OnAllCores(const PlanningScene& scene, const PeerMaker& make) : robot_(scene.robot)
+  OnAllCores(std::shared_ptr<const RobotModel> robot, std::unique_ptr<Peer> peer) : robot_(std::move(robot))
   {
-    peers_.push_back(make(std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr))));
+    peers_.push_back(std::move(peer));
     for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i)
       peers_.push_back(peers_.front()->copy());
   }
@@ -82,15 +82,28 @@ PeerMaker fclMaker(FclTree tree)
   return [tree](const auto& problem) { return std::make_unique<Fcl>(problem, tree); };
 }
 
+using RobotPeerMaker =
+    std::function<std::unique_ptr<Peer>(const std::shared_ptr<const CollisionProblem>&, const RobotModel&)>;
+
 MethodInfo peerMethod(const std::string& name, const std::string& title, const std::string& family,
-                      const PeerMaker& make)
+                      const RobotPeerMaker& make)
 {
   MethodInfo info;
   info.name = name;
   info.title = title;
   info.family = family;
-  info.make = [make](const auto& scene, const MethodOptions&) { return std::make_unique<OnAllCores>(*scene, make); };
+  info.make = [make](const auto& scene, const MethodOptions&)
+  {
+    const auto problem = std::make_shared<const CollisionProblem>(makeProblem(*scene, "", nullptr));
+    return std::make_unique<OnAllCores>(scene->robot, make(problem, *scene->robot));
+  };
   return info;
+}
+
+std::unique_ptr<Peer> fitted(std::unique_ptr<PairwisePeer> peer, const RobotModel& robot)
+{
+  peer->leaveOutWhatAlwaysCollides(robot);
+  return peer;
 }
 }  // namespace
 
@@ -107,14 +120,19 @@ std::vector<MethodInfo> peerMethods()
   std::vector<MethodInfo> methods;
   for (const FclKind& kind : kFclKinds)
   {
-    methods.push_back(peerMethod(kind.name, kind.title, "FCL", fclMaker(kind.tree)));
+    methods.push_back(peerMethod(kind.name, kind.title, "FCL",
+                                 [make = fclMaker(kind.tree)](const auto& problem, const RobotModel&)
+                                 { return make(problem); }));
     methods.back().paddable = kind.paddable;
     methods.back().responsive = kind.tree == FclTree::Obbrss;
   }
-  methods.push_back(peerMethod("bullet_hulls", "Bullet, hulls", "Bullet", makeBulletHulls));
+  methods.push_back(peerMethod("bullet_hulls", "Bullet, hulls", "Bullet",
+                               [](const auto& problem, const RobotModel& robot)
+                               { return fitted(makeBulletHulls(problem), robot); }));
   for (const std::size_t count : {4, 16, 64})
-    methods.push_back(peerMethod("spheres_" + std::to_string(count), std::to_string(count) + " spheres a link",
-                                 "spheres", [count](const auto& problem) { return makeSpheres(problem, count); }));
+    methods.push_back(peerMethod(
+        "spheres_" + std::to_string(count), std::to_string(count) + " spheres a link", "spheres",
+        [count](const auto& problem, const RobotModel& robot) { return fitted(makeSpheres(problem, count), robot); }));
   return methods;
 }
 

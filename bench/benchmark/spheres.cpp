@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/method.h"
+#include "benchmark/pairwise_peer.h"
 #include "benchmark/sphere_fit.h"
-#include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::benchmark
 {
@@ -66,30 +65,28 @@ bool near(const Ball& a, const Ball& b, float required)
   return (a.center - b.center).squaredNorm() <= reach * reach;
 }
 
-class Spheres : public Peer
+class Spheres : public PairwisePeer
 {
  public:
-  Spheres(std::shared_ptr<const CollisionProblem> problem, std::size_t count) : problem_(std::move(problem))
+  Spheres(const std::shared_ptr<const CollisionProblem>& problem, std::size_t count) : PairwisePeer(problem)
   {
-    if (!problem_->half_spaces.empty())
-      throw Error("the peer of spheres knows no half-spaces; compare with a scene that has none");
     auto fitted = std::make_shared<std::vector<Fitted>>();
     std::vector<bool> made_of_balls;
-    for (const Shape& shape : problem_->shapes)
+    for (const Shape& shape : problem->shapes)
       made_of_balls.push_back(std::holds_alternative<std::shared_ptr<const Mesh>>(shape));
-    for (const Geometry& geometry : problem_->robot)
+    for (const Geometry& geometry : problem->robot)
       made_of_balls[geometry.tree] = true;
-    for (std::size_t i = 0; i < problem_->trees.size(); ++i)
+    for (std::size_t i = 0; i < problem->trees.size(); ++i)
     {
-      const Mesh& mesh = *problem_->trees[i].mesh;
+      const Mesh& mesh = *problem->trees[i].mesh;
       fitted->push_back({boundingBall(mesh), made_of_balls[i] ? fitBalls(mesh, count) : std::vector<Ball>()});
     }
     fitted_ = std::move(fitted);
-    for (const Geometry& geometry : problem_->robot)
+    for (const Geometry& geometry : problem->robot)
       robot_.push_back({&(*fitted_)[geometry.tree]});
-    for (const Geometry& geometry : problem_->world)
+    for (const Geometry& geometry : problem->world)
     {
-      Obstacle obstacle{&problem_->shapes[geometry.tree], geometry.pose.inverse().cast<float>(), {}, {}};
+      Obstacle obstacle{&problem->shapes[geometry.tree], geometry.pose.inverse().cast<float>(), {}, {}};
       const Fitted& fit = (*fitted_)[geometry.tree];
       const Eigen::Isometry3f pose = geometry.pose.cast<float>();
       obstacle.bound = {pose * fit.bound.center, fit.bound.radius};
@@ -98,23 +95,6 @@ class Spheres : public Peer
           obstacle.balls.push_back({pose * ball.center, ball.radius});
       world_.push_back(std::move(obstacle));
     }
-  }
-
-  bool collides(const Eigen::Isometry3d* link_poses) override
-  {
-    for (std::size_t i = 0; i < robot_.size(); ++i)
-    {
-      const Geometry& geometry = problem_->robot[i];
-      robot_[i].pose = (link_poses[geometry.link] * geometry.pose).cast<float>();
-      robot_[i].bound = {robot_[i].pose * robot_[i].fit->bound.center, robot_[i].fit->bound.radius};
-      robot_[i].placed = false;
-    }
-    for (std::size_t i = 0; i < robot_.size(); ++i)
-      for (std::size_t k = 0; k < world_.size(); ++k)
-        if (problem_->world_pairs[i * world_.size() + k] != 0 && meetsWorld(i, k))
-          return true;
-    return std::any_of(problem_->self_pairs.begin(), problem_->self_pairs.end(),
-                       [&](const auto& pair) { return meet(robot_[pair[0]], robot_[pair[1]]); });
   }
 
   std::unique_ptr<Peer> copy() const override { return std::make_unique<Spheres>(*this); }
@@ -131,11 +111,22 @@ class Spheres : public Peer
 
   struct Obstacle
   {
-    const Shape* shape;
+    const Shape* shape;  // of the problem
     Eigen::Isometry3f inverse;
     Ball bound;
     std::vector<Ball> balls;  // of a mesh
   };
+
+  void place(const Eigen::Isometry3d* link_poses) override
+  {
+    for (std::size_t i = 0; i < robot_.size(); ++i)
+    {
+      const Geometry& geometry = problem().robot[i];
+      robot_[i].pose = (link_poses[geometry.link] * geometry.pose).cast<float>();
+      robot_[i].bound = {robot_[i].pose * robot_[i].fit->bound.center, robot_[i].fit->bound.radius};
+      robot_[i].placed = false;
+    }
+  }
 
   static const std::vector<Ball>& ballsOf(Part& part)
   {
@@ -157,17 +148,21 @@ class Spheres : public Peer
     return std::visit(DistanceFrom{obstacle.inverse * ball.center}, *obstacle.shape) <= ball.radius + required;
   }
 
-  bool meetsWorld(std::size_t i, std::size_t k)
+  bool meetsWorld(std::size_t robot, std::size_t world, double padding) override
   {
-    const auto required = static_cast<float>(problem_->robot[i].padding + problem_->world[k].padding);
-    if (!near(robot_[i].bound, world_[k].bound, required) || !meets(robot_[i].bound, world_[k], required))
+    Part& part = robot_[robot];
+    const Obstacle& obstacle = world_[world];
+    const auto required = static_cast<float>(padding);
+    if (!near(part.bound, obstacle.bound, required) || !meets(part.bound, obstacle, required))
       return false;
-    const std::vector<Ball>& balls = ballsOf(robot_[i]);
-    return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) { return meets(ball, world_[k], required); });
+    const std::vector<Ball>& balls = ballsOf(part);
+    return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) { return meets(ball, obstacle, required); });
   }
 
-  static bool meet(Part& a, Part& b)
+  bool meetsSelf(std::size_t first, std::size_t second) override
   {
+    Part& a = robot_[first];
+    Part& b = robot_[second];
     if (!near(a.bound, b.bound, 0.0F))
       return false;
     const std::vector<Ball>& others = ballsOf(b);
@@ -181,14 +176,13 @@ class Spheres : public Peer
                        });
   }
 
-  std::shared_ptr<const CollisionProblem> problem_;
   std::shared_ptr<const std::vector<Fitted>> fitted_;
   std::vector<Part> robot_;
   std::vector<Obstacle> world_;
 };
 }  // namespace
 
-std::unique_ptr<Peer> makeSpheres(const std::shared_ptr<const CollisionProblem>& problem, std::size_t count)
+std::unique_ptr<PairwisePeer> makeSpheres(const std::shared_ptr<const CollisionProblem>& problem, std::size_t count)
 {
   return std::make_unique<Spheres>(problem, count);
 }

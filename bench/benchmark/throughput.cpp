@@ -11,6 +11,7 @@
 #include "benchmark/settings.h"
 #include "benchmark/state_kinds.h"
 #include "benchmark/statistics.h"
+#include "collision/state_rows.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "support/test_scenes.h"
 #include "tools/progress_bar.h"
@@ -19,7 +20,7 @@ namespace gpu_planning_scene::benchmark
 {
 namespace
 {
-constexpr std::size_t kTrial = 256;           // states that tell how fast a method is
+constexpr std::size_t kTrial = 64;            // states that tell how fast a method is
 constexpr std::size_t kErrorsMeasured = 100;  // of a method's wrong answers of each kind
 
 /// A method with one batch size.
@@ -43,6 +44,7 @@ struct Batch
   double padding;
   std::vector<double> states;
   std::vector<std::uint8_t> truth;
+  std::vector<std::uint8_t> open;  // 1: too near to contact for peers to be wrong
 };
 
 std::vector<Run> makeRuns(const TestScene& scene, double padding, const Settings& settings)
@@ -101,9 +103,9 @@ class Tables
                    "family", "batch", "states", "repeats", "states_per_s", "states_per_s_min", "states_per_s_max",
                    "of_fcl_obbrss", "cpu_us_a_state", "undecided_share"}),
       accuracy_(folder, "accuracy.csv",
-                {"scene", "kind", "padding_m", "method", "title", "family", "claims_exact", "states", "wrong_free",
-                 "wrong_collision", "wrong_per_million", "measured", "largest_clearance_m", "largest_depth_m",
-                 "largest_error_m"})
+                {"scene", "kind", "padding_m", "method", "title", "family", "claims_exact", "states", "open",
+                 "wrong_free", "wrong_collision", "wrong_per_million", "measured", "largest_clearance_m",
+                 "largest_depth_m", "largest_error_m"})
   {
   }
 
@@ -127,9 +129,14 @@ class Tables
   {
     std::vector<std::size_t> wrong_free;
     std::vector<std::size_t> wrong_collision;
+    std::size_t open = 0;
     for (std::size_t i = 0; i < run.count; ++i)
-      if (run.answers[i] != batch.truth[i])
+    {
+      open += batch.open[i];
+      // The contract binds the project's own methods to one answer even where it leaves either open.
+      if (run.answers[i] != batch.truth[i] && (run.info->exact || batch.open[i] == 0))
         (run.answers[i] != 0 ? wrong_free : wrong_collision).push_back(i);
+    }
     std::size_t measured = 0;
     const auto largest = [&](const std::vector<std::size_t>& wrong, const auto& size)
     {
@@ -143,7 +150,7 @@ class Tables
     const double depth = largest(wrong_free, [&](const double* state) { return error.depth(state); });
     const std::size_t wrong = wrong_free.size() + wrong_collision.size();
     accuracy_.add({batch.scene->name, batch.kind, batch.padding, run.info->name, run.info->title, run.info->family,
-                   run.info->exact ? "yes" : "no", run.count, wrong_free.size(), wrong_collision.size(),
+                   run.info->exact ? "yes" : "no", run.count, open, wrong_free.size(), wrong_collision.size(),
                    1e6 * static_cast<double>(wrong) / static_cast<double>(run.count), measured, clearance, depth,
                    std::max(clearance, depth)});
     return wrong;
@@ -153,6 +160,20 @@ class Tables
   CsvTable throughput_;
   CsvTable accuracy_;
 };
+
+/// Random states are never that near.
+std::vector<std::uint8_t> openStates(const Batch& batch, const GeometricError& error)
+{
+  std::vector<std::uint8_t> open(batch.truth.size());
+  if (batch.kind == "near_contact")
+    forChunks(open.size(), 16,
+              [&, own = error](std::size_t begin, std::size_t end) mutable
+              {
+                for (std::size_t i = begin; i < end; ++i)
+                  open[i] = own.isOpen(&batch.states[i * batch.scene->lower.size()], batch.truth[i] != 0) ? 1 : 0;
+              });
+  return open;
+}
 
 /// Returns the wrong answers of methods that claim to be exact.
 std::size_t measureBatch(const Batch& batch, std::vector<Run>& runs, GeometricError& error, const Settings& settings,
@@ -207,8 +228,9 @@ std::size_t measureThroughput(const Settings& settings)
       std::vector<Run> runs = makeRuns(scene, padding, settings);
       for (const std::string& kind : settings.kinds)
       {
-        Batch batch{&scene, kind, padding, makeStates(scene, kind, settings.states, settings.seed), {}};
+        Batch batch{&scene, kind, padding, makeStates(scene, kind, settings.states, settings.seed), {}, {}};
         batch.truth = exact.check(batch.states.data(), settings.states).valid;
+        batch.open = openStates(batch, error);
         wrong += measureBatch(batch, runs, error, settings, tables);
       }
       std::cerr << name << (padding > 0.0 ? ", padded" : "") << ": measured" << std::endl;

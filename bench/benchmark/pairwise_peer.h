@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "benchmark/method.h"
+
+namespace gpu_planning_scene::benchmark
+{
+/// A peer that puts simpler shapes in the place of meshes, and looks at pair by pair.
+class PairwisePeer : public Peer
+{
+ public:
+  explicit PairwisePeer(std::shared_ptr<const CollisionProblem> problem);
+
+  bool collides(const Eigen::Isometry3d* link_poses) override;
+
+  /// Links whose simpler shapes overlap whatever the joints would make every state a collision. As MoveIt's Setup
+  /// Assistant does, their pairs are left out: those that collide in each of 200 random states.
+  void leaveOutWhatAlwaysCollides(const RobotModel& robot);
+
+ protected:
+  /// What follows is about the robot there.
+  virtual void place(const Eigen::Isometry3d* link_poses) = 0;
+  /// Of instances: indices into the problem's `robot` and `world`.
+  virtual bool meetsWorld(std::size_t robot, std::size_t world, double required) = 0;
+  virtual bool meetsSelf(std::size_t first, std::size_t second) = 0;
+
+  const CollisionProblem& problem() const { return *problem_; }
+
+ private:
+  std::shared_ptr<const CollisionProblem> problem_;
+  std::vector<std::array<std::uint32_t, 2>> self_pairs_;
+};
+
+std::unique_ptr<PairwisePeer> makeBulletHulls(const std::shared_ptr<const CollisionProblem>& problem);
+/// `count`: spheres for each shape.
+std::unique_ptr<PairwisePeer> makeSpheres(const std::shared_ptr<const CollisionProblem>& problem, std::size_t count);
+}  // namespace gpu_planning_scene::benchmark
