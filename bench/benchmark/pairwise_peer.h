@@ -17,7 +17,7 @@ class PairwisePeer : public Peer
   bool collides(const Eigen::Isometry3d* link_poses) override;
 
   /// Links whose simpler shapes overlap whatever the joints would make every state a collision. As MoveIt's Setup
-  /// Assistant does, their pairs are left out: those that collide in each of 200 random states.
+  /// Assistant does, their pairs are left out: those that collide in 95 % of random states.
   void leaveOutWhatAlwaysCollides(const RobotModel& robot);
 
  protected:
