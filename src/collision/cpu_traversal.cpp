@@ -35,10 +35,7 @@ std::vector<AlignedBox3d> worldBounds(const CollisionProblem& problem, const Cpu
 }
 
 CpuTraversal::CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const Forest> forest)
-  : problem_(std::move(problem)),
-    forest_(std::make_shared<const CpuForest>(*problem_, *forest)),
-    pair_(forest_, problem_->tolerance),
-    objects_(std::make_shared<const ObjectTree>(worldBounds(*problem_, *forest_), ObjectTree()))
+  : CpuTraversal(problem, std::make_shared<const CpuForest>(*problem, *forest))
 {
 }
 
@@ -47,7 +44,8 @@ CpuTraversal::CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std:
   : problem_(std::move(problem)),
     forest_(std::move(forest)),
     pair_(forest_, problem_->tolerance),
-    objects_(std::move(objects))
+    objects_(objects ? std::move(objects)
+                     : std::make_shared<const ObjectTree>(worldBounds(*problem_, *forest_), ObjectTree()))
 {
 }
 

@@ -39,9 +39,10 @@ class CpuTraversal
   /// `forest` holds a valid tree for each of the problem's trees, whoever built it.
   CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const Forest> forest);
 
-  /// The same with what was made ready for a problem with the same trees and instances, see worldBounds.
+  /// The same with what was made ready for a problem with the same trees and, where `objects` is not null, with the
+  /// same world, see worldBounds.
   CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest,
-               std::shared_ptr<const ObjectTree> objects);
+               std::shared_ptr<const ObjectTree> objects = nullptr);
 
   /// The bodies of a colliding pair, if there is one. `link_poses`: of every link, in the planning frame. Thread-safe
   /// as long as each thread has its own scratch.
