@@ -16,7 +16,7 @@ constexpr int kHalvings = 12;
 
 std::shared_ptr<const CpuForest> forestOf(const CollisionProblem& problem)
 {
-  return std::make_shared<const CpuForest>(problem, std::make_shared<const Forest>(buildBinnedSah(problem.trees)));
+  return std::make_shared<const CpuForest>(problem, buildBinnedSah(problem.trees));
 }
 
 /// The problem with no other pairs than those of two bodies.
