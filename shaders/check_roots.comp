@@ -13,11 +13,14 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "containment.glsl"
 layout(location = 2) uniform uint candidate_capacity;
 layout(location = 3) uniform uint item_capacity;
+layout(location = 4) uniform uint solid_nodes;  // where the nodes of primitives lie, one an instance; 0: these have trees of triangles
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
 layout(binding = UNIT_WORLD_POSES) uniform usamplerBuffer world_poses;
 layout(binding = UNIT_CANDIDATES) uniform usamplerBuffer candidates;
 layout(std430, binding = BINDING_A) writeonly buffer Items { uvec4 items[]; };
-layout(std430, binding = BINDING_B) writeonly buffer Entries { uvec4 entries[]; };
+// Node pairs that traversals begin with: of two meshes, of a mesh and a solid.
+layout(std430, binding = BINDING_B) writeonly buffer MeshEntries { uvec4 mesh_entries[]; };
+layout(std430, binding = BINDING_D) writeonly buffer SolidEntries { uvec4 solid_entries[]; };
 
 void main()
 {
@@ -39,15 +42,22 @@ void main()
   const Pose pose = relativePose(pose_a, pose_b);
   const Instance a = fetchInstance(other);
   const Instance b = fetchInstance(robot);
-  const Box box_a = fetchNode(a.root).box;
-  const Box box_b = fetchNode(b.root).box;
+  // One of the two is tested as the solid it is, and not by triangles.
+  const bool a_is_solid = solid_nodes != 0u && isPrimitive(a);
+  const bool b_is_solid = solid_nodes != 0u && !a_is_solid && isPrimitive(b);
+  const uint root_a = a_is_solid ? solid_nodes + other : a.root;
+  const uint root_b = b_is_solid ? solid_nodes + robot : b.root;
+  const Box box_a = fetchNode(root_a).box;
+  const Box box_b = fetchNode(root_b).box;
   const vec3 far_a = farCorner(box_a);
   const float error = positionError(pose_a, pose_b, pose, far_a, farCorner(box_b));
   const float distance = world ? a.padding + b.padding : 0.0;
-  const float gap = requiredGap(distance, a.slack + b.slack);
+  const float gap = requiredGap(distance, (a_is_solid ? 0.0 : a.slack) + (b_is_solid ? 0.0 : b.slack));
   if (boxesApart(box_a, box_b, pose, gap + boxError(error)))
     return;
-  const uint inside = containment(b, a, pose, boxError(error)) | containment(a, b, inversePose(pose), inverseError(error, far_a));
+  // What the traversal tests against a solid, it finds inside as well.
+  uint inside = containment(b, a, pose, boxError(error)) & (a_is_solid ? STATE_HIT : ~0u);
+  inside |= containment(a, b, inversePose(pose), inverseError(error, far_a)) & (b_is_solid ? STATE_HIT : ~0u);
   if (inside != 0u)
     report(state, candidate.y, inside);
   if ((inside & STATE_HIT) != 0u)
@@ -64,5 +74,8 @@ void main()
     items[texel + uint(row)] = floatBitsToUint(vec4(rows[row], pose.translation[row]));
   items[texel + 3u] = uvec4(state, candidate.y, floatBitsToUint(error), floatBitsToUint(gap));
   items[texel + 4u] = uvec4(floatBitsToUint(distance), 0u, 0u, 0u);
-  entries[at] = uvec4(at, a.root, b.root, 0u);
+  if (a_is_solid || b_is_solid)
+    solid_entries[atomicAdd(counters[COUNTER_SOLID_ENTRIES], 1u)] = uvec4(at, root_a, root_b, 0u);
+  else
+    mesh_entries[atomicAdd(counters[COUNTER_MESH_ENTRIES], 1u)] = uvec4(at, root_a, root_b, 0u);
 }

@@ -9,6 +9,8 @@
 #define LEAF_TRIANGLES 4
 // A leaf in one word: its first triangle below this bit, its number of triangles less one above.
 #define LEAF_COUNT_SHIFT 30
+// A primitive that is tested as a solid has a tree of one leaf, with this bit for a triangle, and its instance.
+#define SOLID_LEAF (1u << 29)
 // What testing a triangle costs in a traversal, a node's box being 1 (surface area heuristic).
 #define TRIANGLE_COST 0.4
 // Elements that one lane of the sort and of the compaction handles in sequence.
@@ -65,6 +67,16 @@
 #define FLOATS_DECIDE 1
 #endif
 
+// 1 in the programs that traverse pairs of a mesh and a solid, 0 in those for pairs of meshes.
+#ifndef SOLIDS
+#define SOLIDS 0
+#endif
+
+// 1 in the programs that may stop early, see tolerance.glsl.
+#ifndef TOLERANT
+#define TOLERANT 0
+#endif
+
 // 1 in the programs that test triangles for a required distance.
 #ifndef PADDED
 #define PADDED 0
@@ -80,6 +92,8 @@
 #define SOLID_CYLINDER 3u
 #define SOLID_CONE 4u
 #define SOLID_MESH 5u
+// Steps in which a triangle and a solid look for the place where they are nearest.
+#define SOLID_ITERATIONS 16u
 // A mesh of more connected components than this is not looked into for containment on the GPU.
 #define MAX_COMPONENTS 1024
 
@@ -104,6 +118,8 @@
 #define COUNTER_LEAF_PAIRS 6
 #define COUNTER_LANES_ENDED 7     // work queues: lanes that came to their end, and that were started
 #define COUNTER_LANES_STARTED 8
+#define COUNTER_MESH_ENTRIES 9    // items whose shapes are both made of triangles, and those with a solid
+#define COUNTER_SOLID_ENTRIES 10
 #define COUNTER_UNUSED 11
 #define COUNTER_ARGUMENTS 12      // three uints
 #define COUNTER_LEAF_ARGUMENTS 16

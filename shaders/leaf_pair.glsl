@@ -21,6 +21,12 @@ uint leafCount(uint leaf)
   return (leaf >> LEAF_COUNT_SHIFT) + 1u;
 }
 
+// A solid stands in a tree of its own: one leaf, whose first triangle is this bit and the instance.
+bool isSolidLeaf(uint leaf)
+{
+  return (leaf & SOLID_LEAF) != 0u;
+}
+
 void testTriangles(uint item_index, Item item, uint triangle_a, uint triangle_b)
 {
   vec3 a[3];
@@ -39,4 +45,18 @@ void testTriangles(uint item_index, Item item, uint triangle_a, uint triangle_b)
 #endif
   if (found != 0u)
     report(item.state, item.pair, found);
+}
+
+// Triangle `i` of the smaller one of two leaves against the larger one.
+void testLeafRow(uvec4 pair, uint i)
+{
+  const Item item = fetchItem(pair.x);
+  const uint first_a = leafFirst(pair.y);
+  const uint first_b = leafFirst(pair.z);
+  const uint count_a = leafCount(pair.y);
+  const uint count_b = leafCount(pair.z);
+  const bool a_is_smaller = count_a <= count_b;
+  const uint count = max(count_a, count_b);
+  for (uint j = 0u; j < count; ++j)
+    testTriangles(pair.x, item, first_a + (a_is_smaller ? i : j), first_b + (a_is_smaller ? j : i));
 }

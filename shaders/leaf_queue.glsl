@@ -1,37 +1,34 @@
-// Leaf pairs that a workgroup shares, and the tests of their triangles. Most leaves hold fewer than LEAF_TRIANGLES
-// triangles: so each lane takes a triangle of a pair's smaller leaf, and tests it against the larger one.
+// Leaf pairs that a workgroup shares, and the tests of their triangles. Most leaves hold fewer than LEAF_TRIANGLES triangles:
+// so each lane takes one triangle of a pair's smaller leaf and tests it against the larger one, or, in the programs for solids,
+// one triangle and tests it against the solid.
 #include "leaf_pair.glsl"
+#if SOLIDS
+#include "solid_leaf.glsl"
+#endif
 
 shared uvec4 leaf_pairs[LEAF_QUEUE];  // item, then the leaves as leafReference() has them
+shared uint leaf_pair_count;
 shared uint row_count;
-shared uint rows[LEAF_CHUNK * LEAF_TRIANGLES];  // place in leaf_pairs, and a triangle of the smaller leaf
+shared uint rows[LEAF_CHUNK * LEAF_TRIANGLES];  // place in leaf_pairs, and a triangle of one leaf
 
 // Loop iterations of a chunk of leaf pairs, and of a row.
 #define CHUNK_ITERATIONS (4u + 2u * LEAF_TRIANGLES)
+#if SOLIDS
+#define ROW_ITERATIONS (2u * SOLID_ITERATIONS)
+#else
 #define ROW_ITERATIONS ((24u + 20u * PADDED) * LEAF_TRIANGLES)
+#endif
 
-void spreadLeafPair(uint place)
+void addRows(uint place)
 {
   const uvec4 pair = leaf_pairs[place];
-  const uint count = isDecided(fetchState(pair.x)) ? 0u : min(leafCount(pair.y), leafCount(pair.z));
+  const uint count_a = leafCount(pair.y);
+  const uint count_b = leafCount(pair.z);
+  const uint most = SOLIDS != 0 ? max(count_a, count_b) : min(count_a, count_b);
+  const uint count = isDecided(fetchState(pair.x)) ? 0u : most;
   const uint at = atomicAdd(row_count, count);
   for (uint i = 0u; i < count; ++i)
     rows[at + i] = place * LEAF_TRIANGLES + i;
-}
-
-void testRow(uint row)
-{
-  const uvec4 pair = leaf_pairs[row / LEAF_TRIANGLES];
-  const uint i = row % LEAF_TRIANGLES;
-  const Item item = fetchItem(pair.x);
-  const uint first_a = leafFirst(pair.y);
-  const uint first_b = leafFirst(pair.z);
-  const uint count_a = leafCount(pair.y);
-  const uint count_b = leafCount(pair.z);
-  const bool a_is_smaller = count_a <= count_b;
-  const uint count = max(count_a, count_b);
-  for (uint j = 0u; j < count; ++j)
-    testTriangles(pair.x, item, first_a + (a_is_smaller ? i : j), first_b + (a_is_smaller ? j : i));
 }
 
 // The first `count` of leaf_pairs. Called by all lanes together; returns loop iterations, at most.
@@ -45,11 +42,18 @@ uint testLeafPairs(uint count)
     barrier();
     const uint end = min(begin + LEAF_CHUNK, count);
     for (uint place = begin + gl_LocalInvocationID.x; place < end; place += gl_WorkGroupSize.x)
-      spreadLeafPair(place);
+      addRows(place);
     barrier();
     const uint todo = row_count;
-    for (uint row = gl_LocalInvocationID.x; row < todo; row += gl_WorkGroupSize.x)
-      testRow(rows[row]);
+    for (uint k = gl_LocalInvocationID.x; k < todo; k += gl_WorkGroupSize.x)
+    {
+      const uint row = rows[k];
+#if SOLIDS
+      testSolidRow(leaf_pairs[row / LEAF_TRIANGLES], row % LEAF_TRIANGLES);
+#else
+      testLeafRow(leaf_pairs[row / LEAF_TRIANGLES], row % LEAF_TRIANGLES);
+#endif
+    }
     iterations += CHUNK_ITERATIONS * (LEAF_CHUNK / gl_WorkGroupSize.x + 1u) + ROW_ITERATIONS * (todo / gl_WorkGroupSize.x + 1u);
     barrier();
   }

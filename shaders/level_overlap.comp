@@ -6,6 +6,10 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "level.glsl"
 #include "instances.glsl"
 #include "verdicts.glsl"
+#include "leaf_pair.glsl"
+#if TOLERANT
+#include "tolerance.glsl"
+#endif
 layout(std430, binding = BINDING_A) writeonly buffer Masks { uint masks[]; };
 layout(std430, binding = BINDING_B) writeonly buffer Sums { uvec2 sums[]; };
 
@@ -24,8 +28,10 @@ void main()
     const TreeNode a = fetchNode(entry.y);
     const TreeNode b = fetchNode(entry.z);
     const uint children = isDecided(item.state) ? 0u : childrenOf(a, b);
+#if SOLIDS
     const vec3 core_a = fetchInstance(pairOther(item.pair)).core;
     const vec3 core_b = fetchInstance(pairRobot(item.pair)).core;
+#endif
     bool inside = false;
     uint mask = 0u;
     for (uint c = 0u; c < 4u; ++c)
@@ -34,7 +40,12 @@ void main()
       const TreeNode child_a = fetchNode(nodes.x);
       const TreeNode child_b = fetchNode(nodes.y);
       const bool apart = boxesApart(child_a.box, child_b.box, item.pose, item.gap + boxError(item.error));
+#if SOLIDS
       inside = inside || boxInCore(child_a.box, child_b.box, core_a, core_b, item.pose, boxError(item.error));
+#endif
+#if TOLERANT
+      inside = inside || isCloseEnough(entry.x, item, child_a, child_b);
+#endif
       const bool leaves = child_a.count != 0u && child_b.count != 0u;
       if (!apart && (children >> c & 1u) != 0u)
         mask |= (leaves ? 16u : 1u) << c;

@@ -6,6 +6,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "boxes.glsl"
 #include "counters.glsl"
 #include "verdicts.glsl"
+#include "instances.glsl"
 #define LEAF_QUEUE GROUP_SIZE
 #include "leaf_queue.glsl"
 layout(binding = UNIT_LEAF_PAIRS) uniform usamplerBuffer listed_leaf_pairs;

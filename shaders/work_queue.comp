@@ -18,6 +18,9 @@ layout(local_size_x = QUEUE_LANES) in;
 // Room for what all lanes may add before the group turns to triangles.
 #define LEAF_QUEUE (QUEUE_FLUSH + QUEUE_LANES * QUEUE_STEPS)
 #include "leaf_queue.glsl"
+#if TOLERANT
+#include "tolerance.glsl"
+#endif
 layout(location = 0) uniform uint in_counter;   // COUNTER_ENTRIES_* of the list read, and of the one written
 layout(location = 1) uniform uint out_counter;
 layout(location = 2) uniform uint entry_capacity;
@@ -29,7 +32,6 @@ layout(std430, binding = BINDING_A) writeonly buffer Spill { uvec4 spilled[]; };
 // and the count of lanes below finds it out.
 #define STEP_ITERATIONS 4u
 
-shared uint leaf_pair_count;
 shared uint busy;
 
 // The state is undecided if the list is full: its answer is never lost.
@@ -54,8 +56,10 @@ void main()
   uint item_index = 0u;
   Item item;
   item.state = 0u;
+#if SOLIDS
   vec3 core_a = vec3(-1.0);
   vec3 core_b = vec3(-1.0);
+#endif
   if (gl_LocalInvocationID.x == 0u)
   {
     leaf_pair_count = 0u;
@@ -81,8 +85,10 @@ void main()
       item_index = entry.x;
       item = fetchItem(item_index);
       nodes = entry.yz;
+#if SOLIDS
       core_a = fetchInstance(pairOther(item.pair)).core;
       core_b = fetchInstance(pairRobot(item.pair)).core;
+#endif
     }
     bool inside = false;
     for (uint step = 0u; step < QUEUE_STEPS && walking && !inside && waiting + leaves < QUEUE_STACK; ++step)
@@ -90,7 +96,12 @@ void main()
       const TreeNode a = fetchNode(nodes.x);
       const TreeNode b = fetchNode(nodes.y);
       const bool overlap = !boxesApart(a.box, b.box, item.pose, item.gap + boxError(item.error));
+#if SOLIDS
       inside = boxInCore(a.box, b.box, core_a, core_b, item.pose, boxError(item.error));
+#endif
+#if TOLERANT
+      inside = inside || isCloseEnough(item_index, item, a, b);
+#endif
       const bool leaf = a.count != 0u && b.count != 0u;
       const bool into_a = descendsIntoA(a, b);
       const uvec2 first = into_a ? uvec2(a.first, nodes.y) : uvec2(nodes.x, b.first);

@@ -16,49 +16,53 @@ constexpr std::size_t offsetOf(std::size_t counter)
 
 BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definitions, const ListCapacities& capacities)
   : arguments_(folder),
-    overlap_(folder, "level_overlap.comp", definitions),
     scan_(folder, "level_scan.comp"),
     expand_(folder, "level_expand.comp", definitions),
+    overlap_(folder, "level_overlap.comp", definitions),
     triangles_(folder, "level_triangles.comp", definitions),
-    padded_triangles_(folder, "level_triangles.comp", definitions + kPadded),
     masks_(std::size_t{capacities.node_pairs} * 4),
     sums_((std::size_t{capacities.node_pairs} / LEVEL_CHUNK + 1) * 8)
 {
   leaf_pairs_.reserve(std::size_t{capacities.leaf_pairs} * 16);
 }
 
-bool BreadthFirst::run(BatchLists& lists, std::uint32_t levels, bool padded)
+bool BreadthFirst::run(BatchLists& lists, const TraversalTask& task)
 {
+  const Program& overlap = overlap_.forTask(task);
+  const Program& triangles = triangles_.forTask(task);
+  if (task.tolerance > 0.0F)
+    overlap.set(5, task.tolerance);
   const std::uint32_t capacity = lists.capacity.node_pairs;
   const auto chunk_lanes = std::uint32_t{LEVEL_CHUNK} * GROUP_SIZE;
-  arguments_.prepare(COUNTER_ITEMS, lists.capacity.items, chunk_lanes, std::numeric_limits<std::uint32_t>::max(),
+  std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
+  arguments_.prepare(in_counter, lists.capacity.items, chunk_lanes, std::numeric_limits<std::uint32_t>::max(),
                      COUNTER_ENTRIES_ODD);
-  for (const Program* program : {&overlap_, &scan_, &expand_})
+  for (const Program* program : {&overlap, &scan_, &expand_})
   {
     program->set(2, capacity);
     program->set(3, lists.capacity.leaf_pairs);
   }
   leaf_pairs_.bindTexture(UNIT_LEAF_PAIRS);
-  std::uint32_t in_counter = COUNTER_ITEMS;
   // The list shrinks to nothing as soon as all pairs have come to an end; the dispatches that follow are empty.
-  for (std::uint32_t level = 0; level < levels; ++level)
+  for (std::uint32_t level = 0; level < task.levels; ++level)
   {
     const std::uint32_t out_counter = level % 2 == 0 ? COUNTER_ENTRIES_ODD : COUNTER_ENTRIES_EVEN;
-    for (const Program* program : {&overlap_, &scan_, &expand_})
+    for (const Program* program : {&overlap, &scan_, &expand_})
     {
       program->set(0, in_counter);
       program->set(1, out_counter);
       program->set(4, level == 0 ? lists.capacity.items : capacity);
     }
-    lists.node_pairs[level % 2].bindTexture(UNIT_ENTRIES);
+    const TexelBuffer& entries = task.solids ? lists.solid_entries : lists.mesh_entries;
+    (level == 0 ? entries : lists.node_pairs[level % 2]).bindTexture(UNIT_ENTRIES);
     masks_.bindStorage(BINDING_A);
     sums_.bindStorage(BINDING_B);
-    overlap_.dispatchIndirect(lists.counters, offsetOf(COUNTER_ARGUMENTS));
+    overlap.dispatchIndirect(lists.counters, offsetOf(COUNTER_ARGUMENTS));
     scan_.dispatch(1);
     lists.node_pairs[1 - level % 2].buffer().bindStorage(BINDING_C);
     leaf_pairs_.buffer().bindStorage(BINDING_D);
     expand_.dispatchIndirect(lists.counters, offsetOf(COUNTER_CHUNK_ARGUMENTS));
-    (padded ? padded_triangles_ : triangles_).dispatchIndirect(lists.counters, offsetOf(COUNTER_LEAF_ARGUMENTS));
+    triangles.dispatchIndirect(lists.counters, offsetOf(COUNTER_LEAF_ARGUMENTS));
     in_counter = out_counter;
   }
   std::array<std::uint32_t, COUNTER_WORDS> counters{};

@@ -11,11 +11,12 @@ class BreadthFirst : public GpuTraversal
 {
  public:
   BreadthFirst(const std::string& shader_folder, const std::string& definitions, const ListCapacities& capacities);
-  bool run(BatchLists& lists, std::uint32_t levels, bool padded) override;
+  bool run(BatchLists& lists, const TraversalTask& task) override;
 
  private:
   ArgumentsKernel arguments_;
-  Program overlap_, scan_, expand_, triangles_, padded_triangles_;
+  Program scan_, expand_;
+  TaskPrograms overlap_, triangles_;
   Buffer masks_, sums_;
   TexelBuffer leaf_pairs_;
 };

@@ -20,8 +20,7 @@ ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
   { return chosen ? chosen : static_cast<std::uint32_t>(std::min<std::size_t>(max_states * count + 65536, 1U << 25)); };
   capacities.candidates = per_state(capacities.candidates, 96);
   capacities.items = per_state(capacities.items, 24);
-  // The first list of node pairs holds the items' roots.
-  capacities.node_pairs = std::max(per_state(capacities.node_pairs, 128), capacities.items);
+  capacities.node_pairs = per_state(capacities.node_pairs, 128);
   capacities.leaf_pairs = per_state(capacities.leaf_pairs, 64);
   return capacities;
 }
@@ -116,7 +115,7 @@ bool GpuPairChecker::runBatch(const float* poses, std::size_t count)
   testHalfSpaces(static_cast<std::uint32_t>(count));
   findCandidates(static_cast<std::uint32_t>(count));
   testRoots();
-  const bool finished = traversal_->run(lists_, scene_.depthBound(), scene_.isPadded());
+  const bool finished = traverse();
   if (finished)
     testContainment();
   checkGl("a batch");
@@ -172,10 +171,29 @@ void GpuPairChecker::testRoots()
   arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, kNoLimit, COUNTER_UNUSED);
   roots_program_.set(2, lists_.capacity.candidates);
   roots_program_.set(3, lists_.capacity.items);
+  roots_program_.set(4, scene_.solidNodes());
   scene_.components().bindStorage(BINDING_C);
   lists_.items.buffer().bindStorage(BINDING_A);
-  lists_.node_pairs[0].buffer().bindStorage(BINDING_B);
+  lists_.mesh_entries.buffer().bindStorage(BINDING_B);
+  lists_.solid_entries.buffer().bindStorage(BINDING_D);
   roots_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
+}
+
+/// Solids first: what is found there costs less.
+bool GpuPairChecker::traverse()
+{
+  TraversalTask task;
+  task.padded = scene_.isPadded();
+  task.tolerance = scene_.tolerance();
+  task.levels = scene_.depthBound();
+  if (scene_.solidNodes() != 0)
+  {
+    task.solids = true;
+    if (!traversal_->run(lists_, task))
+      return false;
+    task.solids = false;
+  }
+  return traversal_->run(lists_, task);
 }
 
 /// Of meshes in meshes and of primitives in meshes; what primitives contain, testRoots has seen.

@@ -50,6 +50,7 @@ class GpuPairChecker
   void testHalfSpaces(std::uint32_t states);
   void findCandidates(std::uint32_t states);
   void testRoots();
+  bool traverse();
   void testContainment();
 
   std::string float_fault_;

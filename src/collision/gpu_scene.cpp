@@ -144,6 +144,7 @@ void GpuScene::setProblem(const CollisionProblem& problem)
   tree_count_ = problem.trees.size();
   writeWorld(problem);
   writeGeometries(problem);
+  writeSolids(problem);
   writeHalfSpaces(problem);
   selectPairs(problem);
 }
@@ -174,6 +175,27 @@ void GpuScene::writeGeometries(const CollisionProblem& problem)
       instances.push_back(record);
     }
   write(instances, instances_);
+}
+
+/// A primitive's node: a leaf that holds it whole.
+void GpuScene::writeSolids(const CollisionProblem& problem)
+{
+  std::vector<Node> nodes;
+  for (const std::vector<Geometry>* geometries : {&problem.robot, &problem.world})
+    for (const Geometry& geometry : *geometries)
+    {
+      const Shape& shape = problem.shapes[geometry.tree];
+      Node node{};
+      if (!isMesh(shape))
+      {
+        setBox({-halfExtents(shape), halfExtents(shape)}, node);
+        node.first = SOLID_LEAF | static_cast<std::uint32_t>(nodes.size());
+        node.count = 1;
+      }
+      nodes.push_back(node);
+    }
+  solid_nodes_ = trees_.reserveNodes(nodes.size());
+  trees_.nodes().buffer().write(nodes.data(), nodes.size() * sizeof(Node), solid_nodes_ * sizeof(Node));
 }
 
 void GpuScene::writeHalfSpaces(const CollisionProblem& problem)

@@ -36,6 +36,10 @@ class GpuScene
   std::uint32_t robotCount() const { return robot_count_; }
   std::uint32_t worldCount() const { return world_count_; }
   std::uint32_t halfSpaceCount() const { return half_space_count_; }
+  /// Where the nodes of primitives lie that are tested as solids, one for each instance; 0: there are none.
+  std::uint32_t solidNodes() const { return solid_nodes_; }
+  /// Metres; 0: exact.
+  float tolerance() const { return tolerance_; }
   bool hasSelfPairs() const { return has_self_pairs_; }
   /// Whether some pairs have a required distance.
   bool isPadded() const { return padded_; }
@@ -50,6 +54,7 @@ class GpuScene
  private:
   void writeWorld(const CollisionProblem& problem);
   void writeGeometries(const CollisionProblem& problem);
+  void writeSolids(const CollisionProblem& problem);
   void writeHalfSpaces(const CollisionProblem& problem);
 
   GpuTrees trees_;
@@ -60,6 +65,8 @@ class GpuScene
   std::uint32_t robot_count_ = 0;
   std::uint32_t world_count_ = 0;
   std::uint32_t half_space_count_ = 0;
+  std::uint32_t solid_nodes_ = 0;
+  float tolerance_ = 0.0F;
   bool has_self_pairs_ = false;
   bool padded_ = false;
   bool has_mesh_solids_ = false;

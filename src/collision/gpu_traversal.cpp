@@ -21,8 +21,33 @@ BatchLists::BatchLists(const ListCapacities& capacities)
 {
   candidates.reserve(std::size_t{capacity.candidates} * 16);
   items.reserve(std::size_t{capacity.items} * ITEM_TEXELS * 16);
+  mesh_entries.reserve(std::size_t{capacity.items} * 16);
+  solid_entries.reserve(std::size_t{capacity.items} * 16);
   for (TexelBuffer& list : node_pairs)
     list.reserve(std::size_t{capacity.node_pairs} * 16);
+}
+
+TaskPrograms::TaskPrograms(std::string shader_folder, std::string name, std::string definitions)
+  : folder_(std::move(shader_folder)), name_(std::move(name)), definitions_(std::move(definitions))
+{
+}
+
+const Program& TaskPrograms::forTask(const TraversalTask& task)
+{
+  const bool tolerant = task.tolerance > 0.0F;
+  auto& program = programs_[(task.solids ? 4 : 0) + (task.padded ? 2 : 0) + (tolerant ? 1 : 0)];
+  if (!program)
+  {
+    std::string definitions = definitions_;
+    if (task.solids)
+      definitions += "#define SOLIDS 1\n";
+    if (task.padded)
+      definitions += "#define PADDED 1\n";
+    if (tolerant)
+      definitions += "#define TOLERANT 1\n";
+    program.emplace(folder_, name_, definitions);
+  }
+  return *program;
 }
 
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "gpu/buffer.h"
@@ -17,7 +18,7 @@ struct ListCapacities
 {
   std::uint32_t candidates = 0;  ///< pairs of instances whose spheres or outer boxes overlap
   std::uint32_t items = 0;       ///< of them, those whose root boxes overlap
-  std::uint32_t node_pairs = 0;  ///< of one level (breadth-first), or spilled (work queues); at least `items`
+  std::uint32_t node_pairs = 0;  ///< of one level (breadth-first), or spilled (work queues)
   std::uint32_t leaf_pairs = 0;  ///< of one level (breadth-first)
 };
 
@@ -29,7 +30,30 @@ struct BatchLists
   ListCapacities capacity;
   Buffer counters, flags, hits;
   TexelBuffer candidates, items;
-  std::array<TexelBuffer, 2> node_pairs;  ///< the first one begins with the items' root pairs
+  TexelBuffer mesh_entries, solid_entries;  ///< the items' root pairs: of two meshes, of a mesh and a solid
+  std::array<TexelBuffer, 2> node_pairs;    ///< what traversals leave for the next level or pass, in turns
+};
+
+/// What a traversal has before it.
+struct TraversalTask
+{
+  bool solids = false;       ///< pairs of a mesh and a solid, else of two meshes
+  bool padded = false;       ///< some pairs have a required distance
+  float tolerance = 0.0F;    ///< metres
+  std::uint32_t levels = 1;  ///< no tree has more
+};
+
+/// The programs of one shader, one for each kind of task, compiled when it is wanted for the first time: merely to hold the
+/// code for what a task does not need halves the speed on llvmpipe.
+class TaskPrograms
+{
+ public:
+  TaskPrograms(std::string shader_folder, std::string name, std::string definitions);
+  const Program& forTask(const TraversalTask& task);
+
+ private:
+  std::string folder_, name_, definitions_;
+  std::array<std::optional<Program>, 8> programs_;
 };
 
 /// Takes the node pairs of a batch to their ends: every pair of overlapping leaves has its triangles tested.
@@ -39,14 +63,10 @@ class GpuTraversal
  public:
   virtual ~GpuTraversal() = default;
 
-  /// Traverses from the first node-pair list, counters[COUNTER_ITEMS] entries. `levels`: how many levels the deepest
-  /// tree may have. `padded`: some pairs have a required distance. Returns false if something was left undone: a list
-  /// overflowed, or the device ended work early.
-  virtual bool run(BatchLists& lists, std::uint32_t levels, bool padded) = 0;
+  /// Traverses from the entries of the task's kind. Returns false if something was left undone: a list overflowed, or
+  /// the device ended work early.
+  virtual bool run(BatchLists& lists, const TraversalTask& task) = 0;
 };
-
-/// For a program that tests triangles, see shaders/leaf_pair.glsl.
-inline const std::string kPadded = "#define PADDED 1\n";
 
 /// `definitions`: for the programs, see Program.
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,

@@ -7,13 +7,15 @@
 
 namespace gpu_planning_scene
 {
-bool WorkQueue::run(BatchLists& lists, std::uint32_t /*levels*/, bool padded)
+bool WorkQueue::run(BatchLists& lists, const TraversalTask& task)
 {
-  const Program& program = padded ? padded_program_ : program_;
+  const Program& program = programs_.forTask(task);
   const std::uint32_t capacity = lists.capacity.node_pairs;
   program.set(2, capacity);
-  std::uint32_t in_counter = COUNTER_ITEMS;
-  lists.counters.clear(COUNTER_LANES_STARTED * sizeof(std::uint32_t), sizeof(std::uint32_t));
+  if (task.tolerance > 0.0F)
+    program.set(5, task.tolerance);
+  std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
+  lists.counters.clear(COUNTER_LANES_ENDED * sizeof(std::uint32_t), 2 * sizeof(std::uint32_t));
   std::array<std::uint32_t, COUNTER_WORDS> counters{};
   // One pass, as a rule: what follows is for what the stacks or the granted iterations were too short for.
   for (std::uint32_t pass = 0;; ++pass)
@@ -25,7 +27,8 @@ bool WorkQueue::run(BatchLists& lists, std::uint32_t /*levels*/, bool padded)
     program.set(3, in_capacity);
     lists.counters.clear(COUNTER_NEXT_ENTRY * sizeof(std::uint32_t), sizeof(std::uint32_t));
     lists.counters.clear(out_counter * sizeof(std::uint32_t), sizeof(std::uint32_t));
-    lists.node_pairs[pass % 2].bindTexture(UNIT_ENTRIES);
+    const TexelBuffer& entries = task.solids ? lists.solid_entries : lists.mesh_entries;
+    (pass == 0 ? entries : lists.node_pairs[pass % 2]).bindTexture(UNIT_ENTRIES);
     lists.node_pairs[1 - pass % 2].buffer().bindStorage(BINDING_A);
     do
     {

@@ -11,15 +11,13 @@ class WorkQueue : public GpuTraversal
 {
  public:
   WorkQueue(const std::string& shader_folder, const std::string& definitions)
-    : arguments_(shader_folder),
-      program_(shader_folder, "work_queue.comp", definitions),
-      padded_program_(shader_folder, "work_queue.comp", definitions + kPadded)
+    : arguments_(shader_folder), programs_(shader_folder, "work_queue.comp", definitions)
   {
   }
-  bool run(BatchLists& lists, std::uint32_t levels, bool padded) override;
+  bool run(BatchLists& lists, const TraversalTask& task) override;
 
  private:
   ArgumentsKernel arguments_;
-  Program program_, padded_program_;
+  TaskPrograms programs_;
 };
 }  // namespace gpu_planning_scene

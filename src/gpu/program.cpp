@@ -161,6 +161,11 @@ void Program::set(int location, std::uint32_t value) const
   glProgramUniform1ui(id_, location, value);
 }
 
+void Program::set(int location, float value) const
+{
+  glProgramUniform1f(id_, location, value);
+}
+
 void Program::dispatch(std::size_t groups) const
 {
   if (groups == 0)
