@@ -80,7 +80,8 @@ void GpuTrees::clear()
   builds_.clear();
   component_records_.clear();
   solid_bits_.clear();
-  node_count_ = primitive_count_ = 0;
+  node_count_ = primitive_count_ = reserved_first_ = 0;
+  reserved_ = 0;
   depth_ = 1;
 }
 
@@ -141,6 +142,18 @@ void GpuTrees::addComponents(Entry& entry)
     if (parts.bounds_solid[i])
       solid_bits_[number / 32] |= 1U << (number % 32);
   }
+}
+
+std::uint32_t GpuTrees::reserveNodes(std::size_t count)
+{
+  if (count > reserved_)
+  {
+    reserved_first_ = node_count_;
+    reserved_ = 2 * count;
+    node_count_ += static_cast<std::uint32_t>(reserved_);
+    nodes_.reserve(std::size_t{node_count_} * sizeof(Node));
+  }
+  return reserved_first_;
 }
 
 Forest GpuTrees::readForest(const std::vector<std::size_t>& numbers) const

@@ -40,6 +40,10 @@ class GpuTrees
   /// No tree has more levels than this.
   std::uint32_t depth() const { return depth_; }
 
+  /// Nodes that the caller may fill, in nodes(); the place holds until the next call of this or of setShapes.
+  std::uint32_t reserveNodes(std::size_t count);
+
+  TexelBuffer& nodes() { return nodes_; }
   const TexelBuffer& nodes() const { return nodes_; }
   const TexelBuffer& triangles() const { return triangles_; }
   const Buffer& leafOrder() const { return leaf_order_; }  ///< triangles are numbered through all trees
@@ -78,6 +82,8 @@ class GpuTrees
   std::vector<std::uint32_t> solid_bits_;
   std::uint32_t node_count_ = 0;       // taken so far
   std::uint32_t primitive_count_ = 0;  // likewise
+  std::uint32_t reserved_first_ = 0;   // by reserveNodes
+  std::size_t reserved_ = 0;
   std::uint32_t depth_ = 1;
 };
 }  // namespace gpu_planning_scene
