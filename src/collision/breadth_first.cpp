@@ -1,5 +1,6 @@
 #include "collision/breadth_first.h"
 
+#include <array>
 #include <limits>
 
 #include "interface.h"
@@ -30,14 +31,15 @@ bool BreadthFirst::run(BatchLists& lists, const TraversalTask& task)
 {
   const Program& overlap = overlap_.forTask(task);
   const Program& triangles = triangles_.forTask(task);
+  const std::array<const Program*, 3> level_programs = {&overlap, &scan_, &expand_};
   if (task.tolerance > 0.0F)
-    overlap.set(5, task.tolerance);
+    overlap.setFloat(5, task.tolerance);
   const std::uint32_t capacity = lists.capacity.node_pairs;
   const auto chunk_lanes = std::uint32_t{LEVEL_CHUNK} * GROUP_SIZE;
   std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
   arguments_.prepare(in_counter, lists.capacity.items, chunk_lanes, std::numeric_limits<std::uint32_t>::max(),
                      COUNTER_ENTRIES_ODD);
-  for (const Program* program : {&overlap, &scan_, &expand_})
+  for (const Program* program : level_programs)
   {
     program->set(2, capacity);
     program->set(3, lists.capacity.leaf_pairs);
@@ -47,7 +49,7 @@ bool BreadthFirst::run(BatchLists& lists, const TraversalTask& task)
   for (std::uint32_t level = 0; level < task.levels; ++level)
   {
     const std::uint32_t out_counter = level % 2 == 0 ? COUNTER_ENTRIES_ODD : COUNTER_ENTRIES_EVEN;
-    for (const Program* program : {&overlap, &scan_, &expand_})
+    for (const Program* program : level_programs)
     {
       program->set(0, in_counter);
       program->set(1, out_counter);

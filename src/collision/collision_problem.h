@@ -55,6 +55,8 @@ struct CollisionProblem
   std::vector<std::uint8_t> half_space_pairs;  ///< robot.size() x half_spaces.size(), row-major
   /// Metres: see CheckerOptions.
   double tolerance = 0.0;
+  /// Whether the GPU may test primitives as solids: see Reductions.
+  bool direct_primitives = true;
   /// Bodies, ascending, that collide in every state, if there are any; they are in none of the pairs above.
   std::optional<std::array<std::int32_t, 2>> always_colliding;
   /// Where a variable of a state is out of its range, pairs that are not in the problem may collide. Empty where

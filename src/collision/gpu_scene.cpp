@@ -144,6 +144,7 @@ void GpuScene::setProblem(const CollisionProblem& problem)
   tree_count_ = problem.trees.size();
   writeWorld(problem);
   writeGeometries(problem);
+  tolerance_ = static_cast<float>(problem.tolerance);
   writeSolids(problem);
   writeHalfSpaces(problem);
   selectPairs(problem);
@@ -180,6 +181,9 @@ void GpuScene::writeGeometries(const CollisionProblem& problem)
 /// A primitive's node: a leaf that holds it whole.
 void GpuScene::writeSolids(const CollisionProblem& problem)
 {
+  solid_nodes_ = 0;
+  if (!problem.direct_primitives)
+    return;
   std::vector<Node> nodes;
   for (const std::vector<Geometry>* geometries : {&problem.robot, &problem.world})
     for (const Geometry& geometry : *geometries)

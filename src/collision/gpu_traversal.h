@@ -43,8 +43,8 @@ struct TraversalTask
   std::uint32_t levels = 1;  ///< no tree has more
 };
 
-/// The programs of one shader, one for each kind of task, compiled when it is wanted for the first time: merely to hold the
-/// code for what a task does not need halves the speed on llvmpipe.
+/// The programs of one shader, one for each kind of task, compiled when it is wanted for the first time: merely to hold
+/// the code for what a task does not need halves the speed on llvmpipe.
 class TaskPrograms
 {
  public:

@@ -47,6 +47,7 @@ CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::strin
   }
 
   CollisionProblem problem = problemOf(scene, bodies, pairs, options_.reductions.shared_trees, tessellations_);
+  problem.direct_primitives = options_.reductions.direct_primitives;
   problem.tolerance = options_.tolerance;
   problem.always_colliding = counts.always_colliding;
   problem.ranges = std::move(ranges);

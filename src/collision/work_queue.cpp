@@ -13,7 +13,7 @@ bool WorkQueue::run(BatchLists& lists, const TraversalTask& task)
   const std::uint32_t capacity = lists.capacity.node_pairs;
   program.set(2, capacity);
   if (task.tolerance > 0.0F)
-    program.set(5, task.tolerance);
+    program.setFloat(5, task.tolerance);
   std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
   lists.counters.clear(COUNTER_LANES_ENDED * sizeof(std::uint32_t), 2 * sizeof(std::uint32_t));
   std::array<std::uint32_t, COUNTER_WORDS> counters{};

@@ -161,7 +161,7 @@ void Program::set(int location, std::uint32_t value) const
   glProgramUniform1ui(id_, location, value);
 }
 
-void Program::set(int location, float value) const
+void Program::setFloat(int location, float value) const
 {
   glProgramUniform1f(id_, location, value);
 }

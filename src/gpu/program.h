@@ -32,7 +32,7 @@ class Program
 
   /// Uniforms have explicit locations in the shaders.
   void set(int location, std::uint32_t value) const;
-  void set(int location, float value) const;
+  void setFloat(int location, float value) const;
 
   /// Runs `groups` workgroups (at most the 65535 that OpenGL grants in x; more are spread over y), after all that was
   /// dispatched before. Zero groups do nothing.
