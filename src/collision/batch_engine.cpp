@@ -71,12 +71,7 @@ void BatchEngine::check(std::size_t count, std::size_t link_count, const LinkPos
   for (std::size_t begin = 0; begin < count; begin += max_batch_)
   {
     const std::size_t part = std::min(max_batch_, count - begin);
-    clock_t t_ = clock();
     const std::vector<float> poses = instancePoses(begin, part, link_count, link_poses);
-    {
-      clock_t n_ = clock();
-      t_ = n_;
-    }
     Verdicts verdicts;
     gl_.run([&] { pairs_->check(poses.data(), part, verdicts); });
     for (std::size_t i = 0; i < part; ++i)

@@ -6,11 +6,6 @@
 #include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"
 #include "interface.h"
-  {                                             \
-    glFinish();                                 \
-    clock_t n_ = clock();                       \
-    t_ = n_;                                    \
-  }
 
 namespace gpu_planning_scene
 {
@@ -102,7 +97,6 @@ void GpuPairChecker::checkPart(const float* poses, std::size_t begin, std::size_
 
 bool GpuPairChecker::runBatch(const float* poses, std::size_t count)
 {
-  clock_t t_ = clock();
   poses_.reserve(count * scene_.robotCount() * 12 * sizeof(float));
   poses_.buffer().write(poses, count * scene_.robotCount() * 12 * sizeof(float));
   lists_.flags.reserve(count * sizeof(std::uint32_t));
@@ -124,10 +118,6 @@ bool GpuPairChecker::runBatch(const float* poses, std::size_t count)
   const bool finished = traverse();
   if (finished)
     testContainment();
-  {
-    std::vector<std::uint32_t> c_(COUNTER_WORDS);
-    lists_.counters.read(c_.data(), c_.size() * 4);
-  }
   checkGl("a batch");
   return finished;
 }
