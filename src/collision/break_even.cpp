@@ -2,55 +2,60 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace gpu_planning_scene
 {
 namespace
 {
-// Growing, as long as the last one took less than kLong; the second is timed in any case.
-constexpr std::size_t kSizes[] = {1, 64, 256, 1024};
+// Growing, until one of the two takes kLong; two of them in any case.
+constexpr std::size_t kSizes[] = {1, 16, 64, 256, kMostTimed};
 constexpr double kLong = 0.005;  // seconds
+constexpr int kRepeats = 3;      // of which the fastest counts: what disturbs only makes slower
 
-struct Line
+struct Comparison
 {
-  double fixed;     // seconds
-  double per_item;  // seconds
+  double size;
+  double ahead;  // by how many seconds the direct way was faster
 };
 
-/// Through the two largest sizes that were timed: small batches leave lanes or cores idle, so time grows more slowly at
-/// first.
-Line fit(const TimedWork& work)
+std::vector<Comparison> compare(const TimedWork& direct, const TimedWork& bulk)
 {
-  work(1);  // what is only done the first time
-  Line line{};
-  std::size_t last_size = 0;
-  double last = 0.0;
+  direct(1);  // what is only done the first time
+  bulk(1);
+  std::vector<Comparison> made;
   for (const std::size_t size : kSizes)
   {
-    double seconds = work(size);
-    if (seconds < kLong)  // what disturbs only makes slower
-      seconds = std::min(seconds, work(size));
-    if (last_size != 0)
-      line.per_item = std::max(0.0, (seconds - last) / static_cast<double>(size - last_size));
-    line.fixed = std::max(0.0, seconds - line.per_item * static_cast<double>(size));
-    if (last_size != 0 && seconds >= kLong)
+    double direct_time = direct(size);
+    double bulk_time = bulk(size);
+    for (int i = 1; i < kRepeats && std::max(direct_time, bulk_time) < kLong; ++i)
+    {
+      direct_time = std::min(direct_time, direct(size));
+      bulk_time = std::min(bulk_time, bulk(size));
+    }
+    made.push_back({static_cast<double>(size), bulk_time - direct_time});
+    if (made.size() > 1 && std::max(direct_time, bulk_time) >= kLong)
       break;
-    last_size = size;
-    last = seconds;
   }
-  return line;
+  return made;
 }
 }  // namespace
 
+/// Between two sizes the lead is taken to be linear, and beyond the last as between the last two: small batches leave
+/// lanes or cores idle, so that time grows more slowly at first.
 std::size_t breakEven(const TimedWork& direct, const TimedWork& bulk)
 {
-  const Line a = fit(direct);
-  const Line b = fit(bulk);
-  if (b.fixed <= a.fixed && b.per_item <= a.per_item)
+  const std::vector<Comparison> made = compare(direct, bulk);
+  std::size_t last = made.size();
+  while (last > 0 && made[last - 1].ahead <= 0.0)
+    --last;
+  if (last == 0)
     return 0;
-  if (b.per_item >= a.per_item)
-    return kNoBatch;
-  const double size = std::max(0.0, (b.fixed - a.fixed) / (a.per_item - b.per_item));
-  return size < 1e9 ? static_cast<std::size_t>(std::ceil(size)) : kNoBatch;
+  const std::size_t after = std::max<std::size_t>(1, std::min(last, made.size() - 1));
+  const Comparison& a = made[after - 1];
+  const Comparison& b = made[after];
+  const double lost = (a.ahead - b.ahead) / (b.size - a.size);  // of the lead, for each item
+  const double size = a.size + a.ahead / lost;
+  return lost > 0.0 && size < 1e9 ? static_cast<std::size_t>(std::ceil(size)) : kNoBatch;
 }
 }  // namespace gpu_planning_scene

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -38,6 +39,16 @@ struct CheckedPairs
   std::vector<CheckedPair> self;
   std::vector<CheckedPair> world;
 };
+
+/// Moves the pairs of which leaves(pair) is true from one list to the end of another.
+template <class Predicate>
+void takePairs(std::vector<CheckedPair>& from, std::vector<CheckedPair>& to, const Predicate& leaves)
+{
+  const auto stay = [&leaves](const CheckedPair& pair) { return !leaves(pair); };
+  const auto left = std::stable_partition(from.begin(), from.end(), stay);
+  to.insert(to.end(), left, from.end());
+  from.erase(left, from.end());
+}
 
 /// How many of the pairs the group moves.
 std::size_t countMoved(const std::vector<CheckedPair>& pairs);

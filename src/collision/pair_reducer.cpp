@@ -8,32 +8,6 @@ namespace gpu_planning_scene
 {
 namespace
 {
-/// The uppermost link that this one is fixed to; -1: the planning frame.
-int anchorOf(const RobotModel& robot, int link)
-{
-  for (;;)
-  {
-    const int joint = robot.links()[static_cast<std::size_t>(link)].parent_joint;
-    if (joint < 0)
-      return -1;
-    if (robot.joints()[static_cast<std::size_t>(joint)].type != JointType::Fixed)
-      return link;
-    link = robot.joints()[static_cast<std::size_t>(joint)].parent_link;
-    if (link < 0)
-      return -1;
-  }
-}
-
-/// Moves the pairs that `leaves` says so of from one list to the end of another.
-template <class Predicate>
-void take(std::vector<CheckedPair>& from, std::vector<CheckedPair>& to, const Predicate& leaves)
-{
-  const auto kept =
-      std::stable_partition(from.begin(), from.end(), [&](const CheckedPair& pair) { return !leaves(pair); });
-  to.insert(to.end(), kept, from.end());
-  from.erase(kept, from.end());
-}
-
 std::size_t countObjects(const CheckedPairs& pairs, std::size_t objects)
 {
   std::vector<bool> seen(objects, false);
@@ -81,7 +55,7 @@ std::vector<std::vector<Obstacle>> PairReducer::obstaclesOf(const PlanningScene&
       else
       {
         const Eigen::AlignedBox3d box = cachedBox(placed.shape, used);
-        obstacles[k].push_back(PlacedBox{pose * Eigen::Translation3d(box.center()), 0.5 * box.sizes()});
+        obstacles[k].push_back(PlacedBox(pose * Eigen::Translation3d(box.center()), 0.5 * box.sizes()));
       }
     }
   boxes_ = std::move(used);
@@ -103,20 +77,20 @@ std::vector<VariableRange> PairReducer::leaveOutUnreachable(const PlanningScene&
   const std::size_t objects_before = countObjects(pairs, scene.objects.size());
 
   CheckedPairs left_out;
-  take(pairs.self, left_out.self,
-       [&](const CheckedPair& pair)
-       { return !reach_->mayMeet(sweptBody(bodies[pair.body]), sweptBody(bodies[pair.other]), 0.0); });
-  take(pairs.world, left_out.world,
-       [&](const CheckedPair& pair)
-       {
-         const RobotBody& body = bodies[pair.body];
-         const Region* region = reach_->inPlanningFrame(sweptBody(body));
-         const double padding = scene.link_padding.empty() ? 0.0 : scene.link_padding[body.link];
-         const double distance = padding + scene.objects[pair.other].padding;
-         return region != nullptr &&
-                std::none_of(obstacles[pair.other].begin(), obstacles[pair.other].end(),
-                             [&](const Obstacle& obstacle) { return mayMeet(*region, obstacle, distance); });
-       });
+  takePairs(pairs.self, left_out.self,
+            [&](const CheckedPair& pair)
+            { return !reach_->mayMeet(sweptBody(bodies[pair.body]), sweptBody(bodies[pair.other]), 0.0); });
+  takePairs(pairs.world, left_out.world,
+            [&](const CheckedPair& pair)
+            {
+              const RobotBody& body = bodies[pair.body];
+              const Region* region = reach_->inPlanningFrame(sweptBody(body));
+              const double padding = scene.link_padding.empty() ? 0.0 : scene.link_padding[body.link];
+              const double distance = padding + scene.objects[pair.other].padding;
+              return region != nullptr &&
+                     std::none_of(obstacles[pair.other].begin(), obstacles[pair.other].end(),
+                                  [&](const Obstacle& obstacle) { return mayMeet(*region, obstacle, distance); });
+            });
 
   report.unreachable_self_pairs = countMoved(left_out.self);
   report.unreachable_world_pairs = countMoved(left_out.world);
@@ -126,15 +100,4 @@ std::vector<VariableRange> PairReducer::leaveOutUnreachable(const PlanningScene&
   return left_out.self.empty() && left_out.world.empty() ? std::vector<VariableRange>() : reach_->ranges();
 }
 
-CheckedPairs PairReducer::takeFixed(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
-                                    CheckedPairs& pairs)
-{
-  std::vector<int> anchors;
-  for (const RobotBody& body : bodies)
-    anchors.push_back(anchorOf(*scene.robot, body.link));
-  CheckedPairs fixed;
-  take(pairs.self, fixed.self, [&](const CheckedPair& pair) { return anchors[pair.body] == anchors[pair.other]; });
-  take(pairs.world, fixed.world, [&](const CheckedPair& pair) { return anchors[pair.body] == -1; });
-  return fixed;
-}
 }  // namespace gpu_planning_scene

@@ -20,10 +20,6 @@ class PairReducer
   std::vector<VariableRange> leaveOutUnreachable(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
                                                  CheckedPairs& pairs, SceneReport& report);
 
-  /// Takes those pairs out of `pairs` that no joint moves against each other, and returns them: two bodies on links
-  /// that are fixed to each other, or an object and one on a link that is fixed in the planning frame.
-  static CheckedPairs takeFixed(const PlanningScene& scene, const std::vector<RobotBody>& bodies, CheckedPairs& pairs);
-
  private:
   using MeshBoxes = std::map<std::shared_ptr<const Mesh>, Eigen::AlignedBox3d>;
 

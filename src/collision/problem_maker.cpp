@@ -1,9 +1,7 @@
 #include "collision/problem_maker.h"
 
-#include <memory>
 #include <utility>
 
-#include "collision/cpu_traversal.h"
 #include "scene/validate_scene.h"
 
 namespace gpu_planning_scene
@@ -18,7 +16,6 @@ std::vector<bool> movedLinks(const RobotModel& robot, const std::string& group)
       moved[static_cast<std::size_t>(link)] = true;
   return moved;
 }
-
 }  // namespace
 
 ProblemMaker::ProblemMaker(const CheckerOptions& options) : options_(options)
@@ -37,13 +34,13 @@ CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::strin
     ranges = reducer_.leaveOutUnreachable(scene, bodies, pairs, counts);
   if (options_.reductions.unmoved_pairs)
   {
-    const CheckedPairs fixed = PairReducer::takeFixed(scene, bodies, pairs);
+    const CheckedPairs fixed = FixedPairs::take(*scene.robot, bodies, pairs);
     const std::size_t self = countMoved(fixed.self);
     const std::size_t world = countMoved(fixed.world);
     counts.self_pairs -= self;
     counts.world_pairs -= world;
     counts.settled_pairs = self + world;
-    counts.always_colliding = firstCollision(scene, bodies, fixed);
+    counts.always_colliding = fixed_pairs_.firstCollision(scene, bodies, fixed);
   }
 
   CollisionProblem problem = problemOf(scene, bodies, pairs, options_.reductions.shared_trees, tessellations_);
@@ -58,20 +55,5 @@ CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::strin
   if (report != nullptr)
     *report = counts;
   return problem;
-}
-
-/// The relative pose of a pair that no joint moves is the same in all states, but for rounding: the contract leaves
-/// open what becomes of a distance that this could move across the required one, as it is within the checker's slack.
-std::optional<std::array<std::int32_t, 2>> ProblemMaker::firstCollision(const PlanningScene& scene,
-                                                                        const std::vector<RobotBody>& bodies,
-                                                                        const CheckedPairs& fixed)
-{
-  const auto problem = std::make_shared<const CollisionProblem>(problemOf(scene, bodies, fixed, true, tessellations_));
-  if (problem->robot.empty())
-    return std::nullopt;
-  std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());
-  scene.robot->linkPoses(scene.robot->defaultState().data(), poses.data());
-  CpuTraversal::Scratch scratch;
-  return fixed_forest_.traversalOf(problem)->firstCollision(poses.data(), scratch);
 }
 }  // namespace gpu_planning_scene

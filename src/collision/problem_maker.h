@@ -1,12 +1,9 @@
 #pragma once
 
-#include <array>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "collision/collision_problem.h"
-#include "collision/forest_cache.h"
+#include "collision/fixed_pairs.h"
 #include "collision/pair_reducer.h"
 
 namespace gpu_planning_scene
@@ -23,13 +20,9 @@ class ProblemMaker
   CollisionProblem make(const PlanningScene& scene, const std::string& group, SceneReport* report);
 
  private:
-  std::optional<std::array<std::int32_t, 2>> firstCollision(const PlanningScene& scene,
-                                                            const std::vector<RobotBody>& bodies,
-                                                            const CheckedPairs& fixed);
-
   CheckerOptions options_;
   PairReducer reducer_;
   TessellationCache tessellations_;
-  ForestCache fixed_forest_;
+  FixedPairs fixed_pairs_;
 };
 }  // namespace gpu_planning_scene

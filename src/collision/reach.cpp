@@ -151,7 +151,11 @@ bool near(const Ball& ball, const Obstacle& obstacle, double distance)
   if (const auto* half_space = std::get_if<HalfSpace>(&obstacle))
     return half_space->normal.dot(ball.center) - half_space->offset <= reach;
   const PlacedBox& box = std::get<PlacedBox>(obstacle);
-  const Vector3d center = box.pose.linear().transpose() * (ball.center - box.pose.translation());
+  const Vector3d from_box = ball.center - box.pose.translation();
+  const double most = reach + box.radius;
+  if (from_box.squaredNorm() > most * most)
+    return false;
+  const Vector3d center = box.pose.linear().transpose() * from_box;
   return (center.cwiseAbs() - box.half).cwiseMax(0.0).norm() <= reach;
 }
 }  // namespace

@@ -35,6 +35,14 @@ TEST(BreakEven, IsNoneWhereOneIsFasterAlways)
   EXPECT_EQ(breakEven(work(1e-6, 3e-6), work(1e-6, 2e-6)), 0U);
 }
 
+TEST(BreakEven, LooksAtLargerBatchesWhereSmallOnesAreAlike)
+{
+  // Faster at first, as lanes are idle, but not later.
+  const TimedWork lanes = [](std::size_t size)
+  { return 1e-6 + (size <= 64 ? 0.0 : 4e-6 * static_cast<double>(size - 64)); };
+  EXPECT_EQ(breakEven(work(2e-6, 2e-6), lanes), kNoBatch);
+}
+
 TEST(BreakEven, TakesLittleTime)
 {
   double spent = 0.0;

@@ -140,7 +140,7 @@ Region regionOfRod(double angle)
 
 bool rodMayMeetBallAt(double angle, double x, double y)
 {
-  PlacedBox box{Eigen::Isometry3d(Eigen::Translation3d(x, y, 0.0)), Eigen::Vector3d::Constant(0.01)};
+  const PlacedBox box(Eigen::Isometry3d(Eigen::Translation3d(x, y, 0.0)), Eigen::Vector3d::Constant(0.01));
   return mayMeet(regionOfRod(angle), box, 0.0);
 }
 
