@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -108,8 +109,19 @@ struct Candidate
   std::string why_not;  // empty where the device is usable
 };
 
+/// libepoxy ends the process where they are missing.
+void requireLibraries()
+{
+  const bool has_gl = dlopen("libOpenGL.so.0", RTLD_LAZY) != nullptr || dlopen("libGL.so.1", RTLD_LAZY) != nullptr;
+  if (!epoxy_has_egl() || !has_gl)
+    throw Error(
+        std::string("this machine has no ") + (has_gl ? "libEGL.so.1" : "libOpenGL.so.0 or libGL.so.1") +
+        "; install its GPU driver, or Mesa for software rendering (Debian: libegl1, libopengl0, libgl1-mesa-dri)");
+}
+
 std::vector<Candidate> probe()
 {
+  requireLibraries();
   std::vector<Candidate> candidates;
   int index = 0;
   for (EGLDisplay display : displays())
