@@ -17,5 +17,5 @@ uint stateOf(uint invocation)
 
 uint poseIndex(uint state, uint robot)
 {
-  return state * robot_count + robot;
+  return robot * state_count + state;
 }

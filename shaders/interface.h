@@ -48,6 +48,8 @@
 #define UNIT_WORLD_PAIRS 10  // bits [robot][world], 128 a texel
 #define UNIT_PARTNERS 11     // robot instances: where their partners lie, then the partners
 #define UNIT_SPHERES 12      // [robot][state]
+#define UNIT_STATES 13       // these two: see kinematics.glsl
+#define UNIT_LINK_SHAPES 14
 // Storage buffers.
 #define BINDING_COUNTERS 0
 #define BINDING_FLAGS 1       // one uint a state: STATE_* bits
@@ -112,7 +114,7 @@
 #define COUNTER_CANDIDATES 0
 #define COUNTER_ITEMS 1
 #define COUNTER_NEXT_ENTRY 2      // work queues: the next entry that nobody has taken
-#define COUNTER_OVERFLOW 3        // not 0: a list was too short, the batch has to be split
+#define COUNTER_OVERFLOW 3        // not 0: a list was too short or work was left, the batch has to be split
 #define COUNTER_ENTRIES_EVEN 4    // node pairs; the two lists take turns
 #define COUNTER_ENTRIES_ODD 5
 #define COUNTER_LEAF_PAIRS 6
@@ -124,6 +126,7 @@
 #define COUNTER_ARGUMENTS 12      // three uints
 #define COUNTER_LEAF_ARGUMENTS 16
 #define COUNTER_CHUNK_ARGUMENTS 20
+#define COUNTER_PASS_ENTRIES 23   // work queues: how many entries the pass has
 #define COUNTER_WORDS 24
 
 // Breadth-first traversal: node pairs that one lane handles in sequence.

@@ -9,6 +9,7 @@ layout(location = 1) uniform uint out_counter;
 layout(location = 2) uniform uint entry_capacity;
 layout(location = 3) uniform uint leaf_pair_capacity;
 layout(location = 4) uniform uint in_capacity;  // of the list read
+layout(location = 5) uniform uint is_last;  // 1 for the deepest level that there can be
 layout(std430, binding = BINDING_B) buffer Sums { uvec2 sums[]; };
 
 #define SCAN_TYPE uvec2
@@ -21,7 +22,8 @@ void main()
   const uvec2 total = scanInPlace((entry_count + LEVEL_CHUNK - 1u) / LEVEL_CHUNK);
   if (gl_LocalInvocationID.x == 0u)
   {
-    if (total.x > entry_capacity || total.y > leaf_pair_capacity)
+    // The last level of all leaves nothing for a next one.
+    if (total.x > entry_capacity || total.y > leaf_pair_capacity || (is_last != 0u && total.x != 0u))
       counters[COUNTER_OVERFLOW] = 1u;
     const uvec2 kept = min(total, uvec2(entry_capacity, leaf_pair_capacity));
     counters[out_counter] = kept.x;
@@ -31,6 +33,6 @@ void main()
       counters[COUNTER_CHUNK_ARGUMENTS + i] = counters[COUNTER_ARGUMENTS + i];
     const uint chunks = (kept.x + LEVEL_CHUNK - 1u) / LEVEL_CHUNK;
     setGroups(COUNTER_ARGUMENTS, (chunks + GROUP_SIZE - 1u) / GROUP_SIZE);
-    setGroups(COUNTER_LEAF_ARGUMENTS, (kept.y * LEAF_TRIANGLES + GROUP_SIZE - 1u) / GROUP_SIZE);
+    setGroups(COUNTER_LEAF_ARGUMENTS, (kept.y + GROUP_SIZE - 1u) / GROUP_SIZE);
   }
 }

@@ -70,10 +70,7 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
     engine.selectPairs(problem);
     selected_group = group;
   }
-  const RobotModel& robot = *on_cpu.scene()->robot;
-  engine.check(
-      count, robot.links().size(),
-      [&](std::size_t row, Eigen::Isometry3d* poses) { robot.linkPoses(states + row * width(), poses); }, result);
+  engine.check(states, count, result);
 }
 
 /// Splits off the states that the group's problem does not hold for, which only the CPU can answer.
@@ -171,7 +168,7 @@ void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   impl_->on_cpu.setScene(std::move(scene));
   try
   {
-    impl_->engine.setProblem(impl_->on_cpu.problem(""));
+    impl_->engine.setProblem(impl_->on_cpu.problem(""), impl_->on_cpu.scene()->robot);
   }
   catch (...)
   {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "collision/state_rows.h"
+#include "gpu/float_arithmetic.h"
 #include "gpu_planning_scene/error.h"
 #include "interface.h"
 
@@ -12,9 +13,6 @@ namespace gpu_planning_scene
 {
 namespace
 {
-/// Large enough that threads do not meet often, small enough that they end together.
-constexpr std::size_t kStatesPerChunk = 256;
-
 /// Of the second one of a reported pair, see GpuPairChecker::pairOf.
 std::int32_t otherBody(const CollisionProblem& problem, std::size_t index)
 {
@@ -26,33 +24,54 @@ std::int32_t otherBody(const CollisionProblem& problem, std::size_t index)
 }
 }  // namespace
 
-BatchEngine::BatchEngine(const BatchCheckerOptions& options) : max_batch_(options.max_batch), gl_(options.device)
+BatchEngine::BatchEngine(const BatchCheckerOptions& options)
+  : shader_folder_(options.shader_folder.empty() ? shaderFolder() : options.shader_folder), gl_(options.device)
 {
-  if (max_batch_ == 0)
+  if (options.max_batch == 0)
     throw Error("max_batch is 0; it must be at least 1");
-  const std::string folder = options.shader_folder.empty() ? shaderFolder() : options.shader_folder;
-  gl_.run([&] { pairs_ = std::make_unique<GpuPairChecker>(folder, options.traversal, max_batch_); });
+  gl_.run(
+      [&]
+      {
+        pairs_ = std::make_unique<GpuPairChecker>(shader_folder_, options.traversal, options.max_batch);
+        double_fault_ = findDoubleFault(shader_folder_);
+      });
 }
 
 BatchEngine::~BatchEngine()
 {
-  gl_.run([this] { pairs_.reset(); });
+  gl_.run(
+      [this]
+      {
+        kinematics_.reset();
+        pairs_.reset();
+      });
 }
 
-void BatchEngine::setProblem(std::shared_ptr<const CollisionProblem> problem)
+void BatchEngine::setProblem(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const RobotModel> robot)
 {
   try
   {
-    gl_.run([&] { pairs_->setProblem(*problem); });
+    gl_.run([&] { apply(*problem, robot); });
   }
   catch (...)
   {
     if (problem_)
-      gl_.run([this] { pairs_->setProblem(*problem_); });
+      gl_.run([this] { apply(*problem_, robot_); });
     throw;
   }
   problem_ = std::move(problem);
+  robot_ = std::move(robot);
   on_cpu_.reset();
+}
+
+void BatchEngine::apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot)
+{
+  pairs_->setProblem(problem);
+  if (!robot || !double_fault_.empty())
+    return;
+  if (!kinematics_ || kinematics_->robot() != robot)
+    kinematics_ = std::make_unique<GpuKinematics>(shader_folder_, robot);
+  kinematics_->setInstances(problem);
 }
 
 void BatchEngine::selectPairs(std::shared_ptr<const CollisionProblem> problem)
@@ -62,59 +81,53 @@ void BatchEngine::selectPairs(std::shared_ptr<const CollisionProblem> problem)
   on_cpu_.reset();
 }
 
-void BatchEngine::check(std::size_t count, std::size_t link_count, const LinkPoses& link_poses, BatchResult& result)
+void BatchEngine::check(const double* states, std::size_t count, BatchResult& result)
+{
+  const RobotModel& robot = *robot_;
+  const std::size_t width = robot.variables().size();
+  const LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* poses)
+  { robot.linkPoses(states + row * width, poses); };
+  bool on_gpu = kinematics_ != nullptr;
+  for (std::size_t i = 0; on_gpu && i < count; ++i)
+    on_gpu = kinematics_->canPlace(states + i * width);
+  if (!on_gpu)
+    return checkPoses(count, robot.links().size(), link_poses, result);
+  kinematics_->setStates(states);
+  check(*kinematics_, count, robot.links().size(), link_poses, result);
+}
+
+void BatchEngine::checkPoses(std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
+                             BatchResult& result)
+{
+  UploadedPoses poses(*problem_, link_count, link_poses);
+  check(poses, count, link_count, link_poses, result);
+}
+
+void BatchEngine::check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
+                        BatchResult& result)
 {
   const std::vector<Geometry>& robot = problem_->robot;
   result.valid.assign(count, 1);
   result.colliding.assign(count, {-1, -1});
+  Verdicts verdicts;
+  gl_.run([&] { pairs_->check(source, count, verdicts); });
   std::vector<std::size_t> undecided;
-  for (std::size_t begin = 0; begin < count; begin += max_batch_)
+  for (std::size_t i = 0; i < count; ++i)
   {
-    const std::size_t part = std::min(max_batch_, count - begin);
-    const std::vector<float> poses = instancePoses(begin, part, link_count, link_poses);
-    Verdicts verdicts;
-    gl_.run([&] { pairs_->check(poses.data(), part, verdicts); });
-    for (std::size_t i = 0; i < part; ++i)
+    if (verdicts.flags[i] & STATE_HIT)
     {
-      if (verdicts.flags[i] & STATE_HIT)
-      {
-        const auto [a, b] = GpuPairChecker::pairOf(verdicts.hits[i]);
-        result.valid[begin + i] = 0;
-        result.colliding[begin + i] = {robot[a].body, otherBody(*problem_, b)};
-      }
-      else if (verdicts.flags[i] & STATE_UNDECIDED)
-        undecided.push_back(begin + i);
+      const auto [a, b] = GpuPairChecker::pairOf(verdicts.hits[i]);
+      result.valid[i] = 0;
+      result.colliding[i] = {robot[a].body, otherBody(*problem_, b)};
     }
+    else if (verdicts.flags[i] & STATE_UNDECIDED)
+      undecided.push_back(i);
   }
   result.undecided_states = undecided.size();
   const auto start = std::chrono::steady_clock::now();
   if (!undecided.empty())
     settleOnCpu(undecided, link_count, link_poses, result);
   result.undecided_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// The poses of all robot instances as GpuPairChecker takes them: kinematics in double, each pose brought near the
-/// origin and rounded once.
-std::vector<float> BatchEngine::instancePoses(std::size_t begin, std::size_t count, std::size_t link_count,
-                                              const LinkPoses& link_poses) const
-{
-  const std::vector<Geometry>& instances = problem_->robot;
-  std::vector<float> poses(count * instances.size() * 12);
-  forChunks(count, kStatesPerChunk,
-            [&, links = std::vector<Eigen::Isometry3d>(link_count)](std::size_t from, std::size_t to) mutable
-            {
-              for (std::size_t i = from; i < to; ++i)
-              {
-                link_poses(begin + i, links.data());
-                for (std::size_t k = 0; k < instances.size(); ++k)
-                {
-                  Eigen::Isometry3d pose = links[static_cast<std::size_t>(instances[k].link)] * instances[k].pose;
-                  pose.translation() -= problem_->origin;
-                  writePoseRows(pose, &poses[(i * instances.size() + k) * 12]);
-                }
-              }
-            });
-  return poses;
 }
 
 void BatchEngine::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,

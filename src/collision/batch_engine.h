@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,7 +10,9 @@
 #include "collision/collision_problem.h"
 #include "collision/cpu_traversal.h"
 #include "collision/forest_cache.h"
+#include "collision/gpu_kinematics.h"
 #include "collision/gpu_pair_checker.h"
+#include "collision/uploaded_poses.h"
 #include "gpu/gl_thread.h"
 #include "gpu_planning_scene/batch_checker.h"
 
@@ -26,33 +27,40 @@ class BatchEngine
   explicit BatchEngine(const BatchCheckerOptions& options);
   ~BatchEngine();
 
-  /// Builds the trees. Throws Error and keeps the old problem if the device cannot hold the new one.
-  void setProblem(std::shared_ptr<const CollisionProblem> problem);
+  /// Builds the trees. `robot`: whose states are checked; null for a problem that is no robot's. Throws Error and keeps
+  /// the old problem if the device cannot hold the new one.
+  void setProblem(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const RobotModel> robot = nullptr);
 
   /// Restricts the checked pairs to those of `problem`, which has the same trees and instances.
   void selectPairs(std::shared_ptr<const CollisionProblem> problem);
 
-  /// Writes the poses of all links (of bodies that CollisionProblem::robot names) in state `row`. Called from several
-  /// threads.
-  using LinkPoses = std::function<void(std::size_t row, Eigen::Isometry3d* link_poses)>;
+  /// Checks `count` rows of the robot's variables: fills the result but for revision and seconds.
+  void check(const double* states, std::size_t count, BatchResult& result);
 
-  /// Checks `count` states of a robot of `link_count` links: fills the result but for revision and
-  /// seconds.
-  void check(std::size_t count, std::size_t link_count, const LinkPoses& link_poses, BatchResult& result);
+  /// The same for poses that the caller finds.
+  void checkPoses(std::size_t count, std::size_t link_count, const UploadedPoses::LinkPoses& link_poses,
+                  BatchResult& result);
 
   const Device& device() const { return gl_.device(); }
   /// See GpuPairChecker.
   const std::string& floatFault() const { return pairs_->floatFault(); }
 
  private:
-  std::vector<float> instancePoses(std::size_t begin, std::size_t count, std::size_t link_count,
-                                   const LinkPoses& link_poses) const;
+  using LinkPoses = UploadedPoses::LinkPoses;
+  void apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot);
+  void check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
+             BatchResult& result);
   void settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,
                    BatchResult& result);
 
-  std::size_t max_batch_;
+  std::string shader_folder_;
   GlThread gl_;
-  std::unique_ptr<GpuPairChecker> pairs_;  // made, used and destroyed on the GL thread
+  // These two are made, used and destroyed on the GL thread. No kinematics where the device's double precision is not
+  // good.
+  std::unique_ptr<GpuPairChecker> pairs_;
+  std::unique_ptr<GpuKinematics> kinematics_;
+  std::string double_fault_;
+  std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
   ForestCache trees_;                           // for the undecided states
   std::unique_ptr<const CpuTraversal> on_cpu_;  // of the selected pairs; made when a state is undecided

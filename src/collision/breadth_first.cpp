@@ -1,7 +1,6 @@
 #include "collision/breadth_first.h"
 
 #include <array>
-#include <limits>
 
 #include "interface.h"
 
@@ -27,7 +26,7 @@ BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definit
   leaf_pairs_.reserve(std::size_t{capacities.leaf_pairs} * 16);
 }
 
-bool BreadthFirst::run(BatchLists& lists, const TraversalTask& task)
+void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
 {
   const Program& overlap = overlap_.forTask(task);
   const Program& triangles = triangles_.forTask(task);
@@ -37,8 +36,7 @@ bool BreadthFirst::run(BatchLists& lists, const TraversalTask& task)
   const std::uint32_t capacity = lists.capacity.node_pairs;
   const auto chunk_lanes = std::uint32_t{LEVEL_CHUNK} * GROUP_SIZE;
   std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
-  arguments_.prepare(in_counter, lists.capacity.items, chunk_lanes, std::numeric_limits<std::uint32_t>::max(),
-                     COUNTER_ENTRIES_ODD);
+  arguments_.prepare(in_counter, lists.capacity.items, chunk_lanes, COUNTER_ENTRIES_ODD);
   for (const Program* program : level_programs)
   {
     program->set(2, capacity);
@@ -57,6 +55,7 @@ bool BreadthFirst::run(BatchLists& lists, const TraversalTask& task)
     }
     const TexelBuffer& entries = task.solids ? lists.solid_entries : lists.mesh_entries;
     (level == 0 ? entries : lists.node_pairs[level % 2]).bindTexture(UNIT_ENTRIES);
+    scan_.set(5, level + 1 == task.levels ? 1U : 0U);
     masks_.bindStorage(BINDING_A);
     sums_.bindStorage(BINDING_B);
     overlap.dispatchIndirect(lists.counters, offsetOf(COUNTER_ARGUMENTS));
@@ -67,8 +66,5 @@ bool BreadthFirst::run(BatchLists& lists, const TraversalTask& task)
     triangles.dispatchIndirect(lists.counters, offsetOf(COUNTER_LEAF_ARGUMENTS));
     in_counter = out_counter;
   }
-  std::array<std::uint32_t, COUNTER_WORDS> counters{};
-  lists.counters.read(counters.data(), sizeof(counters));
-  return counters[COUNTER_OVERFLOW] == 0 && counters[in_counter] == 0;
 }
 }  // namespace gpu_planning_scene

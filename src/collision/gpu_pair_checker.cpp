@@ -1,7 +1,7 @@
 #include "collision/gpu_pair_checker.h"
 
 #include <algorithm>
-#include <limits>
+#include <chrono>
 
 #include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"
@@ -11,7 +11,27 @@ namespace gpu_planning_scene
 {
 namespace
 {
-constexpr std::uint32_t kNoLimit = std::numeric_limits<std::uint32_t>::max();
+/// Some devices end work that takes seconds, and it keeps others waiting: this is aimed at.
+constexpr double kPartSeconds = 0.05;
+/// What the first part has, of which it is not known how long it takes.
+constexpr std::size_t kFirstPart = 2048;
+
+/// Where a part's flags and hits lie behind its counters.
+struct AnswerOffsets
+{
+  explicit AnswerOffsets(std::size_t count)
+    : words((count * sizeof(std::uint32_t) + Buffer::kStorageAlignment - 1) / Buffer::kStorageAlignment *
+            Buffer::kStorageAlignment),
+      hits(flags + words),
+      end(hits + words)
+  {
+  }
+  std::size_t words;
+  std::size_t flags = Buffer::kStorageAlignment;
+  std::size_t hits;
+  std::size_t end;
+};
+static_assert(COUNTER_WORDS * sizeof(std::uint32_t) <= Buffer::kStorageAlignment, "they lie before the flags");
 
 /// Room that is enough for most batches: what a state leaves behind on average, and some for batches of few states.
 ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
@@ -32,7 +52,7 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
     definitions_(float_fault_.empty() ? "" : "#define FLOATS_DECIDE 0\n"),
     scene_(folder),
     max_states_(std::max<std::size_t>(1, max_states)),
-    part_(max_states_),
+    part_size_(std::min(max_states_, kFirstPart)),
     lists_(withDefaults(capacities, max_states_)),
     traversal_(makeTraversal(traversal, folder, definitions_, lists_.capacity)),
     arguments_(folder),
@@ -52,74 +72,118 @@ std::pair<std::uint32_t, std::uint32_t> GpuPairChecker::pairOf(std::uint32_t hit
 
 void GpuPairChecker::setProblem(const CollisionProblem& problem)
 {
-  part_ = max_states_;
   scene_.setProblem(problem);
 }
 
 void GpuPairChecker::selectPairs(const CollisionProblem& problem)
 {
-  part_ = max_states_;
   scene_.selectPairs(problem);
 }
 
-void GpuPairChecker::check(const float* poses, std::size_t count, Verdicts& verdicts)
+void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts)
 {
   verdicts.flags.assign(count, 0);
   verdicts.hits.assign(count, 0);
   if (scene_.robotCount() == 0)
     return;
-  for (std::size_t begin = 0; begin < count;)
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last = Clock::now();
+  Part* running = nullptr;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; running || begin < count; ++i)
   {
-    const std::size_t part = std::min(part_, count - begin);
-    checkPart(poses, begin, part, verdicts);
-    begin += part;
+    Part* next = nullptr;
+    if (begin < count)
+    {
+      next = &parts_[i % 2];
+      next->begin = begin;
+      next->count = std::min(part_size_, count - begin);
+      begin += next->count;
+      start(source, *next);
+    }
+    if (running)
+    {
+      finish(source, *running, verdicts);
+      const Clock::time_point now = Clock::now();
+      adaptPartSize(running->count, std::chrono::duration<double>(now - last).count());
+      last = now;
+    }
+    running = next;
   }
 }
 
-void GpuPairChecker::checkPart(const float* poses, std::size_t begin, std::size_t count, Verdicts& verdicts)
+/// By what a part of `count` states took.
+void GpuPairChecker::adaptPartSize(std::size_t count, double seconds)
 {
-  if (runBatch(poses + begin * scene_.robotCount() * 12, count))
-  {
-    lists_.flags.read(&verdicts.flags[begin], count * sizeof(std::uint32_t));
-    lists_.hits.read(&verdicts.hits[begin], count * sizeof(std::uint32_t));
+  const double wanted = static_cast<double>(count) * kPartSeconds / std::max(seconds, 1e-6);
+  if (wanted < static_cast<double>(part_size_))
+    part_size_ = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
+  else if (count == part_size_ && wanted >= 2.0 * static_cast<double>(count))
+    part_size_ = std::min(max_states_, 2 * part_size_);
+}
+
+void GpuPairChecker::finish(PoseSource& source, Part& part, Verdicts& verdicts)
+{
+  if (fetch(part, verdicts))
     return;
-  }
+  const std::size_t begin = part.begin;
+  const std::size_t count = part.count;
   if (count == 1)
   {
     verdicts.flags[begin] = STATE_UNDECIDED;
     return;
   }
-  // Batches that follow are likely to be like this one.
-  part_ = (count + 1) / 2;
-  checkPart(poses, begin, count / 2, verdicts);
-  checkPart(poses, begin + count / 2, count - count / 2, verdicts);
+  // Parts that follow are likely to be like this one.
+  part_size_ = std::min(part_size_, (count + 1) / 2);
+  for (const auto& [first, states] : {std::pair(begin, count / 2), std::pair(begin + count / 2, count - count / 2)})
+  {
+    part.begin = first;
+    part.count = states;
+    start(source, part);
+    finish(source, part, verdicts);
+  }
 }
 
-bool GpuPairChecker::runBatch(const float* poses, std::size_t count)
+bool GpuPairChecker::fetch(const Part& part, Verdicts& verdicts) const
 {
-  poses_.reserve(count * scene_.robotCount() * 12 * sizeof(float));
-  poses_.buffer().write(poses, count * scene_.robotCount() * 12 * sizeof(float));
-  lists_.flags.reserve(count * sizeof(std::uint32_t));
-  lists_.flags.clear(0, count * sizeof(std::uint32_t));
-  lists_.hits.reserve(count * sizeof(std::uint32_t));
+  const AnswerOffsets offsets(part.count);
+  std::vector<std::uint32_t> words(offsets.end / sizeof(std::uint32_t));
+  part.answers.read(words.data(), offsets.end);
+  if (words[COUNTER_OVERFLOW] != 0)
+    return false;
+  const auto flags = words.begin() + static_cast<std::ptrdiff_t>(offsets.flags / sizeof(std::uint32_t));
+  const auto hits = words.begin() + static_cast<std::ptrdiff_t>(offsets.hits / sizeof(std::uint32_t));
+  std::copy_n(flags, part.count, verdicts.flags.begin() + static_cast<std::ptrdiff_t>(part.begin));
+  std::copy_n(hits, part.count, verdicts.hits.begin() + static_cast<std::ptrdiff_t>(part.begin));
+  return true;
+}
+
+/// All of a part's work, without waiting for any of it.
+void GpuPairChecker::start(PoseSource& source, Part& part)
+{
+  const AnswerOffsets offsets(part.count);
+  part.answers.reserve(offsets.end);
+  part.answers.clear(offsets.flags, offsets.words);
   lists_.counters.clear();
+  poses_.reserve(part.count * scene_.robotCount() * 12 * sizeof(float));
+  source.write(part.begin, part.count, poses_);
 
   scene_.bind();
   poses_.bindTexture(UNIT_ROBOT_POSES);
   lists_.items.bindTexture(UNIT_ITEMS);
   lists_.candidates.bindTexture(UNIT_CANDIDATES);
   lists_.counters.bindStorage(BINDING_COUNTERS);
-  lists_.flags.bindStorage(BINDING_FLAGS);
-  lists_.hits.bindStorage(BINDING_HITS);
+  part.answers.bindStorage(BINDING_FLAGS, offsets.flags, offsets.words);
+  part.answers.bindStorage(BINDING_HITS, offsets.hits, offsets.words);
 
-  testHalfSpaces(static_cast<std::uint32_t>(count));
-  findCandidates(static_cast<std::uint32_t>(count));
+  const auto states = static_cast<std::uint32_t>(part.count);
+  testHalfSpaces(states);
+  findCandidates(states);
   testRoots();
-  const bool finished = traverse();
-  if (finished)
-    testContainment();
+  traverse();
+  testContainment();
+  part.answers.copyFrom(lists_.counters, COUNTER_WORDS * sizeof(std::uint32_t));
   checkGl("a batch");
-  return finished;
 }
 
 void GpuPairChecker::testHalfSpaces(std::uint32_t states)
@@ -168,7 +232,7 @@ void GpuPairChecker::findCandidates(std::uint32_t states)
 
 void GpuPairChecker::testRoots()
 {
-  arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, kNoLimit, COUNTER_UNUSED);
+  arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, COUNTER_UNUSED);
   roots_program_.set(2, lists_.capacity.candidates);
   roots_program_.set(3, lists_.capacity.items);
   roots_program_.set(4, scene_.solidNodes());
@@ -180,7 +244,7 @@ void GpuPairChecker::testRoots()
 }
 
 /// Solids first: what is found there costs less.
-bool GpuPairChecker::traverse()
+void GpuPairChecker::traverse()
 {
   TraversalTask task;
   task.padded = scene_.isPadded();
@@ -189,11 +253,10 @@ bool GpuPairChecker::traverse()
   if (scene_.solidNodes() != 0)
   {
     task.solids = true;
-    if (!traversal_->run(lists_, task))
-      return false;
+    traversal_->start(lists_, task);
     task.solids = false;
   }
-  return traversal_->run(lists_, task);
+  traversal_->start(lists_, task);
 }
 
 /// Of meshes in meshes and of primitives in meshes; what primitives contain, testRoots has seen.
@@ -201,7 +264,7 @@ void GpuPairChecker::testContainment()
 {
   if (!scene_.hasMeshSolids())
     return;
-  arguments_.prepare(COUNTER_ITEMS, lists_.capacity.items, GROUP_SIZE, kNoLimit, COUNTER_UNUSED);
+  arguments_.prepare(COUNTER_ITEMS, lists_.capacity.items, GROUP_SIZE, COUNTER_UNUSED);
   inside_program_.set(2, lists_.capacity.items);
   scene_.components().bindStorage(BINDING_C);
   scene_.leafOrder().bindStorage(BINDING_A);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include "collision/gpu_scene.h"
 #include "collision/gpu_traversal.h"
+#include "collision/pose_source.h"
 
 namespace gpu_planning_scene
 {
@@ -37,27 +39,39 @@ class GpuPairChecker
   /// undecided. Empty where it is as docs/error_bounds.md assumes.
   const std::string& floatFault() const { return float_fault_; }
 
-  /// `poses`: state by state, 12 floats for each robot instance (writePoseRows), relative to the frame of the world's
-  /// poses. A part of the batch whose lists overflow is split; a single state that still overflows is undecided.
-  void check(const float* poses, std::size_t count, Verdicts& verdicts);
+  /// The poses come relative to the frame of the world's poses. Batches go to the device part by part, the next one
+  /// before the answers of the one before are fetched; a part takes about kPartSeconds at most. A part whose lists
+  /// overflow is split; a single state that still overflows is undecided.
+  void check(PoseSource& source, std::size_t count, Verdicts& verdicts);
 
   /// Indices of a reported pair: into CollisionProblem::robot, and into robot, world and half-spaces in succession.
   static std::pair<std::uint32_t, std::uint32_t> pairOf(std::uint32_t hit);
 
  private:
-  void checkPart(const float* poses, std::size_t begin, std::size_t count, Verdicts& verdicts);
-  bool runBatch(const float* poses, std::size_t count);
+  /// States of a batch that are on their way through the device, and where their answers come to lie.
+  struct Part
+  {
+    std::size_t begin = 0;
+    std::size_t count = 0;
+    Buffer answers;  // counters, flags and hits, see answerOffsets
+  };
+
+  void start(PoseSource& source, Part& part);
+  void finish(PoseSource& source, Part& part, Verdicts& verdicts);
+  bool fetch(const Part& part, Verdicts& verdicts) const;
+  void adaptPartSize(std::size_t count, double seconds);
   void testHalfSpaces(std::uint32_t states);
   void findCandidates(std::uint32_t states);
   void testRoots();
-  bool traverse();
+  void traverse();
   void testContainment();
 
   std::string float_fault_;
   std::string definitions_;  // of the programs that test triangles
   GpuScene scene_;
   std::size_t max_states_;
-  std::size_t part_;  // states that go to the GPU at once: fewer than max_states_ after an overflow
+  std::size_t part_size_;  // at most max_states_
+  std::array<Part, 2> parts_;
   BatchLists lists_;
   std::unique_ptr<GpuTraversal> traversal_;
   ArgumentsKernel arguments_;

@@ -59,14 +59,13 @@ std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::stri
 }
 
 void ArgumentsKernel::prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes,
-                              std::uint32_t max_groups, std::uint32_t cleared) const
+                              std::uint32_t cleared) const
 {
   program_.set(0, counter);
   program_.set(1, capacity);
   program_.set(2, lanes);
-  program_.set(3, max_groups);
-  program_.set(4, COUNTER_ARGUMENTS);
-  program_.set(5, cleared);
+  program_.set(3, COUNTER_ARGUMENTS);
+  program_.set(4, cleared);
   program_.dispatch(1);
 }
 

@@ -28,7 +28,7 @@ struct BatchLists
   explicit BatchLists(const ListCapacities& capacities);
 
   ListCapacities capacity;
-  Buffer counters, flags, hits;
+  Buffer counters;
   TexelBuffer candidates, items;
   TexelBuffer mesh_entries, solid_entries;  ///< the items' root pairs: of two meshes, of a mesh and a solid
   std::array<TexelBuffer, 2> node_pairs;    ///< what traversals leave for the next level or pass, in turns
@@ -63,9 +63,9 @@ class GpuTraversal
  public:
   virtual ~GpuTraversal() = default;
 
-  /// Traverses from the entries of the task's kind. Returns false if something was left undone: a list overflowed, or
-  /// the device ended work early.
-  virtual bool run(BatchLists& lists, const TraversalTask& task) = 0;
+  /// Traverses from the entries of the task's kind, without waiting for the device: where something is left undone, as
+  /// a list overflowed or the device ended work early, counters[COUNTER_OVERFLOW] says so.
+  virtual void start(BatchLists& lists, const TraversalTask& task) = 0;
 };
 
 /// `definitions`: for the programs, see Program.
@@ -78,10 +78,9 @@ class ArgumentsKernel
  public:
   explicit ArgumentsKernel(const std::string& shader_folder) : program_(shader_folder, "check_arguments.comp") {}
 
-  /// Writes indirect arguments for a list of counters[counter] elements, at most `capacity`; sets counters[cleared] to
-  /// 0.
-  void prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes, std::uint32_t max_groups,
-               std::uint32_t cleared) const;
+  /// Writes indirect arguments for a list of counters[counter] elements, at most `capacity`, in workgroups of `lanes`;
+  /// sets counters[cleared] to 0.
+  void prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes, std::uint32_t cleared) const;
   static std::size_t argumentsOffset();
 
  private:

@@ -69,7 +69,7 @@ std::vector<std::uint8_t> MeshPairChecker::collide(const std::vector<Eigen::Isom
   const std::vector<Eigen::Isometry3d> poses = rigidPoses(b_in_a);
   const auto start = std::chrono::steady_clock::now();
   BatchResult result;
-  impl_->engine.check(
+  impl_->engine.checkPoses(
       poses.size(), 1, [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses[row]; }, result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::vector<std::uint8_t> hits;

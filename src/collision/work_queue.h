@@ -11,13 +11,15 @@ class WorkQueue : public GpuTraversal
 {
  public:
   WorkQueue(const std::string& shader_folder, const std::string& definitions)
-    : arguments_(shader_folder), programs_(shader_folder, "work_queue.comp", definitions)
+    : pass_program_(shader_folder, "queue_pass.comp"), programs_(shader_folder, "work_queue.comp", definitions)
   {
   }
-  bool run(BatchLists& lists, const TraversalTask& task) override;
+  void start(BatchLists& lists, const TraversalTask& task) override;
 
  private:
-  ArgumentsKernel arguments_;
+  void preparePass(std::uint32_t in_counter, std::uint32_t in_capacity, std::uint32_t out_counter, bool is_last) const;
+
+  Program pass_program_;
   TaskPrograms programs_;
 };
 }  // namespace gpu_planning_scene

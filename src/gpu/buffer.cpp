@@ -96,6 +96,12 @@ void Buffer::bindStorage(std::uint32_t binding) const
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, id_);
 }
 
+void Buffer::bindStorage(std::uint32_t binding, std::size_t offset, std::size_t size) const
+{
+  glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, id_, static_cast<GLintptr>(offset),
+                    static_cast<GLsizeiptr>(size));
+}
+
 TexelBuffer::~TexelBuffer()
 {
   if (texture_)

@@ -26,9 +26,12 @@ class Buffer
   void read(void* data, std::size_t size, std::size_t offset = 0) const;
   void clear();  ///< fills it with zeros
   void clear(std::size_t offset, std::size_t size);
-  void copyFrom(const Buffer& other, std::size_t size);
+  void copyFrom(const Buffer& other, std::size_t size);  ///< to the front
 
   void bindStorage(std::uint32_t binding) const;
+  /// A part of it; `offset` is a multiple of kStorageAlignment.
+  void bindStorage(std::uint32_t binding, std::size_t offset, std::size_t size) const;
+  static constexpr std::size_t kStorageAlignment = 256;  // the most that OpenGL lets a device ask for
 
   template <class T>
   void write(const std::vector<T>& data)

@@ -90,4 +90,39 @@ std::string findFloatFault(const std::string& shader_folder)
     }
   return {};
 }
+
+std::string findDoubleFault(const std::string& shader_folder)
+{
+  constexpr double kRelative = 0x1p-50;
+  std::vector<std::array<double, 2>> numbers;
+  std::mt19937_64 generator(20032);
+  std::uniform_real_distribution<double> uniform(-8.0, 8.0);
+  for (std::size_t i = 0; i < kCases; ++i)
+    numbers.push_back({uniform(generator), uniform(generator)});
+  Buffer input(kCases * sizeof(numbers.front()));
+  input.write(numbers);
+  Buffer output(kCases * 4 * sizeof(double));
+  Buffer rounded(kCases * sizeof(float));
+  input.bindStorage(BINDING_C);
+  output.bindStorage(BINDING_A);
+  rounded.bindStorage(BINDING_B);
+  const Program program(shader_folder, "double_arithmetic.comp");
+  program.set(0, kCases);
+  program.dispatch(kCases / GROUP_SIZE);
+  std::vector<std::array<double, 4>> results(kCases);
+  std::vector<float> floats(kCases);
+  output.read(results.data(), kCases * sizeof(results.front()));
+  rounded.read(floats.data(), kCases * sizeof(float));
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    const auto [x, y] = numbers[i];
+    const std::array<double, 4> expected = {x + y, x * y, x / y, std::sqrt(std::abs(x * y))};
+    for (std::size_t k = 0; k < 4; ++k)
+      if (!(std::abs(results[i][k] - expected[k]) <= kRelative * std::abs(expected[k])))
+        return "double precision: an operation is off by more than 2^-50 of its result; the CPU places the links";
+    if (!(std::abs(floats[i] - expected[1]) <= (0x1p-24 + kRelative) * std::abs(expected[1])))
+      return "double precision: numbers are not rounded to the nearest float; the CPU places the links";
+  }
+  return {};
+}
 }  // namespace gpu_planning_scene

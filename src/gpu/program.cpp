@@ -28,16 +28,12 @@ void waitForEarlierDispatches()
                   GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void appendFile(const std::string& folder, const std::string& name, std::set<std::string>& seen, std::string& text)
+void appendFile(const std::string& folder, const std::string& name, std::set<std::string>& seen, std::string& text);
+
+void appendText(const std::string& folder, std::istream& lines, std::set<std::string>& seen, std::string& text)
 {
-  if (!seen.insert(name).second)
-    return;
-  std::ifstream file(folder + "/" + name);
-  if (!file)
-    throw Error("shader file " + folder + "/" + name +
-                " is missing; install the package, or set GPU_PLANNING_SCENE_SHADERS");
   std::string line;
-  while (std::getline(file, line))
+  while (std::getline(lines, line))
   {
     std::istringstream words(line);
     std::string word;
@@ -48,6 +44,17 @@ void appendFile(const std::string& folder, const std::string& name, std::set<std
     else if (word != "#pragma")  // the include guards of files that C++ reads too
       text += line + '\n';
   }
+}
+
+void appendFile(const std::string& folder, const std::string& name, std::set<std::string>& seen, std::string& text)
+{
+  if (!seen.insert(name).second)
+    return;
+  std::ifstream file(folder + "/" + name);
+  if (!file)
+    throw Error("shader file " + folder + "/" + name +
+                " is missing; install the package, or set GPU_PLANNING_SCENE_SHADERS");
+  appendText(folder, file, seen, text);
 }
 
 std::string compileLog(GLuint shader)
@@ -137,15 +144,28 @@ std::size_t groupsFor(std::size_t lanes)
 }
 
 Program::Program(const std::string& folder, const std::string& name, const std::string& definitions)
+  : Program(Source{name, "#version 450\n" + definitions + readShader(folder, name)})
 {
-  const std::string source = "#version 450\n" + definitions + readShader(folder, name);
-  id_ = loadCachedProgram(source);
+}
+
+Program Program::fromText(const std::string& folder, const std::string& name, const std::string& text)
+{
+  std::istringstream lines(text);
+  std::set<std::string> seen;
+  Source source{name, "#version 450\n"};
+  appendText(folder, lines, seen, source.text);
+  return Program(source);
+}
+
+Program::Program(const Source& source)
+{
+  id_ = loadCachedProgram(source.text);
   if (id_ == 0)
   {
-    id_ = compile(source, name);
-    cacheProgram(id_, source);
+    id_ = compile(source.text, source.name);
+    cacheProgram(id_, source.text);
   }
-  checkGl(("compiling " + name).c_str());
+  checkGl(("compiling " + source.name).c_str());
 }
 
 Program::~Program()

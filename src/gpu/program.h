@@ -26,6 +26,8 @@ class Program
   /// Compiles `name` of `folder`, or takes it from the program cache; `definitions` are lines that go before its text
   /// ("#define X 1\n"). Throws Error with the compiler's log.
   Program(const std::string& folder, const std::string& name, const std::string& definitions = "");
+  /// The same from a text of the program's own making, which may include files of `folder`. `name` is for messages.
+  static Program fromText(const std::string& folder, const std::string& name, const std::string& text);
   ~Program();
   Program(Program&& other) noexcept;
   Program& operator=(Program&&) = delete;
@@ -41,6 +43,13 @@ class Program
   void dispatchIndirect(const Buffer& arguments, std::size_t offset) const;
 
  private:
+  struct Source
+  {
+    std::string name;
+    std::string text;  // complete
+  };
+  explicit Program(const Source& source);
+
   std::uint32_t id_ = 0;
 };
 }  // namespace gpu_planning_scene

@@ -8,6 +8,7 @@
 #include "collision/cpu_traversal.h"
 #include "collision/batch_engine.h"
 #include "collision/gpu_pair_checker.h"
+#include "collision/uploaded_poses.h"
 #include "gpu/egl_context.h"
 #include "interface.h"
 #include "support/shader_folder.h"
@@ -58,11 +59,10 @@ class BatchLimits : public testing::TestWithParam<Traversal>
     EglContext context("auto");
     GpuPairChecker checker(folder_.path(), GetParam(), kStates, capacities);
     checker.setProblem(*problem_);
-    std::vector<float> rows(12 * kStates);
-    for (std::size_t i = 0; i < kStates; ++i)
-      writePoseRows(poses_[i], &rows[12 * i]);
+    const UploadedPoses::LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses_[row]; };
+    UploadedPoses poses(*problem_, 1, link_poses);
     Verdicts verdicts;
-    checker.check(rows.data(), kStates, verdicts);
+    checker.check(poses, kStates, verdicts);
     return verdicts;
   }
 
@@ -75,7 +75,7 @@ class BatchLimits : public testing::TestWithParam<Traversal>
     BatchEngine engine(options);
     engine.setProblem(problem_);
     BatchResult result;
-    engine.check(
+    engine.checkPoses(
         kStates, 1, [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses_[row]; }, result);
     return result;
   }
