@@ -24,6 +24,10 @@ using Clock = std::chrono::steady_clock;
 // until this many times the time that measuring it took has passed.
 constexpr double kMeasuringPause = 50.0;
 
+// What is measured with small batches may not hold for large ones: the first one of at least this many states is
+// answered half by the CPU and half by the GPU, which decides for all that large.
+constexpr std::size_t kLarge = 8192;
+
 double secondsSince(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -38,6 +42,7 @@ struct BatchChecker::Impl
     std::size_t states;
     std::shared_ptr<const PlanningScene> scene;  // for which it was measured
     Clock::time_point keep_until;
+    bool tried_large = false;
   };
 
   explicit Impl(const BatchCheckerOptions& options)
@@ -48,6 +53,7 @@ struct BatchChecker::Impl
   std::size_t width() const { return on_cpu.scene()->robot->variables().size(); }
   void checkOnGpu(const double* states, std::size_t count, const std::string& group, BatchResult& result);
   void check(const double* states, std::size_t count, const std::string& group, BatchResult& result);
+  void checkByBoth(const double* states, std::size_t count, const std::string& group, BatchResult& result);
   std::size_t threshold(const std::string& group, const double* states, std::size_t count);
   std::size_t measure(const std::string& group, const double* states, std::size_t count);
 
@@ -73,17 +79,41 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
   engine.check(states, count, result);
 }
 
+/// States that the group's problem holds for, at least kLarge.
+void BatchChecker::Impl::checkByBoth(const double* states, std::size_t count, const std::string& group,
+                                     BatchResult& result)
+{
+  const std::size_t half = count / 2;
+  BatchResult second;
+  const Clock::time_point start = Clock::now();
+  checkOnGpu(states, half, group, result);
+  const double gpu_time = secondsSince(start);
+  on_cpu.check(states + half * width(), count - half, group, second);
+  const double cpu_time = secondsSince(start) - gpu_time;
+  result.valid.insert(result.valid.end(), second.valid.begin(), second.valid.end());
+  result.colliding.insert(result.colliding.end(), second.colliding.begin(), second.colliding.end());
+  Threshold& known = thresholds.at(group);
+  known.tried_large = true;
+  known.states = gpu_time < cpu_time ? std::min(known.states, half) : kNoBatch;
+}
+
 /// Splits off the states that the group's problem does not hold for, which only the CPU can answer.
 void BatchChecker::Impl::check(const double* states, std::size_t count, const std::string& group, BatchResult& result)
 {
   const CollisionProblem& problem = *on_cpu.problem(group);
-  if (count == 0 || problem.always_colliding || count < threshold(group, states, count))
+  if (count == 0 || problem.always_colliding)
+    return on_cpu.check(states, count, group, result);
+  const std::size_t on_gpu_from = threshold(group, states, count);
+  const bool try_both = !fixed_threshold && count >= kLarge && !thresholds.at(group).tried_large;
+  if (count < on_gpu_from && !try_both)
     return on_cpu.check(states, count, group, result);
   std::vector<std::size_t> rows[2];  // for the GPU, for the CPU
   for (std::size_t i = 0; i < count; ++i)
     rows[holdsFor(problem, states + i * width()) ? 0 : 1].push_back(i);
   if (rows[1].empty())
-    return checkOnGpu(states, count, group, result);
+    return try_both ? checkByBoth(states, count, group, result) : checkOnGpu(states, count, group, result);
+  if (count < on_gpu_from)
+    return on_cpu.check(states, count, group, result);
   result.valid.resize(count);
   result.colliding.resize(count);
   for (const auto& part : rows)

@@ -65,8 +65,9 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
                                         : std::string()));
   if (report.unreachable_self_pairs + report.unreachable_world_pairs != 0)
     lines.push_back("out of reach: " + counted(report.unreachable_self_pairs, "pair") + " of links, " +
-                    counted(report.unreachable_world_pairs, "pair") + " of a link and an object, and with them " +
-                    counted(report.unreachable_objects, "object"));
+                    counted(report.unreachable_world_pairs, "pair") + " of a link and an object" +
+                    (report.unreachable_objects ? ", and with them " + counted(report.unreachable_objects, "object")
+                                                : std::string()));
   if (report.settled_pairs != 0)
     lines.push_back("decided once, as no joint moves them: " + counted(report.settled_pairs, "pair"));
   if (report.always_colliding)
