@@ -16,9 +16,10 @@ class PairwisePeer : public Peer
 
   bool collides(const Eigen::Isometry3d* link_poses) override;
 
-  /// Links whose simpler shapes overlap whatever the joints would make every state a collision. As MoveIt's Setup
-  /// Assistant does, their pairs are left out: those that collide in 95 % of random states.
-  void leaveOutWhatAlwaysCollides(const RobotModel& robot);
+  /// Links whose simpler shapes overlap whatever the joints would make every state a collision. So pairs of links are
+  /// left out as MoveIt's Setup Assistant leaves them out: those whose shapes collide in 95 % of random states, and
+  /// those that truly never do. In favour of the peer: the others look at these pairs.
+  void leaveOutPairs(const RobotModel& robot);
 
  protected:
   /// What follows is about the robot there.

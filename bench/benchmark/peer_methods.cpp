@@ -102,7 +102,7 @@ MethodInfo peerMethod(const std::string& name, const std::string& title, const s
 
 std::unique_ptr<Peer> fitted(std::unique_ptr<PairwisePeer> peer, const RobotModel& robot)
 {
-  peer->leaveOutWhatAlwaysCollides(robot);
+  peer->leaveOutPairs(robot);
   return peer;
 }
 }  // namespace

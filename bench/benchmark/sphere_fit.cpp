@@ -1,8 +1,8 @@
 #include "benchmark/sphere_fit.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include <Eigen/Geometry>
@@ -12,103 +12,124 @@ namespace gpu_planning_scene::benchmark
 namespace
 {
 using Eigen::Vector3d;
-using Points = std::vector<Vector3d>;
 
-constexpr std::size_t kSamples = 4000;
-constexpr int kLloydRounds = 15;
-constexpr int kBallRounds = 200;
+constexpr std::size_t kSamples = 2048;
+constexpr std::size_t kCandidates = 512;
+constexpr int kHalvings = 14;
+using Covered = std::bitset<kSamples>;
 
-/// Uniform over the surface, and up to as many of its vertices.
-Points samplesOf(const Mesh& mesh)
+struct Sample
+{
+  Vector3d point;
+  Vector3d outward;
+};
+
+struct Candidate
+{
+  Vector3d center;
+  double radius;
+};
+
+double sixVolumes(const Mesh& mesh)
+{
+  double sum = 0.0;
+  for (const auto& t : mesh.triangles)
+    sum += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]]));
+  return sum;
+}
+
+/// Uniform over the surface.
+std::vector<Sample> samplesOf(const Mesh& mesh)
 {
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> share(0.0, 1.0);
+  const double sign = sixVolumes(mesh) < 0.0 ? -1.0 : 1.0;
+  std::vector<Vector3d> normals;
   std::vector<double> areas;
   for (const auto& t : mesh.triangles)
-    areas.push_back(
-        (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).norm());
-  Points points;
-  if (*std::max_element(areas.begin(), areas.end()) > 0.0)
   {
-    std::discrete_distribution<std::size_t> pick(areas.begin(), areas.end());
-    for (std::size_t i = 0; i < kSamples; ++i)
-    {
-      const auto& t = mesh.triangles[pick(generator)];
-      const double root = std::sqrt(share(generator));
-      const double along = share(generator);
-      points.push_back((1.0 - root) * mesh.vertices[t[0]] + root * (1.0 - along) * mesh.vertices[t[1]] +
-                       root * along * mesh.vertices[t[2]]);
-    }
+    normals.push_back(sign *
+                      (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]));
+    // So that a mesh without area has samples too.
+    areas.push_back(normals.back().norm() + 1e-15);
   }
-  const std::size_t step = mesh.vertices.size() / kSamples + 1;
-  for (std::size_t i = 0; i < mesh.vertices.size(); i += step)
-    points.push_back(mesh.vertices[i]);
-  return points;
+  std::discrete_distribution<std::size_t> pick(areas.begin(), areas.end());
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < kSamples; ++i)
+  {
+    const std::size_t chosen = pick(generator);
+    const auto& t = mesh.triangles[chosen];
+    const double root = std::sqrt(share(generator));
+    const double along = share(generator);
+    samples.push_back({(1.0 - root) * mesh.vertices[t[0]] + root * (1.0 - along) * mesh.vertices[t[1]] +
+                           root * along * mesh.vertices[t[2]],
+                       normals[chosen].normalized()});
+  }
+  return samples;
 }
 
-/// Each as far as can be from those before.
-Points farPoints(const Points& points, std::size_t count)
+/// Balls that touch the surface at a sample from inside and have no other sample within (Ma, Bae and Choi, "3D medial
+/// axis point approximation using nearest neighbors and the normal field", 2012).
+std::vector<Candidate> innerBalls(const std::vector<Sample>& samples, double largest)
 {
-  Points chosen = {points.front()};
-  std::vector<double> nearest(points.size(), std::numeric_limits<double>::infinity());
-  while (chosen.size() < count)
+  std::vector<Candidate> balls;
+  for (std::size_t i = 0; i < kCandidates; ++i)
   {
-    for (std::size_t i = 0; i < points.size(); ++i)
-      nearest[i] = std::min(nearest[i], (points[i] - chosen.back()).squaredNorm());
-    chosen.push_back(points[std::max_element(nearest.begin(), nearest.end()) - nearest.begin()]);
+    const Sample& at = samples[i * (kSamples / kCandidates)];
+    double radius = largest;
+    for (const Sample& other : samples)
+    {
+      const Vector3d back = at.point - other.point;
+      const double depth = back.dot(at.outward);
+      if (depth > 1e-9)
+        radius = std::min(radius, back.squaredNorm() / (2.0 * depth));
+    }
+    balls.push_back({at.point - radius * at.outward, radius});
+  }
+  return balls;
+}
+
+/// Which of the candidates, grown by `more`, cover all samples: always the one that adds most. Empty if more than
+/// `count` are needed.
+std::vector<std::size_t> cover(const std::vector<Candidate>& candidates, const std::vector<Sample>& samples,
+                               double more, std::size_t count)
+{
+  std::vector<Covered> covers(candidates.size());
+  for (std::size_t c = 0; c < candidates.size(); ++c)
+    for (std::size_t s = 0; s < kSamples; ++s)
+      covers[c][s] = (samples[s].point - candidates[c].center).norm() <= candidates[c].radius + more;
+  Covered left;
+  left.set();
+  std::vector<std::size_t> chosen;
+  while (left.any())
+  {
+    const auto best =
+        std::max_element(covers.begin(), covers.end(),
+                         [&](const Covered& a, const Covered& b) { return (a & left).count() < (b & left).count(); });
+    if (chosen.size() == count || (*best & left).none())
+      return {};
+    chosen.push_back(static_cast<std::size_t>(best - covers.begin()));
+    left &= ~*best;
   }
   return chosen;
-}
-
-std::vector<Points> clustersOf(const Points& points, Points centers)
-{
-  std::vector<Points> clusters;
-  for (int round = 0; round < kLloydRounds; ++round)
-  {
-    clusters.assign(centers.size(), {});
-    for (const Vector3d& point : points)
-    {
-      std::size_t nearest = 0;
-      for (std::size_t c = 1; c < centers.size(); ++c)
-        if ((point - centers[c]).squaredNorm() < (point - centers[nearest]).squaredNorm())
-          nearest = c;
-      clusters[nearest].push_back(point);
-    }
-    for (std::size_t c = 0; c < centers.size(); ++c)
-      if (!clusters[c].empty())
-      {
-        Vector3d sum = Vector3d::Zero();
-        for (const Vector3d& point : clusters[c])
-          sum += point;
-        centers[c] = sum / static_cast<double>(clusters[c].size());
-      }
-  }
-  return clusters;
-}
-
-const Vector3d& farthest(const Points& points, const Vector3d& from)
-{
-  return *std::max_element(points.begin(), points.end(),
-                           [&](const Vector3d& a, const Vector3d& b)
-                           { return (a - from).squaredNorm() < (b - from).squaredNorm(); });
-}
-
-Ball enclose(const Points& points)
-{
-  Vector3d center = points.front();
-  for (int i = 1; i <= kBallRounds; ++i)
-    center += (farthest(points, center) - center) / (i + 1.0);
-  return {center.cast<float>(), static_cast<float>((farthest(points, center) - center).norm())};
 }
 }  // namespace
 
 std::vector<Ball> fitBalls(const Mesh& mesh, std::size_t count)
 {
-  const Points points = samplesOf(mesh);
+  const std::vector<Sample> samples = samplesOf(mesh);
+  const double size = boundingBall(mesh).radius;
+  const std::vector<Candidate> candidates = innerBalls(samples, size);
+  double too_little = 0.0;
+  double enough = 4.0 * size;  // with which any one candidate covers all
+  for (int i = 0; i < kHalvings; ++i)
+  {
+    const double middle = 0.5 * (too_little + enough);
+    (cover(candidates, samples, middle, count).empty() ? too_little : enough) = middle;
+  }
   std::vector<Ball> balls;
-  for (const Points& cluster : clustersOf(points, farPoints(points, std::min(count, points.size()))))
-    if (!cluster.empty())
-      balls.push_back(enclose(cluster));
+  for (const std::size_t chosen : cover(candidates, samples, enough, count))
+    balls.push_back({candidates[chosen].center.cast<float>(), static_cast<float>(candidates[chosen].radius + enough)});
   return balls;
 }
 
@@ -118,6 +139,9 @@ Ball boundingBall(const Mesh& mesh)
   for (const Vector3d& vertex : mesh.vertices)
     box.extend(vertex);
   const Vector3d center = box.center();
-  return {center.cast<float>(), static_cast<float>((farthest(mesh.vertices, center) - center).norm())};
+  double radius = 0.0;
+  for (const Vector3d& vertex : mesh.vertices)
+    radius = std::max(radius, (vertex - center).norm());
+  return {center.cast<float>(), static_cast<float>(radius)};
 }
 }  // namespace gpu_planning_scene::benchmark

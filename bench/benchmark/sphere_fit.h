@@ -15,9 +15,9 @@ struct Ball
   float radius = 0.0F;
 };
 
-/// Balls that cover a surface, up to what lies between its samples: the samples are put into `count` clusters by
-/// Lloyd's algorithm, from centres far from each other, and each cluster gets its smallest enclosing ball (Badoiu and
-/// Clarkson, "Smaller core-sets for balls", 2003). The same for the same mesh.
+/// At most `count` balls that cover samples of a surface: of the balls inside that touch it on both sides, as many,
+/// each grown by the same length, the least with which they do. After Bradshaw and O'Sullivan, "Adaptive medial-axis
+/// approximation for sphere-tree construction" (2004). The same for the same mesh.
 std::vector<Ball> fitBalls(const Mesh& mesh, std::size_t count);
 
 /// A ball around all of a mesh, its centre that of the mesh's box.
