@@ -122,12 +122,14 @@ Settings readSettings(const CommandLine& arguments)
   settings.states =
       static_cast<std::size_t>(arguments.integer("--states", settings.quick ? 256 : 16384, 16, 1LL << 30));
   settings.repeats = static_cast<std::size_t>(arguments.integer("--repeats", settings.quick ? 2 : 5, 1, 1000));
-  settings.seconds = arguments.number("--seconds", settings.quick ? 0.03 : 1.0, 0.001, 1e4);
+  settings.seconds = arguments.number("--seconds", settings.quick ? 0.03 : 0.5, 0.001, 1e4);
   settings.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
   settings.paddings = numbers(arguments, "--padding", settings.quick ? "0" : "0,0.01", 0.0, 1.0);
   for (const double batch : numbers(arguments, "--batches", settings.quick ? "256" : "1024,16384", 1.0, 1e8))
     settings.batches.push_back(static_cast<std::size_t>(batch));
   settings.kinds = chosen(arguments, "--kinds", stateKinds());
+  if (settings.quick && !arguments.has("--kinds"))
+    settings.kinds = {"random", "near_contact"};
   settings.methods = chosenMethods(arguments);
   settings.scenes = chosenScenes(arguments);
   return settings;
@@ -216,12 +218,12 @@ int main(int argc, char** argv)
         {"--scenes", "A,B", "of " + join(benchmarkSceneNames())},
         {"--methods", "A,B", "see the error for a name that there is not"},
         {"--kinds", "A,B", "of states: " + join(stateKinds())},
-        {"--padding", "X,Y", "metres (default 0,0.01; with --quick 0)"},
+        {"--padding", "X,Y", "metres (default 0,0.01; with --quick 0); all but the first with random states alone"},
         {"--batches", "N,M", "sizes of batches of the GPU's methods (default 1024,16384)"},
         {"--max-batch", "N", "states that go to the GPU at once (default: the library's)"},
         {"--states", "N", "of each kind (default 16384)"},
         {"--repeats", "N", "(default 5)"},
-        {"--seconds", "S", "a method that takes longer in a repeat gets fewer states (default 1)"},
+        {"--seconds", "S", "a method that takes longer in a repeat gets fewer states (default 0.5)"},
         {"--seed", "N", "of the states (default 1)"},
         {"--device", "D", "auto, software, an index or part of a renderer's name"}},
        run},

@@ -110,7 +110,7 @@ std::vector<MethodInfo> ourMethods()
   std::vector<MethodInfo> methods;
   MethodInfo exact;
   exact.name = "exact_cpu";
-  exact.title = "ours, exact checker (CPU)";
+  exact.title = "exact checker, CPU";
   exact.family = "exact checker";
   exact.exact = true;
   exact.responsive = true;

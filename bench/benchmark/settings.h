@@ -16,7 +16,7 @@ struct Settings
   std::vector<std::string> scenes;
   std::vector<MethodInfo> methods;
   std::vector<std::string> kinds;  ///< of states
-  std::vector<double> paddings;    ///< metres
+  std::vector<double> paddings;    ///< metres; all but the first with random states alone
   std::vector<std::size_t> batches;
   std::size_t states = 0;
   std::size_t repeats = 0;

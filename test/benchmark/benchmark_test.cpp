@@ -1,0 +1,211 @@
+// The benchmark program writes its tables and the script draws them; what is wrong is counted as wrong, and an exact
+// method that is wrong is an error.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "support/shader_folder.h"
+#include "tools/run_program.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using Row = std::map<std::string, std::string>;
+using Table = std::vector<Row>;
+
+/// A folder that is removed at the end.
+class TemporaryFolder
+{
+ public:
+  TemporaryFolder()
+  {
+    std::string name = (std::filesystem::temp_directory_path() / "benchmark_testXXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr)
+      throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::vector<std::string> cellsOf(const std::string& line)
+{
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line)
+  {
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  return cells;
+}
+
+Table readTable(const std::string& path)
+{
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  const std::vector<std::string> titles = cellsOf(line);
+  Table table;
+  while (std::getline(file, line))
+  {
+    const std::vector<std::string> cells = cellsOf(line);
+    EXPECT_EQ(cells.size(), titles.size()) << path << ": " << line;
+    Row row;
+    for (std::size_t i = 0; i < std::min(cells.size(), titles.size()); ++i)
+      row[titles[i]] = cells[i];
+    table.push_back(row);
+  }
+  return table;
+}
+
+double number(const Row& row, const std::string& column)
+{
+  return std::strtod(row.at(column).c_str(), nullptr);
+}
+
+double wrongAnswers(const Row& row)
+{
+  return number(row, "wrong_free") + number(row, "wrong_collision");
+}
+
+ProgramOutput runBenchmark(const std::string& out, std::vector<std::string> arguments)
+{
+  arguments.insert(arguments.end(), {"--quick", "--out", out, "--states", "96", "--repeats", "1", "--seconds", "0.01"});
+  return runProgram(GPS_BENCHMARK, arguments);
+}
+}  // namespace
+
+TEST(Benchmark, TellsRightFromWrongAnswers)
+{
+  const TemporaryFolder folder;
+  const ProgramOutput output =
+      runBenchmark(folder.path(), {"--parts", "throughput", "--scenes", "arm_boxes", "--batches", "32", "--methods",
+                                   "exact_cpu,ours_auto,ours_work_queue,ours_breadth_first,fcl_obbrss,bullet_hulls,"
+                                   "spheres_4"});
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const Table accuracy = readTable(folder.path() + "/accuracy.csv");
+  EXPECT_EQ(accuracy.size(), 2U * 7U);  // two kinds of states
+  for (const Row& row : accuracy)
+  {
+    if (row.at("claims_exact") == "yes")
+    {
+      EXPECT_EQ(wrongAnswers(row), 0.0) << row.at("method");
+      EXPECT_EQ(number(row, "largest_error_m"), 0.0) << row.at("method");
+    }
+    const bool known_to_be_wrong = row.at("method") == "spheres_4" || row.at("method") == "bullet_hulls";
+    if (known_to_be_wrong && row.at("kind") == "near_contact")
+    {
+      EXPECT_GT(wrongAnswers(row), 0.0) << row.at("method");
+      EXPECT_GT(number(row, "largest_error_m"), 1e-10) << row.at("method");
+      EXPECT_LT(number(row, "largest_error_m"), 0.5) << row.at("method");
+    }
+  }
+  for (const Row& row : readTable(folder.path() + "/throughput.csv"))
+  {
+    EXPECT_GT(number(row, "states_per_s"), 0.0) << row.at("method");
+    EXPECT_GT(number(row, "of_fcl_obbrss"), 0.0) << row.at("method");
+    EXPECT_GT(number(row, "valid_share"), 0.1);
+  }
+}
+
+TEST(Benchmark, FailsWhereAnExactMethodIsWrong)
+{
+  const TemporaryFolder folder;
+  const ShaderFolder shaders;
+  shaders.define("UNIT_ROUNDOFF", "0.0");
+  shaders.define("CONTRACT_BAND", "0.0");
+  setenv("GPU_PLANNING_SCENE_SHADERS", shaders.path().c_str(), 1);
+  const ProgramOutput output = runBenchmark(folder.path(), {"--parts", "throughput", "--scenes", "arm_boxes", "--kinds",
+                                                            "near_contact", "--methods", "ours_work_queue"});
+  unsetenv("GPU_PLANNING_SCENE_SHADERS");
+  EXPECT_EQ(output.exit_code, 1);
+  EXPECT_NE(output.err.find("ours, work queues"), std::string::npos) << output.err;
+  EXPECT_NE(output.err.find("wrong answers of methods that are to be exact"), std::string::npos) << output.err;
+}
+
+TEST(Benchmark, WritesEveryTableAndTheChartsAreDrawn)
+{
+  const TemporaryFolder folder;
+  const ProgramOutput output =
+      runBenchmark(folder.path(), {"--scenes", "arm_boxes", "--kinds", "random", "--methods",
+                                   "exact_cpu,ours_work_queue,ours_tolerance_50mm,fcl_obbrss,spheres_4"});
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  const std::map<std::string, std::vector<std::string>> expected = {
+      {"run", {"what", "value"}},
+      {"throughput", {"scene", "kind", "padding_m", "method", "batch", "states_per_s", "cpu_us_a_state"}},
+      {"accuracy", {"scene", "kind", "method", "wrong_per_million", "largest_error_m"}},
+      {"latency", {"scene", "method", "batch", "p50_us", "p99_us", "of_fcl_obbrss"}},
+      {"build", {"scene", "method", "load_robot_s", "build_s", "update_s", "peak_host_mib", "device_mib"}},
+      {"growth", {"with", "amount", "method", "us_a_state", "build_s", "update_s"}},
+      {"mesh_pairs", {"triangles", "distance_m", "method", "us_a_pose", "wrong"}}};
+  for (const auto& [name, columns] : expected)
+  {
+    const Table table = readTable(folder.path() + "/" + name + ".csv");
+    ASSERT_FALSE(table.empty()) << name;
+    for (const std::string& column : columns)
+      EXPECT_EQ(table.front().count(column), 1U) << name << ": " << column;
+  }
+
+  const ProgramOutput charts = runProgram("/usr/bin/python3", {"-B", GPS_CHARTS, folder.path()});
+  if (charts.err.find("No module named 'matplotlib'") != std::string::npos)
+    GTEST_SKIP() << "there is no matplotlib";
+  ASSERT_EQ(charts.exit_code, 0) << charts.err;
+  for (const char* name : {"speed_accuracy_random", "throughput", "growth", "latency", "mesh_pairs"})
+  {
+    const std::filesystem::path picture = folder.path() + "/" + name;
+    EXPECT_GT(std::filesystem::file_size(picture.string() + ".png"), 5000U) << name;
+    std::ostringstream svg;
+    svg << std::ifstream(picture.string() + ".svg").rdbuf();
+    EXPECT_NE(svg.str().find("ours, work queues"), std::string::npos) << name;
+  }
+}
+
+TEST(Benchmark, NamesTheFolderWithoutTheRobot)
+{
+  const TemporaryFolder folder;
+  const ProgramOutput named = runBenchmark(folder.path(), {"--data", folder.path(), "--scenes", "kr5"});
+  EXPECT_EQ(named.exit_code, 1);
+  EXPECT_NE(named.err.find(folder.path() + "/urdf/KR5"), std::string::npos) << named.err;
+  EXPECT_NE(named.err.find("--data"), std::string::npos) << named.err;
+
+  const ProgramOutput missing = runBenchmark(folder.path(), {"--data", folder.path() + "/none"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_NE(missing.err.find(folder.path() + "/none"), std::string::npos) << missing.err;
+}
+
+TEST(Benchmark, RunsWithoutAnyRobotOfOthers)
+{
+  const TemporaryFolder folder;
+  const ProgramOutput output = runBenchmark(
+      folder.path(), {"--data", folder.path(), "--parts", "throughput", "--kinds", "random", "--methods", "exact_cpu"});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_NE(output.err.find("kr5_boxes is left out"), std::string::npos) << output.err;
+  EXPECT_EQ(readTable(folder.path() + "/throughput.csv").size(), 2U);
+}
+
+TEST(Benchmark, ListsWhatThereIsWhereANameIsWrong)
+{
+  const ProgramOutput scene = runProgram(GPS_BENCHMARK, {"--scenes", "mars"});
+  EXPECT_EQ(scene.exit_code, 2);
+  EXPECT_NE(scene.err.find("ur5_cage"), std::string::npos) << scene.err;
+  const ProgramOutput method = runProgram(GPS_BENCHMARK, {"--methods", "oracle"});
+  EXPECT_EQ(method.exit_code, 2);
+  EXPECT_NE(method.err.find("ours_tolerance_5mm"), std::string::npos) << method.err;
+  const ProgramOutput padding = runProgram(GPS_BENCHMARK, {"--padding", "-1"});
+  EXPECT_EQ(padding.exit_code, 2);
+}
+}  // namespace gpu_planning_scene
