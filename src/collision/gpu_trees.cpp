@@ -13,6 +13,10 @@ namespace
 {
 /// Memory is cleared of trees that nobody uses when they are as many as the others, and this many triangles.
 constexpr std::size_t kFewTriangles = 65536;
+
+/// Meshes are built together up to this many triangles, so that a dispatch takes about 50 ms on llvmpipe, and work
+/// space stays small. A larger mesh is built alone.
+constexpr std::size_t kTrianglesAtOnce = std::size_t{1} << 18U;
 }  // namespace
 
 void GpuTrees::setShapes(const std::vector<Tessellation>& shapes)
@@ -38,8 +42,18 @@ void GpuTrees::setShapes(const std::vector<Tessellation>& shapes)
       clear();
       missing = claim(keys, shapes);
     }
-    if (!missing.empty())
-      build(missing);
+    for (auto begin = missing.cbegin(); begin != missing.cend();)
+    {
+      auto end = begin;
+      for (std::size_t triangles = 0; end != missing.cend(); ++end)
+      {
+        triangles += end->first->triangles.size();
+        if (end != begin && triangles > kTrianglesAtOnce)
+          break;
+      }
+      build({begin, end});
+      begin = end;
+    }
   }
   catch (...)
   {
