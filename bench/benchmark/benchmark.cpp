@@ -56,7 +56,7 @@ std::vector<std::string> chosen(const CommandLine& arguments, const std::string&
 {
   if (!arguments.has(option))
     return known;
-  const std::vector<std::string> words = split(arguments.required(option));
+  std::vector<std::string> words = split(arguments.required(option));
   for (const std::string& word : words)
     if (std::find(known.begin(), known.end(), word) == known.end())
       throw UsageError(option + ": there is no '" + word + "'; there are: " + join(known));

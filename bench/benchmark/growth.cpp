@@ -22,12 +22,13 @@ constexpr std::size_t kMostTrianglesOfPeers = 1000000;  // FCL's trees of more d
 class Growth
 {
  public:
-  explicit Growth(const Settings& settings)
+  /// `rows`: how many there will be of each method, for the progress bar.
+  Growth(const Settings& settings, std::size_t rows)
     : settings_(settings),
       table_(settings.out, "growth.csv",
              {"with", "amount", "method", "title", "family", "batch", "us_a_state", "cpu_us_a_state", "load_robot_s",
               "build_s", "update_s"}),
-      progress_("growth", 1)
+      progress_("growth", rows * countOf(settings.methods))
   {
   }
 
@@ -46,20 +47,26 @@ class Growth
     }
   }
 
-  void measureBatches(const TestScene& scene, std::size_t most)
+  void measureBatches(const TestScene& scene, const std::vector<std::size_t>& batches)
   {
-    const std::vector<double> states = scene.randomStates(most, settings_.seed);
+    const std::vector<double> states = scene.randomStates(batches.back(), settings_.seed);
     for (const MethodInfo& info : settings_.methods)
     {
       if (!info.responsive)
         continue;
       const std::unique_ptr<Method> method = info.make(scene.scene, settings_.method);
-      for (std::size_t batch = 1; batch <= most; batch *= 4)
+      for (const std::size_t batch : batches)
         time("states", batch, info, *method, states, batch, {});
     }
   }
 
  private:
+  static std::size_t countOf(const std::vector<MethodInfo>& methods)
+  {
+    return static_cast<std::size_t>(
+        std::count_if(methods.begin(), methods.end(), [](const MethodInfo& info) { return info.responsive; }));
+  }
+
   struct Once
   {
     double load = NAN;
@@ -84,12 +91,13 @@ class Growth
     }
     table_.add({with, amount, info.name, info.title, info.family, batch, median(wall), median(cpu), once.load,
                 once.build, once.update});
-    progress_.update(0);
+    progress_.update(++done_);
   }
 
   const Settings& settings_;
   CsvTable table_;
   ProgressBar progress_;
+  std::size_t done_ = 0;
 };
 
 TestScene sceneOf(const std::shared_ptr<const RobotModel>& robot, std::vector<WorldObject> objects)
@@ -117,12 +125,13 @@ std::vector<WorldObject> world(std::size_t objects)
 
 void measureGrowth(const Settings& settings)
 {
-  Growth growth(settings);
-  growth.measureBatches(testScene(settings.scenes.front()), settings.quick ? 256 : 65536);
+  using Amounts = std::vector<std::size_t>;
+  const Amounts batches = settings.quick ? Amounts{1, 16, 256} : Amounts{1, 4, 16, 64, 256, 1024, 4096, 16384, 65536};
+  const Amounts triangles = settings.quick ? Amounts{1000, 10000} : Amounts{1000, 10000, 100000, 1000000, 3000000};
+  const Amounts objects = settings.quick ? Amounts{1, 100} : Amounts{1, 10, 100, 1000, 10000};
+  Growth growth(settings, batches.size() + triangles.size() + objects.size());
+  growth.measureBatches(testScene(settings.scenes.front()), batches);
   const std::vector<WorldObject> boxes = boxesAround({0.0, 0.0, 0.5}, 8, 0.5, 0.3);
-  const std::vector<std::size_t> triangles = settings.quick
-                                                 ? std::vector<std::size_t>{1000, 10000}
-                                                 : std::vector<std::size_t>{1000, 10000, 100000, 1000000, 3000000};
   for (const std::size_t amount : triangles)
   {
     const GeneratedArm arm(amount);
@@ -130,8 +139,6 @@ void measureGrowth(const Settings& settings)
     const double load = secondsOf([&] { robot = arm.load(); });
     growth.measure("triangles", amount, sceneOf(robot, boxes), load);
   }
-  const std::vector<std::size_t> objects =
-      settings.quick ? std::vector<std::size_t>{1, 100} : std::vector<std::size_t>{1, 10, 100, 1000, 10000};
   const auto robot = GeneratedArm(10000).load();
   for (const std::size_t amount : objects)
     growth.measure("objects", amount, sceneOf(robot, world(amount)), NAN);

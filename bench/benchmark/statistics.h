@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ctime>
 #include <limits>
 #include <vector>
@@ -14,7 +15,7 @@ inline double percentile(std::vector<double> values, double share)
   if (values.empty())
     return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
+  return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
 }
 
 inline double median(const std::vector<double>& values)

@@ -1,7 +1,8 @@
 # Sourced by the scripts: configures and builds.
 # shellcheck shell=bash
 
-# configure_and_build FOLDER CMAKE_OPTIONS...: shows the output only where it fails.
+# configure_and_build FOLDER CMAKE_OPTIONS...: shows the output only where it fails. Builds no more than `target`, if that is
+# set.
 configure_and_build()
 {
   local folder=$1 log="$1/build.log"
@@ -11,7 +12,7 @@ configure_and_build()
     tail -40 "$log" >&2
     die "CMake could not configure the package (above; all of it in ${log#"$repository"/})"
   fi
-  if ! run cmake --build "$folder" >> "$log" 2>&1; then
+  if ! run cmake --build "$folder" ${target:+--target "$target"} >> "$log" 2>&1; then
     grep -A 30 -m 1 '^FAILED' "$log" >&2 || tail -40 "$log" >&2
     die "the package does not build (above; all of it in ${log#"$repository"/})"
   fi
