@@ -104,7 +104,7 @@ struct Ours::Impl
   {
     BatchResult result;
     engine.setProblem(part.problem);
-    engine.check(
+    engine.checkPoses(
         part.count, part.linkCount(), [&](std::size_t row, Eigen::Isometry3d* poses) { part.linkPoses(row, poses); },
         result);
     for (const std::uint8_t valid : result.valid)

@@ -74,7 +74,7 @@ class GpuContract : public testing::TestWithParam<Traversal>
     BatchEngine engine(options());
     engine.setProblem(std::make_shared<const CollisionProblem>(problem));
     BatchResult result;
-    engine.check(
+    engine.checkPoses(
         poses.size(), 1, [&](std::size_t row, Isometry3d* pose) { *pose = poses[row]; }, result);
     return result;
   }
@@ -109,7 +109,7 @@ TEST_P(GpuContract, PaddingDoesNotCountBetweenLinks)
   BatchEngine engine(options());
   engine.setProblem(std::make_shared<const CollisionProblem>(problem));
   BatchResult result;
-  engine.check(
+  engine.checkPoses(
       2, 2,
       [](std::size_t row, Isometry3d* poses)
       {
@@ -214,7 +214,7 @@ TEST_P(GpuContract, ADeviceWithOtherArithmeticIsReportedAndAnswersAreRightAllThe
   addObject(problem, meshOf(Box{{0.2, 0.2, 0.2}}), at(0.5));
   engine.setProblem(std::make_shared<const CollisionProblem>(problem));
   BatchResult result;
-  engine.check(
+  engine.checkPoses(
       3, 1, [](std::size_t row, Isometry3d* pose) { *pose = at(row == 0   ? 0.1
                                                                : row == 1 ? 0.29
                                                                           : 0.35); }, result);
