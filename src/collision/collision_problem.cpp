@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <unordered_map>
 
 #include "checked_pairs.h"
 #include "gpu_planning_scene/error.h"
@@ -39,7 +39,7 @@ class TreeTable
   CollisionProblem& problem_;
   bool share_;
   TessellationCache& tessellations_;
-  std::map<ShapeKey, std::uint32_t> trees_;
+  std::unordered_map<ShapeKey, std::uint32_t, ShapeKeyHash> trees_;
 };
 
 /// The half-space that `half_space` becomes where its frame is at `pose`. The normal is made a unit again: a pose's
@@ -180,9 +180,7 @@ void addPairs(const CheckedPairs& pairs, const Instances& instances, CollisionPr
 
 bool sameShape(const Shape& a, const Shape& b)
 {
-  const ShapeKey key_a(a);
-  const ShapeKey key_b(b);
-  return !(key_a < key_b) && !(key_b < key_a);
+  return ShapeKey(a) == ShapeKey(b);
 }
 
 bool holdsFor(const CollisionProblem& problem, const double* state)

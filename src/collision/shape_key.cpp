@@ -1,6 +1,7 @@
 #include "collision/shape_key.h"
 
-#include <tuple>
+#include <cstdint>
+#include <functional>
 
 #include "collision/primitive_solid.h"
 
@@ -15,9 +16,14 @@ ShapeKey::ShapeKey(const Shape& shape) : kind(shape.index()), dimensions(Eigen::
     dimensions = halfExtents(shape);
 }
 
-bool ShapeKey::operator<(const ShapeKey& other) const
+std::size_t ShapeKeyHash::operator()(const ShapeKey& key) const
 {
-  return std::tie(kind, dimensions.x(), dimensions.y(), dimensions.z(), mesh) <
-         std::tie(other.kind, other.dimensions.x(), other.dimensions.y(), other.dimensions.z(), other.mesh);
+  std::uint64_t hash = key.kind ^ reinterpret_cast<std::uintptr_t>(key.mesh);
+  for (const double dimension : key.dimensions)
+  {
+    hash = (hash ^ std::hash<double>()(dimension)) * 0x9E3779B97F4A7C15U;
+    hash ^= hash >> 32U;
+  }
+  return hash;
 }
 }  // namespace gpu_planning_scene

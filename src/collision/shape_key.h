@@ -18,6 +18,14 @@ struct ShapeKey
   Eigen::Vector3d dimensions;
   const Mesh* mesh;
 
-  bool operator<(const ShapeKey& other) const;
+  bool operator==(const ShapeKey& other) const
+  {
+    return kind == other.kind && mesh == other.mesh && dimensions == other.dimensions;
+  }
+};
+
+struct ShapeKeyHash
+{
+  std::size_t operator()(const ShapeKey& key) const;
 };
 }  // namespace gpu_planning_scene

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <map>
 #include <memory>
+#include <unordered_map>
 
 #include "collision/shape_key.h"
 #include "gpu_planning_scene/shapes.h"
@@ -22,7 +22,7 @@ class TessellationCache
     double sagitta = 0.0;
   };
 
-  std::map<ShapeKey, Entry> primitives_;
+  std::unordered_map<ShapeKey, Entry, ShapeKeyHash> primitives_;
   std::size_t size_when_cleared_ = 0;
 };
 }  // namespace gpu_planning_scene
