@@ -46,7 +46,7 @@ struct BatchChecker::Impl
   };
 
   explicit Impl(const BatchCheckerOptions& options)
-    : fixed_threshold(options.cpu_below), on_cpu(options), engine(options)
+    : fixed_threshold(options.cpu_below), on_cpu(options), engine(options, on_cpu.trees())
   {
   }
 

@@ -24,8 +24,10 @@ std::int32_t otherBody(const CollisionProblem& problem, std::size_t index)
 }
 }  // namespace
 
-BatchEngine::BatchEngine(const BatchCheckerOptions& options)
-  : shader_folder_(options.shader_folder.empty() ? shaderFolder() : options.shader_folder), gl_(options.device)
+BatchEngine::BatchEngine(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees)
+  : shader_folder_(options.shader_folder.empty() ? shaderFolder() : options.shader_folder),
+    gl_(options.device),
+    trees_(std::move(trees))
 {
   if (options.max_batch == 0)
     throw Error("max_batch is 0; it must be at least 1");
@@ -134,7 +136,7 @@ void BatchEngine::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t 
                               BatchResult& result)
 {
   if (!on_cpu_)
-    on_cpu_ = trees_.traversalOf(problem_);
+    on_cpu_ = trees_->traversalOf(problem_);
   forChunks(rows.size(), 1,
             [&, scratch = CpuTraversal::Scratch(), links = std::vector<Eigen::Isometry3d>(link_count)](
                 std::size_t from, std::size_t to) mutable

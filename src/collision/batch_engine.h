@@ -24,7 +24,8 @@ class BatchEngine
 {
  public:
   /// Throws Error: no usable device, a shader that does not compile, max_batch of 0.
-  explicit BatchEngine(const BatchCheckerOptions& options);
+  /// `trees`: the CPU's, for undecided states; others may use them too, one at a time.
+  BatchEngine(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees);
   ~BatchEngine();
 
   /// Builds the trees. `robot`: whose states are checked; null for a problem that is no robot's. Throws Error and keeps
@@ -62,7 +63,7 @@ class BatchEngine
   std::string double_fault_;
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
-  ForestCache trees_;                           // for the undecided states
+  std::shared_ptr<ForestCache> trees_;
   std::unique_ptr<const CpuTraversal> on_cpu_;  // of the selected pairs; made when a state is undecided
 };
 }  // namespace gpu_planning_scene

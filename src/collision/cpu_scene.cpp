@@ -37,7 +37,7 @@ CpuScene::Group& CpuScene::groupOf(const std::string& group)
 void CpuScene::prepare(Group& group)
 {
   if (!group.within.on_cpu)
-    group.within.on_cpu = forest_.traversalOf(group.problem);
+    group.within.on_cpu = forest_->traversalOf(group.problem);
 }
 
 void CpuScene::prepareOutside(const std::string& name, Group& group)

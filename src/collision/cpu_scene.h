@@ -27,6 +27,9 @@ class CpuScene
   const SceneReport& report(const std::string& group) { return groupOf(group).report; }
   const std::shared_ptr<const CollisionProblem>& problem(const std::string& group) { return groupOf(group).problem; }
 
+  /// The trees that it walks.
+  const std::shared_ptr<ForestCache>& trees() const { return forest_; }
+
   /// Makes ready what the first call of `check` would.
   void prepare(const std::string& group) { prepare(groupOf(group)); }
 
@@ -59,7 +62,7 @@ class CpuScene
   ProblemMaker maker_;
   std::shared_ptr<const PlanningScene> scene_;
   std::map<std::string, Group> groups_;
-  ForestCache forest_;
+  std::shared_ptr<ForestCache> forest_ = std::make_shared<ForestCache>();
   ForestCache forest_outside_;
   std::vector<Eigen::Isometry3d> poses_;
 };

@@ -47,7 +47,7 @@ std::vector<Eigen::Isometry3d> rigidPoses(const std::vector<Eigen::Isometry3d>& 
 
 struct MeshPairChecker::Impl
 {
-  explicit Impl(const BatchCheckerOptions& options) : engine(options) {}
+  explicit Impl(const BatchCheckerOptions& options) : engine(options, std::make_shared<ForestCache>()) {}
 
   mutable std::mutex mutex;
   BatchEngine engine;
