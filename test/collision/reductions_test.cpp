@@ -301,6 +301,25 @@ TEST_F(SmallScene, CollidesInEveryStateWhereAFixedPairDoes)
   EXPECT_EQ(on_gpu.check(states.data(), 2).valid, std::vector<std::uint8_t>(2, 1));
 }
 
+TEST_F(SmallScene, AsksForFixedLinksOnlyWhereTheGroupMovesThem)
+{
+  const auto link = [](const std::string& name, const std::string& at)
+  {
+    return "<link name='" + name + "'><collision><origin xyz='" + at +
+           "'/><geometry><box size='1 1 1'/></geometry></collision></link>";
+  };
+  const auto scene = std::make_shared<const PlanningScene>(
+      robotOf(link("base", "0 0 0") + link("shelf", "0.5 0 0") + link("arm", "5 0 0") +
+                  jointXml("weld", "fixed", "base", "shelf") +
+                  jointXml("swing", "continuous", "base", "arm", "<axis xyz='0 0 1'/>"),
+              "<group name='arm'><joint name='swing'/></group>"));
+  const double state = 0.0;
+  CpuChecker checker(scene);
+  EXPECT_EQ(checker.check(&state, 1).valid, std::vector<std::uint8_t>{0});
+  EXPECT_EQ(checker.check(&state, 1, "arm").valid, std::vector<std::uint8_t>{1});
+  EXPECT_EQ(checker.check(&state, 1).valid, std::vector<std::uint8_t>{0});
+}
+
 TEST_F(SmallScene, CountsPaddingWhenItLeavesOutPairs)
 {
   scene_->objects[1].pose.translation().x() = 0.7;  // 0.1 m beyond the arm

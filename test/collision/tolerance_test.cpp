@@ -1,6 +1,7 @@
 // With a tolerance, what collides is still found, and nothing is called colliding that is further apart than that.
 #include <cmath>
 #include <iostream>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -70,6 +71,51 @@ TEST_P(ToleranceIn, FindsAllCollisionsAndAddsOnlyWhatIsWithinIt)
   EXPECT_GT(added, 0U);
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, ToleranceIn, testing::Values("kr5", "ur5_cage", "carrying"));
+
+/// Ball meshes: one in the world, one that floats about it, at all gaps from touching to more than is near enough, from
+/// all sides, turned anyhow.
+TEST(Tolerance, CountsOnTopOfPaddingForMeshesFromAllSides)
+{
+  constexpr double kRadius = 0.2;
+  auto scene = std::make_shared<PlanningScene>(
+      RobotModel::fromXml("<robot name='r'><link name='root'/><link name='l'/><joint name='j' type='floating'>"
+                          "<parent link='root'/><child link='l'/></joint></robot>",
+                          "", {}));
+  const std::shared_ptr<const Mesh> ball = tessellate(Sphere{kRadius}).mesh;
+  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+  scene->objects = {{"moving", identity, {{ball}}}, {"ball", identity, {{ball}}, 0.03}};
+  scene->attach("moving", "l", {}, scene->robot->defaultState().data());
+  std::mt19937_64 generator(kSeed);
+  std::uniform_real_distribution<double> gaps(0.0, 0.2);
+  constexpr std::size_t kPoses = 4000;
+  std::vector<double> states;
+  std::vector<double> gap;
+  for (std::size_t i = 0; i < kPoses; ++i)
+  {
+    std::normal_distribution<double> normal;
+    Eigen::Vector3d side(normal(generator), normal(generator), normal(generator));
+    gap.push_back(gaps(generator));
+    side *= (2.0 * kRadius + gap.back()) / side.norm();
+    states.insert(states.end(), side.begin(), side.end());
+    for (int k = 0; k < 4; ++k)
+      states.push_back(normal(generator));
+  }
+  for (const double tolerance : {0.0, 0.005, 0.05})
+  {
+    const std::vector<std::uint8_t> valid =
+        CpuChecker(scene, withTolerance(tolerance)).check(states.data(), kPoses).valid;
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < kPoses; ++i)
+    {
+      // The meshes lie within the balls, by up to 0.1 mm each.
+      EXPECT_TRUE(gap[i] > 0.0297 || valid[i] == 0) << gap[i] << ", seed " << kSeed;
+      if (valid[i] == 0)
+        farthest = std::max(farthest, gap[i]);
+    }
+    EXPECT_LE(farthest, 0.03 + tolerance) << "seed " << kSeed;
+    std::cout << "tolerance " << tolerance << ": farthest " << farthest << std::endl;
+  }
+}
 
 TEST(Tolerance, IsRefusedIfNegativeOrNotFinite)
 {
