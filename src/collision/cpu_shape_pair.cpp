@@ -18,6 +18,9 @@ constexpr double kBoxMargin = 1e-9;  // metres
 // How far within the tolerance nodes have to be to be called a collision: more than rounding moves them.
 constexpr double kToleranceMargin = 1e-9;  // metres
 
+// Two solids take about as long as this many nodes.
+constexpr std::uint64_t kStepsOfSolids = 20;
+
 /// Loses nothing where both are far from the origin of the frame that they are given in.
 Isometry3d relativePose(const Isometry3d& a, const Isometry3d& b)
 {
@@ -96,6 +99,7 @@ bool CpuShapePair::collide(std::uint32_t a, const Isometry3d& pose_a, std::uint3
   }
   if (!tree_a.mesh && !tree_b.mesh)
   {
+    scratch.steps += kStepsOfSolids;
     return solidsWithin(tree_a.shape, tree_b.shape, b_in_a, required);
   }
   // A triangle inside the primitive meets it as well; the primitive inside the mesh is left.
@@ -121,6 +125,7 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
   {
     const Node& node = mesh.nodes[scratch.nodes.back()];
     scratch.nodes.pop_back();
+    ++scratch.steps;
     const Vector3d half = halfOf(node);
     const Vector3d center = mesh_in_solid * centerOf(node);
     if (!pair_test.overlap(grown, half, center))
@@ -177,6 +182,7 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
   {
     const auto [index_a, index_b] = scratch.node_pairs.back();
     scratch.node_pairs.pop_back();
+    ++scratch.steps;
     const Node& node_a = a.nodes[index_a];
     const Node& node_b = b.nodes[index_b];
     const Vector3d half_a = halfOf(node_a).array() + growth;
@@ -228,6 +234,7 @@ bool CpuShapePair::collide(std::uint32_t number, const Isometry3d& pose, const P
   {
     const Node& node = tree.nodes[scratch.nodes.back()];
     scratch.nodes.pop_back();
+    ++scratch.steps;
     if (normal.dot(centerOf(node)) - normal.cwiseAbs().dot(halfOf(node)) > most + kBoxMargin)
     {
       continue;

@@ -32,6 +32,7 @@ class CpuShapePair
   {
     std::vector<std::array<std::uint32_t, 2>> node_pairs;
     std::vector<std::uint32_t> nodes;
+    std::uint64_t steps = 0;  // nodes looked at so far: what the pairs cost
   };
 
   /// `tolerance`: metres, at least 0.

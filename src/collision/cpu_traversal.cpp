@@ -12,6 +12,8 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
+constexpr std::uint64_t kStatesPerOrder = 512;
+
 AlignedBox3d grown(const AlignedBox3d& box, double margin)
 {
   return {box.min().array() - margin, box.max().array() + margin};
@@ -89,7 +91,9 @@ void CpuTraversal::startState(Scratch& scratch) const
   {
     scratch.order.resize(checks);
     std::iota(scratch.order.begin(), scratch.order.end(), 0u);
-    scratch.hits.assign(checks, 0);
+    scratch.hits.assign(checks, 0.0);
+    scratch.cost.assign(checks, 1.0);
+    scratch.states = 0;
   }
   scratch.poses.resize(problem_->robot.size());
   scratch.bounds.resize(problem_->robot.size());
@@ -156,6 +160,24 @@ bool CpuTraversal::check(std::uint32_t number, const Isometry3d* link_poses, Scr
          visit(bodyPair(robot[first].body, robot[second].body));
 }
 
+/// To find a collision at the least expected cost, checks go by hits per cost. Sorted after 1, 2, 4, ... states, then
+/// every kStatesPerOrder.
+void CpuTraversal::learnOrder(Scratch& scratch)
+{
+  const std::uint64_t states = ++scratch.states;
+  if (states % kStatesPerOrder != 0 && (states > kStatesPerOrder || (states & (states - 1)) != 0))
+  {
+    return;
+  }
+  std::sort(scratch.order.begin(), scratch.order.end(),
+            [&scratch](std::uint32_t a, std::uint32_t b)
+            {
+              const double gain_a = scratch.hits[a] / scratch.cost[a];
+              const double gain_b = scratch.hits[b] / scratch.cost[b];
+              return gain_a != gain_b ? gain_a > gain_b : a < b;
+            });
+}
+
 std::optional<CpuTraversal::BodyPair> CpuTraversal::firstCollision(const Isometry3d* link_poses, Scratch& scratch) const
 {
   std::optional<BodyPair> found = problem_->always_colliding;
@@ -172,16 +194,16 @@ std::optional<CpuTraversal::BodyPair> CpuTraversal::firstCollision(const Isometr
       found = pair;
       return true;
     };
-    if (check(number, link_poses, scratch, visit))
+    const std::uint64_t before = scratch.pair.steps;
+    const bool hit = check(number, link_poses, scratch, visit);
+    scratch.cost[number] += static_cast<double>(scratch.pair.steps - before) + 1.0;
+    scratch.hits[number] += hit ? 1.0 : 0.0;
+    if (hit)
     {
-      const std::uint32_t hits = ++scratch.hits[number];
-      for (; k > 0 && scratch.hits[scratch.order[k - 1]] < hits; --k)
-      {
-        std::swap(scratch.order[k - 1], scratch.order[k]);
-      }
-      return found;
+      break;
     }
   }
+  learnOrder(scratch);
   return found;
 }
 

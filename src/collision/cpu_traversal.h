@@ -23,12 +23,15 @@ class CpuTraversal
  public:
   using BodyPair = std::array<std::int32_t, 2>;  // body indices, ascending
 
-  /// Work space of one thread, reused from call to call. Keeps which checks found collisions, so that the next state
-  /// begins with those: the order changes no answer but which of several colliding pairs is found.
+  /// Work space of one thread, reused from call to call. Keeps how often each check found a collision and what it cost,
+  /// so that the next state begins with those that find most for their cost: the order changes no answer but which of
+  /// several colliding pairs is found.
   struct Scratch
   {
     std::vector<std::uint32_t> order;         // of checks, see check
-    std::vector<std::uint32_t> hits;          // of each check
+    std::vector<double> hits;                 // of each check
+    std::vector<double> cost;                 // of each check, in all: nodes looked at, and one each time
+    std::uint64_t states = 0;                 // so far
     std::vector<std::uint8_t> placed;         // the instances of which these are known:
     std::vector<Eigen::Isometry3d> poses;     // in the planning frame
     std::vector<Eigen::AlignedBox3d> bounds;  // in the planning frame
@@ -59,6 +62,7 @@ class CpuTraversal
   template <class Visit>
   bool checkWorld(std::uint32_t instance, Scratch& scratch, const Visit& visit) const;
   void startState(Scratch& scratch) const;
+  static void learnOrder(Scratch& scratch);
   void place(std::uint32_t instance, const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
   void findNearObjects(const Eigen::AlignedBox3d& bounds, Scratch& scratch) const;
 
