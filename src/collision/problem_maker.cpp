@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "scene/validate_scene.h"
-
 namespace gpu_planning_scene
 {
 namespace
@@ -25,7 +23,7 @@ ProblemMaker::ProblemMaker(const CheckerOptions& options) : options_(options)
 
 CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::string& group, SceneReport* report)
 {
-  validateScene(scene);
+  validator_.validate(scene);
   SceneReport counts;
   const std::vector<RobotBody> bodies = robotBodies(scene);
   CheckedPairs pairs = findCheckedPairs(scene, bodies, movedLinks(*scene.robot, group), counts);

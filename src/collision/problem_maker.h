@@ -5,6 +5,7 @@
 #include "collision/collision_problem.h"
 #include "collision/fixed_pairs.h"
 #include "collision/pair_reducer.h"
+#include "scene/validate_scene.h"
 
 namespace gpu_planning_scene
 {
@@ -21,6 +22,7 @@ class ProblemMaker
 
  private:
   CheckerOptions options_;
+  SceneValidator validator_;
   PairReducer reducer_;
   TessellationCache tessellations_;
   FixedPairs fixed_pairs_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "gpu_planning_scene/error.h"
 #include "scene/rigid_pose.h"
@@ -17,7 +18,10 @@ void validatePadding(double padding, const std::string& where)
     throw Error(where + ": the padding is " + std::to_string(padding) + "; it must be finite and not negative");
 }
 
-void validateObject(const WorldObject& object)
+/// Meshes by address that have been found valid.
+using Meshes = std::unordered_map<const Mesh*, std::weak_ptr<const Mesh>>;
+
+void validateObject(const WorldObject& object, const Meshes& known, Meshes& valid)
 {
   const std::string where = "object '" + object.id + "'";
   rigid(object.pose, where);
@@ -25,13 +29,19 @@ void validateObject(const WorldObject& object)
   for (const PlacedShape& placed : object.shapes)
   {
     rigid(placed.pose, where);
-    validateShape(placed.shape, where);
+    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&placed.shape);
+    const auto seen = mesh != nullptr ? known.find(mesh->get()) : known.end();
+    const bool is_known = seen != known.end() && *mesh && seen->second.lock() == *mesh;
+    if (!is_known && (mesh == nullptr || valid.count(mesh->get()) == 0))
+      validateShape(placed.shape, where);
+    if (mesh != nullptr)
+      valid.emplace(mesh->get(), *mesh);
   }
 }
 
-void validateAttached(const AttachedObject& attached, const RobotModel& robot)
+void validateAttached(const AttachedObject& attached, const RobotModel& robot, const Meshes& known, Meshes& valid)
 {
-  validateObject(attached.object);
+  validateObject(attached.object, known, valid);
   const std::string where = "attached object '" + attached.object.id + "'";
   const int links = static_cast<int>(robot.links().size());
   const auto require_link = [&](int link, const char* role)
@@ -56,6 +66,11 @@ bool hasHalfSpace(const std::vector<PlacedShape>& shapes)
 
 void validateScene(const PlanningScene& scene)
 {
+  SceneValidator().validate(scene);
+}
+
+void SceneValidator::validate(const PlanningScene& scene)
+{
   const auto& links = scene.robot->links();
   for (const Link& link : links)
     if (hasHalfSpace(link.shapes))
@@ -66,6 +81,7 @@ void validateScene(const PlanningScene& scene)
   for (std::size_t i = 0; i < scene.link_padding.size(); ++i)
     validatePadding(scene.link_padding[i], "link '" + links[i].name + "'");
 
+  Meshes valid;  // of this scene
   std::set<std::string> ids;
   for (const Link& link : links)
     ids.insert(link.name);
@@ -77,12 +93,13 @@ void validateScene(const PlanningScene& scene)
   for (const WorldObject& object : scene.objects)
   {
     require_new(object.id);
-    validateObject(object);
+    validateObject(object, valid_, valid);
   }
   for (const AttachedObject& attached : scene.attached)
   {
     require_new(attached.object.id);
-    validateAttached(attached, *scene.robot);
+    validateAttached(attached, *scene.robot, valid_, valid);
   }
+  valid_ = std::move(valid);
 }
 }  // namespace gpu_planning_scene

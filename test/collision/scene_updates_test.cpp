@@ -10,6 +10,7 @@
 #include "collision/object_tree.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
 #include "support/generated_arm.h"
 #include "support/obstacles.h"
 
@@ -187,6 +188,26 @@ TEST(SceneUpdates, WithoutSharedTreesAreAnsweredAsByAFreshChecker)
       scene->robot->randomState(random, &states[k * scene->robot->variables().size()]);
     EXPECT_EQ(checker.check(states.data(), 200).valid, fresh.check(states.data(), 200).valid);
     EXPECT_EQ(checker.report().trees, fresh.report().trees + static_cast<std::size_t>(i));
+  }
+}
+
+TEST(SceneUpdates, AMeshThatIsNotValidIsRefusedAmongThoseThatWereSeen)
+{
+  auto scene = std::make_shared<PlanningScene>(GeneratedArm(200).load());
+  const auto good = std::make_shared<Mesh>(*tessellate(Box{{0.1, 0.1, 0.1}}).mesh);
+  scene->objects.push_back({"good", Eigen::Isometry3d::Identity(), {{good}}, 0.0});
+  CpuChecker checker(std::make_shared<const PlanningScene>(*scene));
+  checker.setScene(std::make_shared<const PlanningScene>(*scene));
+  for (int i = 0; i < 20; ++i)  // the addresses of those that are gone are likely to be used again
+  {
+    const auto bad = std::make_shared<Mesh>(*good);
+    bad->triangles[0][0] = 99;
+    auto with_bad = std::make_shared<PlanningScene>(*scene);
+    with_bad->objects.push_back({"bad", Eigen::Isometry3d::Identity(), {{bad}}, 0.0});
+    EXPECT_THROW(checker.setScene(with_bad), Error);
+    auto with_other = std::make_shared<PlanningScene>(*scene);
+    with_other->objects.push_back({"other", Eigen::Isometry3d::Identity(), {{std::make_shared<Mesh>(*good)}}, 0.0});
+    EXPECT_NO_THROW(checker.setScene(with_other));
   }
 }
 
