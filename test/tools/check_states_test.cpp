@@ -223,7 +223,7 @@ TEST_F(CheckStates, saysWhatItIsAndCanDo)
   const ProgramOutput help = run({"--help"});
   EXPECT_EQ(0, help.exit_code);
   for (const char* option : {"--urdf", "--srdf", "--package", "--scene", "--states", "--random", "--seed", "--group",
-                             "--device", "--traversal", "--out", "--version", "--help"})
+                             "--device", "--traversal", "--tolerance", "--out", "--version", "--help"})
     EXPECT_NE(std::string::npos, help.out.find(option)) << option;
 }
 
@@ -244,6 +244,7 @@ TEST_F(CheckStates, badUsageEndsWithTwo)
   expectError(check({"--random", "1", "--package", "nothing"}), 2, "'nothing' is not NAME=DIR");
   expectError(check({"--random", "1", "--traversal", "depth_first"}), 2, "depth_first");
   expectError(check({"--random", "1", "--max-batch", "0"}), 2, "--max-batch");
+  expectError(check({"--random", "1", "--tolerance", "-0.001"}), 2, "--tolerance");
   expectError(runProgram(GPS_CHECK_STATES, {"--urdf"}), 2, "--urdf needs a value");
   expectError(run({"--version=1"}), 2, "--version takes no value");
 }
