@@ -20,7 +20,7 @@ namespace gpu_planning_scene::benchmark
 {
 namespace
 {
-constexpr std::size_t kTrial = 64;            // states that tell how fast a method is
+constexpr std::size_t kTrial = 64;            // states of the first trial
 constexpr std::size_t kErrorsMeasured = 100;  // of a method's wrong answers of each kind
 
 /// A method with one batch size.
@@ -80,15 +80,28 @@ std::vector<std::uint8_t> checkAll(Run& run, const Batch& batch)
   return answers;
 }
 
-/// What compiles or is learned at first is not to be timed; then as many states as the time allows, and their answers.
-void warmUp(Run& run, const Batch& batch, const Settings& settings)
+/// As many states as the time allows, by trials of more and more of them. Batches are never cut short: they would be
+/// others then.
+std::size_t affordableStates(const Run& run, const Batch& batch, const Settings& settings)
 {
   const std::size_t all = batch.truth.size();
-  const std::size_t trial = std::min(kTrial, all);
-  run.method->check(batch.states.data(), std::min<std::size_t>(16, all));
-  const double seconds = secondsOf([&] { run.method->check(batch.states.data(), trial); });
-  const double affordable = settings.seconds / seconds * static_cast<double>(trial);
-  run.count = affordable >= static_cast<double>(all) ? all : std::max(trial, static_cast<std::size_t>(affordable));
+  if (run.batch != 0)
+    return all;
+  for (std::size_t trial = std::min(kTrial, all);; trial = std::min(4 * trial, all))
+  {
+    const double seconds = secondsOf([&] { run.method->check(batch.states.data(), trial); });
+    if (trial == all || seconds > settings.seconds)
+      return trial;
+    if (const double share = settings.seconds / seconds; share < 4.0)
+      return std::min(all, static_cast<std::size_t>(share * static_cast<double>(trial)));
+  }
+}
+
+/// What compiles or is learned at first is not to be timed; then the answers.
+void warmUp(Run& run, const Batch& batch, const Settings& settings)
+{
+  run.method->check(batch.states.data(), std::min<std::size_t>(16, batch.truth.size()));
+  run.count = affordableStates(run, batch, settings);
   run.rates.clear();
   run.cpu.clear();
   run.answers = checkAll(run, batch);
