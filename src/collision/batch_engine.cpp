@@ -27,7 +27,7 @@ std::int32_t otherBody(const CollisionProblem& problem, std::size_t index)
 BatchEngine::BatchEngine(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees)
   : shader_folder_(options.shader_folder.empty() ? shaderFolder() : options.shader_folder),
     gl_(options.device),
-    trees_(std::move(trees))
+    trees_(trees ? std::move(trees) : std::make_shared<ForestCache>())
 {
   if (options.max_batch == 0)
     throw Error("max_batch is 0; it must be at least 1");

@@ -24,8 +24,8 @@ class BatchEngine
 {
  public:
   /// Throws Error: no usable device, a shader that does not compile, max_batch of 0.
-  /// `trees`: the CPU's, for undecided states; others may use them too, one at a time.
-  BatchEngine(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees);
+  /// `trees`: the CPU's, for undecided states; others may use them too, one at a time. Null: its own.
+  BatchEngine(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees = nullptr);
   ~BatchEngine();
 
   /// Builds the trees. `robot`: whose states are checked; null for a problem that is no robot's. Throws Error and keeps
