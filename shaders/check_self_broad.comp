@@ -23,12 +23,16 @@ void main()
   const uvec4 range = texelFetch(partners, int(robot));
   for (uint k = range.x; k < range.y; ++k)
   {
-    const uint other = texelFetch(partners, int(k)).x;
-    const vec4 theirs = sphereOf(other, state);
-    const vec3 apart = mine.xyz - theirs.xyz;
-    const float reach = mine.w + theirs.w;
-    // A loop: it costs only those that take it.
-    for (bool near = !(dot(apart, apart) > reach * reach); near; near = false)
-      addCandidate(state, packPair(robot, other));
+    const uvec4 four = texelFetch(partners, int(k));
+    uint near = 0u;
+    for (int i = 0; i < 4; ++i)
+    {
+      const vec4 theirs = sphereOf(min(four[i], robot_count - 1u), state);
+      const vec3 apart = mine.xyz - theirs.xyz;
+      const float reach = mine.w + theirs.w;
+      near |= four[i] != NO_PARTNER && !(dot(apart, apart) > reach * reach) ? 1u << i : 0u;
+    }
+    for (; near != 0u; near &= near - 1u)
+      addCandidate(state, packPair(robot, four[findLSB(near)]));
   }
 }

@@ -46,7 +46,7 @@
 #define UNIT_INSTANCES 8     // three texels an instance, see instances.glsl; robot's first, then the world's
 #define UNIT_OBJECT_TREE 9   // two texels a node, see check_world_broad.comp
 #define UNIT_WORLD_PAIRS 10  // bits [robot][world], 128 a texel
-#define UNIT_PARTNERS 11     // robot instances: where their partners lie, then the partners
+#define UNIT_PARTNERS 11     // robot instances: where their partners lie, then the partners, four a texel
 #define UNIT_SPHERES 12      // [robot][state]
 #define UNIT_STATES 13       // these two: see kinematics.glsl
 #define UNIT_LINK_SHAPES 14
@@ -104,6 +104,8 @@
 #define MAX_ROBOT_GEOMETRIES (1 << 12)
 #define MAX_GEOMETRIES (1 << PAIR_OTHER_BITS)
 
+// In a texel of partners, none.
+#define NO_PARTNER 0xffffffffu
 // A node of the tree over objects that is not a leaf.
 #define NO_OBJECT 0xffffffffu
 

@@ -248,8 +248,12 @@ void GpuScene::selectPairs(const CollisionProblem& problem)
   for (std::uint32_t i = 0; i < robot_count_; ++i)
   {
     partners[i][0] = static_cast<std::uint32_t>(partners.size());
-    for (const std::uint32_t other : of[i])
-      partners.push_back({other});
+    for (std::size_t k = 0; k < of[i].size(); ++k)
+    {
+      if (k % 4 == 0)
+        partners.push_back({NO_PARTNER, NO_PARTNER, NO_PARTNER, NO_PARTNER});
+      partners.back()[k % 4] = of[i][k];
+    }
     partners[i][1] = static_cast<std::uint32_t>(partners.size());
   }
   write(partners, partners_);
