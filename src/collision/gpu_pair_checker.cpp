@@ -56,9 +56,8 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
     lists_(withDefaults(capacities, max_states_)),
     traversal_(makeTraversal(traversal, folder, definitions_, lists_.capacity)),
     arguments_(folder),
-    spheres_program_(folder, "check_spheres.comp"),
+    links_program_(folder, "check_links.comp"),
     self_program_(folder, "check_self_broad.comp"),
-    world_program_(folder, "check_world_broad.comp"),
     roots_program_(folder, "check_roots.comp", definitions_),
     half_spaces_program_(folder, "check_half_spaces.comp", definitions_),
     inside_program_(folder, "check_inside.comp", definitions_)
@@ -206,27 +205,23 @@ void GpuPairChecker::testHalfSpaces(std::uint32_t states)
 
 void GpuPairChecker::findCandidates(std::uint32_t states)
 {
-  const std::size_t groups = groupsFor(std::size_t{states} * scene_.robotCount());
-  for (const Program* program : {&spheres_program_, &self_program_, &world_program_, &roots_program_})
+  const std::size_t lanes = std::size_t{states} * scene_.robotCount();
+  for (const Program* program : {&links_program_, &self_program_, &roots_program_})
   {
     program->set(0, states);
     program->set(1, scene_.robotCount());
   }
+  for (const Program* program : {&links_program_, &self_program_})
+    program->set(2, lists_.capacity.candidates);
   lists_.candidates.buffer().bindStorage(BINDING_B);
-  if (scene_.worldCount() > 0)
-  {
-    world_program_.set(2, lists_.capacity.candidates);
-    world_program_.set(3, scene_.worldCount());
-    world_program_.dispatch(groups);
-  }
+  spheres_.reserve(lanes * 16);
+  spheres_.buffer().bindStorage(BINDING_A);
+  links_program_.set(3, scene_.worldCount());
+  links_program_.dispatch(groupsFor(lanes));
   if (scene_.hasSelfPairs())
   {
-    spheres_.reserve(std::size_t{states} * scene_.robotCount() * 16);
-    spheres_.buffer().bindStorage(BINDING_A);
     spheres_.bindTexture(UNIT_SPHERES);
-    spheres_program_.dispatch(groups);
-    self_program_.set(2, lists_.capacity.candidates);
-    self_program_.dispatch(groups);
+    self_program_.dispatch(groupsFor(lanes));
   }
 }
 

@@ -75,7 +75,7 @@ class GpuPairChecker
   BatchLists lists_;
   std::unique_ptr<GpuTraversal> traversal_;
   ArgumentsKernel arguments_;
-  Program spheres_program_, self_program_, world_program_, roots_program_, half_spaces_program_, inside_program_;
+  Program links_program_, self_program_, roots_program_, half_spaces_program_, inside_program_;
   TexelBuffer poses_, spheres_;
 };
 }  // namespace gpu_planning_scene

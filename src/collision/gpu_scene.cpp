@@ -78,6 +78,15 @@ void describeSolid(const Shape& shape, InstanceRecord& record)
   }
 }
 
+/// Whether a robot's instance is in a checked pair with an instance of the world.
+bool meetsWorld(const CollisionProblem& problem, std::size_t instance)
+{
+  const std::size_t width = problem.world.size();
+  const auto row = problem.world_pairs.begin() + static_cast<std::ptrdiff_t>(instance * width);
+  return std::find(row, row + static_cast<std::ptrdiff_t>(width), std::uint8_t{1}) !=
+         row + static_cast<std::ptrdiff_t>(width);
+}
+
 /// A bit for each flag, 32 to a word, in whole texels.
 std::vector<std::uint32_t> packedBits(const std::vector<std::uint8_t>& flags)
 {
@@ -95,7 +104,7 @@ void write(const std::vector<T>& data, TexelBuffer& buffer)
   buffer.buffer().write(data);
 }
 
-/// A node of the tree over objects as shaders/check_world_broad.comp walks it.
+/// A node of the tree over objects as shaders/check_links.comp walks it.
 struct ObjectNode
 {
   std::array<float, 3> center;
@@ -173,6 +182,8 @@ void GpuScene::writeGeometries(const CollisionProblem& problem)
         record.kind = SOLID_MESH;
         has_mesh_solids_ = true;
       }
+      if (geometries == &problem.robot && meetsWorld(problem, instances.size()))
+        record.kind |= MEETS_WORLD;
       instances.push_back(record);
     }
   write(instances, instances_);

@@ -7,7 +7,7 @@ namespace gpu_planning_scene
 namespace
 {
 /// One, as a rule: what follows is for what the stacks or the granted iterations were too short for.
-constexpr std::uint32_t kPasses = 3;
+constexpr std::uint32_t kPasses = 2;
 }  // namespace
 
 void WorkQueue::start(BatchLists& lists, const TraversalTask& task)

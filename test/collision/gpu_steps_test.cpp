@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/cpu_box_pair.h"
+#include "collision/primitive_solid.h"
 #include "collision/triangle_pair.h"
 #include "gpu/egl_context.h"
 #include "gpu/program.h"
@@ -215,6 +216,99 @@ TEST_F(GpuStep, DistancesOfTrianglesAreBoundedOrLeftUndecided)
   std::cout << kCases << " pairs, " << hits << " too near, " << undecided << " undecided, seed " << kSeed << std::endl;
   EXPECT_GT(hits, kCases / 10);
   EXPECT_LT(undecided, kCases / 5);
+}
+
+/// A solid as the shaders have it, and as a shape.
+struct TestSolid
+{
+  std::uint32_t kind;
+  Vector3d size;
+  Shape shape;
+};
+
+TestSolid solidOf(std::uint32_t kind, const Vector3d& size)
+{
+  if (kind == SOLID_BOX)
+    return {kind, size, Box{2.0 * size}};
+  if (kind == SOLID_SPHERE)
+    return {kind, Vector3d::Constant(size.x()), Sphere{size.x()}};
+  const Vector3d round(size.x(), size.x(), size.z());
+  if (kind == SOLID_CYLINDER)
+    return {kind, round, Cylinder{size.x(), 2.0 * size.z()}};
+  return {kind, round, Cone{size.x(), 2.0 * size.z()}};
+}
+
+TEST_F(GpuStep, TrianglesAndSolidsAreDecidedAsTheExactCheckerDoesOrLeftUndecided)
+{
+  constexpr std::size_t kCases = 40000;
+  constexpr float kError = 1e-6F;
+  std::vector<float> floats;
+  std::vector<Triangle> triangles;
+  std::vector<TestSolid> solids;
+  std::vector<double> required;
+  const auto size = [&] { return std::pow(10.0, -1.5 + 1.5 * uniform_(generator_)); };
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    // Plates, rods, needles and discs among them, of 1 mm to 1 m; so are the triangles, some slivers.
+    const std::uint32_t kind = SOLID_BOX + static_cast<std::uint32_t>(i % 4);
+    const Vector3d half = Vector3d(size(), size(), size()).cast<float>().cast<double>();
+    const TestSolid solid = solidOf(kind, half);
+    const double length = size();
+    const Vector3d center = anyVector(1.0).cwiseProduct(solid.size + Vector3d::Constant(0.7 * length));
+    Triangle triangle;
+    for (Vector3d& corner : triangle)
+      corner = center + anyVector(length);
+    if (i % 10 == 0)
+      triangle[2] = triangle[0] + 0.4 * (triangle[1] - triangle[0]) + anyVector(1e-5 * length);
+    const double distance =
+        i / 4 % 2 == 0 ? 0.0 : static_cast<double>(static_cast<float>(0.02 + 0.01 * uniform_(generator_)));
+    // A third of them near to where they just touch, or are just near enough.
+    if (i % 3 == 0)
+    {
+      const Vector3d out = 10.0 * anyVector(1.0).normalized();
+      double low = 0.0;
+      double high = 1.0;
+      for (int step = 0; step < 40; ++step)
+      {
+        const double middle = (low + high) / 2.0;
+        Triangle moved = triangle;
+        for (Vector3d& corner : moved)
+          corner += middle * out;
+        (triangleWithinSolid(moved, solid.shape, distance) ? low : high) = middle;
+      }
+      for (Vector3d& corner : triangle)
+        corner += high * out + anyVector(1e-5);
+    }
+    for (Vector3d& corner : triangle)
+      corner = put(corner, floats);
+    put(solid.size, floats);
+    put(Vector3d(kind, kError, distance), floats);
+    triangles.push_back(triangle);
+    solids.push_back(solid);
+    required.push_back(distance);
+  }
+  const auto result =
+      run("#include \"pose.glsl\"\n#include \"items.glsl\"\n#include \"boxes.glsl\"\n#include \"instances.glsl\"\n"
+          "#include \"counters.glsl\"\n#include \"verdicts.glsl\"\n#include \"leaf_pair.glsl\"\n#include "
+          "\"solid_leaf.glsl\"\n",
+          "triangleSolid(vec3[3](at(0u), at(1u), at(2u)), Instance(0u, 0.0, 0u, 0u, vec3(0.0), uint(at(4u).x), false, "
+          "at(3u), 0.0), at(4u).y, at(4u).z, requiredGap(at(4u).z, 0.0))",
+          floats, 15);
+  std::array<std::size_t, 3> counts = {};
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    // Claimed for triangles that are a micrometre off, either way.
+    const bool within = triangleWithinSolid(triangles[i], solids[i].shape, std::max(0.0, required[i] - 0.9 * kError));
+    const bool beyond = !triangleWithinSolid(triangles[i], solids[i].shape, required[i] + 0.9 * kError);
+    EXPECT_FALSE(result[i] == STATE_HIT && !within) << "case " << i << ", seed " << kSeed;
+    EXPECT_FALSE(result[i] == 0U && !beyond) << "case " << i << ", seed " << kSeed;
+    ++counts[result[i] == STATE_HIT ? 0 : (result[i] == 0U ? 1 : 2)];
+  }
+  std::cout << counts[0] << " hits, " << counts[1] << " apart, " << counts[2] << " undecided, seed " << kSeed
+            << std::endl;
+  EXPECT_GT(counts[0], kCases / 10);
+  EXPECT_GT(counts[1], kCases / 10);
+  EXPECT_LT(counts[2], kCases / 5);  // a third of the cases are within 0.02 mm of contact
 }
 
 TEST_F(GpuStep, PointsLieWithinTheirBoundOfWhereExactPosesPutThem)

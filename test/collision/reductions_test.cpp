@@ -26,20 +26,22 @@ struct Setting
   Reductions reductions;
 };
 
-Reductions only(bool reach, bool unmoved_pairs, bool shared_trees)
+Reductions only(bool reach, bool unmoved_pairs, bool shared_trees, bool direct_primitives)
 {
   Reductions reductions;
   reductions.reach = reach;
   reductions.unmoved_pairs = unmoved_pairs;
   reductions.shared_trees = shared_trees;
+  reductions.direct_primitives = direct_primitives;
   return reductions;
 }
 
-const Setting kNone = {"none", only(false, false, false)};
-const Setting kAll = {"all", only(true, true, true)};
-const std::vector<Setting> kEach = {{"reach", only(true, false, false)},
-                                    {"unmoved pairs", only(false, true, false)},
-                                    {"shared trees", only(false, false, true)},
+const Setting kNone = {"none", only(false, false, false, false)};
+const Setting kAll = {"all", only(true, true, true, true)};
+const Setting kDirect = {"direct primitives", only(false, false, false, true)};
+const std::vector<Setting> kEach = {{"reach", only(true, false, false, false)},
+                                    {"unmoved pairs", only(false, true, false, false)},
+                                    {"shared trees", only(false, false, true, false)},
                                     kAll};
 
 CheckerOptions with(const Reductions& reductions)
@@ -117,7 +119,7 @@ TEST_P(ReductionsIn, ChangeNoAnswerOfTheGpu)
   constexpr std::size_t kStates = 120;
   const std::vector<double> states = statesInAndOut(*scene_->robot, kStates);
   CpuChecker whole(scene_, with(kNone.reductions));
-  for (const Setting& setting : {kNone, kAll})
+  for (const Setting& setting : {kNone, kDirect, kAll})
   {
     BatchCheckerOptions options;
     options.cpu_below = 0;
@@ -173,7 +175,7 @@ class BoundsIn : public ReductionsIn
 TEST_P(BoundsIn, LeaveOutOnlyWhatCannotMeetWithinTheLimits)
 {
   SceneReport report;
-  const CollisionProblem reduced = ProblemMaker(with(only(true, false, true))).make(*scene_, "", &report);
+  const CollisionProblem reduced = ProblemMaker(with(only(true, false, true, false))).make(*scene_, "", &report);
   for (const std::string& line : describeScene(*scene_, report, "none"))
     std::cout << line << std::endl;
   const CollisionProblem whole = makeProblem(*scene_, "", nullptr);
@@ -243,16 +245,16 @@ TEST_F(SmallScene, ReportsWhatIsLeftOutAndWhy)
   EXPECT_EQ(whole.world_pairs, 9U);
   EXPECT_EQ(whole.shared_trees, 0U);
   EXPECT_EQ(whole.trees, 6U);
-  EXPECT_EQ(reportOf(only(false, false, true)).trees, 4U);
-  EXPECT_EQ(reportOf(only(false, false, true)).shared_trees, 2U);
+  EXPECT_EQ(reportOf(only(false, false, true, false)).trees, 4U);
+  EXPECT_EQ(reportOf(only(false, false, true, false)).shared_trees, 2U);
 
-  const SceneReport reach = reportOf(only(true, false, true));
+  const SceneReport reach = reportOf(only(true, false, true, false));
   EXPECT_EQ(reach.unreachable_objects, 2U);
   EXPECT_EQ(reach.self_pairs + reach.unreachable_self_pairs, whole.self_pairs);
   EXPECT_EQ(reach.world_pairs + reach.unreachable_world_pairs, whole.world_pairs);
   EXPECT_EQ(reach.world_pairs, 1U);  // the arm and what is in its way
 
-  const SceneReport settled = reportOf(only(false, true, true));
+  const SceneReport settled = reportOf(only(false, true, true, false));
   EXPECT_EQ(settled.settled_pairs, 1U + 6U);
   EXPECT_EQ(settled.self_pairs, 2U);
   EXPECT_EQ(settled.world_pairs, 3U);

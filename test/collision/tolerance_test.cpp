@@ -21,20 +21,29 @@ constexpr std::uint64_t kSeed = 23;
 constexpr std::size_t kStates = 800;
 constexpr std::size_t kMostMeasured = 5;  // by the oracle, which takes its time
 
-CheckerOptions withTolerance(double tolerance)
+/// "cpu", "breadth_first" or "work_queue".
+std::unique_ptr<StateChecker> checkerWith(double tolerance, const std::string& method,
+                                          const std::shared_ptr<const PlanningScene>& scene)
 {
-  CheckerOptions options;
+  BatchCheckerOptions options;
   options.tolerance = tolerance;
-  return options;
+  if (method == "cpu")
+    return std::make_unique<CpuChecker>(scene, options);
+  options.traversal = traversalFromName(method);
+  options.cpu_below = 0;
+  return std::make_unique<BatchChecker>(scene, options);
 }
 
-class ToleranceIn : public testing::TestWithParam<const char*>
+const auto kMethods = testing::Values("cpu", "breadth_first", "work_queue");
+
+class ToleranceIn : public testing::TestWithParam<std::tuple<const char*, const char*>>
 {
 };
 
 TEST_P(ToleranceIn, FindsAllCollisionsAndAddsOnlyWhatIsWithinIt)
 {
-  const std::string name = GetParam();
+  const std::string name = std::get<0>(GetParam());
+  const std::string method = std::get<1>(GetParam());
   if (const std::string missing = missingFor(name == "carrying" ? "ur5_table_pick" : name); !missing.empty())
     GTEST_SKIP() << "there is no " << missing;
   const TestScene scene = name == "carrying" ? carryingScene() : testScene(name);
@@ -47,7 +56,7 @@ TEST_P(ToleranceIn, FindsAllCollisionsAndAddsOnlyWhatIsWithinIt)
   for (const double tolerance : {0.001, 0.01, 0.05})
   {
     const std::vector<std::uint8_t> valid =
-        CpuChecker(scene.scene, withTolerance(tolerance)).check(states.data(), kStates).valid;
+        checkerWith(tolerance, method, scene.scene)->check(states.data(), kStates).valid;
     std::vector<std::size_t> measured;
     for (std::size_t i = 0; i < kStates; ++i)
     {
@@ -70,11 +79,17 @@ TEST_P(ToleranceIn, FindsAllCollisionsAndAddsOnlyWhatIsWithinIt)
   std::cout << "seed " << kSeed << ": " << added << " states called colliding that are free" << std::endl;
   EXPECT_GT(added, 0U);
 }
-INSTANTIATE_TEST_SUITE_P(Scenes, ToleranceIn, testing::Values("kr5", "ur5_cage", "carrying"));
+INSTANTIATE_TEST_SUITE_P(Scenes, ToleranceIn,
+                         testing::Combine(testing::Values("kr5", "ur5_cage", "carrying"), kMethods));
+
+class ToleranceBy : public testing::TestWithParam<const char*>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Methods, ToleranceBy, kMethods);
 
 /// Ball meshes: one in the world, one that floats about it, at all gaps from touching to more than is near enough, from
 /// all sides, turned anyhow.
-TEST(Tolerance, CountsOnTopOfPaddingForMeshesFromAllSides)
+TEST_P(ToleranceBy, CountsOnTopOfPaddingForMeshesFromAllSides)
 {
   constexpr double kRadius = 0.2;
   auto scene = std::make_shared<PlanningScene>(
@@ -103,7 +118,7 @@ TEST(Tolerance, CountsOnTopOfPaddingForMeshesFromAllSides)
   for (const double tolerance : {0.0, 0.005, 0.05})
   {
     const std::vector<std::uint8_t> valid =
-        CpuChecker(scene, withTolerance(tolerance)).check(states.data(), kPoses).valid;
+        checkerWith(tolerance, GetParam(), scene)->check(states.data(), kPoses).valid;
     double farthest = 0.0;
     for (std::size_t i = 0; i < kPoses; ++i)
     {
@@ -125,9 +140,9 @@ TEST(Tolerance, IsRefusedIfNegativeOrNotFinite)
   const auto scene = std::make_shared<const PlanningScene>(robot);
   for (const double tolerance : {-1e-9, -HUGE_VAL, HUGE_VAL, std::nan("")})
   {
-    EXPECT_THROW(CpuChecker(scene, withTolerance(tolerance)), Error);
     BatchCheckerOptions options;
     options.tolerance = tolerance;
+    EXPECT_THROW(CpuChecker(scene, options), Error);
     EXPECT_THROW(BatchChecker(scene, options), Error);
     EXPECT_THROW(MeshPairChecker(Sphere{1.0}, Sphere{1.0}, options), Error);
   }
