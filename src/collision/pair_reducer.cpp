@@ -15,6 +15,16 @@ std::size_t countObjects(const CheckedPairs& pairs, std::size_t objects)
     seen[pair.other] = true;
   return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
 }
+bool sameObject(const WorldObject& a, const WorldObject& b)
+{
+  return a.pose.matrix() == b.pose.matrix() && a.padding == b.padding &&
+         std::equal(a.shapes.begin(), a.shapes.end(), b.shapes.begin(), b.shapes.end(),
+                    [](const PlacedShape& x, const PlacedShape& y)
+                    {
+                      return !std::holds_alternative<HalfSpace>(x.shape) && x.shape.index() == y.shape.index() &&
+                             x.pose.matrix() == y.pose.matrix() && sameShape(x.shape, y.shape);
+                    });
+}
 }  // namespace
 
 const SweptBody& PairReducer::sweptBody(const RobotBody& body)
@@ -62,6 +72,39 @@ std::vector<std::vector<Obstacle>> PairReducer::obstaclesOf(const PlanningScene&
   return obstacles;
 }
 
+/// What is known of objects that are as they were in the scene before.
+void PairReducer::keepWhatStays(const PlanningScene& scene)
+{
+  if (link_padding_ != scene.link_padding)
+    near_objects_.clear();
+  link_padding_ = scene.link_padding;
+  near_objects_.resize(scene.objects.size());
+  for (std::size_t k = 0; k < scene.objects.size(); ++k)
+    if (near_objects_[k].links.empty() || !sameObject(near_objects_[k].object, scene.objects[k]))
+      near_objects_[k] = {scene.objects[k], std::vector<std::optional<bool>>(scene.robot->links().size())};
+}
+
+bool PairReducer::mayMeet(const PlanningScene& scene, const RobotBody& body, std::size_t object,
+                          const std::vector<Obstacle>& obstacles)
+{
+  const Region* region = reach_->inPlanningFrame(sweptBody(body));
+  const double padding = scene.link_padding.empty() ? 0.0 : scene.link_padding[body.link];
+  const double distance = padding + scene.objects[object].padding;
+  return region == nullptr || std::any_of(obstacles.begin(), obstacles.end(),
+                                          [&](const Obstacle& obstacle)
+                                          { return gpu_planning_scene::mayMeet(*region, obstacle, distance); });
+}
+
+bool PairReducer::mayMeet(const RobotBody& a, const RobotBody& b)
+{
+  if (a.attached || b.attached)
+    return reach_->mayMeet(sweptBody(a), sweptBody(b), 0.0);
+  const auto [entry, is_new] = near_links_.try_emplace({a.link, b.link}, true);
+  if (is_new)
+    entry->second = reach_->mayMeet(sweptBody(a), sweptBody(b), 0.0);
+  return entry->second;
+}
+
 std::vector<VariableRange> PairReducer::leaveOutUnreachable(const PlanningScene& scene,
                                                             const std::vector<RobotBody>& bodies, CheckedPairs& pairs,
                                                             SceneReport& report)
@@ -69,27 +112,29 @@ std::vector<VariableRange> PairReducer::leaveOutUnreachable(const PlanningScene&
   if (robot_ != scene.robot)
   {
     links_.clear();
+    near_links_.clear();
+    near_objects_.clear();
     reach_.emplace(*scene.robot);
     robot_ = scene.robot;
   }
   carried_.clear();
+  keepWhatStays(scene);
   const std::vector<std::vector<Obstacle>> obstacles = obstaclesOf(scene);
   const std::size_t objects_before = countObjects(pairs, scene.objects.size());
 
   CheckedPairs left_out;
   takePairs(pairs.self, left_out.self,
-            [&](const CheckedPair& pair)
-            { return !reach_->mayMeet(sweptBody(bodies[pair.body]), sweptBody(bodies[pair.other]), 0.0); });
+            [&](const CheckedPair& pair) { return !mayMeet(bodies[pair.body], bodies[pair.other]); });
   takePairs(pairs.world, left_out.world,
             [&](const CheckedPair& pair)
             {
               const RobotBody& body = bodies[pair.body];
-              const Region* region = reach_->inPlanningFrame(sweptBody(body));
-              const double padding = scene.link_padding.empty() ? 0.0 : scene.link_padding[body.link];
-              const double distance = padding + scene.objects[pair.other].padding;
-              return region != nullptr &&
-                     std::none_of(obstacles[pair.other].begin(), obstacles[pair.other].end(),
-                                  [&](const Obstacle& obstacle) { return mayMeet(*region, obstacle, distance); });
+              if (body.attached)
+                return !mayMeet(scene, body, pair.other, obstacles[pair.other]);
+              std::optional<bool>& near = near_objects_[pair.other].links[static_cast<std::size_t>(body.link)];
+              if (!near)
+                near = mayMeet(scene, body, pair.other, obstacles[pair.other]);
+              return !*near;
             });
 
   report.unreachable_self_pairs = countMoved(left_out.self);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -23,7 +24,19 @@ class PairReducer
  private:
   using MeshBoxes = std::map<std::shared_ptr<const Mesh>, Eigen::AlignedBox3d>;
 
+  /// Which links may come near an object, by their index; no value: not asked for yet. It holds as long as the object
+  /// stays as it was, and the links' padding.
+  struct NearObject
+  {
+    WorldObject object;
+    std::vector<std::optional<bool>> links;
+  };
+
   const SweptBody& sweptBody(const RobotBody& body);
+  bool mayMeet(const RobotBody& a, const RobotBody& b);
+  bool mayMeet(const PlanningScene& scene, const RobotBody& body, std::size_t object,
+               const std::vector<Obstacle>& obstacles);
+  void keepWhatStays(const PlanningScene& scene);
   Eigen::AlignedBox3d cachedBox(const Shape& shape, MeshBoxes& used);
   std::vector<std::vector<Obstacle>> obstaclesOf(const PlanningScene& scene);
 
@@ -32,5 +45,8 @@ class PairReducer
   std::map<int, SweptBody> links_;
   std::map<const AttachedObject*, SweptBody> carried_;  // of one scene only
   MeshBoxes boxes_;                                     // of the last scene's meshes
+  std::map<std::array<int, 2>, bool> near_links_;       // whether two links may meet
+  std::vector<double> link_padding_;
+  std::vector<NearObject> near_objects_;  // of the last scene, in its order
 };
 }  // namespace gpu_planning_scene
