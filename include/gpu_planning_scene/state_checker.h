@@ -18,7 +18,7 @@ struct Reductions
   bool reach = true;              ///< pairs that bounds on reach, from the joints' limits, prove can never meet
   bool unmoved_pairs = true;      ///< pairs that no joint moves against each other are decided once per scene
   bool shared_trees = true;       ///< equal meshes and equal primitives share one tree
-  bool direct_primitives = true;  ///< the GPU tests boxes as boxes, not as triangles
+  bool direct_primitives = true;  ///< the GPU tests primitives as the solids they are, not as triangles
 };
 
 struct CheckerOptions

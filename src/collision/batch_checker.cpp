@@ -24,9 +24,8 @@ using Clock = std::chrono::steady_clock;
 // until this many times the time that measuring it took has passed.
 constexpr double kMeasuringPause = 50.0;
 
-// What is measured with small batches may not hold for large ones: the first one of at least this many states is
-// answered half by the CPU and half by the GPU, which decides for all that large.
-constexpr std::size_t kLarge = 8192;
+// A sample of fewer of the caller's states would not tell what they are like.
+constexpr std::size_t kEnough = 256;
 
 double secondsSince(Clock::time_point start)
 {
@@ -40,9 +39,9 @@ struct BatchChecker::Impl
   struct Threshold
   {
     std::size_t states;
-    std::shared_ptr<const PlanningScene> scene;  // for which it was measured
+    std::weak_ptr<const PlanningScene> scene;  // for which it was measured
     Clock::time_point keep_until;
-    bool tried_large = false;
+    bool by_own_states;  // measured with states of the caller's, not with random ones
   };
 
   explicit Impl(const BatchCheckerOptions& options)
@@ -53,7 +52,6 @@ struct BatchChecker::Impl
   std::size_t width() const { return on_cpu.scene()->robot->variables().size(); }
   void checkOnGpu(const double* states, std::size_t count, const std::string& group, BatchResult& result);
   void check(const double* states, std::size_t count, const std::string& group, BatchResult& result);
-  void checkByBoth(const double* states, std::size_t count, const std::string& group, BatchResult& result);
   std::size_t threshold(const std::string& group, const double* states, std::size_t count);
   std::size_t measure(const std::string& group, const double* states, std::size_t count);
 
@@ -79,41 +77,19 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
   engine.check(states, count, result);
 }
 
-/// States that the group's problem holds for, at least kLarge.
-void BatchChecker::Impl::checkByBoth(const double* states, std::size_t count, const std::string& group,
-                                     BatchResult& result)
-{
-  const std::size_t half = count / 2;
-  BatchResult second;
-  const Clock::time_point start = Clock::now();
-  checkOnGpu(states, half, group, result);
-  const double gpu_time = secondsSince(start);
-  on_cpu.check(states + half * width(), count - half, group, second);
-  const double cpu_time = secondsSince(start) - gpu_time;
-  result.valid.insert(result.valid.end(), second.valid.begin(), second.valid.end());
-  result.colliding.insert(result.colliding.end(), second.colliding.begin(), second.colliding.end());
-  Threshold& known = thresholds.at(group);
-  known.tried_large = true;
-  known.states = gpu_time < cpu_time ? std::min(known.states, half) : kNoBatch;
-}
-
 /// Splits off the states that the group's problem does not hold for, which only the CPU can answer.
 void BatchChecker::Impl::check(const double* states, std::size_t count, const std::string& group, BatchResult& result)
 {
   const CollisionProblem& problem = *on_cpu.problem(group);
   if (count == 0 || problem.always_colliding)
     return on_cpu.check(states, count, group, result);
-  const std::size_t on_gpu_from = threshold(group, states, count);
-  const bool try_both = !fixed_threshold && count >= kLarge && !thresholds.at(group).tried_large;
-  if (count < on_gpu_from && !try_both)
+  if (count < threshold(group, states, count))
     return on_cpu.check(states, count, group, result);
   std::vector<std::size_t> rows[2];  // for the GPU, for the CPU
   for (std::size_t i = 0; i < count; ++i)
     rows[holdsFor(problem, states + i * width()) ? 0 : 1].push_back(i);
   if (rows[1].empty())
-    return try_both ? checkByBoth(states, count, group, result) : checkOnGpu(states, count, group, result);
-  if (count < on_gpu_from)
-    return on_cpu.check(states, count, group, result);
+    return checkOnGpu(states, count, group, result);
   result.valid.resize(count);
   result.colliding.resize(count);
   for (const auto& part : rows)
@@ -142,18 +118,19 @@ std::size_t BatchChecker::Impl::threshold(const std::string& group, const double
     return *fixed_threshold;
   const auto known = thresholds.find(group);
   const Clock::time_point start = Clock::now();
-  if (known != thresholds.end() && (known->second.scene == on_cpu.scene() || start < known->second.keep_until))
+  const bool enough = count >= kEnough;
+  if (known != thresholds.end() && (known->second.by_own_states || !enough) &&
+      (known->second.scene.lock() == on_cpu.scene() || start < known->second.keep_until))
     return known->second.states;
   const std::size_t measured = measure(group, states, count);
   const auto pause = std::chrono::duration_cast<Clock::duration>(kMeasuringPause * (Clock::now() - start));
-  thresholds.insert_or_assign(group, Threshold{measured, on_cpu.scene(), Clock::now() + pause});
+  thresholds.insert_or_assign(group, Threshold{measured, on_cpu.scene(), Clock::now() + pause, enough});
   return measured;
 }
 
 /// With the caller's own states, over and over, if there are enough to tell what they are like; else with random ones.
 std::size_t BatchChecker::Impl::measure(const std::string& group, const double* states, std::size_t count)
 {
-  constexpr std::size_t kEnough = 256;
   const RobotModel& robot = *on_cpu.scene()->robot;
   const CollisionProblem& problem = *on_cpu.problem(group);
   std::vector<double> sample(kMostTimed * width());
@@ -208,6 +185,8 @@ void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
     throw;
   }
   impl_->selected_group = "";
+  if (previous && previous->robot != impl_->on_cpu.scene()->robot)
+    impl_->thresholds.clear();  // its groups may be called alike
 }
 
 BatchResult BatchChecker::check(const double* states, std::size_t count, const std::string& group)
