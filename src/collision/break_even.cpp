@@ -11,7 +11,7 @@ namespace
 // Growing, until one of the two takes kLong; two of them in any case.
 constexpr std::size_t kSizes[] = {1, 16, 64, 256, kMostTimed};
 constexpr double kLong = 0.005;  // seconds
-constexpr int kRepeats = 4;      // of which the fastest counts: what disturbs only makes slower
+constexpr int kRepeats = 3;      // of which the fastest counts: what disturbs only makes slower
 // What is not clearly faster is not chosen: a measurement that was disturbed must not be a loss for as long as it
 // holds.
 constexpr double kClearly = 1.2;
