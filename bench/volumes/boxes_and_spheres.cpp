@@ -1,0 +1,147 @@
+#include "volumes/boxes_and_spheres.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+namespace gpu_planning_scene::volumes
+{
+namespace
+{
+using Eigen::Matrix3d;
+using Eigen::Matrix3Xd;
+using Eigen::Vector3d;
+
+constexpr int kBallSteps = 50;
+constexpr Eigen::Index kMostSamples = 96;  // points by which an oriented box's axes are chosen
+constexpr double kPi = 3.14159265358979323846;
+
+Vector3d sizesAlong(const Matrix3d& axes, const Points& points)
+{
+  Vector3d lower = axes.transpose() * points.col(0);
+  Vector3d upper = lower;
+  for (Eigen::Index i = 1; i < points.cols(); ++i)
+  {
+    const Vector3d point = axes.transpose() * points.col(i);
+    lower = lower.cwiseMin(point);
+    upper = upper.cwiseMax(point);
+  }
+  return upper - lower;
+}
+
+double halfSurface(const Vector3d& sizes)
+{
+  return sizes.x() * sizes.y() + sizes.y() * sizes.z() + sizes.z() * sizes.x();
+}
+
+/// Turns the axes in smaller and smaller steps until the box's surface is least.
+double improve(Matrix3d& axes, const Points& points)
+{
+  double best = halfSurface(sizesAlong(axes, points));
+  for (const double step : {kPi / 12.0, kPi / 40.0, kPi / 160.0})
+    for (bool better = true; better;)
+    {
+      better = false;
+      for (int turn = 0; turn < 6; ++turn)
+      {
+        const double angle = turn % 2 == 0 ? step : -step;
+        const Matrix3d turned = axes * Eigen::AngleAxisd(angle, Vector3d::Unit(turn / 2)).toRotationMatrix();
+        const double surface = halfSurface(sizesAlong(turned, points));
+        if (surface < best * (1.0 - 1e-6))
+        {
+          best = surface;
+          axes = turned;
+          better = true;
+        }
+      }
+    }
+  return best;
+}
+
+Matrix3d mainAxes(const Points& points)
+{
+  const Vector3d mean = points.rowwise().mean();
+  const Matrix3Xd off = points.colwise() - mean;
+  Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(off * off.transpose()).eigenvectors();
+  if (axes.determinant() < 0.0)
+    axes.col(0) = -axes.col(0);
+  return axes;
+}
+
+/// An edge of the largest triangle, its normal, and what is normal to both.
+Matrix3d axesOfLargestTriangle(const Points& points)
+{
+  Matrix3d axes = Matrix3d::Identity();
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i + 2 < points.cols(); i += 3)
+  {
+    const Vector3d edge = points.col(i + 1) - points.col(i);
+    const Vector3d normal = edge.cross(points.col(i + 2) - points.col(i));
+    // Slivers have no clear normal.
+    if (normal.norm() > std::max(largest, 1e-9 * edge.squaredNorm()))
+    {
+      largest = normal.norm();
+      axes.col(0) = edge.normalized();
+      axes.col(2) = normal.normalized();
+      axes.col(1) = axes.col(2).cross(axes.col(0));
+    }
+  }
+  return axes;
+}
+
+/// At most kMostSamples of the points.
+Matrix3Xd sampled(const Points& points)
+{
+  const Eigen::Index stride = (points.cols() + kMostSamples - 1) / kMostSamples;
+  Matrix3Xd samples(3, (points.cols() + stride - 1) / stride);
+  for (Eigen::Index i = 0; i < samples.cols(); ++i)
+    samples.col(i) = points.col(i * stride);
+  return samples;
+}
+}  // namespace
+
+/// After Badoiu and Clarkson, "Smaller Core-Sets for Balls" (2003): step by step towards the farthest point.
+Sphere Sphere::fit(const Points& points)
+{
+  Vector3d center = AxisBox::fit(points).center;
+  Sphere best{center, std::numeric_limits<double>::infinity()};
+  for (int step = 1; step <= kBallSteps; ++step)
+  {
+    Eigen::Index farthest = 0;
+    const double radius = std::sqrt((points.colwise() - center).colwise().squaredNorm().maxCoeff(&farthest));
+    if (radius < best.radius)
+      best = {center, radius};
+    center += (points.col(farthest) - center) / (step + 1.0);
+  }
+  best.radius += kGrowth;
+  return best;
+}
+
+AxisBox AxisBox::fit(const Points& points)
+{
+  const Vector3d lower = points.rowwise().minCoeff();
+  const Vector3d upper = points.rowwise().maxCoeff();
+  return {0.5 * (lower + upper), 0.5 * (upper - lower) + Vector3d::Constant(kGrowth)};
+}
+
+OrientedBox OrientedBox::fit(const Points& points)
+{
+  const Matrix3Xd samples = sampled(points);
+  Matrix3d best_axes = Matrix3d::Identity();
+  double least = std::numeric_limits<double>::infinity();
+  for (Matrix3d axes : {Matrix3d(Matrix3d::Identity()), mainAxes(points), axesOfLargestTriangle(points)})
+  {
+    const double surface = improve(axes, samples);
+    if (surface < least)
+    {
+      least = surface;
+      best_axes = axes;
+    }
+  }
+  // Turn upon turn has gathered rounding errors.
+  best_axes = Eigen::Quaterniond(best_axes).normalized().toRotationMatrix();
+  const AxisBox box = AxisBox::fit(best_axes.transpose() * points);
+  return {best_axes, best_axes * box.center, box.half};
+}
+}  // namespace gpu_planning_scene::volumes

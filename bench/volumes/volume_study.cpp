@@ -1,0 +1,351 @@
+// volume_study: kinds of bounding volumes and schemes of traversal, which Gress and Zachmann (2003) leave open, by the
+// work that they make and the time that they take; see --help.
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "benchmark/csv_table.h"
+#include "benchmark/state_kinds.h"
+#include "benchmark/statistics.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "tools/command_line.h"
+#include "volumes/methods.h"
+
+using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::volumes;
+using benchmark::Cell;
+
+namespace
+{
+/// The states that are free, or those that collide.
+struct Part
+{
+  std::string name;
+  std::vector<std::size_t> states;
+  WorkCount work;
+  std::vector<double> microseconds;  // a state, of each repeat
+
+  double perState(std::size_t value) const
+  {
+    return static_cast<double>(value) / static_cast<double>(std::max<std::size_t>(states.size(), 1));
+  }
+};
+
+struct Row
+{
+  std::unique_ptr<Method> method;
+  std::vector<Part> parts;
+};
+
+struct Tables
+{
+  explicit Tables(const std::string& folder)
+    : totals(folder, "volume_totals.csv",
+             {"scene", "kind", "volume", "scheme", "bytes", "part", "states", "volume_pairs", "overlaps", "leaf_pairs",
+              "triangle_pairs", "microseconds", "microseconds_least", "microseconds_most"}),
+      levels(folder, "volume_levels.csv",
+             {"scene", "kind", "volume", "scheme", "part", "level", "volume_pairs", "overlaps", "leaf_pairs",
+              "triangle_pairs"})
+  {
+  }
+  benchmark::CsvTable totals;
+  benchmark::CsvTable levels;
+};
+
+struct Settings
+{
+  std::string kind;
+  std::size_t states;
+  std::uint64_t seed;
+  std::size_t repeats;
+  bool levels;
+};
+
+double percent(std::size_t part, std::size_t whole)
+{
+  return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(whole, 1));
+}
+
+std::vector<std::size_t> allOf(std::size_t count)
+{
+  std::vector<std::size_t> all(count);
+  for (std::size_t i = 0; i < count; ++i)
+    all[i] = i;
+  return all;
+}
+
+/// What a method finds in each state; throws where it is unlike what another found.
+void compare(const std::string& scene, const Method& method, const std::vector<int>& found, const std::vector<int>& as)
+{
+  std::size_t unlike = 0;
+  for (std::size_t i = 0; i < as.size(); ++i)
+    unlike += (method.tellsPair() ? found[i] != as[i] : (found[i] >= 0) != (as[i] >= 0)) ? 1 : 0;
+  if (unlike != 0)
+    throw Error(scene + ": " + method.volume() + ", " + method.scheme() + ": " + std::to_string(unlike) +
+                " answers are unlike those of the AABBs; a test of volumes or a scheme is wrong");
+}
+
+/// The exact checker finds all that these inscribed surfaces do, and what only true curved surfaces and solids do.
+/// Returns in how many states that decides.
+std::size_t compareWithExact(const TestScene& scene, const std::vector<double>& rows, const std::vector<int>& found)
+{
+  const BatchResult exact = CpuChecker(scene.scene).check(rows.data(), found.size());
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    if (found[i] >= 0 && exact.valid[i] != 0)
+      throw Error(scene.name + ": state " + std::to_string(i) + " collides here, but not by the exact checker");
+    others += found[i] < 0 && exact.valid[i] == 0 ? 1 : 0;
+  }
+  return others;
+}
+
+/// Brings pairs into the order of how often each is the first that collides. Returns the answers in that order.
+std::vector<int> orderPairs(Method& method, PlacedPairs& placed)
+{
+  WorkCount ignored;
+  const std::vector<std::size_t> states = allOf(placed.states());
+  const std::vector<int> found = method.check(states, ignored);
+  std::vector<std::size_t> hits;
+  for (const PlacedPair& pair : placed.pairs)
+    hits.resize(std::max<std::size_t>(hits.size(), pair.number + 1));
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i] >= 0)
+      ++hits[placed.pairs[placed.first[i] + static_cast<std::size_t>(found[i])].number];
+  placed.sortByHits(hits);
+  return method.check(states, ignored);
+}
+
+void measureTimes(std::vector<Row>& rows, std::size_t repeats)
+{
+  for (std::size_t repeat = 0; repeat < repeats; ++repeat)
+    for (Row& row : rows)
+      for (Part& part : row.parts)
+      {
+        const benchmark::Stopwatch watch;
+        const std::size_t colliding = row.method->run(part.states);
+        const double seconds = watch.cpuSeconds();
+        if (colliding != (part.name == "free" ? 0 : part.states.size()))
+          throw Error(row.method->volume() + ", " + row.method->scheme() + ": answers change from run to run");
+        part.microseconds.push_back(1e6 * part.perState(1) * seconds);
+      }
+}
+
+/// A line for each method that `wanted` is true of.
+template <class Wanted>
+void printTotals(const std::vector<Row>& rows, const Wanted& wanted)
+{
+  std::printf(
+      "| volume; scheme | bytes | free: volume pairs | overlap | leaf pairs | triangle pairs | us | colliding: volume "
+      "pairs | overlap | leaf pairs | triangle pairs | us |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  for (const Row& row : rows)
+  {
+    if (!wanted(*row.method))
+      continue;
+    std::printf("| %s; %s | %zu |", row.method->volume().c_str(), row.method->scheme().c_str(), row.method->bytes());
+    for (const Part& part : row.parts)
+    {
+      const LevelWork work = part.work.total();
+      std::printf(" %.1f | %.0f %% | %.2f | %.1f | %.2f |", part.perState(work.tests),
+                  percent(work.overlaps, work.tests), part.perState(work.leaf_pairs),
+                  part.perState(work.triangle_pairs), benchmark::median(part.microseconds));
+    }
+    std::printf("\n");
+  }
+}
+
+/// Volumes are rows, schemes columns; rows come volume by volume.
+void printTimes(const std::vector<Row>& rows)
+{
+  std::printf("\nMicroseconds of a free state / of one that collides\n\n| volume |");
+  std::string rule = "\n| --- |";
+  for (const Row& row : rows)
+    if (row.method->volume() == rows.front().method->volume())
+    {
+      std::printf(" %s |", row.method->scheme().c_str());
+      rule += " --- |";
+    }
+  std::printf("%s", rule.c_str());
+  for (const Row& row : rows)
+  {
+    if (row.method->scheme() == rows.front().method->scheme())
+      std::printf("\n| %s |", row.method->volume().c_str());
+    std::printf(" %.2f / %.2f |", benchmark::median(row.parts[0].microseconds),
+                benchmark::median(row.parts[1].microseconds));
+  }
+  std::printf("\n");
+}
+
+/// Of free states, in which all pairs are traversed to their end: a column for each method that `wanted` is true of.
+template <class Wanted>
+void printLevels(const std::vector<Row>& rows, const Wanted& wanted)
+{
+  std::size_t levels = 0;
+  std::printf(
+      "\nFree states, level by level: volume pairs, share that overlap, leaf pairs, triangle pairs\n\n| level |");
+  std::string rule = "\n| --- |";
+  for (const Row& row : rows)
+    if (wanted(*row.method))
+    {
+      levels = std::max(levels, row.parts[0].work.levels().size());
+      std::printf(" %s; %s |", row.method->volume().c_str(), row.method->scheme().c_str());
+      rule += " --- |";
+    }
+  std::printf("%s\n", rule.c_str());
+  for (std::size_t level = 0; level < levels; ++level)
+  {
+    std::printf("| %zu |", level);
+    for (const Row& row : rows)
+    {
+      const Part& part = row.parts[0];
+      if (!wanted(*row.method))
+        continue;
+      if (level >= part.work.levels().size())
+      {
+        std::printf(" |");
+        continue;
+      }
+      const LevelWork& work = part.work.levels()[level];
+      std::printf(" %.2f, %.0f %%, %.2f, %.2f |", part.perState(work.tests), percent(work.overlaps, work.tests),
+                  part.perState(work.leaf_pairs), part.perState(work.triangle_pairs));
+    }
+    std::printf("\n");
+  }
+}
+
+void write(const std::string& scene, const std::string& kind, const std::vector<Row>& rows, Tables& tables)
+{
+  for (const Row& row : rows)
+    for (const Part& part : row.parts)
+    {
+      const LevelWork work = part.work.total();
+      tables.totals.add({scene, kind, row.method->volume(), row.method->scheme(), row.method->bytes(), part.name,
+                         part.states.size(), work.tests, work.overlaps, work.leaf_pairs, work.triangle_pairs,
+                         benchmark::median(part.microseconds), benchmark::percentile(part.microseconds, 0.0),
+                         benchmark::percentile(part.microseconds, 1.0)});
+      for (std::size_t level = 0; level < part.work.levels().size(); ++level)
+      {
+        const LevelWork& at = part.work.levels()[level];
+        tables.levels.add({scene, kind, row.method->volume(), row.method->scheme(), part.name, level, at.tests,
+                           at.overlaps, at.leaf_pairs, at.triangle_pairs});
+      }
+    }
+}
+
+void study(const TestScene& scene, const Settings& settings, Tables* tables)
+{
+  const std::vector<double> states = benchmark::makeStates(scene, settings.kind, settings.states, settings.seed);
+  PlacedPairs placed = placePairs(scene, states);
+  std::vector<Row> rows;
+  for (std::unique_ptr<Method>& method : makeMethods(placed))
+    rows.push_back({std::move(method), {}});
+
+  const std::vector<int> expected = orderPairs(*rows.front().method, placed);
+  const std::size_t others = compareWithExact(scene, states, expected);
+  Part free{"free", {}, {}, {}};
+  Part colliding{"colliding", {}, {}, {}};
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    (expected[i] < 0 ? free : colliding).states.push_back(i);
+  for (Row& row : rows)
+  {
+    row.parts = {free, colliding};
+    WorkCount ignored;
+    compare(scene.name, *row.method, row.method->check(allOf(placed.states()), ignored), expected);
+    for (Part& part : row.parts)
+      row.method->check(part.states, part.work);
+  }
+  measureTimes(rows, settings.repeats);
+
+  std::printf(
+      "\n## %s, %s states, seed %llu\n\n%zu states, %zu of them free, %zu of which the exact checker, that knows true "
+      "curved surfaces and what is inside, finds colliding; %.1f pairs a state; %zu trees with %zu nodes. All methods "
+      "gave the same answers.\n\n",
+      scene.name.c_str(), settings.kind.c_str(), static_cast<unsigned long long>(settings.seed), expected.size(),
+      free.states.size(), others, static_cast<double>(placed.pairs.size()) / static_cast<double>(placed.states()),
+      placed.trees, placed.nodes);
+  const std::string first_volume = rows.front().method->volume();
+  const std::string first_scheme = rows.front().method->scheme();
+  const auto in_first_scheme = [&](const Method& method) { return method.scheme() == first_scheme; };
+  const auto of_first_volume = [&](const Method& method) { return method.volume() == first_volume; };
+  printTotals(rows, in_first_scheme);
+  std::printf("\n");
+  printTotals(rows, of_first_volume);
+  printTimes(rows);
+  if (settings.levels)
+  {
+    printLevels(rows, in_first_scheme);
+    printLevels(rows, of_first_volume);
+  }
+  std::fflush(stdout);
+  if (tables != nullptr)
+    write(scene.name, settings.kind, rows, *tables);
+}
+
+void run(const CommandLine& arguments)
+{
+  Settings settings;
+  settings.kind = arguments.value("--kind", "random");
+  settings.states = static_cast<std::size_t>(arguments.integer("--states", 2000, 1, 1000000));
+  settings.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
+  settings.repeats = static_cast<std::size_t>(arguments.integer("--repeats", 5, 1, 1000));
+  settings.levels = arguments.has("--levels");
+  const std::vector<std::string>& kinds = benchmark::stateKinds();
+  if (std::find(kinds.begin(), kinds.end(), settings.kind) == kinds.end())
+    throw UsageError("--kind: there are no '" + settings.kind + "' states; see --help");
+  std::vector<std::string> scenes = arguments.values("--scene");
+  if (scenes.empty())
+    scenes = {"arm_shelf"};
+  for (const std::string& name : scenes)
+  {
+    const std::vector<std::string>& known = benchmarkSceneNames();
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw UsageError("--scene: there is no '" + name + "'; see --help");
+    if (const std::string missing = missingFor(name); !missing.empty())
+      throw Error(name + " needs " + missing);
+  }
+  std::unique_ptr<Tables> tables;
+  if (arguments.has("--out"))
+  {
+    std::filesystem::create_directories(arguments.required("--out"));
+    tables = std::make_unique<Tables>(arguments.required("--out"));
+  }
+  for (const std::string& name : scenes)
+    study(testScene(name), settings, tables.get());
+}
+
+std::string join(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  const Tool tool{
+      "volume_study",
+      "[--scene NAME]... [--kind KIND] [--states N] [--repeats N] [--seed S] [--levels] [--out DIR]",
+      "Bounding volumes (spheres, AABBs, OBBs, k-DOPs) in trees of one topology, under several schemes of traversal,\n"
+      "on one core in double: a state's pairs whose boxes around the placed roots overlap, all of them to the end "
+      "where\n"
+      "the state is free, up to the first hit where it collides. All shapes are triangles here, and only surfaces are\n"
+      "tested. Prints Markdown tables: work a state and microseconds of CPU time, triangle tests included (median of\n"
+      "the repeats, in which the methods take turns), for free and for colliding states.\n"
+      "Exit code: 0, 1 if a method's answers are unlike another's or the exact checker's, or another error, 2 bad "
+      "usage.",
+      {{"--scene", "NAME", "of " + join(benchmarkSceneNames()) + " (default arm_shelf)", true},
+       {"--kind", "KIND", "of states: " + join(benchmark::stateKinds()) + " (default random)"},
+       {"--states", "N", "(default 2000)"},
+       {"--repeats", "N", "(default 5)"},
+       {"--seed", "S", "of the random numbers (default 1)"},
+       {"--levels", "", "tables of the work level by level, too"},
+       {"--out", "DIR", "volume_totals.csv and volume_levels.csv there: sums over the states"}},
+      run};
+  return runTool(tool, argc, argv);
+}
