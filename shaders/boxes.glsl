@@ -21,6 +21,28 @@ TreeNode fetchNode(uint index)
   return TreeNode(Box(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz)), a.w, b.w);
 }
 
+// A leaf in one word: its first triangle, and how many less one.
+uint leafReference(TreeNode leaf)
+{
+  return leaf.first | ((leaf.count - 1u) << LEAF_COUNT_SHIFT);
+}
+
+uint leafFirst(uint leaf)
+{
+  return leaf & ((1u << LEAF_COUNT_SHIFT) - 1u);
+}
+
+uint leafCount(uint leaf)
+{
+  return (leaf >> LEAF_COUNT_SHIFT) + 1u;
+}
+
+// A solid stands in a tree of its own: one leaf, whose first triangle is this bit and the instance.
+bool isSolidLeaf(uint leaf)
+{
+  return (leaf & SOLID_LEAF) != 0u;
+}
+
 // Whether box b, placed by `pose` in a's frame, is apart from box a by more than `margin` along one of the 15 axes that
 // can separate two boxes (Gottschalk, Lin and Manocha 1996, "OBBTree"). `false` proves nothing. The axes that are
 // products of edges are at most 1 long, so that the margin holds for them a fortiori.

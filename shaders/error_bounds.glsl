@@ -5,6 +5,15 @@ const float u = UNIT_ROUNDOFF;
 const float TINY = 1e-30;
 // What is larger than this has a square that is right to its last digits.
 const float LEAST_SQUARED = 1e-18;
+// What squares may lose of a vector's squared length, and what the length may so be short of, where they underflow.
+const float LOST_SQUARE = 4e-38;
+const float LOST_LENGTH = 2e-19;
+
+// At least the length of an axis, however short it is.
+float lengthAtMost(vec3 axis)
+{
+  return length(axis) + LOST_LENGTH;
+}
 
 // The corner of a box that is furthest from its shape's origin, mirrored to positive coordinates.
 vec3 farCorner(Box box)

@@ -126,7 +126,8 @@
 #define COUNTER_LANES_STARTED 8
 #define COUNTER_MESH_ENTRIES 9    // items whose shapes are both made of triangles, and those with a solid
 #define COUNTER_SOLID_ENTRIES 10
-#define COUNTER_UNUSED 11
+#define COUNTER_SCRATCH 11       // may be cleared
+#define COUNTER_DONE 15          // the part's serial number, when all of its work is done
 #define COUNTER_ARGUMENTS 12      // three uints
 #define COUNTER_LEAF_ARGUMENTS 16
 #define COUNTER_CHUNK_ARGUMENTS 20

@@ -5,28 +5,6 @@
 #include "triangle_pair.glsl"
 #include "triangle_distance.glsl"
 
-// A leaf in one word: its first triangle, and how many less one.
-uint leafReference(TreeNode leaf)
-{
-  return leaf.first | ((leaf.count - 1u) << LEAF_COUNT_SHIFT);
-}
-
-uint leafFirst(uint leaf)
-{
-  return leaf & ((1u << LEAF_COUNT_SHIFT) - 1u);
-}
-
-uint leafCount(uint leaf)
-{
-  return (leaf >> LEAF_COUNT_SHIFT) + 1u;
-}
-
-// A solid stands in a tree of its own: one leaf, whose first triangle is this bit and the instance.
-bool isSolidLeaf(uint leaf)
-{
-  return (leaf & SOLID_LEAF) != 0u;
-}
-
 void testTriangles(uint item_index, Item item, uint triangle_a, uint triangle_b)
 {
   vec3 a[3];

@@ -16,7 +16,7 @@ shared uint rows[LEAF_CHUNK * LEAF_TRIANGLES];  // place in leaf_pairs, and a tr
 #if SOLIDS
 #define ROW_ITERATIONS (2u * SOLID_ITERATIONS)
 #else
-#define ROW_ITERATIONS ((24u + 20u * PADDED) * LEAF_TRIANGLES)
+#define ROW_ITERATIONS ((32u + 20u * PADDED) * LEAF_TRIANGLES)
 #endif
 
 void addRows(uint place)

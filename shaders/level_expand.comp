@@ -3,8 +3,6 @@
 layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
 #include "level.glsl"
-#include "verdicts.glsl"
-#include "leaf_pair.glsl"
 layout(std430, binding = BINDING_A) readonly buffer Masks { uint masks[]; };
 layout(std430, binding = BINDING_B) readonly buffer Sums { uvec2 sums[]; };
 layout(std430, binding = BINDING_C) writeonly buffer NextEntries { uvec4 next_entries[]; };

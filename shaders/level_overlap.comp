@@ -6,7 +6,6 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "level.glsl"
 #include "instances.glsl"
 #include "verdicts.glsl"
-#include "leaf_pair.glsl"
 #if TOLERANT
 #include "tolerance.glsl"
 #endif

@@ -40,7 +40,7 @@ bool liesBeyond(vec3 corners[3], Instance solid, vec3 n, float beyond)
   const float least = min(heights.x, min(heights.y, heights.z));
   const float most = max(heights.x, max(heights.y, heights.z));
   const bool above = least > -most;
-  return max(least, -most) - extentAlong(solid, above ? n : -n) > beyond * length(n) * (1.0 + 16.0 * u) + TINY;
+  return max(least, -most) - extentAlong(solid, above ? n : -n) > beyond * lengthAtMost(n) * (1.0 + 16.0 * u) + TINY;
 }
 
 // A triangle, whose corners in the solid's frame are off by at most `error`, and a solid: STATE_HIT if their distance is

@@ -84,7 +84,7 @@ uint triangleDistance(vec3 a[3], vec3 b[3], float error, float distance, float g
     from_a = max(from_a, dot(axis, to_a));
     from_b = min(from_b, dot(axis, to_b));
   }
-  const float span = length(axis) * (1.0 + 8.0 * u);
+  const float span = lengthAtMost(axis) * (1.0 + 8.0 * u);
   const float off = error + 24.0 * u * size;
   if (span + off <= distance * (1.0 - 4.0 * u))
     return STATE_HIT;

@@ -64,8 +64,8 @@ uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
   }
   const float gap_a = max(min(da[0], min(da[1], da[2])), -max(da[0], max(da[1], da[2])));
   const float gap_b = max(min(db[0], min(db[1], db[2])), -max(db[0], max(db[1], db[2])));
-  bool apart = gap_a > beyond * length(nb) + 3.0 * u * length_b * length_b * length_b + TINY ||
-               gap_b > beyond * length(na) + 3.0 * u * length_a * length_a * length_a + TINY;
+  bool apart = gap_a > beyond * lengthAtMost(nb) + 3.0 * u * length_b * length_b * length_b + TINY ||
+               gap_b > beyond * lengthAtMost(na) + 3.0 * u * length_a * length_a * length_a + TINY;
   bool hit = false;
 
   // One bit per edge pair for the sign of its volume, where it is certain.
@@ -84,7 +84,7 @@ uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
       precise const float span_a = -dot(na, eb[j]);  // the same of a
       const float separation = max(volume + min(0.0, span_b) - max(0.0, span_a), min(0.0, span_a) - volume - max(0.0, span_b));
       const float certain = separation - error_span;
-      apart = apart || (certain > LEAST_SQUARED && certain * certain > squared_beyond * dot(axis, axis));
+      apart = apart || (certain > LEAST_SQUARED && certain * certain > squared_beyond * (dot(axis, axis) + LOST_SQUARE));
       all_above = all_above && volume > error_v;
       all_below = all_below && volume < -error_v;
       b_edge_above[j] = b_edge_above[j] && volume > error_v;

@@ -69,8 +69,13 @@ void BatchEngine::setProblem(std::shared_ptr<const CollisionProblem> problem, st
 void BatchEngine::apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot)
 {
   pairs_->setProblem(problem);
-  if (!robot || !double_fault_.empty())
+  // Compiling takes a time that grows with the square of the links.
+  constexpr std::size_t kMostLinks = 120;
+  if (!robot || !double_fault_.empty() || robot->links().size() > kMostLinks)
+  {
+    kinematics_.reset();
     return;
+  }
   if (!kinematics_ || kinematics_->robot() != robot)
     kinematics_ = std::make_unique<GpuKinematics>(shader_folder_, robot);
   kinematics_->setInstances(problem);

@@ -18,12 +18,18 @@ BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definit
   : arguments_(folder),
     scan_(folder, "level_scan.comp"),
     expand_(folder, "level_expand.comp", definitions),
-    overlap_(folder, "level_overlap.comp", definitions),
-    triangles_(folder, "level_triangles.comp", definitions),
+    overlap_(folder, "level_overlap.comp", definitions, TaskPrograms::Needs::NoPadding),
+    triangles_(folder, "level_triangles.comp", definitions, TaskPrograms::Needs::NoTolerance),
     masks_(std::size_t{capacities.node_pairs} * 4),
     sums_((std::size_t{capacities.node_pairs} / LEVEL_CHUNK + 1) * 8)
 {
   leaf_pairs_.reserve(std::size_t{capacities.leaf_pairs} * 16);
+}
+
+void BreadthFirst::prepare(const TraversalTask& task)
+{
+  overlap_.forTask(task);
+  triangles_.forTask(task);
 }
 
 void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)

@@ -11,6 +11,7 @@ class BreadthFirst : public GpuTraversal
 {
  public:
   BreadthFirst(const std::string& shader_folder, const std::string& definitions, const ListCapacities& capacities);
+  void prepare(const TraversalTask& task) override;
   void start(BatchLists& lists, const TraversalTask& task) override;
 
  private:

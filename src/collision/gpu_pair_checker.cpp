@@ -52,6 +52,7 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
     definitions_(float_fault_.empty() ? "" : "#define FLOATS_DECIDE 0\n"),
     scene_(folder),
     max_states_(std::max<std::size_t>(1, max_states)),
+    part_limit_(max_states_),
     part_size_(std::min(max_states_, kFirstPart)),
     lists_(withDefaults(capacities, max_states_)),
     traversal_(makeTraversal(traversal, folder, definitions_, lists_.capacity)),
@@ -60,7 +61,8 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
     self_program_(folder, "check_self_broad.comp"),
     roots_program_(folder, "check_roots.comp", definitions_),
     half_spaces_program_(folder, "check_half_spaces.comp", definitions_),
-    inside_program_(folder, "check_inside.comp", definitions_)
+    inside_program_(folder, "check_inside.comp", definitions_),
+    done_program_(folder, "check_done.comp")
 {
 }
 
@@ -72,11 +74,24 @@ std::pair<std::uint32_t, std::uint32_t> GpuPairChecker::pairOf(std::uint32_t hit
 void GpuPairChecker::setProblem(const CollisionProblem& problem)
 {
   scene_.setProblem(problem);
+  prepare();
 }
 
 void GpuPairChecker::selectPairs(const CollisionProblem& problem)
 {
   scene_.selectPairs(problem);
+  prepare();
+}
+
+/// What would otherwise be done within a batch: programs are compiled. Poses of a part have to fit a buffer texture.
+void GpuPairChecker::prepare()
+{
+  const std::size_t room = TexelBuffer::mostBytes() / (std::max(1U, scene_.robotCount()) * 12 * sizeof(float));
+  part_limit_ = std::max<std::size_t>(1, std::min(max_states_, room));
+  part_size_ = std::min(part_size_, part_limit_);
+  traversal_->prepare(task(false));
+  if (scene_.solidNodes() != 0)
+    traversal_->prepare(task(true));
 }
 
 void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts)
@@ -102,9 +117,10 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
     }
     if (running)
     {
+      const std::size_t states = running->count;
       finish(source, *running, verdicts);
       const Clock::time_point now = Clock::now();
-      adaptPartSize(running->count, std::chrono::duration<double>(now - last).count());
+      adaptPartSize(states, std::chrono::duration<double>(now - last).count());
       last = now;
     }
     running = next;
@@ -118,7 +134,7 @@ void GpuPairChecker::adaptPartSize(std::size_t count, double seconds)
   if (wanted < static_cast<double>(part_size_))
     part_size_ = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
   else if (count == part_size_ && wanted >= 2.0 * static_cast<double>(count))
-    part_size_ = std::min(max_states_, 2 * part_size_);
+    part_size_ = std::min(part_limit_, 2 * part_size_);
 }
 
 void GpuPairChecker::finish(PoseSource& source, Part& part, Verdicts& verdicts)
@@ -133,7 +149,8 @@ void GpuPairChecker::finish(PoseSource& source, Part& part, Verdicts& verdicts)
     return;
   }
   // Parts that follow are likely to be like this one.
-  part_size_ = std::min(part_size_, (count + 1) / 2);
+  part_limit_ = std::min(part_limit_, (count + 1) / 2);
+  part_size_ = std::min(part_size_, part_limit_);
   for (const auto& [first, states] : {std::pair(begin, count / 2), std::pair(begin + count / 2, count - count / 2)})
   {
     part.begin = first;
@@ -146,9 +163,9 @@ void GpuPairChecker::finish(PoseSource& source, Part& part, Verdicts& verdicts)
 bool GpuPairChecker::fetch(const Part& part, Verdicts& verdicts) const
 {
   const AnswerOffsets offsets(part.count);
-  std::vector<std::uint32_t> words(offsets.end / sizeof(std::uint32_t));
+  std::vector<std::uint32_t> words(offsets.end / sizeof(std::uint32_t), ~0U);
   part.answers.read(words.data(), offsets.end);
-  if (words[COUNTER_OVERFLOW] != 0)
+  if (words[COUNTER_OVERFLOW] != 0 || words[COUNTER_DONE] != part.serial)
     return false;
   const auto flags = words.begin() + static_cast<std::ptrdiff_t>(offsets.flags / sizeof(std::uint32_t));
   const auto hits = words.begin() + static_cast<std::ptrdiff_t>(offsets.hits / sizeof(std::uint32_t));
@@ -181,6 +198,9 @@ void GpuPairChecker::start(PoseSource& source, Part& part)
   testRoots();
   traverse();
   testContainment();
+  part.serial = ++serial_;
+  done_program_.set(0, part.serial);
+  done_program_.dispatch(1);
   part.answers.copyFrom(lists_.counters, COUNTER_WORDS * sizeof(std::uint32_t));
   checkGl("a batch");
 }
@@ -227,7 +247,7 @@ void GpuPairChecker::findCandidates(std::uint32_t states)
 
 void GpuPairChecker::testRoots()
 {
-  arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, COUNTER_UNUSED);
+  arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, COUNTER_SCRATCH);
   roots_program_.set(2, lists_.capacity.candidates);
   roots_program_.set(3, lists_.capacity.items);
   roots_program_.set(4, scene_.solidNodes());
@@ -238,20 +258,17 @@ void GpuPairChecker::testRoots()
   roots_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
 }
 
+TraversalTask GpuPairChecker::task(bool solids) const
+{
+  return {solids, scene_.isPadded(), scene_.tolerance(), scene_.depthBound()};
+}
+
 /// Solids first: what is found there costs less.
 void GpuPairChecker::traverse()
 {
-  TraversalTask task;
-  task.padded = scene_.isPadded();
-  task.tolerance = scene_.tolerance();
-  task.levels = scene_.depthBound();
   if (scene_.solidNodes() != 0)
-  {
-    task.solids = true;
-    traversal_->start(lists_, task);
-    task.solids = false;
-  }
-  traversal_->start(lists_, task);
+    traversal_->start(lists_, task(true));
+  traversal_->start(lists_, task(false));
 }
 
 /// Of meshes in meshes and of primitives in meshes; what primitives contain, testRoots has seen.
@@ -259,7 +276,7 @@ void GpuPairChecker::testContainment()
 {
   if (!scene_.hasMeshSolids())
     return;
-  arguments_.prepare(COUNTER_ITEMS, lists_.capacity.items, GROUP_SIZE, COUNTER_UNUSED);
+  arguments_.prepare(COUNTER_ITEMS, lists_.capacity.items, GROUP_SIZE, COUNTER_SCRATCH);
   inside_program_.set(2, lists_.capacity.items);
   scene_.components().bindStorage(BINDING_C);
   scene_.leafOrder().bindStorage(BINDING_A);

@@ -53,7 +53,8 @@ class GpuPairChecker
   {
     std::size_t begin = 0;
     std::size_t count = 0;
-    Buffer answers;  // counters, flags and hits, see answerOffsets
+    std::uint32_t serial = 0;
+    Buffer answers;  // counters, flags and hits, see AnswerOffsets
   };
 
   void start(PoseSource& source, Part& part);
@@ -63,6 +64,8 @@ class GpuPairChecker
   void testHalfSpaces(std::uint32_t states);
   void findCandidates(std::uint32_t states);
   void testRoots();
+  TraversalTask task(bool solids) const;
+  void prepare();
   void traverse();
   void testContainment();
 
@@ -70,12 +73,14 @@ class GpuPairChecker
   std::string definitions_;  // of the programs that test triangles
   GpuScene scene_;
   std::size_t max_states_;
-  std::size_t part_size_;  // at most max_states_
+  std::size_t part_limit_;  // fewer than max_states_ after lists overflowed
+  std::size_t part_size_;   // at most part_limit_
+  std::uint32_t serial_ = 0;
   std::array<Part, 2> parts_;
   BatchLists lists_;
   std::unique_ptr<GpuTraversal> traversal_;
   ArgumentsKernel arguments_;
-  Program links_program_, self_program_, roots_program_, half_spaces_program_, inside_program_;
+  Program links_program_, self_program_, roots_program_, half_spaces_program_, inside_program_, done_program_;
   TexelBuffer poses_, spheres_;
 };
 }  // namespace gpu_planning_scene

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -152,14 +151,14 @@ void GpuScene::setProblem(const CollisionProblem& problem)
   trees_.setShapes(problem.trees);
   tree_count_ = problem.trees.size();
   writeWorld(problem);
-  writeGeometries(problem);
   tolerance_ = static_cast<float>(problem.tolerance);
   writeSolids(problem);
   writeHalfSpaces(problem);
   selectPairs(problem);
 }
 
-void GpuScene::writeGeometries(const CollisionProblem& problem)
+/// Says of each robot instance whether it has pairs with the world, so it goes with the choice of pairs.
+void GpuScene::writeInstances(const CollisionProblem& problem)
 {
   padded_ = false;
   has_mesh_solids_ = false;
@@ -251,6 +250,7 @@ void GpuScene::writeWorld(const CollisionProblem& problem)
 
 void GpuScene::selectPairs(const CollisionProblem& problem)
 {
+  writeInstances(problem);
   // Where each robot instance's partners begin and end, then the partners; a pair is with its lower instance.
   std::vector<std::vector<std::uint32_t>> of(robot_count_);
   for (const auto& pair : problem.self_pairs)

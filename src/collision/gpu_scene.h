@@ -53,7 +53,7 @@ class GpuScene
 
  private:
   void writeWorld(const CollisionProblem& problem);
-  void writeGeometries(const CollisionProblem& problem);
+  void writeInstances(const CollisionProblem& problem);
   void writeSolids(const CollisionProblem& problem);
   void writeHalfSpaces(const CollisionProblem& problem);
 

@@ -19,7 +19,7 @@ Traversal traversalFromName(const std::string& name)
 BatchLists::BatchLists(const ListCapacities& capacities)
   : capacity(capacities), counters(COUNTER_WORDS * sizeof(std::uint32_t))
 {
-  candidates.reserve(std::size_t{capacity.candidates} * 16);
+  candidates.reserve((std::size_t{capacity.candidates} + 1) / 2 * 16);
   items.reserve(std::size_t{capacity.items} * ITEM_TEXELS * 16);
   mesh_entries.reserve(std::size_t{capacity.items} * 16);
   solid_entries.reserve(std::size_t{capacity.items} * 16);
@@ -27,21 +27,23 @@ BatchLists::BatchLists(const ListCapacities& capacities)
     list.reserve(std::size_t{capacity.node_pairs} * 16);
 }
 
-TaskPrograms::TaskPrograms(std::string shader_folder, std::string name, std::string definitions)
-  : folder_(std::move(shader_folder)), name_(std::move(name)), definitions_(std::move(definitions))
+TaskPrograms::TaskPrograms(std::string shader_folder, std::string name, std::string definitions, Needs needs)
+  : folder_(std::move(shader_folder)), name_(std::move(name)), definitions_(std::move(definitions)), needs_(needs)
 {
 }
 
 const Program& TaskPrograms::forTask(const TraversalTask& task)
 {
-  const bool tolerant = task.tolerance > 0.0F;
-  auto& program = programs_[(task.solids ? 4 : 0) + (task.padded ? 2 : 0) + (tolerant ? 1 : 0)];
+  const bool tolerant = task.tolerance > 0.0F && needs_ != Needs::NoTolerance;
+  // Solids know distances without a program of their own.
+  const bool padded = task.padded && !task.solids && needs_ != Needs::NoPadding;
+  auto& program = programs_[(task.solids ? 4 : 0) + (padded ? 2 : 0) + (tolerant ? 1 : 0)];
   if (!program)
   {
     std::string definitions = definitions_;
     if (task.solids)
       definitions += "#define SOLIDS 1\n";
-    if (task.padded)
+    if (padded)
       definitions += "#define PADDED 1\n";
     if (tolerant)
       definitions += "#define TOLERANT 1\n";

@@ -48,11 +48,19 @@ struct TraversalTask
 class TaskPrograms
 {
  public:
-  TaskPrograms(std::string shader_folder, std::string name, std::string definitions);
+  /// What of a task makes a difference to a shader.
+  enum class Needs
+  {
+    All,
+    NoPadding,
+    NoTolerance
+  };
+  TaskPrograms(std::string shader_folder, std::string name, std::string definitions, Needs needs);
   const Program& forTask(const TraversalTask& task);
 
  private:
   std::string folder_, name_, definitions_;
+  Needs needs_;
   std::array<std::optional<Program>, 8> programs_;
 };
 
@@ -62,6 +70,9 @@ class GpuTraversal
 {
  public:
   virtual ~GpuTraversal() = default;
+
+  /// Compiles what `start` needs for such a task.
+  virtual void prepare(const TraversalTask& task) = 0;
 
   /// Traverses from the entries of the task's kind, without waiting for the device: where something is left undone, as
   /// a list overflowed or the device ended work early, counters[COUNTER_OVERFLOW] says so.

@@ -162,10 +162,10 @@ std::uint32_t GpuTrees::reserveNodes(std::size_t count)
 {
   if (count > reserved_)
   {
+    nodes_.reserve((std::size_t{node_count_} + 2 * count) * sizeof(Node));
     reserved_first_ = node_count_;
     reserved_ = 2 * count;
     node_count_ += static_cast<std::uint32_t>(reserved_);
-    nodes_.reserve(std::size_t{node_count_} * sizeof(Node));
   }
   return reserved_first_;
 }

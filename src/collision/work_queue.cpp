@@ -7,7 +7,7 @@ namespace gpu_planning_scene
 namespace
 {
 /// One, as a rule: what follows is for what the stacks or the granted iterations were too short for.
-constexpr std::uint32_t kPasses = 2;
+constexpr std::uint32_t kPasses = 3;
 }  // namespace
 
 void WorkQueue::start(BatchLists& lists, const TraversalTask& task)
@@ -35,7 +35,7 @@ void WorkQueue::start(BatchLists& lists, const TraversalTask& task)
     in_capacity = capacity;
     in_list = &out_list;
   }
-  preparePass(in_counter, in_capacity, COUNTER_UNUSED, true);
+  preparePass(in_counter, in_capacity, COUNTER_SCRATCH, true);
 }
 
 void WorkQueue::preparePass(std::uint32_t in_counter, std::uint32_t in_capacity, std::uint32_t out_counter,

@@ -11,9 +11,11 @@ class WorkQueue : public GpuTraversal
 {
  public:
   WorkQueue(const std::string& shader_folder, const std::string& definitions)
-    : pass_program_(shader_folder, "queue_pass.comp"), programs_(shader_folder, "work_queue.comp", definitions)
+    : pass_program_(shader_folder, "queue_pass.comp"),
+      programs_(shader_folder, "work_queue.comp", definitions, TaskPrograms::Needs::All)
   {
   }
+  void prepare(const TraversalTask& task) override { programs_.forTask(task); }
   void start(BatchLists& lists, const TraversalTask& task) override;
 
  private:

@@ -42,11 +42,11 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept
   return *this;
 }
 
-void Buffer::reserve(std::size_t size)
+void Buffer::reserve(std::size_t size, std::size_t most)
 {
   if (size <= size_)
     return;
-  Buffer larger(std::max(size, size_ + size_ / 2));
+  Buffer larger(std::max(size, std::min(most, size_ + size_ / 2)));
   if (size_)
     larger.copyFrom(*this, size_);
   *this = std::move(larger);
@@ -108,16 +108,22 @@ TexelBuffer::~TexelBuffer()
     glDeleteTextures(1, &texture_);
 }
 
+std::size_t TexelBuffer::mostBytes()
+{
+  GLint texels = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+  return static_cast<std::size_t>(texels) * 16;
+}
+
 void TexelBuffer::reserve(std::size_t size)
 {
   if (size <= buffer_.size() && texture_)
     return;
-  buffer_.reserve(size);
-  GLint limit = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-  if (buffer_.size() / 16 > static_cast<std::size_t>(limit))
-    throw Error("the device holds at most " + std::to_string(limit) + " texels in a buffer texture, " +
-                std::to_string(buffer_.size() / 16) + " are needed; use fewer triangles or a smaller batch");
+  const std::size_t most = mostBytes();
+  if (size > most)
+    throw Error("the device holds at most " + std::to_string(most / 16) + " texels in a buffer texture, " +
+                std::to_string((size + 15) / 16) + " are needed; use fewer triangles or a smaller batch");
+  buffer_.reserve(size, most);
   if (!texture_)
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
   glTextureBuffer(texture_, GL_RGBA32UI, buffer_.id());

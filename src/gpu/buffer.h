@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace gpu_planning_scene
@@ -20,8 +21,8 @@ class Buffer
   std::size_t size() const { return size_; }
   std::uint32_t id() const { return id_; }
 
-  /// Grows to at least `size`, with head room; keeps what it held.
-  void reserve(std::size_t size);
+  /// Grows to at least `size`, with head room up to `most` bytes; keeps what it held.
+  void reserve(std::size_t size, std::size_t most = std::numeric_limits<std::size_t>::max());
   void write(const void* data, std::size_t size, std::size_t offset = 0);
   void read(void* data, std::size_t size, std::size_t offset = 0) const;
   void clear();  ///< fills it with zeros
@@ -54,10 +55,11 @@ class TexelBuffer
   TexelBuffer(const TexelBuffer&) = delete;
   TexelBuffer& operator=(const TexelBuffer&) = delete;
 
-  /// Grows to at least `size` bytes and keeps what it held. Throws Error past the device's limit.
+  /// Grows to at least `size` bytes and keeps what it held. Throws Error past the device's limit, and is as it was.
   void reserve(std::size_t size);
   Buffer& buffer() { return buffer_; }
   const Buffer& buffer() const { return buffer_; }
+  static std::size_t mostBytes();  ///< the device's limit
   void bindTexture(std::uint32_t unit) const;
 
  private:

@@ -159,6 +159,7 @@ Program Program::fromText(const std::string& folder, const std::string& name, co
 
 Program::Program(const Source& source)
 {
+  checkGl(("what came before compiling " + source.name).c_str());
   id_ = loadCachedProgram(source.text);
   if (id_ == 0)
   {

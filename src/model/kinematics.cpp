@@ -30,9 +30,13 @@ Eigen::Matrix4d floatingMotion(const double* variables)
 {
   Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
   motion.topRightCorner<3, 1>() = Eigen::Map<const Eigen::Vector3d>(variables);
-  const Eigen::Vector4d coefficients = Eigen::Map<const Eigen::Vector4d>(variables + 3).stableNormalized();
-  if (!coefficients.isZero(0.0))
+  // Divided by the largest first: squares of numbers near the ends of the range of doubles would not do.
+  Eigen::Vector4d coefficients = Eigen::Map<const Eigen::Vector4d>(variables + 3);
+  const double largest = coefficients.cwiseAbs().maxCoeff();
+  if (largest > 0.0)
   {
+    coefficients /= largest;
+    coefficients.normalize();
     motion.topLeftCorner<3, 3>() = Eigen::Quaterniond(coefficients).toRotationMatrix();
   }
   return motion;

@@ -194,6 +194,36 @@ TEST_P(GpuContract, ACavityIsFreeAndAnOpenMeshHoldsNothing)
   }
 }
 
+std::shared_ptr<const Mesh> triangleMesh(const Vector3d& a, const Vector3d& b, const Vector3d& c)
+{
+  auto mesh = std::make_shared<Mesh>();
+  mesh->vertices = {a, b, c};
+  mesh->triangles = {{0, 1, 2}};
+  return mesh;
+}
+
+/// Axes so short that the squares of their entries underflow have a length of 0 in floats; the required distance counts
+/// along them too.
+TEST_P(GpuContract, AxesTooShortForFloatsProveNothing)
+{
+  for (const double width : {1e-18, 1e-20, 1e-23, 1e-26, 1e-28})
+  {
+    const auto nearly_along_x = triangleMesh({-0.1, 0.0, 0.0}, {0.1, width, 0.0}, {0.0, 0.1, 0.0});
+    for (const Shape& solid : {Shape(Box{{0.1, 0.1, 0.1}}), Shape(Cylinder{0.05, 0.1}), Shape(Sphere{0.05})})
+    {
+      CollisionProblem problem = problemOf(nearly_along_x);
+      addObject(problem, solid, at(0.0), 0.08);
+      EXPECT_EQ(check(problem, {at(0.0, 0.0, 0.1)}).valid[0], 0) << width;
+      problem = problemOf(solid);
+      addObject(problem, nearly_along_x, at(0.0, 0.0, 0.1), 0.08);
+      EXPECT_EQ(check(problem, {at(0.0)}).valid[0], 0) << width;
+    }
+    CollisionProblem problem = problemOf(triangleMesh({-0.1, -0.1, 0.0}, {0.1, -0.1, 0.0}, {0.0, 0.1, 0.0}));
+    addObject(problem, triangleMesh({0.0, 0.0, 0.0}, {1e-8, 0.0, 0.0}, {0.0, width * 1e8, 0.0}), at(0.0), 0.15);
+    EXPECT_EQ(check(problem, {at(0.0, 0.0, 0.1)}).valid[0], 0) << width;
+  }
+}
+
 TEST_P(GpuContract, TheOriginChangesNoAnswerFarFromTheWorlds)
 {
   CollisionProblem problem = problemOf(meshOf(Box{{0.2, 0.2, 0.2}}));

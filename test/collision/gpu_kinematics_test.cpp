@@ -117,6 +117,18 @@ TEST(GpuKinematics, KnowsAllTypesOfJointsAndMimics)
       "<robot name='test'><virtual_joint name='world' type='floating' parent_frame='map' child_link='root'/></robot>"));
 }
 
+TEST(GpuKinematics, AndTheModelTurnByQuaternionsOfAnyLength)
+{
+  const auto robot = robotOf(boxLink("a") + boxLink("b") + jointXml("fly", "floating", "a", "b"));
+  std::vector<Eigen::Isometry3d> links(2);
+  for (const double length : {5e-324, 1e-160, 1.0, 1e160, 1.7e308})
+  {
+    const std::vector<double> state = {0.0, 0.0, 0.0, 0.0, length, 0.0, length};
+    robot->linkPoses(state.data(), links.data());
+    EXPECT_NEAR(links[1].linear()(0, 2), 1.0, 1e-12) << length;  // a quarter turn around y
+  }
+}
+
 TEST(GpuKinematics, LeavesAnglesBeyondItsSineToTheCpu)
 {
   EglContext context("auto");
