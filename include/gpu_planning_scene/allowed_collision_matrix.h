@@ -36,6 +36,7 @@ class AllowedCollisionMatrix
     const Body* body_ = nullptr;  // null: nothing
   };
   Row row(const std::string& body) const;
+  Row row(const std::string&& body) const = delete;  // the name would be gone
 
  private:
   struct Body

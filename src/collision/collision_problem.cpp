@@ -42,14 +42,6 @@ class TreeTable
   std::unordered_map<ShapeKey, std::uint32_t, ShapeKeyHash> trees_;
 };
 
-/// The half-space that `half_space` becomes where its frame is at `pose`. The normal is made a unit again: a pose's
-/// rotation is one but for rounding.
-WorldHalfSpace moved(const HalfSpace& half_space, const Eigen::Isometry3d& pose, std::int32_t body, double padding)
-{
-  const Eigen::Vector3d normal = (pose.linear() * half_space.normal).normalized();
-  return {body, normal, half_space.offset + normal.dot(pose.translation()), padding};
-}
-
 /// A half-open range of indices of geometries.
 struct Range
 {
@@ -65,12 +57,6 @@ struct Instances
   std::vector<Range> half_spaces_of_object;
 };
 
-/// Of two poses that the scene's validation has seen.
-Eigen::Isometry3d rigidProduct(const Eigen::Isometry3d& body, const Eigen::Isometry3d& shape)
-{
-  return rigid(body, "a body's pose") * rigid(shape, "a shape's pose");
-}
-
 void addObject(const WorldObject& object, std::int32_t body, TreeTable& trees, CollisionProblem& problem)
 {
   for (const PlacedShape& placed : object.shapes)
@@ -78,7 +64,8 @@ void addObject(const WorldObject& object, std::int32_t body, TreeTable& trees, C
     const Eigen::Isometry3d pose = rigidProduct(object.pose, placed.pose);
     if (const auto* half_space = std::get_if<HalfSpace>(&placed.shape))
     {
-      problem.half_spaces.push_back(moved(*half_space, pose, body, object.padding));
+      const HalfSpace placed_half_space = moved(*half_space, pose);
+      problem.half_spaces.push_back({body, placed_half_space.normal, placed_half_space.offset, object.padding});
     }
     else
     {
@@ -176,7 +163,27 @@ void addPairs(const CheckedPairs& pairs, const Instances& instances, CollisionPr
     }
   }
 }
+
+/// A point near the robot, whatever its limits: where they leave out 0, states are taken at the nearer limit.
+Eigen::Vector3d originFor(const RobotModel& robot, int link)
+{
+  std::vector<double> state = robot.defaultState();
+  for (std::size_t i = 0; i < state.size(); ++i)
+    if (const Variable& variable = robot.variables()[i]; variable.lower > 0.0)
+      state[i] = variable.lower;
+    else if (variable.upper < 0.0)
+      state[i] = variable.upper;
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  robot.linkPoses(state.data(), poses.data());
+  return poses[static_cast<std::size_t>(link)].translation();
+}
 }  // namespace
+
+HalfSpace moved(const HalfSpace& half_space, const Eigen::Isometry3d& pose)
+{
+  const Eigen::Vector3d normal = (pose.linear() * half_space.normal).normalized();
+  return {normal, half_space.offset + normal.dot(pose.translation())};
+}
 
 bool sameShape(const Shape& a, const Shape& b)
 {
@@ -204,11 +211,7 @@ CollisionProblem problemOf(const PlanningScene& scene, const std::vector<RobotBo
   const Instances instances = addInstances(scene, bodies, pairs, share_trees, tessellations, problem);
   addPairs(pairs, instances, problem);
   if (!problem.robot.empty())
-  {
-    std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());
-    scene.robot->linkPoses(scene.robot->defaultState().data(), poses.data());
-    problem.origin = poses[problem.robot.front().link].translation();
-  }
+    problem.origin = originFor(*scene.robot, problem.robot.front().link);
   return problem;
 }
 

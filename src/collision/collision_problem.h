@@ -67,6 +67,10 @@ struct CollisionProblem
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 };
 
+/// The half-space that `half_space` becomes where its frame is at `pose`. The normal is made a unit again: a pose's
+/// rotation is one but for rounding.
+HalfSpace moved(const HalfSpace& half_space, const Eigen::Isometry3d& pose);
+
 /// Whether two shapes can share a tree: the same mesh, or primitives of the same kind and dimensions.
 bool sameShape(const Shape& a, const Shape& b);
 

@@ -23,10 +23,20 @@ int anchorOf(const RobotModel& robot, int link)
   }
 }
 
-std::vector<Eigen::Isometry3d> defaultPoses(const RobotModel& robot)
+/// Of each link in the frame of its anchor. Two links of one anchor are as far from each other as in any state, without
+/// the rounding of where the anchor is.
+std::vector<Eigen::Isometry3d> posesInAnchors(const RobotModel& robot)
 {
-  std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  robot.linkPoses(robot.defaultState().data(), poses.data());
+  std::vector<Eigen::Isometry3d> poses;
+  for (const Link& link : robot.links())
+  {
+    const Joint* joint = link.parent_joint < 0 ? nullptr : &robot.joints()[static_cast<std::size_t>(link.parent_joint)];
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    if (joint != nullptr && joint->type == JointType::Fixed)
+      pose =
+          joint->parent_link < 0 ? joint->origin : poses[static_cast<std::size_t>(joint->parent_link)] * joint->origin;
+    poses.push_back(pose);
+  }
   return poses;
 }
 }  // namespace
@@ -74,7 +84,7 @@ std::optional<std::array<std::int32_t, 2>> FixedPairs::firstCollision(const Plan
   CheckedPairs unknown;
   std::copy_if(links.begin(), links.end(), std::back_inserter(unknown.self),
                [&](const CheckedPair& pair) { return links_collide_.count(names(pair)) == 0; });
-  const std::vector<Eigen::Isometry3d> poses = defaultPoses(*scene.robot);
+  const std::vector<Eigen::Isometry3d> poses = posesInAnchors(*scene.robot);
   if (!unknown.self.empty())
   {
     ForestCache forest;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "collision/primitive_solid.h"
+#include "scene/rigid_pose.h"
 
 namespace gpu_planning_scene
 {
@@ -15,6 +15,7 @@ std::size_t countObjects(const CheckedPairs& pairs, std::size_t objects)
     seen[pair.other] = true;
   return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
 }
+
 bool sameObject(const WorldObject& a, const WorldObject& b)
 {
   return a.pose.matrix() == b.pose.matrix() && a.padding == b.padding &&
@@ -56,12 +57,9 @@ std::vector<std::vector<Obstacle>> PairReducer::obstaclesOf(const PlanningScene&
   for (std::size_t k = 0; k < scene.objects.size(); ++k)
     for (const PlacedShape& placed : scene.objects[k].shapes)
     {
-      const Eigen::Isometry3d pose = scene.objects[k].pose * placed.pose;
+      const Eigen::Isometry3d pose = rigidProduct(scene.objects[k].pose, placed.pose);
       if (const auto* half_space = std::get_if<HalfSpace>(&placed.shape))
-      {
-        const Eigen::Vector3d normal = (pose.linear() * half_space->normal).normalized();
-        obstacles[k].push_back(HalfSpace{normal, half_space->offset + normal.dot(pose.translation())});
-      }
+        obstacles[k].push_back(moved(*half_space, pose));
       else
       {
         const Eigen::AlignedBox3d box = cachedBox(placed.shape, used);
@@ -111,6 +109,7 @@ std::vector<VariableRange> PairReducer::leaveOutUnreachable(const PlanningScene&
 {
   if (robot_ != scene.robot)
   {
+    robot_.reset();  // should one of the next lines throw
     links_.clear();
     near_links_.clear();
     near_objects_.clear();
@@ -144,5 +143,4 @@ std::vector<VariableRange> PairReducer::leaveOutUnreachable(const PlanningScene&
   report.unreachable_objects = objects_before - countObjects(pairs, scene.objects.size());
   return left_out.self.empty() && left_out.world.empty() ? std::vector<VariableRange>() : reach_->ranges();
 }
-
 }  // namespace gpu_planning_scene

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "collision/primitive_solid.h"
+#include "scene/rigid_pose.h"
 
 namespace gpu_planning_scene
 {
@@ -21,8 +22,12 @@ constexpr double kLimitSlack = 1e-3;  // radians or metres
 // More than the exact checker's slack of 1e-9 m and what kinematics in double lose within a kilometre, 1e-11 m.
 constexpr double kMargin = 1e-6;  // metres
 
+// Beyond these a double's steps are too coarse for the margin: no bound, or the whole circle.
+constexpr double kFarthest = 1e6;        // metres
+constexpr double kLargestAngle = 100.0;  // radians
+
 // A joint's step is some dozens of operations, each of which is right to 2^-53 of the coordinates that go in.
-constexpr double kRounding = 1e-12;  // of a ball's distance from the origin and its radius
+constexpr double kRounding = 1e-12;  // of the distance from the origin and the radius, of balls and boxes
 
 // More balls and parts make tighter bounds, and cost time when a robot is loaded.
 constexpr std::size_t kMostBalls = 48;  // in a region
@@ -106,18 +111,17 @@ int partsFor(double travel, double radius)
   return std::clamp(static_cast<int>(std::ceil(travel / std::max(0.5 * radius, 0.02))), 1, kMostParts);
 }
 
-/// The ball while it turns about an axis through the origin by angles from `lower` to `upper`. A part of the arc of its
-/// centre, of half angle h < pi / 2 and radius rho, lies in the ball around the middle of its chord with radius
-/// rho sin h: at an angle f from the middle, the squared distance 1 - 2 cos f cos h + cos^2 h (in rho^2) is largest at
-/// the ends, where it is sin^2 h, as at the middle it is (1 - cos h)^2, no more.
+/// The ball while it turns about an axis through the origin by angles, none of which is large, from `lower` to `upper`.
+/// A part of the arc of its centre, of half angle h < pi / 2 and radius rho, lies in the ball around the middle of its
+/// chord with radius rho sin h: at an angle f from the middle, the squared distance 1 - 2 cos f cos h + cos^2 h (in
+/// rho^2) is largest at the ends, where it is sin^2 h, as at the middle it is (1 - cos h)^2, no more.
 void turn(const Ball& ball, const Vector3d& axis, double lower, double upper, std::vector<Ball>& result)
 {
   const Vector3d along = axis.dot(ball.center) * axis;
   const Vector3d radial = ball.center - along;
   const double arm = radial.norm();
-  const double range = std::min(upper - lower, 2.0 * kPi);
-  const int parts = partsFor(0.5 * range * arm, ball.radius);
-  const double half = 0.5 * range / parts;
+  const int parts = partsFor(0.5 * (upper - lower) * arm, ball.radius);
+  const double half = 0.5 * (upper - lower) / parts;
   if (half >= 0.5 * kPi)
   {
     result.push_back(rounded(along, ball.radius + arm));
@@ -140,25 +144,40 @@ void slide(const Ball& ball, const Vector3d& axis, double lower, double upper, s
     result.push_back(rounded(ball.center + (lower + (2 * part + 1) * half) * axis, ball.radius + half));
 }
 
+// What is not a number is near everything.
 bool near(const Ball& a, const Ball& b, double distance)
 {
-  return (a.center - b.center).norm() <= a.radius + b.radius + distance + kMargin;
+  return !((a.center - b.center).norm() > a.radius + b.radius + distance + kMargin);
 }
 
 bool near(const Ball& ball, const Obstacle& obstacle, double distance)
 {
   const double reach = ball.radius + distance + kMargin;
   if (const auto* half_space = std::get_if<HalfSpace>(&obstacle))
-    return half_space->normal.dot(ball.center) - half_space->offset <= reach;
+    return !(half_space->normal.dot(ball.center) - half_space->offset > reach);
   const PlacedBox& box = std::get<PlacedBox>(obstacle);
   const Vector3d from_box = ball.center - box.pose.translation();
-  const double most = reach + box.radius;
+  const double most = reach + box.radius + box.rounding;
   if (from_box.squaredNorm() > most * most)
     return false;
   const Vector3d center = box.pose.linear().transpose() * from_box;
-  return (center.cwiseAbs() - box.half).cwiseMax(0.0).norm() <= reach;
+  return !((center.cwiseAbs() - box.half).cwiseMax(0.0).norm() > reach + box.rounding);
+}
+
+/// Whether the numbers of a region are small enough for its margins; not where one is not a number.
+bool isBound(const Region& region)
+{
+  return region.all.center.norm() + region.all.radius <= kFarthest;
 }
 }  // namespace
+
+PlacedBox::PlacedBox(const Isometry3d& pose_of_center, const Vector3d& half_lengths)
+  : pose(pose_of_center),
+    half(half_lengths),
+    radius(half_lengths.norm()),
+    rounding(kRounding * (pose_of_center.translation().norm() + radius))
+{
+}
 
 Reach::Reach(const RobotModel& robot)
 {
@@ -185,17 +204,24 @@ int Reach::parent(int link) const
   return parent_joints_[static_cast<std::size_t>(link)].parent_link;
 }
 
-/// A continuous joint turns all the way round, whatever limits there are; one that mimics another has the other's.
+/// A continuous joint turns all the way round, whatever limits there are; one that mimics another has the other's. A
+/// circle whose ends differ from pi by rounding is closed: balls are larger by more than that.
 std::optional<Reach::Interval> Reach::positions(const Joint& joint) const
 {
+  const Interval circle = {-kPi, kPi};
+  const bool turns = joint.type != JointType::Prismatic;
   if (joint.type == JointType::Continuous)
-    return Interval{-kPi, kPi};
+    return circle;
   const std::optional<Interval>& variable = intervals_[static_cast<std::size_t>(joint.first_variable)];
   if (!variable)
-    return joint.type == JointType::Revolute ? std::make_optional(Interval{-kPi, kPi}) : std::nullopt;
+    return turns ? std::make_optional(circle) : std::nullopt;
   const double ends[2] = {joint.multiplier * variable->lower + joint.offset,
                           joint.multiplier * variable->upper + joint.offset};
-  return Interval{std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+  const double largest = turns ? kLargestAngle : kFarthest;
+  if (!(std::abs(ends[0]) <= largest && std::abs(ends[1]) <= largest))
+    return turns ? std::make_optional(circle) : std::nullopt;
+  const Interval interval = {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+  return turns && interval.upper - interval.lower >= 2.0 * kPi ? circle : interval;
 }
 
 /// From the frame of the joint's child to that of its parent. No value: no bound.
@@ -224,15 +250,17 @@ SweptBody Reach::sweep(const std::vector<PlacedShape>& shapes, const Isometry3d&
 {
   std::vector<Ball> balls;
   for (const PlacedShape& placed : shapes)
-    cover(boxOf(placed.shape), pose * placed.pose, balls);
+    cover(boxOf(placed.shape), rigidProduct(pose, placed.pose), balls);
   SweptBody body{link, {regionOf(std::move(balls))}};
+  if (!isBound(body.above.front()))
+    body.above.clear();
   int moving_joints = 0;
-  for (int at = link; at >= 0; at = parent(at))
+  for (int at = link; at >= 0 && !body.above.empty(); at = parent(at))
   {
     const Joint& joint = parent_joints_[static_cast<std::size_t>(at)];
     moving_joints += joint.type == JointType::Fixed ? 0 : 1;
     std::optional<Region> above = moving_joints > kMostMovingJoints ? std::nullopt : swept(body.above.back(), joint);
-    if (!above)
+    if (!above || !isBound(*above))
       break;
     body.above.push_back(std::move(*above));
   }

@@ -74,14 +74,12 @@ class Reach
 
 struct PlacedBox
 {
-  PlacedBox(const Eigen::Isometry3d& pose_of_center, const Eigen::Vector3d& half_lengths)
-    : pose(pose_of_center), half(half_lengths), radius(half_lengths.norm())
-  {
-  }
+  PlacedBox(const Eigen::Isometry3d& pose_of_center, const Eigen::Vector3d& half_lengths);
 
   Eigen::Isometry3d pose;  ///< of its centre
   Eigen::Vector3d half;    ///< half lengths of its edges
   double radius;
+  double rounding;  ///< metres: of what is computed with it
 };
 using Obstacle = std::variant<PlacedBox, HalfSpace>;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -18,7 +19,8 @@ void refuseMissingRobot(const std::shared_ptr<const PlanningScene>& scene);
 void refuseNonFinite(const RobotModel& robot, const double* states, std::size_t count);
 
 /// Calls `work(begin, end)` for chunks of [0, count) on all cores; the calling thread is one of them. Each thread works
-/// with its own copy of `work`, so that what it captures by value may serve as scratch. `work` must not throw.
+/// with its own copy of `work`, so that what it captures by value may serve as scratch. `work` must not throw. Where
+/// the system refuses threads, those that there are do all.
 template <class Work>
 void forChunks(std::size_t count, std::size_t per_chunk, const Work& work)
 {
@@ -33,8 +35,14 @@ void forChunks(std::size_t count, std::size_t per_chunk, const Work& work)
   // Asking takes longer than checking a state.
   static const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::thread> helpers;
-  for (std::size_t i = 1; i < std::min(cores, chunks); ++i)
-    helpers.emplace_back(run);
+  try
+  {
+    for (std::size_t i = 1; i < std::min(cores, chunks); ++i)
+      helpers.emplace_back(run);
+  }
+  catch (const std::exception&)  // no thread or no memory for one; destroying those that run would end the process
+  {
+  }
   run();
   for (std::thread& helper : helpers)
     helper.join();

@@ -25,4 +25,9 @@ Eigen::Isometry3d rigid(const Eigen::Isometry3d& pose, const std::string& where)
   result.linear() = parts.matrixU() * parts.matrixV().transpose();
   return result;
 }
+
+Eigen::Isometry3d rigidProduct(const Eigen::Isometry3d& body, const Eigen::Isometry3d& shape)
+{
+  return rigid(body, "a body's pose") * rigid(shape, "a shape's pose");
+}
 }  // namespace gpu_planning_scene

@@ -23,22 +23,47 @@ constexpr std::uint64_t kSeed = 20;
 class SceneEdits
 {
  public:
-  explicit SceneEdits(std::shared_ptr<const RobotModel> robot)
-    : scene_(std::move(robot)), state_(scene_.robot->defaultState())
+  /// `robots`: the scene's robot is the first, until another takes its place; they differ in meshes only.
+  explicit SceneEdits(std::vector<std::shared_ptr<const RobotModel>> robots)
+    : robots_(std::move(robots)), scene_(robots_.front()), state_(scene_.robot->defaultState())
   {
-    for (int i = 0; i < 6; ++i)
+    for (int i = 0; i < 9; ++i)
       add();
   }
 
   std::shared_ptr<const PlanningScene> next()
   {
     using Edit = void (SceneEdits::*)();
-    constexpr Edit kEdits[] = {&SceneEdits::add,    &SceneEdits::remove, &SceneEdits::move,
-                               &SceneEdits::move,   &SceneEdits::resize, &SceneEdits::attach,
-                               &SceneEdits::detach, &SceneEdits::pad,    &SceneEdits::addLarge};
+    constexpr Edit kEdits[] = {&SceneEdits::add,
+                               &SceneEdits::add,
+                               &SceneEdits::remove,
+                               &SceneEdits::move,
+                               &SceneEdits::move,
+                               &SceneEdits::resize,
+                               &SceneEdits::attach,
+                               &SceneEdits::detach,
+                               &SceneEdits::pad,
+                               &SceneEdits::addLarge,
+                               &SceneEdits::padLinks,
+                               &SceneEdits::allow,
+                               &SceneEdits::allowByDefault,
+                               &SceneEdits::addFloor,
+                               &SceneEdits::takeRobot};
     (this->*kEdits[random_() % std::size(kEdits)])();
     ++scene_.revision;
     return std::make_shared<const PlanningScene>(scene_);
+  }
+
+  /// The scene as it is, but with a mesh among its first objects that is refused.
+  std::shared_ptr<const PlanningScene> refused() const
+  {
+    auto scene = std::make_shared<PlanningScene>(scene_);
+    const auto bad = std::make_shared<Mesh>(*tessellate(Box{{0.1, 0.1, 0.1}}).mesh);
+    bad->triangles[0][0] = 99;
+    const WorldObject object = {"bad", Eigen::Isometry3d::Identity(), {{bad}}, 0.0};
+    scene->objects.insert(scene->objects.begin() + (scene->objects.empty() ? 0 : 1), object);
+    scene->link_padding.clear();
+    return scene;
   }
 
   std::vector<double> states(std::size_t count)
@@ -71,6 +96,7 @@ class SceneEdits
     if (scene_.objects.size() > 8)
       scene_.objects.erase(scene_.objects.begin());
   }
+  static bool isFloor(const WorldObject& object) { return std::holds_alternative<HalfSpace>(object.shapes[0].shape); }
   void remove()
   {
     if (!scene_.objects.empty())
@@ -93,7 +119,7 @@ class SceneEdits
   }
   void attach()
   {
-    if (WorldObject* object = any(); object != nullptr && scene_.attached.size() < 2)
+    if (WorldObject* object = any(); object != nullptr && scene_.attached.size() < 2 && !isFloor(*object))
     {
       const auto& links = scene_.robot->links();
       scene_.attach(object->id, links[random_() % links.size()].name, {}, state_.data());
@@ -110,30 +136,79 @@ class SceneEdits
       object->padding = object->padding > 0.0 ? 0.0 : 0.02;
   }
 
+  void padLinks()
+  {
+    scene_.link_padding.assign(scene_.robot->links().size(), 0.0);
+    for (double& padding : scene_.link_padding)
+      padding = random_() % 2 == 0 ? 0.0 : 0.03;
+  }
+  std::string anyName()
+  {
+    const std::size_t links = scene_.robot->links().size();
+    const std::size_t body = random_() % (links + scene_.objects.size());
+    return body < links ? scene_.robot->links()[body].name : scene_.objects[body - links].id;
+  }
+  void allow()
+  {
+    const std::string first = anyName();
+    const bool allowed = random_() % 4 == 0;
+    scene_.allowed_collisions.setEntry(first, anyName(), allowed);
+  }
+  void allowByDefault()
+  {
+    if (const WorldObject* object = any())
+      scene_.allowed_collisions.setDefault(object->id, random_() % 4 == 0);
+  }
+  /// A half-space that the arm can reach, but does not in most states, tilted a little.
+  void addFloor()
+  {
+    WorldObject object;
+    object.id = newName();
+    object.pose.translation().z() = -std::uniform_real_distribution<double>(0.3, 0.9)(random_);
+    object.pose.rotate(Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX()));
+    object.shapes.push_back({HalfSpace{Eigen::Vector3d::UnitZ(), 0.0}});
+    scene_.objects.push_back(object);
+  }
+  void takeRobot() { scene_.robot = robots_[random_() % robots_.size()]; }
+
+  std::vector<std::shared_ptr<const RobotModel>> robots_;
   std::mt19937_64 random_{kSeed};
   PlanningScene scene_;
   std::vector<double> state_;
   int count_ = 0;
 };
 
+/// Fresh ones leave nothing out.
 void expectAnswersOfAFreshChecker(StateChecker& checker, int edits)
 {
   std::cout << "seed " << kSeed << std::endl;
-  const GeneratedArm arm(2000);
-  SceneEdits scene(arm.load());
+  SceneEdits scene({GeneratedArm(2000).load(), GeneratedArm(1000).load()});
+  Reductions none;
+  none.reach = none.unmoved_pairs = none.shared_trees = none.direct_primitives = false;
+  CheckerOptions without;
+  without.reductions = none;
   std::size_t valid = 0;
   std::size_t all = 0;
   for (int edit = 0; edit < edits; ++edit)
   {
     const auto now = scene.next();
     checker.setScene(now);
-    CpuChecker fresh(now);
+    if (edit % 5 == 4)
+    {
+      EXPECT_THROW(checker.setScene(scene.refused()), Error);
+    }
     const std::size_t count = 48;
     const std::vector<double> states = scene.states(count);
     const BatchResult answers = checker.check(states.data(), count);
-    const BatchResult expected = fresh.check(states.data(), count);
+    CpuChecker whole(now, without);
+    const BatchResult expected = whole.check(states.data(), count);
     ASSERT_EQ(answers.valid, expected.valid) << "after edit " << edit;
     EXPECT_EQ(answers.revision, now->revision);
+    for (const Group& group : now->robot->groups())
+      ASSERT_EQ(checker.check(states.data(), count, group.name).valid,
+                whole.check(states.data(), count, group.name).valid)
+          << "after edit " << edit << ", group " << group.name;
+    CpuChecker fresh(now);
     EXPECT_EQ(checker.report().triangles, fresh.report().triangles);
     EXPECT_EQ(checker.report().trees, fresh.report().trees);
     for (const std::uint8_t is_valid : answers.valid)

@@ -105,6 +105,8 @@ std::string srdf()
     for (std::size_t k = i + 1; k < std::min(i + 3, kLinks.size()); ++k)
       text << "<disable_collisions link1=\"" << linkName(i) << "\" link2=\"" << linkName(k)
            << "\" reason=\"Adjacent\"/>\n";
+  text << "<group name=\"arm\"><chain base_link=\"link_1\" tip_link=\"link_6\"/></group>\n"
+          "<group name=\"hand\"><joint name=\"joint_6\"/></group>\n";
   text << "</robot>\n";
   return text.str();
 }
