@@ -186,11 +186,11 @@ void run(const CommandLine& arguments)
           if (part == "throughput")
             wrong += measureThroughput(settings);
           else if (part == "latency")
-            measureLatency(settings);
+            wrong += measureLatency(settings);
           else if (part == "build")
-            measureBuilds(settings);
+            wrong += measureBuilds(settings);
           else if (part == "growth")
-            measureGrowth(settings);
+            wrong += measureGrowth(settings);
           else
             wrong += measureMeshPairs(settings);
         });

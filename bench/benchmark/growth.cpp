@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 #include "benchmark/csv_table.h"
 #include "benchmark/settings.h"
 #include "benchmark/statistics.h"
+#include "benchmark/truth.h"
 #include "benchmark/updates.h"
+#include "gpu_planning_scene/error.h"
 #include "support/generated_arm.h"
 #include "support/obstacles.h"
 #include "support/test_scenes.h"
@@ -27,7 +30,7 @@ class Growth
     : settings_(settings),
       table_(settings.out, "growth.csv",
              {"with", "amount", "method", "title", "family", "batch", "us_a_state", "cpu_us_a_state", "load_robot_s",
-              "build_s", "update_s"}),
+              "build_s", "update_s", "valid_share"}),
       progress_("growth", rows * countOf(settings.methods))
   {
   }
@@ -35,30 +38,45 @@ class Growth
   /// One scene, calls of `batch` states, for each method.
   void measure(const std::string& with, std::size_t amount, const TestScene& scene, double load)
   {
+    if (CpuChecker(scene.scene).report().always_colliding)
+      throw Error("the scene with " + std::to_string(amount) + " " + with +
+                  " collides whatever the joints: nothing can be measured with it");
     const std::size_t count = settings_.quick ? 256 : kStates;
+    const std::vector<double> states = scene.randomStates(count, settings_.seed);
+    const std::vector<std::uint8_t> truth = Truth(scene.scene).check(states.data(), count);
+    const Updates updates(scene, settings_.quick ? 2 : 9);
     for (const MethodInfo& info : settings_.methods)
     {
-      if (!info.responsive || (with == "triangles" && amount > kMostTrianglesOfPeers && info.family == "FCL"))
+      if (!info.responsive)
         continue;
+      if (with == "triangles" && amount > kMostTrianglesOfPeers && info.family == "FCL")
+      {
+        std::cerr << "growth: " << info.title << " is left out with " << amount
+                  << " triangles: its trees take too much memory\n";
+        continue;
+      }
       std::unique_ptr<Method> method;
       const double build = secondsOf([&] { method = info.make(scene.scene, settings_.method); });
-      time(with, amount, info, *method, scene.randomStates(count, settings_.seed), count,
-           {load, build, secondsOfUpdate(*method, scene, settings_.quick ? 2 : 9)});
+      time(with, amount, info, *method, states, truth, {load, build}, &updates);
     }
   }
 
   void measureBatches(const TestScene& scene, const std::vector<std::size_t>& batches)
   {
     const std::vector<double> states = scene.randomStates(batches.back(), settings_.seed);
+    const std::vector<std::uint8_t> truth = Truth(scene.scene).check(states.data(), batches.back());
     for (const MethodInfo& info : settings_.methods)
     {
       if (!info.responsive)
         continue;
       const std::unique_ptr<Method> method = info.make(scene.scene, settings_.method);
       for (const std::size_t batch : batches)
-        time("states", batch, info, *method, states, batch, {});
+        time("states", batch, info, *method, states,
+             {truth.begin(), truth.begin() + static_cast<std::ptrdiff_t>(batch)}, {}, nullptr);
     }
   }
+
+  std::size_t wrong() const { return wrong_; }
 
  private:
   static std::size_t countOf(const std::vector<MethodInfo>& methods)
@@ -71,13 +89,15 @@ class Growth
   {
     double load = NAN;
     double build = NAN;
-    double update = NAN;
   };
 
-  /// The median of calls that take a second together, of three at least.
+  /// The median of calls that take settings' seconds together, of three at least, with as many states as `truth` has.
   void time(const std::string& with, std::size_t amount, const MethodInfo& info, Method& method,
-            const std::vector<double>& states, std::size_t batch, const Once& once)
+            const std::vector<double>& states, const std::vector<std::uint8_t>& truth, const Once& once,
+            const Updates* updates)
   {
+    const std::size_t batch = truth.size();
+    std::size_t wrong = 0;
     method.check(states.data(), batch);
     std::vector<double> wall;
     std::vector<double> cpu;
@@ -85,12 +105,15 @@ class Growth
     while (wall.size() < 3 || (all.seconds() < settings_.seconds && wall.size() < 100))
     {
       const Stopwatch watch;
-      method.check(states.data(), batch);
+      const std::vector<std::uint8_t> answers = method.check(states.data(), batch);
       wall.push_back(1e6 * watch.seconds() / static_cast<double>(batch));
       cpu.push_back(1e6 * watch.cpuSeconds() / static_cast<double>(batch));
+      wrong += wrongAnswers(info, answers, truth);
     }
+    const Updates::Result update = updates != nullptr ? updates->measure(info, method) : Updates::Result{NAN};
+    wrong_ += tellWrong("growth, " + std::to_string(amount) + " " + with, info, wrong + update.wrong);
     table_.add({with, amount, info.name, info.title, info.family, batch, median(wall), median(cpu), once.load,
-                once.build, once.update});
+                once.build, update.seconds, validShare(truth)});
     progress_.update(++done_);
   }
 
@@ -98,6 +121,7 @@ class Growth
   CsvTable table_;
   ProgressBar progress_;
   std::size_t done_ = 0;
+  std::size_t wrong_ = 0;
 };
 
 TestScene sceneOf(const std::shared_ptr<const RobotModel>& robot, std::vector<WorldObject> objects)
@@ -114,16 +138,31 @@ TestScene sceneOf(const std::shared_ptr<const RobotModel>& robot, std::vector<Wo
   return made;
 }
 
-/// As many obstacles in a cubic metre whatever their number: the world grows outwards.
+/// As many obstacles in a cubic metre whatever their number: the world grows outwards. None at the generated arm's
+/// base, which would collide whatever the joints.
 std::vector<WorldObject> world(std::size_t objects)
 {
+  const Eigen::Vector3d center(0.0, 0.0, 0.5);
   const double inner = 0.5;
   const double outer = std::cbrt(inner * inner * inner + 0.16 * static_cast<double>(objects));
-  return generateObstacles({objects, {0.0, 0.0, 0.5}, inner, outer, 0.2}, 1);
+  const double off_base = 0.45;  // from the axis of the base; the longest diagonal of an obstacle is 0.35
+  // Their distances are spread evenly from the inner radius to the outer: as evenly as that over the volume instead.
+  std::vector<WorldObject> kept;
+  for (WorldObject& object : generateObstacles({2 * objects + 10, center, inner, outer, 0.2}, 1))
+  {
+    const Eigen::Vector3d way = object.pose.translation() - center;
+    const double share = (way.norm() - inner) / (outer - inner);
+    const double distance = std::cbrt(inner * inner * inner + share * (outer * outer * outer - inner * inner * inner));
+    object.pose.translation() = center + distance * way.normalized();
+    const bool at_base = object.pose.translation().head<2>().norm() < off_base && object.pose.translation().z() < 0.5;
+    if (!at_base && kept.size() < objects)
+      kept.push_back(std::move(object));
+  }
+  return kept;
 }
 }  // namespace
 
-void measureGrowth(const Settings& settings)
+std::size_t measureGrowth(const Settings& settings)
 {
   using Amounts = std::vector<std::size_t>;
   const Amounts batches = settings.quick ? Amounts{1, 16, 256} : Amounts{1, 4, 16, 64, 256, 1024, 4096, 16384, 65536};
@@ -142,5 +181,6 @@ void measureGrowth(const Settings& settings)
   const auto robot = GeneratedArm(10000).load();
   for (const std::size_t amount : objects)
     growth.measure("objects", amount, sceneOf(robot, world(amount)), NAN);
+  return growth.wrong();
 }
 }  // namespace gpu_planning_scene::benchmark

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ class Method
   virtual bool update(const std::shared_ptr<const PlanningScene>& /*scene*/) { return false; }
   /// States of the last check that the GPU left to the CPU.
   virtual std::size_t undecided() const { return 0; }
+  /// Of one that chooses: batches of fewer states went to the CPU.
+  virtual std::optional<std::size_t> cpuBelow() { return std::nullopt; }
 };
 
 struct MethodOptions
@@ -50,6 +53,8 @@ std::vector<MethodInfo> peerMethods();
 std::vector<MethodInfo> allMethods();
 
 constexpr const char* kReferenceMethod = "fcl_obbrss";
+/// The same trees, with pairs in the order that ours has them in, and FCL's broad phase for objects.
+constexpr const char* kOrderedMethod = "fcl_obbrss_ordered";
 
 /// A peer's view of a problem: link poses in, a verdict out. Not thread-safe.
 class Peer

@@ -26,9 +26,20 @@ class CheckerMethod : public Method
   }
   std::size_t undecided() const override { return undecided_; }
 
+ protected:
+  StateChecker& checker() { return *checker_; }
+
  private:
   std::unique_ptr<StateChecker> checker_;
   std::size_t undecided_ = 0;
+};
+
+/// One that chooses between the GPU and the CPU.
+class ChoosingMethod : public CheckerMethod
+{
+ public:
+  using CheckerMethod::CheckerMethod;
+  std::optional<std::size_t> cpuBelow() override { return checker().report().cpu_below; }
 };
 
 BatchCheckerOptions batchOptions(const MethodOptions& options)
@@ -74,12 +85,13 @@ MethodInfo automatic(int millimetres)
   {
     BatchCheckerOptions made = batchOptions(options);
     made.tolerance = 1e-3 * millimetres;
-    return std::make_unique<CheckerMethod>(std::make_unique<BatchChecker>(scene, made));
+    return std::make_unique<ChoosingMethod>(std::make_unique<BatchChecker>(scene, made));
   };
   return info;
 }
 
-/// How a check on a GPU is commonly written: the same shaders, but a float is taken for what it says.
+/// How a check on a GPU is commonly written: the same shaders, but a float is taken for what it says. What is undecided
+/// even so, as it touches to the last bit or took too many steps, is a collision.
 class FloatsAlone : public Method
 {
  public:
@@ -87,7 +99,8 @@ class FloatsAlone : public Method
   {
     shaders_.define("UNIT_ROUNDOFF", "0.0");
     shaders_.define("CONTRACT_BAND", "0.0");
-    shaders_.replace("verdicts.glsl", "atomicOr(flags[state], found);", "atomicOr(flags[state], found & STATE_HIT);");
+    shaders_.replace("verdicts.glsl", "if ((found & STATE_HIT) != 0u)",
+                     "found = found != 0u ? STATE_HIT : 0u;\n  if (found != 0u)");
     options.shader_folder = shaders_.path();
     options.cpu_below = 0;
     checker_ = std::make_unique<CheckerMethod>(std::make_unique<BatchChecker>(scene, options));

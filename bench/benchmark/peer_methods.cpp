@@ -52,7 +52,10 @@ class OnAllCores : public Method
 class Fcl : public Peer
 {
  public:
-  Fcl(const std::shared_ptr<const CollisionProblem>& problem, FclTree tree) : peer_(problem, tree) {}
+  Fcl(const std::shared_ptr<const CollisionProblem>& problem, FclTree tree, FclOrder order)
+    : peer_(problem, tree, order)
+  {
+  }
   bool collides(const Eigen::Isometry3d* link_poses) override
   {
     peer_.setState(link_poses);
@@ -71,15 +74,16 @@ struct FclKind
   FclTree tree;
   bool paddable;
 };
+constexpr const char* kOrderedTitle = "FCL OBBRSS, learned order, broad phase";
 constexpr std::array<FclKind, 5> kFclKinds = {{{"fcl_obbrss", "FCL, OBBRSS", FclTree::Obbrss, true},
                                                {"fcl_obb", "FCL, OBB", FclTree::Obb, false},
                                                {"fcl_kios", "FCL, kIOS", FclTree::Kios, true},
                                                {"fcl_aabb", "FCL, AABB", FclTree::Aabb, false},
                                                {"fcl_kdop24", "FCL, 24-DOP", FclTree::Kdop24, false}}};
 
-PeerMaker fclMaker(FclTree tree)
+PeerMaker fclMaker(FclTree tree, FclOrder order = FclOrder::Fixed)
 {
-  return [tree](const auto& problem) { return std::make_unique<Fcl>(problem, tree); };
+  return [tree, order](const auto& problem) { return std::make_unique<Fcl>(problem, tree, order); };
 }
 
 using RobotPeerMaker =
@@ -126,6 +130,11 @@ std::vector<MethodInfo> peerMethods()
     methods.back().paddable = kind.paddable;
     methods.back().responsive = kind.tree == FclTree::Obbrss;
   }
+  methods.insert(methods.begin() + 1,
+                 peerMethod(kOrderedMethod, kOrderedTitle, "FCL",
+                            [make = fclMaker(FclTree::Obbrss, FclOrder::Learned)](
+                                const auto& problem, const RobotModel&) { return make(problem); }));
+  methods[1].responsive = true;
   methods.push_back(peerMethod("bullet_hulls", "Bullet, hulls", "Bullet",
                                [](const auto& problem, const RobotModel& robot)
                                { return fitted(makeBulletHulls(problem), robot); }));

@@ -27,14 +27,15 @@ struct Settings
 };
 
 // The parts of the program; each writes its tables.
-/// throughput.csv and accuracy.csv. Returns the wrong answers of methods that claim to be exact.
+// Each returns the wrong answers, timed ones among them, of methods that claim to be exact.
+/// throughput.csv and accuracy.csv
 std::size_t measureThroughput(const Settings& settings);
 /// latency.csv
-void measureLatency(const Settings& settings);
+std::size_t measureLatency(const Settings& settings);
 /// build.csv
-void measureBuilds(const Settings& settings);
+std::size_t measureBuilds(const Settings& settings);
 /// growth.csv
-void measureGrowth(const Settings& settings);
-/// mesh_pairs.csv. Returns wrong answers as measureThroughput does.
+std::size_t measureGrowth(const Settings& settings);
+/// mesh_pairs.csv
 std::size_t measureMeshPairs(const Settings& settings);
 }  // namespace gpu_planning_scene::benchmark

@@ -18,9 +18,13 @@ inline double percentile(std::vector<double> values, double share)
   return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
 }
 
-inline double median(const std::vector<double>& values)
+/// Of an even number of values, the mean of the two in the middle.
+inline double median(std::vector<double> values)
 {
-  return percentile(values, 0.5);
+  if (values.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
 /// Time since it was made: of the clock, and of all cores that this process had.

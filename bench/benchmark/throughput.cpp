@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <optional>
 
 #include "benchmark/csv_table.h"
@@ -11,8 +12,8 @@
 #include "benchmark/settings.h"
 #include "benchmark/state_kinds.h"
 #include "benchmark/statistics.h"
+#include "benchmark/truth.h"
 #include "collision/state_rows.h"
-#include "gpu_planning_scene/cpu_checker.h"
 #include "support/test_scenes.h"
 #include "tools/progress_bar.h"
 
@@ -31,6 +32,7 @@ struct Run
   std::size_t batch;  // 0: all at once
   std::size_t count = 0;
   std::size_t undecided = 0;
+  std::size_t wrong_timed = 0;  // answers of timed repeats, if the method is to be exact
   std::vector<std::uint8_t> answers = {};
   std::vector<double> rates = {};
   std::vector<double> cpu = {};
@@ -102,9 +104,30 @@ void warmUp(Run& run, const Batch& batch, const Settings& settings)
 {
   run.method->check(batch.states.data(), std::min<std::size_t>(16, batch.truth.size()));
   run.count = affordableStates(run, batch, settings);
+  run.wrong_timed = 0;
   run.rates.clear();
   run.cpu.clear();
   run.answers = checkAll(run, batch);
+}
+
+/// Not a number if the method was not measured.
+double ratioTo(const char* name, const Run& run, const std::vector<Run>& runs)
+{
+  const auto reference =
+      std::find_if(runs.begin(), runs.end(), [&](const Run& other) { return other.info->name == name; });
+  std::vector<double> ratios;
+  for (std::size_t i = 0; reference != runs.end() && i < run.rates.size(); ++i)
+    ratios.push_back(run.rates[i] / reference->rates[i]);
+  return median(ratios);
+}
+
+/// Empty for one that has no choice.
+Cell cpuBelow(Method& method)
+{
+  const std::optional<std::size_t> below = method.cpuBelow();
+  if (!below)
+    return "";
+  return *below == std::numeric_limits<std::size_t>::max() ? Cell("all") : Cell(*below);
 }
 
 class Tables
@@ -112,29 +135,60 @@ class Tables
  public:
   explicit Tables(const std::string& folder)
     : throughput_(folder, "throughput.csv",
-                  {"scene", "robot", "triangles", "objects", "kind", "padding_m", "valid_share", "method", "title",
-                   "family", "batch", "states", "repeats", "states_per_s", "states_per_s_min", "states_per_s_max",
-                   "of_fcl_obbrss", "cpu_us_a_state", "undecided_share"}),
+                  {"scene",
+                   "robot",
+                   "triangles",
+                   "objects",
+                   "kind",
+                   "padding_m",
+                   "valid_share",
+                   "method",
+                   "title",
+                   "family",
+                   "batch",
+                   "states",
+                   "repeats",
+                   "states_per_s",
+                   "states_per_s_min",
+                   "states_per_s_max",
+                   "of_fcl_obbrss",
+                   "cpu_us_a_state",
+                   "undecided_share",
+                   "of_fcl_ordered",
+                   "cpu_below"}),
       accuracy_(folder, "accuracy.csv",
                 {"scene", "kind", "padding_m", "method", "title", "family", "claims_exact", "states", "open",
                  "wrong_free", "wrong_collision", "wrong_per_million", "measured", "largest_clearance_m",
-                 "largest_depth_m", "largest_error_m"})
+                 "largest_depth_m", "largest_error_m", "batch"})
   {
   }
 
-  void addThroughput(const Batch& batch, const Run& run, const Run* reference)
+  /// `runs`: all of the batch.
+  void addThroughput(const Batch& batch, const Run& run, const std::vector<Run>& runs)
   {
     const PlanningScene& scene = *batch.scene->scene;
-    std::vector<double> ratios;
-    for (std::size_t i = 0; reference != nullptr && i < run.rates.size(); ++i)
-      ratios.push_back(run.rates[i] / reference->rates[i]);
-    const auto valid = static_cast<double>(std::count(batch.truth.begin(), batch.truth.end(), 1));
     const auto [least, most] = std::minmax_element(run.rates.begin(), run.rates.end());
-    throughput_.add({batch.scene->name, scene.robot->name(), scene.robot->triangleCount(), scene.objects.size(),
-                     batch.kind, batch.padding, valid / static_cast<double>(batch.truth.size()), run.info->name,
-                     run.info->title, run.info->family, run.batch == 0 ? run.count : run.batch, run.count,
-                     run.rates.size(), median(run.rates), *least, *most, median(ratios), median(run.cpu),
-                     static_cast<double>(run.undecided) / static_cast<double>(run.count)});
+    throughput_.add({batch.scene->name,
+                     scene.robot->name(),
+                     scene.robot->triangleCount(),
+                     scene.objects.size(),
+                     batch.kind,
+                     batch.padding,
+                     validShare(batch.truth),
+                     run.info->name,
+                     run.info->title,
+                     run.info->family,
+                     run.batch == 0 ? run.count : run.batch,
+                     run.count,
+                     run.rates.size(),
+                     median(run.rates),
+                     *least,
+                     *most,
+                     ratioTo(kReferenceMethod, run, runs),
+                     median(run.cpu),
+                     static_cast<double>(run.undecided) / static_cast<double>(run.count),
+                     ratioTo(kOrderedMethod, run, runs),
+                     cpuBelow(*run.method)});
   }
 
   /// Returns how many answers are wrong.
@@ -154,9 +208,9 @@ class Tables
     const auto largest = [&](const std::vector<std::size_t>& wrong, const auto& size)
     {
       double most = 0.0;
-      const std::size_t step = wrong.size() / kErrorsMeasured + 1;
-      for (std::size_t i = 0; i < wrong.size(); i += step, ++measured)
-        most = std::max(most, size(&batch.states[wrong[i] * batch.scene->lower.size()]));
+      const std::size_t count = std::min(wrong.size(), kErrorsMeasured);
+      for (std::size_t i = 0; i < count; ++i, ++measured)
+        most = std::max(most, size(&batch.states[wrong[i * wrong.size() / count] * batch.scene->lower.size()]));
       return most;
     };
     const double clearance = largest(wrong_collision, [&](const double* state) { return error.clearance(state); });
@@ -165,7 +219,7 @@ class Tables
     accuracy_.add({batch.scene->name, batch.kind, batch.padding, run.info->name, run.info->title, run.info->family,
                    run.info->exact ? "yes" : "no", run.count, open, wrong_free.size(), wrong_collision.size(),
                    1e6 * static_cast<double>(wrong) / static_cast<double>(run.count), measured, clearance, depth,
-                   std::max(clearance, depth)});
+                   std::max(clearance, depth), run.batch == 0 ? run.count : run.batch});
     return wrong;
   }
 
@@ -205,24 +259,19 @@ std::size_t measureBatch(const Batch& batch, std::vector<Run>& runs, GeometricEr
     {
       progress.update(done++);
       const Stopwatch watch;
-      checkAll(run, batch);
+      const std::vector<std::uint8_t> answers = checkAll(run, batch);
       run.rates.push_back(static_cast<double>(run.count) / watch.seconds());
       run.cpu.push_back(1e6 * watch.cpuSeconds() / static_cast<double>(run.count));
+      run.wrong_timed += wrongAnswers(*run.info, answers, batch.truth);
     }
-  const auto reference =
-      std::find_if(runs.begin(), runs.end(), [](const Run& run) { return run.info->name == kReferenceMethod; });
   std::size_t wrong = 0;
   for (const Run& run : runs)
   {
     progress.update(done++);
-    tables.addThroughput(batch, run, reference == runs.end() ? nullptr : &*reference);
+    tables.addThroughput(batch, run, runs);
     const std::size_t of_this = tables.addAccuracy(batch, run, error);
-    if (run.info->exact && of_this > 0)
-    {
-      wrong += of_this;
-      std::cerr << label << ": " << run.info->title << " in batches of " << run.batch << " gives " << of_this
-                << " wrong answers\n";
-    }
+    if (run.info->exact)
+      wrong += tellWrong(label + ", batches of " + std::to_string(run.batch), *run.info, of_this + run.wrong_timed);
   }
   return wrong;
 }
@@ -237,14 +286,14 @@ std::size_t measureThroughput(const Settings& settings)
     {
       const TestScene scene = padding > 0.0 ? withPadding(testScene(name), padding) : testScene(name);
       GeometricError error(*scene.scene);
-      CpuChecker exact(scene.scene);
+      Truth exact(scene.scene);
       std::vector<Run> runs = makeRuns(scene, padding, settings);
       for (const std::string& kind : settings.kinds)
       {
         if (padding != settings.paddings.front() && kind != "random")
           continue;
         Batch batch{&scene, kind, padding, makeStates(scene, kind, settings.states, settings.seed), {}, {}};
-        batch.truth = exact.check(batch.states.data(), settings.states).valid;
+        batch.truth = exact.check(batch.states.data(), settings.states);
         batch.open = openStates(batch, error);
         wrong += measureBatch(batch, runs, error, settings, tables);
       }

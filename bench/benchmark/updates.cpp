@@ -3,32 +3,51 @@
 #include <limits>
 
 #include "benchmark/statistics.h"
+#include "benchmark/truth.h"
 
 namespace gpu_planning_scene::benchmark
 {
-double secondsOfUpdate(Method& method, const TestScene& scene, std::size_t repeats)
+namespace
+{
+constexpr std::size_t kStates = 32;  // compared after each update
+}
+
+Updates::Updates(const TestScene& scene, std::size_t repeats) : states_(scene.randomStates(kStates, 1))
 {
   if (scene.scene->objects.empty())
-    return std::numeric_limits<double>::quiet_NaN();
-  const std::vector<double> state = scene.randomStates(1, 1);
-  std::vector<double> times;
+    return;
+  Truth truth(scene.scene);
   for (std::size_t i = 0; i <= repeats; ++i)
   {
     auto changed = std::make_shared<PlanningScene>(*scene.scene);
     changed->objects[i % changed->objects.size()].pose.translation().z() += 1e-3 * static_cast<double>(i + 1);
     changed->revision = i + 1;
+    truth.setScene(changed);
+    updates_.push_back({changed, truth.check(states_.data(), kStates)});
+  }
+}
+
+Updates::Result Updates::measure(const MethodInfo& info, Method& method) const
+{
+  Result result{std::numeric_limits<double>::quiet_NaN()};
+  std::vector<double> times;
+  for (const Update& update : updates_)
+  {
     bool taken = false;
-    const double seconds = secondsOf(
+    std::vector<std::uint8_t> answer;
+    times.push_back(secondsOf(
         [&]
         {
-          taken = method.update(changed);
-          method.check(state.data(), 1);
-        });
+          taken = method.update(update.scene);
+          answer = method.check(states_.data(), 1);
+        }));
     if (!taken)
-      return std::numeric_limits<double>::quiet_NaN();
-    if (i > 0)
-      times.push_back(seconds);
+      return result;
+    result.wrong += wrongAnswers(info, answer, update.truth);
+    result.wrong += wrongAnswers(info, method.check(states_.data(), kStates), update.truth);
   }
-  return median(times);
+  if (times.size() > 1)
+    result.seconds = median({times.begin() + 1, times.end()});
+  return result;
 }
 }  // namespace gpu_planning_scene::benchmark

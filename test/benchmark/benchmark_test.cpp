@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 
+#include "benchmark/statistics.h"
 #include "support/shader_folder.h"
 #include "tools/run_program.h"
 
@@ -93,12 +95,12 @@ TEST(Benchmark, TellsRightFromWrongAnswers)
 {
   const TemporaryFolder folder;
   const std::string ours = "exact_cpu,ours_auto,ours_work_queue,ours_breadth_first";
-  const std::string peers = "fcl_obbrss,bullet_hulls,spheres_4";
+  const std::string peers = "fcl_obbrss,fcl_obbrss_ordered,bullet_hulls,spheres_4";
   const ProgramOutput output = runBenchmark(folder.path(), {"--parts", "throughput", "--scenes", "arm_boxes",
                                                             "--batches", "32", "--methods", ours + "," + peers});
   ASSERT_EQ(output.exit_code, 0) << output.err;
   const Table accuracy = readTable(folder.path() + "/accuracy.csv");
-  EXPECT_EQ(accuracy.size(), 2U * 7U);  // two kinds of states
+  EXPECT_EQ(accuracy.size(), 2U * 8U);  // two kinds of states
   for (const Row& row : accuracy)
   {
     if (row.at("claims_exact") == "yes")
@@ -118,8 +120,18 @@ TEST(Benchmark, TellsRightFromWrongAnswers)
   {
     EXPECT_GT(number(row, "states_per_s"), 0.0) << row.at("method");
     EXPECT_GT(number(row, "of_fcl_obbrss"), 0.0) << row.at("method");
+    EXPECT_GT(number(row, "of_fcl_ordered"), 0.0) << row.at("method");
+    EXPECT_EQ(row.at("cpu_below").empty(), row.at("method") != "ours_auto") << row.at("method");
     EXPECT_GT(number(row, "valid_share"), 0.1);
   }
+}
+
+TEST(Median, IsTheMiddle)
+{
+  EXPECT_EQ(benchmark::median({3.0, 1.0}), 2.0);
+  EXPECT_EQ(benchmark::median({5.0, 1.0, 2.0}), 2.0);
+  EXPECT_EQ(benchmark::median({4.0}), 4.0);
+  EXPECT_TRUE(std::isnan(benchmark::median(std::vector<double>())));
 }
 
 TEST(Benchmark, FailsWhereAnExactMethodIsWrong)
@@ -137,6 +149,23 @@ TEST(Benchmark, FailsWhereAnExactMethodIsWrong)
   EXPECT_NE(output.err.find("wrong answers of methods that are to be exact"), std::string::npos) << output.err;
 }
 
+/// Every pair that comes near is free by these shaders, which a test's answers, once timed, have to show.
+TEST(Benchmark, FailsWhereATimedAnswerIsWrong)
+{
+  const TemporaryFolder folder;
+  const ShaderFolder shaders;
+  shaders.replace("verdicts.glsl", "atomicOr(flags[state], found);", "");
+  setenv("GPU_PLANNING_SCENE_SHADERS", shaders.path().c_str(), 1);
+  for (const std::string part : {"latency", "build", "growth"})
+  {
+    const ProgramOutput output =
+        runBenchmark(folder.path(), {"--parts", part, "--scenes", "arm_boxes", "--methods", "ours_work_queue"});
+    EXPECT_EQ(output.exit_code, 1) << part;
+    EXPECT_NE(output.err.find("wrong answers of methods that are to be exact"), std::string::npos) << output.err;
+  }
+  unsetenv("GPU_PLANNING_SCENE_SHADERS");
+}
+
 TEST(Benchmark, WritesEveryTableAndTheChartsAreDrawn)
 {
   const TemporaryFolder folder;
@@ -147,10 +176,10 @@ TEST(Benchmark, WritesEveryTableAndTheChartsAreDrawn)
   const std::map<std::string, std::vector<std::string>> expected = {
       {"run", {"what", "value"}},
       {"throughput", {"scene", "kind", "padding_m", "method", "batch", "states_per_s", "cpu_us_a_state"}},
-      {"accuracy", {"scene", "kind", "method", "wrong_per_million", "largest_error_m"}},
+      {"accuracy", {"scene", "kind", "method", "batch", "wrong_per_million", "largest_error_m"}},
       {"latency", {"scene", "method", "batch", "p50_us", "p99_us", "of_fcl_obbrss"}},
       {"build", {"scene", "method", "load_robot_s", "build_s", "update_s", "peak_host_mib", "device_mib"}},
-      {"growth", {"with", "amount", "method", "us_a_state", "build_s", "update_s"}},
+      {"growth", {"with", "amount", "method", "us_a_state", "build_s", "update_s", "valid_share"}},
       {"mesh_pairs", {"triangles", "distance_m", "method", "us_a_pose", "wrong"}}};
   for (const auto& [name, columns] : expected)
   {

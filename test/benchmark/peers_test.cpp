@@ -16,10 +16,10 @@ namespace
 constexpr std::size_t kStates = 300;
 
 /// In random states of the scene.
-std::vector<std::uint8_t> fclAnswers(const TestScene& scene, FclTree tree)
+std::vector<std::uint8_t> fclAnswers(const TestScene& scene, FclTree tree, FclOrder order = FclOrder::Fixed)
 {
   const RobotModel& robot = *scene.scene->robot;
-  const FclPeer original(std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr)), tree);
+  const FclPeer original(std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr)), tree, order);
   FclPeer peer(original);  // copies are what threads have
   const std::vector<double> states = scene.randomStates(kStates, 1);
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
@@ -60,6 +60,15 @@ TEST(FclTrees, AllGiveTheSameAnswers)
   EXPECT_GT(std::count(exact.begin(), exact.end(), 0), static_cast<std::ptrdiff_t>(kStates / 20));
   for (const FclTree tree : {FclTree::Obbrss, FclTree::Obb, FclTree::Kios, FclTree::Aabb, FclTree::Kdop24})
     EXPECT_EQ(fclAnswers(scene, tree), exact) << static_cast<int>(tree);
+}
+
+TEST(FclTrees, OrderAndBroadPhaseChangeNoAnswer)
+{
+  for (const double padding : {0.0, 0.05})
+  {
+    const TestScene scene = padding > 0.0 ? withPadding(testScene("arm_shelf"), padding) : testScene("arm_shelf");
+    EXPECT_EQ(fclAnswers(scene, FclTree::Obbrss, FclOrder::Learned), exactAnswers(scene)) << padding;
+  }
 }
 
 TEST(FclTrees, PaddingIsADistance)

@@ -15,7 +15,10 @@ class BundleTest(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory(prefix="gpu_planning_scene_bundle_")
         cls.bundle = os.path.join(cls.folder.name, "bundle")
         subprocess.run(
-            [SCRIPTS / "bundle", "--from", BUILD, "--robots", ROBOTS, cls.bundle], check=True, timeout=300
+            [SCRIPTS / "bundle", "--from", BUILD, "--robots", ROBOTS, cls.bundle],
+            check=True,
+            timeout=300,
+            env={**os.environ, "BUNDLE_MOST_BYTES": "300000000" if SANITIZED else "60000000"},
         )
 
     @classmethod
@@ -44,6 +47,17 @@ class BundleTest(unittest.TestCase):
     def test_is_under_60_megabytes(self):
         size = sum(os.path.getsize(path) for path in self.files(""))
         self.assertLess(size, 300e6 if SANITIZED else 60e6)
+
+    def test_a_run_that_failed_leaves_no_bundle_and_hinders_no_other(self):
+        again = os.path.join(self.folder.name, "again")
+        command = [SCRIPTS / "bundle", "--from", BUILD, "--robots", ROBOTS, again]
+        for _ in range(2):
+            result = subprocess.run(
+                command, capture_output=True, text=True, timeout=300, env={**os.environ, "BUNDLE_MOST_BYTES": "1000"}
+            )
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("is to stay under", result.stderr)
+            self.assertFalse(os.path.exists(again))
 
     def test_no_library_is_found_where_it_was_built(self):
         libraries = ":".join(os.path.join(self.bundle, folder) for folder in ("lib", "lib/common"))

@@ -1,14 +1,17 @@
 #include "support/fcl_peer.h"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
 #include "gpu_planning_scene/error.h"
+#include "support/fcl_broad_phase.h"
 #include "support/fcl_models.h"
 #include "support/inside.h"
+#include "support/learned_order.h"
 
 namespace gpu_planning_scene
 {
@@ -51,6 +54,8 @@ struct FclPeer::Impl
   std::vector<FclGeometry> geometries;  // one per tree
   std::vector<Placed> robot;
   std::vector<Placed> world;
+  std::optional<LearnedOrder> order;           // none: fixed
+  std::shared_ptr<FclBroadPhase> broad_phase;  // of the world, where the order is learned
 
   AlignedBox3d boundsOf(std::uint32_t tree, const Isometry3d& pose) const
   {
@@ -81,19 +86,79 @@ struct FclPeer::Impl
     return fcl::distance(geometries[a.tree].get(), a.pose, geometries[b.tree].get(), b.pose, request, result);
   }
 
-  /// The boxes of a pair first, then the pair. `padded`: whether paddings count.
-  bool collide(const Placed& a, const Placed& b, bool padded) const
+  static bool boxesAreNear(const Placed& a, const Placed& b, double required)
   {
-    const double required = padded ? a.padding + b.padding : 0.0;
-    if (a.bounds.squaredExteriorDistance(b.bounds) > required * required)
-      return false;
+    return a.bounds.squaredExteriorDistance(b.bounds) <= required * required;
+  }
+
+  bool meet(const Placed& a, const Placed& b, double required) const
+  {
     if (required == 0.0)
       return hit(a, b);
     return distance(a, b, required * (1.0 + 1e-9)) <= required;
   }
 
-  void makeMovedTrees()
+  /// The boxes of a pair first, then the pair. `padded`: whether paddings count.
+  bool collide(const Placed& a, const Placed& b, bool padded) const
   {
+    const double required = padded ? a.padding + b.padding : 0.0;
+    return boxesAreNear(a, b, required) && meet(a, b, required);
+  }
+
+  /// The same. The time that FCL takes, which is many times that of reading the clock, is added to `seconds`.
+  bool collideTimed(const Placed& a, const Placed& b, bool padded, double& seconds) const
+  {
+    const double required = padded ? a.padding + b.padding : 0.0;
+    if (!boxesAreNear(a, b, required))
+      return false;
+    const auto start = std::chrono::steady_clock::now();
+    const bool result = meet(a, b, required);
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+  }
+
+  /// A check as in CpuTraversal: of a robot's instance against the world, by its index, or, counted on from there, of a
+  /// self pair.
+  bool check(std::uint32_t number, double& seconds, std::optional<BodyPair>& found) const
+  {
+    if (number >= robot.size())
+    {
+      const auto [first, second] = problem->self_pairs[number - robot.size()];
+      if (collideTimed(robot[first], robot[second], false, seconds))
+        found = BodyPair{robot[first].body, robot[second].body};
+      return found.has_value();
+    }
+    const Placed& link = robot[number];
+    const Vector3d grown = Vector3d::Constant(link.padding);
+    for (const std::uint32_t k : broad_phase->near({link.bounds.min() - grown, link.bounds.max() + grown}))
+      if (problem->world_pairs[number * world.size() + k] != 0 && collideTimed(link, world[k], true, seconds))
+      {
+        found = BodyPair{link.body, world[k].body};
+        return true;
+      }
+    return false;
+  }
+
+  std::optional<BodyPair> firstInLearnedOrder()
+  {
+    std::optional<BodyPair> found;
+    order->any([&](std::uint32_t number, double& seconds) { return check(number, seconds, found); });
+    return found;
+  }
+
+  /// What queries change, so that each copy has its own.
+  void makeOwn()
+  {
+    if (order)
+    {
+      std::vector<AlignedBox3d> boxes;
+      for (const Placed& placed : world)
+      {
+        const Vector3d grown = Vector3d::Constant(placed.padding);
+        boxes.emplace_back(placed.bounds.min() - grown, placed.bounds.max() + grown);
+      }
+      broad_phase = std::make_shared<FclBroadPhase>(boxes);
+    }
     for (std::vector<Placed>* all : {&robot, &world})
       for (Placed& placed : *all)
         placed.moved = makeFclMovedTree(problem->shapes[placed.tree], problem->trees[placed.tree], volumes);
@@ -138,7 +203,8 @@ struct FclPeer::Impl
   }
 };
 
-FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree) : impl_(std::make_unique<Impl>())
+FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree, FclOrder order)
+  : impl_(std::make_unique<Impl>())
 {
   refuseUnsupported(*problem, tree);
   impl_->problem = std::move(problem);
@@ -157,12 +223,14 @@ FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree) 
     impl_->world.push_back({geometry.body, geometry.tree, geometry.pose, impl_->boundsOf(geometry.tree, geometry.pose),
                             geometry.padding, nullptr});
   }
-  impl_->makeMovedTrees();
+  if (order == FclOrder::Learned)
+    impl_->order.emplace(p.robot.size() + p.self_pairs.size());
+  impl_->makeOwn();
 }
 
 FclPeer::FclPeer(const FclPeer& other) : impl_(std::make_unique<Impl>(*other.impl_))
 {
-  impl_->makeMovedTrees();
+  impl_->makeOwn();
 }
 
 FclPeer::~FclPeer() = default;
@@ -178,8 +246,10 @@ void FclPeer::setState(const Isometry3d* link_poses)
   }
 }
 
-std::optional<FclPeer::BodyPair> FclPeer::firstCollision() const
+std::optional<FclPeer::BodyPair> FclPeer::firstCollision()
 {
+  if (impl_->order)
+    return impl_->firstInLearnedOrder();
   std::optional<BodyPair> found;
   impl_->visitPairs(
       [&](const Impl::Placed& a, const Impl::Placed& b, bool padded)

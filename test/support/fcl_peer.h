@@ -13,16 +13,24 @@
 
 namespace gpu_planning_scene
 {
+/// In which order pairs are looked at for a first collision.
+enum class FclOrder
+{
+  Fixed,   ///< the world before the robot itself; the boxes of all pairs
+  Learned  ///< as CpuTraversal: what found most collisions for its cost comes first; FCL's broad phase for the world
+};
+
 /// FCL 0.7 as the peer of tests and benchmarks: meshes and boxes as BVHModel, spheres, cylinders and cones as FCL's
-/// shapes, contacts on, the boxes of a pair tested first, the world before the robot itself, the end at the first
-/// contact. Padded pairs by its distances, up to the padding. Not thread-safe: one per thread.
+/// shapes, contacts on, the boxes of a pair tested first, the end at the first contact. Padded pairs by its distances,
+/// up to the padding. Not thread-safe: one per thread.
 class FclPeer
 {
  public:
   using BodyPair = std::array<std::int32_t, 2>;
 
   /// Throws Error for a problem with half-spaces, and for one with padding unless the tree knows distances.
-  explicit FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree = FclTree::Obbrss);
+  explicit FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree = FclTree::Obbrss,
+                   FclOrder order = FclOrder::Fixed);
   /// Shares what queries do not change.
   FclPeer(const FclPeer& other);
   ~FclPeer();
@@ -31,7 +39,7 @@ class FclPeer
   /// The poses that all further calls are about: of every link, in the planning frame.
   void setState(const Eigen::Isometry3d* link_poses);
 
-  std::optional<BodyPair> firstCollision() const;
+  std::optional<BodyPair> firstCollision();
 
   /// All pairs of bodies that collide.
   std::vector<BodyPair> allCollisions() const;
