@@ -15,11 +15,17 @@ constexpr int kRepeats = 3;      // of which the fastest counts: what disturbs o
 // What is not clearly faster is not chosen: a measurement that was disturbed must not be a loss for as long as it
 // holds.
 constexpr double kClearly = 1.2;
+// Beyond what was timed, only a much smaller cost of each further item is believed.
+constexpr double kMuchLess = 2.0;
 
 struct Comparison
 {
   double size;
-  double ahead;  // by how many seconds the direct way was faster, with what it is granted
+  double direct;  // seconds
+  double bulk;
+
+  /// By how many seconds the direct way was faster, with what it is granted.
+  double ahead() const { return kClearly * bulk - direct; }
 };
 
 std::vector<Comparison> compare(const TimedWork& direct, const TimedWork& bulk)
@@ -36,7 +42,7 @@ std::vector<Comparison> compare(const TimedWork& direct, const TimedWork& bulk)
       direct_time = std::min(direct_time, direct(size));
       bulk_time = std::min(bulk_time, bulk(size));
     }
-    made.push_back({static_cast<double>(size), kClearly * bulk_time - direct_time});
+    made.push_back({static_cast<double>(size), direct_time, bulk_time});
     if (made.size() > 1 && std::max(direct_time, bulk_time) >= kLong)
       break;
   }
@@ -50,15 +56,18 @@ std::size_t breakEven(const TimedWork& direct, const TimedWork& bulk)
 {
   const std::vector<Comparison> made = compare(direct, bulk);
   std::size_t last = made.size();
-  while (last > 0 && made[last - 1].ahead <= 0.0)
+  while (last > 0 && made[last - 1].ahead() <= 0.0)
     --last;
   if (last == 0)
     return 0;
+  const bool beyond = last == made.size();
   const std::size_t after = std::max<std::size_t>(1, std::min(last, made.size() - 1));
   const Comparison& a = made[after - 1];
   const Comparison& b = made[after];
-  const double lost = (a.ahead - b.ahead) / (b.size - a.size);  // of the lead, for each item
-  const double size = a.size + a.ahead / lost;
+  if (beyond && kMuchLess * (b.bulk - a.bulk) >= b.direct - a.direct)
+    return kNoBatch;
+  const double lost = (a.ahead() - b.ahead()) / (b.size - a.size);  // of the lead, for each item
+  const double size = a.size + a.ahead() / lost;
   return lost > 0.0 && size < 1e9 ? static_cast<std::size_t>(std::ceil(size)) : kNoBatch;
 }
 }  // namespace gpu_planning_scene

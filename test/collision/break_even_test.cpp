@@ -36,6 +36,13 @@ TEST(BreakEven, IsNoneWhereOneIsFasterAlways)
   EXPECT_EQ(breakEven(work(1e-6, 3e-6), work(1e-6, 2e-6)), 0U);
 }
 
+TEST(BreakEven, IsBelievedBeyondWhatWasTimedOnlyOfMuchSmallerCosts)
+{
+  EXPECT_NEAR(static_cast<double>(breakEven(work(1e-6, 1e-6), work(2e-3, 0.1e-6))), 2726.0,
+              30.0);  // 2400 + .12 n = 1 + n
+  EXPECT_EQ(breakEven(work(1e-6, 1e-6), work(2e-3, 0.7e-6)), kNoBatch);
+}
+
 TEST(BreakEven, LooksAtLargerBatchesWhereSmallOnesAreAlike)
 {
   // Faster at first, as lanes are idle, but not later.
