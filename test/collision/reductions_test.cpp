@@ -339,7 +339,7 @@ TEST_F(SmallScene, CountsPaddingThatGrowsBetweenScenes)
   scene_->objects = {scene_->objects[1]};
   scene_->objects[0].pose.translation().x() = 0.7;  // 0.1 m beyond the arm
   CpuChecker checker(scene_);
-  const auto isFree = [&](double of_links, double of_object)
+  const auto is_free = [&](double of_links, double of_object)
   {
     scene_->link_padding.assign(3, of_links);
     scene_->objects[0].padding = of_object;
@@ -347,10 +347,10 @@ TEST_F(SmallScene, CountsPaddingThatGrowsBetweenScenes)
     const double state = 0.0;
     return checker.check(&state, 1).valid[0] == 1;
   };
-  EXPECT_TRUE(isFree(0.0, 0.0));
-  EXPECT_FALSE(isFree(0.11, 0.0));
-  EXPECT_TRUE(isFree(0.0, 0.0));
-  EXPECT_FALSE(isFree(0.0, 0.11));
+  EXPECT_TRUE(is_free(0.0, 0.0));
+  EXPECT_FALSE(is_free(0.11, 0.0));
+  EXPECT_TRUE(is_free(0.0, 0.0));
+  EXPECT_FALSE(is_free(0.0, 0.11));
 }
 }  // namespace
 }  // namespace gpu_planning_scene
