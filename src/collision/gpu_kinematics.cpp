@@ -36,7 +36,7 @@ std::vector<double> largestValues(const RobotModel& robot)
     const bool planar = joint.type == JointType::Planar;
     if (!turns && !planar)
       continue;
-    double& least = largest[static_cast<std::size_t>(joint.first_variable + (planar ? 2 : 0))];
+    double& least = largest[static_cast<std::size_t>(joint.first_variable) + (planar ? 2U : 0U)];
     const double multiplier = planar ? 1.0 : std::max(std::abs(joint.multiplier), 1e-300);
     const double offset = planar ? 0.0 : std::abs(joint.offset);
     least = std::min(least, (kLargestAngle - offset) / multiplier * (1.0 - 1e-9));

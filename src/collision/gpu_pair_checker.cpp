@@ -86,7 +86,8 @@ void GpuPairChecker::selectPairs(const CollisionProblem& problem)
 /// What would otherwise be done within a batch: programs are compiled. Poses of a part have to fit a buffer texture.
 void GpuPairChecker::prepare()
 {
-  const std::size_t room = TexelBuffer::mostBytes() / (std::max(1U, scene_.robotCount()) * 12 * sizeof(float));
+  const std::size_t room =
+      TexelBuffer::mostBytes() / (std::size_t{std::max(1U, scene_.robotCount())} * 12 * sizeof(float));
   part_limit_ = std::max<std::size_t>(1, std::min(max_states_, room));
   part_size_ = std::min(part_size_, part_limit_);
   traversal_->prepare(task(false));
