@@ -29,6 +29,8 @@ class AllowedCollisionMatrix
   {
    public:
     bool allowed(const Row& other) const;
+    /// Whether the matrix has the body. It says the same of all that it has not; a row made by `Row()` is one of those.
+    bool known() const { return body_ != nullptr; }
 
    private:
     friend class AllowedCollisionMatrix;

@@ -66,33 +66,50 @@ CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<Robo
     body_rows.push_back(matrix.row(*body.name));
   for (const WorldObject& object : scene.objects)
     object_rows.push_back(matrix.row(object.id));
-  CheckedPairs pairs;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
+  // Of most objects the matrix knows nothing: it says the same of them all.
+  struct Solid
   {
-    for (std::size_t j = i + 1; j < bodies.size(); ++j)
+    std::uint32_t object;
+    bool known;
+  };
+  std::vector<Solid> solids;
+  for (std::uint32_t k = 0; k < scene.objects.size(); ++k)
+    if (!scene.objects[k].shapes.empty())
+      solids.push_back({k, object_rows[k].known()});
+  const AllowedCollisionMatrix::Row unknown;
+  const auto count = static_cast<std::uint32_t>(bodies.size());
+  CheckedPairs pairs;
+  pairs.world.resize(bodies.size() * solids.size());
+  CheckedPair* world_end = pairs.world.data();
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    const AllowedCollisionMatrix::Row& row = body_rows[i];
+    for (std::uint32_t j = i + 1; j < count; ++j)
     {
       if (touchByCarrying(bodies[i], bodies[j]))
       {
         ++report.touch_pairs;
         continue;
       }
-      const bool is_allowed = body_rows[i].allowed(body_rows[j]);
+      const bool is_allowed = row.allowed(body_rows[j]);
       const bool is_moved = moved[bodies[i].link] || moved[bodies[j].link];
       ++(is_allowed ? report.allowed_self_pairs : is_moved ? report.self_pairs : report.unmoved_pairs);
       if (!is_allowed)
         pairs.self.push_back({i, j, is_moved});
     }
-    for (std::size_t k = 0; k < scene.objects.size(); ++k)
+    const bool is_moved = moved[bodies[i].link];
+    const bool unknown_allowed = row.allowed(unknown);
+    const CheckedPair* const first = world_end;
+    for (const Solid& solid : solids)
     {
-      if (scene.objects[k].shapes.empty())
-        continue;
-      const bool is_allowed = body_rows[i].allowed(object_rows[k]);
-      const bool is_moved = moved[bodies[i].link];
-      ++(is_allowed ? report.allowed_world_pairs : is_moved ? report.world_pairs : report.unmoved_pairs);
-      if (!is_allowed)
-        pairs.world.push_back({i, k, is_moved});
+      *world_end = {i, solid.object, is_moved};
+      world_end += (solid.known ? row.allowed(object_rows[solid.object]) : unknown_allowed) ? 0 : 1;
     }
+    const auto checked = static_cast<std::size_t>(world_end - first);
+    report.allowed_world_pairs += solids.size() - checked;
+    (is_moved ? report.world_pairs : report.unmoved_pairs) += checked;
   }
+  pairs.world.resize(static_cast<std::size_t>(world_end - pairs.world.data()));
   return pairs;
 }
 }  // namespace gpu_planning_scene

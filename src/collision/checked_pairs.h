@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,9 @@ std::vector<RobotBody> robotBodies(const PlanningScene& scene);
 
 struct CheckedPair
 {
-  std::size_t body;   ///< index into the robot's bodies
-  std::size_t other;  ///< self pairs: a later one; world pairs: index of an object
-  bool moved;         ///< the group moves at least one of the two
+  std::uint32_t body;   ///< index into the robot's bodies
+  std::uint32_t other;  ///< self pairs: a later one; world pairs: index of an object
+  bool moved;           ///< the group moves at least one of the two
 };
 
 /// What is checked of a scene, whatever the group, by pairs of bodies that have shapes.
@@ -44,10 +45,14 @@ struct CheckedPairs
 template <class Predicate>
 void takePairs(std::vector<CheckedPair>& from, std::vector<CheckedPair>& to, const Predicate& leaves)
 {
-  const auto stay = [&leaves](const CheckedPair& pair) { return !leaves(pair); };
-  const auto left = std::stable_partition(from.begin(), from.end(), stay);
-  to.insert(to.end(), left, from.end());
-  from.erase(left, from.end());
+  const auto taken = [&](const CheckedPair& pair)
+  {
+    const bool is_taken = leaves(pair);
+    if (is_taken)
+      to.push_back(pair);
+    return is_taken;
+  };
+  from.erase(std::remove_if(from.begin(), from.end(), taken), from.end());
 }
 
 /// How many of the pairs the group moves.

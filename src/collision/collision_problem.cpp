@@ -18,9 +18,13 @@ namespace
 class TreeTable
 {
  public:
-  TreeTable(CollisionProblem& problem, bool share, TessellationCache& tessellations)
+  /// `shapes`: about how many there will be.
+  TreeTable(CollisionProblem& problem, bool share, TessellationCache& tessellations, std::size_t shapes)
     : problem_(problem), share_(share), tessellations_(tessellations)
   {
+    trees_.reserve(shapes);
+    problem.trees.reserve(shapes);
+    problem.shapes.reserve(shapes);
   }
 
   std::uint32_t treeOf(const Shape& shape)
@@ -89,8 +93,13 @@ Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>&
     body_needed[pair.body] = object_needed[pair.other] = true;
   }
 
-  TreeTable trees(problem, share_trees, tessellations);
+  const auto objects = static_cast<std::size_t>(std::count(object_needed.begin(), object_needed.end(), true));
+  TreeTable trees(problem, share_trees, tessellations, bodies.size() + objects);
   Instances instances;
+  instances.of_body.reserve(bodies.size());
+  instances.of_object.reserve(scene.objects.size());
+  instances.half_spaces_of_object.reserve(scene.objects.size());
+  problem.world.reserve(objects);
   for (std::size_t i = 0; i < bodies.size(); ++i)
   {
     const RobotBody& body = bodies[i];
@@ -123,9 +132,8 @@ Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>&
 /// Marks a row of a pair matrix from column `columns.begin` to `columns.end`.
 void markPairs(std::vector<std::uint8_t>& matrix, std::size_t width, std::size_t row, const Range& columns)
 {
-  const auto begin = matrix.begin() + static_cast<std::ptrdiff_t>(row * width);
-  std::fill(begin + static_cast<std::ptrdiff_t>(columns.begin), begin + static_cast<std::ptrdiff_t>(columns.end),
-            std::uint8_t{1});
+  for (std::size_t column = columns.begin; column < columns.end; ++column)  // one, mostly
+    matrix[row * width + column] = 1;
 }
 
 /// Adds the pairs of instances of those pairs of bodies that the group moves.

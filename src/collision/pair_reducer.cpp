@@ -1,6 +1,8 @@
 #include "collision/pair_reducer.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "scene/rigid_pose.h"
 
@@ -8,14 +10,6 @@ namespace gpu_planning_scene
 {
 namespace
 {
-std::size_t countObjects(const CheckedPairs& pairs, std::size_t objects)
-{
-  std::vector<bool> seen(objects, false);
-  for (const CheckedPair& pair : pairs.world)
-    seen[pair.other] = true;
-  return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), true));
-}
-
 bool sameObject(const WorldObject& a, const WorldObject& b)
 {
   return a.pose.matrix() == b.pose.matrix() && a.padding == b.padding &&
@@ -26,121 +20,191 @@ bool sameObject(const WorldObject& a, const WorldObject& b)
                              x.pose.matrix() == y.pose.matrix() && sameShape(x.shape, y.shape);
                     });
 }
+
+/// How many objects are in a pair.
+class ObjectCount
+{
+ public:
+  explicit ObjectCount(std::size_t objects) : seen_(objects, 0) {}
+  void add(const CheckedPair& pair, bool counts) { seen_[pair.other] |= static_cast<std::uint8_t>(counts); }
+  std::size_t count() const { return static_cast<std::size_t>(std::count(seen_.begin(), seen_.end(), 1)); }
+
+ private:
+  std::vector<std::uint8_t> seen_;
+};
+
+/// Takes out of `pairs` those of which leaves(pair) is true. Returns how many.
+template <class Predicate>
+std::size_t removePairs(std::vector<CheckedPair>& pairs, const Predicate& leaves)
+{
+  const std::size_t before = pairs.size();
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), leaves), pairs.end());
+  return before - pairs.size();
+}
 }  // namespace
 
-const SweptBody& PairReducer::sweptBody(const RobotBody& body)
+std::size_t PairReducer::moverOf(const PlanningScene& scene, const RobotBody& body) const
 {
-  const auto sweep = [&] { return reach_->sweep(*body.shapes, body.pose, body.link); };
-  if (body.attached)
-  {
-    const auto known = carried_.find(body.attached);
-    return known != carried_.end() ? known->second : carried_.emplace(body.attached, sweep()).first->second;
-  }
-  const auto known = links_.find(body.link);
-  return known != links_.end() ? known->second : links_.emplace(body.link, sweep()).first->second;
+  return body.attached ? robot_->links().size() + static_cast<std::size_t>(body.attached - scene.attached.data())
+                       : static_cast<std::size_t>(body.link);
 }
 
-Eigen::AlignedBox3d PairReducer::cachedBox(const Shape& shape, MeshBoxes& used)
+const SweptBody& PairReducer::sweptBody(const RobotBody& body, std::size_t mover)
+{
+  if (!swept_[mover])
+    swept_[mover] = reach_->sweep(*body.shapes, body.pose, body.link);
+  return *swept_[mover];
+}
+
+Eigen::AlignedBox3d PairReducer::cachedBox(const Shape& shape)
 {
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape);
   if (mesh == nullptr)
     return boxOf(shape);
-  const auto known = boxes_.find(*mesh);
-  return used.emplace(*mesh, known != boxes_.end() ? known->second : boxOf(shape)).first->second;
+  const auto known = boxes_.find(mesh->get());
+  if (known != boxes_.end() && known->second.mesh.lock() == *mesh)
+    return known->second.box;
+  return boxes_.insert_or_assign(mesh->get(), KnownBox{*mesh, boxOf(shape)}).first->second.box;
 }
 
-/// In the planning frame, by object.
-std::vector<std::vector<Obstacle>> PairReducer::obstaclesOf(const PlanningScene& scene)
+std::vector<Obstacle> PairReducer::obstaclesOf(const WorldObject& object)
 {
-  MeshBoxes used;
-  std::vector<std::vector<Obstacle>> obstacles(scene.objects.size());
-  for (std::size_t k = 0; k < scene.objects.size(); ++k)
-    for (const PlacedShape& placed : scene.objects[k].shapes)
+  std::vector<Obstacle> obstacles;
+  for (const PlacedShape& placed : object.shapes)
+  {
+    const Eigen::Isometry3d pose = rigidProduct(object.pose, placed.pose);
+    if (const auto* half_space = std::get_if<HalfSpace>(&placed.shape))
+      obstacles.emplace_back(moved(*half_space, pose));
+    else
     {
-      const Eigen::Isometry3d pose = rigidProduct(scene.objects[k].pose, placed.pose);
-      if (const auto* half_space = std::get_if<HalfSpace>(&placed.shape))
-        obstacles[k].push_back(moved(*half_space, pose));
-      else
-      {
-        const Eigen::AlignedBox3d box = cachedBox(placed.shape, used);
-        obstacles[k].push_back(PlacedBox(pose * Eigen::Translation3d(box.center()), 0.5 * box.sizes()));
-      }
+      const Eigen::AlignedBox3d box = cachedBox(placed.shape);
+      obstacles.emplace_back(PlacedBox(pose * Eigen::Translation3d(box.center()), 0.5 * box.sizes()));
     }
-  boxes_ = std::move(used);
+  }
   return obstacles;
 }
 
-/// What is known of objects that are as they were in the scene before.
+void PairReducer::takeRobot(const std::shared_ptr<const RobotModel>& robot)
+{
+  if (robot_ == robot)
+    return;
+  robot_.reset();  // should one of the next lines throw
+  swept_.clear();
+  carried_.clear();
+  objects_.clear();
+  near_movers_.resize(0, 0);
+  near_objects_.resize(0, 0);
+  reach_.emplace(*robot);
+  robot_ = robot;
+}
+
+void PairReducer::keepCarried(const PlanningScene& scene)
+{
+  const std::size_t links = robot_->links().size();
+  const std::size_t movers = links + scene.attached.size();
+  const std::size_t kept = std::min(carried_.size(), scene.attached.size());
+  carried_.resize(kept);
+  near_movers_.resize(movers, movers);
+  swept_.resize(movers);
+  for (std::size_t i = 0; i < scene.attached.size(); ++i)
+  {
+    const AttachedObject& attached = scene.attached[i];
+    if (i < kept && carried_[i].link == attached.link && sameObject(carried_[i].object, attached.object))
+      continue;
+    swept_[links + i].reset();
+    near_movers_.forgetRow(links + i);
+    near_movers_.forgetColumn(links + i);
+    near_objects_.forgetColumn(links + i);
+    if (i < kept)
+      carried_[i] = attached;
+    else
+      carried_.push_back(attached);
+  }
+}
+
+void PairReducer::keepObjects(const PlanningScene& scene)
+{
+  for (auto known = boxes_.begin(); known != boxes_.end();)
+    known = known->second.mesh.expired() ? boxes_.erase(known) : std::next(known);
+  const std::size_t kept = std::min(objects_.size(), scene.objects.size());
+  objects_.resize(kept);
+  objects_.reserve(scene.objects.size());
+  for (std::size_t k = 0; k < scene.objects.size(); ++k)
+  {
+    const WorldObject& object = scene.objects[k];
+    if (k < kept && sameObject(objects_[k].object, object))
+      continue;
+    near_objects_.forgetRow(k);
+    KnownObject known{object, obstaclesOf(object)};
+    if (k < kept)
+      objects_[k] = std::move(known);
+    else
+      objects_.push_back(std::move(known));
+  }
+}
+
+/// Forgets what no longer holds, before it takes over what the scene has instead: should a line throw, what is known is
+/// still true of what is kept.
 void PairReducer::keepWhatStays(const PlanningScene& scene)
 {
+  near_objects_.resize(scene.objects.size(), robot_->links().size() + scene.attached.size());
   if (link_padding_ != scene.link_padding)
     near_objects_.clear();
   link_padding_ = scene.link_padding;
-  near_objects_.resize(scene.objects.size());
-  for (std::size_t k = 0; k < scene.objects.size(); ++k)
-    if (near_objects_[k].links.empty() || !sameObject(near_objects_[k].object, scene.objects[k]))
-      near_objects_[k] = {scene.objects[k], std::vector<std::optional<bool>>(scene.robot->links().size())};
+  keepCarried(scene);
+  keepObjects(scene);
 }
 
-bool PairReducer::mayMeet(const PlanningScene& scene, const RobotBody& body, std::size_t object,
-                          const std::vector<Obstacle>& obstacles)
+bool PairReducer::mayMeet(const PlanningScene& scene, const RobotBody& body, std::size_t mover, std::size_t object)
 {
-  const Region* region = reach_->inPlanningFrame(sweptBody(body));
-  const double padding = scene.link_padding.empty() ? 0.0 : scene.link_padding[body.link];
+  const Region* region = reach_->inPlanningFrame(sweptBody(body, mover));
+  const double padding = scene.link_padding.empty() ? 0.0 : scene.link_padding[static_cast<std::size_t>(body.link)];
   const double distance = padding + scene.objects[object].padding;
+  const std::vector<Obstacle>& obstacles = objects_[object].obstacles;
   return region == nullptr || std::any_of(obstacles.begin(), obstacles.end(),
                                           [&](const Obstacle& obstacle)
                                           { return gpu_planning_scene::mayMeet(*region, obstacle, distance); });
-}
-
-bool PairReducer::mayMeet(const RobotBody& a, const RobotBody& b)
-{
-  if (a.attached || b.attached)
-    return reach_->mayMeet(sweptBody(a), sweptBody(b), 0.0);
-  const auto [entry, is_new] = near_links_.try_emplace({a.link, b.link}, true);
-  if (is_new)
-    entry->second = reach_->mayMeet(sweptBody(a), sweptBody(b), 0.0);
-  return entry->second;
 }
 
 std::vector<VariableRange> PairReducer::leaveOutUnreachable(const PlanningScene& scene,
                                                             const std::vector<RobotBody>& bodies, CheckedPairs& pairs,
                                                             SceneReport& report)
 {
-  if (robot_ != scene.robot)
-  {
-    robot_.reset();  // should one of the next lines throw
-    links_.clear();
-    near_links_.clear();
-    near_objects_.clear();
-    reach_.emplace(*scene.robot);
-    robot_ = scene.robot;
-  }
-  carried_.clear();
+  takeRobot(scene.robot);
   keepWhatStays(scene);
-  const std::vector<std::vector<Obstacle>> obstacles = obstaclesOf(scene);
-  const std::size_t objects_before = countObjects(pairs, scene.objects.size());
+  std::vector<std::size_t> movers;
+  for (const RobotBody& body : bodies)
+    movers.push_back(moverOf(scene, body));
 
-  CheckedPairs left_out;
-  takePairs(pairs.self, left_out.self,
-            [&](const CheckedPair& pair) { return !mayMeet(bodies[pair.body], bodies[pair.other]); });
-  takePairs(pairs.world, left_out.world,
-            [&](const CheckedPair& pair)
-            {
-              const RobotBody& body = bodies[pair.body];
-              if (body.attached)
-                return !mayMeet(scene, body, pair.other, obstacles[pair.other]);
-              std::optional<bool>& near = near_objects_[pair.other].links[static_cast<std::size_t>(body.link)];
-              if (!near)
-                near = mayMeet(scene, body, pair.other, obstacles[pair.other]);
-              return !*near;
-            });
-
-  report.unreachable_self_pairs = countMoved(left_out.self);
-  report.unreachable_world_pairs = countMoved(left_out.world);
+  const std::size_t self =
+      removePairs(pairs.self,
+                  [&](const CheckedPair& pair)
+                  {
+                    const std::size_t a = movers[pair.body];
+                    const std::size_t b = movers[pair.other];
+                    const auto may_meet = [&]
+                    { return reach_->mayMeet(sweptBody(bodies[pair.body], a), sweptBody(bodies[pair.other], b), 0.0); };
+                    const bool leaves = !near_movers_.perhaps(a, b, may_meet);
+                    report.unreachable_self_pairs += leaves && pair.moved ? 1 : 0;
+                    return leaves;
+                  });
+  ObjectCount before(scene.objects.size());
+  ObjectCount after(scene.objects.size());
+  const std::size_t world =
+      removePairs(pairs.world,
+                  [&](const CheckedPair& pair)
+                  {
+                    const std::size_t mover = movers[pair.body];
+                    const bool leaves = !near_objects_.perhaps(
+                        pair.other, mover, [&] { return mayMeet(scene, bodies[pair.body], mover, pair.other); });
+                    report.unreachable_world_pairs += leaves && pair.moved ? 1 : 0;
+                    before.add(pair, true);
+                    after.add(pair, !leaves);
+                    return leaves;
+                  });
   report.self_pairs -= report.unreachable_self_pairs;
   report.world_pairs -= report.unreachable_world_pairs;
-  report.unreachable_objects = objects_before - countObjects(pairs, scene.objects.size());
-  return left_out.self.empty() && left_out.world.empty() ? std::vector<VariableRange>() : reach_->ranges();
+  report.unreachable_objects = before.count() - after.count();
+  return self == 0 && world == 0 ? std::vector<VariableRange>() : reach_->ranges();
 }
 }  // namespace gpu_planning_scene

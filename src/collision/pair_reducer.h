@@ -1,17 +1,18 @@
 #pragma once
 
-#include <array>
-#include <map>
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "collision/checked_pairs.h"
+#include "collision/near_table.h"
 #include "collision/reach.h"
 
 namespace gpu_planning_scene
 {
-/// Finds pairs of bodies that can change no answer. Keeps what it learned of a robot for the next scene with it.
+/// Finds pairs of bodies that can change no answer. Keeps what it learned of the robot, of objects and of what is
+/// carried for the next scene in which they are as they were.
 class PairReducer
 {
  public:
@@ -22,31 +23,36 @@ class PairReducer
                                                  CheckedPairs& pairs, SceneReport& report);
 
  private:
-  using MeshBoxes = std::map<std::shared_ptr<const Mesh>, Eigen::AlignedBox3d>;
-
-  /// Which links may come near an object, by their index; no value: not asked for yet. It holds as long as the object
-  /// stays as it was, and the links' padding.
-  struct NearObject
+  struct KnownBox
+  {
+    std::weak_ptr<const Mesh> mesh;  // that is gone may leave its address to another
+    Eigen::AlignedBox3d box;
+  };
+  struct KnownObject
   {
     WorldObject object;
-    std::vector<std::optional<bool>> links;
+    std::vector<Obstacle> obstacles;  // in the planning frame
   };
 
-  const SweptBody& sweptBody(const RobotBody& body);
-  bool mayMeet(const RobotBody& a, const RobotBody& b);
-  bool mayMeet(const PlanningScene& scene, const RobotBody& body, std::size_t object,
-               const std::vector<Obstacle>& obstacles);
+  /// A link by its index, or what is carried, counted on from there.
+  std::size_t moverOf(const PlanningScene& scene, const RobotBody& body) const;
+  const SweptBody& sweptBody(const RobotBody& body, std::size_t mover);
+  bool mayMeet(const PlanningScene& scene, const RobotBody& body, std::size_t mover, std::size_t object);
+  void takeRobot(const std::shared_ptr<const RobotModel>& robot);
   void keepWhatStays(const PlanningScene& scene);
-  Eigen::AlignedBox3d cachedBox(const Shape& shape, MeshBoxes& used);
-  std::vector<std::vector<Obstacle>> obstaclesOf(const PlanningScene& scene);
+  void keepCarried(const PlanningScene& scene);
+  void keepObjects(const PlanningScene& scene);
+  Eigen::AlignedBox3d cachedBox(const Shape& shape);
+  std::vector<Obstacle> obstaclesOf(const WorldObject& object);
 
   std::shared_ptr<const RobotModel> robot_;
   std::optional<Reach> reach_;
-  std::map<int, SweptBody> links_;
-  std::map<const AttachedObject*, SweptBody> carried_;  // of one scene only
-  MeshBoxes boxes_;                                     // of the last scene's meshes
-  std::map<std::array<int, 2>, bool> near_links_;       // whether two links may meet
-  std::vector<double> link_padding_;
-  std::vector<NearObject> near_objects_;  // of the last scene, in its order
+  std::vector<std::optional<SweptBody>> swept_;  // of each mover
+  std::vector<double> link_padding_;             // these three of the last scene, in its order
+  std::vector<AttachedObject> carried_;
+  std::vector<KnownObject> objects_;
+  std::unordered_map<const Mesh*, KnownBox> boxes_;
+  NearTable near_movers_;   // a row and a column for each mover
+  NearTable near_objects_;  // a row for each object, a column for each mover
 };
 }  // namespace gpu_planning_scene

@@ -1,5 +1,7 @@
 #include "scene/rigid_pose.h"
 
+#include <limits>
+
 #include <Eigen/SVD>
 
 #include "gpu_planning_scene/error.h"
@@ -10,17 +12,30 @@ namespace
 {
 constexpr double kTolerance = 1e-6;
 constexpr double kRounding = 1e-15;  // rotations that are as good as doubles get stay as they are
+
+/// How far its matrix is from that of a rotation and a translation.
+double excessOf(const Eigen::Isometry3d& pose)
+{
+  const Eigen::Matrix3d rotation = pose.linear();
+  if (!pose.matrix().allFinite() || rotation.determinant() < 0.0)
+    return std::numeric_limits<double>::infinity();
+  return (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+}
 }  // namespace
+
+bool isRigid(const Eigen::Isometry3d& pose)
+{
+  return excessOf(pose) <= kTolerance;
+}
 
 Eigen::Isometry3d rigid(const Eigen::Isometry3d& pose, const std::string& where)
 {
-  const Eigen::Matrix3d rotation = pose.linear();
-  const Eigen::Matrix3d excess = rotation * rotation.transpose() - Eigen::Matrix3d::Identity();
-  if (!pose.matrix().allFinite() || excess.cwiseAbs().maxCoeff() > kTolerance || rotation.determinant() < 0.0)
+  const double excess = excessOf(pose);
+  if (excess > kTolerance)
     throw Error(where + ": a pose is not finite or not a rotation and a translation");
-  if (excess.cwiseAbs().maxCoeff() <= kRounding)
+  if (excess <= kRounding)
     return pose;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> parts(rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> parts(pose.linear(), Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Isometry3d result = pose;
   result.linear() = parts.matrixU() * parts.matrixV().transpose();
   return result;
@@ -28,6 +43,8 @@ Eigen::Isometry3d rigid(const Eigen::Isometry3d& pose, const std::string& where)
 
 Eigen::Isometry3d rigidProduct(const Eigen::Isometry3d& body, const Eigen::Isometry3d& shape)
 {
-  return rigid(body, "a body's pose") * rigid(shape, "a shape's pose");
+  static const std::string of_body = "a body's pose";
+  static const std::string of_shape = "a shape's pose";
+  return rigid(body, of_body) * rigid(shape, of_shape);
 }
 }  // namespace gpu_planning_scene

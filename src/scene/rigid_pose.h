@@ -6,6 +6,9 @@
 
 namespace gpu_planning_scene
 {
+/// Whether `rigid` takes the pose.
+bool isRigid(const Eigen::Isometry3d& pose);
+
 /// The pose with the rotation that is nearest to its matrix: all that follows takes a rotation's transpose for its
 /// inverse. Poses that come from single precision or from long products are off by some digits. Throws Error that
 /// begins with `where` if the pose is not finite, or off by more than 1e-6.

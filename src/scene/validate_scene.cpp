@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 #include "gpu_planning_scene/error.h"
@@ -12,6 +13,13 @@ namespace gpu_planning_scene
 {
 namespace
 {
+/// rigid() also makes the rotation a better one, which takes long.
+void validatePose(const Eigen::Isometry3d& pose, const std::string& where)
+{
+  if (!isRigid(pose))
+    rigid(pose, where);
+}
+
 void validatePadding(double padding, const std::string& where)
 {
   if (!std::isfinite(padding) || padding < 0.0)
@@ -24,11 +32,11 @@ using Meshes = std::unordered_map<const Mesh*, std::weak_ptr<const Mesh>>;
 void validateObject(const WorldObject& object, const Meshes& known, Meshes& valid)
 {
   const std::string where = "object '" + object.id + "'";
-  rigid(object.pose, where);
+  validatePose(object.pose, where);
   validatePadding(object.padding, where);
   for (const PlacedShape& placed : object.shapes)
   {
-    rigid(placed.pose, where);
+    validatePose(placed.pose, where);
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&placed.shape);
     const auto seen = mesh != nullptr ? known.find(mesh->get()) : known.end();
     const bool is_known = seen != known.end() && *mesh && seen->second.lock() == *mesh;
@@ -82,7 +90,8 @@ void SceneValidator::validate(const PlanningScene& scene)
     validatePadding(scene.link_padding[i], "link '" + links[i].name + "'");
 
   Meshes valid;  // of this scene
-  std::set<std::string> ids;
+  std::unordered_set<std::string_view> ids;
+  ids.reserve(links.size() + scene.objects.size() + scene.attached.size());
   for (const Link& link : links)
     ids.insert(link.name);
   const auto require_new = [&ids](const std::string& id)

@@ -34,21 +34,12 @@ class SceneEdits
   std::shared_ptr<const PlanningScene> next()
   {
     using Edit = void (SceneEdits::*)();
-    constexpr Edit kEdits[] = {&SceneEdits::add,
-                               &SceneEdits::add,
-                               &SceneEdits::remove,
-                               &SceneEdits::move,
-                               &SceneEdits::move,
-                               &SceneEdits::resize,
-                               &SceneEdits::attach,
-                               &SceneEdits::detach,
-                               &SceneEdits::pad,
-                               &SceneEdits::addLarge,
-                               &SceneEdits::padLinks,
-                               &SceneEdits::allow,
-                               &SceneEdits::allowByDefault,
-                               &SceneEdits::addFloor,
-                               &SceneEdits::takeRobot};
+    constexpr Edit kEdits[] = {&SceneEdits::add,      &SceneEdits::add,      &SceneEdits::remove,
+                               &SceneEdits::move,     &SceneEdits::move,     &SceneEdits::resize,
+                               &SceneEdits::attach,   &SceneEdits::detach,   &SceneEdits::regrip,
+                               &SceneEdits::regrip,   &SceneEdits::pad,      &SceneEdits::addLarge,
+                               &SceneEdits::padLinks, &SceneEdits::allow,    &SceneEdits::allowByDefault,
+                               &SceneEdits::addFloor, &SceneEdits::takeRobot};
     (this->*kEdits[random_() % std::size(kEdits)])();
     ++scene_.revision;
     return std::make_shared<const PlanningScene>(scene_);
@@ -130,6 +121,25 @@ class SceneEdits
     if (!scene_.attached.empty())
       scene_.detach(std::string(scene_.attached.front().object.id), state_.data());
   }
+  /// What is carried moves in the hand, or is another thing, or goes to another link.
+  void regrip()
+  {
+    if (scene_.attached.empty())
+      return;
+    AttachedObject& attached = scene_.attached[random_() % scene_.attached.size()];
+    const double length = std::uniform_real_distribution<double>(0.02, 0.4)(random_);
+    switch (random_() % 3)
+    {
+      case 0:
+        attached.object.pose.translation() *= 5.0 * length;
+        break;
+      case 1:
+        attached.object.shapes = {{Cylinder{0.03, length}}};
+        break;
+      default:
+        attached.link = static_cast<int>(random_() % scene_.robot->links().size());
+    }
+  }
   void pad()
   {
     if (WorldObject* object = any())
@@ -209,8 +219,13 @@ void expectAnswersOfAFreshChecker(StateChecker& checker, int edits)
                 whole.check(states.data(), count, group.name).valid)
           << "after edit " << edit << ", group " << group.name;
     CpuChecker fresh(now);
-    EXPECT_EQ(checker.report().triangles, fresh.report().triangles);
-    EXPECT_EQ(checker.report().trees, fresh.report().trees);
+    const SceneReport report = checker.report();
+    const SceneReport fresh_report = fresh.report();
+    EXPECT_EQ(report.triangles, fresh_report.triangles);
+    EXPECT_EQ(report.trees, fresh_report.trees);
+    ASSERT_EQ(report.unreachable_self_pairs, fresh_report.unreachable_self_pairs) << "after edit " << edit;
+    ASSERT_EQ(report.unreachable_world_pairs, fresh_report.unreachable_world_pairs) << "after edit " << edit;
+    ASSERT_EQ(report.unreachable_objects, fresh_report.unreachable_objects) << "after edit " << edit;
     for (const std::uint8_t is_valid : answers.valid)
       valid += is_valid;
     all += count;
