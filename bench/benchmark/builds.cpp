@@ -54,7 +54,8 @@ std::size_t measureBuilds(const Settings& settings)
       const Updates::Result update = updates.measure(info, *method);
       wrong += tellWrong(name + ", build and updates", info, of_this + update.wrong);
       table.add({name, scene.scene->robot->triangleCount(), scene.scene->objects.size(), info.name, info.title,
-                 info.family, load, build, first, next, update.seconds, host.peak(), device.used() - device_before});
+                 info.family, load, build, first, next, median(update.seconds), host.peak(),
+                 device.used() - device_before});
     }
   }
   return wrong;

@@ -4,78 +4,22 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
-#include <LinearMath/btConvexHullComputer.h>
 #include <btBulletCollisionCommon.h>
 
 #include "benchmark/pairwise_peer.h"
-#include "gpu_planning_scene/error.h"
+#include "bullet_shapes.h"
 
 namespace gpu_planning_scene::benchmark
 {
 namespace
 {
-btVector3 toBullet(const Eigen::Vector3d& v)
-{
-  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
-}
-
-btTransform toBullet(const Eigen::Isometry3d& pose)
-{
-  const Eigen::Matrix<btScalar, 3, 3> r = pose.linear().cast<btScalar>();
-  return btTransform(btMatrix3x3(r(0, 0), r(0, 1), r(0, 2), r(1, 0), r(1, 1), r(1, 2), r(2, 0), r(2, 1), r(2, 2)),
-                     toBullet(pose.translation()));
-}
-
-struct MakeShape
-{
-  std::shared_ptr<btConvexShape> operator()(const Box& box) const
-  {
-    return std::make_shared<btBoxShape>(toBullet(0.5 * box.size));
-  }
-  std::shared_ptr<btConvexShape> operator()(const Sphere& sphere) const
-  {
-    return std::make_shared<btSphereShape>(static_cast<btScalar>(sphere.radius));
-  }
-  std::shared_ptr<btConvexShape> operator()(const Cylinder& c) const
-  {
-    return std::make_shared<btCylinderShapeZ>(toBullet({c.radius, c.radius, 0.5 * c.length}));
-  }
-  std::shared_ptr<btConvexShape> operator()(const Cone& cone) const
-  {
-    return std::make_shared<btConeShapeZ>(static_cast<btScalar>(cone.radius), static_cast<btScalar>(cone.length));
-  }
-  std::shared_ptr<btConvexShape> operator()(const HalfSpace&) const
-  {
-    throw Error("the Bullet peer knows no half-spaces; compare with a scene that has none");
-  }
-  std::shared_ptr<btConvexShape> operator()(const std::shared_ptr<const Mesh>& mesh) const
-  {
-    std::vector<btVector3> points;
-    for (const Eigen::Vector3d& vertex : mesh->vertices)
-      points.push_back(toBullet(vertex));
-    // GJK looks at every point of a hull, so only its corners are given.
-    btConvexHullComputer computer;
-    computer.compute(points.front().m_floats, sizeof(btVector3), static_cast<int>(points.size()), 0, 0);
-    auto hull = std::make_shared<btConvexHullShape>();
-    for (int i = 0; i < computer.vertices.size(); ++i)
-      hull->addPoint(computer.vertices[i], false);
-    hull->recalcLocalAabb();
-    return hull;
-  }
-};
-
 class BulletHulls : public PairwisePeer
 {
  public:
   explicit BulletHulls(const std::shared_ptr<const CollisionProblem>& problem) : PairwisePeer(problem)
   {
     for (const Shape& shape : problem->shapes)
-    {
-      shapes_.push_back(std::visit(MakeShape(), shape));
-      // A margin would round the corners. A sphere's is its radius.
-      if (shapes_.back()->getShapeType() != SPHERE_SHAPE_PROXYTYPE)
-        shapes_.back()->setMargin(0);
-    }
+      shapes_.push_back(bulletShape(shape, HullPoints::Corners));
     for (const Geometry& geometry : problem->world)
       world_.push_back(placed(geometry, geometry.pose));
   }
@@ -105,7 +49,7 @@ class BulletHulls : public PairwisePeer
 
   Placed placed(const Geometry& geometry, const Eigen::Isometry3d& pose) const
   {
-    Placed result{shapes_[geometry.tree].get(), toBullet(pose), {}, {}};
+    Placed result{shapes_[geometry.tree].get(), bulletPose(pose), {}, {}};
     result.shape->getAabb(result.pose, result.lower, result.upper);
     return result;
   }

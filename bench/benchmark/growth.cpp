@@ -110,10 +110,10 @@ class Growth
       cpu.push_back(1e6 * watch.cpuSeconds() / static_cast<double>(batch));
       wrong += wrongAnswers(info, answers, truth);
     }
-    const Updates::Result update = updates != nullptr ? updates->measure(info, method) : Updates::Result{NAN};
+    const Updates::Result update = updates != nullptr ? updates->measure(info, method) : Updates::Result();
     wrong_ += tellWrong("growth, " + std::to_string(amount) + " " + with, info, wrong + update.wrong);
     table_.add({with, amount, info.name, info.title, info.family, batch, median(wall), median(cpu), once.load,
-                once.build, update.seconds, validShare(truth)});
+                once.build, median(update.seconds), validShare(truth)});
     progress_.update(++done_);
   }
 

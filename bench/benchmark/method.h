@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,6 +14,14 @@
 
 namespace gpu_planning_scene::benchmark
 {
+/// What a method looks at, on average over some states. Not numbers where it does not count.
+struct WorkPerState
+{
+  double node_visits = NAN;  ///< of the trees, on the CPU: nodes and pairs of nodes
+  double candidates = NAN;   ///< see GpuWork
+  double root_pairs = NAN;
+};
+
 /// Something that answers for a scene which states are free.
 class Method
 {
@@ -24,6 +33,8 @@ class Method
   virtual bool update(const std::shared_ptr<const PlanningScene>& /*scene*/) { return false; }
   /// States of the last check that the GPU left to the CPU.
   virtual std::size_t undecided() const { return 0; }
+  /// Of checking these states at once; not to be timed.
+  virtual WorkPerState work(const double* /*states*/, std::size_t /*count*/) { return {}; }
   /// Of one that chooses: batches of fewer states went to the CPU.
   virtual std::optional<std::size_t> cpuBelow() { return std::nullopt; }
 };

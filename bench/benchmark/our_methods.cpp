@@ -1,4 +1,6 @@
 #include "benchmark/method.h"
+#include "collision/forest_cache.h"
+#include "collision/problem_maker.h"
 #include "gpu/program.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
@@ -34,11 +36,67 @@ class CheckerMethod : public Method
   std::size_t undecided_ = 0;
 };
 
-/// One that chooses between the GPU and the CPU.
-class ChoosingMethod : public CheckerMethod
+/// The exact checker alone.
+class CpuMethod : public CheckerMethod
 {
  public:
-  using CheckerMethod::CheckerMethod;
+  explicit CpuMethod(const std::shared_ptr<const PlanningScene>& scene)
+    : CheckerMethod(std::make_unique<CpuChecker>(scene)), scene_(scene)
+  {
+  }
+
+  bool update(const std::shared_ptr<const PlanningScene>& scene) override
+  {
+    scene_ = scene;
+    return CheckerMethod::update(scene);
+  }
+  /// As the checker does it on one core, with the order of pairs learned on the way.
+  WorkPerState work(const double* states, std::size_t count) override
+  {
+    const RobotModel& robot = *scene_->robot;
+    const auto traversal = ForestCache().traversalOf(
+        std::make_shared<const CollisionProblem>(ProblemMaker(CheckerOptions()).make(*scene_, "", nullptr)));
+    CpuTraversal::Scratch scratch;
+    std::vector<Eigen::Isometry3d> poses(robot.links().size());
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      robot.linkPoses(states + i * robot.variables().size(), poses.data());
+      traversal->firstCollision(poses.data(), scratch);
+    }
+    WorkPerState work;
+    work.node_visits = static_cast<double>(scratch.pair.steps) / static_cast<double>(count);
+    return work;
+  }
+
+ private:
+  std::shared_ptr<const PlanningScene> scene_;
+};
+
+/// One on the GPU, or that chooses between it and the CPU.
+class BatchMethod : public CheckerMethod
+{
+ public:
+  explicit BatchMethod(std::unique_ptr<BatchChecker> checker) : CheckerMethod(std::move(checker)) {}
+
+  WorkPerState work(const double* states, std::size_t count) override
+  {
+    check(states, count);
+    const GpuWork done = batchChecker().lastWork();
+    const auto all = static_cast<double>(done.states);
+    WorkPerState work;
+    if (done.states > 0)
+      work = {NAN, static_cast<double>(done.candidates) / all, static_cast<double>(done.root_pairs) / all};
+    return work;
+  }
+
+ protected:
+  BatchChecker& batchChecker() { return static_cast<BatchChecker&>(checker()); }
+};
+
+class ChoosingMethod : public BatchMethod
+{
+ public:
+  using BatchMethod::BatchMethod;
   std::optional<std::size_t> cpuBelow() override { return checker().report().cpu_below; }
 };
 
@@ -66,7 +124,7 @@ MethodInfo onGpu(const std::string& name, const std::string& title, Traversal tr
     BatchCheckerOptions made = batchOptions(options);
     made.traversal = traversal;
     made.cpu_below = 0;
-    return std::make_unique<CheckerMethod>(std::make_unique<BatchChecker>(scene, made));
+    return std::make_unique<BatchMethod>(std::make_unique<BatchChecker>(scene, made));
   };
   return info;
 }
@@ -103,7 +161,7 @@ class FloatsAlone : public Method
                      "found = found != 0u ? STATE_HIT : 0u;\n  if (found != 0u)");
     options.shader_folder = shaders_.path();
     options.cpu_below = 0;
-    checker_ = std::make_unique<CheckerMethod>(std::make_unique<BatchChecker>(scene, options));
+    checker_ = std::make_unique<BatchMethod>(std::make_unique<BatchChecker>(scene, options));
   }
 
   std::vector<std::uint8_t> check(const double* states, std::size_t count) override
@@ -111,10 +169,11 @@ class FloatsAlone : public Method
     return checker_->check(states, count);
   }
   std::size_t undecided() const override { return checker_->undecided(); }
+  WorkPerState work(const double* states, std::size_t count) override { return checker_->work(states, count); }
 
  private:
   ShaderFolder shaders_;
-  std::unique_ptr<CheckerMethod> checker_;
+  std::unique_ptr<BatchMethod> checker_;
 };
 }  // namespace
 
@@ -127,8 +186,7 @@ std::vector<MethodInfo> ourMethods()
   exact.family = "exact checker";
   exact.exact = true;
   exact.responsive = true;
-  exact.make = [](const auto& scene, const MethodOptions&)
-  { return std::make_unique<CheckerMethod>(std::make_unique<CpuChecker>(scene)); };
+  exact.make = [](const auto& scene, const MethodOptions&) { return std::make_unique<CpuMethod>(scene); };
   methods.push_back(exact);
   methods.push_back(automatic(0));
   methods.push_back(onGpu("ours_work_queue", "ours, work queues", Traversal::WorkQueue));

@@ -34,6 +34,8 @@ std::size_t measureThroughput(const Settings& settings);
 std::size_t measureLatency(const Settings& settings);
 /// build.csv
 std::size_t measureBuilds(const Settings& settings);
+/// updates.csv
+std::size_t measureMovedObjects(const Settings& settings);
 /// growth.csv
 std::size_t measureGrowth(const Settings& settings);
 /// mesh_pairs.csv

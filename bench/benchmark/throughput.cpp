@@ -22,6 +22,7 @@ namespace gpu_planning_scene::benchmark
 namespace
 {
 constexpr std::size_t kTrial = 64;            // states of the first trial
+constexpr std::size_t kWorkStates = 4096;     // at most, whose work is counted
 constexpr std::size_t kErrorsMeasured = 100;  // of a method's wrong answers of each kind
 
 /// A method with one batch size.
@@ -155,7 +156,10 @@ class Tables
                    "cpu_us_a_state",
                    "undecided_share",
                    "of_fcl_ordered",
-                   "cpu_below"}),
+                   "cpu_below",
+                   "node_visits_a_state",
+                   "candidates_a_state",
+                   "root_pairs_a_state"}),
       accuracy_(folder, "accuracy.csv",
                 {"scene", "kind", "padding_m", "method", "title", "family", "claims_exact", "states", "open",
                  "wrong_free", "wrong_collision", "wrong_per_million", "measured", "largest_clearance_m",
@@ -168,6 +172,8 @@ class Tables
   {
     const PlanningScene& scene = *batch.scene->scene;
     const auto [least, most] = std::minmax_element(run.rates.begin(), run.rates.end());
+    const std::size_t batch_size = run.batch == 0 ? run.count : run.batch;
+    const WorkPerState work = run.method->work(batch.states.data(), std::min({run.count, batch_size, kWorkStates}));
     throughput_.add({batch.scene->name,
                      scene.robot->name(),
                      scene.robot->triangleCount(),
@@ -178,7 +184,7 @@ class Tables
                      run.info->name,
                      run.info->title,
                      run.info->family,
-                     run.batch == 0 ? run.count : run.batch,
+                     batch_size,
                      run.count,
                      run.rates.size(),
                      median(run.rates),
@@ -188,7 +194,10 @@ class Tables
                      median(run.cpu),
                      static_cast<double>(run.undecided) / static_cast<double>(run.count),
                      ratioTo(kOrderedMethod, run, runs),
-                     cpuBelow(*run.method)});
+                     cpuBelow(*run.method),
+                     work.node_visits,
+                     work.candidates,
+                     work.root_pairs});
   }
 
   /// Returns how many answers are wrong.

@@ -1,7 +1,5 @@
 #include "benchmark/updates.h"
 
-#include <limits>
-
 #include "benchmark/statistics.h"
 #include "benchmark/truth.h"
 
@@ -29,25 +27,27 @@ Updates::Updates(const TestScene& scene, std::size_t repeats) : states_(scene.ra
 
 Updates::Result Updates::measure(const MethodInfo& info, Method& method) const
 {
-  Result result{std::numeric_limits<double>::quiet_NaN()};
-  std::vector<double> times;
-  for (const Update& update : updates_)
+  Result result;
+  const std::size_t width = states_.size() / kStates;
+  for (std::size_t i = 0; i < updates_.size(); ++i)
   {
+    const Update& update = updates_[i];
+    const std::size_t row = i % kStates;
     bool taken = false;
     std::vector<std::uint8_t> answer;
-    times.push_back(secondsOf(
+    const double seconds = secondsOf(
         [&]
         {
           taken = method.update(update.scene);
-          answer = method.check(states_.data(), 1);
-        }));
+          answer = method.check(&states_[row * width], 1);
+        });
     if (!taken)
-      return result;
-    result.wrong += wrongAnswers(info, answer, update.truth);
+      return {};
+    if (i > 0)
+      result.seconds.push_back(seconds);
+    result.wrong += wrongAnswers(info, answer, update.truth, row);
     result.wrong += wrongAnswers(info, method.check(states_.data(), kStates), update.truth);
   }
-  if (times.size() > 1)
-    result.seconds = median({times.begin() + 1, times.end()});
   return result;
 }
 }  // namespace gpu_planning_scene::benchmark

@@ -15,8 +15,8 @@ class Updates
  public:
   struct Result
   {
-    double seconds;         ///< median; not a number for a method that has to be built anew, or without objects
-    std::size_t wrong = 0;  ///< answers, if the method is to be exact
+    std::vector<double> seconds;  ///< of each; none for a method that has to be built anew, or without objects
+    std::size_t wrong = 0;        ///< answers, if the method is to be exact
   };
 
   /// `repeats`: updates that are measured, after one that is not.

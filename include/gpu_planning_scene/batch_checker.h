@@ -29,6 +29,14 @@ struct BatchCheckerOptions : CheckerOptions
   std::string shader_folder;  ///< empty: where they were installed, or the source tree's (see shaderFolder())
 };
 
+/// What the GPU looked at, over all states.
+struct GpuWork
+{
+  std::size_t states = 0;      ///< that went to it
+  std::size_t candidates = 0;  ///< pairs of instances, by state, whose spheres or outer boxes overlap
+  std::size_t root_pairs = 0;  ///< of them, those whose root boxes overlap: these are traversed
+};
+
 /// Checks states on the GPU: forward kinematics, root tests, tree traversal, triangle tests; undecided states go to a
 /// double-precision traversal of the same trees on the CPU. Owns a GL context and the thread that it is current on.
 class BatchChecker : public StateChecker
@@ -43,6 +51,8 @@ class BatchChecker : public StateChecker
   SceneReport report(const std::string& group = "") override;
   std::string deviceName() const override;
   std::string deviceWarning() const override;
+  /// Of the last call of `check`. The GPU counts these in any case: to know them costs nothing.
+  GpuWork lastWork() const;
 
  private:
   struct Impl;

@@ -59,6 +59,7 @@ struct BatchChecker::Impl
   std::optional<std::size_t> fixed_threshold;
   CpuScene on_cpu;
   BatchEngine engine;
+  GpuWork work;                               // of the last batch
   std::optional<std::string> selected_group;  // whose pairs the engine has now
   std::map<std::string, Threshold> thresholds;
 };
@@ -75,6 +76,7 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
     selected_group = group;
   }
   engine.check(states, count, result);
+  work = engine.lastWork();
 }
 
 /// Splits off the states that the group's problem does not hold for, which only the CPU can answer.
@@ -197,6 +199,7 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
   refuseNonFinite(*scene.robot, states, count);
   if (count != 0 && !decided)
     impl_->threshold(group, states, count);  // measured now, if it must be, and not as part of the check
+  impl_->work = {};
   BatchResult result;
   result.revision = scene.revision;
   const Clock::time_point start = Clock::now();
@@ -212,6 +215,12 @@ SceneReport BatchChecker::report(const std::string& group)
   if (!report.always_colliding)
     report.cpu_below = impl_->threshold(group, nullptr, 0);
   return report;
+}
+
+GpuWork BatchChecker::lastWork() const
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  return impl_->work;
 }
 
 std::string BatchChecker::deviceWarning() const

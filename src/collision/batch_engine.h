@@ -42,6 +42,9 @@ class BatchEngine
   void checkPoses(std::size_t count, std::size_t link_count, const UploadedPoses::LinkPoses& link_poses,
                   BatchResult& result);
 
+  /// Of the last batch.
+  const GpuWork& lastWork() const { return pairs_->lastWork(); }
+
   const Device& device() const { return gl_.device(); }
   /// See GpuPairChecker.
   const std::string& floatFault() const { return pairs_->floatFault(); }

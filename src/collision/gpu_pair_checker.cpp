@@ -99,6 +99,7 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
 {
   verdicts.flags.assign(count, 0);
   verdicts.hits.assign(count, 0);
+  work_ = {};
   if (scene_.robotCount() == 0)
     return;
   using Clock = std::chrono::steady_clock;
@@ -161,13 +162,16 @@ void GpuPairChecker::finish(PoseSource& source, Part& part, Verdicts& verdicts)
   }
 }
 
-bool GpuPairChecker::fetch(const Part& part, Verdicts& verdicts) const
+bool GpuPairChecker::fetch(const Part& part, Verdicts& verdicts)
 {
   const AnswerOffsets offsets(part.count);
   std::vector<std::uint32_t> words(offsets.end / sizeof(std::uint32_t), ~0U);
   part.answers.read(words.data(), offsets.end);
   if (words[COUNTER_OVERFLOW] != 0 || words[COUNTER_DONE] != part.serial)
     return false;
+  work_.states += part.count;
+  work_.candidates += words[COUNTER_CANDIDATES];
+  work_.root_pairs += words[COUNTER_ITEMS];
   const auto flags = words.begin() + static_cast<std::ptrdiff_t>(offsets.flags / sizeof(std::uint32_t));
   const auto hits = words.begin() + static_cast<std::ptrdiff_t>(offsets.hits / sizeof(std::uint32_t));
   std::copy_n(flags, part.count, verdicts.flags.begin() + static_cast<std::ptrdiff_t>(part.begin));

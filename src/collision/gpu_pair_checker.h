@@ -44,6 +44,9 @@ class GpuPairChecker
   /// overflow is split; a single state that still overflows is undecided.
   void check(PoseSource& source, std::size_t count, Verdicts& verdicts);
 
+  /// Of the last check; parts whose lists overflowed count once they were split.
+  const GpuWork& lastWork() const { return work_; }
+
   /// Indices of a reported pair: into CollisionProblem::robot, and into robot, world and half-spaces in succession.
   static std::pair<std::uint32_t, std::uint32_t> pairOf(std::uint32_t hit);
 
@@ -59,7 +62,7 @@ class GpuPairChecker
 
   void start(PoseSource& source, Part& part);
   void finish(PoseSource& source, Part& part, Verdicts& verdicts);
-  bool fetch(const Part& part, Verdicts& verdicts) const;
+  bool fetch(const Part& part, Verdicts& verdicts);
   void adaptPartSize(std::size_t count, double seconds);
   void testHalfSpaces(std::uint32_t states);
   void findCandidates(std::uint32_t states);
@@ -77,6 +80,7 @@ class GpuPairChecker
   std::size_t part_size_;   // at most part_limit_
   std::uint32_t serial_ = 0;
   std::array<Part, 2> parts_;
+  GpuWork work_;
   BatchLists lists_;
   std::unique_ptr<GpuTraversal> traversal_;
   ArgumentsKernel arguments_;
