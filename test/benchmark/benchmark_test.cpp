@@ -123,6 +123,17 @@ TEST(Benchmark, TellsRightFromWrongAnswers)
     EXPECT_GT(number(row, "of_fcl_ordered"), 0.0) << row.at("method");
     EXPECT_EQ(row.at("cpu_below").empty(), row.at("method") != "ours_auto") << row.at("method");
     EXPECT_GT(number(row, "valid_share"), 0.1);
+    EXPECT_EQ(number(row, "node_visits_a_state") > 0.0, row.at("method") == "exact_cpu") << row.at("method");
+    const bool on_gpu = row.at("method") == "ours_work_queue" || row.at("method") == "ours_breadth_first";
+    if (row.at("method") != "ours_auto")
+    {
+      EXPECT_EQ(row.at("root_pairs_a_state").empty(), !on_gpu) << row.at("method");
+    }
+    if (on_gpu)
+    {
+      EXPECT_GT(number(row, "root_pairs_a_state"), 0.0) << row.at("method");
+      EXPECT_GE(number(row, "candidates_a_state"), number(row, "root_pairs_a_state")) << row.at("method");
+    }
   }
 }
 
@@ -156,7 +167,7 @@ TEST(Benchmark, FailsWhereATimedAnswerIsWrong)
   const ShaderFolder shaders;
   shaders.replace("verdicts.glsl", "atomicOr(flags[state], found);", "");
   setenv("GPU_PLANNING_SCENE_SHADERS", shaders.path().c_str(), 1);
-  for (const std::string part : {"latency", "build", "growth"})
+  for (const std::string part : {"latency", "build", "updates", "growth"})
   {
     const ProgramOutput output =
         runBenchmark(folder.path(), {"--parts", part, "--scenes", "arm_boxes", "--methods", "ours_work_queue"});
@@ -179,6 +190,7 @@ TEST(Benchmark, WritesEveryTableAndTheChartsAreDrawn)
       {"accuracy", {"scene", "kind", "method", "batch", "wrong_per_million", "largest_error_m"}},
       {"latency", {"scene", "method", "batch", "p50_us", "p99_us", "of_fcl_obbrss"}},
       {"build", {"scene", "method", "load_robot_s", "build_s", "update_s", "peak_host_mib", "device_mib"}},
+      {"updates", {"robot", "objects", "method", "updates", "p50_ms", "p99_ms"}},
       {"growth", {"with", "amount", "method", "us_a_state", "build_s", "update_s", "valid_share"}},
       {"mesh_pairs", {"triangles", "distance_m", "method", "us_a_pose", "wrong"}}};
   for (const auto& [name, columns] : expected)
