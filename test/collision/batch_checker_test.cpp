@@ -112,6 +112,32 @@ TEST_F(BatchCheckerTest, ChecksNoStatesAtAll)
   EXPECT_TRUE(checker.check(nullptr, 0).valid.empty());
 }
 
+/// In the state that touches, a link's root box meets the post's; states at once count one by one, however they are
+/// cut.
+TEST_F(BatchCheckerTest, CountsWhatTheGpuLookedAt)
+{
+  BatchChecker checker(scene_, with(Traversal::WorkQueue, 2));
+  checker.check(touching_.data(), 1);
+  const GpuWork one = checker.lastWork();
+  EXPECT_EQ(one.states, 1U);
+  EXPECT_GE(one.root_pairs, 1U);
+  EXPECT_GE(one.candidates, one.root_pairs);
+  std::vector<double> five;
+  for (int i = 0; i < 5; ++i)
+    five.insert(five.end(), touching_.begin(), touching_.end());
+  checker.check(five.data(), 5);
+  EXPECT_EQ(checker.lastWork().states, 5U);
+  EXPECT_EQ(checker.lastWork().candidates, 5 * one.candidates);
+  checker.check(nullptr, 0);
+  EXPECT_EQ(checker.lastWork().states, 0U);
+
+  BatchCheckerOptions on_cpu = with(Traversal::WorkQueue);
+  on_cpu.cpu_below = 100;
+  BatchChecker on_cpu_only(scene_, on_cpu);
+  on_cpu_only.check(touching_.data(), 1);
+  EXPECT_EQ(on_cpu_only.lastWork().states, 0U);
+}
+
 TEST_F(BatchCheckerTest, RefusesValuesThatAreNotFiniteAndUnknownGroups)
 {
   BatchChecker checker(scene_, with(Traversal::WorkQueue));
