@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-
-#include <Eigen/Eigenvalues>
+#include <vector>
 
 namespace gpu_planning_scene::volumes
 {
@@ -15,6 +14,7 @@ using Eigen::Vector3d;
 
 constexpr int kBallSteps = 50;
 constexpr Eigen::Index kMostSamples = 96;  // points by which an oriented box's axes are chosen
+constexpr std::size_t kTurned = 3;         // of the axes to choose of
 constexpr double kPi = 3.14159265358979323846;
 
 Vector3d sizesAlong(const Matrix3d& axes, const Points& points)
@@ -30,15 +30,10 @@ Vector3d sizesAlong(const Matrix3d& axes, const Points& points)
   return upper - lower;
 }
 
-double halfSurface(const Vector3d& sizes)
-{
-  return sizes.x() * sizes.y() + sizes.y() * sizes.z() + sizes.z() * sizes.x();
-}
-
 /// Turns the axes in smaller and smaller steps until the box's surface is least.
 double improve(Matrix3d& axes, const Points& points)
 {
-  double best = halfSurface(sizesAlong(axes, points));
+  double best = surfaceMeasure(sizesAlong(axes, points));
   for (const double step : {kPi / 12.0, kPi / 40.0, kPi / 160.0})
     for (bool better = true; better;)
     {
@@ -47,7 +42,7 @@ double improve(Matrix3d& axes, const Points& points)
       {
         const double angle = turn % 2 == 0 ? step : -step;
         const Matrix3d turned = axes * Eigen::AngleAxisd(angle, Vector3d::Unit(turn / 2)).toRotationMatrix();
-        const double surface = halfSurface(sizesAlong(turned, points));
+        const double surface = surfaceMeasure(sizesAlong(turned, points));
         if (surface < best * (1.0 - 1e-6))
         {
           best = surface;
@@ -59,35 +54,27 @@ double improve(Matrix3d& axes, const Points& points)
   return best;
 }
 
-Matrix3d mainAxes(const Points& points)
+/// Points come three a triangle.
+std::vector<Triangle> trianglesOf(const Points& points)
 {
-  const Vector3d mean = points.rowwise().mean();
-  const Matrix3Xd off = points.colwise() - mean;
-  Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(off * off.transpose()).eigenvectors();
-  if (axes.determinant() < 0.0)
-    axes.col(0) = -axes.col(0);
-  return axes;
+  std::vector<Triangle> triangles;
+  for (Eigen::Index i = 0; i + 2 < points.cols(); i += 3)
+    triangles.push_back({points.col(i), points.col(i + 1), points.col(i + 2)});
+  return triangles;
 }
 
-/// An edge of the largest triangle, its normal, and what is normal to both.
-Matrix3d axesOfLargestTriangle(const Points& points)
+TriangleSpread spreadOf(const std::vector<Triangle>& triangles)
 {
-  Matrix3d axes = Matrix3d::Identity();
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i + 2 < points.cols(); i += 3)
-  {
-    const Vector3d edge = points.col(i + 1) - points.col(i);
-    const Vector3d normal = edge.cross(points.col(i + 2) - points.col(i));
-    // Slivers have no clear normal.
-    if (normal.norm() > std::max(largest, 1e-9 * edge.squaredNorm()))
-    {
-      largest = normal.norm();
-      axes.col(0) = edge.normalized();
-      axes.col(2) = normal.normalized();
-      axes.col(1) = axes.col(2).cross(axes.col(0));
-    }
-  }
-  return axes;
+  TriangleSpread spread(triangles.front());
+  for (std::size_t i = 1; i < triangles.size(); ++i)
+    spread = TriangleSpread(spread, TriangleSpread(triangles[i]));
+  return spread;
+}
+
+OwnAxesBox grown(OrientedBox box)
+{
+  box.half.array() += kGrowth;
+  return {box};
 }
 
 /// At most kMostSamples of the points.
@@ -125,13 +112,22 @@ AxisBox AxisBox::fit(const Points& points)
   return {0.5 * (lower + upper), 0.5 * (upper - lower) + Vector3d::Constant(kGrowth)};
 }
 
-OrientedBox OrientedBox::fit(const Points& points)
+FittedBox FittedBox::fit(const Points& points)
 {
+  const std::vector<Triangle> triangles = trianglesOf(points);
+  return {grown(fitOrientedBox(spreadOf(triangles), triangles.data(), triangles.size()))};
+}
+
+TurnedBox TurnedBox::fit(const Points& points)
+{
+  const std::vector<Triangle> triangles = trianglesOf(points);
+  const AxesChoice choice = axesChoice(spreadOf(triangles));
   const Matrix3Xd samples = sampled(points);
-  Matrix3d best_axes = Matrix3d::Identity();
+  Matrix3d best_axes;
   double least = std::numeric_limits<double>::infinity();
-  for (Matrix3d axes : {Matrix3d(Matrix3d::Identity()), mainAxes(points), axesOfLargestTriangle(points)})
+  for (std::size_t i = 0; i < std::min(choice.count, kTurned); ++i)
   {
+    Matrix3d axes = choice.axes[i];
     const double surface = improve(axes, samples);
     if (surface < least)
     {
@@ -141,7 +137,6 @@ OrientedBox OrientedBox::fit(const Points& points)
   }
   // Turn upon turn has gathered rounding errors.
   best_axes = Eigen::Quaterniond(best_axes).normalized().toRotationMatrix();
-  const AxisBox box = AxisBox::fit(best_axes.transpose() * points);
-  return {best_axes, best_axes * box.center, box.half};
+  return {grown(boxAlong(best_axes, triangles.data(), triangles.size()))};
 }
 }  // namespace gpu_planning_scene::volumes

@@ -112,21 +112,10 @@ struct AxisBoxByAllAxes : AxisBox
 };
 
 /// A box with axes of its own (OBB), tested along all 15.
-struct OrientedBox
+struct OwnAxesBox : OrientedBox
 {
   static constexpr std::size_t kBytes = 15 * kFloat;
 
-  Eigen::Matrix3d axes;  // columns
-  Eigen::Vector3d center;
-  Eigen::Vector3d half;
-
-  /// Of several boxes, each turned until no small turn makes its surface smaller, the one with the least surface: from
-  /// the frame's axes, the main axes of the points, and those of the largest triangle (three points each).
-  static OrientedBox fit(const Points& points);
-  bool holds(const Eigen::Vector3d& point) const
-  {
-    return ((axes.transpose() * (point - center)).cwiseAbs().array() <= half.array()).all();
-  }
   double size() const { return half.squaredNorm(); }
 
   class Test
@@ -135,29 +124,41 @@ struct OrientedBox
     explicit Test(const Eigen::Isometry3d& b_in_a) : b_in_a_(b_in_a) {}
     bool overlap(const OrientedBox& a, const OrientedBox& b) const
     {
-      const Eigen::Matrix3d axes_b = b_in_a_.linear() * b.axes;
-      const Eigen::Vector3d between = b_in_a_ * b.center - a.center;
-      return BoxPairTest(a.axes.transpose() * axes_b).overlap(a.half, b.half, a.axes.transpose() * between);
+      return gpu_planning_scene::overlap(a, placed(b, b_in_a_), 0.0);
     }
 
    private:
     Eigen::Isometry3d b_in_a_;
   };
 };
+
+/// As the CPU checker fits them.
+struct FittedBox : OwnAxesBox
+{
+  static FittedBox fit(const Points& points);
+};
+
+/// Of several boxes, each turned until no small turn makes its surface smaller, the one with the least surface: from
+/// the frame's axes, the main axes of the points, and those of the largest triangle (three points each).
+struct TurnedBox : OwnAxesBox
+{
+  static TurnedBox fit(const Points& points);
+};
+
 /// An AABB, and an oriented box where a node has no more triangles than a leaf: tested where both have one, so before
 /// triangles are.
 struct AxisBoxOrientedLeaf
 {
-  static constexpr std::size_t kBytes = AxisBox::kBytes + OrientedBox::kBytes / 2;  // half of a tree's nodes are leaves
+  static constexpr std::size_t kBytes = AxisBox::kBytes + OwnAxesBox::kBytes / 2;  // half of a tree's nodes are leaves
 
   AxisBoxByAllAxes box;
   bool leaf;
-  OrientedBox oriented;  // where it is one
+  TurnedBox oriented;  // where it is one
 
   static AxisBoxOrientedLeaf fit(const Points& points)
   {
     const bool leaf = points.cols() <= 3 * kLeafTriangles;
-    return {AxisBoxByAllAxes::fit(points), leaf, leaf ? OrientedBox::fit(points) : OrientedBox{}};
+    return {AxisBoxByAllAxes::fit(points), leaf, leaf ? TurnedBox::fit(points) : TurnedBox{}};
   }
   bool holds(const Eigen::Vector3d& point) const { return box.holds(point) && (!leaf || oriented.holds(point)); }
   double size() const { return box.size(); }
@@ -173,7 +174,7 @@ struct AxisBoxOrientedLeaf
 
    private:
     AxisBoxByAllAxes::Test boxes_;
-    OrientedBox::Test leaves_;
+    OwnAxesBox::Test leaves_;
   };
 };
 }  // namespace gpu_planning_scene::volumes

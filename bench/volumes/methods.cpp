@@ -86,7 +86,8 @@ std::vector<std::unique_ptr<Method>> makeMethods(const PlacedPairs& placed)
   addMethods<AxisBoxByFaces<true>>("AABB, 6 axes", placed, methods);
   addMethods<AxisBoxByFaces<false>>("AABB around b's, 3 axes", placed, methods);
   addMethods<Sphere>("sphere", placed, methods);
-  addMethods<OrientedBox>("OBB, 15 axes", placed, methods);
+  addMethods<FittedBox>("OBB as fitted", placed, methods);
+  addMethods<TurnedBox>("OBB, 15 axes", placed, methods);
   addMethods<AxisBoxOrientedLeaf>("AABB, OBB at leaves", placed, methods);
   addMethods<Dop<14, false>>("14-DOP, slabs of a", placed, methods);
   addMethods<Dop<14, true>>("14-DOP, slabs of both", placed, methods);

@@ -36,6 +36,6 @@ class Method
   std::size_t bytes_;
 };
 
-/// All volumes under all schemes, the one of the CPU checker first. They keep a reference to `placed`.
+/// All volumes under all schemes, AABBs first. They keep a reference to `placed`.
 std::vector<std::unique_ptr<Method>> makeMethods(const PlacedPairs& placed);
 }  // namespace gpu_planning_scene::volumes

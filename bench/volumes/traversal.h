@@ -36,7 +36,7 @@ std::vector<std::vector<Volume>> fitVolumes(const PlacedPairs& placed)
     std::vector<std::array<std::uint32_t, 2>> ranges(tree.nodes.size());
     for (std::size_t i = tree.nodes.size(); i-- > 0;)
     {
-      const Node& node = tree.nodes[i];
+      const CpuNode& node = tree.nodes[i];
       if (node.count != 0)
         ranges[i] = {node.first, node.first + node.count};
       else
@@ -140,8 +140,8 @@ class Traversal
       return false;
     const CpuTree& tree_a = placed_.forest.tree(pair.a);
     const CpuTree& tree_b = placed_.forest.tree(pair.b);
-    const Node& a = tree_a.nodes[item.a];
-    const Node& b = tree_b.nodes[item.b];
+    const CpuNode& a = tree_a.nodes[item.a];
+    const CpuNode& b = tree_b.nodes[item.b];
     bool open_a = a.count == 0;
     bool open_b = b.count == 0;
     if (!open_a && !open_b)
@@ -159,7 +159,7 @@ class Traversal
   }
 
   template <class Count>
-  static bool leavesMeet(const CpuTree& tree_a, const Node& a, const CpuTree& tree_b, const Node& b,
+  static bool leavesMeet(const CpuTree& tree_a, const CpuNode& a, const CpuTree& tree_b, const CpuNode& b,
                          const Eigen::Isometry3d& b_in_a, std::size_t level, Count& count)
   {
     count.leafPair(level);

@@ -10,6 +10,7 @@
 #include "collision_problem.h"
 #include "components.h"
 #include "forest.h"
+#include "oriented_box.h"
 #include "triangle_pair.h"
 
 namespace gpu_planning_scene
@@ -23,17 +24,29 @@ inline Eigen::Vector3d halfOf(const Node& node)
   return {node.half[0], node.half[1], node.half[2]};
 }
 
+/// A node of a shape's tree: two cache lines, so that all of it is at hand where one is looked at.
+struct alignas(64) CpuNode
+{
+  OrientedBox box;      ///< holds the triangles below the node
+  std::uint32_t first;  ///< inner node: its children are nodes first and first + 1; leaf: its first triangle
+  std::uint32_t count;  ///< 0: inner node; otherwise the number of a leaf's triangles
+
+  bool isLeaf() const { return count != 0; }
+};
+static_assert(sizeof(CpuNode) == 128, "two cache lines");
+
 /// A shape's tree with what the CPU's queries want to know of it, laid out for these. Immutable.
 struct CpuTree
 {
   Shape shape;
-  Eigen::Vector3d center;  ///< of a box that holds the shape: its true surface, not only its tessellation
-  Eigen::Vector3d half;
   bool mesh;
+  Eigen::Vector3d center;  ///< of a box along the frame's axes that holds the shape, not only its tessellation
+  Eigen::Vector3d half;
+  OrientedBox box;                   ///< holds the shape as well
   MeshComponents parts;              ///< of a mesh
   Eigen::AlignedBox3d solid_bounds;  ///< of the closed components together; empty if there are none
 
-  std::vector<Node> nodes;                 ///< node 0 is the root
+  std::vector<CpuNode> nodes;              ///< node 0 is the root; children come after their parents
   std::vector<Triangle> triangles;         ///< in the order of the leaves, which index them
   std::vector<std::uint8_t> bounds_solid;  ///< one per triangle: 1 if it is one of a closed component
 };

@@ -31,8 +31,8 @@ Isometry3d relativePose(const Isometry3d& a, const Isometry3d& b)
   return b_in_a;
 }
 
-bool leavesMeet(const CpuTree& tree_a, const Node& a, const CpuTree& tree_b, const Node& b, const Isometry3d& b_in_a,
-                double required)
+bool leavesMeet(const CpuTree& tree_a, const CpuNode& a, const CpuTree& tree_b, const CpuNode& b,
+                const Isometry3d& b_in_a, double required)
 {
   for (std::uint32_t j = b.first; j < b.first + b.count; ++j)
   {
@@ -86,8 +86,7 @@ bool CpuShapePair::collide(std::uint32_t a, const Isometry3d& pose_a, std::uint3
   const CpuTree& tree_a = forest_->tree(a);
   const CpuTree& tree_b = forest_->tree(b);
   const Isometry3d b_in_a = relativePose(pose_a, pose_b);
-  const Vector3d grown = tree_a.half.array() + (required + kBoxMargin);
-  if (!BoxPairTest(b_in_a.linear()).overlap(grown, tree_b.half, b_in_a * tree_b.center - tree_a.center))
+  if (!overlap(tree_a.box, placed(tree_b.box, b_in_a), required + kBoxMargin))
   {
     return false;
   }
@@ -115,7 +114,6 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
 {
   const Shape& shape = solid.shape;
   const bool box = std::holds_alternative<Box>(shape);
-  const BoxPairTest pair_test(mesh_in_solid.linear());
   const double margin = required + kBoxMargin;
   const Vector3d grown = solid.half.array() + margin;
   const double near_enough = required + tolerance_ - kToleranceMargin;
@@ -123,19 +121,18 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
   scratch.nodes.assign(1, 0);
   while (!scratch.nodes.empty())
   {
-    const Node& node = mesh.nodes[scratch.nodes.back()];
+    const CpuNode& node = mesh.nodes[scratch.nodes.back()];
     scratch.nodes.pop_back();
     ++scratch.steps;
-    const Vector3d half = halfOf(node);
-    const Vector3d center = mesh_in_solid * centerOf(node);
-    if (!pair_test.overlap(grown, half, center))
+    const OrientedBox around = placed(node.box, mesh_in_solid);
+    if (!BoxPairTest(around.axes).overlap(grown, around.half, around.center))
     {
       continue;
     }
     if (!box || required > 0.0 || tolerance_ > 0.0)
     {
-      const double distance = distanceToSolid(shape, center);
-      const double radius = half.norm();
+      const double distance = distanceToSolid(shape, around.center);
+      const double radius = around.half.norm();
       if (distance > radius + margin)
       {
         continue;
@@ -146,7 +143,7 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
         return true;
       }
     }
-    if (node.count == 0)
+    if (!node.isLeaf())
     {
       scratch.nodes.push_back(node.first);
       scratch.nodes.push_back(node.first + 1);
@@ -164,56 +161,51 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
   return false;
 }
 
-/// Simultaneous traversal: the pairs of overlapping nodes, of which the larger is opened.
+/// Simultaneous traversal of nodes whose boxes overlap, as the roots' do: of each two the larger is opened.
 /// With a tolerance it ends at two nodes whose centres are so close that no point of one is further from a point of the
 /// other than the required distance and the tolerance: each node holds a triangle, all of which is within the node's
-/// radius (half its diagonal) of its centre. Nodes without required distance that overlap, with diagonals that add up
-/// to no more than the tolerance, are such: their centres are no further apart than the sum of the radii, which is half
-/// the tolerance. For a required distance v the overlap of boxes grown by v would prove less, as their corners reach as
-/// far as v times the root of 3.
+/// radius (half the diagonal of its box) of the box's centre. Nodes without required distance that overlap, with
+/// diagonals that add up to no more than the tolerance, are such: their centres are no further apart than the sum of
+/// the radii, which is half the tolerance. For a required distance v the overlap of boxes grown by v would prove less,
+/// as their corners reach as far as v times the root of 3.
 bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, double required,
                                 Scratch& scratch) const
 {
-  const BoxPairTest pair_test(b_in_a.linear());
-  const Eigen::Array3d growth = Eigen::Array3d::Constant(required + kBoxMargin);
+  const Isometry3d a_in_b = b_in_a.inverse();
+  const double growth = required + kBoxMargin;
   const double near_enough = required + tolerance_ - kToleranceMargin;
   scratch.node_pairs.assign(1, {0, 0});
   while (!scratch.node_pairs.empty())
   {
     const auto [index_a, index_b] = scratch.node_pairs.back();
     scratch.node_pairs.pop_back();
-    ++scratch.steps;
-    const Node& node_a = a.nodes[index_a];
-    const Node& node_b = b.nodes[index_b];
-    const Vector3d half_a = halfOf(node_a).array() + growth;
-    const Vector3d half_b = halfOf(node_b);
-    const Vector3d from_a_to_b = b_in_a * centerOf(node_b) - centerOf(node_a);
-    if (!pair_test.overlap(half_a, half_b, from_a_to_b))
-    {
-      continue;
-    }
-    if (tolerance_ > 0.0 && from_a_to_b.norm() + halfOf(node_a).norm() + half_b.norm() <= near_enough)
-    {
-      return true;
-    }
-    const bool leaf_a = node_a.count != 0;
-    const bool leaf_b = node_b.count != 0;
-    if (leaf_a && leaf_b)
+    const CpuNode& node_a = a.nodes[index_a];
+    const CpuNode& node_b = b.nodes[index_b];
+    if (node_a.isLeaf() && node_b.isLeaf())
     {
       if (leavesMeet(a, node_a, b, node_b, b_in_a, required))
       {
         return true;
       }
+      continue;
     }
-    else if (leaf_b || (!leaf_a && half_a.squaredNorm() >= half_b.squaredNorm()))
+    const bool open_a =
+        node_b.isLeaf() || (!node_a.isLeaf() && node_a.box.half.squaredNorm() >= node_b.box.half.squaredNorm());
+    const OrientedBox other = open_a ? placed(node_b.box, b_in_a) : placed(node_a.box, a_in_b);
+    const std::uint32_t first = open_a ? node_a.first : node_b.first;
+    for (const std::uint32_t child : {first, first + 1})
     {
-      scratch.node_pairs.push_back({node_a.first, index_b});
-      scratch.node_pairs.push_back({node_a.first + 1, index_b});
-    }
-    else
-    {
-      scratch.node_pairs.push_back({index_a, node_b.first});
-      scratch.node_pairs.push_back({index_a, node_b.first + 1});
+      const OrientedBox& box = (open_a ? a : b).nodes[child].box;
+      ++scratch.steps;
+      if (!overlap(box, other, growth))
+      {
+        continue;
+      }
+      if (tolerance_ > 0.0 && (box.center - other.center).norm() + box.half.norm() + other.half.norm() <= near_enough)
+      {
+        return true;
+      }
+      scratch.node_pairs.push_back({open_a ? child : index_a, open_a ? index_b : child});
     }
   }
   return false;
@@ -232,14 +224,15 @@ bool CpuShapePair::collide(std::uint32_t number, const Isometry3d& pose, const P
   scratch.nodes.assign(1, 0);
   while (!scratch.nodes.empty())
   {
-    const Node& node = tree.nodes[scratch.nodes.back()];
+    const CpuNode& node = tree.nodes[scratch.nodes.back()];
     scratch.nodes.pop_back();
     ++scratch.steps;
-    if (normal.dot(centerOf(node)) - normal.cwiseAbs().dot(halfOf(node)) > most + kBoxMargin)
+    const double reach = (node.box.axes.transpose() * normal).cwiseAbs().dot(node.box.half);
+    if (normal.dot(node.box.center) - reach > most + kBoxMargin)
     {
       continue;
     }
-    if (node.count == 0)
+    if (!node.isLeaf())
     {
       scratch.nodes.push_back(node.first);
       scratch.nodes.push_back(node.first + 1);

@@ -15,29 +15,30 @@ using Eigen::Vector3d;
 /// Far above the rounding of the box test, for coordinates of up to kilometres.
 constexpr double kBoxMargin = 1e-9;  // metres
 
-/// Whether a segment and an axis-aligned box overlap, by their separating axes; never misses an overlap.
+/// Whether a segment and a box overlap, by their separating axes; never misses an overlap.
 class SegmentBoxTest
 {
  public:
-  SegmentBoxTest(const Vector3d& start, const Vector3d& end)
-    : center_(0.5 * (start + end)), half_(0.5 * (end - start)), abs_half_(half_.cwiseAbs())
+  SegmentBoxTest(const Vector3d& start, const Vector3d& end) : center_(0.5 * (start + end)), half_(0.5 * (end - start))
   {
   }
 
-  bool overlap(const Vector3d& box_center, const Vector3d& box_half) const
+  bool overlap(const OrientedBox& box) const
   {
-    const Vector3d grown = box_half.array() + kBoxMargin;
-    const Vector3d between = center_ - box_center;
-    if ((between.cwiseAbs().array() > (grown + abs_half_).array()).any())
+    const Vector3d grown = box.half.array() + kBoxMargin;
+    const Vector3d between = box.axes.transpose() * (center_ - box.center);
+    const Vector3d half = box.axes.transpose() * half_;
+    const Vector3d abs_half = half.cwiseAbs();
+    if ((between.cwiseAbs().array() > (grown + abs_half).array()).any())
     {
       return false;
     }
-    const Vector3d across = between.cross(half_).cwiseAbs();
+    const Vector3d across = between.cross(half).cwiseAbs();
     for (int i = 0; i < 3; ++i)
     {
       const int j = (i + 1) % 3;
       const int k = (i + 2) % 3;
-      if (across[i] > grown[j] * abs_half_[k] + grown[k] * abs_half_[j])
+      if (across[i] > grown[j] * abs_half[k] + grown[k] * abs_half[j])
       {
         return false;
       }
@@ -48,7 +49,6 @@ class SegmentBoxTest
  private:
   Vector3d center_;
   Vector3d half_;
-  Vector3d abs_half_;
 };
 
 /// +1 or -1 where the segment passes through the inside of the triangle, by the side that it comes from; 0 where it
@@ -90,13 +90,13 @@ std::optional<int> sumOfCrossings(const CpuTree& tree, const Vector3d& start, co
   stack.assign(1, 0);
   while (!stack.empty())
   {
-    const Node& node = tree.nodes[stack.back()];
+    const CpuNode& node = tree.nodes[stack.back()];
     stack.pop_back();
-    if (!test.overlap(centerOf(node), halfOf(node)))
+    if (!test.overlap(node.box))
     {
       continue;
     }
-    if (node.count == 0)
+    if (!node.isLeaf())
     {
       stack.push_back(node.first);
       stack.push_back(node.first + 1);

@@ -96,6 +96,42 @@ TEST(CpuTraversal, FindsWhatTestingEverythingFindsForAllKindsOfShapes)
   }
 }
 
+/// A shape comes from afar until it touches: there the boxes of the nodes that meet touch, too.
+TEST(CpuTraversal, FindsWhatTestingEverythingFindsNearContact)
+{
+  const std::uint64_t seed = 4;
+  std::mt19937_64 generator(seed);
+  const Shape still = offCenter(*sheetMesh(0.2));
+  for (const Shape& moving : {Shape(torusMesh(0.1, 0.04)), Shape(Box{{0.2, 0.1, 0.05}}), Shape(Cylinder{0.05, 0.2})})
+  {
+    MovingShape pairs(moving, {{still, Isometry3d::Identity()}});
+    for (int i = 0; i < 5; ++i)
+    {
+      Isometry3d pose = randomPose(generator, 0.0);
+      const auto at = [&pose](double height)
+      {
+        pose.translation() = Vector3d(0.11, 0.04, height);
+        return pose;
+      };
+      double free = 2.0;
+      double hit = -0.1;  // at the height of the sheet
+      ASSERT_TRUE(pairs.collides(at(hit)) && !pairs.collides(at(free)));
+      while (free - hit > 1e-10)
+      {
+        const double middle = 0.5 * (free + hit);
+        (pairs.collides(at(middle)) ? hit : free) = middle;
+      }
+      for (const double distance : {-1e-5, -1e-8, -1e-9, 1e-9, 1e-8, 1e-5})
+      {
+        const Isometry3d placed = at(hit + distance);
+        const bool expected = collideByBruteForce(still, pairs.trees()[1], moving, pairs.trees()[0], placed);
+        ASSERT_EQ(expected, pairs.collides(placed))
+            << "seed " << seed << ", kind " << moving.index() << ", pose " << i << ", distance " << distance;
+      }
+    }
+  }
+}
+
 /// A valid tree, but a bad one: triangles as they come, the second half after the first, each node's box too large.
 Forest buildCarelessly(const std::vector<Tessellation>& meshes)
 {
