@@ -74,7 +74,8 @@ struct PlanningScene
 /// entry_values with `enabled`) and the compact one (arrays, `type: box`, bare rows). Everything is checked before
 /// anything is kept. Throws Error with file and line. Joints that the robot lacks, and what is not modelled, give
 /// warnings. Object poses are in `planningFrame()`; a header.frame_id may name it, a link, or a frame of
-/// fixed_frame_transforms.
+/// fixed_frame_transforms. `meshes`: who reads the mesh files that it names.
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
-                            const PackageResolver& packages, std::vector<std::string>* warnings = nullptr);
+                            const PackageResolver& packages, std::vector<std::string>* warnings = nullptr,
+                            const MeshAccess& meshes = {});
 }  // namespace gpu_planning_scene

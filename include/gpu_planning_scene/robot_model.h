@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "gpu_planning_scene/mesh_reader.h"
 #include "gpu_planning_scene/resources.h"
 #include "gpu_planning_scene/shapes.h"
 
@@ -93,6 +94,7 @@ struct SrdfCollisions
 struct RobotModelOptions
 {
   PackageResolver packages;                              ///< may be empty where no URI needs it
+  MeshAccess meshes;                                     ///< who reads mesh files, and from where
   std::string urdf_folder;                               ///< what relative mesh paths are relative to; may be empty
   std::string urdf_name = "robot_description";           ///< for messages: the file or parameter
   std::string srdf_name = "robot_description_semantic";  ///< for messages

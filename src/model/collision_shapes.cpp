@@ -27,7 +27,7 @@ Shape toShape(const urdf::Geometry& geometry, const RobotModelOptions& options, 
     case urdf::Geometry::MESH:
     {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
-      return meshes.load(resolveUri(mesh.filename, options.urdf_folder, options.packages),
+      return meshes.load(options.meshes.resolve(mesh.filename, options.urdf_folder, options.packages),
                          {mesh.scale.x, mesh.scale.y, mesh.scale.z});
     }
   }

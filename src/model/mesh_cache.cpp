@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <exception>
 #include <filesystem>
+#include <new>
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -166,6 +168,25 @@ std::string lowerCaseExtension(const std::string& path)
   return extension;
 }
 
+// Assimp makes text of what was thrown; this is no fault of the file.
+void throwIfOutOfMemory(const std::exception_ptr& thrown)
+{
+  try
+  {
+    if (thrown)
+    {
+      std::rethrow_exception(thrown);
+    }
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw;
+  }
+  catch (...)
+  {
+  }
+}
+
 std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vector3d& scale)
 {
   const std::string extension = lowerCaseExtension(path);
@@ -194,6 +215,7 @@ std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vecto
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr)
   {
+    throwIfOutOfMemory(importer.GetException());
     throw Error("mesh file '" + path + "' cannot be read: " + importer.GetErrorString());
   }
   std::shared_ptr<const Mesh> mesh = SceneFlattener(*scene, path, scale).mesh();
@@ -205,6 +227,8 @@ std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vecto
 }
 }  // namespace
 
+MeshCache::MeshCache(ReadMesh read) : read_(read ? std::move(read) : readMesh) {}
+
 std::shared_ptr<const Mesh> MeshCache::load(const std::string& path, const Eigen::Vector3d& scale)
 {
   const auto key = std::pair(path, std::array<double, 3>{scale.x(), scale.y(), scale.z()});
@@ -213,6 +237,6 @@ std::shared_ptr<const Mesh> MeshCache::load(const std::string& path, const Eigen
   {
     return found->second;
   }
-  return meshes_.emplace(key, readMesh(path, scale)).first->second;
+  return meshes_.emplace(key, read_(path, scale)).first->second;
 }
 }  // namespace gpu_planning_scene

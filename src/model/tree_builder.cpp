@@ -18,7 +18,7 @@ class TreeBuilder
 {
  public:
   TreeBuilder(const UrdfText& urdf, const RobotModelOptions& options, std::vector<std::string>& warnings)
-    : urdf_(urdf), options_(options), warnings_(warnings)
+    : urdf_(urdf), options_(options), warnings_(warnings), meshes_(options.meshes.read)
   {
   }
 

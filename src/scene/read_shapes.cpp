@@ -126,7 +126,7 @@ std::shared_ptr<const Mesh> readMesh(const YamlValue& value, SceneReader& reader
     scale = value.find("dimensions");
   try
   {
-    const std::string path = resolveUri(resource->text(), reader.folder, reader.packages);
+    const std::string path = reader.meshes.resolve(resource->text(), reader.folder, reader.packages);
     return reader.mesh_files.load(path, scale ? readVector(*scale) : Eigen::Vector3d(1.0, 1.0, 1.0));
   }
   catch (const Error& error)

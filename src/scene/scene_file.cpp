@@ -5,7 +5,8 @@
 namespace gpu_planning_scene
 {
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
-                            const PackageResolver& packages, std::vector<std::string>* warnings)
+                            const PackageResolver& packages, std::vector<std::string>* warnings,
+                            const MeshAccess& meshes)
 {
   const YamlValue file = YamlValue::loadFile(path);
   static const std::initializer_list<const char*> known_keys = {"name",
@@ -28,6 +29,8 @@ PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const Robot
 
   const std::size_t slash = path.rfind('/');
   SceneReader reader{*robot, packages, slash == std::string::npos ? "." : path.substr(0, slash + 1), warnings};
+  reader.meshes = meshes;
+  reader.mesh_files = MeshCache(meshes.read);
   PlanningScene scene(robot);
   const YamlValue* robot_name = file.find("robot_model_name");
   if (robot_name && !robot_name->text().empty() && robot_name->text() != robot->name())

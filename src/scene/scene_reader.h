@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "gpu_planning_scene/mesh_reader.h"
 #include "gpu_planning_scene/planning_scene.h"
 #include "gpu_planning_scene/resources.h"
 #include "scene/yaml_value.h"
@@ -23,7 +24,8 @@ struct SceneReader
   std::vector<std::string>* warnings;                          ///< may be null
   std::vector<double> state = {};                              ///< the file's robot state; empty if it has none
   std::map<std::string, Eigen::Isometry3d> fixed_frames = {};  ///< their poses in the planning frame
-  MeshCache mesh_files = {};
+  MeshAccess meshes = {};
+  MeshCache mesh_files = MeshCache();
   std::vector<std::shared_ptr<const Mesh>> inline_meshes = {};
 
   void warn(const std::string& line) const;

@@ -1,0 +1,97 @@
+// read_mesh: reads one mesh file under limits and writes it to the standard output, for childMeshReader. What the
+// library that reads meshes does with a hostile file, it does here.
+//
+//   read_mesh FILE SCALE_X SCALE_Y SCALE_Z SECONDS MEMORY FILE_SIZE TRIANGLES
+//
+// Exit code: 0 with the mesh on the standard output; 1 with one line on the standard error; 3 out of memory; 2 bad
+// usage.
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/resources.h"
+#include "model/mesh_pipe.h"
+
+namespace
+{
+using namespace gpu_planning_scene;
+
+void limit(__rlimit_resource_t resource, rlim_t most)
+{
+  const rlimit value{most, most};
+  if (setrlimit(resource, &value) != 0)
+    throw Error("the mesh reader cannot limit itself");
+}
+
+void limitThisProcess(unsigned seconds, rlim_t memory)
+{
+  limit(RLIMIT_CPU, seconds);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_FSIZE, 0);
+  alarm(seconds + 1);         // where whoever started this is gone
+#ifndef __SANITIZE_ADDRESS__  // whose shadow takes terabytes of addresses
+  limit(RLIMIT_AS, memory);
+#else
+  static_cast<void>(memory);
+#endif
+}
+
+void write(const std::string& bytes)
+{
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+    throw Error("the mesh reader cannot write its answer");
+}
+
+std::size_t number(const char* text)
+{
+  return std::strtoull(text, nullptr, 10);
+}
+
+void read(const char* const* arguments)
+{
+  const std::string path = arguments[1];
+  const Eigen::Vector3d scale(std::atof(arguments[2]), std::atof(arguments[3]), std::atof(arguments[4]));
+  limitThisProcess(static_cast<unsigned>(number(arguments[5])), number(arguments[6]));
+  const std::size_t most_bytes = number(arguments[7]);
+  const std::size_t most_triangles = number(arguments[8]);
+  std::error_code none;
+  const auto bytes = std::filesystem::file_size(path, none);
+  if (!none && bytes > most_bytes)
+    throw Error("mesh file '" + path + "': it has " + std::to_string(bytes) + " bytes; at most " +
+                std::to_string(most_bytes) + " are allowed (~mesh/file_size)");
+  const auto mesh = MeshCache().load(path, scale);
+  if (mesh->triangles.size() > most_triangles)
+    throw Error("mesh file '" + path + "': it has " + std::to_string(mesh->triangles.size()) + " triangles; at most " +
+                std::to_string(most_triangles) + " are allowed (~limits/triangles_of_mesh)");
+  write(meshBytes(*mesh));
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  if (argc != 9)
+  {
+    std::fputs("usage: read_mesh FILE SCALE_X SCALE_Y SCALE_Z SECONDS MEMORY FILE_SIZE TRIANGLES\n", stderr);
+    return 2;
+  }
+  try
+  {
+    read(argv);
+    return 0;
+  }
+  catch (const std::bad_alloc&)
+  {
+    return 3;
+  }
+  catch (const std::exception& error)
+  {
+    std::fputs(error.what(), stderr);
+    return 1;
+  }
+}
