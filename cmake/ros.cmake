@@ -5,16 +5,38 @@ if(NOT PYTHON_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that has catkin_pkg")
 endif()
 
-find_package(catkin REQUIRED COMPONENTS message_generation roscpp roslib sensor_msgs std_msgs)
+find_package(catkin REQUIRED COMPONENTS diagnostic_msgs geometry_msgs message_generation roscpp roslib sensor_msgs
+  shape_msgs std_msgs tf2 tf2_ros visualization_msgs)
 find_package(Eigen3 REQUIRED)
 
-add_service_files(FILES CheckStates.srv)
-generate_messages(DEPENDENCIES std_msgs)
+set(message_dependencies geometry_msgs sensor_msgs shape_msgs std_msgs)
+add_message_files(FILES
+  AllowedCollisionEntry.msg
+  AllowedCollisionMatrix.msg
+  AttachedCollisionObject.msg
+  CollisionObject.msg
+  ContactInformation.msg
+  LinkPadding.msg
+  LinkScale.msg
+  ObjectColor.msg
+  PlanningScene.msg
+  PlanningSceneComponents.msg
+  PlanningSceneWorld.msg
+  RobotState.msg)
+add_service_files(FILES
+  ApplyPlanningScene.srv
+  CheckMotions.srv
+  CheckStates.srv
+  Clear.srv
+  GetPlanningScene.srv
+  GetReport.srv
+  ShowTreeLevel.srv)
+generate_messages(DEPENDENCIES ${message_dependencies})
 
 # Only the ROS-free libraries are exported, so a user of the library needs no roscpp.
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_scene_gpu gpu_planning_scene_collision
-  CATKIN_DEPENDS message_runtime std_msgs
+  CATKIN_DEPENDS message_runtime ${message_dependencies}
   DEPENDS EIGEN3
   CFG_EXTRAS gpu_planning_scene-extras.cmake)

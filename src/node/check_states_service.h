@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gpu_planning_scene/CheckStates.h>
+#include "gpu_planning_scene/messages.h"
 
 #include "gpu_planning_scene/state_checker.h"
 #include "tools/full_states.h"

@@ -9,7 +9,7 @@
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
-#include <gpu_planning_scene/CheckStates.h>
+#include "gpu_planning_scene/messages.h"
 
 #include "gpu_planning_scene/cpu_checker.h"
 #include "tools/open_checker.h"

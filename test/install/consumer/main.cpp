@@ -4,7 +4,7 @@
 #include <gpu_planning_scene/batch_checker.h>
 #include <gpu_planning_scene/cpu_checker.h>
 #ifdef WITH_MESSAGES
-#include <gpu_planning_scene/CheckStates.h>
+#include <gpu_planning_scene/messages.h>
 #endif
 
 using namespace gpu_planning_scene;
