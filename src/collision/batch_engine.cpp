@@ -6,6 +6,7 @@
 
 #include "collision/state_rows.h"
 #include "gpu/float_arithmetic.h"
+#include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
 #include "interface.h"
 
@@ -31,22 +32,41 @@ BatchEngine::BatchEngine(const BatchCheckerOptions& options, std::shared_ptr<For
 {
   if (options.max_batch == 0)
     throw Error("max_batch is 0; it must be at least 1");
-  gl_.run(
-      [&]
-      {
-        pairs_ = std::make_unique<GpuPairChecker>(shader_folder_, options.traversal, options.max_batch);
-        double_fault_ = findDoubleFault(shader_folder_);
-      });
+  try
+  {
+    gl_.run(
+        [&]
+        {
+          pairs_ = std::make_unique<GpuPairChecker>(shader_folder_, options.traversal, options.max_batch);
+          double_fault_ = findDoubleFault(shader_folder_);
+        });
+  }
+  catch (...)
+  {
+    release();
+    throw;
+  }
 }
 
 BatchEngine::~BatchEngine()
 {
-  gl_.run(
-      [this]
-      {
-        kinematics_.reset();
-        pairs_.reset();
-      });
+  release();
+}
+
+void BatchEngine::release()
+{
+  try
+  {
+    gl_.run(
+        [this]
+        {
+          kinematics_.reset();
+          pairs_.reset();
+        });
+  }
+  catch (const DeviceLost&)  // said of a lost context after every job: there is nothing to be released from it
+  {
+  }
 }
 
 void BatchEngine::setProblem(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const RobotModel> robot)
@@ -57,13 +77,30 @@ void BatchEngine::setProblem(std::shared_ptr<const CollisionProblem> problem, st
   }
   catch (...)
   {
-    if (problem_)
-      gl_.run([this] { apply(*problem_, robot_); });
+    restore();
     throw;
   }
+  usable_ = true;
   problem_ = std::move(problem);
   robot_ = std::move(robot);
   on_cpu_.reset();
+}
+
+/// Goes back to the problem before one that did not fit.
+void BatchEngine::restore()
+{
+  usable_ = false;
+  if (!problem_)
+    return;
+  try
+  {
+    gl_.run([this] { apply(*problem_, robot_); });
+    usable_ = true;
+  }
+  catch (const Error& error)
+  {
+    throw DeviceLost(std::string("the GPU has lost its scene: ") + error.what());
+  }
 }
 
 void BatchEngine::apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot)
@@ -83,9 +120,16 @@ void BatchEngine::apply(const CollisionProblem& problem, const std::shared_ptr<c
 
 void BatchEngine::selectPairs(std::shared_ptr<const CollisionProblem> problem)
 {
+  refuseHalfBuilt();
   gl_.run([&] { pairs_->selectPairs(*problem); });
   problem_ = std::move(problem);
   on_cpu_.reset();
+}
+
+void BatchEngine::refuseHalfBuilt() const
+{
+  if (!usable_)
+    throw DeviceLost("the GPU failed while its scene was changed, so it has none");
 }
 
 void BatchEngine::check(const double* states, std::size_t count, BatchResult& result)
@@ -116,8 +160,16 @@ void BatchEngine::check(PoseSource& source, std::size_t count, std::size_t link_
   const std::vector<Geometry>& robot = problem_->robot;
   result.valid.assign(count, 1);
   result.colliding.assign(count, {-1, -1});
+  refuseHalfBuilt();
   Verdicts verdicts;
-  gl_.run([&] { pairs_->check(source, count, verdicts); });
+  try
+  {
+    gl_.run([&] { pairs_->check(source, count, verdicts); });
+  }
+  catch (const OutOfDeviceMemory& error)  // OpenGL leaves everything undefined then, and states are not at fault
+  {
+    throw DeviceLost(error.what());
+  }
   std::vector<std::size_t> undecided;
   for (std::size_t i = 0; i < count; ++i)
   {

@@ -19,7 +19,8 @@
 namespace gpu_planning_scene
 {
 /// A collision problem on a GPU, with the CPU behind it: states that floats leave undecided go to a double-precision
-/// traversal of the same trees. One caller at a time; any thread.
+/// traversal of the same trees. One caller at a time; any thread. Each method throws DeviceLost where the device fails
+/// or its context is lost; then nothing more comes of this engine.
 class BatchEngine
 {
  public:
@@ -51,6 +52,9 @@ class BatchEngine
 
  private:
   using LinkPoses = UploadedPoses::LinkPoses;
+  void release();
+  void restore();
+  void refuseHalfBuilt() const;
   void apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot);
   void check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
              BatchResult& result);
@@ -66,6 +70,7 @@ class BatchEngine
   std::string double_fault_;
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
+  bool usable_ = false;  // the device has that problem, not a part of another
   std::shared_ptr<ForestCache> trees_;
   std::unique_ptr<const CpuTraversal> on_cpu_;  // of the selected pairs; made when a state is undecided
 };

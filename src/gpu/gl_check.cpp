@@ -4,8 +4,6 @@
 
 #include <epoxy/gl.h>
 
-#include "gpu_planning_scene/error.h"
-
 namespace gpu_planning_scene
 {
 namespace
@@ -41,6 +39,28 @@ void checkGl(const char* where)
   for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i)
   {
   }
-  throw Error(std::string("the GPU failed in ") + where + ": " + errorName(first));
+  const std::string message = std::string("the GPU failed in ") + where + ": " + errorName(first);
+  if (first == GL_OUT_OF_MEMORY)
+    throw OutOfDeviceMemory(message);
+  throw DeviceLost(message);
+}
+
+void refuseLostContext()
+{
+  const char* cause = nullptr;
+  switch (glGetGraphicsResetStatus())
+  {
+    case GL_NO_ERROR:
+      return;
+    case GL_GUILTY_CONTEXT_RESET:
+      cause = "by what it ran";
+      break;
+    case GL_INNOCENT_CONTEXT_RESET:
+      cause = "by another program";
+      break;
+    default:
+      cause = "for a cause that the driver does not tell";
+  }
+  throw DeviceLost(std::string("the GPU was reset ") + cause);
 }
 }  // namespace gpu_planning_scene

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "gpu/gl_check.h"
+
 namespace gpu_planning_scene
 {
 GlThread::GlThread(const std::string& device_selector)
@@ -32,7 +34,20 @@ GlThread::~GlThread()
 
 void GlThread::run(const std::function<void()>& job)
 {
-  std::packaged_task<void()> task(job);
+  std::packaged_task<void()> task(
+      [&job]
+      {
+        try
+        {
+          job();
+        }
+        catch (...)
+        {
+          refuseLostContext();  // the cause of what was thrown
+          throw;
+        }
+        refuseLostContext();
+      });
   std::future<void> done = task.get_future();
   {
     const std::lock_guard<std::mutex> lock(mutex_);

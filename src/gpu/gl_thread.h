@@ -22,7 +22,8 @@ class GlThread
   /// Finishes the jobs that were given, then destroys the context.
   ~GlThread();
 
-  /// Runs `job` on the thread and waits for it; what it throws is thrown here. Thread-safe.
+  /// Runs `job` on the thread and waits for it; what it throws is thrown here. DeviceLost where the context was lost
+  /// meanwhile, whatever the job made of it. Thread-safe.
   void run(const std::function<void()>& job);
 
   const Device& device() const { return device_; }

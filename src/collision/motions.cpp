@@ -1,0 +1,186 @@
+#include "gpu_planning_scene/motions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "collision/state_rows.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr double kTurn = 2.0 * EIGEN_PI;
+
+/// What of a state a joint's variables are: how it is interpolated and how far it moves.
+enum class Part
+{
+  Length,
+  Angle,         // bounded: the way that does not cross the limits
+  WrappedAngle,  // the shorter way round
+  Rotation       // a quaternion, x first
+};
+
+/// Calls visit(part, first variable, number of variables) for what the active joints' variables are made of.
+template <class Visit>
+void forParts(const RobotModel& robot, const Visit& visit)
+{
+  for (const Joint& joint : robot.joints())
+  {
+    if (joint.mimic || joint.first_variable < 0)
+      continue;
+    const int first = joint.first_variable;
+    switch (joint.type)
+    {
+      case JointType::Revolute:
+        visit(Part::Angle, first, 1);
+        break;
+      case JointType::Continuous:
+        visit(Part::WrappedAngle, first, 1);
+        break;
+      case JointType::Prismatic:
+        visit(Part::Length, first, 1);
+        break;
+      case JointType::Planar:
+        visit(Part::Length, first, 2);
+        visit(Part::WrappedAngle, first + 2, 1);
+        break;
+      case JointType::Floating:
+        visit(Part::Length, first, 3);
+        visit(Part::Rotation, first + 3, 4);
+        break;
+      case JointType::Fixed:
+        break;
+    }
+  }
+}
+
+/// The shorter way between two angles, from -half a turn to half a turn. Finite for all finite angles.
+double shorterWay(double from, double to)
+{
+  return std::remainder(std::remainder(to, kTurn) - std::remainder(from, kTurn), kTurn);
+}
+
+/// As forward kinematics reads it: any length above 0, and no rotation for 0.
+Eigen::Quaterniond rotationOf(const double* variables)
+{
+  Eigen::Vector4d coefficients = Eigen::Map<const Eigen::Vector4d>(variables);
+  const double largest = coefficients.cwiseAbs().maxCoeff();
+  if (largest == 0.0)
+    return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::Vector4d(coefficients / largest)).normalized();
+}
+
+/// How far a part moves, in radians or metres: the largest of its variables.
+double wayOf(Part part, const double* from, const double* to, int count)
+{
+  switch (part)
+  {
+    case Part::WrappedAngle:
+      return std::abs(shorterWay(*from, *to));
+    case Part::Rotation:
+      return 0.5 * rotationOf(from).angularDistance(rotationOf(to));
+    default:
+      return (Eigen::Map<const Eigen::VectorXd>(to, count) - Eigen::Map<const Eigen::VectorXd>(from, count))
+          .cwiseAbs()
+          .maxCoeff();
+  }
+}
+
+void refuseStep(double step, const char* name, const char* unit)
+{
+  if (!std::isfinite(step) || step <= 0.0)
+    throw Error(std::string("the ") + name + " step of motions is " + std::to_string(step) +
+                "; it must be a finite number of " + unit + " above 0");
+}
+
+/// Steps between the two states; as a double, as there may be more than an integer holds.
+double stepsBetween(const RobotModel& robot, const double* from, const double* to, const MotionSteps& steps)
+{
+  double most = 1.0;
+  forParts(robot,
+           [&](Part part, int first, int count)
+           {
+             const double step = part == Part::Length ? steps.prismatic : steps.revolute;
+             most = std::max(most, std::ceil(wayOf(part, from + first, to + first, count) / step));
+           });
+  return most;
+}
+}  // namespace
+
+void interpolate(const RobotModel& robot, const double* from, const double* to, double fraction, double* state)
+{
+  if (fraction == 0.0 || fraction == 1.0)
+  {
+    std::copy_n(fraction == 0.0 ? from : to, robot.variables().size(), state);
+    return;
+  }
+  forParts(robot,
+           [&](Part part, int first, int count)
+           {
+             if (part == Part::Rotation)
+             {
+               Eigen::Map<Eigen::Vector4d>(state + first) =
+                   rotationOf(from + first).slerp(fraction, rotationOf(to + first)).coeffs();
+               return;
+             }
+             for (int i = first; i < first + count; ++i)
+               state[i] = part == Part::WrappedAngle ? from[i] + fraction * shorterWay(from[i], to[i])
+                                                     : (1.0 - fraction) * from[i] + fraction * to[i];
+           });
+}
+
+MotionBatch::MotionBatch(const RobotModel& robot, const double* starts, const double* ends, std::size_t count,
+                         const MotionSteps& steps, std::size_t most_states)
+{
+  refuseStep(steps.revolute, "revolute", "radians");
+  refuseStep(steps.prismatic, "prismatic", "metres");
+  refuseNonFinite(robot, starts, count);
+  refuseNonFinite(robot, ends, count);
+  const std::size_t width = robot.variables().size();
+  first_.reserve(count + 1);
+  first_.push_back(0);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double states = stepsBetween(robot, starts + i * width, ends + i * width, steps) + 1.0;
+    if (states > static_cast<double>(most_states - first_.back()))
+      throw Error("the motions are more than " + std::to_string(most_states) + " states by motion " +
+                  std::to_string(i) + "; send fewer motions or take larger steps");
+    first_.push_back(first_.back() + static_cast<std::size_t>(states));
+  }
+  states_.resize(first_.back() * width);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::size_t n = first_[i + 1] - first_[i] - 1;
+    for (std::size_t k = 0; k <= n; ++k)
+      interpolate(robot, starts + i * width, ends + i * width, static_cast<double>(k) / static_cast<double>(n),
+                  &states_[(first_[i] + k) * width]);
+  }
+}
+
+std::vector<MotionBatch::Verdict> MotionBatch::verdicts(const BatchResult& result) const
+{
+  if (result.valid.size() != stateCount())
+    throw std::logic_error("an answer for " + std::to_string(result.valid.size()) + " states, for motions of " +
+                           std::to_string(stateCount()));
+  std::vector<Verdict> verdicts;
+  verdicts.reserve(first_.size() - 1);
+  for (std::size_t i = 0; i + 1 < first_.size(); ++i)
+  {
+    const std::size_t end = first_[i + 1];
+    std::size_t hit = first_[i];
+    while (hit < end && result.valid[hit] != 0)
+      ++hit;
+    const double n = static_cast<double>(end - first_[i] - 1);
+    const std::size_t free = hit - first_[i];
+    if (hit == end)
+      verdicts.push_back({true, 1.0, 1.0, stateCount()});
+    else
+      verdicts.push_back(
+          {false, free == 0 ? 0.0 : static_cast<double>(free - 1) / n, static_cast<double>(free) / n, hit});
+  }
+  return verdicts;
+}
+}  // namespace gpu_planning_scene

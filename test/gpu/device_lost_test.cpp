@@ -1,0 +1,77 @@
+// A device that fails, or whose context is reset, is told from wrong input.
+
+#include <gtest/gtest.h>
+
+#include <epoxy/gl.h>
+
+#include "gpu/buffer.h"
+#include "gpu/gl_check.h"
+#include "gpu/gl_thread.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// As long as it lives, the driver says that the context was reset.
+class ResetContext
+{
+ public:
+  ResetContext() : true_answer_(epoxy_glGetGraphicsResetStatus)
+  {
+    epoxy_glGetGraphicsResetStatus = [] { return static_cast<GLenum>(GL_INNOCENT_CONTEXT_RESET); };
+  }
+  ~ResetContext() { epoxy_glGetGraphicsResetStatus = true_answer_; }
+
+ private:
+  PFNGLGETGRAPHICSRESETSTATUSPROC true_answer_;
+};
+
+std::string lossIn(GlThread& thread, const std::function<void()>& job)
+{
+  try
+  {
+    thread.run(job);
+  }
+  catch (const DeviceLost& lost)
+  {
+    return lost.what();
+  }
+  return {};
+}
+
+TEST(DeviceLost, IsAResetContextWhateverTheJobMadeOfIt)
+{
+  GlThread thread("auto");
+  int ran = 0;
+  EXPECT_EQ(lossIn(thread, [&] { ++ran; }), "");
+  {
+    const ResetContext reset;
+    EXPECT_EQ(lossIn(thread, [&] { ++ran; }), "the GPU was reset by another program");
+    EXPECT_EQ(lossIn(thread, [] { throw Error("from the job"); }), "the GPU was reset by another program");
+  }
+  EXPECT_EQ(lossIn(thread, [&] { ++ran; }), "");
+  EXPECT_EQ(ran, 3);
+}
+
+TEST(DeviceLost, IsAnErrorOfOpenGl)
+{
+  GlThread thread("auto");
+  const std::string error = lossIn(thread,
+                                   []
+                                   {
+                                     glEnable(0xffffu);
+                                     checkGl("a wrong call");
+                                   });
+  EXPECT_EQ(error, "the GPU failed in a wrong call: GL_INVALID_ENUM");
+}
+
+TEST(DeviceLost, IsNotWhatASceneCanCause)
+{
+  GlThread thread("auto");
+  // No device has that much.
+  EXPECT_THROW(thread.run([] { Buffer(std::size_t{1} << 62); }), OutOfDeviceMemory);
+  EXPECT_EQ(lossIn(thread, [] { Buffer(16); }), "");
+}
+}  // namespace
+}  // namespace gpu_planning_scene
