@@ -1,0 +1,59 @@
+#include "fuzz/fuzz_target.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+void acceptOrRefuse(const std::function<void()>& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const Error& error)
+  {
+    const std::string line = error.what();
+    if (line.empty() || line.find('\n') != std::string::npos)
+    {
+      std::fprintf(stderr, "an Error is not one line of text: '%s'\n", line.c_str());
+      std::abort();
+    }
+  }
+}
+
+MeshAccess fuzzedMeshes()
+{
+  MeshAccess access;
+  access.read = [](const std::string& path, const Eigen::Vector3d& scale) -> std::shared_ptr<const Mesh>
+  {
+    if (path.size() < 4 || path.compare(path.size() - 4, 4, ".stl") != 0 || !scale.allFinite() || scale.prod() == 0.0)
+      throw Error("a mesh file cannot be read");
+    auto mesh = std::make_shared<Mesh>();
+    mesh->name = path;
+    mesh->vertices = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    mesh->triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+    return mesh;
+  };
+  return access;
+}
+
+PackageResolver fuzzedPackages()
+{
+  return packageResolver({{"p", "/p"}});
+}
+
+std::string textOf(const std::uint8_t* data, std::size_t size)
+{
+  return std::string(reinterpret_cast<const char*>(data), size);
+}
+
+void useRobot(const RobotModel& robot)
+{
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  robot.linkPoses(robot.defaultState().data(), poses.data());
+  robot.adjacentLinks();
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "gpu_planning_scene/robot_model.h"
+
+/// What libFuzzer calls, and replay_main.cpp in its place.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+namespace gpu_planning_scene
+{
+/// Runs `action`. It may throw Error, with one line of text; anything else that it throws ends the program.
+void acceptOrRefuse(const std::function<void()>& action);
+
+/// No file is opened: mesh files that are called *.stl hold a tetrahedron, all others cannot be read.
+MeshAccess fuzzedMeshes();
+
+/// Knows the package `p` alone.
+PackageResolver fuzzedPackages();
+
+std::string textOf(const std::uint8_t* data, std::size_t size);
+
+/// Asks a robot for what everything else builds on.
+void useRobot(const RobotModel& robot);
+}  // namespace gpu_planning_scene

@@ -1,0 +1,11 @@
+// What a mesh reader that was taken over might send becomes a mesh or one line of error.
+
+#include "fuzz/fuzz_target.h"
+#include "model/mesh_pipe.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  using namespace gpu_planning_scene;
+  acceptOrRefuse([&] { validateMesh(*meshFromBytes(textOf(data, size), "fuzzed.stl", 1000)); });
+  return 0;
+}
