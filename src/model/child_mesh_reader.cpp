@@ -17,6 +17,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/mesh_reader.h"
 #include "mesh_pipe.h"
+#include "one_line.h"
 
 namespace gpu_planning_scene
 {
@@ -179,14 +180,6 @@ Answer readAnswer(const Pipe& out, const Pipe& err, double seconds, std::size_t 
   return answer;
 }
 
-std::string firstLine(const std::string& text)
-{
-  std::string line = text.substr(0, text.find('\n'));
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  return line;
-}
-
 std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLimits& limits, const std::string& path,
                                         const Eigen::Vector3d& scale)
 {
@@ -214,7 +207,7 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
     case 0:
       return meshFromBytes(answer.out, path, limits.triangles);
     case 1:
-      throw Error(firstLine(answer.err));
+      throw Error(onOneLine(answer.err));
     case 3:
       throw Error(file + "reading it needs more than " + megabytes(limits.memory) + " of memory (~mesh/memory)");
     default:

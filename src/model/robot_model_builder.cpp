@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -10,6 +9,7 @@
 #include "gpu_planning_scene/error.h"
 #include "groups.h"
 #include "kinematics.h"
+#include "one_line.h"
 #include "srdf_reader.h"
 #include "tree_builder.h"
 #include "urdf_reader.h"
@@ -156,14 +156,6 @@ class RobotModelBuilder
 
 namespace
 {
-// Names from the texts may have line breaks in them.
-std::string onOneLine(std::string text)
-{
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  return text;
-}
-
 std::string readFile(const std::string& path, const char* what)
 {
   std::error_code unreadable;

@@ -1,10 +1,14 @@
 #include <algorithm>
 
+#include "gpu_planning_scene/error.h"
+#include "model/one_line.h"
 #include "scene/scene_reader.h"
 
 namespace gpu_planning_scene
 {
-PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
+namespace
+{
+PlanningScene readSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings,
                             const MeshAccess& meshes)
 {
@@ -52,5 +56,20 @@ PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const Robot
   readObjects(file, reader, scene);
   scene.current_state = reader.state;
   return scene;
+}
+}  // namespace
+
+PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
+                            const PackageResolver& packages, std::vector<std::string>* warnings,
+                            const MeshAccess& meshes)
+{
+  try
+  {
+    return readSceneFile(path, std::move(robot), packages, warnings, meshes);
+  }
+  catch (const Error& error)
+  {
+    throw Error(onOneLine(error.what()));
+  }
 }
 }  // namespace gpu_planning_scene

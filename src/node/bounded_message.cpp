@@ -1,0 +1,65 @@
+#include "node/bounded_message.h"
+
+#include <atomic>
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::atomic<std::uint32_t> message_limit{256U << 20};
+}  // namespace
+
+void setMessageLimit(std::uint32_t bytes)
+{
+  message_limit = bytes;
+}
+
+void requireMessageSize(std::uint32_t bytes)
+{
+  const std::uint32_t most = message_limit;
+  if (bytes > most)
+    throw std::runtime_error("a message of " + std::to_string(bytes) + " bytes; at most " + std::to_string(most) +
+                             " are taken (~limits/message_size)");
+}
+
+void BoundedStream::next(std::string& text)
+{
+  const std::uint32_t size = length(1);
+  text.assign(reinterpret_cast<const char*>(at_), size);
+  at_ += size;
+}
+
+void BoundedStream::next(ros::Time& time)
+{
+  next(time.sec);
+  next(time.nsec);
+}
+
+void BoundedStream::next(ros::Duration& duration)
+{
+  next(duration.sec);
+  next(duration.nsec);
+}
+
+std::uint32_t BoundedStream::length(std::size_t least)
+{
+  std::uint32_t count = 0;
+  copy(&count, sizeof count);
+  require(count * least);
+  return count;
+}
+
+void BoundedStream::copy(void* to, std::size_t bytes)
+{
+  require(bytes);
+  if (bytes != 0)
+    std::memcpy(to, at_, bytes);
+  at_ += bytes;
+}
+
+void BoundedStream::require(std::size_t bytes) const
+{
+  if (static_cast<std::size_t>(end_ - at_) < bytes)
+    throw std::runtime_error("a message ends early, or a length in it is wrong");
+}
+}  // namespace gpu_planning_scene
