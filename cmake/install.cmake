@@ -3,7 +3,7 @@ set(libraries gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_sce
 set(export_folder ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
 
 install(TARGETS ${libraries} EXPORT gpu_planning_scene-targets LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
-install(TARGETS check_states generate_acm read_mesh RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(TARGETS check_states generate_acm read_mesh render RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/ DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 install(DIRECTORY shaders config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene:: DESTINATION ${export_folder})

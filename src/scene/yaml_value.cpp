@@ -24,12 +24,19 @@ class YamlTreeBuilder : public YAML::EventHandler
 
   YamlValue takeDocument() { return std::move(document_); }
 
-  void OnDocumentStart(const YAML::Mark& mark) override { document_ = makeValue(YamlValue::Kind::Null, mark); }
+  void OnDocumentStart(const YAML::Mark& mark) override
+  {
+    document_ = makeValue(YamlValue::Kind::Null, mark);
+    // On some broken texts the parser finds one empty document after the other and never goes on.
+    if (mark.pos == document_start_)
+      document_.fail("not YAML: the document ends where it begins");
+    document_start_ = mark.pos;
+  }
   void OnDocumentEnd() override { anchors_.clear(); }
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override
   {
-    complete(makeValue(YamlValue::Kind::Null, mark), anchor);
+    complete(makeValue(YamlValue::Kind::Null, mark), anchor, 1);
   }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override
@@ -37,14 +44,18 @@ class YamlTreeBuilder : public YAML::EventHandler
     const auto target = anchors_.find(anchor);
     if (target == anchors_.end())
       makeValue(YamlValue::Kind::Null, mark).fail("an alias inside the value that it stands for");
-    complete(target->second, 0);
+    // Each use is a copy, and a few lines of aliases of aliases would take all memory.
+    copied_ += target->second.size;
+    if (copied_ > kMostCopied)
+      target->second.value.fail("aliases stand for more than " + std::to_string(kMostCopied) + " values");
+    complete(target->second.value, 0, target->second.size);
   }
 
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor, const std::string& value) override
   {
     YamlValue scalar = makeValue(YamlValue::Kind::Scalar, mark);
     scalar.scalar_ = value;
-    complete(std::move(scalar), anchor);
+    complete(std::move(scalar), anchor, 1);
   }
 
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
@@ -66,7 +77,14 @@ class YamlTreeBuilder : public YAML::EventHandler
     YamlValue value;
     YAML::anchor_t anchor;
     std::unique_ptr<YamlValue> key;  ///< of a map, where its value has yet to come
+    std::size_t size = 1;            ///< values in it, itself among them
   };
+  struct Anchored
+  {
+    YamlValue value;
+    std::size_t size;
+  };
+  static constexpr std::size_t kMostCopied = 1000000;
 
   YamlValue makeValue(YamlValue::Kind kind, const YAML::Mark& mark) const
   {
@@ -81,19 +99,20 @@ class YamlTreeBuilder : public YAML::EventHandler
   {
     OpenValue closed = std::move(open_.back());
     open_.pop_back();
-    complete(std::move(closed.value), closed.anchor);
+    complete(std::move(closed.value), closed.anchor, closed.size);
   }
 
-  void complete(YamlValue value, YAML::anchor_t anchor)
+  void complete(YamlValue value, YAML::anchor_t anchor, std::size_t size)
   {
     if (anchor != 0)
-      anchors_[anchor] = value;
+      anchors_[anchor] = {value, size};
     if (open_.empty())
     {
       document_ = std::move(value);
       return;
     }
     OpenValue& parent = open_.back();
+    parent.size += size;
     if (parent.value.kind_ == YamlValue::Kind::Sequence)
     {
       parent.value.items_.push_back(std::move(value));
@@ -116,7 +135,9 @@ class YamlTreeBuilder : public YAML::EventHandler
   std::shared_ptr<const std::string> file_;
   YamlValue document_;
   std::vector<OpenValue> open_;
-  std::map<YAML::anchor_t, YamlValue> anchors_;
+  std::map<YAML::anchor_t, Anchored> anchors_;
+  std::size_t copied_ = 0;
+  int document_start_ = -1;
 };
 
 YamlValue YamlValue::loadFile(const std::string& path)

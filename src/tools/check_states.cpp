@@ -8,6 +8,7 @@
 #include "tools/open_checker.h"
 #include "tools/progress_bar.h"
 #include "tools/robot_arguments.h"
+#include "tools/scene_arguments.h"
 #include "tools/scene_text.h"
 #include "tools/state_source.h"
 #include "tools/state_table.h"
@@ -19,8 +20,8 @@ namespace
 std::vector<Option> options()
 {
   std::vector<Option> all = robotOptions();
-  all.push_back(
-      {"--scene", "FILE", "the planning scene, YAML in MoveIt's field names;\nwithout it, the robot is alone"});
+  for (const Option& option : sceneOptions())
+    all.push_back(option);
   for (const Option& option : stateOptions())
     all.push_back(option);
   all.push_back({"--group", "NAME", "check only pairs with a link that this group moves"});
@@ -28,14 +29,6 @@ std::vector<Option> options()
     all.push_back(option);
   all.push_back({"--out", "FILE", "where the answers go (default: the standard output)"});
   return all;
-}
-
-PlanningScene sceneFrom(const CommandLine& arguments, std::vector<std::string>* warnings)
-{
-  auto robot = robotFrom(arguments, warnings);
-  if (!arguments.has("--scene"))
-    return PlanningScene(robot);
-  return loadSceneFile(arguments.required("--scene"), robot, packagesFrom(arguments), warnings);
 }
 
 /// Wrong options should be found before large files are read.
@@ -160,7 +153,7 @@ int main(int argc, char** argv)
 {
   using namespace gpu_planning_scene;
   const Tool tool{"check_states",
-                  "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE]\n"
+                  "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
                   "                    (--states FILE.csv | --random N [--seed S]) [options]",
                   "Checks which states of a robot are free of collision. Answers with one line per state,\n"
                   "valid,body_1,body_2: 1 and two empty names, or 0 and a pair of bodies that collide.\n"

@@ -74,6 +74,12 @@ const std::vector<WrongScene>& wrongScenes()
       {"AList", "- a\n- b\n", 1, "key: value"},
       {"NotAScene", "group_name: arm\nplanner_id: RRT\n", 1, "not a planning scene"},
       {"AnAliasToItself", "name: &x [*x]\n", 1, "alias"},
+      {"DocumentsWithoutEnd", ",s_f{{{{{{{is_diff: {{{{{{{{", 1, "not YAML"},
+      {"AliasesThatMultiply",
+       "a: &a [x, x, x, x, x, x, x, x, x, x]\nb: &b [*a, *a, *a, *a, *a, *a, *a, *a, *a, *a]\n"
+       "c: &c [*b, *b, *b, *b, *b, *b, *b, *b, *b, *b]\nd: &d [*c, *c, *c, *c, *c, *c, *c, *c, *c, *c]\n"
+       "e: &e [*d, *d, *d, *d, *d, *d, *d, *d, *d, *d]\nworld: [*e, *e, *e, *e, *e, *e, *e, *e, *e, *e]\n",
+       5, "aliases stand for more than"},
       {"ADifference", "name: a\nis_diff: true\n", 2, "full scene is needed"},
       {"WorldIsText", "world: 5\n", 1, "key: value"},
       {"ObjectsAreAMap", "world:\n  collision_objects: {a: b}\n", 2, "expected a list"},

@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <cmath>
+
+#include "render/drawing.h"
+#include "render/renderer.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr double kAspect = 4.0 / 3.0;  // of the usual picture
+}  // namespace
+
+Eigen::AlignedBox3d nearRobot(const PlanningScene& scene, const double* state)
+{
+  const auto poses = bodyPoses(scene, state);
+  const std::size_t links = scene.robot->links().size();
+  const std::size_t first_attached = links + scene.objects.size();
+  Eigen::AlignedBox3d robot;
+  for (std::size_t body = 0; body < poses.size(); ++body)
+    if (body < links || body >= first_attached)
+      robot.extend(bodyBounds(scene, static_cast<int>(body), poses[body]));
+  if (robot.isEmpty())
+    robot = Eigen::AlignedBox3d(-Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones());
+  // A cell's walls may be far away; what is within the robot's own size of it tells where it is.
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.5 * robot.diagonal().norm());
+  const Eigen::AlignedBox3d around(robot.min() - margin, robot.max() + margin);
+  Eigen::AlignedBox3d near = robot;
+  for (std::size_t body = links; body < first_attached; ++body)
+  {
+    const Eigen::AlignedBox3d object = bodyBounds(scene, static_cast<int>(body), poses[body]);
+    if (!object.isEmpty() && around.intersects(object))
+      near.extend(around.intersection(object));
+  }
+  return near;
+}
+
+Camera cameraFor(const PlanningScene& scene, const double* state, const Eigen::Vector3d& up)
+{
+  const Eigen::AlignedBox3d near = nearRobot(scene, state);
+  Camera camera;
+  camera.up = up;
+  camera.target = near.center();
+  const Eigen::Vector3d side =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up) * Eigen::Vector3d(1.0, -0.75, 0.55).normalized();
+  // As near as it can stand with all corners of the box in the picture, with a little room around.
+  const Eigen::Vector3d right = up.cross(side).normalized();
+  const Eigen::Vector3d top = side.cross(right);
+  const double slope = std::tan(0.5 * camera.field_of_view);
+  double distance = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3d offset = near.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)) - camera.target;
+    const double lateral = std::max(std::abs(offset.dot(top)), std::abs(offset.dot(right)) / kAspect);
+    distance = std::max(distance, offset.dot(side) + lateral / slope);
+  }
+  camera.eye = camera.target + 1.05 * distance * side;
+  return camera;
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,192 @@
+#include "render/drawing.h"
+
+#include <map>
+#include <set>
+
+#include "render/renderer.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using Color = std::array<std::uint8_t, 4>;
+
+constexpr Color kLink{186, 190, 196, 255};
+constexpr Color kCarried{120, 170, 120, 255};
+constexpr Color kColliding{214, 39, 40, 255};
+constexpr Color kContact{255, 221, 0, 255};
+constexpr std::array<Color, 6> kObjects{{{222, 196, 150, 255},
+                                         {150, 182, 214, 255},
+                                         {178, 205, 160, 255},
+                                         {205, 170, 190, 255},
+                                         {170, 200, 200, 255},
+                                         {214, 206, 170, 255}}};
+
+const std::vector<PlacedShape>& shapesOf(const PlanningScene& scene, std::size_t body)
+{
+  const std::size_t links = scene.robot->links().size();
+  if (body < links)
+    return scene.robot->links()[body].shapes;
+  if (body < links + scene.objects.size())
+    return scene.objects[body - links].shapes;
+  return scene.attached[body - links - scene.objects.size()].object.shapes;
+}
+
+Color colorOf(const PlanningScene& scene, std::size_t body)
+{
+  const std::size_t links = scene.robot->links().size();
+  if (body < links)
+    return kLink;
+  if (body < links + scene.objects.size())
+    return kObjects[(body - links) % kObjects.size()];
+  return kCarried;
+}
+
+class Painter
+{
+ public:
+  explicit Painter(std::vector<DrawnVertex>& vertices) : vertices_(vertices) {}
+
+  void addTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Color& color)
+  {
+    const Eigen::Vector3d normal = (b - a).cross(c - a).stableNormalized();
+    for (const Eigen::Vector3d* corner : {&a, &b, &c})
+    {
+      const Eigen::Vector3f position = corner->cast<float>();
+      const Eigen::Vector3f direction = normal.cast<float>();
+      vertices_.push_back(
+          {{{position.x(), position.y(), position.z()}}, {{direction.x(), direction.y(), direction.z()}}, color});
+    }
+  }
+
+  void addMesh(const Mesh& mesh, const Eigen::Isometry3d& pose, const Color& color)
+  {
+    std::vector<Eigen::Vector3d> placed;
+    placed.reserve(mesh.vertices.size());
+    for (const Eigen::Vector3d& vertex : mesh.vertices)
+      placed.push_back(pose * vertex);
+    for (const auto& [a, b, c] : mesh.triangles)
+      addTriangle(placed[a], placed[b], placed[c], color);
+  }
+
+  /// The part of the half-space's plane that lies around `center`.
+  void addPlane(const HalfSpace& plane, const Eigen::Isometry3d& pose, const Eigen::Vector3d& center, double half_size,
+                const Color& color)
+  {
+    const Eigen::Vector3d normal = pose.linear() * plane.normal;
+    const double height = normal.dot(center - pose.translation()) - plane.offset;
+    const Eigen::Vector3d middle = center - height * normal;
+    const Eigen::Vector3d along = normal.unitOrthogonal() * half_size;
+    const Eigen::Vector3d across = normal.cross(along);
+    addTriangle(middle - along - across, middle + along - across, middle + along + across, color);
+    addTriangle(middle - along - across, middle + along + across, middle - along + across, color);
+  }
+
+ private:
+  std::vector<DrawnVertex>& vertices_;
+};
+
+/// Tessellations of equal solids are made once: a point cloud has thousands of equal cubes.
+class Tessellations
+{
+ public:
+  std::shared_ptr<const Mesh> of(const Shape& shape)
+  {
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
+      return *mesh;
+    std::array<double, 4> key{static_cast<double>(shape.index()), 0.0, 0.0, 0.0};
+    if (const auto* box = std::get_if<Box>(&shape))
+      std::copy_n(box->size.data(), 3, key.begin() + 1);
+    else if (const auto* sphere = std::get_if<Sphere>(&shape))
+      key[1] = sphere->radius;
+    else if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+      key = {key[0], cylinder->radius, cylinder->length, 0.0};
+    else if (const auto* cone = std::get_if<Cone>(&shape))
+      key = {key[0], cone->radius, cone->length, 0.0};
+    std::shared_ptr<const Mesh>& mesh = made_[key];
+    if (!mesh)
+      mesh = tessellate(shape).mesh;
+    return mesh;
+  }
+
+ private:
+  std::map<std::array<double, 4>, std::shared_ptr<const Mesh>> made_;
+};
+
+Eigen::AlignedBox3d shapeBounds(const Shape& shape)
+{
+  Eigen::Vector3d half;
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
+  {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : (*mesh)->vertices)
+      box.extend(vertex);
+    return box;
+  }
+  if (const auto* box = std::get_if<Box>(&shape))
+    half = 0.5 * box->size;
+  else if (const auto* sphere = std::get_if<Sphere>(&shape))
+    half.setConstant(sphere->radius);
+  else if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+    half = Eigen::Vector3d(cylinder->radius, cylinder->radius, 0.5 * cylinder->length);
+  else if (const auto* cone = std::get_if<Cone>(&shape))
+    half = Eigen::Vector3d(cone->radius, cone->radius, 0.5 * cone->length);
+  else
+    return {};
+  return {-half, half};
+}
+}  // namespace
+
+std::vector<Eigen::Isometry3d> bodyPoses(const PlanningScene& scene, const double* state)
+{
+  std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());
+  scene.robot->linkPoses(state, poses.data());
+  for (const WorldObject& object : scene.objects)
+    poses.push_back(object.pose);
+  for (const AttachedObject& attached : scene.attached)
+    poses.push_back(poses[static_cast<std::size_t>(attached.link)] * attached.object.pose);
+  return poses;
+}
+
+Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen::Isometry3d& pose)
+{
+  Eigen::AlignedBox3d bounds;
+  for (const PlacedShape& shape : shapesOf(scene, static_cast<std::size_t>(body)))
+  {
+    const Eigen::AlignedBox3d box = shapeBounds(shape.shape);
+    if (!box.isEmpty())
+      bounds.extend(box.transformed(pose * shape.pose));
+  }
+  return bounds;
+}
+
+std::vector<DrawnVertex> drawingOf(const PlanningScene& scene, const double* state,
+                                   const std::vector<std::array<std::int32_t, 2>>& colliding,
+                                   const std::vector<Eigen::Vector3d>& contact_points)
+{
+  std::set<std::size_t> red;
+  for (const auto& pair : colliding)
+    red.insert({static_cast<std::size_t>(pair[0]), static_cast<std::size_t>(pair[1])});
+  const Eigen::AlignedBox3d near = nearRobot(scene, state);
+  std::vector<DrawnVertex> vertices;
+  Painter painter(vertices);
+  Tessellations tessellations;
+  const auto poses = bodyPoses(scene, state);
+  for (std::size_t body = 0; body < poses.size(); ++body)
+  {
+    const Color color = red.count(body) != 0 ? kColliding : colorOf(scene, body);
+    for (const PlacedShape& shape : shapesOf(scene, body))
+    {
+      const Eigen::Isometry3d pose = poses[body] * shape.pose;
+      if (const auto* plane = std::get_if<HalfSpace>(&shape.shape))
+        painter.addPlane(*plane, pose, near.center(), 0.5 * near.diagonal().norm(), color);
+      else
+        painter.addMesh(*tessellations.of(shape.shape), pose, color);
+    }
+  }
+  const Shape dot = Sphere{0.012 * near.diagonal().norm()};
+  for (const Eigen::Vector3d& point : contact_points)
+    painter.addMesh(*tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContact);
+  return vertices;
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "gpu_planning_scene/planning_scene.h"
+
+namespace gpu_planning_scene
+{
+/// A corner of a triangle, as shaders/draw.vert reads it.
+struct DrawnVertex
+{
+  std::array<float, 3> position;  ///< metres, in the planning frame
+  std::array<float, 3> normal;    ///< of its triangle
+  std::array<std::uint8_t, 4> color;
+};
+
+/// The pose of each body in the planning frame: links, objects, attached objects.
+std::vector<Eigen::Isometry3d> bodyPoses(const PlanningScene& scene, const double* state);
+
+/// Box around a body's shapes in the planning frame; half-spaces have none.
+Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen::Isometry3d& pose);
+
+/// The triangles of all bodies, three corners each. Links grey, objects in their colours, bodies of `colliding` pairs
+/// red, contact points small yellow spheres. A half-space is a square as large as what is near the robot.
+std::vector<DrawnVertex> drawingOf(const PlanningScene& scene, const double* state,
+                                   const std::vector<std::array<std::int32_t, 2>>& colliding,
+                                   const std::vector<Eigen::Vector3d>& contact_points);
+}  // namespace gpu_planning_scene

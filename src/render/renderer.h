@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "gpu_planning_scene/planning_scene.h"
+
+namespace gpu_planning_scene
+{
+struct Camera
+{
+  Eigen::Vector3d eye;
+  Eigen::Vector3d target;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  ///< of unit length, not along the line of sight
+  double field_of_view = 0.7;                     ///< radians, vertical
+};
+
+/// Box around the robot in `state` with what it carries, and around the objects beside it.
+Eigen::AlignedBox3d nearRobot(const PlanningScene& scene, const double* state);
+
+/// Shows all of nearRobot, from the front, the side and above.
+Camera cameraFor(const PlanningScene& scene, const double* state, const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
+
+/// Rows from the top, three bytes (red, green, blue) a pixel.
+struct Image
+{
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+/// Every pair of bodies that collides in `state`, by the exact checker.
+std::vector<std::array<std::int32_t, 2>> collidingPairs(const PlanningScene& scene, const double* state);
+
+/// A picture of the scene: see drawingOf for the colours. `device`: as EglContext has it. The same scene gives the same
+/// picture on the same device. Throws Error.
+Image render(const PlanningScene& scene, const double* state, const std::vector<std::array<std::int32_t, 2>>& colliding,
+             const std::vector<Eigen::Vector3d>& contact_points, const Camera& camera, int width, int height,
+             const std::string& device);
+
+/// Throws Error: the file cannot be written.
+void writePng(const Image& image, const std::string& path);
+}  // namespace gpu_planning_scene

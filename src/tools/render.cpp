@@ -1,0 +1,115 @@
+// render: a picture of a robot in its scene, the bodies that collide in red, as a PNG file.
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+
+#include "render/renderer.h"
+#include "tools/robot_arguments.h"
+#include "tools/scene_arguments.h"
+#include "tools/scene_text.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::vector<Option> options()
+{
+  std::vector<Option> all = robotOptions();
+  for (const Option& option : sceneOptions())
+    all.push_back(option);
+  all.push_back({"--state", "NAME=VALUE,...",
+                 "values of variables; the others have those of the scene's\nstate, or their defaults"});
+  all.push_back({"--random", "SEED", "a random state instead, within the joints' limits"});
+  all.push_back({"--camera", "X,Y,Z[,X,Y,Z]",
+                 "where it stands, and what it looks at; without it, all that\nis near the robot is in the picture"});
+  all.push_back({"--up", "X,Y,Z", "which way is up (default 0,0,1)"});
+  all.push_back({"--size", "WxH", "pixels (default 960x720)"});
+  all.push_back({"--device", "DEVICE", "auto (default), software, an index, or part of a renderer's name"});
+  all.push_back({"--out", "FILE", "the PNG file to write"});
+  return all;
+}
+
+std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene& scene)
+{
+  const RobotModel& robot = *scene.robot;
+  std::vector<double> state = scene.current_state.empty() ? robot.defaultState() : scene.current_state;
+  if (arguments.has("--random"))
+  {
+    std::mt19937_64 generator(static_cast<std::uint64_t>(arguments.integer("--random", 0, 0, 1LL << 32)));
+    robot.randomState(generator, state.data());
+  }
+  std::istringstream words(arguments.value("--state", ""));
+  for (std::string word; std::getline(words, word, ',');)
+  {
+    const std::size_t equals = word.find('=');
+    const int variable = robot.variableIndex(word.substr(0, equals));
+    if (equals == std::string::npos || variable < 0)
+      throw UsageError("--state: '" + word + "' is not NAME=VALUE with a variable of the robot");
+    state[static_cast<std::size_t>(variable)] = numbersFrom("--state", word.substr(equals + 1), 1)[0];
+  }
+  return state;
+}
+
+Camera cameraFrom(const CommandLine& arguments, const PlanningScene& scene, const double* state)
+{
+  const std::vector<double> up = numbersFrom("--up", arguments.value("--up", "0,0,1"), 3);
+  const Eigen::Vector3d upward(up.data());
+  if (upward.norm() == 0.0)
+    throw UsageError("--up: a vector of length 0");
+  Camera camera = cameraFor(scene, state, upward.normalized());
+  if (!arguments.has("--camera"))
+    return camera;
+  const std::string text = arguments.required("--camera");
+  const bool has_target = std::count(text.begin(), text.end(), ',') > 2;
+  const std::vector<double> values = numbersFrom("--camera", text, has_target ? 6 : 3);
+  camera.eye = Eigen::Vector3d(values.data());
+  if (has_target)
+    camera.target = Eigen::Vector3d(values.data() + 3);
+  return camera;
+}
+
+std::pair<int, int> sizeFrom(const CommandLine& arguments)
+{
+  const std::string text = arguments.value("--size", "960x720");
+  int width = 0;
+  int height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%5dx%5d%c", &width, &height, &rest) != 2)
+    throw UsageError("--size: '" + text + "' is not WIDTHxHEIGHT");
+  return {width, height};
+}
+
+void run(const CommandLine& arguments)
+{
+  const std::string out = arguments.required("--out");
+  const auto [width, height] = sizeFrom(arguments);
+  std::vector<std::string> warnings;
+  const PlanningScene scene = sceneFrom(arguments, &warnings);
+  printWarnings(warnings);
+  const std::vector<double> state = stateFrom(arguments, scene);
+  const auto colliding = collidingPairs(scene, state.data());
+  writePng(render(scene, state.data(), colliding, {}, cameraFrom(arguments, scene, state.data()), width, height,
+                  arguments.value("--device", "auto")),
+           out);
+  for (const auto& pair : colliding)
+    std::cerr << "collides: " << scene.bodyName(pair[0]) << " - " << scene.bodyName(pair[1]) << "\n";
+  std::cerr << (colliding.empty() ? "free of collision" : counted(colliding.size(), "colliding pair")) << ", " << out
+            << "\n";
+}
+}  // namespace
+}  // namespace gpu_planning_scene
+
+int main(int argc, char** argv)
+{
+  using namespace gpu_planning_scene;
+  const Tool tool{"render",
+                  "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
+                  "              [--state NAME=VALUE,...] --out FILE.png [options]",
+                  "Draws a robot in its scene: links grey, objects in colours, bodies that collide red.\n"
+                  "Needs an OpenGL device, a software one too, and no window system.\n"
+                  "Exit code: 0 success, 2 bad usage, 1 any other error.",
+                  options(), run};
+  return runTool(tool, argc, argv);
+}

@@ -1,0 +1,204 @@
+// Pictures are looked at pixel by pixel, on a software device.
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/error.h"
+#include "model/model_testing.h"
+#include "render/renderer.h"
+#include "scene/slider_robot.h"
+#include "tools/run_program.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr int kWidth = 320;
+constexpr int kHeight = 240;
+
+/// The slider robot and a wall from x = 0.9 to 1.1 m that the cart meets.
+PlanningScene sceneWithWall()
+{
+  PlanningScene scene(sliderRobot());
+  WorldObject wall;
+  wall.id = "wall";
+  wall.pose.translation() = Eigen::Vector3d(1.0, 0.0, 0.0);
+  wall.shapes.push_back({Box{Eigen::Vector3d(0.2, 1.0, 0.2)}, Eigen::Isometry3d::Identity()});
+  scene.objects.push_back(wall);
+  return scene;
+}
+
+std::vector<double> cartAt(const PlanningScene& scene, double x)
+{
+  std::vector<double> state = scene.robot->defaultState();
+  state[static_cast<std::size_t>(scene.robot->variableIndex("slide"))] = x;
+  return state;
+}
+
+Image pictureOf(const PlanningScene& scene, const std::vector<double>& state,
+                const std::vector<Eigen::Vector3d>& contacts = {})
+{
+  return render(scene, state.data(), collidingPairs(scene, state.data()), contacts, cameraFor(scene, state.data()),
+                kWidth, kHeight, "software");
+}
+
+using IsColor = bool (*)(int red, int green, int blue);
+bool isRed(int red, int green, int blue)
+{
+  return red > 60 && red > 3 * green && red > 3 * blue;
+}
+bool isYellow(int red, int green, int blue)
+{
+  return red > 100 && 10 * green > 7 * red && 3 * blue < red;
+}
+bool isBackground(int red, int green, int blue)
+{
+  return red > 240 && green > 240 && blue > 240;
+}
+
+/// The share of the pixels.
+double shareOf(const Image& image, IsColor is_color)
+{
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+    count += is_color(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]) ? 1 : 0;
+  return 3.0 * static_cast<double>(count) / static_cast<double>(image.rgb.size());
+}
+
+TEST(Render, bodiesThatCollideAreRedAndNoOthers)
+{
+  const PlanningScene scene = sceneWithWall();
+  const Image free = pictureOf(scene, cartAt(scene, 0.0));
+  EXPECT_EQ(free.rgb.size(), 3u * kWidth * kHeight);
+  EXPECT_EQ(shareOf(free, isRed), 0.0);
+  EXPECT_LT(shareOf(free, isBackground), 0.97) << "nothing is drawn";
+  EXPECT_GT(shareOf(free, isBackground), 0.3) << "the camera is inside of something";
+  const Image hit = pictureOf(scene, cartAt(scene, 0.9));
+  EXPECT_GT(shareOf(hit, isRed), 0.02);
+}
+
+TEST(Render, theSameSceneGivesTheSamePicture)
+{
+  const PlanningScene scene = sceneWithWall();
+  const std::vector<double> state = cartAt(scene, 0.5);
+  const Image first = pictureOf(scene, state);
+  EXPECT_EQ(first.rgb, pictureOf(scene, state).rgb);
+  EXPECT_NE(first.rgb, pictureOf(scene, cartAt(scene, 0.4)).rgb);
+}
+
+TEST(Render, contactPointsAreYellow)
+{
+  const PlanningScene scene = sceneWithWall();
+  const std::vector<double> state = cartAt(scene, 0.0);
+  EXPECT_EQ(shareOf(pictureOf(scene, state), isYellow), 0.0);
+  EXPECT_GT(shareOf(pictureOf(scene, state, {Eigen::Vector3d(0.1, 0.0, 0.2)}), isYellow), 0.0001);
+}
+
+TEST(Render, aHalfSpaceIsAPlaneBelowTheRobot)
+{
+  PlanningScene scene = sceneWithWall();
+  const std::vector<double> state = cartAt(scene, 0.0);
+  const double without = shareOf(pictureOf(scene, state), isBackground);
+  WorldObject floor;
+  floor.id = "floor";
+  floor.shapes.push_back({HalfSpace{Eigen::Vector3d::UnitZ(), -0.3}, Eigen::Isometry3d::Identity()});
+  scene.objects.push_back(floor);
+  EXPECT_LT(shareOf(pictureOf(scene, state), isBackground), without - 0.03);
+}
+
+TEST(Render, whatIsNearerHidesWhatIsBehind)
+{
+  const PlanningScene scene = sceneWithWall();
+  const std::vector<double> state = cartAt(scene, 0.9);
+  const auto red_seen_from = [&](double x)
+  {
+    Camera camera;
+    camera.eye = Eigen::Vector3d(x, 0.0, 0.0);
+    camera.target = Eigen::Vector3d(1.0, 0.0, 0.0);
+    // The cart alone is red: the wall, 1 m wide, hides it from one side and not from the other.
+    return shareOf(render(scene, state.data(), {{1, 1}}, {}, camera, kWidth, kHeight, "software"), isRed);
+  };
+  ASSERT_EQ(scene.bodyName(1), "cart");
+  EXPECT_GT(red_seen_from(-1.0), 0.0);
+  EXPECT_EQ(red_seen_from(3.0), 0.0);
+}
+
+TEST(Render, camerasAndSizesThatGiveNoPictureAreRefused)
+{
+  const PlanningScene scene = sceneWithWall();
+  const std::vector<double> state = cartAt(scene, 0.0);
+  const auto attempt = [&](const Camera& camera, int width)
+  { return errorOf([&] { render(scene, state.data(), {}, {}, camera, width, kHeight, "software"); }); };
+  Camera camera;
+  camera.eye = Eigen::Vector3d(0.0, 0.0, 5.0);
+  camera.target = Eigen::Vector3d::Zero();
+  EXPECT_NE(attempt(camera, kWidth).find("--camera"), std::string::npos);
+  camera.eye = camera.target;
+  EXPECT_NE(attempt(camera, kWidth).find("--camera"), std::string::npos);
+  camera.eye = Eigen::Vector3d(1.0, 1.0, 1.0);
+  for (const int width : {0, -1, 5000})
+    EXPECT_NE(attempt(camera, width).find("from 1 to 4096"), std::string::npos) << width;
+  EXPECT_NE(errorOf(
+                [] {
+                  writePng(Image{1, 1, {0, 0, 0}}, "/no/such/folder/a.png");
+                })
+                .find("/no/such/folder"),
+            std::string::npos);
+}
+
+TEST(RenderTool, writesAPngAndNamesWhatCollides)
+{
+  const TemporaryFolder folder;
+  const std::string out = folder.path("picture.png");
+  const std::string scenes = std::string(GPS_SOURCE_DIR) + "/test/";
+  const auto run = [&](const std::vector<std::string>& more)
+  {
+    std::vector<std::string> arguments{"--urdf",   scenes + "scene/slider.urdf",
+                                       "--srdf",   scenes + "scene/slider.srdf",
+                                       "--scene",  scenes + "node/wall_scene.yaml",
+                                       "--device", "software",
+                                       "--size",   "64x48",
+                                       "--out",    out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return runProgram(GPS_RENDER, arguments);
+  };
+  const ProgramOutput free = run({"--state", "slide=0"});
+  EXPECT_EQ(free.exit_code, 0) << free.err;
+  EXPECT_NE(free.err.find("free of collision"), std::string::npos) << free.err;
+  std::ifstream file(out, std::ios::binary);
+  std::string head(24, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  EXPECT_EQ(head.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  EXPECT_EQ(head.substr(16), std::string("\0\0\0\x40\0\0\0\x30", 8)) << "its size";
+
+  const ProgramOutput hit = run({"--state", "slide=0.9,turn=0.5"});
+  EXPECT_NE(hit.err.find("collides: cart - wall"), std::string::npos) << hit.err;
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--state", "lift=1"},
+                                                {"--state", "slide"},
+                                                {"--state", "slide=x"},
+                                                {"--camera", "1,2"},
+                                                {"--up", "0,0,0"},
+                                                {"--object", "a"},
+                                                {"--object", "a=b.stl,1,2"}})
+    EXPECT_EQ(run(wrong).exit_code, 2) << wrong[0] << " " << wrong[1];
+}
+
+TEST(RenderTool, meshFilesBecomeObjects)
+{
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("part.obj", "v 0 -1 -1\nv 0 1 -1\nv 0 0 1\nf 1 2 3\n");
+  const auto run = [&](const std::string& object)
+  {
+    return runProgram(GPS_RENDER, {"--urdf", std::string(GPS_SOURCE_DIR) + "/test/scene/slider.urdf", "--device",
+                                   "software", "--size", "64x48", "--out", folder.path("a.png"), "--object", object});
+  };
+  EXPECT_NE(run("part=" + mesh).err.find("collides: cart - part"), std::string::npos);
+  EXPECT_NE(run("part=" + mesh + ",0.55,0,0").err.find("free of collision"), std::string::npos);
+  // Turned about z by a right angle, it reaches from x = 0.05 to 1.05 at the cart's height.
+  const ProgramOutput turned = run("part=" + mesh + ",0.55,0,0,0,0,0.70710678,0.70710678");
+  EXPECT_NE(turned.err.find("collides: cart - part"), std::string::npos) << turned.err;
+  EXPECT_EQ(run("part=" + folder.path("none.obj")).exit_code, 1);
+}
+}  // namespace
+}  // namespace gpu_planning_scene
