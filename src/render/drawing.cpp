@@ -113,14 +113,14 @@ class Tessellations
   std::map<std::array<double, 4>, std::shared_ptr<const Mesh>> made_;
 };
 
-Eigen::AlignedBox3d shapeBounds(const Shape& shape)
+Eigen::AlignedBox3d shapeBounds(const Shape& shape, const Eigen::Isometry3d& pose)
 {
   Eigen::Vector3d half;
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
   {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& vertex : (*mesh)->vertices)
-      box.extend(vertex);
+      box.extend(pose * vertex);
     return box;
   }
   if (const auto* box = std::get_if<Box>(&shape))
@@ -133,7 +133,7 @@ Eigen::AlignedBox3d shapeBounds(const Shape& shape)
     half = Eigen::Vector3d(cone->radius, cone->radius, 0.5 * cone->length);
   else
     return {};
-  return {-half, half};
+  return Eigen::AlignedBox3d(-half, half).transformed(pose);
 }
 }  // namespace
 
@@ -152,11 +152,7 @@ Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen
 {
   Eigen::AlignedBox3d bounds;
   for (const PlacedShape& shape : shapesOf(scene, static_cast<std::size_t>(body)))
-  {
-    const Eigen::AlignedBox3d box = shapeBounds(shape.shape);
-    if (!box.isEmpty())
-      bounds.extend(box.transformed(pose * shape.pose));
-  }
+    bounds.extend(shapeBounds(shape.shape, pose * shape.pose));
   return bounds;
 }
 
