@@ -9,45 +9,21 @@ namespace gpu_planning_scene
 {
 namespace
 {
-using Color = std::array<std::uint8_t, 4>;
-
-constexpr Color kLink{186, 190, 196, 255};
-constexpr Color kCarried{120, 170, 120, 255};
-constexpr Color kColliding{214, 39, 40, 255};
-constexpr Color kContact{255, 221, 0, 255};
-constexpr std::array<Color, 6> kObjects{{{222, 196, 150, 255},
-                                         {150, 182, 214, 255},
-                                         {178, 205, 160, 255},
-                                         {205, 170, 190, 255},
-                                         {170, 200, 200, 255},
-                                         {214, 206, 170, 255}}};
-
-const std::vector<PlacedShape>& shapesOf(const PlanningScene& scene, std::size_t body)
-{
-  const std::size_t links = scene.robot->links().size();
-  if (body < links)
-    return scene.robot->links()[body].shapes;
-  if (body < links + scene.objects.size())
-    return scene.objects[body - links].shapes;
-  return scene.attached[body - links - scene.objects.size()].object.shapes;
-}
-
-Color colorOf(const PlanningScene& scene, std::size_t body)
-{
-  const std::size_t links = scene.robot->links().size();
-  if (body < links)
-    return kLink;
-  if (body < links + scene.objects.size())
-    return kObjects[(body - links) % kObjects.size()];
-  return kCarried;
-}
+constexpr BodyColor kLink{186, 190, 196, 255};
+constexpr BodyColor kCarried{120, 170, 120, 255};
+constexpr std::array<BodyColor, 6> kObjects{{{222, 196, 150, 255},
+                                             {150, 182, 214, 255},
+                                             {178, 205, 160, 255},
+                                             {205, 170, 190, 255},
+                                             {170, 200, 200, 255},
+                                             {214, 206, 170, 255}}};
 
 class Painter
 {
  public:
   explicit Painter(std::vector<DrawnVertex>& vertices) : vertices_(vertices) {}
 
-  void addTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Color& color)
+  void addTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const BodyColor& color)
   {
     const Eigen::Vector3d normal = (b - a).cross(c - a).stableNormalized();
     for (const Eigen::Vector3d* corner : {&a, &b, &c})
@@ -59,7 +35,7 @@ class Painter
     }
   }
 
-  void addMesh(const Mesh& mesh, const Eigen::Isometry3d& pose, const Color& color)
+  void addMesh(const Mesh& mesh, const Eigen::Isometry3d& pose, const BodyColor& color)
   {
     std::vector<Eigen::Vector3d> placed;
     placed.reserve(mesh.vertices.size());
@@ -71,7 +47,7 @@ class Painter
 
   /// The part of the half-space's plane that lies around `center`.
   void addPlane(const HalfSpace& plane, const Eigen::Isometry3d& pose, const Eigen::Vector3d& center, double half_size,
-                const Color& color)
+                const BodyColor& color)
   {
     const Eigen::Vector3d normal = pose.linear() * plane.normal;
     const double height = normal.dot(center - pose.translation()) - plane.offset;
@@ -137,6 +113,34 @@ Eigen::AlignedBox3d shapeBounds(const Shape& shape, const Eigen::Isometry3d& pos
 }
 }  // namespace
 
+const std::vector<PlacedShape>& bodyShapes(const PlanningScene& scene, std::size_t body)
+{
+  const std::size_t links = scene.robot->links().size();
+  if (body < links)
+    return scene.robot->links()[body].shapes;
+  if (body < links + scene.objects.size())
+    return scene.objects[body - links].shapes;
+  return scene.attached[body - links - scene.objects.size()].object.shapes;
+}
+
+BodyColor bodyColor(const PlanningScene& scene, std::size_t body)
+{
+  const std::size_t links = scene.robot->links().size();
+  if (body < links)
+    return kLink;
+  if (body < links + scene.objects.size())
+    return kObjects[(body - links) % kObjects.size()];
+  return kCarried;
+}
+
+std::set<std::size_t> bodiesOf(const std::vector<std::array<std::int32_t, 2>>& pairs)
+{
+  std::set<std::size_t> bodies;
+  for (const auto& pair : pairs)
+    bodies.insert({static_cast<std::size_t>(pair[0]), static_cast<std::size_t>(pair[1])});
+  return bodies;
+}
+
 std::vector<Eigen::Isometry3d> bodyPoses(const PlanningScene& scene, const double* state)
 {
   std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());
@@ -151,7 +155,7 @@ std::vector<Eigen::Isometry3d> bodyPoses(const PlanningScene& scene, const doubl
 Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen::Isometry3d& pose)
 {
   Eigen::AlignedBox3d bounds;
-  for (const PlacedShape& shape : shapesOf(scene, static_cast<std::size_t>(body)))
+  for (const PlacedShape& shape : bodyShapes(scene, static_cast<std::size_t>(body)))
     bounds.extend(shapeBounds(shape.shape, pose * shape.pose));
   return bounds;
 }
@@ -160,9 +164,7 @@ std::vector<DrawnVertex> drawingOf(const PlanningScene& scene, const double* sta
                                    const std::vector<std::array<std::int32_t, 2>>& colliding,
                                    const std::vector<Eigen::Vector3d>& contact_points)
 {
-  std::set<std::size_t> red;
-  for (const auto& pair : colliding)
-    red.insert({static_cast<std::size_t>(pair[0]), static_cast<std::size_t>(pair[1])});
+  const std::set<std::size_t> red = bodiesOf(colliding);
   const Eigen::AlignedBox3d near = nearRobot(scene, state);
   std::vector<DrawnVertex> vertices;
   Painter painter(vertices);
@@ -170,8 +172,8 @@ std::vector<DrawnVertex> drawingOf(const PlanningScene& scene, const double* sta
   const auto poses = bodyPoses(scene, state);
   for (std::size_t body = 0; body < poses.size(); ++body)
   {
-    const Color color = red.count(body) != 0 ? kColliding : colorOf(scene, body);
-    for (const PlacedShape& shape : shapesOf(scene, body))
+    const BodyColor color = red.count(body) != 0 ? kCollidingColor : bodyColor(scene, body);
+    for (const PlacedShape& shape : bodyShapes(scene, body))
     {
       const Eigen::Isometry3d pose = poses[body] * shape.pose;
       if (const auto* plane = std::get_if<HalfSpace>(&shape.shape))
@@ -182,7 +184,7 @@ std::vector<DrawnVertex> drawingOf(const PlanningScene& scene, const double* sta
   }
   const Shape dot = Sphere{0.012 * near.diagonal().norm()};
   for (const Eigen::Vector3d& point : contact_points)
-    painter.addMesh(*tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContact);
+    painter.addMesh(*tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContactColor);
   return vertices;
 }
 }  // namespace gpu_planning_scene

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -10,12 +11,26 @@
 
 namespace gpu_planning_scene
 {
+using BodyColor = std::array<std::uint8_t, 4>;  ///< red, green, blue, opacity
+
+constexpr BodyColor kCollidingColor{214, 39, 40, 255};
+constexpr BodyColor kContactColor{255, 221, 0, 255};
+
+/// The colour of a body that does not collide.
+BodyColor bodyColor(const PlanningScene& scene, std::size_t body);
+
+/// Of a link, an object or an attached object.
+const std::vector<PlacedShape>& bodyShapes(const PlanningScene& scene, std::size_t body);
+
+/// Those of the pairs.
+std::set<std::size_t> bodiesOf(const std::vector<std::array<std::int32_t, 2>>& pairs);
+
 /// A corner of a triangle, as shaders/draw.vert reads it.
 struct DrawnVertex
 {
   std::array<float, 3> position;  ///< metres, in the planning frame
   std::array<float, 3> normal;    ///< of its triangle
-  std::array<std::uint8_t, 4> color;
+  BodyColor color;
 };
 
 /// The pose of each body in the planning frame: links, objects, attached objects.

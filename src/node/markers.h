@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "gpu_planning_scene/planning_scene.h"
+
+namespace gpu_planning_scene
+{
+struct MarkerOptions
+{
+  ros::Time stamp;
+  /// [~markers/triangles] where meshes have more in all, the largest are drawn as their boxes.
+  std::size_t most_triangles = 500000;
+  int tree_level = -1;    ///< the boxes of this level of the trees, the root's being 0; -1: none
+  std::string tree_body;  ///< of one body alone; empty: of all
+};
+
+/// What RViz draws: the robot, the objects and what is carried, in the planning frame, colliding bodies red; contact
+/// points; the boxes of a tree level. The first marker deletes those of before. Namespaces: robot, objects, attached,
+/// contacts, tree.
+visualization_msgs::MarkerArray markersOf(const PlanningScene& scene, const double* state,
+                                          const std::vector<std::array<std::int32_t, 2>>& colliding,
+                                          const std::vector<Eigen::Vector3d>& contact_points,
+                                          const MarkerOptions& options);
+}  // namespace gpu_planning_scene
