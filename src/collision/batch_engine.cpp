@@ -12,19 +12,6 @@
 
 namespace gpu_planning_scene
 {
-namespace
-{
-/// Of the second one of a reported pair, see GpuPairChecker::pairOf.
-std::int32_t otherBody(const CollisionProblem& problem, std::size_t index)
-{
-  if (index < problem.robot.size())
-    return problem.robot[index].body;
-  index -= problem.robot.size();
-  return index < problem.world.size() ? problem.world[index].body
-                                      : problem.half_spaces[index - problem.world.size()].body;
-}
-}  // namespace
-
 BatchEngine::BatchEngine(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees)
   : shader_folder_(options.shader_folder.empty() ? shaderFolder() : options.shader_folder),
     gl_(options.device),
@@ -177,7 +164,7 @@ void BatchEngine::check(PoseSource& source, std::size_t count, std::size_t link_
     {
       const auto [a, b] = GpuPairChecker::pairOf(verdicts.hits[i]);
       result.valid[i] = 0;
-      result.colliding[i] = {robot[a].body, otherBody(*problem_, b)};
+      result.colliding[i] = {robot[a].body, bodyOf(*problem_, b)};
     }
     else if (verdicts.flags[i] & STATE_UNDECIDED)
       undecided.push_back(i);

@@ -19,11 +19,16 @@ AlignedBox3d grown(const AlignedBox3d& box, double margin)
   return {box.min().array() - margin, box.max().array() + margin};
 }
 
-CpuTraversal::BodyPair bodyPair(std::int32_t a, std::int32_t b)
-{
-  return {std::min(a, b), std::max(a, b)};
-}
 }  // namespace
+
+std::int32_t bodyOf(const CollisionProblem& problem, std::size_t instance)
+{
+  if (instance < problem.robot.size())
+    return problem.robot[instance].body;
+  instance -= problem.robot.size();
+  return instance < problem.world.size() ? problem.world[instance].body
+                                         : problem.half_spaces[instance - problem.world.size()].body;
+}
 
 std::vector<AlignedBox3d> worldBounds(const CollisionProblem& problem, const CpuForest& forest)
 {
@@ -84,6 +89,13 @@ void CpuTraversal::findNearObjects(const AlignedBox3d& bounds, Scratch& scratch)
   }
 }
 
+CpuTraversal::BodyPair CpuTraversal::bodiesOf(const InstancePair& pair) const
+{
+  const std::int32_t first = bodyOf(*problem_, pair[0]);
+  const std::int32_t second = bodyOf(*problem_, pair[1]);
+  return {std::min(first, second), std::max(first, second)};
+}
+
 void CpuTraversal::startState(Scratch& scratch) const
 {
   const std::size_t checks = problem_->robot.size() + problem_->self_pairs.size();
@@ -116,6 +128,8 @@ bool CpuTraversal::checkWorld(std::uint32_t instance, Scratch& scratch, const Vi
 {
   const Geometry& robot = problem_->robot[instance];
   const auto& half_spaces = problem_->half_spaces;
+  const auto robots = static_cast<std::uint32_t>(problem_->robot.size());
+  const auto objects = static_cast<std::uint32_t>(problem_->world.size());
   findNearObjects(grown(scratch.bounds[instance], robot.padding), scratch);
   for (const std::uint32_t object : scratch.near_objects)
   {
@@ -123,18 +137,18 @@ bool CpuTraversal::checkWorld(std::uint32_t instance, Scratch& scratch, const Vi
     if (problem_->world_pairs[instance * problem_->world.size() + object] != 0 &&
         pair_.collide(robot.tree, scratch.poses[instance], other.tree, other.pose, robot.padding + other.padding,
                       scratch.pair) &&
-        visit(bodyPair(robot.body, other.body)))
+        visit({instance, robots + object}))
     {
       return true;
     }
   }
-  for (std::size_t k = 0; k < half_spaces.size(); ++k)
+  for (std::uint32_t k = 0; k < half_spaces.size(); ++k)
   {
     const WorldHalfSpace& other = half_spaces[k];
     if (problem_->half_space_pairs[instance * half_spaces.size() + k] != 0 &&
         pair_.collide(robot.tree, scratch.poses[instance], {other.normal, other.offset}, robot.padding + other.padding,
                       scratch.pair) &&
-        visit(bodyPair(robot.body, other.body)))
+        visit({instance, robots + objects + k}))
     {
       return true;
     }
@@ -157,7 +171,7 @@ bool CpuTraversal::check(std::uint32_t number, const Isometry3d* link_poses, Scr
   return scratch.bounds[first].intersects(scratch.bounds[second]) &&
          pair_.collide(robot[first].tree, scratch.poses[first], robot[second].tree, scratch.poses[second], 0.0,
                        scratch.pair) &&
-         visit(bodyPair(robot[first].body, robot[second].body));
+         visit({first, second});
 }
 
 /// To find a collision at the least expected cost, checks go by hits per cost. Sorted after 1, 2, 4, ... states, then
@@ -189,9 +203,9 @@ std::optional<CpuTraversal::BodyPair> CpuTraversal::firstCollision(const Isometr
   for (std::size_t k = 0; k < scratch.order.size(); ++k)
   {
     const std::uint32_t number = scratch.order[k];
-    const auto visit = [&found](const BodyPair& pair)
+    const auto visit = [this, &found](const InstancePair& pair)
     {
-      found = pair;
+      found = bodiesOf(pair);
       return true;
     };
     const std::uint64_t before = scratch.pair.steps;
@@ -217,7 +231,26 @@ std::vector<CpuTraversal::BodyPair> CpuTraversal::allCollisions(const Isometry3d
   startState(scratch);
   for (const std::uint32_t number : scratch.order)
   {
-    const auto visit = [&found](const BodyPair& pair)
+    const auto visit = [this, &found](const InstancePair& pair)
+    {
+      found.push_back(bodiesOf(pair));
+      return false;
+    };
+    check(number, link_poses, scratch, visit);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::vector<CpuTraversal::InstancePair> CpuTraversal::collidingInstances(const Isometry3d* link_poses,
+                                                                         Scratch& scratch) const
+{
+  std::vector<InstancePair> found;
+  startState(scratch);
+  for (const std::uint32_t number : scratch.order)
+  {
+    const auto visit = [&found](const InstancePair& pair)
     {
       found.push_back(pair);
       return false;
@@ -225,7 +258,6 @@ std::vector<CpuTraversal::BodyPair> CpuTraversal::allCollisions(const Isometry3d
     check(number, link_poses, scratch, visit);
   }
   std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 }  // namespace gpu_planning_scene

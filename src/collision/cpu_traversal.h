@@ -23,6 +23,9 @@ class CpuTraversal
  public:
   using BodyPair = std::array<std::int32_t, 2>;  // body indices, ascending
 
+  /// An index of a robot's instance, and one into the robot's, then the world's, then the half-spaces.
+  using InstancePair = std::array<std::uint32_t, 2>;
+
   /// Work space of one thread, reused from call to call. Keeps how often each check found a collision and what it cost,
   /// so that the next state begins with those that find most for their cost: the order changes no answer but which of
   /// several colliding pairs is found.
@@ -54,13 +57,18 @@ class CpuTraversal
   /// All colliding pairs of bodies, each once.
   std::vector<BodyPair> allCollisions(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
 
+  /// All colliding pairs of instances, each once; those that collide in every state are not among them. Leaves the
+  /// poses of all instances that are in a pair in the scratch.
+  std::vector<InstancePair> collidingInstances(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
+
  private:
   /// A check is one of a robot instance against the world, by its index, or, counted on from there, one of a self pair.
-  /// Calls visit(body pair) for what collides until it returns true, and returns whether it did.
+  /// Calls visit(instance pair) for what collides until it returns true, and returns whether it did.
   template <class Visit>
   bool check(std::uint32_t number, const Eigen::Isometry3d* link_poses, Scratch& scratch, const Visit& visit) const;
   template <class Visit>
   bool checkWorld(std::uint32_t instance, Scratch& scratch, const Visit& visit) const;
+  BodyPair bodiesOf(const InstancePair& pair) const;
   void startState(Scratch& scratch) const;
   static void learnOrder(Scratch& scratch);
   void place(std::uint32_t instance, const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
@@ -71,6 +79,9 @@ class CpuTraversal
   CpuShapePair pair_;
   std::shared_ptr<const ObjectTree> objects_;
 };
+
+/// The body of an instance, by its index as in CpuTraversal::InstancePair.
+std::int32_t bodyOf(const CollisionProblem& problem, std::size_t instance);
 
 /// The boxes of the world's instances, grown by their padding: what the tree over objects is made of.
 std::vector<Eigen::AlignedBox3d> worldBounds(const CollisionProblem& problem, const CpuForest& forest);

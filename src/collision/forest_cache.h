@@ -16,6 +16,10 @@ class ForestCache
  public:
   std::unique_ptr<const CpuTraversal> traversalOf(std::shared_ptr<const CollisionProblem> problem);
 
+  /// What the last traversal walks; null before the first.
+  const std::shared_ptr<const CpuForest>& forest() const { return forest_; }
+  const std::shared_ptr<const ObjectTree>& objects() const { return objects_; }
+
  private:
   std::shared_ptr<const CpuForest> forest_;
   std::shared_ptr<const ObjectTree> objects_;

@@ -9,7 +9,6 @@
 
 #include "gpu_planning_scene/error.h"
 #include "support/fcl_broad_phase.h"
-#include "support/fcl_models.h"
 #include "support/inside.h"
 #include "support/learned_order.h"
 

@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/collision_problem.h"
-#include "support/fcl_models.h"
+#include "collision/fcl_models.h"
 
 namespace gpu_planning_scene
 {

@@ -34,6 +34,9 @@ using FclGeometry = std::shared_ptr<fcl::CollisionGeometry<double>>;
 /// Spheres, cylinders and cones as FCL's shapes, all else as a tree over the tessellation.
 FclGeometry makeFclGeometry(const Shape& shape, const Tessellation& tessellation, FclTree tree);
 
+/// As MoveIt has them: boxes as FCL's boxes too, which tell contacts as those of whole faces; meshes as OBBRSS trees.
+FclGeometry makeFclSolid(const Shape& shape, const Tessellation& tessellation);
+
 /// A tree of volumes that are not oriented, which has to be fitted anew for each pose. FCL would build it anew for each
 /// query, unless it lies in the planning frame already, as it does here. Not thread-safe.
 class FclMovedTree

@@ -1,4 +1,4 @@
-#include "support/fcl_models.h"
+#include "collision/fcl_models.h"
 
 #include <vector>
 
@@ -6,6 +6,7 @@
 #include <fcl/math/bv/utility.h>
 
 #include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -91,6 +92,16 @@ FclGeometry makeFclGeometry(const Shape& shape, const Tessellation& tessellation
     geometry = std::make_shared<fcl::Coned>(cone->radius, cone->length);
   else
     geometry = makeTree(*tessellation.mesh, tree);
+  geometry->computeLocalAABB();
+  return geometry;
+}
+
+FclGeometry makeFclSolid(const Shape& shape, const Tessellation& tessellation)
+{
+  const auto* box = std::get_if<Box>(&shape);
+  if (box == nullptr)
+    return makeFclGeometry(shape, tessellation, FclTree::Obbrss);
+  auto geometry = std::make_shared<fcl::Boxd>(box->size);
   geometry->computeLocalAABB();
   return geometry;
 }
