@@ -13,6 +13,9 @@
 #define SOLID_LEAF (1u << 29)
 // What testing a triangle costs in a traversal, a node's box being 1 (surface area heuristic).
 #define TRIANGLE_COST 0.4
+// Oriented boxes: nodes of up to this many triangles are fitted by one lane, of more by a workgroup, of even more not at all.
+#define FIT_LANE_TRIANGLES 128
+#define FIT_MOST_TRIANGLES 65536
 // Elements that one lane of the sort and of the compaction handles in sequence.
 #define CHUNK 32
 #define RADIX_BITS 4
@@ -50,6 +53,7 @@
 #define UNIT_SPHERES 12      // [robot][state]
 #define UNIT_STATES 13       // these two: see kinematics.glsl
 #define UNIT_LINK_SHAPES 14
+#define UNIT_ORIENTED_NODES 15
 // Storage buffers.
 #define BINDING_COUNTERS 0
 #define BINDING_FLAGS 1       // one uint a state: STATE_* bits

@@ -24,8 +24,8 @@ void main()
   {
     const uvec4 entry = texelFetch(entries, int(i));
     const Item item = fetchItem(entry.x);
-    const TreeNode a = fetchNode(entry.y);
-    const TreeNode b = fetchNode(entry.z);
+    const OrientedNode a = fetchOrientedNode(entry.y);
+    const OrientedNode b = fetchOrientedNode(entry.z);
     const uint children = isDecided(item.state) ? 0u : childrenOf(a, b);
 #if SOLIDS
     const vec3 core_a = fetchInstance(pairOther(item.pair)).core;
@@ -36,11 +36,11 @@ void main()
     for (uint c = 0u; c < 4u; ++c)
     {
       const uvec2 nodes = childPair(entry.yz, a, b, c);
-      const TreeNode child_a = fetchNode(nodes.x);
-      const TreeNode child_b = fetchNode(nodes.y);
-      const bool apart = boxesApart(child_a.box, child_b.box, item.pose, item.gap + boxError(item.error));
+      const OrientedNode child_a = fetchOrientedNode(nodes.x);
+      const OrientedNode child_b = fetchOrientedNode(nodes.y);
+      const bool apart = nodesApart(child_a, child_b, item.pose, boxMargin(item.gap, item.error));
 #if SOLIDS
-      inside = inside || boxInCore(child_a.box, child_b.box, core_a, core_b, item.pose, boxError(item.error));
+      inside = inside || nodeInCore(child_a, child_b, core_a, core_b, item.pose, boxError(item.error));
 #endif
 #if TOLERANT
       inside = inside || isCloseEnough(entry.x, item, child_a, child_b);

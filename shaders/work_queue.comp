@@ -12,7 +12,7 @@ layout(local_size_x = QUEUE_LANES) in;
 #include "boxes.glsl"
 #include "error_bounds.glsl"
 #include "instances.glsl"
-#include "descend.glsl"
+#include "oriented_nodes.glsl"
 #include "counters.glsl"
 #include "verdicts.glsl"
 // Room for what all lanes may add before the group turns to triangles.
@@ -93,11 +93,11 @@ void main()
     bool inside = false;
     for (uint step = 0u; step < QUEUE_STEPS && walking && !inside && waiting + leaves < QUEUE_STACK; ++step)
     {
-      const TreeNode a = fetchNode(nodes.x);
-      const TreeNode b = fetchNode(nodes.y);
-      const bool overlap = !boxesApart(a.box, b.box, item.pose, item.gap + boxError(item.error));
+      const OrientedNode a = fetchOrientedNode(nodes.x);
+      const OrientedNode b = fetchOrientedNode(nodes.y);
+      const bool overlap = !nodesApart(a, b, item.pose, boxMargin(item.gap, item.error));
 #if SOLIDS
-      inside = boxInCore(a.box, b.box, core_a, core_b, item.pose, boxError(item.error));
+      inside = nodeInCore(a, b, core_a, core_b, item.pose, boxError(item.error));
 #endif
 #if TOLERANT
       inside = inside || isCloseEnough(item_index, item, a, b);

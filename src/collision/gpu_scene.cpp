@@ -208,8 +208,7 @@ void GpuScene::writeSolids(const CollisionProblem& problem)
       }
       nodes.push_back(node);
     }
-  solid_nodes_ = trees_.reserveNodes(nodes.size());
-  trees_.nodes().buffer().write(nodes.data(), nodes.size() * sizeof(Node), solid_nodes_ * sizeof(Node));
+  solid_nodes_ = trees_.placeNodes(nodes);
 }
 
 void GpuScene::writeHalfSpaces(const CollisionProblem& problem)
@@ -279,6 +278,7 @@ void GpuScene::selectPairs(const CollisionProblem& problem)
 void GpuScene::bind() const
 {
   trees_.nodes().bindTexture(UNIT_NODES);
+  trees_.orientedNodes().bindTexture(UNIT_ORIENTED_NODES);
   trees_.triangles().bindTexture(UNIT_TRIANGLES);
   world_poses_.bindTexture(UNIT_WORLD_POSES);
   instances_.bindTexture(UNIT_INSTANCES);
