@@ -137,7 +137,7 @@ void writeBest(uint at, TreeNode node, Extents extents, vec4 axes[FIT_BOXES])
       best = box;
   const vec3 low = extents.low[best];
   const vec3 high = extents.high[best];
-  const float radius = length(node.box.extent);
+  const float radius = node.box.extent.x + node.box.extent.y + node.box.extent.z;
   const vec3 center = node.box.center + rotationOf(axes[best]) * (0.5 * (low + high));
   const float off = UNIT_ROUNDOFF * (64.0 * radius + 4.0 * (abs(center.x) + abs(center.y) + abs(center.z))) + 1e-37;
   writeOriented(at, node, center, 0.5 * (high - low) + off, axes[best]);
