@@ -22,6 +22,11 @@ Instance fetchInstance(uint index)
   return Instance(a.x, uintBitsToFloat(a.y), a.z, a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), uintBitsToFloat(c.w));
 }
 
+bool isPrimitive(Instance instance)
+{
+  return instance.kind != SOLID_NONE && instance.kind != SOLID_MESH;
+}
+
 uint packPair(uint robot, uint other)
 {
   return (robot << PAIR_OTHER_BITS) | other;

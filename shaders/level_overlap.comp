@@ -5,6 +5,9 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
 #include "level.glsl"
 #include "instances.glsl"
+#if SOLIDS
+#include "solid_nodes.glsl"
+#endif
 #include "verdicts.glsl"
 #if TOLERANT
 #include "tolerance.glsl"
@@ -28,8 +31,8 @@ void main()
     const OrientedNode b = fetchOrientedNode(entry.z);
     const uint children = isDecided(item.state) ? 0u : childrenOf(a, b);
 #if SOLIDS
-    const vec3 core_a = fetchInstance(pairOther(item.pair)).core;
-    const vec3 core_b = fetchInstance(pairRobot(item.pair)).core;
+    const Instance instance_a = fetchInstance(pairOther(item.pair));
+    const Instance instance_b = fetchInstance(pairRobot(item.pair));
 #endif
     bool inside = false;
     uint mask = 0u;
@@ -38,9 +41,10 @@ void main()
       const uvec2 nodes = childPair(entry.yz, a, b, c);
       const OrientedNode child_a = fetchOrientedNode(nodes.x);
       const OrientedNode child_b = fetchOrientedNode(nodes.y);
-      const bool apart = nodesApart(child_a, child_b, item.pose, boxMargin(item.gap, item.error));
+      bool apart = nodesApart(child_a, child_b, item.pose, boxMargin(item.gap, item.error));
 #if SOLIDS
-      inside = inside || nodeInCore(child_a, child_b, core_a, core_b, item.pose, boxError(item.error));
+      apart = apart || nodeBeyondSolid(child_a, child_b, instance_a, instance_b, item);
+      inside = inside || nodeInCore(child_a, child_b, instance_a.core, instance_b.core, item.pose, boxError(item.error));
 #endif
 #if TOLERANT
       inside = inside || isCloseEnough(entry.x, item, child_a, child_b);
