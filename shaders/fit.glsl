@@ -1,9 +1,11 @@
-// Fitting an oriented box to the triangles of a node: of three boxes the one with the least surface, along the frame's axes,
-// along the main axes of the corners (Gottschalk, Lin and Manocha 1996, "OBBTree"), and along an edge and the normal of the
-// largest triangle. All is computed around `origin`, the centre of the node's axis-aligned box.
+// Fitting an oriented box to the triangles of a node: of four boxes the one with the least surface, along the frame's axes,
+// along the main axes of the corners (Gottschalk, Lin and Manocha 1996, "OBBTree"), and along the normal of the largest
+// triangle with two directions of its plane: its edge of middle length (of half a rectangle it is a side), and the axis of
+// the frame that is nearest to the plane. src/collision/oriented_box.cpp does the same in double. All is computed around
+// `origin`, the centre of the node's axis-aligned box.
 #include "quaternion.glsl"
 
-#define FIT_BOXES 3
+#define FIT_BOXES 4
 
 // What the axes are chosen by.
 struct Spread
@@ -29,7 +31,7 @@ Spread emptySpread(uint triangle)
 Extents emptyExtents()
 {
   const vec3 least = vec3(-3.4e38);
-  return Extents(vec3[](-least, -least, -least), vec3[](least, least, least));
+  return Extents(vec3[](-least, -least, -least, -least), vec3[](least, least, least, least));
 }
 
 void fetchAround(uint triangle, vec3 origin, out vec3 corners[3])
@@ -92,11 +94,28 @@ vec4 mainAxes(mat3 covariance)
   return q;
 }
 
-vec4 axesOfTriangle(vec3 corners[3])
+// z of unit length, and x as near to `direction` as can be.
+vec4 axesFrom(vec3 direction, vec3 z)
 {
-  const vec3 edge = normalize(corners[1] - corners[0]);
-  const vec3 normal = normalize(cross(edge, corners[2] - corners[0]));
-  return quaternionOf(mat3(edge, cross(normal, edge), normal));
+  const vec3 x = normalize(direction - dot(z, direction) * z);
+  return quaternionOf(mat3(x, cross(z, x), z));
+}
+
+vec3 middleEdge(vec3 corners[3])
+{
+  const vec3 edges[3] = vec3[](corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]);
+  const vec3 sizes = vec3(dot(edges[0], edges[0]), dot(edges[1], edges[1]), dot(edges[2], edges[2]));
+  const float least = min(sizes.x, min(sizes.y, sizes.z));
+  const float most = max(sizes.x, max(sizes.y, sizes.z));
+  const float middle = sizes.x + sizes.y + sizes.z - least - most;
+  const vec3 off = abs(sizes - middle);
+  return off.x <= off.y && off.x <= off.z ? edges[0] : off.y <= off.z ? edges[1] : edges[2];
+}
+
+vec3 nearestAxis(vec3 normal)
+{
+  const vec3 n = abs(normal);
+  return n.x <= n.y && n.x <= n.z ? vec3(1.0, 0.0, 0.0) : n.y <= n.z ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
 }
 
 void chooseAxes(Spread spread, uint count, vec3 origin, out vec4 axes[FIT_BOXES])
@@ -108,7 +127,10 @@ void chooseAxes(Spread spread, uint count, vec3 origin, out vec4 axes[FIT_BOXES]
   fetchAround(spread.triangle, origin, corners);
   axes[0] = vec4(0.0, 0.0, 0.0, 1.0);
   axes[1] = mainAxes(mat3(squares.x, products.z, products.y, products.z, squares.y, products.x, products.y, products.x, squares.z));
-  axes[2] = axesOfTriangle(corners);
+  const vec3 edge = middleEdge(corners);
+  const vec3 normal = normalize(cross(normalize(corners[1] - corners[0]), corners[2] - corners[0]));
+  axes[2] = axesFrom(edge, normal);
+  axes[3] = axesFrom(nearestAxis(normal), normal);
 }
 
 void extend(inout Extents extents, vec3 corners[3], mat3 axes[FIT_BOXES])
