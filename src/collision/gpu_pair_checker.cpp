@@ -190,20 +190,19 @@ void GpuPairChecker::finish(PoseSource& source, Part& part, Verdicts& verdicts)
   }
 }
 
-bool GpuPairChecker::fetch(const Part& part, Verdicts& verdicts)
+bool GpuPairChecker::fetch(Part& part, Verdicts& verdicts)
 {
   const AnswerOffsets offsets(part.count);
-  std::vector<std::uint32_t> words(offsets.end / sizeof(std::uint32_t), ~0U);
-  part.answers.read(words.data(), offsets.end);
+  const std::uint32_t* words = part.fetched.wait();
   if (words[COUNTER_OVERFLOW] != 0 || words[COUNTER_DONE] != part.serial)
     return false;
   work_.states += part.count;
   work_.candidates += words[COUNTER_CANDIDATES];
   work_.root_pairs += words[COUNTER_ITEMS];
-  const auto flags = words.begin() + static_cast<std::ptrdiff_t>(offsets.flags / sizeof(std::uint32_t));
-  const auto hits = words.begin() + static_cast<std::ptrdiff_t>(offsets.hits / sizeof(std::uint32_t));
-  std::copy_n(flags, part.count, verdicts.flags.begin() + static_cast<std::ptrdiff_t>(part.begin));
-  std::copy_n(hits, part.count, verdicts.hits.begin() + static_cast<std::ptrdiff_t>(part.begin));
+  std::copy_n(words + offsets.flags / sizeof(std::uint32_t), part.count,
+              verdicts.flags.begin() + static_cast<std::ptrdiff_t>(part.begin));
+  std::copy_n(words + offsets.hits / sizeof(std::uint32_t), part.count,
+              verdicts.hits.begin() + static_cast<std::ptrdiff_t>(part.begin));
   return true;
 }
 
@@ -235,6 +234,7 @@ void GpuPairChecker::start(PoseSource& source, Part& part)
   done_program_.set(0, part.serial);
   done_program_.dispatch(1);
   part.answers.copyFrom(lists_.counters, COUNTER_WORDS * sizeof(std::uint32_t));
+  part.fetched.begin(part.answers, offsets.end);
   checkGl("a batch");
 }
 

@@ -11,6 +11,7 @@
 #include "collision/gpu_traversal.h"
 #include "collision/pose_source.h"
 #include "collision/search_order.h"
+#include "gpu/readback.h"
 
 namespace gpu_planning_scene
 {
@@ -58,12 +59,13 @@ class GpuPairChecker
     std::size_t begin = 0;
     std::size_t count = 0;
     std::uint32_t serial = 0;
-    Buffer answers;  // counters, flags and hits, see AnswerOffsets
+    Buffer answers;    // counters, flags and hits, see AnswerOffsets
+    Readback fetched;  // likewise
   };
 
   void start(PoseSource& source, Part& part);
   void finish(PoseSource& source, Part& part, Verdicts& verdicts);
-  bool fetch(const Part& part, Verdicts& verdicts);
+  bool fetch(Part& part, Verdicts& verdicts);
   void adaptPartSize(std::size_t count, double seconds);
   void testHalfSpaces(std::uint32_t states);
   void findCandidates(std::uint32_t states);
