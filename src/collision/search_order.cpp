@@ -47,6 +47,8 @@ void SearchOrder::setPairs(const CollisionProblem& problem)
     const auto row = problem.world_pairs.begin() + static_cast<std::ptrdiff_t>(i) * width;
     meets_world_[i] = std::find(row, row + width, std::uint8_t{1}) != row + width;
   }
+  if (problem.robot.size() == world_hits_.size() && hasPairs(problem.self_pairs))
+    return;
   world_hits_.assign(problem.robot.size(), 0);
   pairs_.clear();
   pair_of_.clear();
@@ -58,6 +60,13 @@ void SearchOrder::setPairs(const CollisionProblem& problem)
   }
   states_ = 0;
   next_order_ = 1;
+}
+
+bool SearchOrder::hasPairs(const std::vector<std::array<std::uint32_t, 2>>& pairs) const
+{
+  return std::equal(pairs.begin(), pairs.end(), pairs_.begin(), pairs_.end(),
+                    [](const std::array<std::uint32_t, 2>& pair, const Pair& mine)
+                    { return std::min(pair[0], pair[1]) == mine.low && std::max(pair[0], pair[1]) == mine.high; });
 }
 
 void SearchOrder::count(std::uint32_t robot, std::uint32_t other)

@@ -20,18 +20,19 @@ struct Searches
   std::uint32_t hot_self = 0;
 };
 
-/// The order in which the broad phase searches, learned from the hits of earlier batches: what collides most often comes
-/// first, and spares its states the rest. It changes no answer but which of several colliding pairs is reported.
+/// The order in which the broad phase searches, learned from the hits of earlier batches: what collides most often
+/// comes first, and spares its states the rest. It changes no answer but which of several colliding pairs is reported.
 class SearchOrder
 {
  public:
-  /// Begins anew with the checked pairs of a problem.
+  /// Sets the checked pairs. What was learned of a robot's pairs stays while they are the same.
   void setPairs(const CollisionProblem& problem);
 
   /// Counts a hit of a robot instance with another, or with (number of robot instances + an instance of the world).
   void count(std::uint32_t robot, std::uint32_t other);
 
-  /// To be called after `states` states, whose hits were counted. Whether there is enough that is new for another order.
+  /// To be called after `states` states, whose hits were counted. Whether there is enough that is new for another
+  /// order.
   bool isDue(std::size_t states);
 
   Searches searches() const;
@@ -48,6 +49,7 @@ class SearchOrder
     Searches::Record record;
     std::uint64_t hits;
   };
+  bool hasPairs(const std::vector<std::array<std::uint32_t, 2>>& pairs) const;
   std::vector<Ranked> worldSearches() const;
   std::vector<Ranked> selfSearches() const;
 

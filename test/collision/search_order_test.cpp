@@ -83,6 +83,30 @@ TEST(SearchOrder, BeginsWithWhatCollidesMostOften)
   EXPECT_EQ(searches.hot_world, 2U);
 }
 
+TEST(SearchOrder, StaysWhereOnlyTheWorldChanges)
+{
+  SearchOrder order;
+  CollisionProblem problem = problemOf(12);
+  order.setPairs(problem);
+  order.count(9, 4);
+  order.count(3, 12);
+  problem.world.resize(3);
+  problem.world_pairs.assign(12 * 3, 0);
+  problem.world_pairs[3 * 3 + 1] = 1;
+  problem.world_pairs[2 * 3 + 2] = 1;
+  order.setPairs(problem);
+  Searches searches = order.searches();
+  EXPECT_EQ(pairsOf(searches.self).front(), (Pair{4, 9}));
+  ASSERT_EQ(searches.world.size(), 2U);
+  EXPECT_EQ(searches.world[0][0], 3U);
+  // Other pairs: all is learned anew.
+  problem.self_pairs.pop_back();
+  order.setPairs(problem);
+  searches = order.searches();
+  EXPECT_EQ(pairsOf(searches.self).front(), (Pair{0, 1}));
+  EXPECT_EQ(searches.hot_self, 0U);
+}
+
 TEST(SearchOrder, IsDueMoreAndMoreSeldom)
 {
   SearchOrder order;
