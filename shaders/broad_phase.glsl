@@ -18,6 +18,7 @@ PlacedInstance place(uint robot, uint state)
   const Box box = fetchNode(instance.root).box;
   const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
   const vec3 center = apply(pose, box.center);
-  const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent));
+  const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent) +
+                              instance.padding);
   return PlacedInstance(instance, box, pose, center, instance.slack + CONTRACT_BAND + error);
 }

@@ -49,7 +49,7 @@ float boxError(float position_error)
 // sizes (sizeError).
 float boxMargin(float gap, float position_error)
 {
-  return gap * (1.0 + 256.0 * u) + boxError(position_error);
+  return gap * (1.0 + 512.0 * u) + boxError(position_error);
 }
 
 // The same for the depth of a's point in b's solid, through the inverse pose.

@@ -150,7 +150,7 @@ float halfSurface(vec3 sizes)
 }
 
 // Writes the best of the boxes. What is no number is never the better one. Half edge lengths are rounded outwards: the way from
-// `origin` to a corner, at most `radius` long, is rounded, turned by axes that are right to 13 u an entry, and the centre is rounded.
+// `origin` to a corner, at most `radius` long, is rounded and turned by axes that are right to 25 u an entry, and so is the centre.
 void writeBest(uint at, TreeNode node, Extents extents, vec4 axes[FIT_BOXES])
 {
   int best = 0;
@@ -161,6 +161,6 @@ void writeBest(uint at, TreeNode node, Extents extents, vec4 axes[FIT_BOXES])
   const vec3 high = extents.high[best];
   const float radius = node.box.extent.x + node.box.extent.y + node.box.extent.z;
   const vec3 center = node.box.center + rotationOf(axes[best]) * (0.5 * (low + high));
-  const float off = UNIT_ROUNDOFF * (64.0 * radius + 4.0 * (abs(center.x) + abs(center.y) + abs(center.z))) + 1e-37;
+  const float off = UNIT_ROUNDOFF * (128.0 * radius + 4.0 * (abs(center.x) + abs(center.y) + abs(center.z))) + 1e-37;
   writeOriented(at, node, center, 0.5 * (high - low) + off, axes[best]);
 }

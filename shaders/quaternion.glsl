@@ -1,4 +1,4 @@
-// Rotations as quaternions (x, y, z, w), of length 1 but for rounding: entries of the matrix are then right to 13 u.
+// Rotations as quaternions (x, y, z, w), of length 1 but for rounding: entries of the matrix are then right to 25 u.
 mat3 rotationOf(vec4 q)
 {
   const vec3 twice = 2.0 * q.xyz;

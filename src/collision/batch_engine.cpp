@@ -57,8 +57,13 @@ void BatchEngine::setProblem(std::shared_ptr<const CollisionProblem> problem, st
   }
   catch (...)
   {
-    if (problem_)
-      gl_.run([this] { apply(*problem_, robot_); });
+    // Without a problem, should the old one fail as well: nothing is answered from what is left.
+    const std::shared_ptr<const CollisionProblem> old = std::exchange(problem_, nullptr);
+    if (old)
+    {
+      gl_.run([&] { apply(*old, robot_); });
+      problem_ = old;
+    }
     throw;
   }
   problem_ = std::move(problem);
@@ -113,6 +118,8 @@ void BatchEngine::checkPoses(std::size_t count, std::size_t link_count, const Li
 void BatchEngine::check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
                         BatchResult& result)
 {
+  if (!problem_)
+    throw Error("the device has no scene, since it failed before; set the scene once more");
   const std::vector<Geometry>& robot = problem_->robot;
   result.valid.assign(count, 1);
   result.colliding.assign(count, {-1, -1});

@@ -9,7 +9,8 @@ namespace gpu_planning_scene
 {
 namespace
 {
-/// A dispatch of so many nodes, of up to FIT_MOST_TRIANGLES each, takes less than 50 ms on llvmpipe.
+/// Dispatches of so many nodes, and of so many of up to FIT_MOST_TRIANGLES each, take less than 50 ms on llvmpipe.
+constexpr std::uint32_t kNodesAtOnce = 65536;
 constexpr std::uint32_t kLargeNodesAtOnce = 64;
 }  // namespace
 
@@ -30,9 +31,13 @@ void GpuOrientedBoxes::fit(const ForestRegion& region, const TexelBuffer& nodes,
   oriented.buffer().bindStorage(0);
   large_nodes_.bindStorage(1);
   large_count_.bindStorage(2);
-  fit_program_.set(0, region.first_node);
-  fit_program_.set(1, region.node_count);
-  fit_program_.dispatch(groupsFor(region.node_count));
+  for (std::uint32_t first = 0; first < region.node_count; first += kNodesAtOnce)
+  {
+    const std::uint32_t count = std::min(kNodesAtOnce, region.node_count - first);
+    fit_program_.set(0, region.first_node + first);
+    fit_program_.set(1, count);
+    fit_program_.dispatch(groupsFor(count));
+  }
 
   std::uint32_t large = 0;
   large_count_.read(&large, sizeof(large));

@@ -16,6 +16,9 @@ constexpr double kPartSeconds = 0.05;
 /// What the first part has, of which it is not known how long it takes.
 constexpr std::size_t kFirstPart = 2048;
 
+/// States of a batch that are enough to learn from.
+constexpr std::size_t kMostCounted = 16384;
+
 /// Where a part's flags and hits lie behind its counters.
 struct AnswerOffsets
 {
@@ -136,7 +139,8 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
 
 void GpuPairChecker::learnOrder(const Verdicts& verdicts)
 {
-  for (std::size_t i = 0; i < verdicts.flags.size(); ++i)
+  const std::size_t stride = 1 + verdicts.flags.size() / kMostCounted;
+  for (std::size_t i = 0; i < verdicts.flags.size(); i += stride)
     if (verdicts.flags[i] & STATE_HIT)
     {
       const auto [robot, other] = pairOf(verdicts.hits[i]);

@@ -71,10 +71,11 @@ bool SearchOrder::hasPairs(const std::vector<std::array<std::uint32_t, 2>>& pair
 
 void SearchOrder::count(std::uint32_t robot, std::uint32_t other)
 {
-  if (other >= world_hits_.size())
+  if (robot < world_hits_.size() && other >= world_hits_.size())
     ++world_hits_[robot];
-  else
-    ++pairs_[pair_of_.at(keyOf(std::min(robot, other), std::max(robot, other)))].hits;
+  else if (const auto pair = pair_of_.find(keyOf(std::min(robot, other), std::max(robot, other)));
+           pair != pair_of_.end())
+    ++pairs_[pair->second].hits;
 }
 
 bool SearchOrder::isDue(std::size_t states)
