@@ -7,6 +7,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "items.glsl"
 #include "boxes.glsl"
 #include "error_bounds.glsl"
+#include "oriented_nodes.glsl"
 #include "geometries.glsl"
 #include "counters.glsl"
 #include "verdicts.glsl"
@@ -53,7 +54,7 @@ void main()
   const float error = positionError(pose_a, pose_b, pose, far_a, farCorner(box_b));
   const float distance = world ? a.padding + b.padding : 0.0;
   const float gap = requiredGap(distance, (a_is_solid ? 0.0 : a.slack) + (b_is_solid ? 0.0 : b.slack));
-  if (boxesApart(box_a, box_b, pose, gap + boxError(error)))
+  if (nodesApart(fetchOrientedNode(root_a), fetchOrientedNode(root_b), pose, boxMargin(gap, error)))
     return;
   // What the traversal tests against a solid, it finds inside as well.
   uint inside = containment(b, a, pose, boxError(error)) & (a_is_solid ? STATE_HIT : ~0u);

@@ -21,11 +21,6 @@ float depthInSolid(Instance solid, vec3 p)
   return min(side * slope, p.z + size.z);
 }
 
-bool isPrimitive(Instance instance)
-{
-  return instance.kind != SOLID_NONE && instance.kind != SOLID_MESH;
-}
-
 // STATE_HIT if a point of `inner`, placed by `pose` in the primitive's frame, is inside by more than `error`;
 // STATE_UNDECIDED if one is within the error, or if there are too many components to look at; else 0.
 uint containment(Instance inner, Instance solid, Pose pose, float error)

@@ -39,10 +39,17 @@ float positionError(Pose a, Pose b, Pose pose, vec3 far_a, vec3 far_b)
   return u * (length(parts) + length(far_a)) * (1.0 + 64.0 * u);
 }
 
-// What a box test may be off by, and the depth of b's point in a's solid.
+// What the place of b's box in a may be off by, and the depth of b's point in a's solid.
 float boxError(float position_error)
 {
   return 8.0 * position_error;
+}
+
+// How far boxes have to be apart for what they hold to be apart by more than `gap`, but for an error relative to the boxes' own
+// sizes (sizeError).
+float boxMargin(float gap, float position_error)
+{
+  return gap * (1.0 + 512.0 * u) + boxError(position_error);
 }
 
 // The same for the depth of a's point in b's solid, through the inverse pose.

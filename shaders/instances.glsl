@@ -7,7 +7,6 @@ struct Instance
   uint component_count;  // 0: too many
   vec3 core;             // half edge lengths of a box around the shape's origin that lies within its solid; negative: there is none
   uint kind;             // SOLID_*
-  bool meets_world;      // of a robot instance: some pairs with world instances are checked
   vec3 size;             // of the solid: half edge lengths of a box; radius, radius, half length of the others
   float padding;         // metres
 };
@@ -20,7 +19,12 @@ Instance fetchInstance(uint index)
   const uvec4 a = texelFetch(instance_texels, at);
   const uvec4 b = texelFetch(instance_texels, at + 1);
   const uvec4 c = texelFetch(instance_texels, at + 2);
-  return Instance(a.x, uintBitsToFloat(a.y), a.z, a.w, uintBitsToFloat(b.xyz), b.w & ~MEETS_WORLD, (b.w & MEETS_WORLD) != 0u, uintBitsToFloat(c.xyz), uintBitsToFloat(c.w));
+  return Instance(a.x, uintBitsToFloat(a.y), a.z, a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), uintBitsToFloat(c.w));
+}
+
+bool isPrimitive(Instance instance)
+{
+  return instance.kind != SOLID_NONE && instance.kind != SOLID_MESH;
 }
 
 uint packPair(uint robot, uint other)

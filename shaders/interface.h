@@ -13,6 +13,9 @@
 #define SOLID_LEAF (1u << 29)
 // What testing a triangle costs in a traversal, a node's box being 1 (surface area heuristic).
 #define TRIANGLE_COST 0.4
+// Oriented boxes: nodes of up to this many triangles are fitted by one lane, of more by a workgroup, of even more not at all.
+#define FIT_LANE_TRIANGLES 128
+#define FIT_MOST_TRIANGLES 65536
 // Elements that one lane of the sort and of the compaction handles in sequence.
 #define CHUNK 32
 #define RADIX_BITS 4
@@ -44,12 +47,13 @@
 #define UNIT_LEAF_PAIRS 6
 #define UNIT_CANDIDATES 7
 #define UNIT_INSTANCES 8     // three texels an instance, see instances.glsl; robot's first, then the world's
-#define UNIT_OBJECT_TREE 9   // two texels a node, see check_links.comp
+#define UNIT_OBJECT_TREE 9   // two texels a node, see check_world_broad.comp
 #define UNIT_WORLD_PAIRS 10  // bits [robot][world], 128 a texel
-#define UNIT_PARTNERS 11     // robot instances: where their partners lie, then the partners, four a texel
+#define UNIT_SEARCHES 11     // see searches.glsl
 #define UNIT_SPHERES 12      // [robot][state]
 #define UNIT_STATES 13       // these two: see kinematics.glsl
 #define UNIT_LINK_SHAPES 14
+#define UNIT_ORIENTED_NODES 15
 // Storage buffers.
 #define BINDING_COUNTERS 0
 #define BINDING_FLAGS 1       // one uint a state: STATE_* bits
@@ -94,8 +98,6 @@
 #define SOLID_CYLINDER 3u
 #define SOLID_CONE 4u
 #define SOLID_MESH 5u
-// With an instance's kind: it is the robot's and has pairs with world instances that are checked.
-#define MEETS_WORLD 0x100u
 // Steps in which a triangle and a solid look for the place where they are nearest.
 #define SOLID_ITERATIONS 16u
 // A mesh of more connected components than this is not looked into for containment on the GPU.
@@ -106,8 +108,9 @@
 #define MAX_ROBOT_GEOMETRIES (1 << 12)
 #define MAX_GEOMETRIES (1 << PAIR_OTHER_BITS)
 
-// In a texel of partners, none.
-#define NO_PARTNER 0xffffffffu
+// How many others one search of the broad phase compares a robot instance with, 16 bits each, and none.
+#define SEARCH_PARTNERS 6
+#define NO_PARTNER 0xffffu
 // A node of the tree over objects that is not a leaf.
 #define NO_OBJECT 0xffffffffu
 

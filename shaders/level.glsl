@@ -5,6 +5,7 @@
 #include "items.glsl"
 #include "boxes.glsl"
 #include "error_bounds.glsl"
+#include "oriented_nodes.glsl"
 #include "counters.glsl"
 layout(location = 0) uniform uint in_counter;
 layout(location = 1) uniform uint out_counter;
@@ -15,13 +16,13 @@ layout(binding = UNIT_ENTRIES) uniform usamplerBuffer entries;
 
 // The pairs that a node pair is taken apart into: both nodes' children where both are inner nodes, the inner node's
 // children where one is, the pair itself where none is.
-uvec2 childPair(uvec2 nodes, TreeNode a, TreeNode b, uint child)
+uvec2 childPair(uvec2 nodes, OrientedNode a, OrientedNode b, uint child)
 {
   return uvec2(a.count == 0u ? a.first + (child & 1u) : nodes.x, b.count == 0u ? b.first + (child >> 1u) : nodes.y);
 }
 
 // Bit c is set where child pair c exists.
-uint childrenOf(TreeNode a, TreeNode b)
+uint childrenOf(OrientedNode a, OrientedNode b)
 {
   return (a.count == 0u ? 3u : 1u) * (b.count == 0u ? 5u : 1u);
 }

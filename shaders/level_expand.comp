@@ -20,8 +20,8 @@ void main()
   {
     const uint mask = masks[i];
     const uvec4 entry = texelFetch(entries, int(i));
-    const TreeNode a = fetchNode(entry.y);
-    const TreeNode b = fetchNode(entry.z);
+    const OrientedNode a = fetchOrientedNode(entry.y);
+    const OrientedNode b = fetchOrientedNode(entry.z);
     for (uint c = 0u; c < 4u; ++c)
     {
       const uvec2 nodes = childPair(entry.yz, a, b, c);
@@ -33,8 +33,8 @@ void main()
       }
       if ((mask >> (c + 4u) & 1u) != 0u)
       {
-        const TreeNode child_a = fetchNode(nodes.x);
-        const TreeNode child_b = fetchNode(nodes.y);
+        const OrientedNode child_a = fetchOrientedNode(nodes.x);
+        const OrientedNode child_b = fetchOrientedNode(nodes.y);
         if (at.y < leaf_pair_capacity)
           leaf_pairs[at.y] = uvec4(entry.x, leafReference(child_a), leafReference(child_b), 0u);
         ++at.y;

@@ -5,6 +5,9 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
 #include "level.glsl"
 #include "instances.glsl"
+#if SOLIDS
+#include "solid_nodes.glsl"
+#endif
 #include "verdicts.glsl"
 #if TOLERANT
 #include "tolerance.glsl"
@@ -24,23 +27,24 @@ void main()
   {
     const uvec4 entry = texelFetch(entries, int(i));
     const Item item = fetchItem(entry.x);
-    const TreeNode a = fetchNode(entry.y);
-    const TreeNode b = fetchNode(entry.z);
+    const OrientedNode a = fetchOrientedNode(entry.y);
+    const OrientedNode b = fetchOrientedNode(entry.z);
     const uint children = isDecided(item.state) ? 0u : childrenOf(a, b);
 #if SOLIDS
-    const vec3 core_a = fetchInstance(pairOther(item.pair)).core;
-    const vec3 core_b = fetchInstance(pairRobot(item.pair)).core;
+    const Instance instance_a = fetchInstance(pairOther(item.pair));
+    const Instance instance_b = fetchInstance(pairRobot(item.pair));
 #endif
     bool inside = false;
     uint mask = 0u;
     for (uint c = 0u; c < 4u; ++c)
     {
       const uvec2 nodes = childPair(entry.yz, a, b, c);
-      const TreeNode child_a = fetchNode(nodes.x);
-      const TreeNode child_b = fetchNode(nodes.y);
-      const bool apart = boxesApart(child_a.box, child_b.box, item.pose, item.gap + boxError(item.error));
+      const OrientedNode child_a = fetchOrientedNode(nodes.x);
+      const OrientedNode child_b = fetchOrientedNode(nodes.y);
+      bool apart = nodesApart(child_a, child_b, item.pose, boxMargin(item.gap, item.error));
 #if SOLIDS
-      inside = inside || boxInCore(child_a.box, child_b.box, core_a, core_b, item.pose, boxError(item.error));
+      apart = apart || nodeBeyondSolid(child_a, child_b, instance_a, instance_b, item);
+      inside = inside || nodeInCore(child_a, child_b, instance_a.core, instance_b.core, item.pose, boxError(item.error));
 #endif
 #if TOLERANT
       inside = inside || isCloseEnough(entry.x, item, child_a, child_b);

@@ -4,7 +4,7 @@
 // where their diagonals add up to the tolerance.
 layout(location = 5) uniform float tolerance;  // metres
 
-bool isCloseEnough(uint item_index, Item item, TreeNode a, TreeNode b)
+bool isCloseEnough(uint item_index, Item item, OrientedNode a, OrientedNode b)
 {
   const vec3 between = apply(item.pose, b.box.center) - a.box.center;
 #if SOLIDS

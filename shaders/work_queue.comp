@@ -12,7 +12,10 @@ layout(local_size_x = QUEUE_LANES) in;
 #include "boxes.glsl"
 #include "error_bounds.glsl"
 #include "instances.glsl"
-#include "descend.glsl"
+#include "oriented_nodes.glsl"
+#if SOLIDS
+#include "solid_nodes.glsl"
+#endif
 #include "counters.glsl"
 #include "verdicts.glsl"
 // Room for what all lanes may add before the group turns to triangles.
@@ -57,8 +60,8 @@ void main()
   Item item;
   item.state = 0u;
 #if SOLIDS
-  vec3 core_a = vec3(-1.0);
-  vec3 core_b = vec3(-1.0);
+  Instance instance_a = fetchInstance(0u);
+  Instance instance_b = instance_a;
 #endif
   if (gl_LocalInvocationID.x == 0u)
   {
@@ -86,18 +89,19 @@ void main()
       item = fetchItem(item_index);
       nodes = entry.yz;
 #if SOLIDS
-      core_a = fetchInstance(pairOther(item.pair)).core;
-      core_b = fetchInstance(pairRobot(item.pair)).core;
+      instance_a = fetchInstance(pairOther(item.pair));
+      instance_b = fetchInstance(pairRobot(item.pair));
 #endif
     }
     bool inside = false;
     for (uint step = 0u; step < QUEUE_STEPS && walking && !inside && waiting + leaves < QUEUE_STACK; ++step)
     {
-      const TreeNode a = fetchNode(nodes.x);
-      const TreeNode b = fetchNode(nodes.y);
-      const bool overlap = !boxesApart(a.box, b.box, item.pose, item.gap + boxError(item.error));
+      const OrientedNode a = fetchOrientedNode(nodes.x);
+      const OrientedNode b = fetchOrientedNode(nodes.y);
+      bool overlap = !nodesApart(a, b, item.pose, boxMargin(item.gap, item.error));
 #if SOLIDS
-      inside = boxInCore(a.box, b.box, core_a, core_b, item.pose, boxError(item.error));
+      overlap = overlap && !nodeBeyondSolid(a, b, instance_a, instance_b, item);
+      inside = nodeInCore(a, b, instance_a.core, instance_b.core, item.pose, boxError(item.error));
 #endif
 #if TOLERANT
       inside = inside || isCloseEnough(item_index, item, a, b);

@@ -16,6 +16,9 @@ constexpr double kPartSeconds = 0.05;
 /// What the first part has, of which it is not known how long it takes.
 constexpr std::size_t kFirstPart = 2048;
 
+/// States of a batch that are enough to learn from.
+constexpr std::size_t kMostCounted = 16384;
+
 /// Where a part's flags and hits lie behind its counters.
 struct AnswerOffsets
 {
@@ -57,7 +60,8 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
     lists_(withDefaults(capacities, max_states_)),
     traversal_(makeTraversal(traversal, folder, definitions_, lists_.capacity)),
     arguments_(folder),
-    links_program_(folder, "check_links.comp"),
+    spheres_program_(folder, "check_spheres.comp"),
+    world_program_(folder, "check_world_broad.comp"),
     self_program_(folder, "check_self_broad.comp"),
     roots_program_(folder, "check_roots.comp", definitions_),
     half_spaces_program_(folder, "check_half_spaces.comp", definitions_),
@@ -74,12 +78,14 @@ std::pair<std::uint32_t, std::uint32_t> GpuPairChecker::pairOf(std::uint32_t hit
 void GpuPairChecker::setProblem(const CollisionProblem& problem)
 {
   scene_.setProblem(problem);
+  order_.setPairs(problem);
   prepare();
 }
 
 void GpuPairChecker::selectPairs(const CollisionProblem& problem)
 {
   scene_.selectPairs(problem);
+  order_.setPairs(problem);
   prepare();
 }
 
@@ -90,6 +96,7 @@ void GpuPairChecker::prepare()
       TexelBuffer::mostBytes() / (std::size_t{std::max(1U, scene_.robotCount())} * 12 * sizeof(float));
   part_limit_ = std::max<std::size_t>(1, std::min(max_states_, room));
   part_size_ = std::min(part_size_, part_limit_);
+  writeSearches();
   traversal_->prepare(task(false));
   if (scene_.solidNodes() != 0)
     traversal_->prepare(task(true));
@@ -127,6 +134,31 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
     }
     running = next;
   }
+  learnOrder(verdicts);
+}
+
+void GpuPairChecker::learnOrder(const Verdicts& verdicts)
+{
+  const std::size_t stride = 1 + verdicts.flags.size() / kMostCounted;
+  for (std::size_t i = 0; i < verdicts.flags.size(); i += stride)
+    if (verdicts.flags[i] & STATE_HIT)
+    {
+      const auto [robot, other] = pairOf(verdicts.hits[i]);
+      order_.count(robot, other);
+    }
+  if (order_.isDue(verdicts.flags.size()))
+    writeSearches();
+}
+
+void GpuPairChecker::writeSearches()
+{
+  searches_ = order_.searches();
+  for (const auto& [records, buffer] :
+       {std::pair(&searches_.world, &world_searches_), std::pair(&searches_.self, &self_searches_)})
+  {
+    buffer->reserve(records->size() * sizeof(Searches::Record));
+    buffer->buffer().write(*records);
+  }
 }
 
 /// By what a part of `count` states took.
@@ -162,20 +194,19 @@ void GpuPairChecker::finish(PoseSource& source, Part& part, Verdicts& verdicts)
   }
 }
 
-bool GpuPairChecker::fetch(const Part& part, Verdicts& verdicts)
+bool GpuPairChecker::fetch(Part& part, Verdicts& verdicts)
 {
   const AnswerOffsets offsets(part.count);
-  std::vector<std::uint32_t> words(offsets.end / sizeof(std::uint32_t), ~0U);
-  part.answers.read(words.data(), offsets.end);
+  const std::uint32_t* words = part.fetched.wait();
   if (words[COUNTER_OVERFLOW] != 0 || words[COUNTER_DONE] != part.serial)
     return false;
   work_.states += part.count;
   work_.candidates += words[COUNTER_CANDIDATES];
   work_.root_pairs += words[COUNTER_ITEMS];
-  const auto flags = words.begin() + static_cast<std::ptrdiff_t>(offsets.flags / sizeof(std::uint32_t));
-  const auto hits = words.begin() + static_cast<std::ptrdiff_t>(offsets.hits / sizeof(std::uint32_t));
-  std::copy_n(flags, part.count, verdicts.flags.begin() + static_cast<std::ptrdiff_t>(part.begin));
-  std::copy_n(hits, part.count, verdicts.hits.begin() + static_cast<std::ptrdiff_t>(part.begin));
+  std::copy_n(words + offsets.flags / sizeof(std::uint32_t), part.count,
+              verdicts.flags.begin() + static_cast<std::ptrdiff_t>(part.begin));
+  std::copy_n(words + offsets.hits / sizeof(std::uint32_t), part.count,
+              verdicts.hits.begin() + static_cast<std::ptrdiff_t>(part.begin));
   return true;
 }
 
@@ -207,6 +238,7 @@ void GpuPairChecker::start(PoseSource& source, Part& part)
   done_program_.set(0, part.serial);
   done_program_.dispatch(1);
   part.answers.copyFrom(lists_.counters, COUNTER_WORDS * sizeof(std::uint32_t));
+  part.fetched.begin(part.answers, offsets.end);
   checkGl("a batch");
 }
 
@@ -228,26 +260,37 @@ void GpuPairChecker::testHalfSpaces(std::uint32_t states)
   }
 }
 
+/// Searches that found most before come first, whether in the world or among links.
 void GpuPairChecker::findCandidates(std::uint32_t states)
 {
-  const std::size_t lanes = std::size_t{states} * scene_.robotCount();
-  for (const Program* program : {&links_program_, &self_program_, &roots_program_})
+  for (const Program* program : {&spheres_program_, &world_program_, &self_program_, &roots_program_})
   {
     program->set(0, states);
     program->set(1, scene_.robotCount());
   }
-  for (const Program* program : {&links_program_, &self_program_})
-    program->set(2, lists_.capacity.candidates);
-  lists_.candidates.buffer().bindStorage(BINDING_B);
-  spheres_.reserve(lanes * 16);
-  spheres_.buffer().bindStorage(BINDING_A);
-  links_program_.set(3, scene_.worldCount());
-  links_program_.dispatch(groupsFor(lanes));
-  if (scene_.hasSelfPairs())
+  spheres_.reserve(std::size_t{states} * scene_.robotCount() * 16);
+  if (!searches_.self.empty())
   {
-    spheres_.bindTexture(UNIT_SPHERES);
-    self_program_.dispatch(groupsFor(lanes));
+    spheres_.buffer().bindStorage(BINDING_A);
+    spheres_program_.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
   }
+  spheres_.bindTexture(UNIT_SPHERES);
+  lists_.candidates.buffer().bindStorage(BINDING_B);
+  world_program_.set(5, scene_.worldCount());
+  const auto search = [&](const Program& program, const TexelBuffer& list, std::size_t begin, std::size_t end)
+  {
+    if (begin == end)
+      return;
+    list.bindTexture(UNIT_SEARCHES);
+    program.set(2, lists_.capacity.candidates);
+    program.set(3, static_cast<std::uint32_t>(begin));
+    program.set(4, static_cast<std::uint32_t>(end - begin));
+    program.dispatch(groupsFor(states * (end - begin)));
+  };
+  search(self_program_, self_searches_, 0, searches_.hot_self);
+  search(world_program_, world_searches_, 0, searches_.hot_world);
+  search(self_program_, self_searches_, searches_.hot_self, searches_.self.size());
+  search(world_program_, world_searches_, searches_.hot_world, searches_.world.size());
 }
 
 void GpuPairChecker::testRoots()

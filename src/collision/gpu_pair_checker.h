@@ -10,6 +10,8 @@
 #include "collision/gpu_scene.h"
 #include "collision/gpu_traversal.h"
 #include "collision/pose_source.h"
+#include "collision/search_order.h"
+#include "gpu/readback.h"
 
 namespace gpu_planning_scene
 {
@@ -57,15 +59,18 @@ class GpuPairChecker
     std::size_t begin = 0;
     std::size_t count = 0;
     std::uint32_t serial = 0;
-    Buffer answers;  // counters, flags and hits, see AnswerOffsets
+    Buffer answers;    // counters, flags and hits, see AnswerOffsets
+    Readback fetched;  // likewise
   };
 
   void start(PoseSource& source, Part& part);
   void finish(PoseSource& source, Part& part, Verdicts& verdicts);
-  bool fetch(const Part& part, Verdicts& verdicts);
+  bool fetch(Part& part, Verdicts& verdicts);
   void adaptPartSize(std::size_t count, double seconds);
   void testHalfSpaces(std::uint32_t states);
   void findCandidates(std::uint32_t states);
+  void writeSearches();
+  void learnOrder(const Verdicts& verdicts);
   void testRoots();
   TraversalTask task(bool solids) const;
   void prepare();
@@ -84,7 +89,10 @@ class GpuPairChecker
   BatchLists lists_;
   std::unique_ptr<GpuTraversal> traversal_;
   ArgumentsKernel arguments_;
-  Program links_program_, self_program_, roots_program_, half_spaces_program_, inside_program_, done_program_;
-  TexelBuffer poses_, spheres_;
+  Program spheres_program_, world_program_, self_program_, roots_program_, half_spaces_program_, inside_program_;
+  Program done_program_;
+  TexelBuffer poses_, spheres_, world_searches_, self_searches_;
+  SearchOrder order_;
+  Searches searches_;
 };
 }  // namespace gpu_planning_scene

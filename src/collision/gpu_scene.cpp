@@ -77,15 +77,6 @@ void describeSolid(const Shape& shape, InstanceRecord& record)
   }
 }
 
-/// Whether a robot's instance is in a checked pair with an instance of the world.
-bool meetsWorld(const CollisionProblem& problem, std::size_t instance)
-{
-  const std::size_t width = problem.world.size();
-  const auto row = problem.world_pairs.begin() + static_cast<std::ptrdiff_t>(instance * width);
-  return std::find(row, row + static_cast<std::ptrdiff_t>(width), std::uint8_t{1}) !=
-         row + static_cast<std::ptrdiff_t>(width);
-}
-
 /// A bit for each flag, 32 to a word, in whole texels.
 std::vector<std::uint32_t> packedBits(const std::vector<std::uint8_t>& flags)
 {
@@ -103,7 +94,7 @@ void write(const std::vector<T>& data, TexelBuffer& buffer)
   buffer.buffer().write(data);
 }
 
-/// A node of the tree over objects as shaders/check_links.comp walks it.
+/// A node of the tree over objects as shaders/check_world_broad.comp walks it.
 struct ObjectNode
 {
   std::array<float, 3> center;
@@ -152,12 +143,12 @@ void GpuScene::setProblem(const CollisionProblem& problem)
   tree_count_ = problem.trees.size();
   writeWorld(problem);
   tolerance_ = static_cast<float>(problem.tolerance);
+  writeInstances(problem);
   writeSolids(problem);
   writeHalfSpaces(problem);
   selectPairs(problem);
 }
 
-/// Says of each robot instance whether it has pairs with the world, so it goes with the choice of pairs.
 void GpuScene::writeInstances(const CollisionProblem& problem)
 {
   padded_ = false;
@@ -181,8 +172,6 @@ void GpuScene::writeInstances(const CollisionProblem& problem)
         record.kind = SOLID_MESH;
         has_mesh_solids_ = true;
       }
-      if (geometries == &problem.robot && meetsWorld(problem, instances.size()))
-        record.kind |= MEETS_WORLD;
       instances.push_back(record);
     }
   write(instances, instances_);
@@ -208,8 +197,7 @@ void GpuScene::writeSolids(const CollisionProblem& problem)
       }
       nodes.push_back(node);
     }
-  solid_nodes_ = trees_.reserveNodes(nodes.size());
-  trees_.nodes().buffer().write(nodes.data(), nodes.size() * sizeof(Node), solid_nodes_ * sizeof(Node));
+  solid_nodes_ = trees_.placeNodes(nodes);
 }
 
 void GpuScene::writeHalfSpaces(const CollisionProblem& problem)
@@ -250,26 +238,6 @@ void GpuScene::writeWorld(const CollisionProblem& problem)
 
 void GpuScene::selectPairs(const CollisionProblem& problem)
 {
-  writeInstances(problem);
-  // Where each robot instance's partners begin and end, then the partners; a pair is with its lower instance.
-  std::vector<std::vector<std::uint32_t>> of(robot_count_);
-  for (const auto& pair : problem.self_pairs)
-    of[std::min(pair[0], pair[1])].push_back(std::max(pair[0], pair[1]));
-  std::vector<std::array<std::uint32_t, 4>> partners(robot_count_);
-  for (std::uint32_t i = 0; i < robot_count_; ++i)
-  {
-    partners[i][0] = static_cast<std::uint32_t>(partners.size());
-    for (std::size_t k = 0; k < of[i].size(); ++k)
-    {
-      if (k % 4 == 0)
-        partners.push_back({NO_PARTNER, NO_PARTNER, NO_PARTNER, NO_PARTNER});
-      partners.back()[k % 4] = of[i][k];
-    }
-    partners[i][1] = static_cast<std::uint32_t>(partners.size());
-  }
-  write(partners, partners_);
-  has_self_pairs_ = !problem.self_pairs.empty();
-
   write(packedBits(problem.world_pairs), world_pairs_);
   const std::vector<std::uint32_t> half_space_bits = packedBits(problem.half_space_pairs);
   half_space_pairs_.reserve(half_space_bits.size() * sizeof(std::uint32_t));
@@ -279,12 +247,12 @@ void GpuScene::selectPairs(const CollisionProblem& problem)
 void GpuScene::bind() const
 {
   trees_.nodes().bindTexture(UNIT_NODES);
+  trees_.orientedNodes().bindTexture(UNIT_ORIENTED_NODES);
   trees_.triangles().bindTexture(UNIT_TRIANGLES);
   world_poses_.bindTexture(UNIT_WORLD_POSES);
   instances_.bindTexture(UNIT_INSTANCES);
   object_nodes_.bindTexture(UNIT_OBJECT_TREE);
   world_pairs_.bindTexture(UNIT_WORLD_PAIRS);
-  partners_.bindTexture(UNIT_PARTNERS);
 }
 
 Forest GpuScene::readForest() const

@@ -40,7 +40,6 @@ class GpuScene
   std::uint32_t solidNodes() const { return solid_nodes_; }
   /// Metres; 0: exact.
   float tolerance() const { return tolerance_; }
-  bool hasSelfPairs() const { return has_self_pairs_; }
   /// Whether some pairs have a required distance.
   bool isPadded() const { return padded_; }
   /// Whether a mesh has closed components.
@@ -59,7 +58,7 @@ class GpuScene
 
   GpuTrees trees_;
   ObjectTree object_tree_;
-  TexelBuffer world_poses_, instances_, object_nodes_, world_pairs_, partners_;
+  TexelBuffer world_poses_, instances_, object_nodes_, world_pairs_;
   Buffer half_spaces_, half_space_pairs_;
   std::size_t tree_count_ = 0;
   std::uint32_t robot_count_ = 0;
@@ -67,7 +66,6 @@ class GpuScene
   std::uint32_t half_space_count_ = 0;
   std::uint32_t solid_nodes_ = 0;
   float tolerance_ = 0.0F;
-  bool has_self_pairs_ = false;
   bool padded_ = false;
   bool has_mesh_solids_ = false;
 };

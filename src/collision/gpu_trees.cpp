@@ -108,6 +108,7 @@ void GpuTrees::build(const std::vector<Key>& keys)
   for (const Key& key : keys)
     meshes.push_back(key.first);
   builder_.buildTriangles(meshes, region, nodes_, leaf_order_, triangles_);
+  oriented_boxes_.fit(region, nodes_, triangles_, oriented_nodes_);
 
   std::uint32_t root = region.first_node;
   std::uint32_t triangle = region.first_primitive;
@@ -158,15 +159,23 @@ void GpuTrees::addComponents(Entry& entry)
   }
 }
 
-std::uint32_t GpuTrees::reserveNodes(std::size_t count)
+std::uint32_t GpuTrees::placeNodes(const std::vector<Node>& nodes)
 {
+  const std::size_t count = nodes.size();
   if (count > reserved_)
   {
     nodes_.reserve((std::size_t{node_count_} + 2 * count) * sizeof(Node));
+    oriented_nodes_.reserve((std::size_t{node_count_} + 2 * count) * sizeof(OrientedNode));
     reserved_first_ = node_count_;
     reserved_ = 2 * count;
     node_count_ += static_cast<std::uint32_t>(reserved_);
   }
+  std::vector<OrientedNode> oriented;
+  oriented.reserve(count);
+  for (const Node& node : nodes)
+    oriented.push_back({node.center, node.first, node.half, node.count, {0.0F, 0.0F, 0.0F, 1.0F}});
+  nodes_.buffer().write(nodes.data(), count * sizeof(Node), reserved_first_ * sizeof(Node));
+  oriented_nodes_.buffer().write(oriented.data(), count * sizeof(OrientedNode), reserved_first_ * sizeof(OrientedNode));
   return reserved_first_;
 }
 

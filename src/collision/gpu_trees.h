@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/gpu_forest.h"
+#include "collision/gpu_oriented_boxes.h"
 #include "gpu/buffer.h"
 
 namespace gpu_planning_scene
@@ -30,7 +31,7 @@ class GpuTrees
     Eigen::AlignedBox3d bounds;         ///< of the triangles, in the shape's frame
   };
 
-  explicit GpuTrees(const std::string& shader_folder) : builder_(shader_folder) {}
+  explicit GpuTrees(const std::string& shader_folder) : builder_(shader_folder), oriented_boxes_(shader_folder) {}
 
   /// Makes tree(i) that of `shapes[i]`. Equal meshes, by pointer, have had equal trees before and have them now. Throws
   /// Error where the device cannot hold them; all trees are gone then.
@@ -40,11 +41,12 @@ class GpuTrees
   /// No tree has more levels than this.
   std::uint32_t depth() const { return depth_; }
 
-  /// Nodes that the caller may fill, in nodes(); the place holds until the next call of this or of setShapes.
-  std::uint32_t reserveNodes(std::size_t count);
+  /// Puts nodes of the caller's beside those of the trees, with their boxes for oriented ones, and returns where the
+  /// first one lies; the place holds until the next call of this or of setShapes.
+  std::uint32_t placeNodes(const std::vector<Node>& nodes);
 
-  TexelBuffer& nodes() { return nodes_; }
   const TexelBuffer& nodes() const { return nodes_; }
+  const TexelBuffer& orientedNodes() const { return oriented_nodes_; }  ///< in the places of the nodes
   const TexelBuffer& triangles() const { return triangles_; }
   const Buffer& leafOrder() const { return leaf_order_; }  ///< triangles are numbered through all trees
   const Buffer& components() const { return components_; }
@@ -72,7 +74,8 @@ class GpuTrees
   void clear();
 
   GpuForestBuilder builder_;
-  TexelBuffer nodes_, triangles_;
+  GpuOrientedBoxes oriented_boxes_;
+  TexelBuffer nodes_, oriented_nodes_, triangles_;
   Buffer leaf_order_, components_, solid_triangles_;
   std::map<Key, Entry> entries_;
   std::vector<Key> keys_;             // of the current shapes
@@ -82,7 +85,7 @@ class GpuTrees
   std::vector<std::uint32_t> solid_bits_;
   std::uint32_t node_count_ = 0;       // taken so far
   std::uint32_t primitive_count_ = 0;  // likewise
-  std::uint32_t reserved_first_ = 0;   // by reserveNodes
+  std::uint32_t reserved_first_ = 0;   // by placeNodes
   std::size_t reserved_ = 0;
   std::uint32_t depth_ = 1;
 };

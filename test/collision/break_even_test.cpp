@@ -51,6 +51,19 @@ TEST(BreakEven, LooksAtLargerBatchesWhereSmallOnesAreAlike)
   EXPECT_EQ(breakEven(work(2e-6, 2e-6), lanes), kNoBatch);
 }
 
+TEST(BreakEven, DoesNotBelieveOneDisturbedRun)
+{
+  // The usual way is the faster one, but its first run at each size met with something.
+  std::size_t last = 0;
+  const TimedWork disturbed = [last](std::size_t size) mutable
+  {
+    const bool first = size != last;
+    last = size;
+    return (first ? 50e-3 : 0.0) + 2e-6 * static_cast<double>(size);
+  };
+  EXPECT_EQ(breakEven(disturbed, work(10e-3, 4e-6)), kNoBatch);
+}
+
 TEST(BreakEven, TakesLittleTime)
 {
   double spent = 0.0;

@@ -291,7 +291,7 @@ TEST_F(GpuStep, TrianglesAndSolidsAreDecidedAsTheExactCheckerDoesOrLeftUndecided
       run("#include \"pose.glsl\"\n#include \"items.glsl\"\n#include \"boxes.glsl\"\n#include \"instances.glsl\"\n"
           "#include \"counters.glsl\"\n#include \"verdicts.glsl\"\n#include \"leaf_pair.glsl\"\n#include "
           "\"solid_leaf.glsl\"\n",
-          "triangleSolid(vec3[3](at(0u), at(1u), at(2u)), Instance(0u, 0.0, 0u, 0u, vec3(0.0), uint(at(4u).x), false, "
+          "triangleSolid(vec3[3](at(0u), at(1u), at(2u)), Instance(0u, 0.0, 0u, 0u, vec3(0.0), uint(at(4u).x), "
           "at(3u), 0.0), at(4u).y, at(4u).z, requiredGap(at(4u).z, 0.0))",
           floats, 15);
   std::array<std::size_t, 3> counts = {};
@@ -362,7 +362,7 @@ TEST_F(GpuStep, PointsLieWithinTheirBoundOfWhereExactPosesPutThem)
 
 TEST_F(GpuStep, WhatIsProvenOfPlacedTrianglesHoldsForTheExactPoses)
 {
-  constexpr std::size_t kCases = 6000;
+  constexpr std::size_t kCases = 3000;
   std::vector<float> floats;
   std::vector<bool> meet;
   for (std::size_t i = 0; i < kCases; ++i)
@@ -440,40 +440,194 @@ TEST_F(GpuStep, WhatIsProvenOfPlacedTrianglesHoldsForTheExactPoses)
   EXPECT_GT(count[STATE_UNDECIDED], kCases / 10);
 }
 
-TEST_F(GpuStep, BoxesThatOverlapAreNeverApart)
+/// A box around its own axes, in a shape's frame; the shape is placed by a pose.
+struct PlacedBox
 {
-  constexpr std::size_t kCases = 60000;
-  std::vector<float> input;
-  std::vector<bool> overlap;
-  std::size_t overlapping = 0;
-  for (std::size_t i = 0; i < kCases; ++i)
+  Vector3d center;
+  Vector3d half;
+  Eigen::Matrix3d axes;
+  Eigen::Isometry3d pose;
+
+  /// In single precision: centre, half edge lengths, quaternion, rows of the pose; what of it is the box's is so then.
+  void put(std::vector<float>& into)
   {
-    const Eigen::Matrix3d rotation = i % 7 == 0 ? Eigen::Matrix3d::Identity() : anyRotation();
-    const Vector3d center_a = put(anyVector(0.5), input);
-    const Vector3d half_a = put(anyVector(0.2).cwiseAbs(), input);
-    const Vector3d center_b = put(anyVector(0.5), input);
-    const Vector3d half_b = put(anyVector(0.2).cwiseAbs(), input);
-    Eigen::Matrix3d rows;
+    const Eigen::Quaternionf q(Eigen::Quaterniond(axes).cast<float>());
+    axes = q.cast<double>().normalized().toRotationMatrix();
+    center = center.cast<float>().cast<double>();
+    half = half.cast<float>().cast<double>();
+    const Eigen::Matrix4f rows = pose.matrix().cast<float>();
+    into.insert(into.end(), {float(center.x()), float(center.y()), float(center.z())});
+    into.insert(into.end(), {float(half.x()), float(half.y()), float(half.z())});
+    into.insert(into.end(), {q.x(), q.y(), q.z(), q.w(), 0.0F, 0.0F});
     for (int row = 0; row < 3; ++row)
-      rows.row(row) = put(rotation.row(row).transpose(), input).transpose();
-    const Vector3d translation = put(anyVector(0.5), input);
-    overlap.push_back(BoxPairTest(rows).overlap(half_a, half_b, rows * center_b + translation - center_a));
-    overlapping += overlap.back() ? 1 : 0;
+      into.insert(into.end(), {rows(row, 0), rows(row, 1), rows(row, 2)});
+    into.insert(into.end(), {rows(0, 3), rows(1, 3), rows(2, 3)});
   }
-  const auto apart =
-      run("#include \"pose.glsl\"\n#include \"boxes.glsl\"\n",
-          "boxesApart(Box(at(0u), at(1u)), Box(at(2u), at(3u)), Pose(transpose(mat3(at(4u), at(5u), at(6u))), at(7u)), "
-          "1e-6) ? 1u : 0u",
-          input, 24);
-  std::size_t missed = 0;
+};
+
+bool overlap(const PlacedBox& a, const PlacedBox& b)
+{
+  const Eigen::Matrix3d turn_a = a.pose.linear() * a.axes;
+  const Eigen::Matrix3d turn_b = b.pose.linear() * b.axes;
+  return BoxPairTest(turn_a.transpose() * turn_b)
+      .overlap(a.half, b.half, turn_a.transpose() * (b.pose * b.center - a.pose * a.center));
+}
+
+TEST_F(GpuStep, OrientedBoxesThatOverlapAreNeverApart)
+{
+  constexpr std::size_t kCases = 20000;
+  std::vector<float> input;
+  std::vector<bool> overlapping;
+  std::vector<bool> clearly_apart;
   for (std::size_t i = 0; i < kCases; ++i)
   {
-    EXPECT_FALSE(overlap[i] && apart[i] != 0U) << "case " << i << ", seed " << kSeed;
-    missed += !overlap[i] && apart[i] == 0U ? 1 : 0;
+    std::array<PlacedBox, 2> boxes;
+    for (PlacedBox& box : boxes)
+    {
+      const double size = std::pow(10.0, -1.5 + 1.5 * uniform_(generator_));
+      const Vector3d shape = anyVector(1.0).cwiseAbs().cwiseProduct(Vector3d(1.0, i % 3 == 0 ? 1e-3 : 1.0, 1.0));
+      box = {anyVector(0.3), size * shape, anyRotation(), Eigen::Isometry3d(Eigen::Translation3d(anyVector(2.0)))};
+      box.pose.linear() = anyRotation();
+    }
+    auto& [a, b] = boxes;
+    // Parallel boxes too, where products of axes vanish.
+    if (i % 5 == 0)
+      b.axes = b.pose.linear().transpose() * a.pose.linear() * a.axes;
+    std::vector<float> placed;
+    a.put(placed);
+    b.put(placed);
+    // Along a line from a's centre they touch somewhere: there, or a little before or after.
+    const Vector3d to = anyVector(1.0).normalized();
+    const Vector3d together = a.pose * a.center - b.pose.linear() * b.center;
+    double low = 0.0;
+    double high = 2.0 * (a.half.norm() + b.half.norm());
+    for (int step = 0; step < 50; ++step)
+    {
+      const double middle = 0.5 * (low + high);
+      b.pose.translation() = together + middle * to;
+      (overlap(a, b) ? low : high) = middle;
+    }
+    const double off = uniform_(generator_) * std::pow(10.0, -4.0 + 3.0 * uniform_(generator_)) * low;
+    b.pose.translation() = together + (low + off) * to;
+    a.put(input);
+    b.put(input);
+    overlapping.push_back(overlap(a, b));
+    // Still apart where all is a thousandth larger.
+    PlacedBox larger = b;
+    larger.half += Vector3d::Constant(1e-3 * (a.half.norm() + b.half.norm()) + 1e-4);
+    clearly_apart.push_back(!overlap(a, larger));
   }
-  EXPECT_GT(overlapping, kCases / 50);
-  // All 15 axes are there: what is apart is found to be.
-  EXPECT_LT(missed, kCases / 1000);
+  const auto apart = run(
+      "#include \"pose.glsl\"\n#include \"boxes.glsl\"\n#include \"error_bounds.glsl\"\n#include "
+      "\"oriented_nodes.glsl\"\nOrientedNode node(Box box, vec3 xyz, vec3 w) { return OrientedNode(box, "
+      "rotationOf(vec4(xyz, w.x)), 0u, 1u); }\n"
+      "bool placedApart(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b) { const Pose pose = "
+      "relativePose(pose_a, pose_b); const float error = positionError(pose_a, pose_b, pose, abs(a.box.center) + "
+      "length(a.box.extent), abs(b.box.center) + length(b.box.extent)); return nodesApart(a, b, pose, boxMargin(0.0, "
+      "error)); }\n",
+      "placedApart(node(Box(at(0u), at(1u)), at(2u), at(3u)), Pose(transpose(mat3(at(4u), at(5u), at(6u))), at(7u)), "
+      "node(Box(at(8u), at(9u)), at(10u), at(11u)), Pose(transpose(mat3(at(12u), at(13u), at(14u))), at(15u))) ? 1u : "
+      "0u",
+      input, 48);
+  std::size_t meeting = 0;
+  std::size_t missed = 0;
+  std::size_t clear = 0;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    EXPECT_FALSE(overlapping[i] && apart[i] != 0U) << "case " << i << ", seed " << kSeed;
+    meeting += overlapping[i] ? 1 : 0;
+    clear += clearly_apart[i] ? 1 : 0;
+    missed += clearly_apart[i] && apart[i] == 0U ? 1 : 0;
+  }
+  EXPECT_GT(meeting, kCases / 10);
+  EXPECT_GT(clear, kCases / 50);
+  // All 15 axes are there: what is clearly apart is found to be.
+  EXPECT_EQ(missed, 0U) << "of " << clear << ", seed " << kSeed;
+}
+
+/// Boxes around a curved solid's box need not be near the solid.
+TEST_F(GpuStep, BoxesThatMeetASolidAreNeverBeyondIt)
+{
+  constexpr std::size_t kCases = 3000;
+  std::vector<float> input;
+  std::vector<bool> meets;
+  std::vector<bool> clearly_apart;
+  const auto size = [&] { return std::pow(10.0, -1.5 + uniform_(generator_)); };
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    const std::uint32_t kind = SOLID_BOX + static_cast<std::uint32_t>(i % 4);
+    const TestSolid solid = solidOf(kind, Vector3d(size(), size(), size()).cast<float>().cast<double>());
+    const bool solid_is_a = i / 4 % 2 == 0;
+    const double distance =
+        i / 8 % 2 == 0 ? 0.0 : static_cast<double>(static_cast<float>(0.02 * std::abs(anyVector(1.0).x())));
+    PlacedBox of_solid = {Vector3d::Zero(), solid.size, Eigen::Matrix3d::Identity(),
+                          Eigen::Isometry3d(Eigen::Translation3d(anyVector(1.0)))};
+    of_solid.pose.linear() = anyRotation();
+    PlacedBox box = {anyVector(0.2), Vector3d(size(), size(), size()), anyRotation(), Eigen::Isometry3d::Identity()};
+    box.pose.linear() = anyRotation();
+    std::vector<float> rounded;
+    box.put(rounded);
+    // Along a line they touch somewhere: there, or a little before or after.
+    const auto meet = [&](double grown)
+    {
+      const Eigen::Isometry3d into = of_solid.pose.inverse(Eigen::Isometry) * box.pose *
+                                     Eigen::Translation3d(box.center) *
+                                     Eigen::Isometry3d(Eigen::Affine3d(box.axes).matrix());
+      return solidsWithin(solid.shape, Box{2.0 * (box.half + Vector3d::Constant(grown))}, into, distance);
+    };
+    const Vector3d to = anyVector(1.0).normalized();
+    const Vector3d together = of_solid.pose.translation() - box.pose.linear() * box.center;
+    double low = 0.0;
+    double high = 5.0;
+    for (int step = 0; step < 40; ++step)
+    {
+      const double middle = 0.5 * (low + high);
+      box.pose.translation() = together + middle * to;
+      (meet(0.0) ? low : high) = middle;
+    }
+    box.pose.translation() =
+        together + (low + uniform_(generator_) * std::pow(10.0, -4.0 + 3.0 * uniform_(generator_))) * to;
+    (solid_is_a ? of_solid : box).put(input);
+    (solid_is_a ? box : of_solid).put(input);
+    put(solid.size, input);
+    put(Vector3d(kind, solid_is_a ? 1.0 : 0.0, distance), input);
+    meets.push_back(meet(0.0));
+    clearly_apart.push_back(!meet(5e-3));
+  }
+  const auto beyond = run(
+      "#include \"pose.glsl\"\n#include \"items.glsl\"\n#include \"boxes.glsl\"\n#include \"error_bounds.glsl\"\n"
+      "#include \"instances.glsl\"\n#include \"oriented_nodes.glsl\"\n#include \"solid_nodes.glsl\"\n"
+      "OrientedNode node(Box box, vec3 xyz, vec3 w) { return OrientedNode(box, rotationOf(vec4(xyz, w.x)), 0u, 1u); }\n"
+      "bool placedBeyond(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b, vec3 size, vec3 what) { const Pose "
+      "pose "
+      "= relativePose(pose_a, pose_b); const float error = positionError(pose_a, pose_b, pose, abs(a.box.center) + "
+      "length(a.box.extent), abs(b.box.center) + length(b.box.extent)); const Instance solid = Instance(0u, 0.0, 0u, "
+      "0u, "
+      "vec3(0.0), uint(what.x), size, 0.0); const Instance mesh = Instance(0u, 0.0, 0u, 0u, vec3(0.0), SOLID_NONE, "
+      "vec3(0.0), 0.0); Item item; item.pose = pose; item.error = error; item.gap = requiredGap(what.z, 0.0); "
+      "if (what.y > 0.5) return nodeBeyondSolid(a, b, solid, mesh, item); return nodeBeyondSolid(a, b, mesh, solid, "
+      "item); "
+      "}\n",
+      "placedBeyond(node(Box(at(0u), at(1u)), at(2u), at(3u)), Pose(transpose(mat3(at(4u), at(5u), at(6u))), at(7u)), "
+      "node(Box(at(8u), at(9u)), at(10u), at(11u)), Pose(transpose(mat3(at(12u), at(13u), at(14u))), at(15u)), "
+      "at(16u), "
+      "at(17u)) ? 1u : 0u",
+      input, 54);
+  std::size_t meeting = 0;
+  std::size_t clear = 0;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    EXPECT_FALSE(meets[i] && beyond[i] != 0U) << "case " << i << ", seed " << kSeed;
+    meeting += meets[i] ? 1 : 0;
+    clear += clearly_apart[i] ? 1 : 0;
+    found += clearly_apart[i] && beyond[i] != 0U ? 1 : 0;
+  }
+  std::cout << meeting << " meet, " << clear << " apart by 5 mm, " << found << " of these found, seed " << kSeed
+            << std::endl;
+  EXPECT_GT(meeting, kCases / 4);
+  // One line does not find all.
+  EXPECT_GT(found, clear / 3);
 }
 }  // namespace
 }  // namespace gpu_planning_scene

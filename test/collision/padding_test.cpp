@@ -1,5 +1,8 @@
 // Padding and floors on real robots, as scene files ask for them. What is true of a distance comes from the oracle.
 
+#include <cmath>
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "collision/collision_problem.h"
@@ -117,5 +120,38 @@ TEST_P(PaddedRobot, StandsOnAFloorOfAPlane)
 
 INSTANTIATE_TEST_SUITE_P(Checkers, PaddedRobot, testing::Values("cpu", "breadth_first", "work_queue"),
                          [](const auto& parameter) { return std::string(parameter.param); });
+
+/// Padding can be large against a link and all else: what is compared then is rounded by more than the link's size
+/// covers.
+TEST(Padding, OfMetresAroundATinyLinkIsKept)
+{
+  constexpr std::uint64_t kSeed = 7;
+  std::mt19937_64 generator(kSeed);
+  std::uniform_real_distribution<double> uniform(0.7, 1.3);
+  const std::string size = "<geometry><box size=\"0.002 0.002 0.002\"/></geometry>";
+  const auto robot = robotOf(
+      "<link name=\"base\"/><link name=\"tiny\"><collision>" + size + "</collision></link>" +
+      jointXml("slide", "prismatic", "base", "tiny", "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"));
+  PlanningScene scene(robot);
+  scene.objects.resize(1);
+  scene.objects[0].id = "box";
+  scene.objects[0].shapes.resize(1);
+  scene.objects[0].shapes[0].shape = Box{Eigen::Vector3d::Constant(0.002)};
+  // How far the link is moved towards the object from where it is just near enough.
+  std::vector<double> states;
+  for (int i = 0; i < 64; ++i)
+    states.push_back(1e-9 * (i - 8));
+  for (int i = 0; i < 40; ++i)
+  {
+    const double padding = 3.0 * uniform(generator);
+    scene.link_padding.assign(robot->links().size(), padding);
+    scene.objects[0].pose.translation().x() = padding + 0.002;
+    const auto exact = checkerOf("cpu", scene).check(states.data(), states.size());
+    EXPECT_FALSE(exact.valid.back()) << "padding " << padding;
+    for (const char* checker : {"breadth_first", "work_queue"})
+      EXPECT_EQ(checkerOf(checker, scene).check(states.data(), states.size()).valid, exact.valid)
+          << checker << ", padding " << padding << ", seed " << kSeed;
+  }
+}
 }  // namespace
 }  // namespace gpu_planning_scene

@@ -1,5 +1,5 @@
-// One lane per (state, robot instance): the sphere around its root box in the planning frame, for the broad phase among links,
-// and the broad phase against the world, a walk of the tree over world instances with the box around its root box.
+// Broad phase against the world: one lane per (state, search), a search being for what is near one robot instance. It walks the
+// tree over world instances with the box around the instance's root box.
 #include "interface.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common.glsl"
@@ -7,9 +7,9 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "candidates.glsl"
 #include "pose.glsl"
 #include "boxes.glsl"
-layout(location = 3) uniform uint world_count;
-layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
-layout(std430, binding = BINDING_A) writeonly buffer Spheres { vec4 spheres[]; };  // centre and radius
+#include "broad_phase.glsl"
+#include "searches.glsl"
+layout(location = 5) uniform uint world_count;
 // A node: its box's centre, and which node comes next where the boxes are apart; half extents, and the instance or NO_OBJECT.
 // Where they overlap, the next node in the list comes next, so no stack is needed; past the last one the walk ends.
 layout(binding = UNIT_OBJECT_TREE) uniform usamplerBuffer object_tree;
@@ -24,22 +24,13 @@ bool isChecked(uint robot, uint world)
 void main()
 {
   const uint i = invocationIndex();
-  if (i >= state_count * robot_count)
+  if (i >= state_count * search_count)
     return;
-  const uint state = stateOf(i);
-  const uint robot = robotOf(i);
-  const Instance instance = fetchInstance(robot);
-  const Box box = fetchNode(instance.root).box;
-  const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
-  const vec3 center = apply(pose, box.center);
-  // 1e-5: rounding of the pose, of the product and of the comparison, relative to all lengths that enter. What an object's
-  // own box needs, its rounding outwards provides.
-  const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent));
-  spheres[i] = vec4(center, length(box.extent) + instance.slack + CONTRACT_BAND + error);
-  if (!instance.meets_world)
-    return;
-  const mat3 q = mat3(abs(pose.rotation[0]), abs(pose.rotation[1]), abs(pose.rotation[2]));
-  const vec3 extent = q * box.extent + instance.slack + instance.padding + CONTRACT_BAND + error;
+  const uint state = i % state_count;
+  const uint robot = fetchSearch(i / state_count).x;
+  const PlacedInstance placed = place(robot, state);
+  const vec3 center = placed.center;
+  const vec3 extent = mat3(abs(placed.pose.rotation[0]), abs(placed.pose.rotation[1]), abs(placed.pose.rotation[2])) * placed.box.extent + placed.instance.padding + placed.margin;
 
   const uint node_count = max(2u * world_count, 1u) - 1u;
   uint at = 0u;

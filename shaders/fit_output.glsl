@@ -1,0 +1,9 @@
+// Where the fitted boxes go, see oriented_nodes.glsl.
+layout(std430, binding = 0) writeonly buffer OrientedNodes { uvec4 oriented[]; };
+
+void writeOriented(uint at, TreeNode node, vec3 center, vec3 extent, vec4 axes)
+{
+  oriented[3u * at] = uvec4(floatBitsToUint(center), node.first);
+  oriented[3u * at + 1u] = uvec4(floatBitsToUint(extent), node.count);
+  oriented[3u * at + 2u] = floatBitsToUint(axes);
+}
