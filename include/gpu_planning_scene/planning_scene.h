@@ -105,10 +105,11 @@ struct PlanningScene
   std::optional<Eigen::Isometry3d> frame(const std::string& frame_name, const double* state) const;
 };
 
-/// A scene file in MoveIt's PlanningScene field names: the layout of MoveIt's own YAML (poses with x, y, z, w keys;
-/// entry_values with `enabled`) and the compact one (arrays, `type: box`, bare rows). Everything is checked before
-/// anything is kept. Throws Error with file and line. Joints that the robot lacks, and what is not modelled, give
-/// warnings. Object poses are in `planningFrame()`; a header.frame_id may name it, a link, or a frame of
+/// A scene file. One whose name ends in .scene has the layout of RViz's MotionPlanning plugin: objects, their colours
+/// and subframes. All others are YAML in MoveIt's PlanningScene field names: the layout of MoveIt's own YAML (poses
+/// with x, y, z, w keys; entry_values with `enabled`) and the compact one (arrays, `type: box`, bare rows). Everything
+/// is checked before anything is kept. Throws Error with file and line. Joints that the robot lacks, and what is not
+/// modelled, give warnings. Object poses are in `planningFrame()`; a header.frame_id may name it, a link, or a frame of
 /// fixed_frame_transforms. `meshes`: who reads the mesh files that it names.
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings = nullptr,

@@ -122,6 +122,9 @@ struct Change
 Change applyChange(const PlanningScene& scene, const std::vector<double>& state, const SceneChange& change,
                    const SceneDefaults& defaults, const SceneLimits& limits, const ExternalFrames& frames);
 
+/// The full scene that leads to this one from any other of the robot.
+SceneChange fullSceneOf(const PlanningScene& scene);
+
 /// What leads from one scene of a robot to another: applyChange(from, diffOf(from, to)) gives `to`, but for the order
 /// of objects and for paddings of objects, which a change cannot name. It is a full scene where no difference leads
 /// there.

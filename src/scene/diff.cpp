@@ -149,28 +149,6 @@ std::map<std::string, double> allLinks(const RobotModel& robot, const std::vecto
   return all;
 }
 
-SceneChange fullScene(const PlanningScene& scene)
-{
-  const RobotModel& robot = *scene.robot;
-  SceneChange change;
-  change.name = scene.name;
-  change.robot_model_name = robot.name();
-  change.fixed_frames = scene.fixed_frames;
-  for (std::size_t i = 0; i < scene.current_state.size(); ++i)
-    change.state.variables[robot.variables()[i].name] = scene.current_state[i];
-  change.state.is_diff = false;
-  for (const AttachedObject& attached : scene.attached)
-    change.state.attached.push_back(attachment(attached, robot));
-  if (scene.matrix_source == MatrixSource::SceneFile)
-    change.matrix = scene.allowed_collisions;
-  change.link_padding = allLinks(robot, scene.link_padding, 0.0);
-  change.link_scale = allLinks(robot, robot.linkScale(), 1.0);
-  change.colors = scene.colors;
-  for (const WorldObject& object : scene.objects)
-    change.objects.push_back(addition(object));
-  return change;
-}
-
 /// What a difference cannot say: that there is no name, fixed frame or matrix any more, that an object has lost its
 /// colour but not its place, or kept its colour but not its place.
 bool needsFullScene(const PlanningScene& from, const PlanningScene& to)
@@ -230,10 +208,32 @@ void compareObjects(const PlanningScene& from, const PlanningScene& to, SceneCha
 }
 }  // namespace
 
+SceneChange fullSceneOf(const PlanningScene& scene)
+{
+  const RobotModel& robot = *scene.robot;
+  SceneChange change;
+  change.name = scene.name;
+  change.robot_model_name = robot.name();
+  change.fixed_frames = scene.fixed_frames;
+  for (std::size_t i = 0; i < scene.current_state.size(); ++i)
+    change.state.variables[robot.variables()[i].name] = scene.current_state[i];
+  change.state.is_diff = false;
+  for (const AttachedObject& attached : scene.attached)
+    change.state.attached.push_back(attachment(attached, robot));
+  if (scene.matrix_source == MatrixSource::SceneFile)
+    change.matrix = scene.allowed_collisions;
+  change.link_padding = allLinks(robot, scene.link_padding, 0.0);
+  change.link_scale = allLinks(robot, robot.linkScale(), 1.0);
+  change.colors = scene.colors;
+  for (const WorldObject& object : scene.objects)
+    change.objects.push_back(addition(object));
+  return change;
+}
+
 SceneChange diffOf(const PlanningScene& from, const PlanningScene& to)
 {
   if (needsFullScene(from, to))
-    return fullScene(to);
+    return fullSceneOf(to);
   const RobotModel& robot = *to.robot;
   SceneChange change;
   change.is_diff = true;
@@ -256,6 +256,6 @@ SceneChange diffOf(const PlanningScene& from, const PlanningScene& to)
   const bool puts_back =
       std::any_of(change.state.attached.begin(), change.state.attached.end(),
                   [](const AttachedChange& attached) { return attached.object.operation == Operation::Remove; });
-  return puts_back && to.current_state.empty() ? fullScene(to) : change;
+  return puts_back && to.current_state.empty() ? fullSceneOf(to) : change;
 }
 }  // namespace gpu_planning_scene
