@@ -9,7 +9,7 @@ install(DIRECTORY shaders config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTI
 install(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene:: DESTINATION ${export_folder})
 
 if(GPU_PLANNING_SCENE_ROS)
-  install(TARGETS planning_scene_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  install(TARGETS add_object planning_scene_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   catkin_install_python(PROGRAMS scripts/demo_client.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   export(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene::
     FILE ${CATKIN_DEVEL_PREFIX}/${export_folder}/gpu_planning_scene-targets.cmake)

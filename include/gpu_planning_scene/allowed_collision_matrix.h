@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gpu_planning_scene/robot_model.h"
 
@@ -22,6 +23,12 @@ class AllowedCollisionMatrix
   void setEntry(const std::string& body_1, const std::string& body_2, bool allowed);
   void setDefault(const std::string& body, bool allowed);
   bool allowed(const std::string& body_1, const std::string& body_2) const;
+
+  std::vector<std::string> bodies() const;             ///< that it has an entry or a default of, in alphabetical order
+  std::vector<std::string> bodiesWithEntries() const;  ///< likewise
+  std::optional<bool> defaultOf(const std::string& body) const;
+  /// Whether it has the same entries and defaults.
+  bool operator==(const AllowedCollisionMatrix& other) const { return bodies_ == other.bodies_; }
 
   /// What the matrix knows of a body: for looking at many pairs of a body without looking for its name each time.
   /// Valid as long as the matrix and the name are there and unchanged.
@@ -45,6 +52,7 @@ class AllowedCollisionMatrix
   {
     std::map<std::string, bool> entries;  // by the other body; each pair is with both
     std::optional<bool> by_default;
+    bool operator==(const Body& other) const { return entries == other.entries && by_default == other.by_default; }
   };
 
   std::map<std::string, Body> bodies_;

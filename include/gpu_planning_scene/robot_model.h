@@ -108,7 +108,7 @@ class Kinematics;
 
 /// A robot: the kinematic tree of a URDF with its collision shapes, and what its SRDF adds. Immutable, thread-safe.
 /// A *state* is a row of `variables().size()` doubles.
-class RobotModel
+class RobotModel : public std::enable_shared_from_this<RobotModel>
 {
  public:
   /// `urdf` and `srdf` are XML texts; an empty `srdf` means that there is none. `warnings` (may be null) receives a
@@ -152,6 +152,13 @@ class RobotModel
 
   std::size_t triangleCount() const;  ///< of all meshes of all links, boxes and curved shapes not counted
 
+  /// The robot as it was loaded, but with each link's shapes scaled about their own origins, and meshes, as in MoveIt,
+  /// about the mean of their vertices. `factors`: one per link; empty: all 1. What a factor of 1 leaves as it was is
+  /// shared. Throws Error for a wrong number of factors, or one that is not finite and above 0.
+  std::shared_ptr<const RobotModel> scaled(const std::vector<double>& factors) const;
+  /// The factors that it was scaled with; empty: all 1.
+  const std::vector<double>& linkScale() const { return link_scale_; }
+
  private:
   friend class RobotModelBuilder;
   std::string name_;
@@ -165,5 +172,7 @@ class RobotModel
   std::unordered_map<std::string, int> joint_indices_;
   std::unordered_map<std::string, int> variable_indices_;
   std::shared_ptr<const Kinematics> kinematics_;
+  std::shared_ptr<const RobotModel> as_loaded_;  // null: this one
+  std::vector<double> link_scale_;
 };
 }  // namespace gpu_planning_scene

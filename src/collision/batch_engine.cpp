@@ -164,7 +164,10 @@ void BatchEngine::check(PoseSource& source, std::size_t count, std::size_t link_
     {
       const auto [a, b] = GpuPairChecker::pairOf(verdicts.hits[i]);
       result.valid[i] = 0;
-      result.colliding[i] = {robot[a].body, bodyOf(*problem_, b)};
+      // Ascending: what is carried comes after the objects that it hits.
+      const std::int32_t first = robot[a].body;
+      const std::int32_t second = bodyOf(*problem_, b);
+      result.colliding[i] = {std::min(first, second), std::max(first, second)};
     }
     else if (verdicts.flags[i] & STATE_UNDECIDED)
       undecided.push_back(i);

@@ -28,12 +28,15 @@ bool touchByCarrying(const RobotBody& a, const RobotBody& b)
 std::vector<RobotBody> robotBodies(const PlanningScene& scene)
 {
   const auto& links = scene.robot->links();
+  const auto padding_of = [&scene](int link)
+  { return scene.link_padding.empty() ? 0.0 : scene.link_padding[static_cast<std::size_t>(link)]; };
   std::vector<RobotBody> bodies;
   int body = 0;
   for (const Link& link : links)
   {
     if (!link.shapes.empty())
-      bodies.push_back({body, body, &link.name, &link.shapes, Eigen::Isometry3d::Identity(), nullptr});
+      bodies.push_back(
+          {body, body, &link.name, &link.shapes, Eigen::Isometry3d::Identity(), padding_of(body), nullptr});
     ++body;
   }
   body += static_cast<int>(scene.objects.size());
@@ -41,7 +44,8 @@ std::vector<RobotBody> robotBodies(const PlanningScene& scene)
   {
     const WorldObject& object = attached.object;
     if (!object.shapes.empty())
-      bodies.push_back({body, attached.link, &object.id, &object.shapes, object.pose, &attached});
+      bodies.push_back({body, attached.link, &object.id, &attached.shapes(), object.pose,
+                        padding_of(attached.link) + attached.padding, &attached});
     ++body;
   }
   return bodies;

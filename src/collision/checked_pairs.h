@@ -21,6 +21,7 @@ struct RobotBody
   const std::string* name;
   const std::vector<PlacedShape>* shapes;
   Eigen::Isometry3d pose;          ///< of the shapes' frame in the link's
+  double padding;                  ///< metres: its link's, and for what is carried its own on top
   const AttachedObject* attached;  ///< null for a link
 };
 

@@ -103,14 +103,13 @@ Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>&
   for (std::size_t i = 0; i < bodies.size(); ++i)
   {
     const RobotBody& body = bodies[i];
-    const double padding = scene.link_padding.empty() ? 0.0 : scene.link_padding[body.link];
     const std::size_t begin = problem.robot.size();
     if (body_needed[i])
     {
       for (const PlacedShape& placed : *body.shapes)
       {
         problem.robot.push_back(
-            {trees.treeOf(placed.shape), body.body, body.link, rigidProduct(body.pose, placed.pose), padding});
+            {trees.treeOf(placed.shape), body.body, body.link, rigidProduct(body.pose, placed.pose), body.padding});
       }
     }
     instances.of_body.push_back({begin, problem.robot.size()});

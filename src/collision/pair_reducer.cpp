@@ -21,6 +21,12 @@ bool sameObject(const WorldObject& a, const WorldObject& b)
                     });
 }
 
+bool sameCarried(const AttachedObject& a, const AttachedObject& b)
+{
+  return a.link == b.link && a.padding == b.padding && a.scaled_shapes == b.scaled_shapes &&
+         sameObject(a.object, b.object);
+}
+
 /// How many objects are in a pair.
 class ObjectCount
 {
@@ -109,7 +115,7 @@ void PairReducer::keepCarried(const PlanningScene& scene)
   for (std::size_t i = 0; i < scene.attached.size(); ++i)
   {
     const AttachedObject& attached = scene.attached[i];
-    if (i < kept && carried_[i].link == attached.link && sameObject(carried_[i].object, attached.object))
+    if (i < kept && sameCarried(carried_[i], attached))
       continue;
     swept_[links + i].reset();
     near_movers_.forgetRow(links + i);
@@ -158,8 +164,7 @@ void PairReducer::keepWhatStays(const PlanningScene& scene)
 bool PairReducer::mayMeet(const PlanningScene& scene, const RobotBody& body, std::size_t mover, std::size_t object)
 {
   const Region* region = reach_->inPlanningFrame(sweptBody(body, mover));
-  const double padding = scene.link_padding.empty() ? 0.0 : scene.link_padding[static_cast<std::size_t>(body.link)];
-  const double distance = padding + scene.objects[object].padding;
+  const double distance = body.padding + scene.objects[object].padding;
   const std::vector<Obstacle>& obstacles = objects_[object].obstacles;
   return region == nullptr || std::any_of(obstacles.begin(), obstacles.end(),
                                           [&](const Obstacle& obstacle)

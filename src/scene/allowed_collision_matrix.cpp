@@ -47,6 +47,29 @@ bool AllowedCollisionMatrix::allowed(const std::string& body_1, const std::strin
   return row(body_1).allowed(row(body_2));
 }
 
+std::vector<std::string> AllowedCollisionMatrix::bodies() const
+{
+  std::vector<std::string> names;
+  for (const auto& body : bodies_)
+    names.push_back(body.first);
+  return names;
+}
+
+std::vector<std::string> AllowedCollisionMatrix::bodiesWithEntries() const
+{
+  std::vector<std::string> names;
+  for (const auto& body : bodies_)
+    if (!body.second.entries.empty())
+      names.push_back(body.first);
+  return names;
+}
+
+std::optional<bool> AllowedCollisionMatrix::defaultOf(const std::string& body) const
+{
+  const auto known = bodies_.find(body);
+  return known == bodies_.end() ? std::nullopt : known->second.by_default;
+}
+
 AllowedCollisionMatrix::Row AllowedCollisionMatrix::row(const std::string& body) const
 {
   Row row;

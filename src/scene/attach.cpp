@@ -2,6 +2,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning_scene.h"
+#include "scene/frame.h"
 #include "scene/validate_scene.h"
 
 // Objects taken up by a link and put back.
@@ -16,15 +17,6 @@ int requireLink(const RobotModel& robot, const std::string& name, const std::str
   if (link < 0)
     throw Error(where + ": robot '" + robot.name() + "' has no link '" + name + "'");
   return link;
-}
-
-Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* state)
-{
-  std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  robot.linkPoses(state, poses.data());
-  if (!poses[link].matrix().allFinite())
-    throw Error("the robot state is not finite; link '" + robot.links()[link].name + "' has no pose in it");
-  return poses[link];
 }
 }  // namespace
 
@@ -45,10 +37,11 @@ void PlanningScene::attach(const std::string& object, const std::string& link,
     throw Error("object '" + object + "' has a half-space and cannot be carried; leave it in the world");
   AttachedObject carried;
   carried.link = requireLink(*robot, link, "object '" + object + "' cannot be attached");
-  for (const std::string& name : touch_links)
-    carried.touch_links.push_back(requireLink(*robot, name, "touch link of object '" + object + "'"));
+  for (const std::string& touch_link : touch_links)
+    carried.touch_links.push_back(requireLink(*robot, touch_link, "touch link of object '" + object + "'"));
   carried.object = *found;
   carried.object.pose = linkPose(*robot, carried.link, state).inverse() * found->pose;
+  scaleCarried(carried);
   attached.push_back(std::move(carried));
   objects.erase(found);
 }

@@ -9,6 +9,13 @@ namespace gpu_planning_scene
 {
 namespace
 {
+const std::vector<YamlValue>& itemsOf(const YamlValue* parent, const char* key)
+{
+  static const std::vector<YamlValue> none;
+  const YamlValue* list = parent ? parent->find(key) : nullptr;
+  return list ? list->items() : none;
+}
+
 /// ROS writes the message's zeros where an object's pose was never set; that pose means "none".
 bool isUnsetPose(const YamlValue& value)
 {
@@ -36,15 +43,26 @@ void requireAdd(const YamlValue& object)
                     " in a scene file; it describes a full scene, so objects can only " + "be added (0)");
 }
 
+std::map<std::string, Eigen::Isometry3d> readSubframes(const YamlValue& object)
+{
+  std::map<std::string, Eigen::Isometry3d> subframes;
+  const auto& names = itemsOf(&object, "subframe_names");
+  const auto& poses = itemsOf(&object, "subframe_poses");
+  if (poses.size() != names.size())
+    object.fail(std::to_string(poses.size()) + " subframe_poses for " + std::to_string(names.size()) +
+                " subframe_names");
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (!subframes.emplace(names[i].text(), readPose(poses[i])).second)
+      names[i].fail("subframe '" + names[i].text() + "' is given twice");
+  return subframes;
+}
+
 /// The object, with its pose in the frame that its header names.
 WorldObject readObject(const YamlValue& value, SceneReader& reader)
 {
   value.warnOfUnknownKeys({"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes", "mesh_poses",
                            "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"},
                           reader.warnings);
-  const YamlValue* subframes = value.find("subframe_names");
-  if (subframes && !subframes->items().empty())
-    reader.warn(subframes->where() + ": subframes are not used");
   requireAdd(value);
   WorldObject object;
   object.id = value.at("id").text();
@@ -58,6 +76,7 @@ WorldObject readObject(const YamlValue& value, SceneReader& reader)
   object.shapes = readShapes(value, reader);
   if (object.shapes.empty())
     value.fail("object '" + object.id + "' has no shapes");
+  object.subframes = readSubframes(value);
   return object;
 }
 
@@ -101,13 +120,6 @@ AttachedObject readAttached(const YamlValue& value, SceneReader& reader)
       attached.touch_links.push_back(readLink(link, reader));
   return attached;
 }
-
-const std::vector<YamlValue>& itemsOf(const YamlValue* parent, const char* key)
-{
-  static const std::vector<YamlValue> none;
-  const YamlValue* list = parent ? parent->find(key) : nullptr;
-  return list ? list->items() : none;
-}
 }  // namespace
 
 void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& result)
@@ -134,6 +146,7 @@ void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& res
   {
     AttachedObject attached = readAttached(value, reader);
     require_new(attached.object.id, value);
+    result.scaleCarried(attached);
     result.attached.push_back(std::move(attached));
   }
 }

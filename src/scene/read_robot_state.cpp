@@ -1,5 +1,5 @@
-#include <cmath>
-
+#include "gpu_planning_scene/error.h"
+#include "scene/message_values.h"
 #include "scene/scene_reader.h"
 
 namespace gpu_planning_scene
@@ -67,25 +67,16 @@ void readJointState(const YamlValue& value, const SceneReader& reader, GivenStat
 
 void setTransform(const YamlValue& where, const Joint& joint, const Eigen::Isometry3d& pose, GivenState& state)
 {
-  const int first = joint.first_variable;
-  if (joint.type == JointType::Planar)
+  try
   {
-    const Eigen::Matrix3d directions = planarDirections(joint.axis);
-    const Eigen::Vector3d position = directions.transpose() * pose.translation();
-    const Eigen::Matrix3d rotation = directions.transpose() * pose.linear() * directions;
-    constexpr double kTolerance = 1e-6;  // metres, radians: what rounding in a message may leave
-    if (std::abs(position.z()) > kTolerance || rotation(2, 2) < 1.0 - 0.5 * kTolerance * kTolerance)
-      where.fail("the transform leaves the plane of the planar joint '" + joint.name + "'");
-    state.set(first, position.x());
-    state.set(first + 1, position.y());
-    state.set(first + 2, std::atan2(rotation(1, 0), rotation(0, 0)));
-    return;
+    int variable = joint.first_variable;
+    for (const double value : variablesAt(joint, pose))
+      state.set(variable++, value);
   }
-  const Eigen::Quaterniond rotation(pose.linear());
-  for (int i = 0; i < 3; ++i)
-    state.set(first + i, pose.translation()[i]);
-  for (int i = 0; i < 4; ++i)
-    state.set(first + 3 + i, rotation.coeffs()[i]);  // x, y, z, w, as the variables are ordered
+  catch (const Error& error)
+  {
+    where.fail(error.what());
+  }
 }
 
 void readMultiDofState(const YamlValue& value, const SceneReader& reader, GivenState& state)

@@ -1,22 +1,14 @@
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 
 #include "gpu_planning_scene/error.h"
+#include "scene/message_values.h"
 #include "scene/scene_reader.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
-enum class PrimitiveType
-{
-  Box,
-  Sphere,
-  Cylinder,
-  Cone
-};
-
 /// The numbers are those of shape_msgs/SolidPrimitive.
 PrimitiveType readType(const YamlValue& value)
 {
@@ -33,44 +25,22 @@ PrimitiveType readType(const YamlValue& value)
   value.fail("unknown primitive type '" + value.text() + "'; known are box (1), sphere (2), cylinder (3) and cone (4)");
 }
 
-/// `count` dimensions. Messages that were filled by habit carry zeros after those that count.
-std::vector<double> readDimensions(const YamlValue& value, std::size_t count, const char* meaning)
-{
-  std::vector<double> dimensions;
-  for (const YamlValue& item : value.items())
-    dimensions.push_back(item.number());
-  const auto surplus = dimensions.begin() + std::min(count, dimensions.size());
-  if (dimensions.size() < count || std::any_of(surplus, dimensions.end(), [](double d) { return d != 0.0; }))
-    value.fail("expected the dimensions " + std::string(meaning) + ", found " + std::to_string(dimensions.size()) +
-               " numbers");
-  return dimensions;
-}
-
 Shape readPrimitive(const YamlValue& value, const SceneReader& reader)
 {
   value.warnOfUnknownKeys({"type", "dimensions"}, reader.warnings);
   const YamlValue& dimensions = value.at("dimensions");
+  const PrimitiveType type = readType(value.at("type"));
+  std::vector<double> numbers;
+  for (const YamlValue& item : dimensions.items())
+    numbers.push_back(item.number());
   Shape shape;
-  switch (readType(value.at("type")))
+  try
   {
-    case PrimitiveType::Box:
-      shape = Box{Eigen::Vector3d(readDimensions(dimensions, 3, "[x, y, z]").data())};
-      break;
-    case PrimitiveType::Sphere:
-      shape = Sphere{readDimensions(dimensions, 1, "[radius]")[0]};
-      break;
-    case PrimitiveType::Cylinder:
-    {
-      const auto sizes = readDimensions(dimensions, 2, "[height, radius]");
-      shape = Cylinder{sizes[1], sizes[0]};
-      break;
-    }
-    case PrimitiveType::Cone:
-    {
-      const auto sizes = readDimensions(dimensions, 2, "[height, radius]");
-      shape = Cone{sizes[1], sizes[0]};
-      break;
-    }
+    shape = primitiveOf(type, numbers);
+  }
+  catch (const Error& error)
+  {
+    dimensions.fail(error.what());
   }
   validateShape(shape, dimensions.where());
   return shape;
@@ -143,12 +113,14 @@ HalfSpace readPlane(const YamlValue& value, const SceneReader& reader)
     value.warnOfUnknownKeys({"coef"}, reader.warnings);
   const YamlValue& coefficients = is_map ? value.at("coef") : value;
   const std::vector<double> numbers = coefficients.numbers(4);
-  const Eigen::Vector3d normal(numbers.data());
-  const double length = normal.stableNorm();
-  const double offset = -numbers[3] / length;
-  if (length == 0.0 || !std::isfinite(length) || !std::isfinite(offset))
-    coefficients.fail("the plane [a, b, c, d] has no direction; a, b and c are its normal and cannot all be 0");
-  return {Eigen::Vector3d(normal / length).normalized(), offset};
+  try
+  {
+    return halfSpaceBehind(Eigen::Vector4d(numbers.data()));
+  }
+  catch (const Error& error)
+  {
+    coefficients.fail(error.what());
+  }
 }
 
 /// One pose per shape; a lone shape may do without.

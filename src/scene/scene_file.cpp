@@ -3,14 +3,15 @@
 #include "gpu_planning_scene/error.h"
 #include "model/one_line.h"
 #include "scene/scene_reader.h"
+#include "scene/scene_text_file.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
-PlanningScene readSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
-                            const PackageResolver& packages, std::vector<std::string>* warnings,
-                            const MeshAccess& meshes)
+PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
+                           const PackageResolver& packages, std::vector<std::string>* warnings,
+                           const MeshAccess& meshes)
 {
   const YamlValue file = YamlValue::loadFile(path);
   static const std::initializer_list<const char*> known_keys = {"name",
@@ -40,6 +41,8 @@ PlanningScene readSceneFile(const std::string& path, std::shared_ptr<const Robot
   if (robot_name && !robot_name->text().empty() && robot_name->text() != robot->name())
     reader.warn(robot_name->where() + ": the scene is for robot '" + robot_name->text() + "', the robot is '" +
                 robot->name() + "'");
+  if (const YamlValue* name = file.find("name"))
+    scene.name = name->text();
   if (const YamlValue* state = file.find("robot_state"))
     reader.state = readRobotState(*state, reader);
   if (const YamlValue* frames = file.find("fixed_frame_transforms"))
@@ -53,6 +56,10 @@ PlanningScene readSceneFile(const std::string& path, std::shared_ptr<const Robot
       reader.warn(matrix->where() + ": the allowed_collision_matrix is empty; the robot's own is kept");
   }
   scene.link_padding = readLinkPadding(file, reader);
+  scene.setLinkScale(readLinkScale(file, reader));
+  scene.colors = readColors(file, reader);
+  scene.fixed_frames = reader.fixed_frames;
+  scene.fixed_frames.erase(robot->planningFrame());
   readObjects(file, reader, scene);
   scene.current_state = reader.state;
   return scene;
@@ -63,9 +70,13 @@ PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const Robot
                             const PackageResolver& packages, std::vector<std::string>* warnings,
                             const MeshAccess& meshes)
 {
+  const std::string extension = ".scene";
+  const bool is_text =
+      path.size() >= extension.size() && path.compare(path.size() - extension.size(), extension.size(), extension) == 0;
   try
   {
-    return readSceneFile(path, std::move(robot), packages, warnings, meshes);
+    return is_text ? loadSceneTextFile(path, std::move(robot))
+                   : loadYamlFile(path, std::move(robot), packages, warnings, meshes);
   }
   catch (const Error& error)
   {

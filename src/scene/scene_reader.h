@@ -55,9 +55,13 @@ std::vector<PlacedShape> readShapes(const YamlValue& object, SceneReader& reader
 /// and no link's.
 void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& result);
 
-/// `link_padding`: one value per link of the robot; empty if the file gives none but zeros.
+/// `link_padding` and `link_scale`: one value per link of the robot; empty if the file gives none but zeros, or ones.
 std::vector<double> readLinkPadding(const YamlValue& scene, const SceneReader& reader);
+std::vector<double> readLinkScale(const YamlValue& scene, const SceneReader& reader);
 
-/// `link_scale` and octomaps: fails where they ask for anything.
+/// `object_colors`.
+std::map<std::string, Color> readColors(const YamlValue& scene, const SceneReader& reader);
+
+/// Octomaps: fails where there is one.
 void refuseUnsupported(const YamlValue& scene);
 }  // namespace gpu_planning_scene

@@ -34,6 +34,8 @@ void validateObject(const WorldObject& object, const Meshes& known, Meshes& vali
   const std::string where = "object '" + object.id + "'";
   validatePose(object.pose, where);
   validatePadding(object.padding, where);
+  for (const auto& subframe : object.subframes)
+    validatePose(subframe.second, where + ", subframe '" + subframe.first + "'");
   for (const PlacedShape& placed : object.shapes)
   {
     validatePose(placed.pose, where);
@@ -63,6 +65,11 @@ void validateAttached(const AttachedObject& attached, const RobotModel& robot, c
     require_link(link, "touch link");
   if (hasHalfSpace(attached.object.shapes))
     throw Error(where + " has a half-space, which cannot be carried; leave it in the world");
+  validatePadding(attached.padding, where);
+  const std::vector<double>& scale = robot.linkScale();
+  const bool is_scaled = !scale.empty() && scale[static_cast<std::size_t>(attached.link)] != 1.0;
+  if (is_scaled != (attached.scaled_shapes != nullptr))
+    throw Error(where + " does not have its link's scale; call PlanningScene::scaleCarried before adding it");
 }
 }  // namespace
 

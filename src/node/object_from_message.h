@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+
+#include <geometry_msgs/Quaternion.h>
+#include <shape_msgs/Mesh.h>
+
+#include "gpu_planning_scene/messages.h"
+#include "gpu_planning_scene/scene_change.h"
+
+namespace gpu_planning_scene
+{
+/// The meshes of one message: those that are equal become one, so that one tree serves them all.
+class InlineMeshes
+{
+ public:
+  std::shared_ptr<const Mesh> meshOf(const shape_msgs::Mesh& message, const std::string& object);
+
+ private:
+  std::unordered_multimap<std::size_t, std::shared_ptr<const Mesh>> meshes_;  // by a hash of what is in them
+};
+
+ObjectChange objectChangeFrom(const CollisionObject& message, InlineMeshes& meshes);
+AttachedChange attachedChangeFrom(const AttachedCollisionObject& message, InlineMeshes& meshes);
+
+Eigen::Quaterniond rotationOf(const geometry_msgs::Quaternion& message);
+
+/// A position (geometry_msgs/Point or Vector3) and an orientation, which is normalised; one of zero length means none.
+template <class Position>
+Eigen::Isometry3d isometryOf(const Position& position, const geometry_msgs::Quaternion& orientation)
+{
+  return Eigen::Translation3d(position.x, position.y, position.z) * rotationOf(orientation);
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,99 @@
+#include "gpu_planning_scene/error.h"
+#include "scene/scene_changer.h"
+
+// Objects of the world: added, appended to, moved, removed.
+
+namespace gpu_planning_scene
+{
+void SceneChanger::clearWorld()
+{
+  for (const std::string& id : objects_.ids())
+    removeObject(id);
+}
+
+void SceneChanger::changeObject(const ObjectChange& change)
+{
+  if (change.operation == Operation::Remove)
+  {
+    if (change.id.empty())
+      clearWorld();
+    else
+      removeObject(change.id);
+    return;
+  }
+  requireNewId(change.id);
+  if (const AttachedObject* carried = attached_.find(change.id))
+    throw Error("object '" + change.id + "' is carried by link '" + linkName(carried->link) +
+                "'; change it as an attached object, or detach it first");
+  require(change);
+  WorldObject* const known = objects_.find(change.id);
+  if (change.operation == Operation::Move)
+    moveObject(change);
+  else if (change.operation == Operation::Append && known != nullptr)
+    appendToObject(*known, change);
+  else
+    addObject(change);
+}
+
+void SceneChanger::addObject(const ObjectChange& change)
+{
+  WorldObject object = newObject(change);
+  object.pose = placed(object.pose, change.frame);
+  WorldObject* const known = objects_.find(change.id);
+  if (known != nullptr)
+    count_.remove(known->shapes);
+  count_.add(change.id, object.shapes);
+  if (known != nullptr)
+    *known = std::move(object);
+  else
+    objects_.add(std::move(object));
+}
+
+void SceneChanger::appendToObject(WorldObject& object, const ObjectChange& change)
+{
+  if (change.pose)
+    object.pose = placed(*change.pose, change.frame);
+  count_.remove(object.shapes);
+  appendShapes(change, object);
+  count_.add(change.id, object.shapes);
+}
+
+void SceneChanger::moveObject(const ObjectChange& change)
+{
+  const std::string where = "object '" + change.id + "' cannot be moved: ";
+  WorldObject* const object = objects_.find(change.id);
+  if (object == nullptr)
+    throw Error(where + "the scene has no such object");
+  if (!change.shapes.empty())
+    throw Error(where + "a move changes poses alone; leave the shapes out, or add the object to replace it");
+  std::vector<PlacedShape>& shapes = object->shapes;
+  if (!change.shape_poses.empty() && change.shape_poses.size() != shapes.size())
+    throw Error(where + std::to_string(change.shape_poses.size()) + " poses for its " + std::to_string(shapes.size()) +
+                " shapes");
+  const bool has_lone_pose = !change.pose && change.shape_poses.size() == 1;
+  const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
+  // Before anything of the object changes: the frame may be its own.
+  object->pose = placed(has_lone_pose ? change.shape_poses.front() : change.pose.value_or(none), change.frame);
+  for (std::size_t i = 0; i < change.shape_poses.size(); ++i)
+    shapes[i].pose = has_lone_pose ? none : change.shape_poses[i];
+  for (const auto& [name, pose] : change.subframes)
+    object->subframes[name] = pose;
+}
+
+/// That what was attached is also taken out of the world is how MoveIt's tutorials do it.
+void SceneChanger::removeObject(const std::string& id)
+{
+  if (objects_.find(id) != nullptr)
+  {
+    count_.remove(objects_.take(id).shapes);
+    result_.scene.colors.erase(id);
+    return;
+  }
+  if (attached_here_.count(id) != 0)
+    return;
+  const AttachedObject* const carried = attached_.find(id);
+  throw Error("object '" + id + "' cannot be removed: " +
+              (carried != nullptr ? "link '" + linkName(carried->link) + "' carries it; detach it first"
+                                  : "the scene has no such object"));
+}
+}  // namespace gpu_planning_scene

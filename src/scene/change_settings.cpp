@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gpu_planning_scene/error.h"
+#include "scene/scene_changer.h"
+
+// Names, fixed frames, the allowed-collision matrix, padding, scale, colours.
+
+namespace gpu_planning_scene
+{
+void SceneChanger::changeNames(const SceneChange& change)
+{
+  PlanningScene& scene = result_.scene;
+  if (!change.robot_model_name.empty() && change.robot_model_name != scene.robot->name())
+    throw Error("the scene is for robot '" + change.robot_model_name + "', the robot here is '" + scene.robot->name() +
+                "'; correct robot_model_name, or leave it empty");
+  if (!change.name.empty())
+    count_.requireName(change.name, "scene");
+  if (!change.is_diff || !change.name.empty())
+    scene.name = change.name;
+}
+
+/// MoveIt lists the planning frame among them.
+void SceneChanger::changeFixedFrames(const SceneChange& change)
+{
+  PlanningScene& scene = result_.scene;
+  if (change.is_diff && change.fixed_frames.empty())
+    return;
+  scene.fixed_frames.clear();
+  for (const auto& [name, pose] : change.fixed_frames)
+  {
+    const std::string where = "fixed frame '" + name + "'";
+    count_.requireName(name, "fixed frame");
+    requirePose(pose, where);
+    const bool is_planning_frame = name == scene.robot->planningFrame();
+    if (is_planning_frame && !pose.isApprox(Eigen::Isometry3d::Identity(), 1e-12))
+      throw Error(where + " is the planning frame; its transform must be the identity");
+    if (!is_planning_frame && scene.robot->linkIndex(name) >= 0)
+      throw Error(where + " has the name of a link, whose pose is that of the robot's state");
+    if (!is_planning_frame)
+      scene.fixed_frames[name] = pose;
+  }
+}
+
+void SceneChanger::changeMatrix(const SceneChange& change)
+{
+  PlanningScene& scene = result_.scene;
+  if (change.matrix)
+  {
+    count_.requireMatrix(*change.matrix);
+    scene.allowed_collisions = *change.matrix;
+    scene.matrix_source = MatrixSource::SceneFile;
+  }
+  else if (!change.is_diff)
+  {
+    const PlanningScene fresh(scene.robot);
+    scene.allowed_collisions = fresh.allowed_collisions;
+    scene.matrix_source = fresh.matrix_source;
+  }
+}
+
+void SceneChanger::changePadding(const SceneChange& change)
+{
+  std::vector<double> padding = change.is_diff ? result_.scene.link_padding : defaults_.link_padding;
+  padding.resize(result_.scene.robot->links().size(), 0.0);
+  for (const auto& [link, metres] : change.link_padding)
+  {
+    if (!std::isfinite(metres) || metres < 0.0)
+      throw Error("link '" + link + "': the padding is " + std::to_string(metres) +
+                  "; it must be finite and not negative");
+    padding[static_cast<std::size_t>(requireLink(link, "link_padding"))] = metres;
+  }
+  const bool is_padded = std::any_of(padding.begin(), padding.end(), [](double metres) { return metres != 0.0; });
+  result_.scene.link_padding = is_padded ? padding : std::vector<double>();
+}
+
+void SceneChanger::changeScale(const SceneChange& change)
+{
+  std::vector<double> scale = change.is_diff ? result_.scene.robot->linkScale() : defaults_.link_scale;
+  scale.resize(result_.scene.robot->links().size(), 1.0);
+  for (const auto& [link, factor] : change.link_scale)
+    scale[static_cast<std::size_t>(requireLink(link, "link_scale"))] = factor;
+  result_.scene.setLinkScale(scale);
+}
+
+void SceneChanger::changeColors(const SceneChange& change)
+{
+  if (!change.is_diff)
+    result_.scene.colors.clear();
+  for (const auto& [id, color] : change.colors)
+  {
+    count_.requireName(id, "object color");
+    for (const float part : {color.r, color.g, color.b, color.a})
+      if (!(part >= 0.0F && part <= 1.0F))
+        throw Error("the color of '" + id + "' has a component of " + std::to_string(part) +
+                    "; each must be from 0 to 1");
+    result_.scene.colors[id] = color;
+  }
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gpu_planning_scene/error.h"
+#include "scene/scene_changer.h"
+
+// The robot's state, and what it carries.
+
+namespace gpu_planning_scene
+{
+void SceneChanger::changeState(const StateChange& change, bool is_full_scene)
+{
+  setVariables(change.variables);
+  const bool replaces = is_full_scene || (!change.is_diff && !change.variables.empty());
+  if (replaces)
+    dropCarried(change, is_full_scene);
+  for (const AttachedChange& attached : change.attached)
+  {
+    if ((replaces || !change.is_diff) && attached.object.operation != Operation::Add)
+      throw Error("object '" + attached.object.id + "': a robot state that is no difference can only add attached " +
+                  "objects; set is_diff of the scene and of its robot_state");
+    changeAttached(attached);
+  }
+}
+
+void SceneChanger::setVariables(const std::map<std::string, double>& variables)
+{
+  const RobotModel& robot = *result_.scene.robot;
+  if (variables.empty())
+    return;
+  if (result_.state.empty())
+  {
+    result_.state = robot.defaultState();
+    if (variables.size() < result_.state.size())
+      result_.warnings.push_back("the robot's state was not known yet: joints that were not given have their default");
+  }
+  for (const auto& [name, value] : variables)
+  {
+    const int variable = robot.variableIndex(name);
+    if (variable < 0)
+      throw Error("robot_state: robot '" + robot.name() + "' has no joint variable '" + name + "'");
+    if (!std::isfinite(value))
+      throw Error("robot_state: the position of '" + name + "' is not finite");
+    result_.state[static_cast<std::size_t>(variable)] = value;
+  }
+}
+
+/// MoveIt's well-known trap: a robot state with joint values that does not say is_diff drops what is attached.
+void SceneChanger::dropCarried(const StateChange& change, bool is_full_scene)
+{
+  for (const std::string& id : attached_.ids())
+  {
+    const AttachedObject dropped = attached_.take(id);
+    count_.remove(dropped.object.shapes);
+    const bool comes_back = std::any_of(change.attached.begin(), change.attached.end(),
+                                        [&id](const AttachedChange& added) { return added.object.id == id; });
+    if (comes_back)
+      continue;
+    result_.scene.colors.erase(id);
+    if (!is_full_scene)
+      result_.warnings.push_back("object '" + id + "' is gone: link '" + linkName(dropped.link) +
+                                 "' carried it, and robot_state.is_diff is false, which replaces what is attached");
+  }
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,82 @@
+#include "scene/frame.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning_scene.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+Eigen::Isometry3d poseOf(const KnownFrames& known, const ObjectFrame& object, const double* state)
+{
+  return object.link < 0 ? *object.pose : linkPose(known.robot, object.link, state) * *object.pose;
+}
+
+/// OBJECT/SUBFRAME; both may have slashes in them.
+std::optional<Eigen::Isometry3d> findSubframe(const KnownFrames& known, const std::string& name, const double* state)
+{
+  for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1))
+  {
+    const std::optional<ObjectFrame> object = known.object(name.substr(0, slash));
+    if (!object)
+      continue;
+    const auto subframe = object->subframes->find(name.substr(slash + 1));
+    if (subframe != object->subframes->end())
+      return poseOf(known, *object, state) * subframe->second;
+  }
+  return std::nullopt;
+}
+
+std::optional<Eigen::Isometry3d> findAsWritten(const KnownFrames& known, const std::string& name, const double* state)
+{
+  if (name.empty() || name == known.robot.planningFrame())
+    return Eigen::Isometry3d::Identity();
+  if (const int link = known.robot.linkIndex(name); link >= 0)
+    return linkPose(known.robot, link, state);
+  if (const std::optional<ObjectFrame> object = known.object(name))
+    return poseOf(known, *object, state);
+  if (const auto pose = findSubframe(known, name, state))
+    return pose;
+  const auto fixed = known.fixed_frames.find(name);
+  return fixed == known.fixed_frames.end() ? std::nullopt : std::make_optional(fixed->second);
+}
+}  // namespace
+
+Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* state)
+{
+  const std::string& name = robot.links()[static_cast<std::size_t>(link)].name;
+  if (state == nullptr)
+    throw Error("the robot's state is not known yet, so link '" + name +
+                "' has no pose; give the joints' values first");
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  robot.linkPoses(state, poses.data());
+  if (!poses[static_cast<std::size_t>(link)].matrix().allFinite())
+    throw Error("the robot state is not finite; link '" + name + "' has no pose in it");
+  return poses[static_cast<std::size_t>(link)];
+}
+
+/// Old tf1 names begin with a slash, and so do the links of some robots: as written first, then without it.
+std::optional<Eigen::Isometry3d> findFrame(const KnownFrames& known, const std::string& name, const double* state)
+{
+  const auto pose = findAsWritten(known, name, state);
+  return pose || name.empty() || name[0] != '/' ? pose : findAsWritten(known, name.substr(1), state);
+}
+
+std::optional<Eigen::Isometry3d> PlanningScene::frame(const std::string& frame_name, const double* state) const
+{
+  const auto find_object = [this](const std::string& id) -> std::optional<ObjectFrame>
+  {
+    for (const AttachedObject& carried : attached)
+      if (carried.object.id == id)
+        return ObjectFrame{&carried.object.pose, &carried.object.subframes, carried.link};
+    for (const WorldObject& object : objects)
+      if (object.id == id)
+        return ObjectFrame{&object.pose, &object.subframes};
+    return std::nullopt;
+  };
+  return findFrame({*robot, fixed_frames, find_object}, frame_name, state);
+}
+}  // namespace gpu_planning_scene

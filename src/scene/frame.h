@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "gpu_planning_scene/robot_model.h"
+
+namespace gpu_planning_scene
+{
+/// The pose of a link in the planning frame. Throws Error where `state` is null or not finite.
+Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* state);
+
+/// An object of a scene as far as it is a frame.
+struct ObjectFrame
+{
+  const Eigen::Isometry3d* pose;
+  const std::map<std::string, Eigen::Isometry3d>* subframes;
+  int link = -1;  ///< that carries it, and whose frame the pose is in; -1: the planning frame
+};
+
+/// What PlanningScene::frame looks names up in.
+struct KnownFrames
+{
+  const RobotModel& robot;
+  const std::map<std::string, Eigen::Isometry3d>& fixed_frames;
+  std::function<std::optional<ObjectFrame>(const std::string& id)> object;
+};
+
+/// See PlanningScene::frame.
+std::optional<Eigen::Isometry3d> findFrame(const KnownFrames& known, const std::string& name, const double* state);
+}  // namespace gpu_planning_scene

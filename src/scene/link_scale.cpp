@@ -1,0 +1,46 @@
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning_scene.h"
+#include "model/scaled_shapes.h"
+
+// The scale of links, which what they carry has too.
+
+namespace gpu_planning_scene
+{
+namespace
+{
+void scaleCarriedBy(const RobotModel& robot, AttachedObject& carried, ShapeScaler& scaler)
+{
+  const std::vector<double>& scale = robot.linkScale();
+  const double factor = scale.empty() ? 1.0 : scale.at(static_cast<std::size_t>(carried.link));
+  try
+  {
+    carried.scaled_shapes =
+        factor == 1.0 ? nullptr
+                      : std::make_shared<const std::vector<PlacedShape>>(scaler.scaled(carried.object.shapes, factor));
+  }
+  catch (const Error& error)
+  {
+    throw Error("attached object '" + carried.object.id + "': " + error.what());
+  }
+}
+}  // namespace
+
+void PlanningScene::setLinkScale(const std::vector<double>& factors)
+{
+  const std::shared_ptr<const RobotModel> scaled = robot->scaled(factors);
+  if (scaled == robot)
+    return;
+  std::vector<AttachedObject> carried = attached;
+  ShapeScaler scaler;
+  for (AttachedObject& object : carried)
+    scaleCarriedBy(*scaled, object, scaler);
+  robot = scaled;
+  attached = std::move(carried);
+}
+
+void PlanningScene::scaleCarried(AttachedObject& carried) const
+{
+  ShapeScaler scaler;
+  scaleCarriedBy(*robot, carried, scaler);
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,62 @@
+#include "gpu_planning_scene/scene_change.h"
+
+#include <set>
+
+#include "gpu_planning_scene/error.h"
+#include "model/one_line.h"
+#include "scene/scene_changer.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// Names in a message may be long.
+std::string shortened(const std::string& text)
+{
+  constexpr std::size_t kLongest = 2000;
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...";
+}
+}  // namespace
+
+Change applyChange(const PlanningScene& scene, const std::vector<double>& state, const SceneChange& change,
+                   const SceneDefaults& defaults, const SceneLimits& limits, const ExternalFrames& frames)
+{
+  const auto lookup = [&](const FrameAt& frame)
+  {
+    const auto found = frames.find(frame);
+    if (found == frames.end())
+      throw Error("unknown frame '" + frame.name + "'; known are the planning frame '" + scene.robot->planningFrame() +
+                  "', links, objects, OBJECT/SUBFRAME, fixed frames of the scene, and frames of tf");
+    return found->second;
+  };
+  try
+  {
+    return SceneChanger(scene, state, defaults, limits, lookup).make(change);
+  }
+  catch (const Error& error)
+  {
+    throw Error(shortened(onOneLine(error.what())));
+  }
+}
+
+/// The change is tried, with any state and any pose for frames that are not known: which names are known depends on
+/// neither. What is wrong with the change is said where it is made.
+std::vector<FrameAt> externalFrames(const PlanningScene& scene, const SceneChange& change)
+{
+  std::set<FrameAt> unknown;
+  const auto lookup = [&unknown](const FrameAt& frame)
+  {
+    unknown.insert(frame);
+    return Eigen::Isometry3d::Identity();
+  };
+  try
+  {
+    SceneChanger(scene, scene.robot->defaultState(), {}, {}, lookup).make(change);
+  }
+  catch (const Error&)
+  {
+    return {unknown.begin(), unknown.end()};
+  }
+  return {unknown.begin(), unknown.end()};
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,156 @@
+#include "scene/scene_changer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu_planning_scene/error.h"
+#include "scene/frame.h"
+#include "scene/rigid_pose.h"
+
+// What all parts of a change need.
+
+namespace gpu_planning_scene
+{
+namespace
+{
+void requirePadding(double padding, const char* which)
+{
+  if (!std::isfinite(padding) || padding < 0.0)
+    throw Error(std::string(which) + " is " + std::to_string(padding) + "; it must be finite and not negative");
+}
+
+/// Messages list the primitives of an object, then its meshes, then its planes.
+int rankOf(const PlacedShape& placed)
+{
+  return std::holds_alternative<HalfSpace>(placed.shape)                     ? 2
+         : std::holds_alternative<std::shared_ptr<const Mesh>>(placed.shape) ? 1
+                                                                             : 0;
+}
+}  // namespace
+
+SceneChanger::SceneChanger(const PlanningScene& scene, const std::vector<double>& state, const SceneDefaults& defaults,
+                           const SceneLimits& limits, Lookup lookup)
+  : result_{scene, state, {}},
+    objects_(result_.scene.objects),
+    attached_(result_.scene.attached),
+    count_(limits, scene),
+    defaults_(defaults),
+    lookup_(std::move(lookup))
+{
+  const std::size_t variables = scene.robot->variables().size();
+  if (!state.empty() && state.size() != variables)
+    throw Error("the robot state has " + std::to_string(state.size()) + " values for " + std::to_string(variables) +
+                " variables; give one per variable, or none");
+  requirePadding(defaults.object_padding, "default_object_padding");
+  requirePadding(defaults.attached_padding, "default_attached_padding");
+}
+
+/// A full scene's world is emptied first: what it attaches is no object of the scene before.
+Change SceneChanger::make(const SceneChange& change)
+{
+  changeNames(change);
+  if (!change.is_diff)
+    clearWorld();
+  changeFixedFrames(change);
+  changeState(change.state, !change.is_diff);
+  changeMatrix(change);
+  changePadding(change);
+  changeScale(change);
+  changeColors(change);
+  for (const ObjectChange& object : change.objects)
+    changeObject(object);
+  objects_.close();
+  attached_.close();
+  count_.requireTriangles(result_.scene);
+  result_.scene.current_state = result_.state;
+  return std::move(result_);
+}
+
+void SceneChanger::requireNewId(const std::string& id) const
+{
+  count_.requireName(id, "collision object");
+  if (result_.scene.robot->linkIndex(id) >= 0)
+    throw Error("object '" + id + "' has the name of a link; give it another id");
+}
+
+int SceneChanger::requireLink(const std::string& name, const std::string& where) const
+{
+  const RobotModel& robot = *result_.scene.robot;
+  const int link = robot.linkIndex(name);
+  if (link < 0)
+    throw Error(where + ": robot '" + robot.name() + "' has no link '" + name + "'");
+  return link;
+}
+
+void SceneChanger::requirePose(const Eigen::Isometry3d& pose, const std::string& where) const
+{
+  if (!isRigid(pose))
+    throw Error(where + ": a pose is not finite or not a rotation and a translation");
+}
+
+void SceneChanger::require(const ObjectChange& change)
+{
+  const std::string where = "object '" + change.id + "'";
+  if (change.pose)
+    requirePose(*change.pose, where);
+  for (const Eigen::Isometry3d& pose : change.shape_poses)
+    requirePose(pose, where);
+  for (const auto& [name, pose] : change.subframes)
+  {
+    count_.requireName(name, "subframe of " + where);
+    requirePose(pose, where + ", subframe '" + name + "'");
+  }
+  for (const PlacedShape& placed : change.shapes)
+  {
+    requirePose(placed.pose, where);
+    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&placed.shape);
+    if (mesh == nullptr || valid_meshes_.count(mesh->get()) == 0)
+      validateShape(placed.shape, where);
+    if (mesh != nullptr)
+      valid_meshes_.insert(mesh->get());
+  }
+}
+
+WorldObject SceneChanger::newObject(const ObjectChange& change) const
+{
+  if (change.shapes.empty())
+    throw Error("object '" + change.id + "' has no shapes; give it primitives, meshes or planes");
+  WorldObject object;
+  object.id = change.id;
+  object.padding = defaults_.object_padding;
+  appendShapes(change, object);
+  if (change.pose)
+    object.pose = *change.pose;
+  else if (object.shapes.size() == 1)
+    std::swap(object.pose, object.shapes.front().pose);
+  return object;
+}
+
+Eigen::Isometry3d SceneChanger::placed(const Eigen::Isometry3d& pose, const FrameAt& frame)
+{
+  const auto find_object = [this](const std::string& id) -> std::optional<ObjectFrame>
+  {
+    if (const AttachedObject* carried = attached_.find(id))
+      return ObjectFrame{&carried->object.pose, &carried->object.subframes, carried->link};
+    if (const WorldObject* object = objects_.find(id))
+      return ObjectFrame{&object->pose, &object->subframes};
+    return std::nullopt;
+  };
+  const PlanningScene& scene = result_.scene;
+  const auto known = findFrame({*scene.robot, scene.fixed_frames, find_object}, frame.name, knownState());
+  if (known)
+    return *known * pose;
+  const Eigen::Isometry3d external = lookup_(frame);
+  requirePose(external, "frame '" + frame.name + "'");
+  return external * pose;
+}
+
+void appendShapes(const ObjectChange& change, WorldObject& object)
+{
+  object.shapes.insert(object.shapes.end(), change.shapes.begin(), change.shapes.end());
+  std::stable_sort(object.shapes.begin(), object.shapes.end(),
+                   [](const PlacedShape& a, const PlacedShape& b) { return rankOf(a) < rankOf(b); });
+  for (const auto& [name, pose] : change.subframes)
+    object.subframes[name] = pose;
+}
+}  // namespace gpu_planning_scene

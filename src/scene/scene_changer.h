@@ -1,0 +1,87 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "gpu_planning_scene/scene_change.h"
+#include "scene/scene_count.h"
+#include "scene/scene_items.h"
+
+namespace gpu_planning_scene
+{
+void appendShapes(const ObjectChange& change, WorldObject& object);
+
+/// Makes one change on a copy of a scene. Each kind of part has a file of its own.
+class SceneChanger
+{
+ public:
+  /// The pose of a frame that the scene does not know; throws Error.
+  using Lookup = std::function<Eigen::Isometry3d(const FrameAt&)>;
+
+  SceneChanger(const PlanningScene& scene, const std::vector<double>& state, const SceneDefaults& defaults,
+               const SceneLimits& limits, Lookup lookup);
+
+  Change make(const SceneChange& change);
+
+ private:
+  // change_settings.cpp
+  void changeNames(const SceneChange& change);
+  void changeFixedFrames(const SceneChange& change);
+  void changeMatrix(const SceneChange& change);
+  void changePadding(const SceneChange& change);
+  void changeScale(const SceneChange& change);
+  void changeColors(const SceneChange& change);
+
+  // change_state.cpp
+  void changeState(const StateChange& change, bool is_full_scene);
+  void setVariables(const std::map<std::string, double>& variables);
+  void dropCarried(const StateChange& change, bool is_full_scene);
+
+  // change_attached.cpp
+  void changeAttached(const AttachedChange& change);
+  void attach(const AttachedChange& change);
+  AttachedObject fromWorld(const AttachedChange& change, int link);
+  AttachedObject fromShapes(const AttachedChange& change, int link);
+  void appendToCarried(AttachedObject& carried, const AttachedChange& change);
+  void detach(const AttachedChange& change);
+  void putBack(const std::string& id);
+  void addTouchLinks(const AttachedChange& change, AttachedObject& carried) const;
+  Eigen::Isometry3d poseInLink(const Eigen::Isometry3d& pose, const FrameAt& frame, int link);
+
+  // change_objects.cpp
+  void clearWorld();
+  void changeObject(const ObjectChange& change);
+  void addObject(const ObjectChange& change);
+  void appendToObject(WorldObject& object, const ObjectChange& change);
+  void moveObject(const ObjectChange& change);
+  void removeObject(const std::string& id);
+
+  // scene_changer.cpp
+  void requireNewId(const std::string& id) const;
+  int requireLink(const std::string& name, const std::string& where) const;
+  /// Throws Error unless all that the change gives can be used.
+  void require(const ObjectChange& change);
+  void requirePose(const Eigen::Isometry3d& pose, const std::string& where) const;
+  /// The object that an Add describes, its pose in the change's frame.
+  WorldObject newObject(const ObjectChange& change) const;
+  /// A pose in a frame, in the planning frame.
+  Eigen::Isometry3d placed(const Eigen::Isometry3d& pose, const FrameAt& frame);
+  const std::string& linkName(int link) const
+  {
+    return result_.scene.robot->links()[static_cast<std::size_t>(link)].name;
+  }
+  const double* knownState() const { return result_.state.empty() ? nullptr : result_.state.data(); }
+
+  Change result_;
+  SceneItems<WorldObject> objects_;
+  SceneItems<AttachedObject> attached_;
+  SceneCount count_;
+  const SceneDefaults& defaults_;
+  Lookup lookup_;
+  std::set<std::string> attached_here_;  // by this change
+  std::set<const Mesh*> valid_meshes_;   // of this change
+};
+}  // namespace gpu_planning_scene

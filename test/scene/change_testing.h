@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/scene_change.h"
+#include "model/model_testing.h"
+#include "scene/slider_robot.h"
+
+namespace gpu_planning_scene
+{
+Eigen::Isometry3d poseAt(double x, double y, double z, double angle_about_z = 0.0);
+
+PlacedShape boxAt(double size, const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
+PlacedShape triangleAt(const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
+
+/// Changes of one object: operation, id, and what is left to the test.
+ObjectChange objectChange(Operation operation, const std::string& id, std::vector<PlacedShape> shapes = {});
+AttachedChange attachedChange(Operation operation, const std::string& id, const std::string& link,
+                              std::vector<PlacedShape> shapes = {});
+
+/// Equal but for rounding, the order of objects, and what only a caller of the library can set.
+void expectSameScene(const PlanningScene& expected, const PlanningScene& found, double tolerance = 0.0);
+
+/// Changes one scene of the slider robot (slider_robot.h) step by step.
+class SceneChanges : public testing::Test
+{
+ protected:
+  void apply(const SceneChange& change);
+  /// A difference with this object, or attached object, alone.
+  void change(const ObjectChange& object);
+  void change(const AttachedChange& attached);
+  /// The change is refused with a message of one line that has `fragment` in it, and nothing changes.
+  void refused(const std::string& fragment, const SceneChange& change);
+  void refused(const std::string& fragment, const ObjectChange& object);
+  void refused(const std::string& fragment, const AttachedChange& attached);
+
+  const WorldObject& object(const std::string& id) const;
+  const AttachedObject& carried(const std::string& id) const;
+  bool warned(const std::string& fragment) const;
+  int link(const std::string& name) const { return scene.robot->linkIndex(name); }
+
+  PlanningScene scene{sliderRobot()};
+  std::vector<double> state = {0.5, M_PI_2};  // slide, turn
+  std::vector<std::string> warnings;          // of the last change
+  SceneDefaults defaults;
+  SceneLimits limits;
+  ExternalFrames frames;
+};
+}  // namespace gpu_planning_scene
