@@ -5,6 +5,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "gpu_planning_scene/contacts.h"
 #include "render/renderer.h"
 #include "tools/robot_arguments.h"
 #include "tools/scene_arguments.h"
@@ -14,6 +15,9 @@ namespace gpu_planning_scene
 {
 namespace
 {
+constexpr std::size_t kMostContacts = 200;
+constexpr std::size_t kMostContactsOfPair = 5;
+
 std::vector<Option> options()
 {
   std::vector<Option> all = robotOptions();
@@ -86,11 +90,16 @@ void run(const CommandLine& arguments)
   const std::string out = arguments.required("--out");
   const auto [width, height] = sizeFrom(arguments);
   std::vector<std::string> warnings;
-  const PlanningScene scene = sceneFrom(arguments, &warnings);
+  const auto shared = std::make_shared<const PlanningScene>(sceneFrom(arguments, &warnings));
+  const PlanningScene& scene = *shared;
   printWarnings(warnings);
   const std::vector<double> state = stateFrom(arguments, scene);
   const auto colliding = collidingPairs(scene, state.data());
-  writePng(render(scene, state.data(), colliding, {}, cameraFrom(arguments, scene, state.data()), width, height,
+  std::vector<Eigen::Vector3d> points;
+  if (!colliding.empty())
+    for (const Contact& contact : StateInspector(shared).contacts(state.data(), "", kMostContacts, kMostContactsOfPair))
+      points.push_back(contact.point);
+  writePng(render(scene, state.data(), colliding, points, cameraFrom(arguments, scene, state.data()), width, height,
                   arguments.value("--device", "auto")),
            out);
   for (const auto& pair : colliding)
@@ -107,8 +116,8 @@ int main(int argc, char** argv)
   const Tool tool{"render",
                   "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
                   "              [--state NAME=VALUE,...] --out FILE.png [options]",
-                  "Draws a robot in its scene: links grey, objects in colours, bodies that collide red.\n"
-                  "Needs an OpenGL device, a software one too, and no window system.\n"
+                  "Draws a robot in its scene: links grey, objects in colours, bodies that collide red,\ncontact "
+                  "points yellow. Needs an OpenGL device, a software one too, and no window system.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",
                   options(), run};
   return runTool(tool, argc, argv);
