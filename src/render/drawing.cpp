@@ -160,14 +160,14 @@ Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen
   return bounds;
 }
 
-std::vector<DrawnVertex> drawingOf(const PlanningScene& scene, const double* state,
-                                   const std::vector<std::array<std::int32_t, 2>>& colliding,
-                                   const std::vector<Eigen::Vector3d>& contact_points)
+Drawing drawingOf(const PlanningScene& scene, const double* state,
+                  const std::vector<std::array<std::int32_t, 2>>& colliding,
+                  const std::vector<Eigen::Vector3d>& contact_points)
 {
   const std::set<std::size_t> red = bodiesOf(colliding);
   const Eigen::AlignedBox3d near = nearRobot(scene, state);
-  std::vector<DrawnVertex> vertices;
-  Painter painter(vertices);
+  Drawing drawing;
+  Painter painter(drawing.vertices);
   Tessellations tessellations;
   const auto poses = bodyPoses(scene, state);
   for (std::size_t body = 0; body < poses.size(); ++body)
@@ -182,9 +182,10 @@ std::vector<DrawnVertex> drawingOf(const PlanningScene& scene, const double* sta
         painter.addMesh(*tessellations.of(shape.shape), pose, color);
     }
   }
-  const Shape dot = Sphere{0.012 * near.diagonal().norm()};
+  drawing.bodies_end = drawing.vertices.size();
+  const Shape dot = Sphere{0.007 * near.diagonal().norm()};
   for (const Eigen::Vector3d& point : contact_points)
     painter.addMesh(*tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContactColor);
-  return vertices;
+  return drawing;
 }
 }  // namespace gpu_planning_scene

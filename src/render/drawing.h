@@ -39,9 +39,16 @@ std::vector<Eigen::Isometry3d> bodyPoses(const PlanningScene& scene, const doubl
 /// Box around a body's shapes in the planning frame; half-spaces have none.
 Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen::Isometry3d& pose);
 
-/// The triangles of all bodies, three corners each. Links grey, objects in their colours, bodies of `colliding` pairs
-/// red, contact points small yellow spheres. A half-space is a square as large as what is near the robot.
-std::vector<DrawnVertex> drawingOf(const PlanningScene& scene, const double* state,
-                                   const std::vector<std::array<std::int32_t, 2>>& colliding,
-                                   const std::vector<Eigen::Vector3d>& contact_points);
+/// Triangles, three corners each.
+struct Drawing
+{
+  std::vector<DrawnVertex> vertices;
+  std::size_t bodies_end = 0;  ///< what follows is seen through the bodies
+};
+
+/// All bodies: links grey, objects in their colours, those of `colliding` pairs red; then the contact points, small
+/// yellow spheres, which mostly lie inside. A half-space is a square as large as what is near the robot.
+Drawing drawingOf(const PlanningScene& scene, const double* state,
+                  const std::vector<std::array<std::int32_t, 2>>& colliding,
+                  const std::vector<Eigen::Vector3d>& contact_points);
 }  // namespace gpu_planning_scene

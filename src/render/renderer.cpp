@@ -98,8 +98,8 @@ void bindAttribute(GLuint array, GLuint index, GLint count, GLenum type, GLboole
 }
 
 /// RGBA, rows from the bottom. On the context's thread, whose context is destroyed with all that is left in it.
-std::vector<std::uint8_t> draw(const std::vector<DrawnVertex>& vertices, const Eigen::Matrix4f& matrix,
-                               const Camera& camera, int width, int height)
+std::vector<std::uint8_t> draw(const Drawing& drawing, const Eigen::Matrix4f& matrix, const Camera& camera, int width,
+                               int height)
 {
   const std::string folder = shaderFolder();
   const Target target(width, height);
@@ -116,8 +116,8 @@ std::vector<std::uint8_t> draw(const std::vector<DrawnVertex>& vertices, const E
   glProgramUniform3fv(fragment_stage, 0, 1, eye.data());
   glProgramUniform3fv(fragment_stage, 1, 1, up.data());
 
-  Buffer buffer(std::max<std::size_t>(1, vertices.size()) * sizeof(DrawnVertex));
-  buffer.write(vertices);
+  Buffer buffer(std::max<std::size_t>(1, drawing.vertices.size()) * sizeof(DrawnVertex));
+  buffer.write(drawing.vertices);
   GLuint array = 0;
   glCreateVertexArrays(1, &array);
   glVertexArrayVertexBuffer(array, 0, buffer.id(), 0, sizeof(DrawnVertex));
@@ -129,7 +129,10 @@ std::vector<std::uint8_t> draw(const std::vector<DrawnVertex>& vertices, const E
   glClearColor(kBackground[0], kBackground[1], kBackground[2], kBackground[3]);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_DEPTH_TEST);
-  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(drawing.bodies_end));
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glDrawArrays(GL_TRIANGLES, static_cast<GLint>(drawing.bodies_end),
+               static_cast<GLsizei>(drawing.vertices.size() - drawing.bodies_end));
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
   checkGl("drawing a picture");
@@ -167,16 +170,16 @@ Image render(const PlanningScene& scene, const double* state, const std::vector<
   if (width < 1 || height < 1 || width > kLargest || height > kLargest)
     throw Error("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
                 " pixels; both must be from 1 to " + std::to_string(kLargest));
-  const std::vector<DrawnVertex> vertices = drawingOf(scene, state, colliding, contact_points);
+  const Drawing drawing = drawingOf(scene, state, colliding, contact_points);
   double far = 0.0;
-  for (const DrawnVertex& vertex : vertices)
+  for (const DrawnVertex& vertex : drawing.vertices)
     far = std::max(far, (Eigen::Vector3f(vertex.position.data()).cast<double>() - camera.eye).norm());
   const double distance = (camera.target - camera.eye).norm();
   const Eigen::Matrix4f matrix =
       projection(camera, static_cast<double>(width) / height, 0.01 * distance, std::max(2.0 * distance, 1.01 * far));
   std::vector<std::uint8_t> pixels;
   GlThread thread(device);
-  thread.run([&] { pixels = draw(vertices, matrix, camera, width * kSamples, height * kSamples); });
+  thread.run([&] { pixels = draw(drawing, matrix, camera, width * kSamples, height * kSamples); });
   return reduced(pixels, width, height);
 }
 }  // namespace gpu_planning_scene
