@@ -1,5 +1,7 @@
 #include "render/drawing.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -125,6 +127,14 @@ const std::vector<PlacedShape>& bodyShapes(const PlanningScene& scene, std::size
 
 BodyColor bodyColor(const PlanningScene& scene, std::size_t body)
 {
+  const auto chosen = scene.colors.find(scene.bodyName(static_cast<int>(body)));
+  if (chosen != scene.colors.end())
+  {
+    const auto byte = [](float share)
+    { return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(share, 0.0F, 1.0F))); };
+    const Color& color = chosen->second;
+    return {byte(color.r), byte(color.g), byte(color.b), byte(color.a)};
+  }
   const std::size_t links = scene.robot->links().size();
   if (body < links)
     return kLink;

@@ -16,7 +16,7 @@ using BodyColor = std::array<std::uint8_t, 4>;  ///< red, green, blue, opacity
 constexpr BodyColor kCollidingColor{214, 39, 40, 255};
 constexpr BodyColor kContactColor{255, 221, 0, 255};
 
-/// The colour of a body that does not collide.
+/// The colour of a body that does not collide: the scene's, where it has one (object_colors).
 BodyColor bodyColor(const PlanningScene& scene, std::size_t body);
 
 /// Of a link, an object or an attached object.

@@ -122,6 +122,18 @@ TEST(Markers, collidingBodiesAreRedAndContactsShown)
   EXPECT_EQ(array.markers.back().points.size(), 2u);
 }
 
+TEST(Markers, bodiesHaveTheColoursOfTheScene)
+{
+  PlanningScene scene = fullScene();
+  scene.colors["ball"] = Color{0.0F, 1.0F, 0.2F, 0.4F};
+  for (const Marker& marker : markers(scene).markers)
+  {
+    const bool is_green = marker.color.g == 1.0F && marker.color.r == 0.0F;
+    EXPECT_EQ(is_green, marker.type == Marker::SPHERE_LIST);
+    EXPECT_TRUE(!is_green || std::abs(marker.color.a - 0.4F) < 0.01F);
+  }
+}
+
 TEST(Markers, whatACarriedObjectIsGoesWithItsLink)
 {
   PlanningScene scene = fullScene();
