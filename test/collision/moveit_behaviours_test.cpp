@@ -83,7 +83,8 @@ class MoveitBehaviours : public testing::TestWithParam<std::tuple<const char*, S
   {
     const PlacedShape& placed = scene_->robot->links()[static_cast<std::size_t>(tip())].shapes.at(0);
     Eigen::AlignedBox3d bounds;
-    for (const Vector3d& vertex : tessellate(placed.shape).mesh->vertices)
+    const Tessellation surface = tessellate(placed.shape);
+    for (const Vector3d& vertex : surface.mesh->vertices)
       bounds.extend(vertex);
     return tipPose(state_) * placed.pose * bounds.center();
   }

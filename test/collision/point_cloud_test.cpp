@@ -113,9 +113,12 @@ std::vector<Vector3f> pointsOn(const std::vector<PlacedShape>& shapes, const Iso
   std::uniform_real_distribution<float> off(-noise, noise);
   std::vector<Vector3f> points;
   for (const PlacedShape& placed : shapes)
-    for (const Vector3d& vertex : tessellate(placed.shape).mesh->vertices)
+  {
+    const Tessellation surface = tessellate(placed.shape);
+    for (const Vector3d& vertex : surface.mesh->vertices)
       points.push_back((pose * placed.pose * vertex).cast<float>() +
                        Vector3f(off(generator), off(generator), off(generator)));
+  }
   return points;
 }
 
