@@ -13,7 +13,7 @@ namespace
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-constexpr int kBins = 32;
+constexpr int kMostBins = 32;
 constexpr int kMaxSahDepth = 64;    // deeper nodes are halved by count, which bounds the depth
 constexpr double kVisitCost = 1.5;  // of a node, in units of the cost of a leaf's item
 
@@ -80,10 +80,11 @@ class Builder
     if (split.axis >= 0)
     {
       const auto first = tree_.order.begin();
-      middle = static_cast<std::uint32_t>(std::partition(first + begin, first + end,
-                                                         [&](std::uint32_t item)
-                                                         { return binOf(item, split.axis, centers) <= split.bin; }) -
-                                          first);
+      middle = static_cast<std::uint32_t>(
+          std::partition(first + begin, first + end,
+                         [&](std::uint32_t item)
+                         { return binOf(item, split.axis, binsFor(count), centers) <= split.bin; }) -
+          first);
     }
     const std::uint32_t child = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes.resize(child + 2);
@@ -93,34 +94,38 @@ class Builder
     buildNode(child + 1, middle, end, depth + 1);
   }
 
-  int binOf(std::uint32_t item, int axis, const AlignedBox3d& centers) const
+  /// More bins than twice the items would separate no more of them, and most nodes have few items.
+  static int binsFor(std::uint32_t count) { return count < kMostBins / 2 ? 2 * static_cast<int>(count) : kMostBins; }
+
+  int binOf(std::uint32_t item, int axis, int bins, const AlignedBox3d& centers) const
   {
     const double extent = centers.max()[axis] - centers.min()[axis];
     const double offset = boxes_[item].center()[axis] - centers.min()[axis];
-    return std::min(kBins - 1, static_cast<int>(kBins * (offset / extent)));
+    return std::min(bins - 1, static_cast<int>(bins * (offset / extent)));
   }
 
   Split bestSplit(std::uint32_t begin, std::uint32_t end, const AlignedBox3d& centers) const
   {
     Split best;
+    const int bins = binsFor(end - begin);
     for (int axis = 0; axis < 3; ++axis)
     {
       if (!(centers.max()[axis] > centers.min()[axis]))
       {
         continue;
       }
-      std::array<AlignedBox3d, kBins> bounds;
-      std::array<std::uint32_t, kBins> counts = {};
+      std::array<AlignedBox3d, kMostBins> bounds;
+      std::array<std::uint32_t, kMostBins> counts = {};
       for (std::uint32_t i = begin; i < end; ++i)
       {
-        const int bin = binOf(tree_.order[i], axis, centers);
+        const int bin = binOf(tree_.order[i], axis, bins, centers);
         bounds[bin].extend(boxes_[tree_.order[i]]);
         ++counts[bin];
       }
-      std::array<double, kBins> upper_costs;  // of all bins from this one on
+      std::array<double, kMostBins> upper_costs;  // of all bins from this one on
       AlignedBox3d upper;
       std::uint32_t upper_count = 0;
-      for (int bin = kBins - 1; bin > 0; --bin)
+      for (int bin = bins - 1; bin > 0; --bin)
       {
         upper.extend(bounds[bin]);
         upper_count += counts[bin];
@@ -128,7 +133,7 @@ class Builder
       }
       AlignedBox3d lower;
       std::uint32_t lower_count = 0;
-      for (int bin = 0; bin + 1 < kBins; ++bin)
+      for (int bin = 0; bin + 1 < bins; ++bin)
       {
         lower.extend(bounds[bin]);
         lower_count += counts[bin];
