@@ -154,6 +154,8 @@ void PointCloudFilter::Impl::removeRobot(const PlanningScene& scene, const doubl
   among.allowed_collisions = {};
   among.link_padding.assign(link_poses.size(), options.robot_padding);
   among.attached = scene.attached;
+  for (AttachedObject& carried : among.attached)
+    carried.padding = 0.0;
   among.objects.push_back({"cloud", Isometry3d::Identity(), {}, 0.0});
   for (const AttachedObject& carried : among.attached)  // it must not be called as any of these
     among.objects[0].id += carried.object.id;

@@ -133,7 +133,8 @@ TEST(PointCloud, OfTheRobotItselfAndWhatItCarriesIsTakenOut)
   std::mt19937_64 generator(seed);
   const int last = static_cast<int>(robot.links().size()) - 1;
   scene.attached.push_back({{"carried", at(0, 0, 0.3), {{Box{{0.05, 0.4, 0.05}}}}}, last, {}});
-  // The own padding of links is no reason to take more out.
+  // The own padding of links and of what they carry is no reason to take more out.
+  scene.attached[0].padding = 2.0;
   scene.link_padding.assign(robot.links().size(), 0.5);
   PointCloudFilter filter({0.02, 0.03, 10.0});
   for (int k = 0; k < 5; ++k)
