@@ -177,7 +177,14 @@ const std::vector<WrongScene>& wrongScenes()
        "name: a\nlink_padding:\n  - {link_name: cart, padding: 0.1}\n  - {link_name: cart, padding: 0.1}\n", 4,
        "given twice"},
       {"PaddingWithoutLink", "name: a\nlink_padding:\n  - {padding: 0.1}\n", 3, "'link_name' is missing"},
-      {"Scale", "name: a\nlink_scale:\n  - {link_name: cart, scale: 1.1}\n", 3, "link_scale is not supported"},
+      {"Scale", "name: a\nlink_scale:\n  - {link_name: cart, scale: 0.0}\n", 3, "must be above 0"},
+      {"ScaleTwice", "name: a\nlink_scale:\n  - {link_name: cart, scale: 2}\n  - {link_name: cart, scale: 2}\n", 4,
+       "given twice"},
+      {"ColorTooBright", "object_colors:\n  - {id: a, color: {r: 1.1, g: 0, b: 0, a: 1}}\n", 2, "from 0 to 1"},
+      {"SubframeWithoutPose",
+       "world:\n  collision_objects:\n    - {id: a, subframe_names: [tip], primitives: [{type: sphere, dimensions: "
+       "[1]}]}\n",
+       3, "0 subframe_poses for 1"},
       {"Octomap", "world:\n  octomap:\n    octomap:\n      data: [1, 2]\n", 4, "octomaps are not supported"},
 
       {"FrameInAnotherFrame",

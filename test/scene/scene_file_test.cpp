@@ -299,6 +299,42 @@ link_padding:
   EXPECT_TRUE(load("link_padding: [{link_name: pole, padding: 0.0}]").link_padding.empty());
 }
 
+TEST_F(SceneFile, scaleIsPerLinkAndForWhatTheLinkCarries)
+{
+  const PlanningScene scene = load(R"(
+link_scale: [{link_name: pole, scale: 2.0}, {link_name: cart, scale: 1.0}, {link_name: crane, scale: 3.0}]
+robot_state:
+  attached_collision_objects:
+    - {link_name: pole, object: {id: a, primitives: [{type: sphere, dimensions: [1]}]}}
+)");
+  const auto& links = scene.robot->links();
+  EXPECT_EQ(0.8, std::get<Box>(links[scene.robot->linkIndex("pole")].shapes[0].shape).size.z());
+  EXPECT_EQ(0.2, std::get<Box>(links[scene.robot->linkIndex("cart")].shapes[0].shape).size.z());
+  EXPECT_EQ(2.0, std::get<Sphere>(scene.attached.at(0).shapes().at(0).shape).radius);
+  EXPECT_TRUE(warned("no link 'crane'"));
+}
+
+TEST_F(SceneFile, namesColorsSubframesAndFixedFramesAreKept)
+{
+  const PlanningScene scene = load(R"(
+name: workshop
+fixed_frame_transforms: [{child_frame_id: camera, transform: {translation: [0, 0, 5]}}, {child_frame_id: rail, transform: {}}]
+object_colors: [{id: a, color: {r: 1.0, g: 0.5, b: 0.0, a: 0.25}}]
+world:
+  collision_objects:
+    - id: a
+      primitives: [{type: sphere, dimensions: [1]}]
+      subframe_names: [tip, tail]
+      subframe_poses: [{position: [0, 0, 1]}, {position: [0, 0, -1]}]
+)");
+  EXPECT_TRUE(warnings.empty()) << warnings.at(0);
+  EXPECT_EQ("workshop", scene.name);
+  EXPECT_TRUE(scene.colors.at("a") == (Color{1.0F, 0.5F, 0.0F, 0.25F}));
+  EXPECT_EQ(-1.0, scene.objects.at(0).subframes.at("tail").translation().z());
+  EXPECT_EQ(5.0, scene.frame("camera", nullptr)->translation().z());
+  EXPECT_EQ(1u, scene.fixed_frames.size()) << "the planning frame is none of its own";
+}
+
 TEST_F(SceneFile, planesAreTheHalfSpacesBehindThem)
 {
   // 2 z - 1 <= 0 in MoveIt's layout, x + 3 <= 0 as bare numbers, turned to y and moved.

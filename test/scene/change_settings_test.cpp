@@ -1,0 +1,149 @@
+// Names, fixed frames, matrix, padding, scale and colours in full scenes and in differences.
+
+#include "scene/change_testing.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+class ChangeSettings : public SceneChanges
+{
+ protected:
+  static SceneChange diff()
+  {
+    SceneChange change;
+    change.is_diff = true;
+    return change;
+  }
+
+  double padding(const std::string& name) const
+  {
+    return scene.link_padding.empty() ? 0.0 : scene.link_padding.at(static_cast<std::size_t>(link(name)));
+  }
+  double scale(const std::string& name) const
+  {
+    const std::vector<double>& factors = scene.robot->linkScale();
+    return factors.empty() ? 1.0 : factors.at(static_cast<std::size_t>(link(name)));
+  }
+};
+
+TEST_F(ChangeSettings, WhatADifferenceDoesNotNameStays)
+{
+  SceneChange first = diff();
+  first.name = "hall";
+  first.fixed_frames["camera"] = poseAt(1, 0, 0);
+  first.matrix = AllowedCollisionMatrix();
+  first.matrix->setEntry("cart", "table", true);
+  first.link_padding["cart"] = 0.1;
+  first.link_scale["pole"] = 2.0;
+  first.colors["table"] = {1.0F, 0.0F, 0.0F, 0.5F};
+  first.objects = {objectChange(Operation::Add, "table", {boxAt(0.1)})};
+  apply(first);
+  const PlanningScene before = scene;
+  apply(diff());
+  expectSameScene(before, scene);
+  SceneChange second = diff();
+  second.link_padding["pole"] = 0.2;
+  second.link_scale["cart"] = 3.0;
+  second.colors["lamp"] = {};
+  apply(second);
+  EXPECT_EQ("hall", scene.name);
+  EXPECT_EQ(0.1, padding("cart"));
+  EXPECT_EQ(0.2, padding("pole"));
+  EXPECT_EQ(2.0, scale("pole"));
+  EXPECT_EQ(3.0, scale("cart"));
+  EXPECT_EQ(2u, scene.colors.size());
+  EXPECT_TRUE(scene.allowed_collisions.allowed("cart", "table"));
+  EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "pole")) << "a matrix replaces all of the SRDF's";
+}
+
+TEST_F(ChangeSettings, WhatAFullSceneDoesNotNameIsAsInANewOne)
+{
+  SceneChange first = diff();
+  first.name = "hall";
+  first.fixed_frames["camera"] = poseAt(1, 0, 0);
+  first.matrix = AllowedCollisionMatrix();
+  first.link_padding["cart"] = 0.1;
+  first.link_scale["pole"] = 2.0;
+  first.colors["table"] = {};
+  first.objects = {objectChange(Operation::Add, "table", {boxAt(0.1)})};
+  apply(first);
+  defaults.link_padding.assign(scene.robot->links().size(), 0.01);
+  defaults.link_scale.assign(scene.robot->links().size(), 1.5);
+  SceneChange full;
+  full.link_padding["pole"] = 0.5;
+  full.link_scale["cart"] = 1.0;
+  apply(full);
+  EXPECT_EQ("", scene.name);
+  EXPECT_TRUE(scene.fixed_frames.empty());
+  EXPECT_TRUE(scene.colors.empty());
+  EXPECT_TRUE(scene.objects.empty());
+  EXPECT_TRUE(scene.allowed_collisions == AllowedCollisionMatrix::fromRobot(*scene.robot));
+  EXPECT_EQ(MatrixSource::Srdf, scene.matrix_source);
+  EXPECT_EQ(0.01, padding("cart"));
+  EXPECT_EQ(0.5, padding("pole"));
+  EXPECT_EQ(1.5, scale("pole"));
+  EXPECT_EQ(1.0, scale("cart"));
+}
+
+TEST_F(ChangeSettings, FixedFramesReplaceAllOthers)
+{
+  SceneChange frames_change = diff();
+  frames_change.fixed_frames = {{"camera", poseAt(1, 0, 0)}, {"rail", poseAt(0, 0, 0)}};
+  apply(frames_change);
+  EXPECT_EQ(1u, scene.fixed_frames.size()) << "MoveIt lists the planning frame, rail, too";
+  frames_change.fixed_frames = {{"lamp", poseAt(2, 0, 0)}};
+  apply(frames_change);
+  ASSERT_EQ(1u, scene.fixed_frames.size());
+  EXPECT_EQ(1u, scene.fixed_frames.count("lamp"));
+  frames_change.fixed_frames = {{"rail", poseAt(2, 0, 0)}};
+  refused("must be the identity", frames_change);
+  frames_change.fixed_frames = {{"pole", poseAt(0, 0, 0)}};
+  refused("name of a link", frames_change);
+  frames_change.fixed_frames = {{"", poseAt(0, 0, 0)}};
+  refused("without a name", frames_change);
+  frames_change.fixed_frames = {{"a", poseAt(std::numeric_limits<double>::quiet_NaN(), 0, 0)}};
+  refused("not finite", frames_change);
+}
+
+TEST_F(ChangeSettings, ObjectsComeAfterEverythingElse)
+{
+  SceneChange change = diff();
+  change.fixed_frames["camera"] = poseAt(1, 0, 0);
+  change.state.variables["slide"] = 2.0;
+  ObjectChange in_camera = objectChange(Operation::Add, "a", {boxAt(0.1)});
+  in_camera.frame.name = "camera";
+  ObjectChange in_link = objectChange(Operation::Add, "b", {boxAt(0.1)});
+  in_link.frame.name = "cart";
+  change.objects = {in_camera, in_link};
+  apply(change);
+  EXPECT_EQ(1.0, object("a").pose.translation().x());
+  EXPECT_EQ(2.0, object("b").pose.translation().x());
+}
+
+TEST_F(ChangeSettings, WhatCannotBeIsRefused)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused_where = [&](const std::string& fragment, const std::function<void(SceneChange&)>& edit)
+  {
+    SceneChange change = diff();
+    edit(change);
+    refused(fragment, change);
+  };
+  refused_where("for robot 'panda'", [](SceneChange& change) { change.robot_model_name = "panda"; });
+  refused_where("no link 'crane'", [](SceneChange& change) { change.link_padding["crane"] = 0.1; });
+  refused_where("link 'cart': the padding", [](SceneChange& change) { change.link_padding["cart"] = -0.1; });
+  refused_where("link 'cart': the padding", [nan](SceneChange& change) { change.link_padding["cart"] = nan; });
+  refused_where("no link 'crane'", [](SceneChange& change) { change.link_scale["crane"] = 2.0; });
+  refused_where("link 'cart': the scale", [](SceneChange& change) { change.link_scale["cart"] = 0.0; });
+  refused_where("link 'cart': the scale", [nan](SceneChange& change) { change.link_scale["cart"] = nan; });
+  refused_where("link 'cart': scaled by", [](SceneChange& change) { change.link_scale["cart"] = 1e-320; });
+  refused_where("color of 'a'", [](SceneChange& change) { change.colors["a"] = {1.5F, 0.0F, 0.0F, 1.0F}; });
+  refused_where("color of 'a'",
+                [nan](SceneChange& change) {
+                  change.colors["a"] = {static_cast<float>(nan), 0.0F, 0.0F, 1.0F};
+                });
+  refused_where("line break", [](SceneChange& change) { change.name = "a\nb"; });
+}
+}  // namespace
+}  // namespace gpu_planning_scene

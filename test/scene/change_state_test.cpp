@@ -1,0 +1,97 @@
+// The robot's state in a change, and when it replaces what is attached.
+
+#include "scene/change_testing.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+class ChangeState : public SceneChanges
+{
+ protected:
+  ChangeState()
+  {
+    change(attachedChange(Operation::Add, "a", "pole", {boxAt(0.1)}));
+    change(attachedChange(Operation::Add, "b", "cart", {boxAt(0.1)}));
+  }
+
+  static SceneChange stateChange(bool is_diff, std::map<std::string, double> variables)
+  {
+    SceneChange change;
+    change.is_diff = true;
+    change.state.is_diff = is_diff;
+    change.state.variables = std::move(variables);
+    return change;
+  }
+};
+
+TEST_F(ChangeState, JointsThatAreNotNamedStayWhereTheyAre)
+{
+  apply(stateChange(true, {{"slide", -1.0}}));
+  EXPECT_EQ((std::vector<double>{-1.0, M_PI_2}), state);
+  EXPECT_EQ(2u, scene.attached.size());
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST_F(ChangeState, AStateThatWasNotKnownStartsFromTheDefault)
+{
+  state.clear();
+  apply(stateChange(true, {{"slide", -1.0}}));
+  EXPECT_EQ((std::vector<double>{-1.0, 0.0}), state);
+  EXPECT_TRUE(warned("have their default"));
+}
+
+TEST_F(ChangeState, WithJointsAndNoDifferenceItReplacesWhatIsAttached)
+{
+  SceneChange replace = stateChange(false, {{"slide", 0.0}});
+  replace.state.attached = {attachedChange(Operation::Add, "a", "cart", {boxAt(0.2)}),
+                            attachedChange(Operation::Add, "c", "cart", {boxAt(0.2)})};
+  apply(replace);
+  ASSERT_EQ(2u, scene.attached.size());
+  EXPECT_EQ(link("cart"), carried("a").link);
+  EXPECT_NO_THROW(carried("c"));
+  EXPECT_TRUE(scene.objects.empty()) << "what is dropped does not go back into the world";
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_TRUE(warned("object 'b' is gone"));
+}
+
+TEST_F(ChangeState, WithoutJointsAndNoDifferenceItOnlyAdds)
+{
+  SceneChange add = stateChange(false, {});
+  add.state.attached = {attachedChange(Operation::Add, "c", "cart", {boxAt(0.2)})};
+  apply(add);
+  EXPECT_EQ(3u, scene.attached.size());
+  add.state.attached = {attachedChange(Operation::Remove, "c", "")};
+  refused("can only add", add);
+  add.state.attached = {attachedChange(Operation::Append, "c", "", {boxAt(0.2)})};
+  refused("can only add", add);
+}
+
+TEST_F(ChangeState, AFullSceneReplacesWhatIsAttachedWithoutAWarning)
+{
+  SceneChange full;
+  full.state.attached = {attachedChange(Operation::Add, "c", "cart", {boxAt(0.2)})};
+  apply(full);
+  ASSERT_EQ(1u, scene.attached.size());
+  EXPECT_EQ("c", scene.attached[0].object.id);
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ((std::vector<double>{0.5, M_PI_2}), state) << "joints that it does not name stay";
+}
+
+TEST_F(ChangeState, AFullSceneDoesNotAttachObjectsOfTheSceneBefore)
+{
+  change(objectChange(Operation::Add, "c", {boxAt(0.1)}));
+  SceneChange full;
+  full.state.attached = {attachedChange(Operation::Add, "c", "cart")};
+  refused("no such object", full);
+}
+
+TEST_F(ChangeState, WhatCannotBeIsRefused)
+{
+  refused("no joint variable 'gripper'", stateChange(true, {{"gripper", 0.0}}));
+  refused("not finite", stateChange(true, {{"slide", std::numeric_limits<double>::infinity()}}));
+  state.pop_back();
+  refused("1 values for 2", stateChange(true, {}));
+}
+}  // namespace
+}  // namespace gpu_planning_scene

@@ -1,0 +1,91 @@
+// What a change may lead to.
+
+#include "scene/change_testing.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+class Limits : public SceneChanges
+{
+};
+
+TEST_F(Limits, OfObjectsCountTheWorldsAndThoseCarried)
+{
+  limits.objects = 2;
+  change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
+  change(attachedChange(Operation::Add, "b", "pole", {boxAt(0.1)}));
+  refused("limits/objects", objectChange(Operation::Add, "c", {boxAt(0.1)}));
+  refused("limits/objects", attachedChange(Operation::Add, "c", "pole", {boxAt(0.1)}));
+  change(objectChange(Operation::Add, "a", {boxAt(0.2)}));  // replaces
+  change(attachedChange(Operation::Add, "a", "pole"));      // is one object still
+  change(attachedChange(Operation::Remove, "a", "pole"));
+  SceneChange swap;
+  swap.is_diff = true;
+  swap.objects = {objectChange(Operation::Remove, "a"), objectChange(Operation::Add, "c", {boxAt(0.1)})};
+  apply(swap);
+  SceneChange full;
+  full.objects = {objectChange(Operation::Add, "d", {boxAt(0.1)}), objectChange(Operation::Add, "e", {boxAt(0.1)})};
+  apply(full);
+}
+
+TEST_F(Limits, OfShapesCountThoseOfAllObjects)
+{
+  limits.shapes = 3;
+  change(objectChange(Operation::Add, "a", {boxAt(0.1), boxAt(0.1)}));
+  refused("limits/shapes", objectChange(Operation::Add, "b", {boxAt(0.1), boxAt(0.1)}));
+  refused("limits/shapes", objectChange(Operation::Append, "a", {boxAt(0.1), boxAt(0.1)}));
+  change(objectChange(Operation::Append, "a", {boxAt(0.1)}));
+  refused("limits/shapes", attachedChange(Operation::Add, "b", "pole", {boxAt(0.1)}));
+  change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
+  change(attachedChange(Operation::Add, "b", "pole", {boxAt(0.1), boxAt(0.1)}));
+  refused("limits/shapes", attachedChange(Operation::Append, "b", "pole", {boxAt(0.1)}));
+}
+
+TEST_F(Limits, OfTrianglesCountEachMeshOnce)
+{
+  limits.triangles = 2;
+  const PlacedShape mesh = triangleAt();
+  change(objectChange(Operation::Add, "a", {mesh, mesh, mesh}));
+  change(objectChange(Operation::Add, "b", {triangleAt()}));
+  refused("limits/triangles", objectChange(Operation::Add, "c", {triangleAt()}));
+  change(objectChange(Operation::Add, "c", {mesh}));
+}
+
+TEST_F(Limits, OfAMeshAreItsOwn)
+{
+  limits.triangles_of_mesh = 1;
+  const Mesh two{"two", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
+  change(objectChange(Operation::Add, "a", {triangleAt()}));
+  refused("limits/triangles_of_mesh", objectChange(Operation::Add, "b", {{std::make_shared<const Mesh>(two)}}));
+}
+
+TEST_F(Limits, OfNamesAreBytes)
+{
+  limits.name_length = 3;
+  change(objectChange(Operation::Add, "abc", {boxAt(0.1)}));
+  refused("limits/name_length", objectChange(Operation::Add, "abcd", {boxAt(0.1)}));
+  ObjectChange object = objectChange(Operation::Add, "abc", {boxAt(0.1)});
+  object.subframes["corner"] = poseAt(0, 0, 0);
+  refused("limits/name_length", object);
+}
+
+TEST_F(Limits, OfTheMatrixAreItsEntries)
+{
+  limits.matrix_entries = 4;
+  SceneChange matrix;
+  matrix.is_diff = true;
+  matrix.matrix = AllowedCollisionMatrix();
+  matrix.matrix->setEntry("a", "b", true);
+  apply(matrix);
+  matrix.matrix->setEntry("a", "c", true);
+  refused("limits/matrix_entries", matrix);
+}
+
+TEST_F(Limits, OfZeroAreNone)
+{
+  limits = {0, 0, 0, 0, 0, 0};
+  change(objectChange(Operation::Add, std::string(5000, 'a'), {boxAt(0.1), triangleAt()}));
+}
+}  // namespace
+}  // namespace gpu_planning_scene
