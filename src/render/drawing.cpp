@@ -122,7 +122,7 @@ const std::vector<PlacedShape>& bodyShapes(const PlanningScene& scene, std::size
     return scene.robot->links()[body].shapes;
   if (body < links + scene.objects.size())
     return scene.objects[body - links].shapes;
-  return scene.attached[body - links - scene.objects.size()].object.shapes;
+  return scene.attached[body - links - scene.objects.size()].shapes();
 }
 
 BodyColor bodyColor(const PlanningScene& scene, std::size_t body)
