@@ -1,5 +1,6 @@
 #include "gpu_planning_scene/scene_change.h"
 
+#include <algorithm>
 #include <set>
 
 #include "gpu_planning_scene/error.h"
@@ -15,6 +16,16 @@ std::string shortened(const std::string& text)
 {
   constexpr std::size_t kLongest = 2000;
   return text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...";
+}
+/// Most changes name none but these, and what they change may be large.
+bool namesNoOtherFrames(const RobotModel& robot, const SceneChange& change)
+{
+  const auto is_robots = [&robot](const FrameAt& frame)
+  { return frame.name.empty() || frame.name == robot.planningFrame() || robot.linkIndex(frame.name) >= 0; };
+  return std::all_of(change.objects.begin(), change.objects.end(),
+                     [&](const ObjectChange& object) { return is_robots(object.frame); }) &&
+         std::all_of(change.state.attached.begin(), change.state.attached.end(),
+                     [&](const AttachedChange& attached) { return is_robots(attached.object.frame); });
 }
 }  // namespace
 
@@ -43,6 +54,8 @@ Change applyChange(const PlanningScene& scene, const std::vector<double>& state,
 /// neither. What is wrong with the change is said where it is made.
 std::vector<FrameAt> externalFrames(const PlanningScene& scene, const SceneChange& change)
 {
+  if (namesNoOtherFrames(*scene.robot, change))
+    return {};
   std::set<FrameAt> unknown;
   const auto lookup = [&unknown](const FrameAt& frame)
   {

@@ -54,6 +54,15 @@ class CarriedObjects : public testing::TestWithParam<const char*>
     return table;
   }
 
+  /// A small ball that is so far from the box's end face, 0.1 m from its middle.
+  WorldObject postBeside(double distance) const
+  {
+    WorldObject post = boxInGripper(*robot_, picked_.data());
+    post.id = "post";
+    post.shapes = {{Sphere{0.01}, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.11 + distance, 0.0))}};
+    return post;
+  }
+
   std::shared_ptr<const RobotModel> robot_;
   std::vector<double> picked_;
   std::vector<double> turned_;
@@ -100,6 +109,36 @@ TEST_P(CarriedObjects, HitLinksThatAreNoTouchLinks)
     if (link.name != "base_link")
       scene.allowed_collisions.setEntry(link.name, "held_box", true);
   EXPECT_EQ("base_link - held_box", collision(scene, picked_));
+}
+
+TEST_P(CarriedObjects, HaveTheirLinksPaddingAndTheirOwn)
+{
+  PlanningScene scene = sceneWithBox();
+  scene.attach("held_box", "ee_link", gripperLinks(), picked_.data());
+  scene.objects.push_back(postBeside(0.02));
+  scene.link_padding.assign(robot_->links().size(), 0.0);
+  scene.link_padding[robot_->linkIndex("ee_link")] = 0.008;
+  scene.objects[0].padding = 0.004;
+  scene.attached[0].padding = 0.0079;
+  EXPECT_EQ("", collision(scene, picked_));
+  scene.attached[0].padding = 0.0081;
+  EXPECT_EQ("post - held_box", collision(scene, picked_));
+}
+
+TEST_P(CarriedObjects, HaveTheirLinksScale)
+{
+  PlanningScene scene = sceneWithBox();
+  scene.attach("held_box", "ee_link", gripperLinks(), picked_.data());
+  scene.objects.push_back(postBeside(0.02));
+  for (const auto& link : robot_->links())
+    scene.allowed_collisions.setEntry(link.name, "held_box", true);
+  std::vector<double> scale(robot_->links().size(), 1.0);
+  scale[robot_->linkIndex("ee_link")] = 1.19;  // of the box's 0.1 m
+  scene.setLinkScale(scale);
+  EXPECT_EQ("", collision(scene, picked_));
+  scale[robot_->linkIndex("ee_link")] = 1.21;
+  scene.setLinkScale(scale);
+  EXPECT_EQ("post - held_box", collision(scene, picked_));
 }
 
 TEST_P(CarriedObjects, RestOnATableOnlyWhereTheMatrixAllowsIt)

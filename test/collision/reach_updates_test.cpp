@@ -94,6 +94,13 @@ TEST(ReachUpdates, OfWhatIsCarriedAreNoticed)
           scene.attached[0].object.shapes = {{Box{{8.0, 0.05, 0.05}}}};
         }},
        {"a short one again", [](PlanningScene& scene) { scene.attached = {rod("rod", kArm, 0.0, 1.5)}; }},
+       {"a padded one", [](PlanningScene& scene) { scene.attached[0].padding = 2.0; }},
+       {"one that is not padded", [](PlanningScene& scene) { scene.attached[0].padding = 0.0; }},
+       {"a scaled one",
+        [](PlanningScene& scene) {
+          scene.setLinkScale({1.0, 3.0, 1.0});
+        }},
+       {"one that is not scaled", [](PlanningScene& scene) { scene.setLinkScale({}); }},
        {"held farther out", [](PlanningScene& scene) { scene.attached[0].object.pose.translation().x() += 4.0; }},
        {"at the tail", [](PlanningScene& scene) { scene.attached[0].link = kTail; }},
        {"up to the tail", [](PlanningScene& scene) { scene.attached = {rod("rod", kArm, -4.5, 1.0)}; }},

@@ -137,7 +137,7 @@ TEST_F(ChangeSettings, WhatCannotBeIsRefused)
   refused_where("no link 'crane'", [](SceneChange& change) { change.link_scale["crane"] = 2.0; });
   refused_where("link 'cart': the scale", [](SceneChange& change) { change.link_scale["cart"] = 0.0; });
   refused_where("link 'cart': the scale", [nan](SceneChange& change) { change.link_scale["cart"] = nan; });
-  refused_where("link 'cart': scaled by", [](SceneChange& change) { change.link_scale["cart"] = 1e-320; });
+  refused_where("link 'cart': scaled by", [](SceneChange& change) { change.link_scale["cart"] = 1e-323; });
   refused_where("color of 'a'", [](SceneChange& change) { change.colors["a"] = {1.5F, 0.0F, 0.0F, 1.0F}; });
   refused_where("color of 'a'",
                 [nan](SceneChange& change) {
