@@ -8,6 +8,7 @@
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/contacts.h"
 #include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/scene_change.h"
 #include "model/real_robots.h"
 #include "support/checkers.h"
 #include "support/obstacles.h"
@@ -210,6 +211,24 @@ TEST_P(MoveitBehaviours, AChangeOfACopyLeavesTheSceneItself)
   EXPECT_EQ(result.valid[0], 1);
   EXPECT_EQ(result.revision, changed.revision);
   EXPECT_FALSE(free());
+}
+
+TEST_P(MoveitBehaviours, ADifferenceChangesWhatItNamesAndNoMore)
+{
+  add("box", Box{{0.1, 0.1, 0.1}}, atTip());
+  add("ball", Sphere{0.1}, Vector3d(10, 10, 10));
+  SceneChange change;
+  change.is_diff = true;
+  ObjectChange removal;
+  removal.id = "box";
+  removal.operation = Operation::Remove;
+  change.objects.push_back(removal);
+  const Change changed = applyChange(*scene_, state_, change, {}, {}, {});
+  EXPECT_FALSE(free());
+  *scene_ = changed.scene;
+  EXPECT_TRUE(free());
+  ASSERT_EQ(scene_->objects.size(), 1u);
+  EXPECT_EQ(scene_->objects[0].id, "ball");
 }
 
 TEST_P(MoveitBehaviours, AMeshIsHitWhereItIsMovedTo)
