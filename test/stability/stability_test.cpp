@@ -60,7 +60,7 @@ TEST(Stability, NoticesThatContainmentInPrimitivesIsNotTested)
   const ShaderFolder shaders;
   shaders.replace("check_roots.comp", "if (inside != 0u)", "if (false)");
   shaders.replace("check_roots.comp", "if ((inside & STATE_HIT) != 0u)", "if (false)");
-  shaders.replace("boxes.glsl", "return all(lessThan(b_in_a, core_a)) || all(lessThan(a_in_b, core_b));",
+  shaders.replace("oriented_nodes.glsl", "return all(lessThan(b_in_a, core_a)) || all(lessThan(a_in_b, core_b));",
                   "return false;");
   shaders.replace("solid_leaf.glsl", "found = STATE_HIT;", "found = 0u;");
   expectFailure(shaders, "mesh in or near a primitive");
