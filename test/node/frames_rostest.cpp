@@ -86,6 +86,7 @@ TEST_F(Frames, aPoseMayBeInAFrameOfTf)
 TEST_F(Frames, aFrameOfTfIsLookedUpAtItsStamp)
 {
   tf2_ros::TransformBroadcaster broadcaster;
+  ros::WallDuration(2.0).sleep();  // until the node listens to it
   const ros::Time then = ros::Time::now();
   geometry_msgs::TransformStamped message = transform("wagon", farAway());
   for (const double seconds : {-1.0, 0.0, 0.1})
