@@ -102,14 +102,6 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
   const ScenePublisher publisher(own, store, options.full_scene_period);
 
-  // Each request that waits for its check has a thread: so the one too many is told at once that the node is busy.
-  Endpoints check_requests(node, own, server_options.most_waiting_requests + 8, diagnostics);
-  check_requests.advertise<CheckStates>("check_states",
-                                        [&](const CheckStates::Request& r) { return checks.checkStates(r); });
-  check_requests.advertise<CheckMotions>("check_motions",
-                                         [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
-  check_requests.advertise<GetReport>("get_report", [&](const GetReport::Request& r) { return checks.report(r); });
-
   Endpoints scene_requests(node, own, 4, diagnostics);
   scene_requests.advertise<ApplyPlanningScene>("apply_planning_scene",
                                                [&](const ApplyPlanningScene::Request& r) { return changes.apply(r); });
@@ -131,6 +123,15 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
                                                    [&](const sensor_msgs::PointCloud2& m) { clouds.take(m); });
   Endpoints state_topics(node, own, 1, diagnostics);
   state_topics.subscribe<sensor_msgs::JointState>("joint_states", 1, take);
+
+  // Each request that waits for its check has a thread: so the one too many is told at once that the node is busy.
+  // check_states comes last: where it is there, all is.
+  Endpoints check_requests(node, own, server_options.most_waiting_requests + 8, diagnostics);
+  check_requests.advertise<CheckMotions>("check_motions",
+                                         [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
+  check_requests.advertise<GetReport>("get_report", [&](const GetReport::Request& r) { return checks.report(r); });
+  check_requests.advertise<CheckStates>("check_states",
+                                        [&](const CheckStates::Request& r) { return checks.checkStates(r); });
 
   DiagnosticsPublisher diagnostics_publisher(node, diagnostics, store, server);
   ros::AsyncSpinner timers(1);
