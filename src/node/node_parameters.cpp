@@ -1,10 +1,9 @@
 #include "node/node_parameters.h"
 
-#include <cmath>
-
 #include <ros/package.h>
 
 #include "gpu_planning_scene/error.h"
+#include "node/parameter_values.h"
 
 namespace gpu_planning_scene
 {
@@ -12,36 +11,33 @@ namespace
 {
 using XmlRpc::XmlRpcValue;
 
-/// Empty where it is not set. roslaunch makes an integer of a device index or of a name like "0".
-std::string textParameter(const ros::NodeHandle& own, const std::string& name, const std::string& fallback)
-{
-  XmlRpcValue value;
-  if (!own.getParam(name, value))
-    return fallback;
-  if (value.getType() == XmlRpcValue::TypeInt)
-    return std::to_string(static_cast<int>(value));
-  if (value.getType() != XmlRpcValue::TypeString)
-    throw Error("parameter " + own.resolveName(name) + " is not a string");
-  return static_cast<std::string>(value);
-}
+constexpr std::size_t kNoLimit = 1000000000;
 
-double numberParameter(const ros::NodeHandle& own, const std::string& name, double fallback)
+/// The node reads meshes in a process of its own, and only what lies in a package or below a folder that it is given.
+MeshAccess meshAccessFromParameters(const ros::NodeHandle& own)
 {
-  XmlRpcValue value;
-  if (!own.getParam(name, value))
-    return fallback;
-  if (value.getType() == XmlRpcValue::TypeInt)
-    return static_cast<int>(value);
-  if (value.getType() != XmlRpcValue::TypeDouble)
-    throw Error("parameter " + own.resolveName(name) + " is not a number");
-  return static_cast<double>(value);
-}
-
-/// A parameter that lies in this namespace or one above it; under that name where there is none.
-std::string searched(const ros::NodeHandle& node, const std::string& name)
-{
-  std::string found;
-  return node.searchParam(name, found) ? found : node.resolveName(name);
+  MeshLimits limits;
+  limits.seconds = positiveParameter(own, "mesh/seconds", limits.seconds);
+  limits.memory = countParameter(own, "mesh/memory", limits.memory, 1, std::size_t{1} << 52);
+  limits.file = countParameter(own, "mesh/file_size", limits.file, 1, std::size_t{1} << 52);
+  limits.triangles = countParameter(own, "limits/triangles_of_mesh", limits.triangles, 1, kNoLimit);
+  MeshAccess access;
+  access.read = childMeshReader(meshReaderBesideThisProgram(), limits);
+  AllowedRoots allowed;
+  XmlRpcValue roots;
+  if (own.getParam("mesh/roots", roots))
+  {
+    if (roots.getType() != XmlRpcValue::TypeArray)
+      throw Error("parameter " + own.resolveName("mesh/roots") + " is not a list of folders");
+    for (int i = 0; i < roots.size(); ++i)
+    {
+      if (roots[i].getType() != XmlRpcValue::TypeString)
+        throw Error("parameter " + own.resolveName("mesh/roots") + " is not a list of folders");
+      allowed.roots.push_back(static_cast<std::string>(roots[i]));
+    }
+  }
+  access.roots = std::move(allowed);
+  return access;
 }
 
 void addFolder(const std::string& name, const std::string& folder, std::map<std::string, std::string>& folders)
@@ -89,8 +85,8 @@ std::map<std::string, std::string> packageFolders(const XmlRpcValue& value)
   return folders;
 }
 
-std::shared_ptr<const PlanningScene> sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own,
-                                                         std::vector<std::string>* warnings)
+PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own,
+                                  std::vector<std::string>* warnings)
 {
   XmlRpcValue packages;
   std::map<std::string, std::string> folders;
@@ -103,12 +99,11 @@ std::shared_ptr<const PlanningScene> sceneFromParameters(const ros::NodeHandle& 
     return folder.empty() ? ros::package::getPath(package) : folder;
   };
   options.urdf_folder = textParameter(own, "urdf_folder", "");
-  options.unbounded_translation = numberParameter(own, "unbounded_translation", options.unbounded_translation);
-  if (!(options.unbounded_translation >= 0.0))
-    throw Error("parameter " + own.resolveName("unbounded_translation") + " is negative");
+  options.unbounded_translation = lengthParameter(own, "unbounded_translation", options.unbounded_translation);
+  options.meshes = meshAccessFromParameters(own);
 
-  options.urdf_name = searched(node, "robot_description");
-  options.srdf_name = searched(node, "robot_description_semantic");
+  options.urdf_name = searchedParameter(node, "robot_description");
+  options.srdf_name = searchedParameter(node, "robot_description_semantic");
   const std::string urdf = textParameter(node, options.urdf_name, "");
   if (urdf.empty())
     throw Error("parameter " + options.urdf_name + " is not set; load the robot's URDF there");
@@ -120,9 +115,9 @@ std::shared_ptr<const PlanningScene> sceneFromParameters(const ros::NodeHandle& 
                 "' is neither an absolute path nor a package:// or file:// URI");
   PlanningScene scene = scene_file.empty() ? PlanningScene(robot)
                                            : loadSceneFile(resolveUri(scene_file, "", options.packages), robot,
-                                                           options.packages, warnings);
+                                                           options.packages, warnings, options.meshes);
   scene.revision = 1;
-  return std::make_shared<const PlanningScene>(std::move(scene));
+  return scene;
 }
 
 BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own)
@@ -131,17 +126,60 @@ BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own)
   options.device = textParameter(own, "device", options.device);
   if (own.hasParam("traversal"))
     options.traversal = traversalFromName(textParameter(own, "traversal", ""));
-  const double max_batch = numberParameter(own, "max_batch", static_cast<double>(options.max_batch));
-  constexpr double kMost = 1 << 24;
-  if (!(max_batch >= 1.0 && max_batch <= kMost) ||
-      max_batch != static_cast<double>(static_cast<std::size_t>(max_batch)))
-    throw Error("parameter " + own.resolveName("max_batch") + " is not an integer from 1 to " +
-                std::to_string(static_cast<std::size_t>(kMost)));
-  options.max_batch = static_cast<std::size_t>(max_batch);
-  options.tolerance = numberParameter(own, "tolerance", options.tolerance);
-  if (!(options.tolerance >= 0.0 && std::isfinite(options.tolerance)))
-    throw Error("parameter " + own.resolveName("tolerance") +
-                " is negative or not finite; give metres, or 0 for exact answers");
+  options.max_batch = countParameter(own, "max_batch", options.max_batch, 1, std::size_t{1} << 24);
+  options.tolerance = lengthParameter(own, "tolerance", options.tolerance);
+  return options;
+}
+
+SceneLimits sceneLimitsFromParameters(const ros::NodeHandle& own)
+{
+  SceneLimits limits;
+  limits.objects = countParameter(own, "limits/objects", limits.objects, 0, kNoLimit);
+  limits.shapes = countParameter(own, "limits/shapes", limits.shapes, 0, kNoLimit);
+  limits.triangles = countParameter(own, "limits/triangles", limits.triangles, 0, kNoLimit);
+  limits.triangles_of_mesh = countParameter(own, "limits/triangles_of_mesh", limits.triangles_of_mesh, 0, kNoLimit);
+  limits.name_length = countParameter(own, "limits/name_length", limits.name_length, 0, kNoLimit);
+  limits.matrix_entries = countParameter(own, "limits/matrix_entries", limits.matrix_entries, 0, kNoLimit);
+  return limits;
+}
+
+CheckServerOptions serverOptionsFromParameters(const ros::NodeHandle& own)
+{
+  CheckServerOptions options;
+  options.small_request = countParameter(own, "small_request", options.small_request, 0, kNoLimit);
+  options.most_waiting_requests =
+      countParameter(own, "limits/waiting_requests", options.most_waiting_requests, 1, 1000);
+  options.most_waiting_states = countParameter(own, "limits/waiting_states", options.most_waiting_states, 1, kNoLimit);
+  options.most_states = countParameter(own, "limits/request_states", options.most_states, 1, kNoLimit);
+  return options;
+}
+
+ResilientOptions resilienceFromParameters(const ros::NodeHandle& own)
+{
+  ResilientOptions options;
+  options.device_seconds = positiveParameter(own, "device_timeout", options.device_seconds);
+  options.most_losses = countParameter(own, "device_losses", options.most_losses, 1, 1000);
+  return options;
+}
+
+ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own)
+{
+  ServiceOptions options;
+  options.tf_timeout = lengthParameter(own, "tf_timeout", options.tf_timeout);
+  options.full_scene_period = positiveParameter(own, "full_scene_period", options.full_scene_period);
+  options.most_inspected_states =
+      countParameter(own, "limits/inspected_states", options.most_inspected_states, 0, kNoLimit);
+  options.most_memory = countParameter(own, "limits/memory", 0, 0, std::size_t{1} << 52);
+  options.marker_rate = positiveParameter(own, "markers/rate", options.marker_rate);
+  options.marker_triangles = countParameter(own, "markers/triangles", options.marker_triangles, 0, kNoLimit);
+  options.cloud_topic = textParameter(own, "cloud/topic", options.cloud_topic);
+  options.cloud_id = textParameter(own, "cloud/id", options.cloud_id);
+  options.cloud.voxel = positiveParameter(own, "cloud/voxel", options.cloud.voxel);
+  options.cloud.robot_padding = lengthParameter(own, "cloud/robot_padding", options.cloud.robot_padding);
+  options.cloud.most_distance = positiveParameter(own, "cloud/range", options.cloud.most_distance);
+  options.cloud.most_voxels = countParameter(own, "limits/voxels", options.cloud.most_voxels, 1, kNoLimit);
+  options.message_size = static_cast<std::uint32_t>(
+      countParameter(own, "limits/message_size", options.message_size, 1, std::size_t{1} << 30));
   return options;
 }
 }  // namespace gpu_planning_scene

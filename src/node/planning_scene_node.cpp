@@ -1,61 +1,23 @@
-// planning_scene_node: holds a planning scene and answers over ROS which robot states are free of collision.
+// planning_scene_node: holds a planning scene, which clients change, and answers over ROS which robot states are free
+// of collision.
 
-#include <algorithm>
+#include <csignal>
 #include <iostream>
-#include <thread>
 
 #include <ros/ros.h>
 
-#include "node/check_states_service.h"
-#include "node/current_state.h"
-#include "node/node_parameters.h"
+#include "node/serve.h"
 #include "tools/open_checker.h"
-#include "tools/scene_text.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
-void serve(ros::NodeHandle& node, ros::NodeHandle& own)
+volatile std::sig_atomic_t stop_requested = 0;
+
+void requestStop(int)
 {
-  const BatchCheckerOptions options = checkerOptionsFromParameters(own);
-  std::vector<std::string> warnings;
-  const auto scene = sceneFromParameters(node, own, &warnings);
-  for (const std::string& warning : warnings)
-    ROS_WARN_STREAM(warning);
-  const std::shared_ptr<StateChecker> checker = openChecker(scene, options);
-  if (const std::string warning = checker->deviceWarning(); !warning.empty())
-    ROS_WARN_STREAM(warning);
-  for (const std::string& line : describeScene(*scene, checker->report(), checker->deviceName()))
-    ROS_INFO_STREAM(line);
-
-  CurrentState current(scene);
-  const ros::Subscriber joint_states = node.subscribe<sensor_msgs::JointState>(
-      "joint_states", 1,
-      [&current](const sensor_msgs::JointState::ConstPtr& message)
-      {
-        try
-        {
-          current.update(*message);
-        }
-        catch (const std::exception& error)
-        {
-          ROS_WARN_STREAM_THROTTLE(10.0, "a message on joint_states is not used: " << error.what());
-        }
-      });
-  const ros::ServiceServer check_states = own.advertiseService<CheckStates::Request, CheckStates::Response>(
-      "check_states",
-      [&current, scene, checker](CheckStates::Request& request, CheckStates::Response& response)
-      {
-        response = answerCheckStates(request, *scene, current.get(), *checker);
-        return true;
-      });
-  ROS_INFO_STREAM("ready: " << own.resolveName("check_states"));
-
-  // Requests are read and answered side by side; only the checks themselves queue up.
-  ros::AsyncSpinner spinner(std::max(4U, std::thread::hardware_concurrency()));
-  spinner.start();
-  ros::waitForShutdown();
+  stop_requested = 1;
 }
 
 /// The handles outlive the error: with the last of them roscpp shuts down, and its log with it.
@@ -65,7 +27,7 @@ int run()
   ros::NodeHandle own("~");
   try
   {
-    serve(node, own);
+    serve(node, own, openChecker, [] { return stop_requested != 0; });
     return 0;
   }
   catch (const std::exception& error)
@@ -81,7 +43,10 @@ int main(int argc, char** argv)
 {
   try
   {
-    ros::init(argc, argv, "planning_scene_node");
+    // Not roscpp's own handler: it would drop the requests that are being answered.
+    ros::init(argc, argv, "planning_scene_node", ros::init_options::NoSigintHandler);
+    std::signal(SIGINT, gpu_planning_scene::requestStop);
+    std::signal(SIGTERM, gpu_planning_scene::requestStop);
     return gpu_planning_scene::run();
   }
   catch (const std::exception& error)

@@ -11,7 +11,9 @@ endfunction()
 run("no build with the thread sanitizer" ${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLDER} -G ${GENERATOR}
   -DGPU_PLANNING_SCENE_ROS=OFF -DGPU_PLANNING_SCENE_BENCH=OFF -DCMAKE_BUILD_TYPE=Debug
   "-DCMAKE_CXX_FLAGS=-fsanitize=thread -O1 -g1")
-run("it does not build" ${CMAKE_COMMAND} --build ${FOLDER} --target concurrency_test)
-find_program(program concurrency_test PATHS ${FOLDER}/test/concurrency NO_DEFAULT_PATH REQUIRED)
-run("data races" ${CMAKE_COMMAND} -E env
-  "TSAN_OPTIONS=suppressions=${SOURCE}/test/support/tsan.supp" ${program})
+foreach(program concurrency/concurrency_test service/check_server_test)
+  get_filename_component(target ${program} NAME)
+  run("it does not build" ${CMAKE_COMMAND} --build ${FOLDER} --target ${target})
+  run("data races" ${CMAKE_COMMAND} -E env
+    "TSAN_OPTIONS=suppressions=${SOURCE}/test/support/tsan.supp" ${FOLDER}/test/${program})
+endforeach()

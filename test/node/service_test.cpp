@@ -7,9 +7,9 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
-#include "node/check_states_service.h"
-#include "node/current_state.h"
+#include "node/check_services.h"
 #include "node/node_parameters.h"
+#include "node/scene_services.h"
 #include "scene/slider_robot.h"
 
 namespace gpu_planning_scene
@@ -20,7 +20,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The slider robot and a wall from x = 0.9 to 1.1 m that the cart meets.
-std::shared_ptr<const PlanningScene> sceneWithWall()
+PlanningScene sceneWithWall()
 {
   PlanningScene scene(sliderRobot());
   WorldObject wall;
@@ -29,7 +29,7 @@ std::shared_ptr<const PlanningScene> sceneWithWall()
   wall.shapes.push_back({Box{Eigen::Vector3d(0.2, 1.0, 0.2)}, Eigen::Isometry3d::Identity()});
   scene.objects.push_back(wall);
   scene.revision = 5;
-  return std::make_shared<const PlanningScene>(scene);
+  return scene;
 }
 
 CheckStates::Request request(const std::vector<std::string>& names, const std::vector<double>& positions)
@@ -43,10 +43,7 @@ CheckStates::Request request(const std::vector<std::string>& names, const std::v
 class Service : public testing::Test
 {
  public:
-  CheckStates::Response answer(const CheckStates::Request& asked)
-  {
-    return answerCheckStates(asked, *scene, state, checker);
-  }
+  CheckStates::Response answer(const CheckStates::Request& asked) { return services.checkStates(asked); }
 
   void expectRefusal(const CheckStates::Request& asked, const std::string& reason)
   {
@@ -57,9 +54,13 @@ class Service : public testing::Test
     EXPECT_TRUE(response.valid.empty());
   }
 
-  std::shared_ptr<const PlanningScene> scene = sceneWithWall();
-  PartialState state{*scene->robot};
-  CpuChecker checker{scene};
+  SceneStore store{sceneWithWall(), {}, {}};
+  CheckServer server{store,
+                     [](std::shared_ptr<const PlanningScene> scene)
+                     { return std::make_shared<CpuChecker>(std::move(scene)); },
+                     {}};
+  MemoryGuard memory{0};
+  CheckServices services{store, server, memory, {1000, 10}};
 };
 
 TEST_F(Service, answersEachStateInOrder)
@@ -79,10 +80,8 @@ TEST_F(Service, answersEachStateInOrder)
 TEST_F(Service, otherVariablesTakeTheCurrentState)
 {
   expectRefusal(request({"turn"}, {0.0}), "no value for slide");
-  state = PartialState(*scene->robot, {1.0, 0.0});
+  store.updateState({{"slide", 1.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);
-  state.known[0] = false;
-  expectRefusal(request({"turn"}, {0.0}), "no value for slide");
 }
 
 TEST_F(Service, noStatesGetNoAnswers)
@@ -107,11 +106,90 @@ TEST_F(Service, wrongRequestsAreRefusedWithTheReason)
   expectRefusal(unknown_group, "sails");
 }
 
-TEST_F(Service, contactsThatCannotBeGivenDoNotSpoilTheAnswer)
+TEST_F(Service, contactsAreGivenOfCollidingStatesAlone)
 {
-  CheckStates::Request with_contacts = request({"turn", "slide"}, {0.0, 1.0});
+  CheckStates::Request with_contacts = request({"turn", "slide"}, {0.0, 0.0, 0.0, 1.0});
   with_contacts.max_contacts = 10;
-  EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(with_contacts).valid);
+  const CheckStates::Response response = answer(with_contacts);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid);
+  ASSERT_FALSE(response.contacts.empty());
+  for (const ContactInformation& contact : response.contacts)
+  {
+    EXPECT_EQ(1u, contact.state);
+    EXPECT_EQ("cart", contact.contact_body_1);
+    EXPECT_EQ("wall", contact.contact_body_2);
+    EXPECT_EQ(ContactInformation::WORLD_OBJECT, contact.body_type_2);
+    EXPECT_EQ("rail", contact.header.frame_id);
+  }
+}
+
+TEST_F(Service, clearanceIsGivenWhereAsked)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.5, 0.0, 1.0});
+  EXPECT_TRUE(answer(asked).clearance_world.empty());
+  asked.clearance = true;
+  const CheckStates::Response response = answer(asked);
+  ASSERT_EQ(2u, response.clearance_world.size());
+  EXPECT_NEAR(0.3, response.clearance_world[0], 2e-6) << "the cart reaches to 0.6 m, the wall begins at 0.9 m";
+  EXPECT_EQ(0.0, response.clearance_world[1]);
+  EXPECT_EQ(2u, response.clearance_self.size());
+}
+
+TEST_F(Service, noMoreStatesAreInspectedThanTheLimit)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, std::vector<double>(22, 0.0));
+  asked.max_contacts = 1;
+  EXPECT_TRUE(answer(asked).success) << "none of them collides";
+  asked.clearance = true;
+  expectRefusal(asked, "limits/inspected_states");
+}
+
+TEST_F(Service, aMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
+{
+  CheckMotions::Request asked;
+  asked.joint_names = {"slide", "turn"};
+  asked.starts = {0.0, 0.0, 0.0, 0.0};
+  asked.ends = {0.5, 0.0, 1.0, 0.0};
+  asked.resolution = 0.1;
+  asked.translation_resolution = 0.1;
+  const CheckMotions::Response response = services.checkMotions(asked);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid);
+  // The cart meets the wall at 0.8 m, to within a rounding.
+  EXPECT_NEAR(0.75, response.last_valid_fraction.at(1), 0.06);
+  EXPECT_NEAR(0.1, response.first_invalid_fraction.at(1) - response.last_valid_fraction.at(1), 1e-9);
+  EXPECT_EQ("", response.body_1.at(0));
+  EXPECT_EQ("cart", response.body_1.at(1));
+  EXPECT_EQ("wall", response.body_2.at(1));
+  EXPECT_EQ(5u, response.scene_revision);
+  asked.ends.pop_back();
+  EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("4 numbers in starts and 3 in ends"));
+}
+
+TEST_F(Service, aMatrixOfARequestReplacesTheScenes)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0});
+  asked.allowed_collision_matrix.default_entry_names = {"wall"};
+  asked.allowed_collision_matrix.default_entry_values = {1};
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), answer(asked).valid);
+}
+
+TEST_F(Service, aReportHasLinesAndNumbers)
+{
+  const GetReport::Response response = services.report({});
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_FALSE(response.lines.empty());
+  ASSERT_EQ(response.names.size(), response.values.size());
+  EXPECT_EQ("self_pairs", response.names.at(0));
+  EXPECT_EQ(5u, response.scene_revision);
+}
+
+TEST_F(Service, aProcessThatUsesTooMuchMemoryTakesNothingMore)
+{
+  const MemoryGuard full(1);
+  CheckServices guarded(store, server, full, {});
+  EXPECT_NE(std::string::npos,
+            guarded.checkStates(request({"turn", "slide"}, {0.0, 0.0})).message.find("limits/memory"));
 }
 
 class FailingChecker : public StateChecker
@@ -128,8 +206,9 @@ class FailingChecker : public StateChecker
 
 TEST_F(Service, aFailureOfTheDeviceIsAnAnswer)
 {
-  FailingChecker failing;
-  const auto response = answerCheckStates(request({"turn", "slide"}, {0.0, 0.0}), *scene, state, failing);
+  CheckServer failing(store, [](std::shared_ptr<const PlanningScene>) { return std::make_shared<FailingChecker>(); },
+                      {});
+  const auto response = CheckServices(store, failing, memory, {}).checkStates(request({"turn", "slide"}, {0.0, 0.0}));
   EXPECT_FALSE(response.success);
   EXPECT_EQ("device lost", response.message);
 }
@@ -142,29 +221,34 @@ sensor_msgs::JointState jointState(const std::vector<std::string>& names, const 
   return message;
 }
 
-TEST(JointStates, updateWhatTheyNameOfTheRobot)
+class JointStates : public Service
 {
-  CurrentState current(sceneWithWall());
-  EXPECT_EQ((std::vector<bool>{false, false}), current.get().known);
-  current.update(jointState({"wheel", "turn", "flag", "bolt"}, {9.0, 0.5, 8.0, 7.0}));
-  EXPECT_EQ((std::vector<bool>{false, true}), current.get().known);
-  EXPECT_EQ(0.5, current.get().values[1]);
-  current.update(jointState({"slide"}, {0.25}));
-  EXPECT_EQ((std::vector<bool>{true, true}), current.get().known);
-  EXPECT_EQ((std::vector<double>{0.25, 0.5}), current.get().values);
-  current.update(jointState({"slide", "turn"}, {}));  // a driver that reports velocities alone
-  EXPECT_EQ((std::vector<double>{0.25, 0.5}), current.get().values);
+ public:
+  void take(const sensor_msgs::JointState& message) { scenes.take(message); }
+
+  SceneServices scenes{store, nullptr, memory};
+};
+
+TEST_F(JointStates, updateWhatTheyNameOfTheRobot)
+{
+  EXPECT_EQ((std::vector<bool>{false, false}), store.snapshot().known);
+  take(jointState({"wheel", "turn", "flag", "bolt"}, {9.0, 0.5, 8.0, 7.0}));
+  EXPECT_EQ((std::vector<bool>{false, true}), store.snapshot().known);
+  EXPECT_EQ(0.5, store.snapshot().state[1]);
+  take(jointState({"slide"}, {0.25}));
+  EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.snapshot().state);
+  take(jointState({"slide", "turn"}, {}));  // a driver that reports velocities alone
+  EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.snapshot().state);
 }
 
-TEST(JointStates, aWrongMessageChangesNothing)
+TEST_F(JointStates, aWrongMessageChangesNothing)
 {
-  CurrentState current(sceneWithWall());
-  current.update(jointState({"slide", "turn"}, {0.25, 0.5}));
-  EXPECT_THROW(current.update(jointState({"slide", "turn"}, {1.0, kNan})), Error);
-  EXPECT_THROW(current.update(jointState({"slide", "turn"}, {1.0})), Error);
-  EXPECT_EQ((std::vector<double>{0.25, 0.5}), current.get().values);
-  current.update(jointState({"slide", "wheel"}, {1.0, kNan}));  // what is wrong is not this robot's
-  EXPECT_EQ(1.0, current.get().values[0]);
+  take(jointState({"slide", "turn"}, {0.25, 0.5}));
+  EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0, kNan})), Error);
+  EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0})), Error);
+  EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.snapshot().state);
+  take(jointState({"slide", "wheel"}, {1.0, kNan}));  // what is wrong is not this robot's
+  EXPECT_EQ(1.0, store.snapshot().state[0]);
 }
 
 TEST(PackagesParameter, isAMapOrAList)

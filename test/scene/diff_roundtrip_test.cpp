@@ -142,6 +142,15 @@ TEST_F(RandomChanges, NothingLeadsFromASceneToItself)
   EXPECT_TRUE(!none.matrix && none.link_padding.empty() && none.link_scale.empty() && none.colors.empty());
 }
 
+TEST_F(RandomChanges, TouchLinksAloneAreADifference)
+{
+  change(attachedChange(Operation::Add, "a", "pole", {boxAt(0.1)}));
+  const PlanningScene before = scene;
+  scene.attached[0].touch_links = {link("cart")};
+  const SceneChange way = diffOf(before, scene);
+  expectSameScene(scene, applyChange(before, state, way, defaults, limits, frames).scene);
+}
+
 TEST_F(RandomChanges, AMoveIsNotAnAddition)
 {
   change(objectChange(Operation::Add, "a", {triangleAt(), triangleAt()}));

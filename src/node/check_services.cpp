@@ -1,0 +1,189 @@
+#include "node/check_services.h"
+
+#include <algorithm>
+
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/motions.h"
+#include "node/answered.h"
+#include "node/from_messages.h"
+#include "node/report_text.h"
+#include "node/requested_states.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::optional<AllowedCollisionMatrix> requestedMatrix(const AllowedCollisionMatrixMessage& message)
+{
+  if (message.entry_names.empty() && message.default_entry_names.empty())
+    return std::nullopt;
+  return matrixFrom(message);
+}
+
+std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
+{
+  const std::size_t links = scene.robot->links().size();
+  const auto index = static_cast<std::size_t>(body);
+  if (index < links)
+    return ContactInformation::ROBOT_LINK;
+  return index < links + scene.objects.size() ? ContactInformation::WORLD_OBJECT : ContactInformation::ROBOT_ATTACHED;
+}
+
+ContactInformation messageOf(const Contact& contact, const PlanningScene& scene, std::size_t state)
+{
+  ContactInformation message;
+  message.header.frame_id = scene.robot->planningFrame();
+  message.position.x = contact.point.x();
+  message.position.y = contact.point.y();
+  message.position.z = contact.point.z();
+  message.normal.x = contact.normal.x();
+  message.normal.y = contact.normal.y();
+  message.normal.z = contact.normal.z();
+  message.depth = contact.depth;
+  message.contact_body_1 = scene.bodyName(contact.bodies[0]);
+  message.body_type_1 = bodyType(scene, contact.bodies[0]);
+  message.contact_body_2 = scene.bodyName(contact.bodies[1]);
+  message.body_type_2 = bodyType(scene, contact.bodies[1]);
+  message.state = static_cast<std::uint32_t>(state);
+  return message;
+}
+}  // namespace
+
+CheckServices::CheckServices(const SceneStore& store, CheckServer& server, const MemoryGuard& memory,
+                             const CheckServicesOptions& options)
+  : store_(store), server_(server), memory_(memory), options_(options)
+{
+}
+
+CheckStates::Response CheckServices::checkStates(const CheckStates::Request& request)
+{
+  return answered<CheckStates::Response>(
+      [&](CheckStates::Response& response)
+      {
+        memory_.require();
+        CheckJob job;
+        job.states = requestedStates(request.joint_names, request.positions, "positions", store_.snapshot());
+        job.group = request.group;
+        job.matrix = requestedMatrix(request.allowed_collision_matrix);
+        const bool inspects = request.max_contacts != 0 || request.clearance;
+        const std::vector<double> states = inspects ? job.states : std::vector<double>();
+        const CheckAnswer answer = server_.submit(std::move(job)).get();
+        const BatchResult& result = answer.result;
+        response.valid = result.valid;
+        response.body_1.resize(result.valid.size());
+        response.body_2.resize(result.valid.size());
+        for (std::size_t i = 0; i < result.valid.size(); ++i)
+        {
+          if (result.valid[i])
+            continue;
+          response.body_1[i] = answer.scene->bodyName(result.colliding[i][0]);
+          response.body_2[i] = answer.scene->bodyName(result.colliding[i][1]);
+        }
+        response.scene_revision = result.revision;
+        response.seconds = result.seconds;
+        if (inspects)
+          inspect(request, states, answer, response);
+      });
+}
+
+void CheckServices::inspect(const CheckStates::Request& request, const std::vector<double>& states,
+                            const CheckAnswer& answer, CheckStates::Response& response)
+{
+  const std::vector<std::uint8_t>& valid = answer.result.valid;
+  const auto colliding = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
+  const std::size_t inspected = request.clearance ? valid.size() : colliding;
+  if (inspected > options_.most_inspected_states)
+    throw Error("contacts or clearance of " + std::to_string(inspected) + " states are asked for; the limit is " +
+                std::to_string(options_.most_inspected_states) + " (limits/inspected_states): send fewer at once");
+  if (inspected == 0)
+    return;
+  const std::shared_ptr<const StateInspector> inspector = inspectorOf(answer.scene);
+  const std::size_t width = answer.scene->robot->variables().size();
+  for (std::size_t i = 0; i < valid.size(); ++i)
+  {
+    const double* state = states.data() + i * width;
+    if (!valid[i] && request.max_contacts != 0)
+      for (const Contact& contact :
+           inspector->contacts(state, request.group, request.max_contacts, request.max_contacts_per_pair))
+        response.contacts.push_back(messageOf(contact, *answer.scene, i));
+    if (!request.clearance)
+      continue;
+    const Clearance clearance = inspector->clearance(state, request.group);
+    response.clearance_world.push_back(clearance.world);
+    response.clearance_self.push_back(clearance.self);
+  }
+}
+
+/// Built without the lock: several may be built at once, and the newest scene's is kept.
+std::shared_ptr<const StateInspector> CheckServices::inspectorOf(const std::shared_ptr<const PlanningScene>& scene)
+{
+  std::shared_ptr<const StateInspector> previous;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (inspected_ == scene)
+      return inspector_;
+    previous = inspector_;
+  }
+  auto inspector = std::make_shared<const StateInspector>(scene, previous.get());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!inspected_ || inspected_->revision <= scene->revision)
+  {
+    inspected_ = scene;
+    inspector_ = inspector;
+  }
+  return inspector;
+}
+
+CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& request)
+{
+  return answered<CheckMotions::Response>(
+      [&](CheckMotions::Response& response)
+      {
+        memory_.require();
+        if (request.starts.size() != request.ends.size())
+          throw Error(std::to_string(request.starts.size()) + " numbers in starts and " +
+                      std::to_string(request.ends.size()) + " in ends; give one row of each per motion");
+        const Snapshot now = store_.snapshot();
+        const RobotModel& robot = *now.scene->robot;
+        const std::vector<double> starts = requestedStates(request.joint_names, request.starts, "starts", now);
+        const std::vector<double> ends = requestedStates(request.joint_names, request.ends, "ends", now);
+        const std::size_t count = starts.size() / robot.variables().size();
+        const MotionBatch motions(robot, starts.data(), ends.data(), count,
+                                  {request.resolution, request.translation_resolution}, options_.most_states);
+        CheckJob job;
+        job.states = motions.states();
+        job.group = request.group;
+        job.matrix = requestedMatrix(request.allowed_collision_matrix);
+        const CheckAnswer answer = server_.submit(std::move(job)).get();
+        for (const MotionBatch::Verdict& verdict : motions.verdicts(answer.result))
+        {
+          response.valid.push_back(verdict.valid ? 1 : 0);
+          response.last_valid_fraction.push_back(verdict.last_valid);
+          response.first_invalid_fraction.push_back(verdict.first_invalid);
+          response.body_1.emplace_back();
+          response.body_2.emplace_back();
+          if (verdict.valid)
+            continue;
+          const std::array<std::int32_t, 2>& pair = answer.result.colliding[verdict.invalid_state];
+          response.body_1.back() = answer.scene->bodyName(pair[0]);
+          response.body_2.back() = answer.scene->bodyName(pair[1]);
+        }
+        response.states_checked = motions.stateCount();
+        response.scene_revision = answer.result.revision;
+        response.seconds = answer.result.seconds;
+      });
+}
+
+GetReport::Response CheckServices::report(const GetReport::Request& request)
+{
+  return answered<GetReport::Response>(
+      [&](GetReport::Response& response)
+      {
+        CheckJob job;
+        job.group = request.group;
+        job.report = true;
+        const CheckAnswer answer = server_.submit(std::move(job)).get();
+        fillReport(answer, response);
+      });
+}
+}  // namespace gpu_planning_scene

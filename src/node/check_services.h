@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+
+#include "gpu_planning_scene/contacts.h"
+#include "gpu_planning_scene/messages.h"
+#include "service/check_server.h"
+#include "service/memory_guard.h"
+
+namespace gpu_planning_scene
+{
+struct CheckServicesOptions
+{
+  std::size_t most_states = 1000000;          ///< of the motions of one request
+  std::size_t most_inspected_states = 10000;  ///< of one request, for contacts and clearance
+};
+
+/// Answers check_states, check_motions and get_report. Throws nothing: what is wrong with a request is said in the
+/// response. Thread-safe; a call waits for its answer, and looks for contacts and clearance on its own thread.
+class CheckServices
+{
+ public:
+  CheckServices(const SceneStore& store, CheckServer& server, const MemoryGuard& memory,
+                const CheckServicesOptions& options);
+
+  CheckStates::Response checkStates(const CheckStates::Request& request);
+  CheckMotions::Response checkMotions(const CheckMotions::Request& request);
+  GetReport::Response report(const GetReport::Request& request);
+
+ private:
+  void inspect(const CheckStates::Request& request, const std::vector<double>& states, const CheckAnswer& answer,
+               CheckStates::Response& response);
+  std::shared_ptr<const StateInspector> inspectorOf(const std::shared_ptr<const PlanningScene>& scene);
+
+  const SceneStore& store_;
+  CheckServer& server_;
+  const MemoryGuard& memory_;
+  const CheckServicesOptions options_;
+  std::mutex mutex_;  // of the two below: the inspector of the newest scene that was asked about
+  std::shared_ptr<const PlanningScene> inspected_;
+  std::shared_ptr<const StateInspector> inspector_;
+};
+}  // namespace gpu_planning_scene

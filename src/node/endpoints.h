@@ -1,0 +1,93 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include "gpu_planning_scene/error.h"
+#include "node/answered.h"
+#include "node/bounded_message.h"
+#include "node/diagnostics.h"
+
+namespace gpu_planning_scene
+{
+/// Services and topics that share threads of their own. All that comes is read with care (see Bounded), and what is
+/// refused is counted.
+class Endpoints
+{
+ public:
+  Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads, Diagnostics& diagnostics);
+  ~Endpoints();
+
+  /// A service in the node's namespace. `answer` makes a response of a request, and throws nothing.
+  template <class Service, class Answer>
+  void advertise(const std::string& name, Answer answer)
+  {
+    const auto handle =
+        [this, answer](Bounded<typename Service::Request>& request, typename Service::Response& response)
+    {
+      if (request.fault.empty())
+        response = answer(request.message);
+      return close(request.fault, response, 0);
+    };
+    ros::AdvertiseServiceOptions options = boundedService<Service>(own_.resolveName(name), handle, &queue_);
+    services_.push_back(own_.advertiseService(options));
+  }
+
+  /// A topic; "~NAME" is in the node's namespace. `take` throws what is wrong with a message.
+  template <class Message, class Take>
+  void subscribe(const std::string& name, std::uint32_t queue_size, Take take)
+  {
+    ros::NodeHandle& node = name.front() == '~' ? own_ : node_;
+    const std::string topic = node.resolveName(name.front() == '~' ? name.substr(1) : name);
+    topics_.push_back(subscribeBounded<Message>(node, topic, queue_size,
+                                                [this, take, topic](const Bounded<Message>& message)
+                                                {
+                                                  try
+                                                  {
+                                                    if (!message.fault.empty())
+                                                      throw Error(message.fault);
+                                                    take(message.message);
+                                                  }
+                                                  catch (const std::exception& error)
+                                                  {
+                                                    refused(topic, error.what());
+                                                  }
+                                                }));
+  }
+
+  /// Takes nothing new, and waits for what runs.
+  void stop();
+
+ private:
+  /// Most responses say whether they are one; for the others the call fails.
+  template <class Response>
+  auto close(const std::string& fault, Response& response, int) -> decltype(response.success, bool())
+  {
+    if (!fault.empty())
+      response = answered<Response>([&fault](Response&) { throw Error(fault); });
+    if (!response.success)
+      diagnostics_.refused(response.message);
+    return true;
+  }
+  template <class Response>
+  bool close(const std::string& fault, Response&, long)
+  {
+    if (!fault.empty())
+      diagnostics_.refused(fault);
+    return fault.empty();
+  }
+  void refused(const std::string& topic, const std::string& why);
+
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  ros::NodeHandle own_;
+  Diagnostics& diagnostics_;
+  ros::AsyncSpinner spinner_;
+  std::vector<ros::ServiceServer> services_;
+  std::vector<ros::Subscriber> topics_;
+};
+}  // namespace gpu_planning_scene

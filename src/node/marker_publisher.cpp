@@ -1,0 +1,74 @@
+#include "node/marker_publisher.h"
+
+#include "gpu_planning_scene/error.h"
+#include "node/answered.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr std::size_t kMostContacts = 1000;
+
+bool hasBody(const PlanningScene& scene, const std::string& name)
+{
+  const std::size_t bodies = scene.robot->links().size() + scene.objects.size() + scene.attached.size();
+  for (std::size_t i = 0; i < bodies; ++i)
+    if (scene.bodyName(static_cast<int>(i)) == name)
+      return true;
+  return false;
+}
+}  // namespace
+
+MarkerPublisher::MarkerPublisher(ros::NodeHandle& own, const SceneStore& store, double rate, std::size_t most_triangles)
+  : store_(store), publisher_(own.advertise<visualization_msgs::MarkerArray>("markers", 1, true))
+{
+  options_.most_triangles = most_triangles;
+  timer_ = own.createWallTimer(ros::WallDuration(1.0 / rate), [this](const ros::WallTimerEvent&) { publish(); });
+}
+
+ShowTreeLevel::Response MarkerPublisher::show(const ShowTreeLevel::Request& request)
+{
+  return answered<ShowTreeLevel::Response>(
+      [&](ShowTreeLevel::Response&)
+      {
+        if (request.level < -1)
+          throw Error("there is no level " + std::to_string(request.level) + "; give 0 for the roots, -1 for no boxes");
+        if (!request.body.empty() && !hasBody(*store_.snapshot().scene, request.body))
+          throw Error("the scene has no link or object '" + request.body + "'");
+        const std::lock_guard<std::mutex> lock(mutex_);
+        options_.tree_level = request.level;
+        options_.tree_body = request.body;
+        changed_ = true;
+      });
+}
+
+void MarkerPublisher::publish()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (publisher_.getNumSubscribers() == 0)
+    return;
+  try
+  {
+    Snapshot now = store_.snapshot();
+    if (!changed_ && now.scene == drawn_.scene && now.state == drawn_.state)
+      return;
+    if (!inspector_ || now.scene != drawn_.scene)
+      inspector_ = std::make_unique<const StateInspector>(now.scene, inspector_.get());
+    std::vector<std::array<std::int32_t, 2>> colliding;
+    std::vector<Eigen::Vector3d> points;
+    for (const Contact& contact : inspector_->contacts(now.state.data(), "", kMostContacts, 0))
+    {
+      colliding.push_back(contact.bodies);
+      points.push_back(contact.point);
+    }
+    options_.stamp = ros::Time::now();
+    publisher_.publish(markersOf(*now.scene, now.state.data(), colliding, points, options_));
+    drawn_ = std::move(now);
+    changed_ = false;
+  }
+  catch (const std::exception& error)
+  {
+    ROS_WARN_STREAM_THROTTLE(10.0, "markers: " << error.what());
+  }
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,91 @@
+#include "node/scene_services.h"
+
+#include <ros/console.h>
+
+#include "gpu_planning_scene/error.h"
+#include "node/answered.h"
+#include "node/from_messages.h"
+#include "node/to_messages.h"
+#include "tools/scene_text.h"
+
+namespace gpu_planning_scene
+{
+SceneServices::SceneServices(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory)
+  : store_(store), lookup_(std::move(lookup)), memory_(memory)
+{
+}
+
+SceneStore::Applied SceneServices::apply(const SceneChange& change)
+{
+  memory_.require();
+  return store_.apply(change, lookup_);
+}
+
+ApplyPlanningScene::Response SceneServices::apply(const ApplyPlanningScene::Request& request)
+{
+  return answered<ApplyPlanningScene::Response>(
+      [&](ApplyPlanningScene::Response& response)
+      {
+        std::vector<std::string> warnings;
+        const SceneChange change = changeFrom(request.scene, *store_.snapshot().scene->robot, &warnings);
+        SceneStore::Applied applied = apply(change);
+        warnings.insert(warnings.end(), applied.warnings.begin(), applied.warnings.end());
+        for (const std::string& warning : warnings)
+          response.message += (response.message.empty() ? "" : "; ") + warning;
+        response.scene_revision = applied.revision;
+      });
+}
+
+Clear::Response SceneServices::clear()
+{
+  return answered<Clear::Response>([&](Clear::Response& response) { response.scene_revision = store_.clear(); });
+}
+
+GetPlanningScene::Response SceneServices::get(const GetPlanningScene::Request& request) const
+{
+  GetPlanningScene::Response response;
+  const Snapshot now = store_.snapshot();
+  response.scene = messageOf(*now.scene, request.components.components, now.state, now.known);
+  return response;
+}
+
+void SceneServices::take(const PlanningSceneMessage& message)
+{
+  std::vector<std::string> warnings;
+  const SceneChange change = changeFrom(message, *store_.snapshot().scene->robot, &warnings);
+  const SceneStore::Applied applied = apply(change);
+  warnings.insert(warnings.end(), applied.warnings.begin(), applied.warnings.end());
+  for (const std::string& warning : warnings)
+    ROS_WARN_STREAM_THROTTLE(1.0, warning);
+}
+
+void SceneServices::take(const CollisionObject& message)
+{
+  SceneChange change;
+  change.is_diff = true;
+  change.objects.push_back(objectChangeFrom(message));
+  apply(change);
+}
+
+void SceneServices::take(const AttachedCollisionObject& message)
+{
+  SceneChange change;
+  change.is_diff = true;
+  change.state.attached.push_back(attachedChangeFrom(message));
+  apply(change);
+}
+
+void SceneServices::take(const sensor_msgs::JointState& message)
+{
+  // Drivers that report only velocities or efforts leave the positions empty.
+  if (message.position.empty())
+    return;
+  if (message.position.size() != message.name.size())
+    throw Error(std::to_string(message.position.size()) + " positions for " + std::to_string(message.name.size()) +
+                " names");
+  std::map<std::string, double> variables;
+  for (std::size_t i = 0; i < message.name.size(); ++i)
+    variables[message.name[i]] = message.position[i];
+  store_.updateState(variables);
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <sensor_msgs/JointState.h>
+
+#include "gpu_planning_scene/messages.h"
+#include "node/frame_lookup.h"
+#include "service/memory_guard.h"
+#include "service/scene_store.h"
+
+namespace gpu_planning_scene
+{
+/// Answers apply_planning_scene, get_planning_scene and clear, and takes what comes on topics. Thread-safe.
+class SceneServices
+{
+ public:
+  SceneServices(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory);
+
+  /// These throw nothing: what is wrong with a request is said in the response.
+  ApplyPlanningScene::Response apply(const ApplyPlanningScene::Request& request);
+  Clear::Response clear();
+  GetPlanningScene::Response get(const GetPlanningScene::Request& request) const;
+
+  /// These throw Error and have changed nothing; warnings are logged.
+  void take(const PlanningSceneMessage& message);
+  void take(const CollisionObject& message);
+  void take(const AttachedCollisionObject& message);
+  /// The names of other robots, and of joints without a variable, are passed over.
+  void take(const sensor_msgs::JointState& message);
+
+ private:
+  SceneStore::Applied apply(const SceneChange& change);
+
+  SceneStore& store_;
+  const SceneStore::Lookup lookup_;
+  const MemoryGuard& memory_;
+};
+}  // namespace gpu_planning_scene

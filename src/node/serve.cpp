@@ -1,0 +1,151 @@
+#include "node/serve.h"
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "node/check_services.h"
+#include "node/cloud_topic.h"
+#include "node/diagnostics.h"
+#include "node/endpoints.h"
+#include "node/frame_lookup.h"
+#include "node/marker_publisher.h"
+#include "node/node_parameters.h"
+#include "node/parameter_values.h"
+#include "node/planning_parameters.h"
+#include "node/scene_publisher.h"
+#include "node/scene_services.h"
+#include "tools/scene_text.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+void warn(const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings)
+    ROS_WARN_STREAM(warning);
+}
+
+/// What the scene file does not say is as the parameters say.
+PlanningScene startingScene(PlanningScene scene, const SceneDefaults& defaults)
+{
+  if (scene.link_padding.empty())
+    scene.link_padding = defaults.link_padding;
+  if (scene.robot->linkScale().empty())
+    scene.setLinkScale(defaults.link_scale);
+  for (WorldObject& object : scene.objects)
+    if (object.padding == 0.0)
+      object.padding = defaults.object_padding;
+  for (AttachedObject& carried : scene.attached)
+    carried.padding = defaults.attached_padding;
+  return scene;
+}
+
+/// Makes checkers that outlive their device, and that diagnostics know of.
+CheckServer::MakeChecker checkerMaker(const BatchCheckerOptions& options, const ResilientOptions& resilience,
+                                      const OpenDevice& open_device, Diagnostics& diagnostics)
+{
+  const auto cpu = [options](std::shared_ptr<const PlanningScene> scene) -> std::unique_ptr<StateChecker>
+  { return std::make_unique<CpuChecker>(std::move(scene), options); };
+  const auto device = [options, open_device](std::shared_ptr<const PlanningScene> scene)
+  { return open_device(std::move(scene), options); };
+  return [=, &diagnostics](std::shared_ptr<const PlanningScene> scene)
+  {
+    std::shared_ptr<StateChecker> checker;
+    if (options.device == "cpu")
+      checker = cpu(std::move(scene));
+    else
+      checker = std::make_shared<ResilientChecker>(std::move(scene), device, cpu, resilience);
+    if (const std::string warning = checker->deviceWarning(); !warning.empty())
+      ROS_WARN_STREAM(warning);
+    diagnostics.watch(checker);
+    return checker;
+  };
+}
+
+void logScene(CheckServer& server)
+{
+  CheckJob job;
+  job.report = true;
+  const CheckAnswer answer = server.submit(std::move(job)).get();
+  for (const std::string& line : describeScene(*answer.scene, *answer.report, answer.device))
+    ROS_INFO_STREAM(line);
+}
+}  // namespace
+
+void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_device,
+           const std::function<bool()>& stop)
+{
+  const ServiceOptions options = serviceOptionsFromParameters(own);
+  const CheckServerOptions server_options = serverOptionsFromParameters(own);
+  const BatchCheckerOptions checker_options = checkerOptionsFromParameters(own);
+  const ResilientOptions resilience = resilienceFromParameters(own);
+  const SceneLimits limits = sceneLimitsFromParameters(own);
+  setMessageLimit(options.message_size);
+
+  std::vector<std::string> warnings;
+  PlanningScene scene = sceneFromParameters(node, own, &warnings);
+  const SceneDefaults defaults =
+      defaultsFromParameters(node, searchedParameter(node, "robot_description"), *scene.robot, &warnings);
+  warn(warnings);
+
+  const std::string planning_frame = scene.robot->planningFrame();
+  Diagnostics diagnostics;
+  SceneStore store(startingScene(std::move(scene), defaults), defaults, limits);
+  CheckServer server(store, checkerMaker(checker_options, resilience, open_device, diagnostics), server_options);
+  logScene(server);
+
+  const MemoryGuard memory(options.most_memory);
+  const FrameLookup lookup(planning_frame, options.tf_timeout);
+  CheckServices checks(store, server, memory, {server_options.most_states, options.most_inspected_states});
+  const SceneStore::Lookup look_up = [&lookup](const FrameAt& frame) { return lookup(frame); };
+  SceneServices changes(store, look_up, memory);
+  CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
+  MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
+  const ScenePublisher publisher(own, store, options.full_scene_period);
+
+  Endpoints scene_requests(node, own, 4, diagnostics);
+  scene_requests.advertise<ApplyPlanningScene>("apply_planning_scene",
+                                               [&](const ApplyPlanningScene::Request& r) { return changes.apply(r); });
+  scene_requests.advertise<GetPlanningScene>("get_planning_scene",
+                                             [&](const GetPlanningScene::Request& r) { return changes.get(r); });
+  scene_requests.advertise<Clear>("clear", [&](const Clear::Request&) { return changes.clear(); });
+  scene_requests.advertise<ShowTreeLevel>("show_tree_level",
+                                          [&](const ShowTreeLevel::Request& r) { return markers.show(r); });
+
+  // One thread: changes are made in the order in which they come.
+  Endpoints scene_topics(node, own, 1, diagnostics);
+  const auto take = [&changes](const auto& message) { changes.take(message); };
+  scene_topics.subscribe<PlanningSceneMessage>("~planning_scene", 100, take);
+  scene_topics.subscribe<CollisionObject>("~collision_object", 1000, take);
+  scene_topics.subscribe<AttachedCollisionObject>("~attached_collision_object", 1000, take);
+
+  Endpoints cloud_topics(node, own, 1, diagnostics);
+  cloud_topics.subscribe<sensor_msgs::PointCloud2>(options.cloud_topic, 1,
+                                                   [&](const sensor_msgs::PointCloud2& m) { clouds.take(m); });
+  Endpoints state_topics(node, own, 1, diagnostics);
+  state_topics.subscribe<sensor_msgs::JointState>("joint_states", 1, take);
+
+  // Each request that waits for its check has a thread: so the one too many is told at once that the node is busy.
+  // check_states comes last: where it is there, all is.
+  Endpoints check_requests(node, own, server_options.most_waiting_requests + 8, diagnostics);
+  check_requests.advertise<CheckMotions>("check_motions",
+                                         [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
+  check_requests.advertise<GetReport>("get_report", [&](const GetReport::Request& r) { return checks.report(r); });
+  check_requests.advertise<CheckStates>("check_states",
+                                        [&](const CheckStates::Request& r) { return checks.checkStates(r); });
+
+  DiagnosticsPublisher diagnostics_publisher(node, diagnostics, store, server);
+  ros::AsyncSpinner timers(1);
+  timers.start();
+  ROS_INFO_STREAM("ready: " << own.resolveName("check_states"));
+  while (ros::ok() && !stop())
+    ros::WallDuration(0.05).sleep();
+
+  // What runs is answered, what waits is told; then the threads that bring the answers are waited for.
+  server.stop();
+  for (Endpoints* endpoints : {&state_topics, &cloud_topics, &scene_topics, &scene_requests, &check_requests})
+    endpoints->stop();
+  timers.stop();
+  // roscpp writes answers to their connections by itself, and drops what is not written when it shuts down.
+  ros::WallDuration(0.2).sleep();
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,246 @@
+#include "service/check_lane.h"
+
+#include <algorithm>
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::exception_ptr shuttingDown()
+{
+  return std::make_exception_ptr(Error("shutting down: the request was not answered"));
+}
+
+/// The rows of one request in the answer for several.
+CheckAnswer part(const CheckAnswer& whole, std::size_t first, std::size_t count)
+{
+  const auto begin = static_cast<std::ptrdiff_t>(first);
+  const auto end = static_cast<std::ptrdiff_t>(first + count);
+  CheckAnswer answer;
+  answer.scene = whole.scene;
+  answer.device = whole.device;
+  answer.result.revision = whole.result.revision;
+  answer.result.seconds = whole.result.seconds;
+  answer.result.valid.assign(whole.result.valid.begin() + begin, whole.result.valid.begin() + end);
+  answer.result.colliding.assign(whole.result.colliding.begin() + begin, whole.result.colliding.begin() + end);
+  return answer;
+}
+}  // namespace
+
+CheckLane::CheckLane(const SceneStore& store, CheckServer::MakeChecker make_checker, const CheckServerOptions& options,
+                     std::size_t largest_batch)
+  : store_(store),
+    make_checker_(std::move(make_checker)),
+    options_(options),
+    largest_batch_(largest_batch),
+    width_(store.snapshot().scene->robot->variables().size()),
+    thread_()
+{
+}
+
+CheckLane::~CheckLane()
+{
+  stop();
+}
+
+void CheckLane::open()
+{
+  takeScene(std::nullopt);
+}
+
+std::future<CheckAnswer> CheckLane::submit(CheckJob job, std::size_t count)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (stopping_)
+    std::rethrow_exception(shuttingDown());
+  if (waiting_.size() >= options_.most_waiting_requests ||
+      (!waiting_.empty() && waiting_states_ + count > options_.most_waiting_states))
+  {
+    ++statistics_.busy;
+    throw Busy("busy: " + std::to_string(waiting_.size()) + " requests with " + std::to_string(waiting_states_) +
+               " states are waiting; ask again later");
+  }
+  Request request;
+  request.job = std::move(job);
+  request.count = count;
+  std::future<CheckAnswer> answer = request.answer.get_future();
+  waiting_states_ += count;
+  waiting_.push_back(std::move(request));
+  if (!thread_.joinable())
+    thread_ = std::thread([this] { run(); });
+  wake_.notify_one();
+  return answer;
+}
+
+void CheckLane::stop()
+{
+  std::thread thread;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+    thread.swap(thread_);
+    for (Request& request : waiting_)
+      request.answer.set_exception(shuttingDown());
+    waiting_.clear();
+    waiting_states_ = 0;
+  }
+  wake_.notify_one();
+  if (thread.joinable())
+    thread.join();
+}
+
+CheckStatistics CheckLane::statistics() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  CheckStatistics statistics = statistics_;
+  statistics.waiting_requests = waiting_.size();
+  statistics.waiting_states = waiting_states_;
+  return statistics;
+}
+
+void CheckLane::run()
+{
+  for (Batch batch = nextBatch(); !batch.empty(); batch = nextBatch())
+    answer(batch);
+}
+
+/// The request that waits longest, and those that can be answered with it. None: the lane stops.
+CheckLane::Batch CheckLane::nextBatch()
+{
+  std::unique_lock<std::mutex> lock(mutex_);
+  wake_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+  Batch batch;
+  if (stopping_)
+    return batch;
+  batch.push_back(std::move(waiting_.front()));
+  waiting_.pop_front();
+  std::size_t states = batch.front().count;
+  Batch others;
+  for (Request& request : waiting_)
+  {
+    const CheckJob& first = batch.front().job;
+    const bool joins = !first.report && !request.job.report && states + request.count <= largest_batch_ &&
+                       request.job.group == first.group && request.job.matrix == first.matrix;
+    states += joins ? request.count : 0;
+    (joins ? batch : others).push_back(std::move(request));
+  }
+  waiting_ = std::move(others);
+  waiting_states_ -= states;
+  return batch;
+}
+
+/// Where several are refused together, each is asked alone: only those that are wrong get an error.
+void CheckLane::answer(Batch& batch)
+{
+  try
+  {
+    CheckJob& all = batch.front().job;
+    const std::size_t own = all.states.size();
+    std::size_t count = batch.front().count;
+    for (std::size_t i = 1; i < batch.size(); ++i)
+    {
+      all.states.insert(all.states.end(), batch[i].job.states.begin(), batch[i].job.states.end());
+      count += batch[i].count;
+    }
+    CheckAnswer whole;
+    try
+    {
+      whole = check(all, count);
+    }
+    catch (...)
+    {
+      if (batch.size() == 1)
+        throw;
+      all.states.resize(own);
+      for (Request& request : batch)
+      {
+        Batch alone;
+        alone.push_back(std::move(request));
+        answer(alone);
+      }
+      return;
+    }
+    countAnswered(whole, count, batch.size());
+    if (batch.size() == 1)
+    {
+      batch.front().answer.set_value(std::move(whole));
+      return;
+    }
+    std::size_t first = 0;
+    for (Request& request : batch)
+    {
+      request.answer.set_value(part(whole, first, request.count));
+      first += request.count;
+    }
+  }
+  catch (...)
+  {
+    for (Request& request : batch)
+      fail(request, std::current_exception());
+  }
+}
+
+CheckAnswer CheckLane::check(const CheckJob& job, std::size_t count)
+{
+  CheckAnswer answer;
+  answer.scene = takeScene(job.matrix);
+  answer.result = checker_->check(job.states.data(), count, job.group);
+  if (job.report)
+    answer.report = checker_->report(job.group);
+  answer.device = checker_->deviceName();
+  return answer;
+}
+
+std::shared_ptr<const PlanningScene> CheckLane::takeScene(const std::optional<AllowedCollisionMatrix>& matrix)
+{
+  std::shared_ptr<const PlanningScene> scene = store_.snapshot().scene;
+  if (matrix)
+  {
+    auto other = std::make_shared<PlanningScene>(*scene);
+    other->allowed_collisions = *matrix;
+    other->matrix_source = MatrixSource::SceneFile;
+    scene = std::move(other);
+  }
+  if (scene == checked_)
+    return scene;
+  try
+  {
+    if (checker_)
+      checker_->setScene(scene);
+    else
+      checker_ = make_checker_(scene);
+    checked_ = scene;
+  }
+  catch (...)
+  {
+    checker_.reset();
+    checked_.reset();
+    throw;
+  }
+  return scene;
+}
+
+void CheckLane::countAnswered(const CheckAnswer& answer, std::size_t count, std::size_t requests)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  statistics_.requests += requests;
+  statistics_.batches += 1;
+  statistics_.states += count;
+  statistics_.undecided += answer.result.undecided_states;
+}
+
+/// A promise that has its value already keeps it.
+void CheckLane::fail(Request& request, std::exception_ptr error)
+{
+  try
+  {
+    request.answer.set_exception(std::move(error));
+  }
+  catch (const std::future_error&)
+  {
+    return;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++statistics_.errors;
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,48 @@
+#include "service/memory_guard.h"
+
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::size_t pageSize()
+{
+  return static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::size_t machineMemory()
+{
+  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * pageSize();
+}
+
+std::string megabytes(std::size_t bytes)
+{
+  return std::to_string(bytes >> 20) + " MiB";
+}
+}  // namespace
+
+std::size_t residentMemory()
+{
+  std::ifstream file("/proc/self/statm");
+  std::size_t total = 0;
+  std::size_t resident = 0;
+  file >> total >> resident;
+  return resident * pageSize();
+}
+
+MemoryGuard::MemoryGuard(std::size_t most_bytes) : most_(most_bytes != 0 ? most_bytes : machineMemory() / 5 * 4) {}
+
+void MemoryGuard::require() const
+{
+  const std::size_t used = residentMemory();
+  if (used > most_)
+    throw Error("out of memory: the process uses " + megabytes(used) + ", and the limit is " + megabytes(most_) +
+                " (limits/memory); remove objects, or ask later");
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,125 @@
+#include "service/scene_store.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// Asks for what the change needs, the scene does not know, and was not asked for yet.
+void findFrames(const PlanningScene& scene, const SceneChange& change, const SceneStore::Lookup& lookup,
+                ExternalFrames& frames)
+{
+  for (const FrameAt& frame : externalFrames(scene, change))
+    if (frames.count(frame) == 0)
+      frames.emplace(frame, lookup(frame));
+}
+
+bool hasAll(const ExternalFrames& frames, const std::vector<FrameAt>& wanted)
+{
+  return std::all_of(wanted.begin(), wanted.end(), [&](const FrameAt& frame) { return frames.count(frame) != 0; });
+}
+
+/// What the change starts from: the robot's state where all of it is known, or known with what the change brings.
+std::vector<double> startingState(const Snapshot& at, const std::map<std::string, double>& variables)
+{
+  const RobotModel& robot = *at.scene->robot;
+  for (std::size_t i = 0; i < at.known.size(); ++i)
+    if (!at.known[i] && variables.count(robot.variables()[i].name) == 0)
+      return {};
+  return at.state;
+}
+}  // namespace
+
+bool Snapshot::allKnown() const
+{
+  return std::find(known.begin(), known.end(), false) == known.end();
+}
+
+SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits)
+  : state_(scene.robot->defaultState()),
+    known_(state_.size(), !scene.current_state.empty()),
+    defaults_(std::move(defaults)),
+    limits_(limits)
+{
+  if (!scene.current_state.empty())
+    state_ = scene.current_state;
+  scene_ = std::make_shared<const PlanningScene>(std::move(scene));
+}
+
+Snapshot SceneStore::snapshot() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return {scene_, state_, known_};
+}
+
+SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& lookup)
+{
+  ExternalFrames frames;
+  for (;;)
+  {
+    Snapshot at = snapshot();
+    findFrames(*at.scene, change, lookup, frames);
+    const std::shared_ptr<const PlanningScene> asked = at.scene;
+
+    const std::lock_guard<std::mutex> changing(changes_);
+    at = snapshot();
+    // Another change may have taken a frame away that the scene knew.
+    if (at.scene != asked && !hasAll(frames, externalFrames(*at.scene, change)))
+      continue;
+    Change made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
+    updateState(change.state.variables);
+    return {replace(std::move(made.scene)), std::move(made.warnings)};
+  }
+}
+
+std::uint64_t SceneStore::clear()
+{
+  const std::lock_guard<std::mutex> changing(changes_);
+  PlanningScene scene = *snapshot().scene;
+  scene.objects.clear();
+  scene.attached.clear();
+  scene.colors.clear();
+  return replace(std::move(scene));
+}
+
+std::uint64_t SceneStore::replace(PlanningScene scene)
+{
+  const std::shared_ptr<const PlanningScene> before = snapshot().scene;
+  scene.revision = before->revision + 1;
+  const auto after = std::make_shared<const PlanningScene>(std::move(scene));
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    scene_ = after;
+  }
+  if (listener_)
+    listener_(before, after);
+  return after->revision;
+}
+
+void SceneStore::updateState(const std::map<std::string, double>& variables)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const RobotModel& robot = *scene_->robot;
+  for (const auto& [name, value] : variables)
+    if (robot.variableIndex(name) >= 0 && !std::isfinite(value))
+      throw Error("the position of '" + name + "' is not a finite number");
+  for (const auto& [name, value] : variables)
+  {
+    const int variable = robot.variableIndex(name);
+    if (variable < 0)
+      continue;
+    state_[static_cast<std::size_t>(variable)] = value;
+    known_[static_cast<std::size_t>(variable)] = true;
+  }
+}
+
+void SceneStore::setListener(Listener listener)
+{
+  const std::lock_guard<std::mutex> changing(changes_);
+  listener_ = std::move(listener);
+}
+}  // namespace gpu_planning_scene

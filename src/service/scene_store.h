@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gpu_planning_scene/scene_change.h"
+
+namespace gpu_planning_scene
+{
+/// An immutable scene, and the robot's state when it was taken.
+struct Snapshot
+{
+  std::shared_ptr<const PlanningScene> scene;
+  std::vector<double> state;  ///< one value per variable
+  std::vector<bool> known;    ///< which of them are known; the others have their default
+
+  bool allKnown() const;
+};
+
+/// The scene of a running service, which changes wholly or not at all. Thread-safe; readers never wait for a change.
+class SceneStore
+{
+ public:
+  /// What `scene` knows of the robot's state is known from the start.
+  SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits);
+
+  Snapshot snapshot() const;
+
+  struct Applied
+  {
+    std::uint64_t revision = 0;  ///< of the scene with the change in it
+    std::vector<std::string> warnings;
+  };
+  /// Finds a frame that the scene does not know; it may wait, as no lock is held. Throws Error.
+  using Lookup = std::function<Eigen::Isometry3d(const FrameAt&)>;
+  /// See applyChange. One change comes after the other; the revision grows by 1. What throws changes nothing.
+  Applied apply(const SceneChange& change, const Lookup& lookup);
+
+  /// Takes away objects, what is carried, and colours. Returns the new revision.
+  std::uint64_t clear();
+
+  /// Takes the robot's variables, by name; other names are passed over. The revision stays. Throws Error and takes
+  /// nothing if a value is not finite.
+  void updateState(const std::map<std::string, double>& variables);
+
+  /// Called after each change with the scenes before and after it, in the order of revisions. Readers go on meanwhile,
+  /// other changes wait; it must not change the scene itself.
+  using Listener = std::function<void(const std::shared_ptr<const PlanningScene>& before,
+                                      const std::shared_ptr<const PlanningScene>& after)>;
+  void setListener(Listener listener);
+
+ private:
+  std::uint64_t replace(PlanningScene scene);
+
+  std::mutex changes_;        // held by whoever makes a change
+  mutable std::mutex mutex_;  // of the three below
+  std::shared_ptr<const PlanningScene> scene_;
+  std::vector<double> state_;
+  std::vector<bool> known_;
+  const SceneDefaults defaults_;
+  const SceneLimits limits_;
+  Listener listener_;  // changes_ guards it
+};
+}  // namespace gpu_planning_scene

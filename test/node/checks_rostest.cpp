@@ -1,0 +1,120 @@
+// check_states, check_motions and get_report: what they answer besides free or not.
+
+#include <limits>
+
+#include "node/node_client.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+class Checks : public RunningNode
+{
+ public:
+  static CheckMotions::Request motion(const std::vector<double>& start, const std::vector<double>& end)
+  {
+    CheckMotions::Request request;
+    request.joint_names = stateRequest(start).joint_names;
+    request.starts = start;
+    request.ends = end;
+    request.resolution = 0.02;
+    request.translation_resolution = 0.02;
+    return request;
+  }
+};
+
+TEST_F(Checks, contactsAreThoseOfTheReportedBodies)
+{
+  apply(diffWith(boxObject("box", tipPoint(), 0.02)));
+  CheckStates::Request request = stateRequest(free_state);
+  request.max_contacts = 3;
+  const auto response = call<CheckStates>("check_states", request);
+  ASSERT_TRUE(response.success) << response.message;
+  ASSERT_FALSE(response.contacts.empty());
+  EXPECT_LE(response.contacts.size(), 3u);
+  for (const ContactInformation& contact : response.contacts)
+  {
+    EXPECT_EQ("box", contact.contact_body_2);
+    EXPECT_EQ(ContactInformation::ROBOT_LINK, contact.body_type_1);
+    EXPECT_EQ(ContactInformation::WORLD_OBJECT, contact.body_type_2);
+    EXPECT_GE(contact.depth, 0.0);
+    const Eigen::Vector3d point(contact.position.x, contact.position.y, contact.position.z);
+    EXPECT_LT((point - tipPoint()).norm(), 0.05);
+    EXPECT_NEAR(1.0, Eigen::Vector3d(contact.normal.x, contact.normal.y, contact.normal.z).norm(), 1e-6);
+    EXPECT_EQ(0u, contact.state);
+  }
+}
+
+TEST_F(Checks, clearanceIsTheDistanceToTheWorldAndToItself)
+{
+  CheckStates::Request request = stateRequest(free_state);
+  request.clearance = true;
+  auto response = call<CheckStates>("check_states", request);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(std::numeric_limits<double>::infinity(), response.clearance_world.at(0)) << "there is no world";
+  EXPECT_GT(response.clearance_self.at(0), 0.0);
+  apply(diffWith(boxObject("box", tipPoint() + Eigen::Vector3d(0.0, 0.0, 10.0), 0.02)));
+  response = call<CheckStates>("check_states", request);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_GT(response.clearance_world.at(0), 7.0);
+  EXPECT_LT(response.clearance_world.at(0), 10.0);
+  apply(diffWith(boxObject("box", tipPoint(), 0.02)));
+  EXPECT_EQ(0.0, call<CheckStates>("check_states", request).clearance_world.at(0));
+}
+
+TEST_F(Checks, aMotionIsFreeUntilItsFirstCollision)
+{
+  std::vector<double> end = free_state;
+  end[0] += end[0] > 0.0 ? -0.5 : 0.5;
+  auto request = motion(free_state, free_state);
+  auto response = call<CheckMotions>("check_motions", request);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), response.valid);
+  EXPECT_EQ((std::vector<double>{1.0}), response.last_valid_fraction);
+
+  const Eigen::Vector3d in_link = linkPose(tip, free_state).inverse() * tipPoint();
+  apply(diffWith(boxObject("box", linkPose(tip, end) * in_link, 0.02)));
+  ASSERT_TRUE(isFree());
+  request = motion(free_state, end);
+  request.starts.insert(request.starts.end(), end.begin(), end.end());
+  request.ends.insert(request.ends.end(), free_state.begin(), free_state.end());
+  response = call<CheckMotions>("check_motions", request);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), response.valid);
+  EXPECT_LT(response.last_valid_fraction.at(0), 1.0);
+  EXPECT_GT(response.first_invalid_fraction.at(0), response.last_valid_fraction.at(0));
+  EXPECT_EQ(0.0, response.last_valid_fraction.at(1)) << "its start collides";
+  EXPECT_EQ(0.0, response.first_invalid_fraction.at(1));
+  EXPECT_FALSE(response.body_1.at(0).empty());
+  EXPECT_GE(response.states_checked, 2u * 25u);
+}
+
+TEST_F(Checks, wrongMotionsAreRefused)
+{
+  auto request = motion(free_state, free_state);
+  request.resolution = 0.0;
+  EXPECT_FALSE(call<CheckMotions>("check_motions", request).success);
+  request = motion(free_state, free_state);
+  request.ends.pop_back();
+  EXPECT_FALSE(call<CheckMotions>("check_motions", request).success);
+}
+
+TEST_F(Checks, theReportTellsWhatIsModelledAndWhatWasLeftOut)
+{
+  apply(diffWith(boxObject("box", tipPoint(), 0.02)));
+  const auto response = call<GetReport>("get_report", GetReport::Request());
+  ASSERT_TRUE(response.success) << response.message;
+  ASSERT_EQ(response.names.size(), response.values.size());
+  double world_pairs = 0.0;
+  for (std::size_t i = 0; i < response.names.size(); ++i)
+    if (response.names[i] == "world_pairs")
+      world_pairs = response.values[i];
+  EXPECT_GT(world_pairs, 0.0);
+  EXPECT_GE(response.lines.size(), 5u);
+  EXPECT_EQ(scene().scene_revision, response.scene_revision);
+  GetReport::Request unknown;
+  unknown.group = "no such group";
+  EXPECT_FALSE(call<GetReport>("get_report", unknown).success);
+}
+}  // namespace
+}  // namespace gpu_planning_scene

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+#include "gpu_planning_scene/messages.h"
+#include "gpu_planning_scene/planning_scene.h"
+
+namespace gpu_planning_scene
+{
+geometry_msgs::Pose poseAt(const Eigen::Vector3d& position);
+geometry_msgs::Pose poseAt(const Eigen::Isometry3d& pose);
+CollisionObject boxObject(const std::string& id, const Eigen::Vector3d& position, double size);
+CollisionObject objectOperation(const std::string& id, std::int8_t operation);
+PlanningSceneMessage diffScene();
+PlanningSceneMessage diffWith(const CollisionObject& object);
+PlanningSceneMessage diffWith(const AttachedCollisionObject& object);
+
+/// A planning_scene_node that runs beside this program, and the robot that it has. Each test begins with a scene
+/// without objects, the robot in a state that is free of collision.
+class RunningNode : public testing::Test
+{
+ public:
+  static void SetUpTestSuite();
+  static void TearDownTestSuite();
+  void SetUp() override;
+
+  static std::string name(const std::string& in_its_namespace) { return "/planning_scene/" + in_its_namespace; }
+  /// Fails the test unless the node answers.
+  template <class Service>
+  static typename Service::Response call(const std::string& service, const typename Service::Request& request)
+  {
+    Service call;
+    call.request = request;
+    EXPECT_TRUE(ros::service::call(name(service), call)) << service << " does not answer";
+    return call.response;
+  }
+  /// The change must be made; returns its revision.
+  static std::uint64_t apply(const PlanningSceneMessage& change);
+  /// The change must be refused for that reason and leave the scene as it was.
+  static void expectRefusal(const PlanningSceneMessage& change, const std::string& reason);
+  static PlanningSceneMessage scene(std::uint32_t components = 0);
+  /// The state's answer, with what the request asks for; all variables named.
+  static CheckStates::Request stateRequest(const std::vector<double>& states);
+  static CheckStates::Response check(const std::vector<double>& state);
+  static bool isFree() { return check(free_state).valid.at(0) != 0; }
+  /// The bodies that collide in the free state, "A B" in alphabetical order; empty where it is free.
+  static std::string collision();
+  static RobotState stateMessage(const std::vector<double>& state);
+  /// Where a point of the link's frame is, in the planning frame.
+  static Eigen::Isometry3d linkPose(const std::string& link, const std::vector<double>& state);
+  /// Inside the tip's shapes, in the free state.
+  static Eigen::Vector3d tipPoint();
+  /// Where nothing of the robot is.
+  static Eigen::Vector3d farAway() { return {50.0, 0.0, 0.0}; }
+
+  static std::shared_ptr<const RobotModel> robot;
+  static std::vector<double> free_state;
+  static std::string tip;   ///< the last link that has shapes
+  static std::string base;  ///< the first one
+};
+}  // namespace gpu_planning_scene

@@ -1,0 +1,129 @@
+// A node with parameters of its own (strict_parameters.yaml, strict_planning.yaml) and the slider robot: MoveIt's
+// padding and scale, limits, and point clouds.
+
+#include <sensor_msgs/PointCloud2.h>
+
+#include "node/node_client.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+class Parameters : public RunningNode
+{
+ public:
+  static bool isFreeAt(double slide) { return check({slide, 0.0}).valid.at(0) != 0; }
+
+  /// Its faces are at 0.99 and 1.01 m.
+  static CollisionObject wall() { return boxObject("wall", {1.0, 0.0, 0.0}, 0.02); }
+
+  static sensor_msgs::PointCloud2 cloud(const std::vector<Eigen::Vector3f>& points)
+  {
+    sensor_msgs::PointCloud2 message;
+    message.header.frame_id = robot->planningFrame();
+    message.height = 1;
+    message.width = static_cast<std::uint32_t>(points.size());
+    message.point_step = 12;
+    message.row_step = message.point_step * message.width;
+    for (const char* name : {"x", "y", "z"})
+    {
+      sensor_msgs::PointField field;
+      field.name = name;
+      field.offset = static_cast<std::uint32_t>(4 * message.fields.size());
+      field.datatype = sensor_msgs::PointField::FLOAT32;
+      field.count = 1;
+      message.fields.push_back(field);
+    }
+    message.data.resize(message.row_step);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      std::memcpy(message.data.data() + 12 * i, points[i].data(), 12);
+    return message;
+  }
+};
+
+TEST_F(Parameters, paddingAndScaleOfLinksAreThoseOfRobotDescriptionPlanning)
+{
+  std::map<std::string, double> padding;
+  std::map<std::string, double> scale;
+  const PlanningSceneMessage now = scene(PlanningSceneComponents::LINK_PADDING_AND_SCALING);
+  for (const LinkPadding& entry : now.link_padding)
+    padding[entry.link_name] = entry.padding;
+  for (const LinkScale& entry : now.link_scale)
+    scale[entry.link_name] = entry.scale;
+  EXPECT_EQ(0.1, padding["cart"]);
+  EXPECT_EQ(0.05, padding["pole"]);
+  EXPECT_EQ(1.0, scale["cart"]);
+  EXPECT_EQ(2.0, scale["pole"]);
+}
+
+TEST_F(Parameters, objectsHaveTheirOwnDefaultPadding)
+{
+  apply(diffWith(wall()));
+  // The cart reaches 0.1 m ahead; its padding is 0.1 m, the wall's 0.03 m.
+  EXPECT_TRUE(isFreeAt(0.99 - 0.1 - 0.13 - 0.001));
+  EXPECT_FALSE(isFreeAt(0.99 - 0.1 - 0.13 + 0.001));
+}
+
+TEST_F(Parameters, carriedObjectsHaveTheirLinksPaddingAndTheirOwn)
+{
+  apply(diffWith(wall()));
+  AttachedCollisionObject bumper;
+  bumper.link_name = "cart";
+  bumper.object = boxObject("bumper", {0.2, 0.0, 0.0}, 0.1);
+  bumper.object.header.frame_id = "cart";
+  apply(diffWith(bumper));
+  // The bumper reaches 0.25 m ahead; 0.1 m of the cart, 0.02 m of its own, 0.03 m of the wall.
+  EXPECT_TRUE(isFreeAt(0.99 - 0.25 - 0.15 - 0.001));
+  EXPECT_FALSE(isFreeAt(0.99 - 0.25 - 0.15 + 0.001));
+}
+
+TEST_F(Parameters, whatIsOverALimitIsRefusedByItsName)
+{
+  const auto response = call<CheckStates>("check_states", stateRequest(std::vector<double>(202, 0.0)));
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(std::string::npos, response.message.find("limits/request_states")) << response.message;
+
+  CheckStates::Request inspected = stateRequest(std::vector<double>(20, 0.0));
+  inspected.clearance = true;
+  const auto refused = call<CheckStates>("check_states", inspected);
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(std::string::npos, refused.message.find("limits/inspected_states")) << refused.message;
+
+  PlanningSceneMessage four = diffScene();
+  for (const char* id : {"a", "b", "c", "d"})
+    four.world.collision_objects.push_back(boxObject(id, farAway(), 0.02));
+  expectRefusal(four, "limits/objects");
+  expectRefusal(diffWith(boxObject(std::string(21, 'x'), farAway(), 0.02)), "limits/name_length");
+}
+
+TEST_F(Parameters, aMessageThatIsTooLongIsRefusedAndTheNodeLivesOn)
+{
+  expectRefusal(diffWith(boxObject(std::string(300000, 'x'), farAway(), 0.02)), "limits/message_size");
+  EXPECT_TRUE(isFreeAt(0.0));
+}
+
+TEST_F(Parameters, aPointCloudIsAnObstacleWithoutTheRobotsOwnPoints)
+{
+  ros::NodeHandle node;
+  ros::Publisher publisher = node.advertise<sensor_msgs::PointCloud2>("/points", 1);
+  for (int i = 0; i < 100 && publisher.getNumSubscribers() == 0; ++i)
+    ros::WallDuration(0.1).sleep();
+  const Eigen::Vector3f on_the_cart(static_cast<float>(free_state[0]) + 0.1F, 0.0F, 0.0F);
+  const float far = free_state[0] > 0.0 ? -1.5F : 1.5F;
+  publisher.publish(cloud({on_the_cart, {far, 0.0F, 0.0F}}));
+  for (int i = 0; i < 100 && scene().world.collision_objects.empty(); ++i)
+    ros::WallDuration(0.1).sleep();
+  const PlanningSceneMessage now = scene();
+  ASSERT_EQ(1u, now.world.collision_objects.size());
+  EXPECT_EQ("cloud", now.world.collision_objects[0].id);
+  EXPECT_EQ(1u, now.world.collision_objects[0].primitives.size()) << "the point on the cart is its own";
+  EXPECT_TRUE(isFree());
+  EXPECT_FALSE(isFreeAt(far));
+
+  publisher.publish(cloud({on_the_cart}));
+  for (int i = 0; i < 100 && !scene().world.collision_objects.empty(); ++i)
+    ros::WallDuration(0.1).sleep();
+  EXPECT_TRUE(isFreeAt(far)) << "a new cloud replaces the old";
+}
+}  // namespace
+}  // namespace gpu_planning_scene

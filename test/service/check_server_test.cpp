@@ -1,0 +1,278 @@
+// Checks for many clients at once: what is merged, what waits, what is turned away, and what an answer belongs to.
+
+#include <atomic>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "scene/slider_robot.h"
+#include "service/check_server.h"
+#include "service/gated_checker.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr std::size_t kSmall = 8;
+
+CheckServerOptions options()
+{
+  CheckServerOptions options;
+  options.small_request = kSmall;
+  options.most_waiting_requests = 5;
+  options.most_waiting_states = 200;
+  options.most_states = 100;
+  options.largest_batch = 3 * kSmall;
+  return options;
+}
+
+/// States of two variables, all with this first one.
+CheckJob job(std::size_t states, double first = 1.0)
+{
+  CheckJob job;
+  for (std::size_t i = 0; i < states; ++i)
+    job.states.insert(job.states.end(), {first, 0.0});
+  return job;
+}
+
+std::string errorOf(std::future<CheckAnswer>& answer)
+{
+  try
+  {
+    answer.get();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+class Server : public testing::Test
+{
+ public:
+  /// A request that stands at the closed gate, so that all later ones of its lane wait.
+  std::future<CheckAnswer> blocked(std::size_t states = 1)
+  {
+    gate.close();
+    const std::size_t checks = gate.batches().size();
+    std::future<CheckAnswer> answer = server.submit(job(states));
+    gate.waitForChecks(checks + 1);
+    return answer;
+  }
+
+  std::uint64_t rename(const std::string& name)
+  {
+    SceneChange change;
+    change.is_diff = true;
+    change.name = name;
+    return store.apply(change, nullptr).revision;
+  }
+
+  Gate gate;
+  SceneStore store{PlanningScene(sliderRobot()), {}, {}};
+  CheckServer server{store,
+                     [this](std::shared_ptr<const PlanningScene> scene)
+                     { return std::make_shared<GatedChecker>(std::move(scene), gate); },
+                     options()};
+};
+
+TEST_F(Server, smallRequestsThatWaitTogetherAreOneBatchAndEachGetsItsOwnRows)
+{
+  std::future<CheckAnswer> first = blocked();
+  std::vector<std::future<CheckAnswer>> waiting;
+  for (const double value : {1.0, -1.0, 2.0})
+    waiting.push_back(server.submit(job(2, value)));
+  gate.open();
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), waiting[0].get().result.valid);
+  const CheckAnswer colliding = waiting[1].get();
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), colliding.result.valid);
+  EXPECT_EQ(2u, colliding.result.colliding.size());
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), waiting[2].get().result.valid);
+  first.get();
+  EXPECT_EQ((std::vector<std::size_t>{1, 6}), gate.batches());
+  const CheckStatistics statistics = server.statistics();
+  EXPECT_EQ(4u, statistics.requests);
+  EXPECT_EQ(2u, statistics.batches);
+  EXPECT_EQ(7u, statistics.states);
+  EXPECT_EQ(0u, statistics.waiting_requests + statistics.waiting_states);
+}
+
+TEST_F(Server, aBatchIsNoLargerThanItsBound)
+{
+  std::future<CheckAnswer> first = blocked();
+  std::vector<std::future<CheckAnswer>> waiting;
+  for (int i = 0; i < 4; ++i)
+    waiting.push_back(server.submit(job(kSmall)));
+  gate.open();
+  for (auto& answer : waiting)
+    EXPECT_EQ(kSmall, answer.get().result.valid.size());
+  EXPECT_EQ((std::vector<std::size_t>{1, 3 * kSmall, kSmall}), gate.batches());
+}
+
+TEST_F(Server, requestsOfOtherGroupsOrMatricesAreBatchesOfTheirOwn)
+{
+  std::future<CheckAnswer> first = blocked();
+  std::vector<std::future<CheckAnswer>> waiting;
+  waiting.push_back(server.submit(job(1)));
+  CheckJob grouped = job(2);
+  grouped.group = "mast";
+  waiting.push_back(server.submit(std::move(grouped)));
+  CheckJob with_matrix = job(3);
+  with_matrix.matrix.emplace();
+  with_matrix.matrix->setEntry("cart", "crate", true);
+  waiting.push_back(server.submit(std::move(with_matrix)));
+  waiting.push_back(server.submit(job(4)));
+  gate.open();
+  first.get();
+  EXPECT_FALSE(waiting[0].get().scene->allowed_collisions.allowed("cart", "crate"));
+  waiting[1].get();
+  EXPECT_TRUE(waiting[2].get().scene->allowed_collisions.allowed("cart", "crate"));
+  EXPECT_EQ(4u, waiting[3].get().result.valid.size());
+  EXPECT_EQ((std::vector<std::size_t>{1, 5, 2, 3}), gate.batches());
+  EXPECT_FALSE(server.submit(job(1)).get().scene->allowed_collisions.allowed("cart", "crate"))
+      << "the matrix of a request stays with it";
+}
+
+TEST_F(Server, aSmallRequestDoesNotWaitForALargeOne)
+{
+  std::future<CheckAnswer> large = blocked(kSmall + 1);
+  std::future<CheckAnswer> small = server.submit(job(1));
+  gate.waitForChecks(2);  // for ever, if the small one had to wait
+  EXPECT_EQ((std::vector<std::size_t>{kSmall + 1, 1}), gate.batches());
+  gate.open();
+  EXPECT_EQ(1u, small.get().result.valid.size());
+  EXPECT_EQ(kSmall + 1, large.get().result.valid.size());
+  EXPECT_EQ(2u, gate.checkers()) << "each lane has a checker of its own";
+}
+
+TEST_F(Server, whatIsTooMuchIsTurnedAwayAtOnce)
+{
+  std::future<CheckAnswer> first = blocked();
+  std::vector<std::future<CheckAnswer>> waiting;
+  for (int i = 0; i < 5; ++i)
+    waiting.push_back(server.submit(job(1)));
+  EXPECT_THROW(server.submit(job(1)), Busy);
+  EXPECT_EQ(1u, server.statistics().busy);
+  EXPECT_EQ(5u, server.statistics().waiting_requests);
+  EXPECT_EQ(5u, server.statistics().waiting_states);
+  std::future<CheckAnswer> large = server.submit(job(100));
+  gate.waitForChecks(2);
+  waiting.push_back(server.submit(job(100)));
+  waiting.push_back(server.submit(job(100)));
+  EXPECT_THROW(server.submit(job(kSmall + 1)), Busy) << "201 states or more would wait";
+  gate.open();
+  for (auto& answer : waiting)
+    EXPECT_FALSE(answer.get().result.valid.empty());
+  EXPECT_EQ(1u, server.submit(job(1)).get().result.valid.size()) << "it is free again";
+}
+
+TEST_F(Server, aRequestOfTooManyStatesIsRefusedAndNotBusy)
+{
+  try
+  {
+    server.submit(job(101));
+    FAIL() << "it was taken";
+  }
+  catch (const Busy&)
+  {
+    FAIL() << "to ask again later would not help";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("the limit is 100")) << error.what();
+  }
+}
+
+TEST_F(Server, onlyTheWrongRequestOfABatchGetsItsError)
+{
+  std::future<CheckAnswer> first = blocked();
+  std::future<CheckAnswer> right = server.submit(job(1, 1.0));
+  std::future<CheckAnswer> wrong = server.submit(job(1, 13.0));
+  std::future<CheckAnswer> also_right = server.submit(job(2, -1.0));
+  gate.open();
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), right.get().result.valid);
+  EXPECT_EQ("13 is not a position", errorOf(wrong));
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), also_right.get().result.valid);
+  EXPECT_EQ(1u, server.statistics().errors);
+}
+
+TEST_F(Server, anAnswerIsOfTheNewestSceneWhenItsBatchStarts)
+{
+  EXPECT_EQ(0u, server.submit(job(1)).get().result.revision);
+  std::future<CheckAnswer> first = blocked();
+  std::future<CheckAnswer> waiting = server.submit(job(1));
+  rename("other");
+  gate.open();
+  EXPECT_EQ(0u, first.get().result.revision);
+  const CheckAnswer answer = waiting.get();
+  EXPECT_EQ(1u, answer.result.revision);
+  EXPECT_EQ("other", answer.scene->name);
+  EXPECT_EQ((std::vector<std::uint8_t>{0}), answer.result.valid);
+}
+
+TEST_F(Server, aCheckerThatRefusesASceneIsDropped)
+{
+  server.submit(job(1)).get();
+  EXPECT_EQ(1u, gate.checkers());
+  rename("unusable");
+  std::future<CheckAnswer> refused = server.submit(job(1));
+  EXPECT_EQ("the scene is unusable", errorOf(refused));
+  rename("good");
+  EXPECT_EQ(2u, server.submit(job(1)).get().result.revision);
+  EXPECT_EQ(2u, gate.checkers());
+}
+
+TEST_F(Server, aReportComesWithTheSceneThatItIsOf)
+{
+  CheckJob asked = job(0);
+  asked.report = true;
+  const CheckAnswer answer = server.submit(std::move(asked)).get();
+  ASSERT_TRUE(answer.report);
+  EXPECT_EQ(7u, answer.report->self_pairs);
+  EXPECT_EQ("gate", answer.device);
+}
+
+TEST_F(Server, aStopAnswersWhatRunsAndTellsTheOthers)
+{
+  std::future<CheckAnswer> running = blocked();
+  std::future<CheckAnswer> waiting = server.submit(job(1));
+  std::thread stopping([this] { server.stop(); });
+  EXPECT_NE(std::string::npos, errorOf(waiting).find("shutting down"));
+  gate.open();
+  stopping.join();
+  EXPECT_EQ(1u, running.get().result.valid.size());
+  EXPECT_THROW(server.submit(job(1)), Error);
+}
+
+TEST_F(Server, everyAnswerBelongsToTheRevisionThatItNames)
+{
+  std::atomic<bool> done{false};
+  std::atomic<int> wrong{0};
+  std::atomic<int> answers{0};
+  std::vector<std::thread> clients;
+  for (int client = 0; client < 4; ++client)
+    clients.emplace_back(
+        [&, client]
+        {
+          while (!done)
+          {
+            const std::uint64_t before = store.snapshot().scene->revision;
+            const CheckAnswer answer =
+                server.submit(job(client == 0 ? kSmall + 1 : 2, client % 2 == 0 ? 1.0 : -1.0)).get();
+            const bool free = client % 2 == 0 && answer.result.revision % 2 == 0;
+            wrong += answer.result.revision < before || answer.result.revision != answer.scene->revision ? 1 : 0;
+            for (const std::uint8_t valid : answer.result.valid)
+              wrong += valid == (free ? 1 : 0) ? 0 : 1;
+            ++answers;
+          }
+        });
+  while (answers < 200)
+    rename("scene " + std::to_string(answers));
+  done = true;
+  for (std::thread& client : clients)
+    client.join();
+  EXPECT_EQ(0, wrong);
+}
+}  // namespace
+}  // namespace gpu_planning_scene

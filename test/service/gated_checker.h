@@ -1,0 +1,49 @@
+#pragma once
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gpu_planning_scene/state_checker.h"
+
+namespace gpu_planning_scene
+{
+/// What several GatedCheckers did, and a gate that each of their checks waits at.
+class Gate
+{
+ public:
+  void close();
+  void open();
+  /// Waits until that many checks have come to the gate, since the start.
+  void waitForChecks(std::size_t checks);
+  std::vector<std::size_t> batches() const;  ///< the states of each check, in order
+  std::size_t checkers() const;
+
+ private:
+  friend class GatedChecker;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  bool open_ = true;
+  std::size_t checkers_ = 0;
+  std::vector<std::size_t> batches_;
+};
+
+/// A checker whose answers are known: a state is free where its first variable is at least 0 and the scene's revision
+/// is even. A first variable of 13 is an error, and so is a scene that is named "unusable".
+class GatedChecker : public StateChecker
+{
+ public:
+  GatedChecker(std::shared_ptr<const PlanningScene> scene, Gate& gate);
+
+  void setScene(std::shared_ptr<const PlanningScene> scene) override;
+  BatchResult check(const double* states, std::size_t count, const std::string& group) override;
+  SceneReport report(const std::string& group) override;
+  std::string deviceName() const override { return "gate"; }
+
+ private:
+  Gate& gate_;
+  std::shared_ptr<const PlanningScene> scene_;
+};
+}  // namespace gpu_planning_scene

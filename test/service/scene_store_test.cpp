@@ -1,0 +1,145 @@
+// The scene of a running service: revisions, the robot's state, frames that others know, and listeners.
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/error.h"
+#include "scene/slider_robot.h"
+#include "service/scene_store.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+SceneChange boxIn(const std::string& frame, const std::string& id = "box")
+{
+  ObjectChange object;
+  object.id = id;
+  object.frame.name = frame;
+  object.pose = Eigen::Isometry3d::Identity();
+  object.shapes.push_back({Box{{0.1, 0.1, 0.1}}, Eigen::Isometry3d::Identity()});
+  SceneChange change;
+  change.is_diff = true;
+  change.objects.push_back(object);
+  return change;
+}
+
+Eigen::Isometry3d unknownFrame(const FrameAt& frame)
+{
+  throw Error("no frame '" + frame.name + "'");
+}
+
+class Store : public testing::Test
+{
+ public:
+  SceneStore store{PlanningScene(sliderRobot()), {}, {}};
+};
+
+TEST_F(Store, aChangeMakesANewRevisionAndLeavesOldScenesAlone)
+{
+  const auto before = store.snapshot().scene;
+  EXPECT_EQ(1u, store.apply(boxIn(""), unknownFrame).revision);
+  EXPECT_TRUE(before->objects.empty());
+  ASSERT_EQ(1u, store.snapshot().scene->objects.size());
+  EXPECT_EQ(1u, store.snapshot().scene->revision);
+  EXPECT_EQ(2u, store.clear());
+  EXPECT_TRUE(store.snapshot().scene->objects.empty());
+}
+
+TEST_F(Store, whatIsWrongChangesNothing)
+{
+  store.apply(boxIn(""), unknownFrame);
+  const auto before = store.snapshot().scene;
+  SceneChange wrong = boxIn("", "other");
+  wrong.objects.push_back(wrong.objects.front());
+  wrong.objects.back().operation = Operation::Remove;
+  wrong.objects.back().id = "no such object";
+  EXPECT_THROW(store.apply(wrong, unknownFrame), Error);
+  EXPECT_THROW(store.apply(boxIn("nowhere"), unknownFrame), Error);
+  EXPECT_EQ(before, store.snapshot().scene);
+}
+
+TEST_F(Store, framesThatTheSceneDoesNotKnowAreAskedFor)
+{
+  std::vector<std::string> asked;
+  const auto lookup = [&asked](const FrameAt& frame)
+  {
+    asked.push_back(frame.name);
+    return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 3.0));
+  };
+  store.apply(boxIn("camera"), lookup);
+  store.apply(boxIn("box", "on_the_box"), lookup);
+  EXPECT_EQ((std::vector<std::string>{"camera"}), asked);
+  EXPECT_DOUBLE_EQ(3.0, store.snapshot().scene->objects[0].pose.translation().z());
+  EXPECT_DOUBLE_EQ(3.0, store.snapshot().scene->objects[1].pose.translation().z());
+}
+
+TEST_F(Store, aFrameThatAnotherChangeTookAwayMeanwhileIsAskedForAgain)
+{
+  store.apply(boxIn("", "table"), unknownFrame);
+  SceneChange change = boxIn("camera");
+  change.objects.push_back(boxIn("table", "cup").objects.front());
+  std::vector<std::string> asked;
+  const auto lookup = [&](const FrameAt& frame)
+  {
+    asked.push_back(frame.name);
+    if (frame.name == "camera")
+      store.clear();
+    return Eigen::Isometry3d::Identity();
+  };
+  store.apply(change, lookup);
+  EXPECT_EQ((std::vector<std::string>{"camera", "table"}), asked);
+  EXPECT_EQ(2u, store.snapshot().scene->objects.size());
+}
+
+TEST_F(Store, jointStatesChangeNoRevision)
+{
+  EXPECT_FALSE(store.snapshot().allKnown());
+  store.updateState({{"slide", 0.5}, {"wheel of another robot", 9.0}});
+  EXPECT_EQ((std::vector<bool>{true, false}), store.snapshot().known);
+  store.updateState({{"turn", 0.25}});
+  EXPECT_EQ((std::vector<double>{0.5, 0.25}), store.snapshot().state);
+  EXPECT_TRUE(store.snapshot().allKnown());
+  EXPECT_EQ(0u, store.snapshot().scene->revision);
+  EXPECT_THROW(store.updateState({{"slide", 1.0}, {"turn", std::numeric_limits<double>::quiet_NaN()}}), Error);
+  EXPECT_EQ((std::vector<double>{0.5, 0.25}), store.snapshot().state);
+}
+
+TEST_F(Store, framesOfLinksAreWhereTheNewestJointStatesPutThem)
+{
+  EXPECT_THROW(store.apply(boxIn("cart"), unknownFrame), Error) << "where the cart is, is not known yet";
+  store.updateState({{"slide", 0.5}, {"turn", 0.0}});
+  store.apply(boxIn("cart"), unknownFrame);
+  EXPECT_DOUBLE_EQ(0.5, store.snapshot().scene->objects.at(0).pose.translation().x());
+}
+
+TEST_F(Store, aChangeMaySetTheStateAndJointStatesGoOnFromThere)
+{
+  SceneChange change;
+  change.is_diff = true;
+  change.state.variables = {{"slide", 0.75}, {"turn", 1.0}};
+  store.apply(change, unknownFrame);
+  EXPECT_EQ((std::vector<double>{0.75, 1.0}), store.snapshot().state);
+  EXPECT_EQ((std::vector<double>{0.75, 1.0}), store.snapshot().scene->current_state);
+  store.updateState({{"turn", 2.0}});
+  EXPECT_EQ((std::vector<double>{0.75, 2.0}), store.snapshot().state);
+}
+
+TEST_F(Store, aListenerHearsEachChangeInOrder)
+{
+  std::vector<std::uint64_t> heard;
+  store.setListener(
+      [&](const auto& before, const auto& after)
+      {
+        EXPECT_EQ(before->revision + 1, after->revision);
+        EXPECT_EQ(after, store.snapshot().scene) << "readers have it already";
+        heard.push_back(after->revision);
+      });
+  store.apply(boxIn(""), unknownFrame);
+  EXPECT_THROW(store.apply(boxIn("nowhere", "other"), unknownFrame), Error);
+  store.clear();
+  EXPECT_EQ((std::vector<std::uint64_t>{1, 2}), heard);
+}
+}  // namespace
+}  // namespace gpu_planning_scene

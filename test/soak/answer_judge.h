@@ -1,0 +1,61 @@
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "soak/scene_history.h"
+
+namespace gpu_planning_scene
+{
+/// Checks every answer again, on a thread of its own, with the CPU's exact checker and the scene that the answer names;
+/// and some of their states by the oracle.
+class AnswerJudge
+{
+ public:
+  AnswerJudge(SceneHistory& history, std::size_t oracle_samples);
+  ~AnswerJudge();
+
+  void add(std::vector<double> states, std::vector<std::uint8_t> valid, std::uint64_t revision);
+  /// Waits for what was added, and asks the oracle.
+  void finish();
+
+  std::size_t answers = 0;  ///< these are to be read after finish()
+  std::size_t states = 0;
+  std::size_t wrong = 0;           ///< states that the exact checker says otherwise of
+  std::size_t unknown_scenes = 0;  ///< answers whose scene was never published
+  std::size_t oracle_samples = 0;
+  std::size_t oracle_wrong = 0;
+
+ private:
+  struct Answer
+  {
+    std::vector<double> states;
+    std::vector<std::uint8_t> valid;
+    std::uint64_t revision = 0;
+  };
+  struct Sample
+  {
+    std::vector<double> state;
+    bool valid = false;
+    std::shared_ptr<const PlanningScene> scene;
+  };
+  void run();
+  void judge(const Answer& answer);
+  void askOracle(const Sample& sample);
+
+  SceneHistory& history_;
+  const std::size_t most_samples_;
+  std::unique_ptr<class CpuChecker> checker_;
+  std::shared_ptr<const PlanningScene> checked_;
+  std::vector<Sample> samples_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Answer> waiting_;
+  bool finishing_ = false;
+  std::thread thread_;
+};
+}  // namespace gpu_planning_scene

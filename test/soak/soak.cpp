@@ -1,0 +1,284 @@
+// Eight clients, for minutes: checks mixed with changes of the scene, wrong requests, clients that are killed, and a
+// device that fails now and then. No answer may be wrong, no reply may be lost, and memory stays what it is.
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <random>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include "node/node_client.h"
+#include "soak/answer_judge.h"
+
+extern char** environ;
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+class Soak : public RunningNode
+{
+ public:
+  std::vector<double> randomStates(std::size_t count, std::mt19937_64& generator) const
+  {
+    const std::size_t width = robot->variables().size();
+    std::vector<double> states(count * width);
+    for (std::size_t i = 0; i < count; ++i)
+      robot->randomState(generator, states.data() + i * width);
+    return states;
+  }
+
+  template <class Service>
+  bool ask(const std::string& service, Service& request)
+  {
+    ++requests;
+    if (ros::service::call(name(service), request))
+      return true;
+    ++lost;
+    return false;
+  }
+
+  void checkStates(std::size_t most_states, std::uint64_t seed)
+  {
+    std::mt19937_64 generator(seed);
+    while (!done)
+    {
+      CheckStates check;
+      check.request = stateRequest(randomStates(1 + generator() % most_states, generator));
+      const Clock::time_point start = Clock::now();
+      if (!ask("check_states", check))
+        continue;
+      if (!check.response.success)
+      {
+        ++(check.response.message.rfind("busy", 0) == 0 ? busy : failed);
+        continue;
+      }
+      addLatency(std::chrono::duration<double>(Clock::now() - start).count());
+      judge->add(check.request.positions, check.response.valid, check.response.scene_revision);
+      ros::WallDuration(0.005).sleep();
+    }
+  }
+
+  void changeScene(std::uint64_t seed)
+  {
+    std::mt19937_64 generator(seed);
+    std::uniform_real_distribution<double> place(-1.0, 1.0);
+    while (!done)
+    {
+      const std::string id = "object " + std::to_string(seed) + "." + std::to_string(generator() % 8);
+      CollisionObject object = boxObject(id, {place(generator), place(generator), place(generator)},
+                                         0.05 + 0.1 * std::abs(place(generator)));
+      PlanningSceneMessage change = diffScene();
+      switch (generator() % 6)
+      {
+        case 0:
+          object = objectOperation(id, CollisionObject::REMOVE);
+          break;
+        case 1:
+          object.operation = CollisionObject::APPEND;
+          break;
+        case 2:
+          change.link_padding.resize(1);
+          change.link_padding[0].link_name = tip;
+          change.link_padding[0].padding = 0.02 * std::abs(place(generator));
+          break;
+        default:
+          break;
+      }
+      if (generator() % 10 == 0)
+      {
+        AttachedCollisionObject attached;
+        attached.link_name = tip;
+        attached.object = objectOperation(id, generator() % 2 == 0 ? CollisionObject::ADD : CollisionObject::REMOVE);
+        change.robot_state.attached_collision_objects.push_back(attached);
+      }
+      else
+        change.world.collision_objects.push_back(object);
+      ApplyPlanningScene apply_change;
+      apply_change.request.scene = change;
+      if (ask("apply_planning_scene", apply_change))
+        ++(apply_change.response.success ? changes : refused);
+      ros::WallDuration(0.02).sleep();
+    }
+  }
+
+  /// Requests that must all be refused, and must harm nobody.
+  void askWrongly(std::uint64_t seed)
+  {
+    std::mt19937_64 generator(seed);
+    while (!done)
+    {
+      CheckStates wrong;
+      wrong.request = stateRequest(randomStates(2, generator));
+      switch (generator() % 4)
+      {
+        case 0:
+          wrong.request.positions[0] = std::numeric_limits<double>::quiet_NaN();
+          break;
+        case 1:
+          wrong.request.positions.pop_back();
+          break;
+        case 2:
+          wrong.request.group = "no such group";
+          break;
+        default:
+          wrong.request.joint_names[0] = "no such joint";
+      }
+      if (ask("check_states", wrong))
+        taken += wrong.response.success ? 1 : 0;
+      ros::WallDuration(0.02).sleep();
+    }
+  }
+
+  /// Starts clients as processes of their own and kills them while they wait for an answer.
+  void killClients()
+  {
+    int number = 0;
+    while (!done)
+    {
+      const std::string victim = "victim_" + std::to_string(++number);
+      for (const char* key : {"urdf", "srdf", "packages"})
+        if (XmlRpc::XmlRpcValue value; ros::param::get(std::string("~") + key, value))
+          ros::param::set("/" + victim + "/" + key, value);
+      const std::string node_name = "__name:=" + victim;
+      std::vector<char*> arguments = {const_cast<char*>("soak"), const_cast<char*>("--victim"),
+                                      const_cast<char*>(node_name.c_str()), nullptr};
+      pid_t child = 0;
+      ASSERT_EQ(0, posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, arguments.data(), environ));
+      ros::WallDuration(1.5).sleep();
+      kill(child, SIGKILL);
+      waitpid(child, nullptr, 0);
+      ++killed;
+    }
+  }
+
+  void addLatency(double seconds)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    latencies.push_back(seconds);
+  }
+
+  double latency(double fraction)
+  {
+    std::sort(latencies.begin(), latencies.end());
+    return latencies.empty()
+               ? 0.0
+               : latencies[static_cast<std::size_t>(fraction * static_cast<double>(latencies.size() - 1))];
+  }
+
+  /// Bytes, the mean of that part of what diagnostics have told.
+  double memory(double from, double to)
+  {
+    const auto at = [this](double fraction)
+    { return memories.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(memories.size())); };
+    double sum = 0.0;
+    for (auto i = at(from); i != at(to); ++i)
+      sum += *i;
+    return sum / static_cast<double>(std::max<std::ptrdiff_t>(1, at(to) - at(from)));
+  }
+
+  std::atomic<bool> done{false};
+  std::atomic<int> requests{0}, lost{0}, busy{0}, failed{0}, changes{0}, refused{0}, taken{0}, killed{0};
+  std::unique_ptr<AnswerJudge> judge;
+  std::mutex mutex;
+  std::vector<double> latencies;
+  std::vector<double> memories;
+  double losses = 0.0;
+};
+
+TEST_F(Soak, noAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
+{
+  const double seconds = ros::param::param<double>("~seconds", 60.0);
+  SceneHistory history(robot);
+  for (int i = 0; i < 100 && !history.listens(); ++i)
+    ros::WallDuration(0.1).sleep();
+  ros::WallDuration(0.5).sleep();
+  history.start(scene());
+  judge = std::make_unique<AnswerJudge>(history, static_cast<std::size_t>(ros::param::param("~oracle_samples", 100)));
+  ros::NodeHandle node;
+  const ros::Subscriber diagnostics =
+      node.subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10,
+                                                       [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& message)
+                                                       {
+                                                         const std::lock_guard<std::mutex> lock(mutex);
+                                                         for (const auto& value : message->status.at(0).values)
+                                                         {
+                                                           if (value.key == "memory")
+                                                             memories.push_back(std::stod(value.value));
+                                                           if (value.key == "device_losses")
+                                                             losses = std::stod(value.value);
+                                                         }
+                                                       });
+
+  std::vector<std::thread> clients;
+  for (std::uint64_t i = 0; i < 3; ++i)
+    clients.emplace_back([this, i] { checkStates(64, 100 + i); });
+  clients.emplace_back([this] { checkStates(3000, 200); });
+  clients.emplace_back([this] { changeScene(1); });
+  clients.emplace_back([this] { changeScene(2); });
+  clients.emplace_back([this] { askWrongly(300); });
+  clients.emplace_back([this] { killClients(); });
+  ros::WallDuration(seconds).sleep();
+  done = true;
+  for (std::thread& client : clients)
+    client.join();
+  judge->finish();
+
+  const std::lock_guard<std::mutex> lock(mutex);
+  std::printf("%g s: %d requests, %d changes, %d refused, %d busy, %d clients killed, %g devices lost\n", seconds,
+              requests.load(), changes.load(), refused.load(), busy.load(), killed.load(), losses);
+  std::printf("%zu answers with %zu states checked again, %zu by the oracle\n", judge->answers, judge->states,
+              judge->oracle_samples);
+  std::printf("latency: p50 %.1f ms, p99 %.1f ms, max %.1f ms\n", 1e3 * latency(0.5), 1e3 * latency(0.99),
+              1e3 * latency(1.0));
+  std::printf("memory: %.1f MiB in the second quarter, %.1f MiB in the last\n", memory(0.25, 0.5) / 1048576.0,
+              memory(0.75, 1.0) / 1048576.0);
+  EXPECT_EQ(0u, judge->wrong);
+  EXPECT_EQ(0u, judge->unknown_scenes);
+  EXPECT_EQ(0u, judge->oracle_wrong);
+  EXPECT_EQ(0, history.gaps());
+  EXPECT_EQ(0, lost) << "requests without a reply";
+  EXPECT_EQ(0, failed) << "right requests that were refused, and not for want of time";
+  EXPECT_EQ(0, taken) << "wrong requests that were not refused";
+  EXPECT_GT(judge->answers, 100u);
+  EXPECT_GT(changes, 50);
+  EXPECT_GT(killed, 5);
+  EXPECT_GT(losses, 0.0) << "the test is to lose devices";
+  EXPECT_LT(memory(0.75, 1.0), 1.1 * memory(0.25, 0.5) + 64e6);
+}
+
+/// Asks until it is killed.
+int runVictim()
+{
+  RunningNode::SetUpTestSuite();
+  std::mt19937_64 generator(1);
+  const std::size_t width = RunningNode::robot->variables().size();
+  std::vector<double> states(20000 * width);
+  for (std::size_t i = 0; i < states.size(); i += width)
+    RunningNode::robot->randomState(generator, states.data() + i);
+  for (;;)
+  {
+    CheckStates check;
+    check.request = RunningNode::stateRequest(states);
+    ros::service::call(RunningNode::name("check_states"), check);
+  }
+}
+}  // namespace
+}  // namespace gpu_planning_scene
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  const bool victim = argc > 1 && std::strcmp(argv[1], "--victim") == 0;
+  ros::init(argc, argv, "soak");
+  ros::AsyncSpinner spinner(2);
+  spinner.start();
+  return victim ? gpu_planning_scene::runVictim() : RUN_ALL_TESTS();
+}
