@@ -80,7 +80,7 @@ class GpuOrientedBoxesTest : public testing::Test
     Triangle corners;
     for (std::size_t i = 0; i < 3; ++i)
     {
-      const float* at = &corners_[12 * triangle + 4 * i];
+      const float* at = &corners_[std::size_t{12} * triangle + 4 * i];
       corners[i] = Vector3d(at[0], at[1], at[2]);
     }
     return corners;
@@ -145,7 +145,7 @@ TEST_F(GpuOrientedBoxesTest, LieAlongWhatTheyHold)
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const auto on_plate = [&]
   { return Vector3d(turn * Vector3d(uniform_(generator_), 0.3 * uniform_(generator_), 0.01 * uniform_(generator_))); };
-  build({soup(FIT_LANE_TRIANGLES / 2, on_plate), soup(4 * FIT_LANE_TRIANGLES, on_plate)});
+  build({soup(FIT_LANE_TRIANGLES / 2, on_plate), soup(std::size_t{4} * FIT_LANE_TRIANGLES, on_plate)});
   for (std::size_t tree = 0; tree < 2; ++tree)
     EXPECT_LT(halfSurface(oriented_[trees_.tree(tree).root].half), 1.3 * (1.0 * 0.3 + 0.3 * 0.01 + 0.01 * 1.0));
 }

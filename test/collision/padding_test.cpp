@@ -21,30 +21,30 @@ class PaddedRobot : public testing::TestWithParam<const char*>
   void SetUp() override
   {
     SKIP_WITHOUT(kr5());
-    static const auto robot = kr5().load();
-    robot_ = robot;
-    state_ = robot_->defaultState();
+    static const auto loaded = kr5().load();
+    robot = loaded;
+    state = robot->defaultState();
   }
 
   PlanningScene load(const std::string& yaml) const
   {
-    return loadSceneFile(folder_.write("scene.yaml", yaml), robot_, {});
+    return loadSceneFile(folder_.write("scene.yaml", yaml), robot, {});
   }
 
   /// By how much the closest checked pair is further apart than its padding.
   double clearance(const PlanningScene& scene) const
   {
     const oracle::ProblemOracle oracle(std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr)));
-    return oracle.clearance(oracle::linkPoses(*robot_, state_.data()), 10.0);
+    return oracle.clearance(oracle::linkPoses(*robot, state.data()), 10.0);
   }
 
   bool isFree(const PlanningScene& scene) const
   {
-    return checkerOf(GetParam(), scene).check(state_.data(), 1).valid[0] != 0;
+    return checkerOf(GetParam(), scene).check(state.data(), 1).valid[0] != 0;
   }
 
-  std::shared_ptr<const RobotModel> robot_;
-  std::vector<double> state_;
+  std::shared_ptr<const RobotModel> robot;
+  std::vector<double> state;
 
  private:
   TemporaryFolder folder_;
@@ -71,7 +71,7 @@ void allowLinksAmongThemselves(PlanningScene& scene)
 
 TEST_P(PaddedRobot, CollidesAtTheSumOfThePaddings)
 {
-  PlanningScene scene = load(ballScene(*robot_, 0.03));
+  PlanningScene scene = load(ballScene(*robot, 0.03));
   allowLinksAmongThemselves(scene);
   const double rest = clearance(scene);
   ASSERT_GT(rest, 0.01);  // not touching yet, and near enough to be measured
@@ -89,10 +89,10 @@ TEST_P(PaddedRobot, CollidesAtTheSumOfThePaddings)
 
 TEST_P(PaddedRobot, IsNotPaddedAgainstItself)
 {
-  PlanningScene scene = load(ballScene(*robot_, 0.0));
+  PlanningScene scene = load(ballScene(*robot, 0.0));
   scene.objects.clear();
   ASSERT_TRUE(isFree(scene));
-  scene.link_padding.assign(robot_->links().size(), 10.0);
+  scene.link_padding.assign(robot->links().size(), 10.0);
   EXPECT_TRUE(isFree(scene));
 }
 
@@ -100,7 +100,7 @@ TEST_P(PaddedRobot, StandsOnAFloorOfAPlane)
 {
   PlanningScene scene = load("world: {collision_objects: [{id: floor, planes: [{coef: [0, 0, 2, 1]}]}]}");  // z <= -0.5
   allowLinksAmongThemselves(scene);
-  scene.allowed_collisions.setEntry(robot_->links()[0].name, "floor", true);
+  scene.allowed_collisions.setEntry(robot->links()[0].name, "floor", true);
   const double rest = clearance(scene);
   ASSERT_GT(rest, 0.01);
   ASSERT_LT(rest, 5.0);
@@ -114,7 +114,7 @@ TEST_P(PaddedRobot, StandsOnAFloorOfAPlane)
     EXPECT_FALSE(isFree(scene));
   }
   scene.objects[0].pose.translation().z() = rest - 0.02;
-  scene.link_padding.assign(robot_->links().size(), 0.0201);
+  scene.link_padding.assign(robot->links().size(), 0.0201);
   EXPECT_FALSE(isFree(scene));
 }
 

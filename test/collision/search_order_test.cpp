@@ -91,7 +91,7 @@ TEST(SearchOrder, StaysWhereOnlyTheWorldChanges)
   order.count(9, 4);
   order.count(3, 12);
   problem.world.resize(3);
-  problem.world_pairs.assign(12 * 3, 0);
+  problem.world_pairs.assign(std::size_t{36}, 0);
   problem.world_pairs[3 * 3 + 1] = 1;
   problem.world_pairs[2 * 3 + 2] = 1;
   order.setPairs(problem);
