@@ -9,6 +9,7 @@
 
 #include "gpu_planning_scene/messages.h"
 #include "gpu_planning_scene/planning_scene.h"
+#include "node/persistent_call.h"
 
 namespace gpu_planning_scene
 {
@@ -36,7 +37,7 @@ class RunningNode : public testing::Test
   {
     Service call;
     call.request = request;
-    EXPECT_TRUE(ros::service::call(name(service), call)) << service << " does not answer";
+    EXPECT_TRUE(callPersistently(name(service), call)) << service << " does not answer";
     return call.response;
   }
   /// The change must be made; returns its revision.

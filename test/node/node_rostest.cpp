@@ -12,6 +12,7 @@
 #include "gpu_planning_scene/messages.h"
 
 #include "gpu_planning_scene/cpu_checker.h"
+#include "node/persistent_call.h"
 #include "tools/open_checker.h"
 #include "tools/run_program.h"
 
@@ -65,7 +66,7 @@ class Node : public testing::Test
   /// Fails the test unless the node answers, and refuses.
   static void expectRefusal(CheckStates call, const std::string& reason)
   {
-    ASSERT_TRUE(ros::service::call(kService, call)) << "no answer, expected: " << reason;
+    ASSERT_TRUE(callPersistently(kService, call)) << "no answer, expected: " << reason;
     EXPECT_FALSE(call.response.success);
     EXPECT_NE(std::string::npos, call.response.message.find(reason)) << call.response.message;
     EXPECT_TRUE(call.response.valid.empty());
@@ -96,7 +97,7 @@ TEST_F(Node, answersFourClientsAtOnceAsTheLibraryDoes)
           randomStates(count, 100 * static_cast<std::uint64_t>(number) + static_cast<std::uint64_t>(round));
       CheckStates call = request(batch);
       const BatchResult expected = checker->check(batch.data(), count);
-      if (!ros::service::call(kService, call) || !call.response.success || call.response.valid != expected.valid)
+      if (!callPersistently(kService, call) || !call.response.success || call.response.valid != expected.valid)
         ++failures;
       for (std::size_t i = 0; i < call.response.valid.size(); ++i)
       {
@@ -138,7 +139,7 @@ TEST_F(Node, refusesWrongRequestsAndLivesOn)
   expectRefusal(CheckStates(), "joint_names is empty");
 
   CheckStates right = request(states);
-  ASSERT_TRUE(ros::service::call(kService, right));
+  ASSERT_TRUE(callPersistently(kService, right));
   EXPECT_TRUE(right.response.success) << right.response.message;
   EXPECT_EQ(2u, right.response.valid.size());
 }
@@ -163,7 +164,7 @@ TEST_F(Node, takesVariablesThatARequestLeavesOutFromJointStates)
   for (int i = 0; i < 100 && !partial.response.success; ++i)
   {
     ros::Duration(0.1).sleep();
-    ASSERT_TRUE(ros::service::call(kService, partial));
+    ASSERT_TRUE(callPersistently(kService, partial));
   }
   EXPECT_TRUE(partial.response.success) << partial.response.message;
   std::vector<double> state = message.position;

@@ -13,6 +13,7 @@
 #include <sys/wait.h>
 
 #include "node/node_client.h"
+#include "node/persistent_call.h"
 #include "soak/answer_judge.h"
 
 extern char** environ;
@@ -39,9 +40,10 @@ class Soak : public RunningNode
   bool ask(const std::string& service, Service& request)
   {
     ++requests;
-    if (ros::service::call(name(service), request))
+    if (callPersistently(name(service), request))
       return true;
     ++lost;
+    std::printf("no reply from %s\n", service.c_str());
     return false;
   }
 
