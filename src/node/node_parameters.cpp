@@ -128,6 +128,8 @@ BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own)
     options.traversal = traversalFromName(textParameter(own, "traversal", ""));
   options.max_batch = countParameter(own, "max_batch", options.max_batch, 1, std::size_t{1} << 24);
   options.tolerance = lengthParameter(own, "tolerance", options.tolerance);
+  if (own.hasParam("cpu_below"))
+    options.cpu_below = countParameter(own, "cpu_below", 0, 0, kNoLimit);
   return options;
 }
 
@@ -159,6 +161,7 @@ ResilientOptions resilienceFromParameters(const ros::NodeHandle& own)
   ResilientOptions options;
   options.device_seconds = positiveParameter(own, "device_timeout", options.device_seconds);
   options.most_losses = countParameter(own, "device_losses", options.most_losses, 1, 1000);
+  options.retry_seconds = positiveParameter(own, "device_retry", options.retry_seconds);
   return options;
 }
 

@@ -1,5 +1,7 @@
 #include "node/serve.h"
 
+#include <malloc.h>
+
 #include "gpu_planning_scene/cpu_checker.h"
 #include "node/check_services.h"
 #include "node/cloud_topic.h"
@@ -61,6 +63,13 @@ CheckServer::MakeChecker checkerMaker(const BatchCheckerOptions& options, const 
   };
 }
 
+/// glibc gives threads heaps of their own, and what one frees serves no other: with a thread for each waiting request,
+/// and scenes and devices that are made on one thread and dropped on another, the process would grow for hours.
+void useOneHeap()
+{
+  mallopt(M_ARENA_MAX, 1);
+}
+
 void logScene(CheckServer& server)
 {
   CheckJob job;
@@ -74,6 +83,7 @@ void logScene(CheckServer& server)
 void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_device,
            const std::function<bool()>& stop)
 {
+  useOneHeap();
   const ServiceOptions options = serviceOptionsFromParameters(own);
   const CheckServerOptions server_options = serverOptionsFromParameters(own);
   const BatchCheckerOptions checker_options = checkerOptionsFromParameters(own);
