@@ -1,6 +1,8 @@
 // Objects of the world, over apply_planning_scene: each operation, and what it means for the robot's tip.
 
+#include "model/model_testing.h"
 #include "node/node_client.h"
+#include "tools/run_program.h"
 
 namespace gpu_planning_scene
 {
@@ -122,6 +124,27 @@ TEST_F(ObjectOperations, tenThousandBoxesAreAddedAtOnce)
   moved.pose = poseAt(tipPoint());
   apply(diffWith(moved));
   EXPECT_NE(std::string::npos, collision().find("box 5000"));
+}
+
+TEST_F(ObjectOperations, aMeshFileIsAddedFromTheCommandLine)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("tetrahedron.obj",
+                                        "v 0.02 0.02 0.02\nv 0.02 -0.02 -0.02\nv -0.02 0.02 -0.02\nv -0.02 -0.02 0.02\n"
+                                        "f 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\n");
+  const auto add = [&](const Eigen::Vector3d& at, const std::string& frame)
+  {
+    const std::string place = std::to_string(at.x()) + "," + std::to_string(at.y()) + "," + std::to_string(at.z());
+    return runProgram(GPS_ADD_OBJECT, {"--object", "tetrahedron=" + file + "," + place, "--frame", frame});
+  };
+  EXPECT_EQ(0, add(farAway(), "").exit_code);
+  EXPECT_TRUE(isFree());
+  const ProgramOutput added = add(linkPose(tip, free_state).inverse() * tipPoint(), tip);
+  EXPECT_EQ(0, added.exit_code) << added.err;
+  EXPECT_NE(std::string::npos, collision().find("tetrahedron"));
+  const ProgramOutput refused = add(farAway(), "no such frame");
+  EXPECT_EQ(1, refused.exit_code);
+  EXPECT_NE(std::string::npos, refused.err.find("no such frame")) << refused.err;
 }
 
 TEST_F(ObjectOperations, whatIsWrongIsRefusedAndChangesNothing)
