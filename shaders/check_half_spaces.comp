@@ -60,7 +60,7 @@ void main()
   if (i >= state_count * robot_count)
     return;
   const uint state = stateOf(i);
-  const uint robot = robotOf(i);
+  const uint robot = rowOf(i);
   const uint bit = robot * half_space_count + half_space;
   if ((half_space_pairs[bit >> 5u] >> (bit & 31u) & 1u) == 0u)
     return;

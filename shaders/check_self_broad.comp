@@ -22,8 +22,8 @@ void main()
   const uint i = invocationIndex();
   if (i >= state_count * search_count)
     return;
-  const uint state = i % state_count;
-  const uvec4 search = fetchSearch(i / state_count);
+  const uint state = stateOf(i);
+  const uvec4 search = fetchSearch(rowOf(i));
   const vec4 mine = sphereOf(search.x, state);
   uint near = 0u;
   for (uint k = 0u; k < SEARCH_PARTNERS; ++k)

@@ -13,6 +13,6 @@ void main()
   const uint i = invocationIndex();
   if (i >= state_count * robot_count)
     return;
-  const PlacedInstance placed = place(i / state_count, i % state_count);
+  const PlacedInstance placed = place(rowOf(i), stateOf(i));
   spheres[i] = vec4(placed.center, length(placed.box.extent) + placed.margin);
 }

@@ -26,11 +26,12 @@ void main()
   const uint i = invocationIndex();
   if (i >= state_count * search_count)
     return;
-  const uint state = i % state_count;
-  const uint robot = fetchSearch(i / state_count).x;
+  const uint state = stateOf(i);
+  const uint robot = fetchSearch(rowOf(i)).x;
   const PlacedInstance placed = place(robot, state);
   const vec3 center = placed.center;
-  const vec3 extent = mat3(abs(placed.pose.rotation[0]), abs(placed.pose.rotation[1]), abs(placed.pose.rotation[2])) * placed.box.extent + placed.instance.padding + placed.margin;
+  const vec3 extent =
+      absolute(placed.pose.rotation) * placed.box.extent + placed.instance.padding + placed.margin;
 
   const uint node_count = max(2u * world_count, 1u) - 1u;
   uint at = 0u;

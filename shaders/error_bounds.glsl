@@ -21,11 +21,6 @@ vec3 farCorner(Box box)
   return abs(box.center) + box.extent;
 }
 
-mat3 absolute(mat3 m)
-{
-  return mat3(abs(m[0]), abs(m[1]), abs(m[2]));
-}
-
 // How far the computed position of a point of b against a point of a may be off: poses a and b were rounded to float,
 // `pose`, b's in a's frame, was computed from them, b's point was rounded and moved by it, a's point was rounded.
 // `far_a`, `far_b`: farCorner of the shapes' boxes.

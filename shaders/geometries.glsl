@@ -3,9 +3,9 @@
 layout(location = 0) uniform uint state_count;
 layout(location = 1) uniform uint robot_count;
 
-// Invocations of the broad phase go through all states for one robot instance before the next one: what hits early in
-// the lists then spares its state the rest, and a state's pairs do not wait side by side.
-uint robotOf(uint invocation)
+// Invocations of the broad phase go through all states for one row, a robot instance or a search, before the next one: what
+// hits early in the lists then spares its state the rest, and a state's pairs do not wait side by side.
+uint rowOf(uint invocation)
 {
   return invocation / state_count;
 }

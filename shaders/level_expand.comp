@@ -36,7 +36,8 @@ void main()
         const OrientedNode child_a = fetchOrientedNode(nodes.x);
         const OrientedNode child_b = fetchOrientedNode(nodes.y);
         if (at.y < leaf_pair_capacity)
-          leaf_pairs[at.y] = uvec4(entry.x, leafReference(child_a), leafReference(child_b), 0u);
+          leaf_pairs[at.y] = uvec4(entry.x, leafReference(child_a.first, child_a.count),
+                                   leafReference(child_b.first, child_b.count), 0u);
         ++at.y;
       }
     }

@@ -19,6 +19,29 @@ OrientedNode fetchOrientedNode(uint index)
   return OrientedNode(Box(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz)), rotationOf(q), a.w, b.w);
 }
 
+// How far two boxes are apart along the best of the 15 axes that can separate them (Gottschalk, Lin and Manocha 1996, "OBBTree"):
+// half edge lengths, the way from a's centre to b's and b's axes, both in a's frame. Not above 0: it proves nothing. The
+// axes that are products of edges are at most 1 long, so that a gap along them is one in metres a fortiori.
+float boxGap(vec3 ea, vec3 eb, vec3 t, mat3 r)
+{
+  const mat3 q = absolute(r);
+  const vec3 gap_a = abs(t) - (ea + q * eb);
+  const vec3 gap_b = abs(t * r) - (eb + ea * q);
+  float gap = max(max(max(gap_a.x, gap_a.y), gap_a.z), max(max(gap_b.x, gap_b.y), gap_b.z));
+  // The axis products x, y, z of a with axis j of b, three at a time.
+  for (int j = 0; j < 3; ++j)
+  {
+    const int k = (j + 1) % 3;
+    const int l = (j + 2) % 3;
+    const vec3 along = abs(t.zxy * r[j].yzx - t.yzx * r[j].zxy);
+    const vec3 reach_a = ea.yzx * q[j].zxy + ea.zxy * q[j].yzx;
+    const vec3 reach_b = eb[k] * q[l] + eb[l] * q[k];
+    const vec3 gaps = along - (reach_a + reach_b);
+    gap = max(gap, max(max(gaps.x, gaps.y), gaps.z));
+  }
+  return gap;
+}
+
 // What a test of two boxes may be off by, relative to their half edge lengths.
 float sizeError(Box a, Box b)
 {
@@ -49,10 +72,4 @@ bool nodeInCore(OrientedNode a, OrientedNode b, vec3 core_a, vec3 core_b, Pose p
 bool descendsIntoA(OrientedNode a, OrientedNode b)
 {
   return a.count == 0u && (b.count != 0u || dot(a.box.extent, a.box.extent) >= dot(b.box.extent, b.box.extent));
-}
-
-// A leaf in one word: its first triangle, and how many less one.
-uint leafReference(OrientedNode leaf)
-{
-  return leaf.first | ((leaf.count - 1u) << LEAF_COUNT_SHIFT);
 }

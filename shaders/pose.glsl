@@ -18,6 +18,11 @@ Pose fetchPose(usamplerBuffer poses, uint index)
                       uintBitsToFloat(texelFetch(poses, at + 2)));
 }
 
+mat3 absolute(mat3 m)
+{
+  return mat3(abs(m[0]), abs(m[1]), abs(m[2]));
+}
+
 vec3 apply(Pose pose, vec3 point)
 {
   precise const vec3 turned = pose.rotation * point;

@@ -1,5 +1,4 @@
-// Searches of the broad phase, in the order in which they are to be made. Invocations go through all states for one search before
-// the next one: what hits early in the lists then spares its state the rest, and a state's pairs do not wait side by side.
+// Searches of the broad phase, in the order in which they are to be made.
 layout(location = 3) uniform uint first_search;
 layout(location = 4) uniform uint search_count;
 layout(binding = UNIT_SEARCHES) uniform usamplerBuffer searches;

@@ -110,7 +110,7 @@ void main()
       const bool into_a = descendsIntoA(a, b);
       const uvec2 first = into_a ? uvec2(a.first, nodes.y) : uvec2(nodes.x, b.first);
       const uvec2 second = into_a ? uvec2(a.first + 1u, nodes.y) : uvec2(nodes.x, b.first + 1u);
-      const uvec2 leaf_pair = uvec2(leafReference(a), leafReference(b));
+      const uvec2 leaf_pair = uvec2(leafReference(a.first, a.count), leafReference(b.first, b.count));
       // Stored in any case, kept if they overlap: a condition would be a branch for each lane.
       memory[leaf ? QUEUE_STACK - 1u - leaves : waiting] = leaf ? leaf_pair : second;
       leaves += overlap && leaf ? 1u : 0u;

@@ -146,7 +146,7 @@ void GpuPairChecker::learnOrder(const Verdicts& verdicts)
       const auto [robot, other] = pairOf(verdicts.hits[i]);
       order_.count(robot, other);
     }
-  if (order_.isDue(verdicts.flags.size()))
+  if (order_.endBatch(verdicts.flags.size()))
     writeSearches();
 }
 

@@ -219,7 +219,7 @@ void ResilientChecker::Impl::placeOnCpu(const Scene& the_scene)
 template <class Result>
 Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result>& question)
 {
-  const auto answeredBy = [this](bool by_cpu)
+  const auto answered_by = [this](bool by_cpu)
   {
     asked_cpu = by_cpu;
     const std::lock_guard<std::mutex> lock(status_mutex);
@@ -235,7 +235,7 @@ Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result
       const auto result = std::make_shared<Result>();
       run([slot = device, result, question] { *result = question(*slot->checker); }, seconds_per_call);
       cpu.reset();
-      answeredBy(false);
+      answered_by(false);
       return std::move(*result);
     }
     catch (const DeviceLost& error)
@@ -255,7 +255,7 @@ Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result
     }
   }
   placeOnCpu(the_scene);
-  answeredBy(true);
+  answered_by(true);
   return question(*cpu);
 }
 

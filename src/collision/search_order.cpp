@@ -17,18 +17,17 @@ std::uint64_t keyOf(std::uint32_t low, std::uint32_t high)
   return std::uint64_t{low} << 32U | high;
 }
 
-template <class Ranked>
-void rank(std::vector<Ranked>& searches)
+void rank(std::vector<RankedSearch>& searches)
 {
-  std::stable_sort(searches.begin(), searches.end(), [](const Ranked& a, const Ranked& b) { return a.hits > b.hits; });
+  std::stable_sort(searches.begin(), searches.end(),
+                   [](const RankedSearch& a, const RankedSearch& b) { return a.hits > b.hits; });
 }
 
 /// How many of the first searches have kHotShare of all hits.
-template <class Ranked>
-std::uint32_t hotCount(const std::vector<Ranked>& searches)
+std::uint32_t hotCount(const std::vector<RankedSearch>& searches)
 {
   std::uint64_t all = 0;
-  for (const Ranked& search : searches)
+  for (const RankedSearch& search : searches)
     all += search.hits;
   std::uint64_t some = 0;
   std::uint32_t count = 0;
@@ -78,7 +77,7 @@ void SearchOrder::count(std::uint32_t robot, std::uint32_t other)
     ++pairs_[pair->second].hits;
 }
 
-bool SearchOrder::isDue(std::size_t states)
+bool SearchOrder::endBatch(std::size_t states)
 {
   states_ += states;
   if (states_ < next_order_)
@@ -87,9 +86,9 @@ bool SearchOrder::isDue(std::size_t states)
   return true;
 }
 
-std::vector<SearchOrder::Ranked> SearchOrder::worldSearches() const
+std::vector<RankedSearch> SearchOrder::worldSearches() const
 {
-  std::vector<Ranked> searches;
+  std::vector<RankedSearch> searches;
   for (std::uint32_t i = 0; i < meets_world_.size(); ++i)
     if (meets_world_[i])
       searches.push_back({{i, 0, 0, 0}, world_hits_[i]});
@@ -98,7 +97,7 @@ std::vector<SearchOrder::Ranked> SearchOrder::worldSearches() const
 }
 
 /// An instance's pairs by their hits, some to a search.
-std::vector<SearchOrder::Ranked> SearchOrder::selfSearches() const
+std::vector<RankedSearch> SearchOrder::selfSearches() const
 {
   std::vector<Pair> pairs = pairs_;
   std::sort(pairs.begin(), pairs.end(),
@@ -108,7 +107,7 @@ std::vector<SearchOrder::Ranked> SearchOrder::selfSearches() const
                 return a.low < b.low;
               return a.hits != b.hits ? a.hits > b.hits : a.high < b.high;
             });
-  std::vector<Ranked> searches;
+  std::vector<RankedSearch> searches;
   std::uint32_t room = 0;
   for (const Pair& pair : pairs)
   {
@@ -130,11 +129,11 @@ std::vector<SearchOrder::Ranked> SearchOrder::selfSearches() const
 Searches SearchOrder::searches() const
 {
   Searches result;
-  const std::vector<Ranked> world = worldSearches();
-  const std::vector<Ranked> self = selfSearches();
-  for (const Ranked& search : world)
+  const std::vector<RankedSearch> world = worldSearches();
+  const std::vector<RankedSearch> self = selfSearches();
+  for (const RankedSearch& search : world)
     result.world.push_back(search.record);
-  for (const Ranked& search : self)
+  for (const RankedSearch& search : self)
     result.self.push_back(search.record);
   result.hot_world = hotCount(world);
   result.hot_self = hotCount(self);

@@ -20,6 +20,13 @@ struct Searches
   std::uint32_t hot_self = 0;
 };
 
+/// A search, and how often it has found a collision.
+struct RankedSearch
+{
+  Searches::Record record;
+  std::uint64_t hits;
+};
+
 /// The order in which the broad phase searches, learned from the hits of earlier batches: what collides most often
 /// comes first, and spares its states the rest. It changes no answer but which of several colliding pairs is reported.
 class SearchOrder
@@ -31,9 +38,8 @@ class SearchOrder
   /// Counts a hit of a robot instance with another, or with (number of robot instances + an instance of the world).
   void count(std::uint32_t robot, std::uint32_t other);
 
-  /// To be called after `states` states, whose hits were counted. Whether there is enough that is new for another
-  /// order.
-  bool isDue(std::size_t states);
+  /// Ends a batch of so many states, whose hits were counted. Whether there is enough that is new for another order.
+  bool endBatch(std::size_t states);
 
   Searches searches() const;
 
@@ -44,14 +50,9 @@ class SearchOrder
     std::uint32_t high;
     std::uint64_t hits = 0;
   };
-  struct Ranked
-  {
-    Searches::Record record;
-    std::uint64_t hits;
-  };
   bool hasPairs(const std::vector<std::array<std::uint32_t, 2>>& pairs) const;
-  std::vector<Ranked> worldSearches() const;
-  std::vector<Ranked> selfSearches() const;
+  std::vector<RankedSearch> worldSearches() const;
+  std::vector<RankedSearch> selfSearches() const;
 
   std::vector<std::uint8_t> meets_world_;  // by robot instance
   std::vector<std::uint64_t> world_hits_;  // likewise

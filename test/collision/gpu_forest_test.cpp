@@ -14,25 +14,13 @@
 #include "interface.h"
 #include "support/test_scenes.h"
 #include "support/traversal_cost.h"
+#include "support/triangle_soup.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
 using Eigen::Vector3d;
-
-std::shared_ptr<Mesh> soup(std::size_t triangles, const std::function<Vector3d()>& corner)
-{
-  auto mesh = std::make_shared<Mesh>();
-  mesh->name = "soup";
-  for (std::uint32_t t = 0; t < triangles; ++t)
-  {
-    for (int i = 0; i < 3; ++i)
-      mesh->vertices.push_back(corner());
-    mesh->triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-  }
-  return mesh;
-}
 
 /// Meshes that are hard on a builder, next to ordinary ones, and single triangles between them.
 std::vector<std::shared_ptr<const Mesh>> hardMeshes()
@@ -47,11 +35,12 @@ std::vector<std::shared_ptr<const Mesh>> hardMeshes()
     return Vector3d(std::cos(at), std::sin(at), 0.1 * at + 0.001 * uniform(generator));
   };
   const auto exponential = [&] { return Vector3d(std::pow(2.0, -120.0 * std::abs(uniform(generator))), 0.0, 0.0); };
-  return {soup(1, anywhere),           soup(2, anywhere),
-          soup(20000, spiral),         soup(5000, [] { return Vector3d(1, 2, 3); }),   // all alike, all points
-          soup(3000, exponential),                           // every halving leaves all but a few on one side
-          soup(1, anywhere),           soup(500, anywhere),  // all overlap
-          tessellate(Sphere{0.3}).mesh};
+  return {
+      triangleSoup(1, anywhere),       triangleSoup(2, anywhere),
+      triangleSoup(20000, spiral),     triangleSoup(5000, [] { return Vector3d(1, 2, 3); }),   // all alike, all points
+      triangleSoup(3000, exponential),                               // every halving leaves all but a few on one side
+      triangleSoup(1, anywhere),       triangleSoup(500, anywhere),  // all overlap
+      tessellate(Sphere{0.3}).mesh};
 }
 
 class GpuForest : public testing::Test

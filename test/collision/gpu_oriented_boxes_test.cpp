@@ -14,6 +14,7 @@
 #include "gpu/program.h"
 #include "interface.h"
 #include "support/test_scenes.h"
+#include "support/triangle_soup.h"
 
 namespace gpu_planning_scene
 {
@@ -32,17 +33,9 @@ double halfSurface(const std::array<float, 3>& half)
 class GpuOrientedBoxesTest : public testing::Test
 {
  protected:
-  Tessellation soup(std::size_t triangles, const std::function<Vector3d()>& corner)
+  static Tessellation soup(std::size_t triangles, const std::function<Vector3d()>& corner)
   {
-    auto mesh = std::make_shared<Mesh>();
-    mesh->name = "soup";
-    for (std::uint32_t t = 0; t < triangles; ++t)
-    {
-      for (int i = 0; i < 3; ++i)
-        mesh->vertices.push_back(corner());
-      mesh->triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-    }
-    return {mesh, 0.0};
+    return {triangleSoup(triangles, corner), 0.0};
   }
 
   void build(const std::vector<Tessellation>& shapes)

@@ -25,6 +25,44 @@ using Eigen::Vector3d;
 constexpr std::uint64_t kSeed = 17;
 
 /// One lane per case: runs one function of the shaders on floats.
+/// For tests of two nodes, each in a tree that is placed somewhere.
+const char* const kPlacedNodes = R"(
+#include "pose.glsl"
+#include "items.glsl"
+#include "boxes.glsl"
+#include "error_bounds.glsl"
+#include "instances.glsl"
+#include "oriented_nodes.glsl"
+#include "solid_nodes.glsl"
+OrientedNode node(vec3 center, vec3 extent, vec3 xyz, vec3 w)
+{
+  return OrientedNode(Box(center, extent), rotationOf(vec4(xyz, w.x)), 0u, 1u);
+}
+float errorOf(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b, Pose pose)
+{
+  return positionError(pose_a, pose_b, pose, abs(a.box.center) + length(a.box.extent),
+                       abs(b.box.center) + length(b.box.extent));
+}
+)";
+
+std::string vectorAt(int place)
+{
+  return "at(" + std::to_string(place) + "u)";
+}
+
+/// A node, and a pose by its rows, of the case's four vectors from a place on.
+std::string nodeAt(int place)
+{
+  return "node(" + vectorAt(place) + ", " + vectorAt(place + 1) + ", " + vectorAt(place + 2) + ", " +
+         vectorAt(place + 3) + ")";
+}
+
+std::string poseAt(int place)
+{
+  return "Pose(transpose(mat3(" + vectorAt(place) + ", " + vectorAt(place + 1) + ", " + vectorAt(place + 2) + ")), " +
+         vectorAt(place + 3) + ")";
+}
+
 class GpuStep : public testing::Test
 {
  protected:
@@ -518,17 +556,14 @@ TEST_F(GpuStep, OrientedBoxesThatOverlapAreNeverApart)
     clearly_apart.push_back(!overlap(a, larger));
   }
   const auto apart = run(
-      "#include \"pose.glsl\"\n#include \"boxes.glsl\"\n#include \"error_bounds.glsl\"\n#include "
-      "\"oriented_nodes.glsl\"\nOrientedNode node(Box box, vec3 xyz, vec3 w) { return OrientedNode(box, "
-      "rotationOf(vec4(xyz, w.x)), 0u, 1u); }\n"
-      "bool placedApart(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b) { const Pose pose = "
-      "relativePose(pose_a, pose_b); const float error = positionError(pose_a, pose_b, pose, abs(a.box.center) + "
-      "length(a.box.extent), abs(b.box.center) + length(b.box.extent)); return nodesApart(a, b, pose, boxMargin(0.0, "
-      "error)); }\n",
-      "placedApart(node(Box(at(0u), at(1u)), at(2u), at(3u)), Pose(transpose(mat3(at(4u), at(5u), at(6u))), at(7u)), "
-      "node(Box(at(8u), at(9u)), at(10u), at(11u)), Pose(transpose(mat3(at(12u), at(13u), at(14u))), at(15u))) ? 1u : "
-      "0u",
-      input, 48);
+      kPlacedNodes + std::string(R"(
+bool placedApart(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b)
+{
+  const Pose pose = relativePose(pose_a, pose_b);
+  return nodesApart(a, b, pose, boxMargin(0.0, errorOf(a, pose_a, b, pose_b, pose)));
+}
+)"),
+      "placedApart(" + nodeAt(0) + ", " + poseAt(4) + ", " + nodeAt(8) + ", " + poseAt(12) + ") ? 1u : 0u", input, 48);
   std::size_t meeting = 0;
   std::size_t missed = 0;
   std::size_t clear = 0;
@@ -594,25 +629,23 @@ TEST_F(GpuStep, BoxesThatMeetASolidAreNeverBeyondIt)
     meets.push_back(meet(0.0));
     clearly_apart.push_back(!meet(5e-3));
   }
-  const auto beyond = run(
-      "#include \"pose.glsl\"\n#include \"items.glsl\"\n#include \"boxes.glsl\"\n#include \"error_bounds.glsl\"\n"
-      "#include \"instances.glsl\"\n#include \"oriented_nodes.glsl\"\n#include \"solid_nodes.glsl\"\n"
-      "OrientedNode node(Box box, vec3 xyz, vec3 w) { return OrientedNode(box, rotationOf(vec4(xyz, w.x)), 0u, 1u); }\n"
-      "bool placedBeyond(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b, vec3 size, vec3 what) { const Pose "
-      "pose "
-      "= relativePose(pose_a, pose_b); const float error = positionError(pose_a, pose_b, pose, abs(a.box.center) + "
-      "length(a.box.extent), abs(b.box.center) + length(b.box.extent)); const Instance solid = Instance(0u, 0.0, 0u, "
-      "0u, "
-      "vec3(0.0), uint(what.x), size, 0.0); const Instance mesh = Instance(0u, 0.0, 0u, 0u, vec3(0.0), SOLID_NONE, "
-      "vec3(0.0), 0.0); Item item; item.pose = pose; item.error = error; item.gap = requiredGap(what.z, 0.0); "
-      "if (what.y > 0.5) return nodeBeyondSolid(a, b, solid, mesh, item); return nodeBeyondSolid(a, b, mesh, solid, "
-      "item); "
-      "}\n",
-      "placedBeyond(node(Box(at(0u), at(1u)), at(2u), at(3u)), Pose(transpose(mat3(at(4u), at(5u), at(6u))), at(7u)), "
-      "node(Box(at(8u), at(9u)), at(10u), at(11u)), Pose(transpose(mat3(at(12u), at(13u), at(14u))), at(15u)), "
-      "at(16u), "
-      "at(17u)) ? 1u : 0u",
-      input, 54);
+  const auto beyond = run(kPlacedNodes + std::string(R"(
+bool placedBeyond(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b, vec3 size, vec3 what)
+{
+  Item item;
+  item.pose = relativePose(pose_a, pose_b);
+  item.error = errorOf(a, pose_a, b, pose_b, item.pose);
+  item.gap = requiredGap(what.z, 0.0);
+  const Instance solid = Instance(0u, 0.0, 0u, 0u, vec3(0.0), uint(what.x), size, 0.0);
+  const Instance mesh = Instance(0u, 0.0, 0u, 0u, vec3(0.0), SOLID_NONE, vec3(0.0), 0.0);
+  if (what.y > 0.5)
+    return nodeBeyondSolid(a, b, solid, mesh, item);
+  return nodeBeyondSolid(a, b, mesh, solid, item);
+}
+)"),
+                          "placedBeyond(" + nodeAt(0) + ", " + poseAt(4) + ", " + nodeAt(8) + ", " + poseAt(12) +
+                              ", at(16u), at(17u)) ? 1u : 0u",
+                          input, 54);
   std::size_t meeting = 0;
   std::size_t clear = 0;
   std::size_t found = 0;

@@ -113,7 +113,7 @@ TEST(SearchOrder, IsDueMoreAndMoreSeldom)
   order.setPairs(problemOf(3));
   std::size_t due = 0;
   for (int batch = 0; batch < 1000; ++batch)
-    due += order.isDue(64) ? 1 : 0;
+    due += order.endBatch(64) ? 1 : 0;
   EXPECT_GE(due, 8U);
   EXPECT_LE(due, 12U);
 }
