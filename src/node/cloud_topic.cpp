@@ -55,9 +55,10 @@ void CloudTopic::take(const sensor_msgs::PointCloud2& message)
   if (!now.allKnown())
     throw Error("the robot's state is not known yet, so its own points cannot be left out; publish joint_states first");
   const FrameAt frame{message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())};
-  const std::optional<Eigen::Isometry3d> known = now.scene->frame(frame.name, now.state.data());
+  const std::vector<double> state = store_.stateAt(frame.stamp);
+  const std::optional<Eigen::Isometry3d> known = now.scene->frame(frame.name, state.data());
   const Eigen::Isometry3d sensor = known ? *known : lookup_(frame);
-  WorldObject object = filter_.objectOf(id_, pointsOf(message), sensor, *now.scene, now.state.data());
+  WorldObject object = filter_.objectOf(id_, pointsOf(message), sensor, *now.scene, state.data());
 
   ObjectChange change;
   change.id = id_;

@@ -86,6 +86,6 @@ void SceneServices::take(const sensor_msgs::JointState& message)
   std::map<std::string, double> variables;
   for (std::size_t i = 0; i < message.name.size(); ++i)
     variables[message.name[i]] = message.position[i];
-  store_.updateState(variables);
+  store_.updateState(variables, static_cast<std::int64_t>(message.header.stamp.toNSec()));
 }
 }  // namespace gpu_planning_scene

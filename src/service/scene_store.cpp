@@ -100,7 +100,7 @@ std::uint64_t SceneStore::replace(PlanningScene scene)
   return after->revision;
 }
 
-void SceneStore::updateState(const std::map<std::string, double>& variables)
+void SceneStore::updateState(const std::map<std::string, double>& variables, std::int64_t stamp)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const RobotModel& robot = *scene_->robot;
@@ -115,6 +115,14 @@ void SceneStore::updateState(const std::map<std::string, double>& variables)
     state_[static_cast<std::size_t>(variable)] = value;
     known_[static_cast<std::size_t>(variable)] = true;
   }
+  history_.add(stamp, state_);
+}
+
+std::vector<double> SceneStore::stateAt(std::int64_t stamp) const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::vector<double>* known = stamp == 0 ? nullptr : history_.nearest(stamp);
+  return known != nullptr ? *known : state_;
 }
 
 void SceneStore::setListener(Listener listener)

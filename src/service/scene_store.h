@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gpu_planning_scene/scene_change.h"
+#include "service/state_history.h"
 
 namespace gpu_planning_scene
 {
@@ -45,8 +46,11 @@ class SceneStore
   std::uint64_t clear();
 
   /// Takes the robot's variables, by name; other names are passed over. The revision stays. Throws Error and takes
-  /// nothing if a value is not finite.
-  void updateState(const std::map<std::string, double>& variables);
+  /// nothing if a value is not finite. `stamp`: nanoseconds; 0 where it is not known.
+  void updateState(const std::map<std::string, double>& variables, std::int64_t stamp = 0);
+  /// The state with the nearest stamp (nanoseconds; 0: the newest) of the last seconds; the newest where states came
+  /// without stamps. Throws Error: longer ago than what is kept.
+  std::vector<double> stateAt(std::int64_t stamp) const;
 
   /// Called after each change with the scenes before and after it, in the order of revisions. Readers go on meanwhile,
   /// other changes wait; it must not change the scene itself.
@@ -58,10 +62,11 @@ class SceneStore
   std::uint64_t replace(PlanningScene scene);
 
   std::mutex changes_;        // held by whoever makes a change
-  mutable std::mutex mutex_;  // of the three below
+  mutable std::mutex mutex_;  // of the four below
   std::shared_ptr<const PlanningScene> scene_;
   std::vector<double> state_;
   std::vector<bool> known_;
+  StateHistory history_;
   const SceneDefaults defaults_;
   const SceneLimits limits_;
   Listener listener_;  // changes_ guards it

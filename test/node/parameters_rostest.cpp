@@ -1,6 +1,7 @@
 // A node with parameters of its own (strict_parameters.yaml, strict_planning.yaml) and the slider robot: MoveIt's
 // padding and scale, limits, and point clouds.
 
+#include <sensor_msgs/JointState.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include "node/node_client.h"
@@ -124,6 +125,32 @@ TEST_F(Parameters, aPointCloudIsAnObstacleWithoutTheRobotsOwnPoints)
   for (int i = 0; i < 100 && !scene().world.collision_objects.empty(); ++i)
     ros::WallDuration(0.1).sleep();
   EXPECT_TRUE(isFreeAt(far)) << "a new cloud replaces the old";
+
+  // The cart was at its free state at 100 s, and is far away now: the point on it was its own nevertheless.
+  const ros::Publisher joint_states = node.advertise<sensor_msgs::JointState>("/joint_states", 1);
+  for (int i = 0; i < 100 && joint_states.getNumSubscribers() == 0; ++i)
+    ros::WallDuration(0.1).sleep();
+  const auto moveTo = [&](double seconds, double slide)
+  {
+    sensor_msgs::JointState message;
+    message.header.stamp = ros::Time(seconds);
+    message.name = {robot->variables()[0].name};
+    message.position = {slide};
+    joint_states.publish(message);
+    const auto there = [&] { return scene().robot_state.joint_state.position.at(0) == slide; };
+    for (int i = 0; i < 100 && !there(); ++i)
+      ros::WallDuration(0.1).sleep();
+    ASSERT_TRUE(there());
+  };
+  moveTo(100.0, free_state[0]);
+  moveTo(101.0, double{far});
+  sensor_msgs::PointCloud2 earlier = cloud({on_the_cart, {0.0F, 0.0F, 5.0F}});
+  earlier.header.stamp = ros::Time(100.1);
+  publisher.publish(earlier);
+  for (int i = 0; i < 100 && scene().world.collision_objects.empty(); ++i)
+    ros::WallDuration(0.1).sleep();
+  ASSERT_EQ(1u, scene().world.collision_objects.size());
+  EXPECT_EQ(1u, scene().world.collision_objects[0].primitives.size());
 }
 }  // namespace
 }  // namespace gpu_planning_scene

@@ -106,6 +106,28 @@ TEST_F(Store, jointStatesChangeNoRevision)
   EXPECT_EQ((std::vector<double>{0.5, 0.25}), store.snapshot().state);
 }
 
+TEST_F(Store, theStateAtAStampIsTheNearestOfTheLastSeconds)
+{
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  EXPECT_EQ(store.snapshot().state, store.stateAt(5 * kSecond)) << "none has come yet";
+  store.updateState({{"slide", 0.25}, {"turn", 0.0}});
+  EXPECT_EQ((std::vector<double>{0.25, 0.0}), store.stateAt(5 * kSecond)) << "none has come with a stamp";
+  store.updateState({{"slide", 0.5}}, 5 * kSecond);
+  store.updateState({{"slide", 0.75}}, 6 * kSecond);
+  store.updateState({{"slide", 0.625}}, 5 * kSecond + kSecond / 2);  // late
+  EXPECT_EQ(0.5, store.stateAt(1).at(0));
+  EXPECT_EQ(0.5, store.stateAt(5 * kSecond).at(0));
+  EXPECT_EQ(0.5, store.stateAt(5 * kSecond + kSecond / 5).at(0));
+  EXPECT_EQ(0.625, store.stateAt(5 * kSecond + kSecond / 3).at(0));
+  EXPECT_EQ(0.75, store.stateAt(7 * kSecond).at(0));
+  EXPECT_EQ(store.snapshot().state, store.stateAt(0));
+  store.updateState({{"slide", 1.0}}, 16 * kSecond);
+  EXPECT_EQ(0.75, store.stateAt(10 * kSecond).at(0));
+  EXPECT_THROW(store.stateAt(5 * kSecond), Error) << "older than what is kept";
+  store.updateState({{"slide", 0.125}}, 2 * kSecond);  // the clock was set back, as a simulation's is
+  EXPECT_EQ(0.125, store.stateAt(5 * kSecond).at(0));
+}
+
 TEST_F(Store, framesOfLinksAreWhereTheNewestJointStatesPutThem)
 {
   EXPECT_THROW(store.apply(boxIn("cart"), unknownFrame), Error) << "where the cart is, is not known yet";

@@ -1,0 +1,47 @@
+#include "service/state_history.h"
+
+#include <algorithm>
+#include <string>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+void StateHistory::add(std::int64_t stamp, const std::vector<double>& state)
+{
+  if (stamp == 0)
+    return;
+  if (!states_.empty() && stamp < states_.back().stamp - kKept)
+  {
+    states_.clear();
+    forgot_ = false;
+  }
+  const auto after = std::upper_bound(states_.begin(), states_.end(), stamp,
+                                      [](std::int64_t value, const Stamped& other) { return value < other.stamp; });
+  states_.insert(after, {stamp, state});
+  while (states_.front().stamp < states_.back().stamp - kKept)
+  {
+    states_.pop_front();
+    forgot_ = true;
+  }
+}
+
+const std::vector<double>* StateHistory::nearest(std::int64_t stamp) const
+{
+  if (states_.empty())
+    return nullptr;
+  const auto after = std::lower_bound(states_.begin(), states_.end(), stamp,
+                                      [](const Stamped& state, std::int64_t value) { return state.stamp < value; });
+  if (after == states_.end())
+    return &states_.back().state;
+  if (after == states_.begin())
+  {
+    if (forgot_ && after->stamp != stamp)
+      throw Error("the robot's state of " + std::to_string((states_.back().stamp - stamp) / 1'000'000'000) +
+                  " s ago is asked for, and no more than " + std::to_string(kKept / 1'000'000'000) + " s are kept");
+    return &after->state;
+  }
+  const auto before = std::prev(after);
+  return after->stamp - stamp < stamp - before->stamp ? &after->state : &before->state;
+}
+}  // namespace gpu_planning_scene
