@@ -13,11 +13,22 @@ namespace gpu_planning_scene
 {
 namespace
 {
-std::optional<AllowedCollisionMatrix> requestedMatrix(const AllowedCollisionMatrixMessage& message)
+std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedCollisionMatrixMessage& message)
 {
   if (message.entry_names.empty() && message.default_entry_names.empty())
-    return std::nullopt;
-  return matrixFrom(message);
+    return nullptr;
+  return std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message));
+}
+
+/// The columns of full rows.
+std::vector<double> columnsOf(const std::vector<double>& rows, std::size_t width, const std::vector<int>& columns)
+{
+  std::vector<double> values;
+  values.reserve(rows.size() / width * columns.size());
+  for (std::size_t row = 0; row < rows.size(); row += width)
+    for (const int column : columns)
+      values.push_back(rows[row + static_cast<std::size_t>(column)]);
+  return values;
 }
 
 std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
@@ -62,11 +73,13 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
       {
         memory_.require();
         CheckJob job;
-        job.states = requestedStates(request.joint_names, request.positions, "positions", store_.snapshot());
+        job.columns = requestedColumns(*store_.snapshot().scene->robot, request.joint_names, request.positions,
+                                       "positions", [this](std::size_t count) { server_.requireStateCount(count); });
+        job.states = request.positions;
         job.group = request.group;
         job.matrix = requestedMatrix(request.allowed_collision_matrix);
-        const bool inspects = request.max_contacts != 0 || request.clearance;
-        const std::vector<double> states = inspects ? job.states : std::vector<double>();
+        job.keep_states = request.max_contacts != 0 || request.clearance;
+        const bool inspects = job.keep_states;
         const CheckAnswer answer = server_.submit(std::move(job)).get();
         const BatchResult& result = answer.result;
         response.valid = result.valid;
@@ -82,12 +95,12 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         response.scene_revision = result.revision;
         response.seconds = result.seconds;
         if (inspects)
-          inspect(request, states, answer, response);
+          inspect(request, answer, response);
       });
 }
 
-void CheckServices::inspect(const CheckStates::Request& request, const std::vector<double>& states,
-                            const CheckAnswer& answer, CheckStates::Response& response)
+void CheckServices::inspect(const CheckStates::Request& request, const CheckAnswer& answer,
+                            CheckStates::Response& response)
 {
   const std::vector<std::uint8_t>& valid = answer.result.valid;
   const auto colliding = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
@@ -101,7 +114,7 @@ void CheckServices::inspect(const CheckStates::Request& request, const std::vect
   const std::size_t width = answer.scene->robot->variables().size();
   for (std::size_t i = 0; i < valid.size(); ++i)
   {
-    const double* state = states.data() + i * width;
+    const double* state = answer.states.data() + i * width;
     if (!valid[i] && request.max_contacts != 0)
       for (const Contact& contact :
            inspector->contacts(state, request.group, request.max_contacts, request.max_contacts_per_pair))
@@ -145,13 +158,20 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
                       std::to_string(request.ends.size()) + " in ends; give one row of each per motion");
         const Snapshot now = store_.snapshot();
         const RobotModel& robot = *now.scene->robot;
-        const std::vector<double> starts = requestedStates(request.joint_names, request.starts, "starts", now);
-        const std::vector<double> ends = requestedStates(request.joint_names, request.ends, "ends", now);
-        const std::size_t count = starts.size() / robot.variables().size();
+        const std::size_t width = robot.variables().size();
+        const auto require_count = [this](std::size_t count) { server_.requireStateCount(count); };
+        CheckJob job;
+        job.columns = requestedColumns(robot, request.joint_names, request.starts, "starts", require_count);
+        requestedColumns(robot, request.joint_names, request.ends, "ends", require_count);
+        requireWholeRotations(robot, job.columns);
+        const PartialState current = now.partialState();
+        const std::size_t count = request.starts.size() / job.columns.size();
+        const std::vector<double> starts = fullStates(robot, job.columns, request.starts.data(), count, current);
+        const std::vector<double> ends = fullStates(robot, job.columns, request.ends.data(), count, current);
         const MotionBatch motions(robot, starts.data(), ends.data(), count,
                                   {request.resolution, request.translation_resolution}, options_.most_states);
-        CheckJob job;
-        job.states = motions.states();
+        // What does not move is not taken from here, but from the snapshot that is checked.
+        job.states = columnsOf(motions.states(), width, job.columns);
         job.group = request.group;
         job.matrix = requestedMatrix(request.allowed_collision_matrix);
         const CheckAnswer answer = server_.submit(std::move(job)).get();

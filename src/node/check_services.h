@@ -29,8 +29,7 @@ class CheckServices
   GetReport::Response report(const GetReport::Request& request);
 
  private:
-  void inspect(const CheckStates::Request& request, const std::vector<double>& states, const CheckAnswer& answer,
-               CheckStates::Response& response);
+  void inspect(const CheckStates::Request& request, const CheckAnswer& answer, CheckStates::Response& response);
   std::shared_ptr<const StateInspector> inspectorOf(const std::shared_ptr<const PlanningScene>& scene);
 
   const SceneStore& store_;

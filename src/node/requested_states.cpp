@@ -1,30 +1,45 @@
 #include "node/requested_states.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
-#include "tools/full_states.h"
+#include "model/full_states.h"
 
 namespace gpu_planning_scene
 {
-std::vector<double> requestedStates(const std::vector<std::string>& joint_names, const std::vector<double>& values,
-                                    const std::string& what, const Snapshot& now)
+std::vector<int> requestedColumns(const RobotModel& robot, const std::vector<std::string>& joint_names,
+                                  const std::vector<double>& values, const std::string& what,
+                                  const std::function<void(std::size_t)>& require_count)
 {
   if (joint_names.empty())
     throw Error("joint_names is empty; name at least one variable");
-  const RobotModel& robot = *now.scene->robot;
-  const std::vector<int> columns = variableIndices(robot, joint_names);
+  std::vector<int> columns = variableIndices(robot, joint_names);
   const std::size_t width = columns.size();
   if (values.size() % width != 0)
     throw Error(std::to_string(values.size()) + " " + what + " are not rows of " + std::to_string(width) +
                 " values, one per joint name");
+  require_count(values.size() / width);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
       throw Error("state " + std::to_string(i / width) + ": the position of '" + joint_names[i % width] +
                   "' is not a finite number");
-  PartialState current(robot);
-  current.values = now.state;
-  current.known = now.known;
-  return fullStates(robot, columns, values.data(), values.size() / width, current);
+  return columns;
+}
+
+void requireWholeRotations(const RobotModel& robot, const std::vector<int>& columns)
+{
+  constexpr int kRotation = 3;  // of a floating joint's variables: the first one after the position
+  constexpr int kCoefficients = 4;
+  for (const Joint& joint : robot.joints())
+  {
+    if (joint.type != JointType::Floating || joint.first_variable < 0)
+      continue;
+    const int first = joint.first_variable + kRotation;
+    const auto given = std::count_if(columns.begin(), columns.end(),
+                                     [&](int column) { return column >= first && column < first + kCoefficients; });
+    if (given != 0 && given != kCoefficients)
+      throw Error("joint '" + joint.name + "': a motion needs all four variables of its rotation, or none of them");
+  }
 }
 }  // namespace gpu_planning_scene

@@ -11,8 +11,34 @@ std::exception_ptr shuttingDown()
   return std::make_exception_ptr(Error("shutting down: the request was not answered"));
 }
 
-/// The rows of one request in the answer for several.
-CheckAnswer part(const CheckAnswer& whole, std::size_t first, std::size_t count)
+bool isEqual(const std::shared_ptr<const AllowedCollisionMatrix>& a,
+             const std::shared_ptr<const AllowedCollisionMatrix>& b)
+{
+  return a == b || (a && b && *a == *b);
+}
+
+/// Whether the rows are full states as they are.
+bool isFull(const CheckJob& job, std::size_t width)
+{
+  if (job.columns.empty())
+    return true;
+  for (std::size_t i = 0; i < job.columns.size(); ++i)
+    if (job.columns[i] != static_cast<int>(i))
+      return false;
+  return job.columns.size() == width;
+}
+
+/// Rows of all variables. Throws Error where a variable is neither given nor known.
+std::vector<double> filled(const CheckJob& job, std::size_t count, const Snapshot& now)
+{
+  const RobotModel& robot = *now.scene->robot;
+  if (isFull(job, robot.variables().size()))
+    return job.states;
+  return fullStates(robot, job.columns, job.states.data(), count, now.partialState());
+}
+
+/// The rows of one request in the answer for several, `width` values each.
+CheckAnswer part(const CheckAnswer& whole, std::size_t first, std::size_t count, bool keep_states, std::size_t width)
 {
   const auto begin = static_cast<std::ptrdiff_t>(first);
   const auto end = static_cast<std::ptrdiff_t>(first + count);
@@ -23,6 +49,9 @@ CheckAnswer part(const CheckAnswer& whole, std::size_t first, std::size_t count)
   answer.result.seconds = whole.result.seconds;
   answer.result.valid.assign(whole.result.valid.begin() + begin, whole.result.valid.begin() + end);
   answer.result.colliding.assign(whole.result.colliding.begin() + begin, whole.result.colliding.begin() + end);
+  if (keep_states)
+    answer.states.assign(whole.states.begin() + begin * static_cast<std::ptrdiff_t>(width),
+                         whole.states.begin() + end * static_cast<std::ptrdiff_t>(width));
   return answer;
 }
 }  // namespace
@@ -45,7 +74,7 @@ CheckLane::~CheckLane()
 
 void CheckLane::open()
 {
-  takeScene(std::nullopt);
+  takeScene(nullptr);
 }
 
 std::future<CheckAnswer> CheckLane::submit(CheckJob job, std::size_t count)
@@ -120,7 +149,7 @@ CheckLane::Batch CheckLane::nextBatch()
   {
     const CheckJob& first = batch.front().job;
     const bool joins = !first.report && !request.job.report && states + request.count <= largest_batch_ &&
-                       request.job.group == first.group && request.job.matrix == first.matrix;
+                       request.job.group == first.group && isEqual(request.job.matrix, first.matrix);
     states += joins ? request.count : 0;
     (joins ? batch : others).push_back(std::move(request));
   }
@@ -134,24 +163,18 @@ void CheckLane::answer(Batch& batch)
 {
   try
   {
-    CheckJob& all = batch.front().job;
-    const std::size_t own = all.states.size();
-    std::size_t count = batch.front().count;
-    for (std::size_t i = 1; i < batch.size(); ++i)
-    {
-      all.states.insert(all.states.end(), batch[i].job.states.begin(), batch[i].job.states.end());
-      count += batch[i].count;
-    }
+    std::size_t count = 0;
+    for (const Request& request : batch)
+      count += request.count;
     CheckAnswer whole;
     try
     {
-      whole = check(all, count);
+      whole = check(batch, count);
     }
     catch (...)
     {
       if (batch.size() == 1)
         throw;
-      all.states.resize(own);
       for (Request& request : batch)
       {
         Batch alone;
@@ -169,7 +192,7 @@ void CheckLane::answer(Batch& batch)
     std::size_t first = 0;
     for (Request& request : batch)
     {
-      request.answer.set_value(part(whole, first, request.count));
+      request.answer.set_value(part(whole, first, request.count, request.job.keep_states, width_));
       first += request.count;
     }
   }
@@ -180,36 +203,57 @@ void CheckLane::answer(Batch& batch)
   }
 }
 
-CheckAnswer CheckLane::check(const CheckJob& job, std::size_t count)
+CheckAnswer CheckLane::check(Batch& batch, std::size_t count)
 {
+  const CheckJob& job = batch.front().job;
+  const Snapshot now = takeScene(job.matrix.get());
+  std::vector<double> states = statesOf(batch, count, now);
   CheckAnswer answer;
-  answer.scene = takeScene(job.matrix);
-  answer.result = checker_->check(job.states.data(), count, job.group);
+  answer.scene = now.scene;
+  answer.result = checker_->check(states.data(), count, job.group);
   if (job.report)
     answer.report = checker_->report(job.group);
+  if (std::any_of(batch.begin(), batch.end(), [](const Request& request) { return request.job.keep_states; }))
+    answer.states = std::move(states);
   answer.device = checker_->deviceName();
   return answer;
 }
 
-std::shared_ptr<const PlanningScene> CheckLane::takeScene(const std::optional<AllowedCollisionMatrix>& matrix)
+/// Full rows of all requests. Of several the jobs stay as they are, as they may be asked alone after all.
+std::vector<double> CheckLane::statesOf(Batch& batch, std::size_t count, const Snapshot& now) const
 {
-  std::shared_ptr<const PlanningScene> scene = store_.snapshot().scene;
-  if (matrix)
+  CheckJob& first = batch.front().job;
+  if (batch.size() == 1)
+    return isFull(first, width_) ? std::move(first.states) : filled(first, count, now);
+  std::vector<double> states;
+  states.reserve(count * width_);
+  for (const Request& request : batch)
   {
-    auto other = std::make_shared<PlanningScene>(*scene);
+    const std::vector<double> rows = filled(request.job, request.count, now);
+    states.insert(states.end(), rows.begin(), rows.end());
+  }
+  return states;
+}
+
+Snapshot CheckLane::takeScene(const AllowedCollisionMatrix* matrix)
+{
+  Snapshot now = store_.snapshot();
+  if (matrix != nullptr)
+  {
+    auto other = std::make_shared<PlanningScene>(*now.scene);
     other->allowed_collisions = *matrix;
     other->matrix_source = MatrixSource::SceneFile;
-    scene = std::move(other);
+    now.scene = std::move(other);
   }
-  if (scene == checked_)
-    return scene;
+  if (now.scene == checked_)
+    return now;
   try
   {
     if (checker_)
-      checker_->setScene(scene);
+      checker_->setScene(now.scene);
     else
-      checker_ = make_checker_(scene);
-    checked_ = scene;
+      checker_ = make_checker_(now.scene);
+    checked_ = now.scene;
   }
   catch (...)
   {
@@ -217,7 +261,7 @@ std::shared_ptr<const PlanningScene> CheckLane::takeScene(const std::optional<Al
     checked_.reset();
     throw;
   }
-  return scene;
+  return now;
 }
 
 void CheckLane::countAnswered(const CheckAnswer& answer, std::size_t count, std::size_t requests)

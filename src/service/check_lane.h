@@ -37,9 +37,10 @@ class CheckLane
   void run();
   Batch nextBatch();
   void answer(Batch& batch);
-  CheckAnswer check(const CheckJob& job, std::size_t count);
-  /// The checker, with the newest scene, or that with the matrix.
-  std::shared_ptr<const PlanningScene> takeScene(const std::optional<AllowedCollisionMatrix>& matrix);
+  CheckAnswer check(Batch& batch, std::size_t count);
+  std::vector<double> statesOf(Batch& batch, std::size_t count, const Snapshot& now) const;
+  /// What the checker has now: the newest scene, or that with the matrix.
+  Snapshot takeScene(const AllowedCollisionMatrix* matrix);
   void countAnswered(const CheckAnswer& answer, std::size_t count, std::size_t requests);
   void fail(Request& request, std::exception_ptr error);
 

@@ -4,6 +4,18 @@
 
 namespace gpu_planning_scene
 {
+namespace
+{
+// Of a matrix that small requests may have: to compare and to copy it, and to sort the pairs anew, takes no longer than
+// a check.
+constexpr std::size_t kBodiesOfSmallMatrix = 100;
+
+bool isSmall(const CheckJob& job)
+{
+  return !job.matrix || job.matrix->bodies().size() <= kBodiesOfSmallMatrix;
+}
+}  // namespace
+
 CheckServer::CheckServer(const SceneStore& store, MakeChecker make_checker, const CheckServerOptions& options)
   : options_(options),
     small_(std::make_unique<CheckLane>(store, make_checker, options, options.largest_batch)),
@@ -14,16 +26,21 @@ CheckServer::CheckServer(const SceneStore& store, MakeChecker make_checker, cons
 
 CheckServer::~CheckServer() = default;
 
-std::future<CheckAnswer> CheckServer::submit(CheckJob job)
+void CheckServer::requireStateCount(std::size_t count) const
 {
-  const std::size_t width = small_->stateWidth();
-  if (width == 0 ? !job.states.empty() : job.states.size() % width != 0)
-    throw Error(std::to_string(job.states.size()) + " numbers are not rows of " + std::to_string(width) + " variables");
-  const std::size_t count = width == 0 ? 0 : job.states.size() / width;
   if (count > options_.most_states)
     throw Error(std::to_string(count) + " states in one request; the limit is " + std::to_string(options_.most_states) +
                 " (limits/request_states): send fewer at once");
-  CheckLane& lane = count <= options_.small_request ? *small_ : *large_;
+}
+
+std::future<CheckAnswer> CheckServer::submit(CheckJob job)
+{
+  const std::size_t width = job.columns.empty() ? small_->stateWidth() : job.columns.size();
+  if (width == 0 ? !job.states.empty() : job.states.size() % width != 0)
+    throw Error(std::to_string(job.states.size()) + " numbers are not rows of " + std::to_string(width) + " variables");
+  const std::size_t count = width == 0 ? 0 : job.states.size() / width;
+  requireStateCount(count);
+  CheckLane& lane = count <= options_.small_request && isSmall(job) ? *small_ : *large_;
   return lane.submit(std::move(job), count);
 }
 

@@ -24,12 +24,16 @@ struct CheckServerOptions
   std::size_t largest_batch = 16384;          ///< states of small requests that are answered together
 };
 
+/// States are rows of values for some of the robot's variables. The others are filled in when the check starts, from
+/// what is known of the robot's state in the same instant as the scene that is checked.
 struct CheckJob
 {
-  std::vector<double> states;  ///< rows of all variables
+  std::vector<int> columns;  ///< the variables that the rows have values of, each once; empty: all, in order
+  std::vector<double> states;
   std::string group;
-  std::optional<AllowedCollisionMatrix> matrix;  ///< in place of the scene's
-  bool report = false;                           ///< whether the scene's report is wanted too
+  std::shared_ptr<const AllowedCollisionMatrix> matrix;  ///< in place of the scene's; null: none
+  bool report = false;                                   ///< whether the scene's report is wanted too
+  bool keep_states = false;                              ///< whether the answer is to have the full states
 };
 
 struct CheckAnswer
@@ -37,7 +41,8 @@ struct CheckAnswer
   BatchResult result;                          ///< seconds: of all that was answered together
   std::shared_ptr<const PlanningScene> scene;  ///< that was checked, the job's matrix in it
   std::optional<SceneReport> report;
-  std::string device;  ///< that answered
+  std::vector<double> states;  ///< rows of all variables, if they were to be kept
+  std::string device;          ///< that answered
 };
 
 /// Too much is waiting; ask again later.
@@ -64,8 +69,9 @@ class CheckLane;
 
 /// Checks for many clients at once, in two lanes, each with a thread and a checker of its own: one merges small
 /// requests that wait together (of the same group and matrix), the other does large ones in turn, so a small one never
-/// waits for a large one. A lane takes the store's newest scene when it starts a batch: each answer belongs wholly to
-/// one scene, which is no older than any that the store had when the request came.
+/// waits for a large one. (Requests with a large matrix are large too: to take it takes long.) A lane takes the store's
+/// newest scene when it starts a batch: each answer belongs wholly to one snapshot, which is no older than any that the
+/// store had when the request came.
 class CheckServer
 {
  public:
@@ -77,7 +83,11 @@ class CheckServer
   /// As stop().
   ~CheckServer();
 
-  /// Throws Busy at once where a bound is reached, Error for too many states. The future's error is the checker's.
+  /// Throws Error for more states than one request may have.
+  void requireStateCount(std::size_t count) const;
+
+  /// Throws Busy at once where a bound is reached, Error for too many states. The future's error is the checker's, or
+  /// that a variable is neither given nor known.
   std::future<CheckAnswer> submit(CheckJob job);
 
   /// Answers what runs. All that waits, and what comes later, gets an Error "shutting down".

@@ -39,6 +39,14 @@ bool Snapshot::allKnown() const
   return std::find(known.begin(), known.end(), false) == known.end();
 }
 
+PartialState Snapshot::partialState() const
+{
+  PartialState partial(*scene->robot);
+  partial.values = state;
+  partial.known = known;
+  return partial;
+}
+
 SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits)
   : state_(scene.robot->defaultState()),
     known_(state_.size(), !scene.current_state.empty()),
@@ -71,8 +79,7 @@ SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& l
     if (at.scene != asked && !hasAll(frames, externalFrames(*at.scene, change)))
       continue;
     Change made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
-    updateState(change.state.variables);
-    return {replace(std::move(made.scene)), std::move(made.warnings)};
+    return {replace(std::move(made.scene), change.state.variables), std::move(made.warnings)};
   }
 }
 
@@ -83,10 +90,11 @@ std::uint64_t SceneStore::clear()
   scene.objects.clear();
   scene.attached.clear();
   scene.colors.clear();
-  return replace(std::move(scene));
+  return replace(std::move(scene), {});
 }
 
-std::uint64_t SceneStore::replace(PlanningScene scene)
+/// The scene and the variables that come with it, at once. They are the robot's, and finite.
+std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::string, double>& variables)
 {
   const std::shared_ptr<const PlanningScene> before = snapshot().scene;
   scene.revision = before->revision + 1;
@@ -94,10 +102,24 @@ std::uint64_t SceneStore::replace(PlanningScene scene)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     scene_ = after;
+    setVariables(variables);
   }
   if (listener_)
     listener_(before, after);
   return after->revision;
+}
+
+/// Under the mutex.
+void SceneStore::setVariables(const std::map<std::string, double>& variables)
+{
+  for (const auto& [name, value] : variables)
+  {
+    const int variable = scene_->robot->variableIndex(name);
+    if (variable < 0)
+      continue;
+    state_[static_cast<std::size_t>(variable)] = value;
+    known_[static_cast<std::size_t>(variable)] = true;
+  }
 }
 
 void SceneStore::updateState(const std::map<std::string, double>& variables, std::int64_t stamp)
@@ -107,14 +129,7 @@ void SceneStore::updateState(const std::map<std::string, double>& variables, std
   for (const auto& [name, value] : variables)
     if (robot.variableIndex(name) >= 0 && !std::isfinite(value))
       throw Error("the position of '" + name + "' is not a finite number");
-  for (const auto& [name, value] : variables)
-  {
-    const int variable = robot.variableIndex(name);
-    if (variable < 0)
-      continue;
-    state_[static_cast<std::size_t>(variable)] = value;
-    known_[static_cast<std::size_t>(variable)] = true;
-  }
+  setVariables(variables);
   history_.add(stamp, state_);
 }
 

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "gpu_planning_scene/scene_change.h"
+#include "model/full_states.h"
 #include "service/state_history.h"
 
 namespace gpu_planning_scene
 {
-/// An immutable scene, and the robot's state when it was taken.
+/// An immutable scene, and the robot's state in the same instant.
 struct Snapshot
 {
   std::shared_ptr<const PlanningScene> scene;
@@ -21,6 +22,7 @@ struct Snapshot
   std::vector<bool> known;    ///< which of them are known; the others have their default
 
   bool allKnown() const;
+  PartialState partialState() const;
 };
 
 /// The scene of a running service, which changes wholly or not at all. Thread-safe; readers never wait for a change.
@@ -59,7 +61,8 @@ class SceneStore
   void setListener(Listener listener);
 
  private:
-  std::uint64_t replace(PlanningScene scene);
+  std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables);
+  void setVariables(const std::map<std::string, double>& variables);
 
   std::mutex changes_;        // held by whoever makes a change
   mutable std::mutex mutex_;  // of the four below

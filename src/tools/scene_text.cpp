@@ -32,14 +32,6 @@ std::string counted(std::size_t count, const std::string& noun)
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-std::string joined(const std::vector<std::string>& names)
-{
-  std::string line;
-  for (const std::string& name : names)
-    line += (line.empty() ? "" : ", ") + name;
-  return line;
-}
-
 std::vector<std::string> describeScene(const PlanningScene& scene, const SceneReport& report, const std::string& device)
 {
   const RobotModel& robot = *scene.robot;

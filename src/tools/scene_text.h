@@ -17,9 +17,6 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
 /// "1 link", "2 links".
 std::string counted(std::size_t count, const std::string& noun);
 
-/// Names in one line, separated by commas.
-std::string joined(const std::vector<std::string>& names);
-
 /// Which pairs of bodies collided in how many states.
 class PairCounts
 {

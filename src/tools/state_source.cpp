@@ -3,7 +3,7 @@
 #include <limits>
 #include <random>
 
-#include "tools/full_states.h"
+#include "model/full_states.h"
 #include "tools/scene_text.h"
 #include "tools/state_table.h"
 

@@ -1,6 +1,8 @@
 // What the node does with requests, joint states and the package parameter, without a ROS master.
 
+#include <future>
 #include <limits>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -9,8 +11,10 @@
 #include "model/model_testing.h"
 #include "node/check_services.h"
 #include "node/node_parameters.h"
+#include "node/requested_states.h"
 #include "node/scene_services.h"
 #include "scene/slider_robot.h"
+#include "service/gated_checker.h"
 
 namespace gpu_planning_scene
 {
@@ -82,6 +86,96 @@ TEST_F(Service, otherVariablesTakeTheCurrentState)
   expectRefusal(request({"turn"}, {0.0}), "no value for slide");
   store.updateState({{"slide", 1.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);
+}
+
+/// A request waits while the scene and the robot's state change at once.
+class WaitingService : public Service
+{
+ public:
+  template <class Ask>
+  auto answerAfterTheCartMovedTo(double slide, Ask ask)
+  {
+    store.updateState({{"slide", 0.5}, {"turn", 0.0}});
+    gate.close();
+    auto first = std::async(std::launch::async,
+                            [this] {
+                              return gated.checkStates(request({"slide", "turn"}, {0, 0}));
+                            });
+    gate.waitForChecks(1);
+    auto waiting = std::async(std::launch::async, ask);
+    while (gated_server.statistics().waiting_requests == 0)
+      std::this_thread::yield();
+    SceneChange change;
+    change.is_diff = true;
+    change.state.variables = {{"slide", slide}};
+    store.apply(change, nullptr);
+    gate.open();
+    first.get();
+    return waiting.get();
+  }
+
+  Gate gate;
+  CheckServer gated_server{store,
+                           [this](std::shared_ptr<const PlanningScene> scene)
+                           { return std::make_shared<GatedChecker>(std::move(scene), gate); },
+                           {}};
+  CheckServices gated{store, gated_server, memory, {1000, 10}};
+};
+
+TEST_F(WaitingService, variablesThatARequestLeavesOutAreThoseOfTheRevisionThatItNames)
+{
+  const CheckStates::Response response =
+      answerAfterTheCartMovedTo(-0.5, [this] { return gated.checkStates(request({"turn"}, {0.5})); });
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(6u, response.scene_revision);
+  EXPECT_EQ((std::vector<std::uint8_t>{0}), response.valid) << "the gate lets no cart left of 0 through";
+}
+
+TEST_F(WaitingService, variablesThatAMotionLeavesOutAreThoseOfTheRevisionThatItNames)
+{
+  CheckMotions::Request asked;
+  asked.joint_names = {"turn"};
+  asked.starts = {0.0};
+  asked.ends = {0.5};
+  asked.resolution = 0.1;
+  asked.translation_resolution = 0.1;
+  const CheckMotions::Response response = answerAfterTheCartMovedTo(-0.5, [&] { return gated.checkMotions(asked); });
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(6u, response.scene_revision);
+  EXPECT_EQ(6u, response.states_checked);
+  EXPECT_EQ((std::vector<std::uint8_t>{0}), response.valid);
+}
+
+TEST_F(Service, tooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
+{
+  CheckServerOptions options;
+  options.most_states = 2;
+  CheckServer small(
+      store, [](auto scene) { return std::make_shared<CpuChecker>(std::move(scene)); }, options);
+  CheckServices bounded(store, small, memory, {});
+  EXPECT_NE(std::string::npos,
+            bounded.checkStates(request({"turn"}, {0.0, 0.0, kNan})).message.find("limits/request_states"));
+  CheckMotions::Request motions;
+  motions.joint_names = {"turn"};
+  motions.starts = {0.0, 0.0, kNan};
+  motions.ends = motions.starts;
+  EXPECT_NE(std::string::npos, bounded.checkMotions(motions).message.find("limits/request_states"));
+}
+
+TEST(RequestedStates, aMotionNeedsAllOfARotationOrNothing)
+{
+  const auto robot = RobotModel::fromXml(R"(<robot name="boat">
+      <link name="sea"/><link name="hull"/><link name="mast"/>
+      <joint name="swim" type="floating"><parent link="sea"/><child link="hull"/></joint>
+      <joint name="turn" type="continuous"><parent link="hull"/><child link="mast"/><axis xyz="0 0 1"/></joint>
+      </robot>)",
+                                         "", {});
+  ASSERT_EQ(8u, robot->variables().size());
+  const int first = robot->joints()[static_cast<std::size_t>(robot->jointIndex("swim"))].first_variable;
+  const int turn = robot->joints()[static_cast<std::size_t>(robot->jointIndex("turn"))].first_variable;
+  EXPECT_NO_THROW(requireWholeRotations(*robot, {turn, first, first + 1}));
+  EXPECT_NO_THROW(requireWholeRotations(*robot, {first + 6, first + 5, first + 4, first + 3}));
+  EXPECT_NE(std::string::npos, errorOf([&] { requireWholeRotations(*robot, {turn, first + 4}); }).find("'swim'"));
 }
 
 TEST_F(Service, noStatesGetNoAnswers)

@@ -35,6 +35,15 @@ CheckJob job(std::size_t states, double first = 1.0)
   return job;
 }
 
+/// States that say where the mast is, but not the cart.
+CheckJob jobWithoutSlide(std::size_t states)
+{
+  CheckJob job;
+  job.columns = {1};
+  job.states.assign(states, 0.5);
+  return job;
+}
+
 std::string errorOf(std::future<CheckAnswer>& answer)
 {
   try
@@ -66,6 +75,14 @@ class Server : public testing::Test
     SceneChange change;
     change.is_diff = true;
     change.name = name;
+    return store.apply(change, nullptr).revision;
+  }
+
+  std::uint64_t slideTo(double position)
+  {
+    SceneChange change;
+    change.is_diff = true;
+    change.state.variables = {{"slide", position}, {"turn", 0.0}};
     return store.apply(change, nullptr).revision;
   }
 
@@ -119,8 +136,9 @@ TEST_F(Server, requestsOfOtherGroupsOrMatricesAreBatchesOfTheirOwn)
   grouped.group = "mast";
   waiting.push_back(server.submit(std::move(grouped)));
   CheckJob with_matrix = job(3);
-  with_matrix.matrix.emplace();
-  with_matrix.matrix->setEntry("cart", "crate", true);
+  AllowedCollisionMatrix matrix;
+  matrix.setEntry("cart", "crate", true);
+  with_matrix.matrix = std::make_shared<const AllowedCollisionMatrix>(matrix);
   waiting.push_back(server.submit(std::move(with_matrix)));
   waiting.push_back(server.submit(job(4)));
   gate.open();
@@ -132,6 +150,83 @@ TEST_F(Server, requestsOfOtherGroupsOrMatricesAreBatchesOfTheirOwn)
   EXPECT_EQ((std::vector<std::size_t>{1, 5, 2, 3}), gate.batches());
   EXPECT_FALSE(server.submit(job(1)).get().scene->allowed_collisions.allowed("cart", "crate"))
       << "the matrix of a request stays with it";
+}
+
+TEST_F(Server, equalMatricesOfTwoRequestsAreOne)
+{
+  std::future<CheckAnswer> first = blocked();
+  std::vector<std::future<CheckAnswer>> waiting;
+  for (int i = 0; i < 2; ++i)
+  {
+    AllowedCollisionMatrix matrix;
+    matrix.setEntry("cart", "crate", true);
+    CheckJob with_matrix = job(2);
+    with_matrix.matrix = std::make_shared<const AllowedCollisionMatrix>(matrix);
+    waiting.push_back(server.submit(std::move(with_matrix)));
+  }
+  gate.open();
+  for (auto& answer : waiting)
+    answer.get();
+  EXPECT_EQ((std::vector<std::size_t>{1, 4}), gate.batches());
+}
+
+TEST_F(Server, aLargeMatrixMakesALargeRequest)
+{
+  AllowedCollisionMatrix matrix;
+  for (int i = 0; i < 200; ++i)
+    matrix.setDefault("object " + std::to_string(i), true);
+  gate.close();
+  CheckJob with_matrix = job(1);
+  with_matrix.matrix = std::make_shared<const AllowedCollisionMatrix>(matrix);
+  std::future<CheckAnswer> large = server.submit(std::move(with_matrix));
+  gate.waitForChecks(1);
+  std::future<CheckAnswer> small = server.submit(job(1));
+  gate.waitForChecks(2);  // for ever, if the small one had to wait
+  gate.open();
+  EXPECT_EQ(1u, large.get().result.valid.size());
+  EXPECT_EQ(1u, small.get().result.valid.size());
+}
+
+TEST_F(Server, whatARequestLeavesOutIsOfTheSameInstantAsTheScene)
+{
+  slideTo(1.0);
+  std::future<CheckAnswer> first = blocked();
+  std::future<CheckAnswer> waiting = server.submit(jobWithoutSlide(2));
+  std::future<CheckAnswer> full = server.submit(job(1));
+  EXPECT_EQ(2u, slideTo(-1.0));
+  gate.open();
+  const CheckAnswer answer = waiting.get();
+  EXPECT_EQ(2u, answer.result.revision);
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), answer.result.valid);
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), full.get().result.valid);
+  EXPECT_EQ((std::vector<std::size_t>{1, 3}), gate.batches()) << "they are still answered together";
+}
+
+TEST_F(Server, whatIsNeitherGivenNorKnownIsAnErrorOfItsRequestAlone)
+{
+  std::future<CheckAnswer> first = blocked();
+  std::future<CheckAnswer> wrong = server.submit(jobWithoutSlide(1));
+  std::future<CheckAnswer> right = server.submit(job(1));
+  gate.open();
+  EXPECT_NE(std::string::npos, errorOf(wrong).find("no value for slide"));
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), right.get().result.valid);
+}
+
+TEST_F(Server, columnsComeInAnyOrderAndFullStatesAreKeptWhereAsked)
+{
+  std::future<CheckAnswer> first = blocked();
+  CheckJob swapped;
+  swapped.columns = {1, 0};
+  swapped.states = {0.25, -1.0, 0.5, 1.0};
+  swapped.keep_states = true;
+  std::future<CheckAnswer> kept = server.submit(swapped);
+  std::future<CheckAnswer> other = server.submit(job(1));
+  gate.open();
+  const CheckAnswer answer = kept.get();
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 1}), answer.result.valid);
+  EXPECT_EQ((std::vector<double>{-1.0, 0.25, 1.0, 0.5}), answer.states);
+  EXPECT_TRUE(other.get().states.empty());
+  EXPECT_EQ((std::vector<double>{-1.0, 0.25, 1.0, 0.5}), server.submit(swapped).get().states) << "alone";
 }
 
 TEST_F(Server, aSmallRequestDoesNotWaitForALargeOne)

@@ -1,6 +1,8 @@
 // The scene of a running service: revisions, the robot's state, frames that others know, and listeners.
 
+#include <atomic>
 #include <limits>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -146,6 +148,47 @@ TEST_F(Store, aChangeMaySetTheStateAndJointStatesGoOnFromThere)
   EXPECT_EQ((std::vector<double>{0.75, 1.0}), store.snapshot().scene->current_state);
   store.updateState({{"turn", 2.0}});
   EXPECT_EQ((std::vector<double>{0.75, 2.0}), store.snapshot().state);
+}
+
+TEST_F(Store, aSnapshotIsOfOneInstantWhileOthersChangeTheScene)
+{
+  // The box is where the cart is not.
+  const auto swap = [this](double slide)
+  {
+    SceneChange change = boxIn("");
+    change.objects.front().pose = Eigen::Isometry3d(Eigen::Translation3d(1.0 - slide, 0.0, 0.0));
+    change.state.variables = {{"slide", slide}, {"turn", 0.0}};
+    store.apply(change, unknownFrame);
+  };
+  swap(0.0);
+  std::atomic<bool> done{false};
+  std::atomic<int> torn{0};
+  const auto look = [&]
+  {
+    while (!done)
+    {
+      const Snapshot now = store.snapshot();
+      torn += now.state[0] + now.scene->objects[0].pose.translation().x() == 1.0 ? 0 : 1;
+    }
+  };
+  const auto turn = [&]
+  {
+    for (std::int64_t stamp = 1; !done; ++stamp)
+    {
+      store.updateState({{"turn", 0.5}}, stamp);
+      store.stateAt(stamp);
+    }
+  };
+  std::vector<std::thread> others;
+  others.emplace_back(look);
+  others.emplace_back(look);
+  others.emplace_back(turn);
+  for (int i = 0; i < 40000; ++i)
+    swap(i % 2 == 0 ? 1.0 : 0.0);
+  done = true;
+  for (std::thread& other : others)
+    other.join();
+  EXPECT_EQ(0, torn);
 }
 
 TEST_F(Store, aListenerHearsEachChangeInOrder)

@@ -1,12 +1,19 @@
-#include "tools/full_states.h"
+#include "full_states.h"
 
 #include "gpu_planning_scene/error.h"
-#include "tools/scene_text.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
+std::string joined(const std::vector<std::string>& names)
+{
+  std::string line;
+  for (const std::string& name : names)
+    line += (line.empty() ? "" : ", ") + name;
+  return line;
+}
+
 std::string variableNames(const RobotModel& robot)
 {
   std::vector<std::string> names;
