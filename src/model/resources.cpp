@@ -40,17 +40,21 @@ std::string decodePercents(const std::string& text, const std::string& uri)
   return decoded;
 }
 
+/// The name is what stands before the first slash as written, as in ROS; so a decoded name has no slash of its own.
 std::string resolvePackageUri(const std::string& uri, const PackageResolver& packages)
 {
-  const std::string rest = decodePercents(uri.substr(std::string("package://").size()), uri);
+  const std::string rest = uri.substr(std::string("package://").size());
   const std::size_t slash = rest.find('/');
-  const std::string package = rest.substr(0, slash);
-  const fs::path inside = slash == std::string::npos ? fs::path() : fs::path(rest.substr(slash + 1)).lexically_normal();
+  const std::string package = decodePercents(rest.substr(0, slash), uri);
+  const fs::path inside = slash == std::string::npos
+                              ? fs::path()
+                              : fs::path(decodePercents(rest.substr(slash + 1), uri)).lexically_normal();
   if (package.empty() || inside.empty() || inside == ".")
   {
     throw Error("mesh URI '" + uri + "' is not of the form package://NAME/PATH");
   }
-  if (package == "." || package == ".." || inside.is_absolute() || *inside.begin() == "..")
+  if (package == "." || package == ".." || package.find('/') != std::string::npos || inside.is_absolute() ||
+      *inside.begin() == "..")
   {
     throw Error("mesh URI '" + uri + "' leaves its package");
   }

@@ -59,7 +59,9 @@ TEST_F(AllowedRootsTest, noPathLeavesAPackage)
   for (const char* uri :
        {"package://arm/../secret.stl", "package://arm/%2e%2e/secret.stl", "package://arm/%2E%2e%2fsecret.stl",
         "package://arm/meshes/..%2f..%2fsecret.stl", "package://arm/out.stl", "package://arm/folder/link.stl",
-        "package://linked/out.stl", "package://arm/../arm_2/link.stl", "package://../secret.stl"})
+        "package://linked/out.stl", "package://arm/../arm_2/link.stl", "package://../secret.stl",
+        "package://%2e%2e/secret.stl", "package://arm%2Ffolder/link.stl", "package://arm%2ffolder%2flink.stl/x",
+        "package://arm%2Fmeshes%2F..%2Ffolder/link.stl"})
     EXPECT_NE(errorFor(uri).find("leaves its package"), std::string::npos) << uri << ": " << errorFor(uri);
 }
 
