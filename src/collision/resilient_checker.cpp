@@ -90,6 +90,7 @@ struct ResilientChecker::Impl
   std::unique_ptr<StateChecker> cpu;
   Scene cpu_scene;
   bool asked_cpu = false;  // the last question was its
+  bool opened_before = false;
   double seconds_per_call = 0.0;
   std::deque<Clock::time_point> losses;
   Clock::time_point retry = Clock::time_point::min();  // the CPU answers until then
@@ -132,6 +133,7 @@ void ResilientChecker::Impl::openDevice(const Scene& the_scene, double seconds)
   device = std::shared_ptr<Slot>(opened, &opened->slot);
   device_scene = the_scene;
   const std::lock_guard<std::mutex> lock(status_mutex);
+  history.rebuilds += std::exchange(opened_before, true) ? 1 : 0;
   device_name = opened->name;
   device_warning = opened->warning;
 }
@@ -189,8 +191,6 @@ bool ResilientChecker::Impl::placeOnDevice(const Scene& the_scene)
     else
     {
       openDevice(the_scene, seconds_per_call);
-      const std::lock_guard<std::mutex> lock(status_mutex);
-      ++history.rebuilds;
     }
     return true;
   }
@@ -260,12 +260,15 @@ Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result
 }
 
 ResilientChecker::ResilientChecker(std::shared_ptr<const PlanningScene> scene, Make device, Make cpu,
-                                   const ResilientOptions& options)
+                                   const ResilientOptions& options, Opening opening)
   : impl_(std::make_unique<Impl>(std::move(device), std::move(cpu), options))
 {
   refuseMissingRobot(scene);
-  impl_->openDevice(scene, kNoLimit);
   impl_->seconds_per_call = options.device_seconds * (1.0 + millionTriangles(*scene));
+  if (opening == Opening::AtStart)
+    impl_->openDevice(scene, kNoLimit);
+  else
+    impl_->ask<bool>(scene, [](StateChecker&) { return true; });
   impl_->scene = std::move(scene);
 }
 

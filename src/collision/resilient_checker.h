@@ -14,7 +14,7 @@ namespace gpu_planning_scene
 struct DeviceHistory
 {
   std::uint64_t losses = 0;    ///< that were noticed
-  std::uint64_t rebuilds = 0;  ///< new checkers on the device
+  std::uint64_t rebuilds = 0;  ///< new checkers on the device, after the first
   std::uint64_t batches_on_cpu = 0;
   bool on_cpu = false;     ///< the CPU answers at present
   std::string last_error;  ///< of the device; empty: none
@@ -41,11 +41,16 @@ class ResilientChecker : public StateChecker
  public:
   using Make = std::function<std::unique_ptr<StateChecker>(std::shared_ptr<const PlanningScene>)>;
   static constexpr std::size_t kStatesPerCall = 16384;
+  enum class Opening
+  {
+    AtStart,  ///< the device may take as long as it likes, and what it throws is thrown: nothing can work without it
+    Later     ///< the device has as long as for a scene, and the CPU stands in for it
+  };
 
-  /// `device` is called at once and may take as long as it likes; what it throws then is thrown. `cpu` is called when
-  /// it is first needed, and throws nothing but what the scene is to be blamed for.
+  /// `device` is called at once. `cpu` is called when it is first needed, and throws nothing but what the scene is to
+  /// be blamed for.
   ResilientChecker(std::shared_ptr<const PlanningScene> scene, Make device, Make cpu,
-                   const ResilientOptions& options = {});
+                   const ResilientOptions& options = {}, Opening opening = Opening::AtStart);
   ~ResilientChecker() override;
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;

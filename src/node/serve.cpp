@@ -2,8 +2,8 @@
 
 #include <malloc.h>
 
-#include "gpu_planning_scene/cpu_checker.h"
 #include "node/check_services.h"
+#include "node/checker_maker.h"
 #include "node/cloud_topic.h"
 #include "node/diagnostics.h"
 #include "node/endpoints.h"
@@ -39,28 +39,6 @@ PlanningScene startingScene(PlanningScene scene, const SceneDefaults& defaults)
   for (AttachedObject& carried : scene.attached)
     carried.padding = defaults.attached_padding;
   return scene;
-}
-
-/// Makes checkers that outlive their device, and that diagnostics know of.
-CheckServer::MakeChecker checkerMaker(const BatchCheckerOptions& options, const ResilientOptions& resilience,
-                                      const OpenDevice& open_device, Diagnostics& diagnostics)
-{
-  const auto cpu = [options](std::shared_ptr<const PlanningScene> scene) -> std::unique_ptr<StateChecker>
-  { return std::make_unique<CpuChecker>(std::move(scene), options); };
-  const auto device = [options, open_device](std::shared_ptr<const PlanningScene> scene)
-  { return open_device(std::move(scene), options); };
-  return [=, &diagnostics](std::shared_ptr<const PlanningScene> scene)
-  {
-    std::shared_ptr<StateChecker> checker;
-    if (options.device == "cpu")
-      checker = cpu(std::move(scene));
-    else
-      checker = std::make_shared<ResilientChecker>(std::move(scene), device, cpu, resilience);
-    if (const std::string warning = checker->deviceWarning(); !warning.empty())
-      ROS_WARN_STREAM(warning);
-    diagnostics.watch(checker);
-    return checker;
-  };
 }
 
 /// glibc gives threads heaps of their own, and what one frees serves no other: with a thread for each waiting request,

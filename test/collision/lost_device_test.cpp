@@ -1,6 +1,7 @@
 // The real GPU checker behind a ResilientChecker, where the driver says that its context was reset.
 
 #include <atomic>
+#include <utility>
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -22,13 +23,22 @@ GLenum answer()
   return resets.fetch_sub(1) > 0 ? static_cast<GLenum>(GL_GUILTY_CONTEXT_RESET) : true_answer();
 }
 
+/// With its objects that much higher.
+std::shared_ptr<const PlanningScene> raised(const PlanningScene& scene, double distance)
+{
+  auto changed = std::make_shared<PlanningScene>(scene);
+  changed->revision += 1;
+  for (WorldObject& object : changed->objects)
+    object.pose.translation().z() += distance;
+  return changed;
+}
+
 TEST(LostDevice, ChangesNoAnswer)
 {
   const TestScene& test = testScene("arm_boxes");
   const std::size_t width = test.scene->robot->variables().size();
   const std::vector<double> states = test.randomStates(300, 7);
   const std::size_t count = states.size() / width;
-  const BatchResult expected = CpuChecker(test.scene).check(states.data(), count);
 
   BatchCheckerOptions options;
   options.cpu_below = 0;
@@ -37,17 +47,20 @@ TEST(LostDevice, ChangesNoAnswer)
       [](auto scene) { return std::make_unique<CpuChecker>(scene); });
   true_answer = epoxy_glGetGraphicsResetStatus;  // now that it has been asked: before, libepoxy has yet to look for it
   epoxy_glGetGraphicsResetStatus = answer;
-  PlanningScene changed = *test.scene;
+  std::shared_ptr<const PlanningScene> scene = test.scene;
+  BatchResult expected = CpuChecker(scene).check(states.data(), count);
   for (const int losses : {0, 1, 2})
   {
-    changed.revision += 1;
+    scene = raised(*scene, 0.1);
+    const BatchResult before = std::exchange(expected, CpuChecker(scene).check(states.data(), count));
+    ASSERT_NE(expected.valid, before.valid) << "answers of the scene before would not be told apart";
     if (losses == 2)
       resets = 1;  // in the change of the scene; another in the check
-    checker.setScene(std::make_shared<const PlanningScene>(changed));
+    checker.setScene(scene);
     resets = losses == 0 ? 0 : 1;
     const BatchResult result = checker.check(states.data(), count);
     EXPECT_EQ(result.valid, expected.valid) << losses;
-    EXPECT_EQ(result.revision, changed.revision);
+    EXPECT_EQ(result.revision, scene->revision);
   }
   resets = 0;
   EXPECT_EQ(checker.history().losses, 3u);

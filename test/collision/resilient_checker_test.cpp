@@ -141,7 +141,8 @@ class Resilient : public testing::Test
     {
       const auto maker = [](const std::shared_ptr<Script>& script, const char* name)
       { return [script, name](Scene made_for) { return std::make_unique<FakeChecker>(script, name, made_for); }; };
-      checker_ = std::make_unique<ResilientChecker>(scene(1), maker(device_, "a device"), maker(cpu_, "CPU"), options_);
+      checker_ = std::make_unique<ResilientChecker>(scene(1), maker(device_, "a device"), maker(cpu_, "CPU"), options_,
+                                                    opening_);
     }
     return *checker_;
   }
@@ -160,6 +161,7 @@ class Resilient : public testing::Test
   std::shared_ptr<Script> device_ = std::make_shared<Script>();
   std::shared_ptr<Script> cpu_ = std::make_shared<Script>();
   ResilientOptions options_;
+  ResilientChecker::Opening opening_ = ResilientChecker::Opening::AtStart;
   std::unique_ptr<ResilientChecker> checker_;
 };
 
@@ -244,6 +246,53 @@ TEST_F(Resilient, ThatCannotBeMadeAtFirstIsSaid)
   device_->makes = {[] { throw Error("no usable device"); }};
   EXPECT_THROW(checker(), Error);
   EXPECT_EQ(cpu_->made, 0);
+}
+
+TEST_F(Resilient, OpenedLaterItIsTheDevices)
+{
+  opening_ = ResilientChecker::Opening::Later;
+  EXPECT_EQ(ask(), 1u);
+  EXPECT_EQ(checker().deviceName(), "a device");
+  EXPECT_EQ(device_->made, 1);
+  EXPECT_EQ(checker().history().rebuilds, 0u);
+}
+
+TEST_F(Resilient, ThatCannotBeMadeLaterIsReplacedByTheCpuUntilItIsTriedAgain)
+{
+  opening_ = ResilientChecker::Opening::Later;
+  options_.retry_seconds = 0.2;
+  for (const auto& [fail, losses] : {std::pair{+[] { throw Error("no usable device"); }, 0u}, std::pair{&lost, 2u}})
+  {
+    device_->makes = {fail, losses != 0 ? fail : nullptr};
+    EXPECT_EQ(ask(), 1u);
+    EXPECT_EQ(checker().deviceName(), "CPU");
+    EXPECT_TRUE(checker().history().on_cpu);
+    EXPECT_NE(checker().history().last_error, "");
+    EXPECT_EQ(checker().history().losses, losses);
+    std::this_thread::sleep_for(std::chrono::duration<double>(1.2 * options_.retry_seconds));
+    EXPECT_EQ(ask(), 1u);
+    EXPECT_EQ(checker().deviceName(), "a device");
+    checker_.reset();
+  }
+}
+
+TEST_F(Resilient, ThatHangsWhenItIsMadeLaterIsLeftBehind)
+{
+  opening_ = ResilientChecker::Opening::Later;
+  options_.device_seconds = 0.05;
+  const auto gate = std::make_shared<std::promise<void>>();
+  device_->makes = {[gate] { gate->get_future().wait(); }};
+  EXPECT_EQ(ask(), 1u);
+  EXPECT_TRUE(checker().history().on_cpu);
+  EXPECT_EQ(checker().history().losses, 1u);
+  gate->set_value();
+}
+
+TEST_F(Resilient, ASceneThatNobodyTakesIsRefusedByOneThatIsMadeLaterToo)
+{
+  opening_ = ResilientChecker::Opening::Later;
+  device_->takes = cpu_->takes = [](const PlanningScene&) { return false; };
+  EXPECT_EQ(errorOf([&] { checker(); }), "revision 1 does not fit");
 }
 
 TEST_F(Resilient, ThatHangsIsLeftBehindAndTheCpuAnswersForGood)
