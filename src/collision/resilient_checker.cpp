@@ -75,6 +75,7 @@ struct ResilientChecker::Impl
   void placeOnCpu(const Scene& scene);
   void openDevice(const Scene& scene, double seconds);
   void run(const std::function<void()>& job, double seconds);
+  void noteFailedRebuild();
   void dropDevice();
   void noteLoss(const std::string& error);
   void useCpu(const std::string& error);
@@ -91,6 +92,7 @@ struct ResilientChecker::Impl
   Scene cpu_scene;
   bool asked_cpu = false;  // the last question was its
   bool opened_before = false;
+  bool lost = false;  // and not made anew since
   double seconds_per_call = 0.0;
   std::deque<Clock::time_point> losses;
   Clock::time_point retry = Clock::time_point::min();  // the CPU answers until then
@@ -108,6 +110,7 @@ void ResilientChecker::Impl::run(const std::function<void()>& job, double second
   if (thread.run(job, std::min(seconds, kNoLimit)))
     return;
   device.reset();
+  noteFailedRebuild();  // there is no thread for one
   std::ostringstream message;
   message << "the device has not answered for " << seconds << " s and is not used any more";
   throw DeviceLost(message.str());
@@ -133,9 +136,17 @@ void ResilientChecker::Impl::openDevice(const Scene& the_scene, double seconds)
   device = std::shared_ptr<Slot>(opened, &opened->slot);
   device_scene = the_scene;
   const std::lock_guard<std::mutex> lock(status_mutex);
+  lost = false;
   history.rebuilds += std::exchange(opened_before, true) ? 1 : 0;
+  history.rebuild_failed = false;
   device_name = opened->name;
   device_warning = opened->warning;
+}
+
+void ResilientChecker::Impl::noteFailedRebuild()
+{
+  const std::lock_guard<std::mutex> lock(status_mutex);
+  history.rebuild_failed = true;
 }
 
 void ResilientChecker::Impl::dropDevice()
@@ -161,7 +172,10 @@ void ResilientChecker::Impl::useCpu(const std::string& error)
 
 void ResilientChecker::Impl::noteLoss(const std::string& error)
 {
+  if (!device)
+    noteFailedRebuild();
   dropDevice();
+  lost = true;
   {
     const std::lock_guard<std::mutex> lock(status_mutex);
     ++history.losses;
@@ -200,6 +214,8 @@ bool ResilientChecker::Impl::placeOnDevice(const Scene& the_scene)
   }
   catch (const std::exception& error)
   {
+    if (lost)
+      noteFailedRebuild();
     dropDevice();
     placeOnCpu(the_scene);  // throws where the scene is to blame; the device is then made anew with the next question
     useCpu(error.what());

@@ -16,8 +16,9 @@ struct DeviceHistory
   std::uint64_t losses = 0;    ///< that were noticed
   std::uint64_t rebuilds = 0;  ///< new checkers on the device, after the first
   std::uint64_t batches_on_cpu = 0;
-  bool on_cpu = false;     ///< the CPU answers at present
-  std::string last_error;  ///< of the device; empty: none
+  bool on_cpu = false;          ///< the CPU answers at present
+  bool rebuild_failed = false;  ///< the device was lost and could not be had again, so far
+  std::string last_error;       ///< of the device; empty: none
 };
 
 struct ResilientOptions

@@ -32,6 +32,7 @@ DeviceHistory sumOf(const std::vector<std::shared_ptr<const StateChecker>>& chec
     sum.rebuilds += history.rebuilds;
     sum.batches_on_cpu += history.batches_on_cpu;
     sum.on_cpu = sum.on_cpu || history.on_cpu;
+    sum.rebuild_failed = sum.rebuild_failed || (history.on_cpu && history.rebuild_failed);
     if (!history.last_error.empty())
       sum.last_error = history.last_error;
   }
@@ -77,9 +78,8 @@ DiagnosticStatus Diagnostics::status(const SceneStore& store, const CheckServer&
   status.message = "checks states";
   if (history.on_cpu)
   {
-    const bool rebuild_failed = history.rebuilds < history.losses;
-    status.level = rebuild_failed ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN;
-    status.message = "the device failed, and the CPU answers: " + history.last_error;
+    status.level = history.rebuild_failed ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN;
+    status.message = "the CPU answers for the device: " + history.last_error;
   }
   add(status, "device", status.hardware_id);
   add(status, "on_cpu", history.on_cpu ? "true" : "false");

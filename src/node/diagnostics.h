@@ -23,7 +23,8 @@ class Diagnostics
   /// A message or request that was not used, and why.
   void refused(const std::string& why);
 
-  /// Since the last call the rate. OK; WARN: the CPU stands in for a device; ERROR: that, and a rebuild had failed.
+  /// Since the last call the rate. OK; WARN: the CPU stands in for a device; ERROR: for one that could not be had
+  /// again.
   diagnostic_msgs::DiagnosticStatus status(const SceneStore& store, const CheckServer& server);
 
  private:

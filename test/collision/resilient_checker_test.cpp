@@ -202,6 +202,7 @@ TEST_F(Resilient, LostTwiceTheCpuAnswersUntilTheDeviceIsTriedAgain)
   EXPECT_EQ(checker().deviceName(), "CPU");
   EXPECT_EQ(checker().deviceWarning(), "");
   EXPECT_TRUE(checker().history().on_cpu);
+  EXPECT_FALSE(checker().history().rebuild_failed) << "it could be made anew, and was lost again";
   EXPECT_EQ(checker().history().batches_on_cpu, 1u);
   checker().setScene(scene(3));
   EXPECT_EQ(ask(), 3u);
@@ -233,12 +234,21 @@ TEST_F(Resilient, ThatIsLostTooOftenIsNotTried)
 
 TEST_F(Resilient, ThatCannotBeMadeAgainIsReplacedByTheCpu)
 {
-  checker();
-  device_->checks = {lost};
-  device_->makes = {[] { throw Error("no usable device"); }};
-  EXPECT_EQ(ask(), 1u);
-  EXPECT_TRUE(checker().history().on_cpu);
-  EXPECT_EQ(checker().history().last_error, "no usable device");
+  options_.retry_seconds = 0.2;
+  for (const auto fail : {+[] { throw Error("no usable device"); }, +[] { throw DeviceLost("no usable device"); }})
+  {
+    checker();
+    device_->checks = {lost};
+    device_->makes = {fail};
+    EXPECT_EQ(ask(), 1u);
+    EXPECT_TRUE(checker().history().on_cpu);
+    EXPECT_TRUE(checker().history().rebuild_failed);
+    EXPECT_EQ(checker().history().last_error, "no usable device");
+    std::this_thread::sleep_for(std::chrono::duration<double>(1.2 * options_.retry_seconds));
+    EXPECT_EQ(ask(), 1u);
+    EXPECT_FALSE(checker().history().rebuild_failed);
+    checker_.reset();
+  }
 }
 
 TEST_F(Resilient, ThatCannotBeMadeAtFirstIsSaid)
@@ -309,6 +319,7 @@ TEST_F(Resilient, ThatHangsIsLeftBehindAndTheCpuAnswersForGood)
                      }};
   EXPECT_EQ(ask(), 1u);
   EXPECT_EQ(checker().history().losses, 1u);
+  EXPECT_TRUE(checker().history().rebuild_failed);
   EXPECT_NE(checker().history().last_error.find("has not answered for 0.05"), std::string::npos);
   checker().setScene(scene(2));
   EXPECT_EQ(ask(), 2u);
@@ -364,6 +375,7 @@ TEST_F(Resilient, ASceneThatTheDeviceCannotHoldIsTheCpus)
   EXPECT_EQ(ask(), 2u);
   EXPECT_TRUE(checker().history().on_cpu);
   EXPECT_EQ(checker().history().last_error, "revision 2 does not fit");
+  EXPECT_FALSE(checker().history().rebuild_failed) << "nothing is wrong with the device";
 }
 
 TEST_F(Resilient, ManyStatesAreAskedInPartsOfWhichOneMayFail)

@@ -1,7 +1,9 @@
 // The node's checkers where the device fails after the start; no master is needed.
 
 #include <atomic>
+#include <chrono>
 #include <future>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +17,29 @@ namespace gpu_planning_scene
 {
 namespace
 {
+/// A device that is lost in its next checks.
+class Device : public CpuChecker
+{
+ public:
+  Device(std::shared_ptr<const PlanningScene> scene, std::shared_ptr<std::atomic<int>> losses)
+    : CpuChecker(std::move(scene)), losses_(std::move(losses))
+  {
+  }
+  BatchResult check(const double* states, std::size_t count, const std::string& group) override
+  {
+    if (*losses_ > 0)
+    {
+      --*losses_;
+      throw DeviceLost("the GPU was reset");
+    }
+    return CpuChecker::check(states, count, group);
+  }
+  std::string deviceName() const override { return "a device"; }
+
+ private:
+  std::shared_ptr<std::atomic<int>> losses_;
+};
+
 class CheckerMaker : public testing::Test
 {
  protected:
@@ -33,7 +58,7 @@ class CheckerMaker : public testing::Test
       {
         if (fault_ != nullptr)
           fault_.load()(repaired);
-        return std::make_unique<CpuChecker>(std::move(scene));
+        return std::make_unique<Device>(std::move(scene), losses_);
       };
       server_ = std::make_unique<CheckServer>(store_, checkerMaker({}, resilience_, open, diagnostics_),
                                               CheckServerOptions());
@@ -48,8 +73,11 @@ class CheckerMaker : public testing::Test
     return server().submit(std::move(job)).get();
   }
 
+  int level() { return diagnostics_.status(store_, server()).level; }
+
   std::atomic<void (*)(const std::shared_future<void>&)> fault_{nullptr};
   std::promise<void> repaired_;
+  std::shared_ptr<std::atomic<int>> losses_ = std::make_shared<std::atomic<int>>(0);
   ResilientOptions resilience_;
   SceneStore store_{PlanningScene(sliderRobot()), {}, {}};
   Diagnostics diagnostics_;
@@ -79,6 +107,35 @@ TEST_F(CheckerMaker, aDeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
   openWith([](const auto& repaired) { repaired.wait(); });
   EXPECT_EQ(ask(kLarge).result.valid.size(), kLarge);
   server().stop();
+}
+
+TEST_F(CheckerMaker, diagnosticsWarnWhileTheCpuStandsInAndTellOfADeviceThatIsNotToBeHad)
+{
+  using diagnostic_msgs::DiagnosticStatus;
+  resilience_.retry_seconds = 0.1;
+  resilience_.most_losses = 100;
+  const auto retry = [this] { std::this_thread::sleep_for(std::chrono::duration<double>(resilience_.retry_seconds)); };
+  ask(1);
+  EXPECT_EQ(level(), DiagnosticStatus::OK);
+  *losses_ = 1;
+  EXPECT_EQ(ask(1).device, "a device") << "made anew";
+  EXPECT_EQ(level(), DiagnosticStatus::OK);
+  *losses_ = 2;
+  ask(1);
+  EXPECT_EQ(level(), DiagnosticStatus::WARN);
+  retry();
+  ask(1);
+  EXPECT_EQ(level(), DiagnosticStatus::OK);
+  *losses_ = 1;
+  openWith([](const auto&) { throw Error("no usable device"); });
+  ask(1);
+  EXPECT_EQ(level(), DiagnosticStatus::ERROR);
+  const std::string message = diagnostics_.status(store_, server()).message;
+  EXPECT_NE(message.find("no usable device"), std::string::npos) << message;
+  openWith(nullptr);
+  retry();
+  ask(1);
+  EXPECT_EQ(level(), DiagnosticStatus::OK);
 }
 }  // namespace
 }  // namespace gpu_planning_scene
