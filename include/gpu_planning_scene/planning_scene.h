@@ -59,13 +59,22 @@ enum class MatrixSource
   SceneFile       ///< or a message
 };
 
+/// What a scene starts with, and what new objects get.
+struct SceneDefaults
+{
+  std::vector<double> link_padding;  ///< metres, one per link, or none: all 0
+  std::vector<double> link_scale;    ///< one per link, or none: all 1
+  double object_padding = 0.0;       ///< metres
+  double attached_padding = 0.0;     ///< metres: see AttachedObject::padding
+};
+
 /// A robot, the objects around it, which pairs may touch, and the current state. A value: checkers take it as an
 /// immutable snapshot (`std::shared_ptr<const PlanningScene>`).
 /// A *body* is a link, an object or an attached object; body indices count the links first, then the objects, then the
 /// attached objects.
 struct PlanningScene
 {
-  explicit PlanningScene(std::shared_ptr<const RobotModel> robot_model);
+  explicit PlanningScene(std::shared_ptr<const RobotModel> robot_model, const SceneDefaults& defaults = {});
 
   std::string name = {};
   std::shared_ptr<const RobotModel> robot;  ///< scaled: see setLinkScale
@@ -110,8 +119,9 @@ struct PlanningScene
 /// with x, y, z, w keys; entry_values with `enabled`) and the compact one (arrays, `type: box`, bare rows). Everything
 /// is checked before anything is kept. Throws Error with file and line. Joints that the robot lacks, and what is not
 /// modelled, give warnings. Object poses are in `planningFrame()`; a header.frame_id may name it, a link, or a frame of
-/// fixed_frame_transforms. `meshes`: who reads the mesh files that it names.
+/// fixed_frame_transforms. `meshes`: who reads the mesh files that it names. `defaults`: padding and scale of what the
+/// file does not name.
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings = nullptr,
-                            const MeshAccess& meshes = {});
+                            const MeshAccess& meshes = {}, const SceneDefaults& defaults = {});
 }  // namespace gpu_planning_scene

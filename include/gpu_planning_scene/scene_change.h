@@ -83,15 +83,6 @@ struct SceneChange
   std::vector<ObjectChange> objects;  ///< in order
 };
 
-/// What a scene starts with, and what new objects get.
-struct SceneDefaults
-{
-  std::vector<double> link_padding;  ///< metres, one per link, or none: all 0
-  std::vector<double> link_scale;    ///< one per link, or none: all 1
-  double object_padding = 0.0;       ///< metres
-  double attached_padding = 0.0;     ///< metres: see AttachedObject::padding
-};
-
 /// What a change may lead to; 0: no bound.
 struct SceneLimits
 {
@@ -99,6 +90,8 @@ struct SceneLimits
   std::size_t shapes = 400000;       ///< of those
   std::size_t triangles = 20000000;  ///< of distinct meshes, the robot's too
   std::size_t triangles_of_mesh = 5000000;
+  std::size_t frames = 100000;     ///< fixed ones and subframes
+  std::size_t colors = 200000;     ///< of bodies, also of those that are not there yet
   std::size_t name_length = 1024;  ///< bytes of each name
   std::size_t matrix_entries = 4000000;
 };
@@ -112,11 +105,11 @@ std::vector<FrameAt> externalFrames(const PlanningScene& scene, const SceneChang
 struct Change
 {
   PlanningScene scene;        ///< its current_state is `state`
-  std::vector<double> state;  ///< one value per variable; empty where it is not known yet
+  std::vector<double> state;  ///< one value per variable; empty where not all are known yet
   std::vector<std::string> warnings;
 };
 
-/// The scene that the change leads to; the revision stays. `state`: the robot's, may be empty where it is not known
+/// The scene that the change leads to; the revision stays. `state`: the robot's, empty where not all of it is known
 /// yet. `scene` is valid (validateScene), and so is what comes out. Throws Error that names the object or link and says
 /// what to do.
 Change applyChange(const PlanningScene& scene, const std::vector<double>& state, const SceneChange& change,

@@ -11,6 +11,10 @@
 
 namespace gpu_planning_scene
 {
+/// Metres: no coordinate, size or padding may be larger. Far beyond it, squares overflow, and doubles have no
+/// micrometres.
+constexpr double kLargestLength = 1e6;
+
 /// A triangle mesh in metres, in its own frame. No demand is made on topology: open, cracked, duplicate and zero-area
 /// triangles are surfaces like any other. Vertices are finite and indices in range (the loaders and
 /// `validateMesh` see to it). Immutable once shared.
@@ -21,7 +25,8 @@ struct Mesh
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Throws Error if the mesh has no triangle, a vertex that is not finite, or an index out of range.
+/// Throws Error if the mesh has no triangle, a coordinate that is not finite or above kLargestLength, or an index out
+/// of range.
 void validateMesh(const Mesh& mesh);
 
 /// Solids in their own frame, centred at its origin, in metres (as shape_msgs/SolidPrimitive has them).

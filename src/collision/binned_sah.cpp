@@ -101,7 +101,7 @@ class Builder
   {
     const double extent = centers.max()[axis] - centers.min()[axis];
     const double offset = boxes_[item].center()[axis] - centers.min()[axis];
-    return std::min(bins - 1, static_cast<int>(bins * (offset / extent)));
+    return static_cast<int>(std::clamp(bins * (offset / extent), 0.0, bins - 1.0));
   }
 
   Split bestSplit(std::uint32_t begin, std::uint32_t end, const AlignedBox3d& centers) const

@@ -40,6 +40,8 @@ double leastFor(double low, double high, const Predicate& holds)
   while (high - low > kResolution)
   {
     const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high)
+      break;  // doubles as large as these have no micrometres
     (holds(middle) ? high : low) = middle;
   }
   return low;

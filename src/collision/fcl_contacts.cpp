@@ -11,6 +11,7 @@
 #include <fcl/narrowphase/distance.h>
 
 #include "collision/clearance_search.h"
+#include "collision/primitive_solid.h"
 
 namespace gpu_planning_scene
 {
@@ -35,11 +36,12 @@ bool isUnit(const Vector3d& vector)
 
 /// What FCL finds where surfaces cross. It gives up on some pairs with an exception; then it has found nothing.
 /// Of triangles that lie in one plane, or are larger than what overlaps, it names points outside of both shapes, and
-/// depths of triangles. Points must be in both shapes' boxes. No shape is deeper in the other than their boxes overlap
-/// along any axis: deeper contacts are told where there are no others, and as that deep.
-std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, const AlignedBox3d& overlap,
-                                      double required)
+/// depths of triangles. Points must be in both shapes' boxes. A way along an axis that takes the boxes apart takes the
+/// shapes apart: deeper contacts than the shortest one are told where there are no others, and as that deep.
+std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, const AlignedBox3d& box_a,
+                                      const AlignedBox3d& box_b, double required)
 {
+  const AlignedBox3d overlap = box_a.intersection(box_b);
   fcl::CollisionResultd result;
   try
   {
@@ -50,7 +52,8 @@ std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, cons
     return {};
   }
   const AlignedBox3d grown(overlap.min().array() - kBoxMargin, overlap.max().array() + kBoxMargin);
-  const double deepest = overlap.isEmpty() ? 0.0 : overlap.sizes().minCoeff();
+  const Vector3d ways = (box_a.max() - box_b.min()).cwiseMin(box_b.max() - box_a.min());
+  const double deepest = std::max(0.0, ways.minCoeff());
   std::vector<ShapeContact> contacts;
   std::vector<ShapeContact> too_deep;
   for (std::size_t i = 0; i < result.numContacts(); ++i)
@@ -138,26 +141,25 @@ std::vector<ShapeContact> contactsOf(const FclShape& a, const FclShape& b, doubl
   const AlignedBox3d box_b = boundsOf(forest.tree(b.tree), b.pose);
   if (required > 0.0 && !collides(0.0))
     return {contactApart(a, b, box_a, box_b, leastFor(0.0, required, collides), required)};
-  std::vector<ShapeContact> contacts = fclContacts(a, b, box_a.intersection(box_b), required);
+  std::vector<ShapeContact> contacts = fclContacts(a, b, box_a, box_b, required);
   if (contacts.empty())
     contacts.push_back(contactWithin(a, b, box_a, box_b, required, exact, scratch));
   return contacts;
 }
 
-ShapeContact contactOf(const Isometry3d& pose, const std::vector<Vector3d>& points, const WorldHalfSpace& half_space,
-                       double required)
+ShapeContact contactOf(const Isometry3d& pose, const Shape& shape, const WorldHalfSpace& half_space, double required)
 {
-  ShapeContact contact{Vector3d::Zero(), -half_space.normal, -std::numeric_limits<double>::infinity()};
-  for (const Vector3d& local : points)
+  const Vector3d down = pose.linear().transpose() * -half_space.normal;
+  Vector3d lowest = Vector3d::Zero();
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
   {
-    const Vector3d point = pose * local;
-    const double depth = half_space.offset + required - half_space.normal.dot(point);
-    if (depth > contact.depth)
-    {
-      contact.point = point;
-      contact.depth = depth;
-    }
+    const std::vector<Vector3d>& vertices = (*mesh)->vertices;
+    lowest = *std::max_element(vertices.begin(), vertices.end(),
+                               [&down](const Vector3d& a, const Vector3d& b) { return down.dot(a) < down.dot(b); });
   }
-  return contact;
+  else
+    lowest = farthestOfSolid(shape, down);
+  const Vector3d point = pose * lowest;
+  return {point, -half_space.normal, half_space.offset + required - half_space.normal.dot(point)};
 }
 }  // namespace gpu_planning_scene

@@ -34,8 +34,7 @@ struct FclShape
 std::vector<ShapeContact> contactsOf(const FclShape& a, const FclShape& b, double required, const CpuForest& forest,
                                      const CpuShapePair& exact, CpuShapePair::Scratch& scratch);
 
-/// The contact of a shape with a half-space: where it reaches deepest. `points`: a tessellation of the shape, in its
-/// frame.
-ShapeContact contactOf(const Eigen::Isometry3d& pose, const std::vector<Eigen::Vector3d>& points,
-                       const WorldHalfSpace& half_space, double required);
+/// The contact of a shape, a solid or a mesh, with a half-space: where it reaches deepest.
+ShapeContact contactOf(const Eigen::Isometry3d& pose, const Shape& shape, const WorldHalfSpace& half_space,
+                       double required);
 }  // namespace gpu_planning_scene

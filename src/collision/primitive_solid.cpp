@@ -74,32 +74,6 @@ Vector3d farthestOfDisk(double radius, double z, const Vector3d& direction)
   return {scale * direction.x(), scale * direction.y(), z};
 }
 
-Vector3d farthestOfSolid(const Shape& solid, const Vector3d& direction)
-{
-  return std::visit(
-      Overloaded{[&](const Box& box) -> Vector3d
-                 {
-                   const Vector3d half = 0.5 * box.size;
-                   return {std::copysign(half.x(), direction.x()), std::copysign(half.y(), direction.y()),
-                           std::copysign(half.z(), direction.z())};
-                 },
-                 [&](const Cylinder& c)
-                 { return farthestOfDisk(c.radius, std::copysign(0.5 * c.length, direction.z()), direction); },
-                 [&](const Cone& c)
-                 {
-                   const Vector3d base = farthestOfDisk(c.radius, -0.5 * c.length, direction);
-                   const Vector3d apex(0.0, 0.0, 0.5 * c.length);
-                   return direction.dot(apex - base) > 0.0 ? apex : base;
-                 },
-                 [&](const Sphere& sphere) -> Vector3d
-                 {
-                   const double length = direction.norm();
-                   return length > 0.0 ? Vector3d(sphere.radius / length * direction) : Vector3d::Zero();
-                 },
-                 [](const auto& /*no primitive*/) -> Vector3d { return Vector3d::Zero(); }},
-      solid);
-}
-
 class ConvexTriangle final : public Convex
 {
  public:
@@ -205,6 +179,32 @@ double distanceToSolid(const Shape& solid, const Vector3d& point)
     return std::max(0.0, point.norm() - sphere->radius);
   }
   return fromSolid(solid, point).norm();
+}
+
+Vector3d farthestOfSolid(const Shape& solid, const Vector3d& direction)
+{
+  return std::visit(
+      Overloaded{[&](const Box& box) -> Vector3d
+                 {
+                   const Vector3d half = 0.5 * box.size;
+                   return {std::copysign(half.x(), direction.x()), std::copysign(half.y(), direction.y()),
+                           std::copysign(half.z(), direction.z())};
+                 },
+                 [&](const Cylinder& c)
+                 { return farthestOfDisk(c.radius, std::copysign(0.5 * c.length, direction.z()), direction); },
+                 [&](const Cone& c)
+                 {
+                   const Vector3d base = farthestOfDisk(c.radius, -0.5 * c.length, direction);
+                   const Vector3d apex(0.0, 0.0, 0.5 * c.length);
+                   return direction.dot(apex - base) > 0.0 ? apex : base;
+                 },
+                 [&](const Sphere& sphere) -> Vector3d
+                 {
+                   const double length = direction.norm();
+                   return length > 0.0 ? Vector3d(sphere.radius / length * direction) : Vector3d::Zero();
+                 },
+                 [](const auto& /*no primitive*/) -> Vector3d { return Vector3d::Zero(); }},
+      solid);
 }
 
 double reachAlong(const Shape& solid, const Vector3d& direction)

@@ -19,6 +19,9 @@ Eigen::Vector3d halfExtents(const Shape& solid);
 /// How far a point in the solid's frame is from it; 0 inside.
 double distanceToSolid(const Shape& solid, const Eigen::Vector3d& point);
 
+/// A point of the solid that is farthest along a direction, in its frame.
+Eigen::Vector3d farthestOfSolid(const Shape& solid, const Eigen::Vector3d& direction);
+
 /// The farthest that the solid reaches along a direction of unit length, in its frame.
 double reachAlong(const Shape& solid, const Eigen::Vector3d& direction);
 

@@ -131,7 +131,7 @@ void StateInspector::Impl::addContacts(const Inspected& group, const CpuTraversa
   if (pair[1] >= robots + problem.world.size())
   {
     const WorldHalfSpace& b = problem.half_spaces[pair[1] - robots - problem.world.size()];
-    found.push_back(contactOf(pose, problem.trees[a.tree].mesh->vertices, b, a.padding + b.padding));
+    found.push_back(contactOf(pose, group.forest->tree(a.tree).shape, b, a.padding + b.padding));
   }
   else
   {

@@ -57,7 +57,7 @@ std::vector<PlacedShape> ShapeScaler::scaled(const std::vector<PlacedShape>& sha
 
 std::shared_ptr<const RobotModel> RobotModel::scaled(const std::vector<double>& factors) const
 {
-  const std::shared_ptr<const RobotModel> loaded = as_loaded_ ? as_loaded_ : shared_from_this();
+  std::shared_ptr<const RobotModel> loaded = as_loaded_ ? as_loaded_ : shared_from_this();
   if (!factors.empty() && factors.size() != links_.size())
     throw Error("link_scale has " + std::to_string(factors.size()) + " values for " + std::to_string(links_.size()) +
                 " links; give one per link, or none");

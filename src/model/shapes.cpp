@@ -10,9 +10,10 @@ namespace
 {
 void requirePositive(double value, const char* dimension, const std::string& where)
 {
-  if (!std::isfinite(value) || value <= 0.0)
+  if (!(value > 0.0) || value > kLargestLength)
   {
-    throw Error(where + ": the " + dimension + " is " + std::to_string(value) + ", it must be finite and positive");
+    throw Error(where + ": the " + dimension + " is " + std::to_string(value) +
+                ", it must be positive and at most 1000 km");
   }
 }
 
@@ -39,9 +40,9 @@ struct DimensionCheck
   }
   void operator()(const HalfSpace& half_space) const
   {
-    if (!std::isfinite(half_space.offset) || !(std::abs(half_space.normal.norm() - 1.0) <= 1e-12))
+    if (!(std::abs(half_space.offset) <= kLargestLength) || !(std::abs(half_space.normal.norm() - 1.0) <= 1e-12))
     {
-      throw Error(where + ": a half-space's offset must be finite and its normal of unit length");
+      throw Error(where + ": a half-space's offset must be at most 1000 km and its normal of unit length");
     }
   }
   void operator()(const std::shared_ptr<const Mesh>& mesh) const
@@ -71,9 +72,10 @@ void validateMesh(const Mesh& mesh)
   }
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
   {
-    if (!mesh.vertices[i].allFinite())
+    // Written so that what is not a number fails.
+    if (!(mesh.vertices[i].array().abs() <= kLargestLength).all())
     {
-      throw Error(name + ": vertex " + std::to_string(i) + " is not finite");
+      throw Error(name + ": vertex " + std::to_string(i) + " is not finite or further than 1000 km away");
     }
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)

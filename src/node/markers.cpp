@@ -47,14 +47,22 @@ geometry_msgs::Pose toPose(const Eigen::Isometry3d& pose)
   return message;
 }
 
-/// Which meshes are drawn as they are: all, or the smallest that fit.
-std::size_t largestDrawnMesh(const PlanningScene& scene, std::size_t bodies, std::size_t most_triangles)
+/// The triangles that a shape is drawn with; 0: RViz has it as it is.
+std::size_t trianglesOf(const Shape& shape)
+{
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
+    return (*mesh)->triangles.size();
+  return std::holds_alternative<Cone>(shape) ? tessellate(shape).mesh->triangles.size() : 0;
+}
+
+/// Which shapes are drawn with their triangles: all, or the smallest that fit.
+std::size_t largestDrawn(const PlanningScene& scene, std::size_t bodies, std::size_t most_triangles)
 {
   std::vector<std::size_t> counts;
   for (std::size_t body = 0; body < bodies; ++body)
     for (const PlacedShape& shape : bodyShapes(scene, body))
-      if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape.shape))
-        counts.push_back((*mesh)->triangles.size());
+      if (const std::size_t count = trianglesOf(shape.shape); count != 0)
+        counts.push_back(count);
   std::sort(counts.begin(), counts.end());
   std::size_t sum = 0;
   std::size_t largest = 0;
@@ -67,6 +75,9 @@ std::size_t largestDrawnMesh(const PlanningScene& scene, std::size_t bodies, std
   }
   return largest;
 }
+
+/// A box of a tree level has as many points as so many triangles.
+constexpr std::size_t kTrianglesOfBox = 8;
 
 class MarkerMaker
 {
@@ -82,7 +93,7 @@ class MarkerMaker
 
   void addBodies(const std::set<std::size_t>& colliding)
   {
-    largest_mesh_ = largestDrawnMesh(scene_, poses_.size(), options_.most_triangles);
+    largest_drawn_ = largestDrawn(scene_, poses_.size(), options_.most_triangles);
     for (std::size_t body = 0; body < poses_.size(); ++body)
     {
       lists_.clear();
@@ -168,7 +179,7 @@ class MarkerMaker
     else if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
       addMesh(**mesh, pose);
     else
-      addTriangles(*tessellate(shape).mesh, pose);
+      addMesh(*tessellate(shape).mesh, pose);
   }
 
   /// Equal solids that are turned alike share a marker: a point cloud has tens of thousands of cubes.
@@ -186,8 +197,10 @@ class MarkerMaker
 
   void addMesh(const Mesh& mesh, const Eigen::Isometry3d& pose)
   {
-    if (mesh.triangles.size() <= largest_mesh_)
+    const std::size_t count = mesh.triangles.size();
+    if (count <= largest_drawn_ && drawn_ + count <= options_.most_triangles)
     {
+      drawn_ += count;
       addTriangles(mesh, pose);
       return;
     }
@@ -231,10 +244,11 @@ class MarkerMaker
           below.push_back(node);  // leaves stay, so that every level covers the shape
         else
           below.insert(below.end(), {forest.nodes[node].first, forest.nodes[node].first + 1});
-      if (below == level)
+      if (below == level || drawn_ + kTrianglesOfBox * below.size() > options_.most_triangles)
         break;
       level = std::move(below);
     }
+    drawn_ += kTrianglesOfBox * level.size();
     Marker& marker = add(Marker::LINE_LIST, pose);
     marker.scale.x = 0.001 * near_.diagonal().norm();
     for (const std::uint32_t node : level)
@@ -262,7 +276,8 @@ class MarkerMaker
   const std::vector<Eigen::Isometry3d> poses_;
   const Eigen::AlignedBox3d near_;
   visualization_msgs::MarkerArray array_;
-  std::size_t largest_mesh_ = 0;
+  std::size_t largest_drawn_ = 0;  // of shapes with more triangles the boxes are drawn
+  std::size_t drawn_ = 0;          // triangles, or as much as that
   std::map<std::string, int> next_id_;
   std::map<std::array<double, 13>, std::size_t> lists_;  // of the body at hand: where its marker is
   std::string name_;

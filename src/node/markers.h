@@ -15,7 +15,8 @@ namespace gpu_planning_scene
 struct MarkerOptions
 {
   ros::Time stamp;
-  /// [~markers/triangles] where meshes have more in all, the largest are drawn as their boxes.
+  /// [~markers/triangles] where meshes and cones have more in all, the largest are drawn as their boxes; and a tree's
+  /// boxes are then of a level further up.
   std::size_t most_triangles = 500000;
   int tree_level = -1;    ///< the boxes of this level of the trees, the root's being 0; -1: none
   std::string tree_body;  ///< of one body alone; empty: of all

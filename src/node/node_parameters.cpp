@@ -4,6 +4,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "node/parameter_values.h"
+#include "node/planning_parameters.h"
 
 namespace gpu_planning_scene
 {
@@ -85,7 +86,7 @@ std::map<std::string, std::string> packageFolders(const XmlRpcValue& value)
   return folders;
 }
 
-PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own,
+PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneDefaults& defaults,
                                   std::vector<std::string>* warnings)
 {
   XmlRpcValue packages;
@@ -108,14 +109,15 @@ PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHa
   if (urdf.empty())
     throw Error("parameter " + options.urdf_name + " is not set; load the robot's URDF there");
   const auto robot = RobotModel::fromXml(urdf, textParameter(node, options.srdf_name, ""), options, warnings);
+  defaults = defaultsFromParameters(node, options.urdf_name, *robot, warnings);
 
   const std::string scene_file = textParameter(own, "scene", "");
   if (!scene_file.empty() && scene_file[0] != '/' && scene_file.find("://") == std::string::npos)
     throw Error("parameter " + own.resolveName("scene") + ": '" + scene_file +
                 "' is neither an absolute path nor a package:// or file:// URI");
-  PlanningScene scene = scene_file.empty() ? PlanningScene(robot)
+  PlanningScene scene = scene_file.empty() ? PlanningScene(robot, defaults)
                                            : loadSceneFile(resolveUri(scene_file, "", options.packages), robot,
-                                                           options.packages, warnings, options.meshes);
+                                                           options.packages, warnings, options.meshes, defaults);
   scene.revision = 1;
   return scene;
 }
@@ -140,6 +142,8 @@ SceneLimits sceneLimitsFromParameters(const ros::NodeHandle& own)
   limits.shapes = countParameter(own, "limits/shapes", limits.shapes, 0, kNoLimit);
   limits.triangles = countParameter(own, "limits/triangles", limits.triangles, 0, kNoLimit);
   limits.triangles_of_mesh = countParameter(own, "limits/triangles_of_mesh", limits.triangles_of_mesh, 0, kNoLimit);
+  limits.frames = countParameter(own, "limits/frames", limits.frames, 0, kNoLimit);
+  limits.colors = countParameter(own, "limits/colors", limits.colors, 0, kNoLimit);
   limits.name_length = countParameter(own, "limits/name_length", limits.name_length, 0, kNoLimit);
   limits.matrix_entries = countParameter(own, "limits/matrix_entries", limits.matrix_entries, 0, kNoLimit);
   return limits;

@@ -18,8 +18,9 @@ namespace gpu_planning_scene
 /// Each function throws Error, which names the parameter, for a value of the wrong type or out of range.
 
 /// The scene of the parameters robot_description, robot_description_semantic (both searched for from the node's
-/// namespace upwards and remappable), ~scene, ~packages, ~urdf_folder, ~unbounded_translation and ~mesh/.
-PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own,
+/// namespace upwards and remappable), ~scene, ~packages, ~urdf_folder, ~unbounded_translation and ~mesh/. `defaults`
+/// become those of robot_description_planning/, which hold for what the scene file does not name.
+PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneDefaults& defaults,
                                   std::vector<std::string>* warnings);
 
 /// ~device, ~traversal, ~max_batch and ~tolerance.

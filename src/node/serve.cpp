@@ -10,8 +10,6 @@
 #include "node/frame_lookup.h"
 #include "node/marker_publisher.h"
 #include "node/node_parameters.h"
-#include "node/parameter_values.h"
-#include "node/planning_parameters.h"
 #include "node/scene_publisher.h"
 #include "node/scene_services.h"
 #include "tools/scene_text.h"
@@ -24,21 +22,6 @@ void warn(const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)
     ROS_WARN_STREAM(warning);
-}
-
-/// What the scene file does not say is as the parameters say.
-PlanningScene startingScene(PlanningScene scene, const SceneDefaults& defaults)
-{
-  if (scene.link_padding.empty())
-    scene.link_padding = defaults.link_padding;
-  if (scene.robot->linkScale().empty())
-    scene.setLinkScale(defaults.link_scale);
-  for (WorldObject& object : scene.objects)
-    if (object.padding == 0.0)
-      object.padding = defaults.object_padding;
-  for (AttachedObject& carried : scene.attached)
-    carried.padding = defaults.attached_padding;
-  return scene;
 }
 
 /// glibc gives threads heaps of their own, and what one frees serves no other: with a thread for each waiting request,
@@ -70,14 +53,13 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   setMessageLimit(options.message_size);
 
   std::vector<std::string> warnings;
-  PlanningScene scene = sceneFromParameters(node, own, &warnings);
-  const SceneDefaults defaults =
-      defaultsFromParameters(node, searchedParameter(node, "robot_description"), *scene.robot, &warnings);
+  SceneDefaults defaults;
+  PlanningScene scene = sceneFromParameters(node, own, defaults, &warnings);
   warn(warnings);
 
   const std::string planning_frame = scene.robot->planningFrame();
   Diagnostics diagnostics;
-  SceneStore store(startingScene(std::move(scene), defaults), defaults, limits);
+  SceneStore store(std::move(scene), defaults, limits);
   CheckServer server(store, checkerMaker(checker_options, resilience, open_device, diagnostics), server_options);
   logScene(server);
 

@@ -171,10 +171,13 @@ void setVariables(const std::map<std::string, double>& variables, const RobotMod
 }
 
 /// An entry for each pair of names, also where the matrix has none and their defaults decide.
-AllowedCollisionMatrixMessage messageOf(const AllowedCollisionMatrix& matrix)
+AllowedCollisionMatrixMessage messageOf(const AllowedCollisionMatrix& matrix, const std::string& a_link)
 {
   AllowedCollisionMatrixMessage message;
   message.entry_names = matrix.bodiesWithEntries();
+  // A message without names says nothing of the matrix; one with a lone name says that nothing is allowed.
+  if (matrix.bodies().empty())
+    message.entry_names.push_back(a_link);
   message.entry_values.resize(message.entry_names.size());
   for (std::size_t i = 0; i < message.entry_names.size(); ++i)
   {
@@ -255,7 +258,7 @@ PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robo
     message.robot_state.attached_collision_objects.push_back(messageOf(attached, planning_frame));
   message.robot_state.is_diff = change.state.is_diff;
   if (change.matrix)
-    message.allowed_collision_matrix = messageOf(*change.matrix);
+    message.allowed_collision_matrix = messageOf(*change.matrix, robot.links().front().name);
   for (const auto& [link, padding] : change.link_padding)
   {
     message.link_padding.emplace_back();

@@ -49,10 +49,16 @@ void SceneChanger::addObject(const ObjectChange& change)
     objects_.add(std::move(object));
 }
 
+/// MoveIt uses neither the frame nor the pose that come with an append, without a word. A pose of no displacement is
+/// what clients write who fill in a quaternion.
 void SceneChanger::appendToObject(WorldObject& object, const ObjectChange& change)
 {
-  if (change.pose)
-    object.pose = placed(*change.pose, change.frame);
+  const std::string where =
+      "cannot append to object '" + change.id + "': it stays where it is, and poses of shapes are ";
+  if (change.pose && !change.pose->isApprox(Eigen::Isometry3d::Identity(), 1e-12))
+    throw Error(where + "in its own frame; leave the object's pose out");
+  if (!isPlanningFrame(change.frame.name) && change.frame.name != change.id)
+    throw Error(where + "in its own frame, not in '" + change.frame.name + "'; leave frame_id out");
   count_.remove(object.shapes);
   appendShapes(change, object);
   count_.add(change.id, object.shapes);

@@ -65,9 +65,9 @@ void SceneChanger::changePadding(const SceneChange& change)
   padding.resize(result_.scene.robot->links().size(), 0.0);
   for (const auto& [link, metres] : change.link_padding)
   {
-    if (!std::isfinite(metres) || metres < 0.0)
+    if (!(metres >= 0.0) || metres > kLargestLength)
       throw Error("link '" + link + "': the padding is " + std::to_string(metres) +
-                  "; it must be finite and not negative");
+                  "; it must not be negative, nor above 1000 km");
     padding[static_cast<std::size_t>(requireLink(link, "link_padding"))] = metres;
   }
   const bool is_padded = std::any_of(padding.begin(), padding.end(), [](double metres) { return metres != 0.0; });

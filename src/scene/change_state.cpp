@@ -28,12 +28,8 @@ void SceneChanger::setVariables(const std::map<std::string, double>& variables)
   const RobotModel& robot = *result_.scene.robot;
   if (variables.empty())
     return;
-  if (result_.state.empty())
-  {
-    result_.state = robot.defaultState();
-    if (variables.size() < result_.state.size())
-      result_.warnings.push_back("the robot's state was not known yet: joints that were not given have their default");
-  }
+  const bool is_known = !result_.state.empty() || variables.size() == robot.variables().size();
+  std::vector<double> state = result_.state.empty() ? robot.defaultState() : result_.state;
   for (const auto& [name, value] : variables)
   {
     const int variable = robot.variableIndex(name);
@@ -41,8 +37,12 @@ void SceneChanger::setVariables(const std::map<std::string, double>& variables)
       throw Error("robot_state: robot '" + robot.name() + "' has no joint variable '" + name + "'");
     if (!std::isfinite(value))
       throw Error("robot_state: the position of '" + name + "' is not finite");
-    result_.state[static_cast<std::size_t>(variable)] = value;
+    state[static_cast<std::size_t>(variable)] = value;
   }
+  // Values of some joints alone are no state: nothing is made up for the others, and what would be placed by them is
+  // refused.
+  if (is_known)
+    result_.state = std::move(state);
 }
 
 /// MoveIt's well-known trap: a robot state with joint values that does not say is_diff drops what is attached.

@@ -38,7 +38,7 @@ std::optional<Eigen::Isometry3d> findAsWritten(const KnownFrames& known, const s
     return linkPose(known.robot, link, state);
   if (const std::optional<ObjectFrame> object = known.object(name))
     return poseOf(known, *object, state);
-  if (const auto pose = findSubframe(known, name, state))
+  if (auto pose = findSubframe(known, name, state))
     return pose;
   const auto fixed = known.fixed_frames.find(name);
   return fixed == known.fixed_frames.end() ? std::nullopt : std::make_optional(fixed->second);

@@ -4,11 +4,14 @@
 
 namespace gpu_planning_scene
 {
-PlanningScene::PlanningScene(std::shared_ptr<const RobotModel> robot_model)
+PlanningScene::PlanningScene(std::shared_ptr<const RobotModel> robot_model, const SceneDefaults& defaults)
   : robot(std::move(robot_model)),
+    link_padding(defaults.link_padding),
     allowed_collisions(AllowedCollisionMatrix::fromRobot(*robot)),
     matrix_source(robot->srdfCollisions().has_srdf ? MatrixSource::Srdf : MatrixSource::AdjacentLinks)
 {
+  if (!defaults.link_scale.empty())
+    setLinkScale(defaults.link_scale);
 }
 
 const std::string& PlanningScene::bodyName(int body) const

@@ -8,14 +8,15 @@ namespace gpu_planning_scene
 {
 namespace
 {
-/// The list `key` of values by link; `usual` for those that are not in it.
+/// The list `key` of values by link; those that are not in it have their default. Empty: all are `usual`.
 std::vector<double> readLinkValues(const YamlValue& scene, const SceneReader& reader, const char* key,
-                                   const std::string& member, double usual)
+                                   const std::string& member, const std::vector<double>& defaults, double usual)
 {
   const YamlValue* list = scene.find(key);
   if (!list)
-    return {};
-  std::vector<double> values(reader.robot.links().size(), usual);
+    return defaults;
+  std::vector<double> values = defaults;
+  values.resize(reader.robot.links().size(), usual);
   std::vector<bool> given(values.size(), false);
   for (const YamlValue& item : list->items())
   {
@@ -44,12 +45,12 @@ std::vector<double> readLinkValues(const YamlValue& scene, const SceneReader& re
 
 std::vector<double> readLinkPadding(const YamlValue& scene, const SceneReader& reader)
 {
-  return readLinkValues(scene, reader, "link_padding", "padding", 0.0);
+  return readLinkValues(scene, reader, "link_padding", "padding", reader.defaults.link_padding, 0.0);
 }
 
 std::vector<double> readLinkScale(const YamlValue& scene, const SceneReader& reader)
 {
-  return readLinkValues(scene, reader, "link_scale", "scale", 1.0);
+  return readLinkValues(scene, reader, "link_scale", "scale", reader.defaults.link_scale, 1.0);
 }
 
 std::map<std::string, Color> readColors(const YamlValue& scene, const SceneReader& reader)

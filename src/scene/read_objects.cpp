@@ -16,7 +16,7 @@ const std::vector<YamlValue>& itemsOf(const YamlValue* parent, const char* key)
   return list ? list->items() : none;
 }
 
-/// ROS writes the message's zeros where an object's pose was never set; that pose means "none".
+/// ROS writes the message's zeros where an object's pose was never set. Then it has its lone shape's, as in messages.
 bool isUnsetPose(const YamlValue& value)
 {
   for (const char* key : {"position", "orientation"})
@@ -68,14 +68,15 @@ WorldObject readObject(const YamlValue& value, SceneReader& reader)
   object.id = value.at("id").text();
   if (object.id.empty())
     value.fail("an object without an id");
-  const YamlValue* pose = value.find("pose");
-  if (pose && isUnsetPose(*pose))
-    reader.warn(pose->where() + ": the pose of object '" + object.id + "' was never set; taken as no displacement");
-  else if (pose)
-    object.pose = readPose(*pose);
   object.shapes = readShapes(value, reader);
   if (object.shapes.empty())
     value.fail("object '" + object.id + "' has no shapes");
+  const YamlValue* pose = value.find("pose");
+  if (pose && !isUnsetPose(*pose))
+    object.pose = readPose(*pose);
+  else if (object.shapes.size() == 1)
+    std::swap(object.pose, object.shapes.front().pose);
+  object.padding = reader.defaults.object_padding;
   object.subframes = readSubframes(value);
   return object;
 }
@@ -112,6 +113,7 @@ AttachedObject readAttached(const YamlValue& value, SceneReader& reader)
   attached.link = readLink(value.at("link_name"), reader);
   const YamlValue& object = value.at("object");
   attached.object = readObject(object, reader);
+  attached.padding = reader.defaults.attached_padding;
   if (hasHalfSpace(attached.object.shapes))
     object.at("planes").fail("a plane cannot be carried; object '" + attached.object.id + "' belongs into the world");
   attached.object.pose = readFrameInLink(object.find("header"), attached.link, reader) * attached.object.pose;

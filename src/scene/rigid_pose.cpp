@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/shapes.h"
 
 namespace gpu_planning_scene
 {
@@ -17,7 +18,8 @@ constexpr double kRounding = 1e-15;  // rotations that are as good as doubles ge
 double excessOf(const Eigen::Isometry3d& pose)
 {
   const Eigen::Matrix3d rotation = pose.linear();
-  if (!pose.matrix().allFinite() || rotation.determinant() < 0.0)
+  if (!pose.matrix().allFinite() || pose.translation().cwiseAbs().maxCoeff() > kLargestLength ||
+      rotation.determinant() < 0.0)
     return std::numeric_limits<double>::infinity();
   return (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
 }
@@ -32,7 +34,7 @@ Eigen::Isometry3d rigid(const Eigen::Isometry3d& pose, const std::string& where)
 {
   const double excess = excessOf(pose);
   if (excess > kTolerance)
-    throw Error(where + ": a pose is not finite or not a rotation and a translation");
+    throw Error(where + ": a pose is not finite, not a rotation and a translation, or further than 1000 km away");
   if (excess <= kRounding)
     return pose;
   const Eigen::JacobiSVD<Eigen::Matrix3d> parts(pose.linear(), Eigen::ComputeFullU | Eigen::ComputeFullV);

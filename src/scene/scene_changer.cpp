@@ -6,6 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/frame.h"
 #include "scene/rigid_pose.h"
+#include "scene/shape_order.h"
 
 // What all parts of a change need.
 
@@ -15,16 +16,8 @@ namespace
 {
 void requirePadding(double padding, const char* which)
 {
-  if (!std::isfinite(padding) || padding < 0.0)
-    throw Error(std::string(which) + " is " + std::to_string(padding) + "; it must be finite and not negative");
-}
-
-/// Messages list the primitives of an object, then its meshes, then its planes.
-int rankOf(const PlacedShape& placed)
-{
-  return std::holds_alternative<HalfSpace>(placed.shape)                     ? 2
-         : std::holds_alternative<std::shared_ptr<const Mesh>>(placed.shape) ? 1
-                                                                             : 0;
+  if (!(padding >= 0.0) || padding > kLargestLength)
+    throw Error(std::string(which) + " is " + std::to_string(padding) + "; it must not be negative, nor above 1000 km");
 }
 }  // namespace
 
@@ -62,6 +55,7 @@ Change SceneChanger::make(const SceneChange& change)
   objects_.close();
   attached_.close();
   count_.requireTriangles(result_.scene);
+  count_.requireFramesAndColors(result_.scene);
   result_.scene.current_state = result_.state;
   return std::move(result_);
 }
@@ -85,7 +79,7 @@ int SceneChanger::requireLink(const std::string& name, const std::string& where)
 void SceneChanger::requirePose(const Eigen::Isometry3d& pose, const std::string& where) const
 {
   if (!isRigid(pose))
-    throw Error(where + ": a pose is not finite or not a rotation and a translation");
+    throw Error(where + ": a pose is not finite, not a rotation and a translation, or further than 1000 km away");
 }
 
 void SceneChanger::require(const ObjectChange& change)
@@ -145,11 +139,16 @@ Eigen::Isometry3d SceneChanger::placed(const Eigen::Isometry3d& pose, const Fram
   return external * pose;
 }
 
+bool SceneChanger::isPlanningFrame(const std::string& name) const
+{
+  const std::string& planning_frame = result_.scene.robot->planningFrame();
+  return name.empty() || name == planning_frame || name == "/" + planning_frame;
+}
+
 void appendShapes(const ObjectChange& change, WorldObject& object)
 {
   object.shapes.insert(object.shapes.end(), change.shapes.begin(), change.shapes.end());
-  std::stable_sort(object.shapes.begin(), object.shapes.end(),
-                   [](const PlacedShape& a, const PlacedShape& b) { return rankOf(a) < rankOf(b); });
+  orderShapes(object.shapes);
   for (const auto& [name, pose] : change.subframes)
     object.subframes[name] = pose;
 }

@@ -73,6 +73,7 @@ class SceneChanger
   {
     return result_.scene.robot->links()[static_cast<std::size_t>(link)].name;
   }
+  bool isPlanningFrame(const std::string& name) const;
   const double* knownState() const { return result_.state.empty() ? nullptr : result_.state.data(); }
 
   Change result_;

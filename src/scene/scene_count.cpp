@@ -75,6 +75,17 @@ void SceneCount::requireTriangles(const PlanningScene& scene) const
   requireAtMost(triangles, limits_.triangles, "the scene's triangles would be", "triangles");
 }
 
+void SceneCount::requireFramesAndColors(const PlanningScene& scene) const
+{
+  std::size_t frames = scene.fixed_frames.size();
+  for (const WorldObject& object : scene.objects)
+    frames += object.subframes.size();
+  for (const AttachedObject& attached : scene.attached)
+    frames += attached.object.subframes.size();
+  requireAtMost(frames, limits_.frames, "fixed frames and subframes would be", "frames");
+  requireAtMost(scene.colors.size(), limits_.colors, "colors would be", "colors");
+}
+
 void SceneCount::requireName(const std::string& name, const std::string& what) const
 {
   if (name.empty())

@@ -20,6 +20,9 @@ class SceneCount
   /// Of the whole scene, where a mesh was added.
   void requireTriangles(const PlanningScene& scene) const;
 
+  /// Of the whole scene.
+  void requireFramesAndColors(const PlanningScene& scene) const;
+
   /// A name that is not empty, not longer than the limit, and one line. `what` it is, for the message.
   void requireName(const std::string& name, const std::string& what) const;
   void requireMatrix(const AllowedCollisionMatrix& matrix) const;

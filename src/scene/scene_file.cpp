@@ -11,7 +11,7 @@ namespace
 {
 PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                            const PackageResolver& packages, std::vector<std::string>* warnings,
-                           const MeshAccess& meshes)
+                           const MeshAccess& meshes, const SceneDefaults& defaults)
 {
   const YamlValue file = YamlValue::loadFile(path);
   static const std::initializer_list<const char*> known_keys = {"name",
@@ -33,10 +33,11 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
   refuseUnsupported(file);
 
   const std::size_t slash = path.rfind('/');
-  SceneReader reader{*robot, packages, slash == std::string::npos ? "." : path.substr(0, slash + 1), warnings};
+  SceneReader reader{*robot, packages, slash == std::string::npos ? "." : path.substr(0, slash + 1), warnings,
+                     defaults};
   reader.meshes = meshes;
   reader.mesh_files = MeshCache(meshes.read);
-  PlanningScene scene(robot);
+  PlanningScene scene(robot, defaults);
   const YamlValue* robot_name = file.find("robot_model_name");
   if (robot_name && !robot_name->text().empty() && robot_name->text() != robot->name())
     reader.warn(robot_name->where() + ": the scene is for robot '" + robot_name->text() + "', the robot is '" +
@@ -68,15 +69,15 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
 
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings,
-                            const MeshAccess& meshes)
+                            const MeshAccess& meshes, const SceneDefaults& defaults)
 {
   const std::string extension = ".scene";
   const bool is_text =
       path.size() >= extension.size() && path.compare(path.size() - extension.size(), extension.size(), extension) == 0;
   try
   {
-    return is_text ? loadSceneTextFile(path, std::move(robot))
-                   : loadYamlFile(path, std::move(robot), packages, warnings, meshes);
+    return is_text ? loadSceneTextFile(path, std::move(robot), defaults)
+                   : loadYamlFile(path, std::move(robot), packages, warnings, meshes, defaults);
   }
   catch (const Error& error)
   {

@@ -20,8 +20,9 @@ struct SceneReader
 {
   const RobotModel& robot;
   const PackageResolver& packages;
-  std::string folder;                                          ///< what relative mesh paths are relative to
-  std::vector<std::string>* warnings;                          ///< may be null
+  std::string folder;                  ///< what relative mesh paths are relative to
+  std::vector<std::string>* warnings;  ///< may be null
+  const SceneDefaults& defaults;
   std::vector<double> state = {};                              ///< the file's robot state; empty if it has none
   std::map<std::string, Eigen::Isometry3d> fixed_frames = {};  ///< their poses in the planning frame
   MeshAccess meshes = {};
@@ -55,7 +56,7 @@ std::vector<PlacedShape> readShapes(const YamlValue& object, SceneReader& reader
 /// and no link's.
 void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& result);
 
-/// `link_padding` and `link_scale`: one value per link of the robot; empty if the file gives none but zeros, or ones.
+/// `link_padding` and `link_scale`: one value per link of the robot; empty if all are zero, or one.
 std::vector<double> readLinkPadding(const YamlValue& scene, const SceneReader& reader);
 std::vector<double> readLinkScale(const YamlValue& scene, const SceneReader& reader);
 

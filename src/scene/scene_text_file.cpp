@@ -9,6 +9,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "scene/message_values.h"
+#include "scene/shape_order.h"
 #include "scene/text_tokens.h"
 
 namespace gpu_planning_scene
@@ -18,8 +19,8 @@ namespace
 class SceneTextReader
 {
  public:
-  SceneTextReader(const std::string& text, const std::string& file, PlanningScene& scene)
-    : tokens_(text, file), scene_(scene)
+  SceneTextReader(const std::string& text, const std::string& file, PlanningScene& scene, double object_padding)
+    : tokens_(text, file), scene_(scene), object_padding_(object_padding)
   {
   }
 
@@ -42,6 +43,7 @@ class SceneTextReader
   WorldObject readObject()
   {
     WorldObject object;
+    object.padding = object_padding_;
     object.id = tokens_.restOfLine();
     if (object.id.empty())
       tokens_.fail("an object without a name");
@@ -56,6 +58,7 @@ class SceneTextReader
       tokens_.fail("object '" + object.id + "' has no shapes");
     for (std::size_t i = 0; i < shapes; ++i)
       readShape(object);
+    orderShapes(object.shapes);
     if (const std::string_view next = tokens_.peek(); next != "*" && next != ".")
       readSubframes(object);
     return object;
@@ -157,24 +160,27 @@ class SceneTextReader
 
   TextTokens tokens_;
   PlanningScene& scene_;
+  const double object_padding_;
   std::set<std::string> ids_;
 };
 }  // namespace
 
-PlanningScene readSceneText(const std::string& text, const std::string& file, std::shared_ptr<const RobotModel> robot)
+PlanningScene readSceneText(const std::string& text, const std::string& file, std::shared_ptr<const RobotModel> robot,
+                            const SceneDefaults& defaults)
 {
-  PlanningScene scene(std::move(robot));
-  SceneTextReader(text, file, scene).read();
+  PlanningScene scene(std::move(robot), defaults);
+  SceneTextReader(text, file, scene, defaults.object_padding).read();
   return scene;
 }
 
-PlanningScene loadSceneTextFile(const std::string& path, std::shared_ptr<const RobotModel> robot)
+PlanningScene loadSceneTextFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
+                                const SceneDefaults& defaults)
 {
   std::error_code unreadable;
   std::ifstream file(path, std::ios::binary);
   if (!file.is_open() || std::filesystem::is_directory(path, unreadable))
     throw Error("cannot read scene file '" + path + "'");
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  return readSceneText(text, path, std::move(robot));
+  return readSceneText(text, path, std::move(robot), defaults);
 }
 }  // namespace gpu_planning_scene

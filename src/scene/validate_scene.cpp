@@ -22,8 +22,8 @@ void validatePose(const Eigen::Isometry3d& pose, const std::string& where)
 
 void validatePadding(double padding, const std::string& where)
 {
-  if (!std::isfinite(padding) || padding < 0.0)
-    throw Error(where + ": the padding is " + std::to_string(padding) + "; it must be finite and not negative");
+  if (!(padding >= 0.0) || padding > kLargestLength)
+    throw Error(where + ": the padding is " + std::to_string(padding) + "; it must not be negative, nor above 1000 km");
 }
 
 /// Meshes by address that have been found valid.

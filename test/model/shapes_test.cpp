@@ -60,7 +60,12 @@ TEST(Shapes, meshesMustHaveTrianglesOfFiniteVertices)
 
   Mesh infinite = triangle();
   infinite.vertices[2].y() = kInfinity;
-  EXPECT_EQ(meshError(infinite), "mesh 'part.stl': vertex 2 is not finite");
+  EXPECT_EQ(meshError(infinite), "mesh 'part.stl': vertex 2 is not finite or further than 1000 km away");
+
+  infinite.vertices[2].y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(meshError(infinite), "");
+  infinite.vertices[2].y() = -1e7;
+  EXPECT_NE(meshError(infinite), "");
 
   Mesh out_of_range = triangle();
   out_of_range.triangles.push_back({0, 1, 3});

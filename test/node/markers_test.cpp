@@ -160,6 +160,29 @@ TEST(Markers, tooManyTrianglesBecomeBoxes)
   EXPECT_EQ(countOf(array, "objects", Marker::CUBE), 2u) << "the floor and the sheet's box";
 }
 
+TEST(Markers, noMoreTrianglesAreDrawnThanTheLimitWhereMeshesAreEqual)
+{
+  PlanningScene scene = fullScene();
+  const auto sheet = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                  [](const WorldObject& object) { return object.id == "sheet"; });
+  ASSERT_NE(sheet, scene.objects.end());
+  const WorldObject first = *sheet;
+  for (int i = 0; i < 10; ++i)
+  {
+    scene.objects.push_back(first);
+    scene.objects.back().id += std::to_string(i);
+  }
+  MarkerOptions options;
+  options.most_triangles = 1000;
+  options.tree_level = 1000;
+  std::size_t points = 0;
+  for (const Marker& marker : markers(scene, {}, {}, options).markers)
+    points += marker.type == Marker::TRIANGLE_LIST || marker.type == Marker::LINE_LIST ? marker.points.size() : 0;
+  // The roots' boxes are drawn in any case.
+  EXPECT_LE(points, 3 * options.most_triangles + 24 * 80);
+  EXPECT_GT(points, 2 * options.most_triangles);
+}
+
 TEST(Markers, aTreeLevelHasItsBoxes)
 {
   constexpr std::size_t kPointsOfBox = 24;

@@ -281,6 +281,21 @@ TEST_F(Messages, AMatrixIsTakenAsItIsWrittenAndAnEmptyOneIsNone)
   refusedMessage("twice", message);
 }
 
+TEST_F(Messages, AMatrixThatAllowsNothingComesBackAsOne)
+{
+  PlanningSceneMessage message = diff();
+  message.allowed_collision_matrix.entry_names = {"cart"};
+  message.allowed_collision_matrix.entry_values.resize(1);
+  message.allowed_collision_matrix.entry_values[0].enabled = {0};
+  applyMessage(message);
+  EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "pole"));
+  const PlanningSceneMessage whole = get();
+  scene = PlanningScene(sliderRobot());
+  EXPECT_TRUE(scene.allowed_collisions.allowed("cart", "pole"));
+  applyMessage(whole);
+  EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "pole")) << "an empty matrix would be the SRDF's";
+}
+
 TEST_F(Messages, WhatDoesNotFitIsRefused)
 {
   CollisionObject object = box("a");

@@ -62,10 +62,16 @@ TEST_F(ChangeObjects, AppendAddsShapesAndSubframesAndLeavesTheObjectWhereItIs)
   EXPECT_EQ(5.0, object("a").shapes[0].pose.translation().y())
       << "primitives come before meshes, as messages have them";
   EXPECT_EQ(2u, object("a").subframes.size());
-  append.pose = poseAt(7, 0, 0);
+  append.pose = poseAt(0, 0, 0);  // what clients write that fill in a quaternion
+  append.frame.name = scene.robot->planningFrame();
   change(append);
-  EXPECT_TRUE(object("a").pose.isApprox(poseAt(7, 0, 0)));
+  EXPECT_TRUE(object("a").pose.isApprox(poseAt(1, 0, 0)));
   EXPECT_EQ(3u, object("a").shapes.size());
+  append.pose = poseAt(7, 0, 0);
+  refused("leave the object's pose out", append);
+  append.pose.reset();
+  append.frame.name = "cart";
+  refused("leave frame_id out", append);
 }
 
 TEST_F(ChangeObjects, AppendToNothingAdds)
@@ -160,6 +166,8 @@ TEST_F(ChangeObjects, WhatCannotBeIsRefused)
   refused("no such object", objectChange(Operation::Move, "b"));
   refused("leave the shapes out", objectChange(Operation::Move, "a", {boxAt(0.1)}));
   refused("size along x", objectChange(Operation::Add, "a", {boxAt(-0.1)}));
+  refused("at most 1000 km", objectChange(Operation::Add, "a", {boxAt(1e307)}));
+  refused("further than 1000 km", objectChange(Operation::Add, "a", {boxAt(0.1, poseAt(1e307, 0, 0))}));
   refused("not finite", objectChange(Operation::Add, "a", {boxAt(0.1, poseAt(nan, 0, 0))}));
   ObjectChange move = objectChange(Operation::Move, "a");
   move.shape_poses = {poseAt(0, 0, 0), poseAt(0, 0, 0)};

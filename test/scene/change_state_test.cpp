@@ -33,12 +33,19 @@ TEST_F(ChangeState, JointsThatAreNotNamedStayWhereTheyAre)
   EXPECT_TRUE(warnings.empty());
 }
 
-TEST_F(ChangeState, AStateThatWasNotKnownStartsFromTheDefault)
+TEST_F(ChangeState, ValuesOfSomeJointsAloneAreNoState)
 {
+  change(objectChange(Operation::Add, "c", {boxAt(0.1)}));
   state.clear();
-  apply(stateChange(true, {{"slide", -1.0}}));
-  EXPECT_EQ((std::vector<double>{-1.0, 0.0}), state);
-  EXPECT_TRUE(warned("have their default"));
+  SceneChange some = stateChange(true, {{"slide", -1.0}});
+  apply(some);
+  EXPECT_TRUE(state.empty()) << "nothing is made up for the other joint";
+  some.state.attached = {attachedChange(Operation::Add, "c", "pole")};
+  refused("state is not known yet", some);
+  some.state.variables["turn"] = 0.5;
+  apply(some);
+  EXPECT_EQ((std::vector<double>{-1.0, 0.5}), state);
+  EXPECT_EQ(link("pole"), carried("c").link);
 }
 
 TEST_F(ChangeState, WithJointsAndNoDifferenceItReplacesWhatIsAttached)

@@ -239,7 +239,54 @@ TEST_F(SceneFile, aPoseOfAllZerosWasNeverSet)
       "orientation: {x: 0.0, y: 0.0, z: 0.0, w: 0.0}}, "
       "primitives: [{type: sphere, dimensions: [1, 0, 0]}]}]}");
   EXPECT_TRUE(shapePose(scene).isApprox(Eigen::Isometry3d::Identity()));
-  EXPECT_TRUE(warned("was never set"));
+}
+
+TEST_F(SceneFile, anObjectWithoutAPoseIsWhereItsLoneShapeIsAsInMessages)
+{
+  const PlanningScene scene = load(
+      "world: {collision_objects: ["
+      "{id: one, primitives: [{type: sphere, dimensions: [1]}], primitive_poses: [{position: [1, 2, 3]}]}, "
+      "{id: two, primitives: [{type: sphere, dimensions: [1]}, {type: sphere, dimensions: [1]}], "
+      "primitive_poses: [{position: [1, 2, 3]}, {position: [4, 5, 6]}]}]}");
+  EXPECT_TRUE(scene.objects.at(0).pose.isApprox(pose(1, 2, 3, 0)));
+  EXPECT_TRUE(scene.objects.at(0).shapes.at(0).pose.isApprox(pose(0, 0, 0, 0)));
+  EXPECT_TRUE(scene.objects.at(1).pose.isApprox(pose(0, 0, 0, 0)));
+  EXPECT_TRUE(scene.objects.at(1).shapes.at(1).pose.isApprox(pose(4, 5, 6, 0)));
+}
+
+TEST_F(SceneFile, whatTheFileDoesNotNameHasItsDefault)
+{
+  const auto robot = sliderRobot();
+  SceneDefaults defaults;
+  defaults.link_padding.assign(robot->links().size(), 0.05);
+  defaults.link_scale.assign(robot->links().size(), 2.0);
+  defaults.object_padding = 0.01;
+  defaults.attached_padding = 0.02;
+  const auto cart = static_cast<std::size_t>(robot->linkIndex("cart"));
+  const auto pole = static_cast<std::size_t>(robot->linkIndex("pole"));
+  const auto loaded = [&](const std::string& name, const std::string& text)
+  { return loadSceneFile(folder.write(name, text), robot, packages, nullptr, {}, defaults); };
+
+  const std::string objects =
+      "world: {collision_objects: [{id: a, primitives: [{type: sphere, dimensions: [1]}]}]}\n"
+      "robot_state: {attached_collision_objects: [{link_name: pole, object: {id: b, "
+      "primitives: [{type: sphere, dimensions: [1]}]}}]}\n";
+  PlanningScene scene = loaded("a.yaml", objects);
+  EXPECT_EQ(0.05, scene.link_padding.at(cart));
+  EXPECT_EQ(2.0, scene.robot->linkScale().at(pole));
+  EXPECT_EQ(0.01, scene.objects.at(0).padding);
+  EXPECT_EQ(0.02, scene.attached.at(0).padding);
+  scene = loaded("b.yaml", objects +
+                               "link_padding: [{link_name: cart, padding: 0.0}]\n"
+                               "link_scale: [{link_name: pole, scale: 1.0}]\n");
+  EXPECT_EQ(0.0, scene.link_padding.at(cart)) << "a zero that is given is one";
+  EXPECT_EQ(0.05, scene.link_padding.at(pole));
+  EXPECT_EQ(2.0, scene.robot->linkScale().at(cart));
+  EXPECT_EQ(1.0, scene.robot->linkScale().at(pole));
+  scene = loaded("c.scene", "text\n* a\n1\nsphere\n1\n0 0 0\n0 0 0 1\n0 0 0 0\n.\n");
+  EXPECT_EQ(0.05, scene.link_padding.at(cart));
+  EXPECT_EQ(2.0, scene.robot->linkScale().at(cart));
+  EXPECT_EQ(0.01, scene.objects.at(0).padding);
 }
 
 TEST_F(SceneFile, whatTheRobotDoesNotUseOfTheStateGivesWarnings)

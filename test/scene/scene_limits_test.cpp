@@ -52,6 +52,30 @@ TEST_F(Limits, OfTrianglesCountEachMeshOnce)
   change(objectChange(Operation::Add, "c", {mesh}));
 }
 
+TEST_F(Limits, OfFramesAndColorsCountWhatManyChangesAddUpTo)
+{
+  limits.frames = 2;
+  limits.colors = 2;
+  ObjectChange framed = objectChange(Operation::Add, "a", {boxAt(0.1)});
+  framed.subframes["tip"] = poseAt(0, 0, 1);
+  change(framed);
+  framed.operation = Operation::Append;
+  framed.subframes = {{"tail", poseAt(0, 0, 1)}};
+  change(framed);
+  framed.subframes = {{"side", poseAt(0, 0, 1)}};
+  refused("limits/frames", framed);
+  SceneChange fixed;
+  fixed.is_diff = true;
+  fixed.fixed_frames["hall"] = poseAt(0, 0, 1);
+  refused("limits/frames", fixed);
+  SceneChange colored;
+  colored.is_diff = true;
+  colored.colors = {{"a", Color{}}, {"b", Color{}}};
+  apply(colored);
+  colored.colors = {{"c", Color{}}};
+  refused("limits/colors", colored);
+}
+
 TEST_F(Limits, OfAMeshAreItsOwn)
 {
   limits.triangles_of_mesh = 1;
@@ -84,7 +108,7 @@ TEST_F(Limits, OfTheMatrixAreItsEntries)
 
 TEST_F(Limits, OfZeroAreNone)
 {
-  limits = {0, 0, 0, 0, 0, 0};
+  limits = {0, 0, 0, 0, 0, 0, 0, 0};
   change(objectChange(Operation::Add, std::string(5000, 'a'), {boxAt(0.1), triangleAt()}));
 }
 }  // namespace

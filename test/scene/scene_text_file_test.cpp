@@ -101,6 +101,18 @@ TEST_F(SceneText, ANewFileHasPosesOfObjectsAndSubframes)
   EXPECT_EQ(0.5, std::get<HalfSpace>(shapes[3].shape).offset);
 }
 
+TEST_F(SceneText, ShapesLieInTheOrderOfMessages)
+{
+  const PlanningScene scene = load(
+      "mixed\n* a\n0 0 0\n0 0 0 1\n2\nmesh\n3 1\n0 0 0\n1 0 0\n0 1 0\n0 1 2\n5 0 0\n0 0 0 1\n0 0 0 0\n"
+      "box\n1 1 1\n1 2 3\n0 0 0 1\n0 0 0 0\n0\n.\n");
+  const auto& shapes = scene.objects.at(0).shapes;
+  ASSERT_EQ(2u, shapes.size());
+  EXPECT_TRUE(std::holds_alternative<Box>(shapes[0].shape)) << "a move names the poses of primitives first";
+  EXPECT_EQ(2.0, shapes[0].pose.translation().y());
+  EXPECT_EQ(5.0, shapes[1].pose.translation().x());
+}
+
 TEST_F(SceneText, AnOldFileHasPosesOfShapesAlone)
 {
   const PlanningScene scene =

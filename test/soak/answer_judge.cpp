@@ -1,11 +1,61 @@
 #include "soak/answer_judge.h"
 
+#include <algorithm>
+
 #include "collision/collision_problem.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "oracle/problem_oracle.h"
 
 namespace gpu_planning_scene
 {
+namespace
+{
+/// Whole states: variables that the request does not name are those of the scene.
+std::vector<double> statesOf(const CheckStates::Request& request, const PlanningScene& scene)
+{
+  const std::size_t width = scene.robot->variables().size();
+  const std::size_t given = request.joint_names.size();
+  const std::vector<double> current = scene.current_state.empty() ? scene.robot->defaultState() : scene.current_state;
+  std::vector<double> states;
+  for (std::size_t row = 0; row < request.positions.size() / given; ++row)
+  {
+    states.insert(states.end(), current.begin(), current.end());
+    for (std::size_t i = 0; i < given; ++i)
+      states[row * width + static_cast<std::size_t>(scene.robot->variableIndex(request.joint_names[i]))] =
+          request.positions[row * given + i];
+  }
+  return states;
+}
+
+/// A verdict for each state; names and contacts where it collides, and nowhere else; a clearance of 0 there.
+bool fits(const CheckStates& call, std::size_t count)
+{
+  const CheckStates::Response& response = call.response;
+  if (response.valid.size() != count || response.body_1.size() != count || response.body_2.size() != count)
+    return false;
+  std::vector<bool> touched(count, false);
+  for (const ContactInformation& contact : response.contacts)
+    if (contact.state >= count || response.valid[contact.state] != 0)
+      return false;
+    else
+      touched[contact.state] = true;
+  if (call.request.clearance && response.clearance_world.size() != count)
+    return false;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const bool collides = response.valid[i] == 0;
+    if (response.body_1[i].empty() == collides || response.body_2[i].empty() == collides)
+      return false;
+    if (call.request.max_contacts != 0 && touched[i] != collides)
+      return false;
+    if (call.request.clearance && collides &&
+        std::min(response.clearance_world[i], response.clearance_self[i]) != 0.0)
+      return false;
+  }
+  return true;
+}
+}  // namespace
+
 AnswerJudge::AnswerJudge(SceneHistory& history, std::size_t oracle_samples_wanted)
   : history_(history), most_samples_(oracle_samples_wanted), thread_([this] { run(); })
 {
@@ -16,10 +66,10 @@ AnswerJudge::~AnswerJudge()
   finish();
 }
 
-void AnswerJudge::add(std::vector<double> asked, std::vector<std::uint8_t> valid, std::uint64_t revision)
+void AnswerJudge::add(const CheckStates& answered, std::uint64_t least_revision)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  waiting_.push_back({std::move(asked), std::move(valid), revision});
+  waiting_.push_back({answered, least_revision});
   changed_.notify_one();
 }
 
@@ -56,11 +106,21 @@ void AnswerJudge::run()
 
 void AnswerJudge::judge(const Answer& answer)
 {
-  const std::shared_ptr<const PlanningScene> scene = history_.at(answer.revision);
+  const CheckStates::Response& response = answer.call.response;
+  const std::shared_ptr<const PlanningScene> scene = history_.at(response.scene_revision);
   ++answers;
+  too_old += response.scene_revision < answer.least_revision ? 1 : 0;
   if (!scene)
   {
     ++unknown_scenes;
+    return;
+  }
+  const std::vector<double> asked = statesOf(answer.call.request, *scene);
+  const std::size_t width = scene->robot->variables().size();
+  const std::size_t count = asked.size() / width;
+  if (!fits(answer.call, count))
+  {
+    ++malformed;
     return;
   }
   if (!checker_)
@@ -68,18 +128,15 @@ void AnswerJudge::judge(const Answer& answer)
   else if (checked_ != scene)
     checker_->setScene(scene);
   checked_ = scene;
-  const std::size_t count = answer.valid.size();
-  const BatchResult again = checker_->check(answer.states.data(), count);
+  const BatchResult again = checker_->check(asked.data(), count);
   for (std::size_t i = 0; i < count; ++i)
-    wrong += again.valid[i] == answer.valid[i] ? 0 : 1;
+    wrong += again.valid[i] == response.valid[i] ? 0 : 1;
   states += count;
 
   // One state of each hundredth answer.
-  const std::size_t width = scene->robot->variables().size();
   if (answers % 100 == 1 && samples_.size() < most_samples_ && count != 0)
-    samples_.push_back({{answer.states.begin(), answer.states.begin() + static_cast<std::ptrdiff_t>(width)},
-                        answer.valid[0] != 0,
-                        scene});
+    samples_.push_back(
+        {{asked.begin(), asked.begin() + static_cast<std::ptrdiff_t>(width)}, response.valid[0] != 0, scene});
 }
 
 void AnswerJudge::askOracle(const Sample& sample)

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "gpu_planning_scene/messages.h"
 #include "soak/scene_history.h"
 
 namespace gpu_planning_scene
@@ -19,13 +20,16 @@ class AnswerJudge
   AnswerJudge(SceneHistory& history, std::size_t oracle_samples);
   ~AnswerJudge();
 
-  void add(std::vector<double> states, std::vector<std::uint8_t> valid, std::uint64_t revision);
+  /// `least_revision`: of the newest change that was acknowledged before the request was sent.
+  void add(const CheckStates& answered, std::uint64_t least_revision);
   /// Waits for what was added, and asks the oracle.
   void finish();
 
   std::size_t answers = 0;  ///< these are to be read after finish()
   std::size_t states = 0;
   std::size_t wrong = 0;           ///< states that the exact checker says otherwise of
+  std::size_t malformed = 0;       ///< answers whose parts do not fit together
+  std::size_t too_old = 0;         ///< answers of a scene from before an acknowledged change
   std::size_t unknown_scenes = 0;  ///< answers whose scene was never published
   std::size_t oracle_samples = 0;
   std::size_t oracle_wrong = 0;
@@ -33,9 +37,8 @@ class AnswerJudge
  private:
   struct Answer
   {
-    std::vector<double> states;
-    std::vector<std::uint8_t> valid;
-    std::uint64_t revision = 0;
+    CheckStates call;
+    std::uint64_t least_revision = 0;
   };
   struct Sample
   {

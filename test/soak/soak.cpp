@@ -54,6 +54,14 @@ class Soak : public RunningNode
     {
       CheckStates check;
       check.request = stateRequest(randomStates(1 + generator() % most_states, generator));
+      if (generator() % 4 == 0)
+        leaveOutFirstJoint(check.request);
+      if (check.request.positions.size() < 200 && generator() % 8 == 0)
+      {
+        check.request.max_contacts = 3;
+        check.request.clearance = true;
+      }
+      const std::uint64_t acknowledged = newest_change;
       const Clock::time_point start = Clock::now();
       if (!ask("check_states", check))
         continue;
@@ -63,9 +71,21 @@ class Soak : public RunningNode
         continue;
       }
       addLatency(std::chrono::duration<double>(Clock::now() - start).count());
-      judge->add(check.request.positions, check.response.valid, check.response.scene_revision);
+      judge->add(check, acknowledged);
       ros::WallDuration(0.005).sleep();
     }
+  }
+
+  /// It is then where the scene has it.
+  static void leaveOutFirstJoint(CheckStates::Request& request)
+  {
+    const std::size_t width = request.joint_names.size();
+    std::vector<double> positions;
+    for (std::size_t i = 0; i < request.positions.size(); ++i)
+      if (i % width != 0)
+        positions.push_back(request.positions[i]);
+    request.joint_names.erase(request.joint_names.begin());
+    request.positions = std::move(positions);
   }
 
   void changeScene(std::uint64_t seed)
@@ -78,7 +98,7 @@ class Soak : public RunningNode
       CollisionObject object = boxObject(id, {place(generator), place(generator), place(generator)},
                                          0.05 + 0.1 * std::abs(place(generator)));
       PlanningSceneMessage change = diffScene();
-      switch (generator() % 6)
+      switch (generator() % 7)
       {
         case 0:
           object = objectOperation(id, CollisionObject::REMOVE);
@@ -90,6 +110,10 @@ class Soak : public RunningNode
           change.link_padding.resize(1);
           change.link_padding[0].link_name = tip;
           change.link_padding[0].padding = 0.02 * std::abs(place(generator));
+          break;
+        case 3:
+          change.robot_state.joint_state.name = {robot->variables()[0].name};
+          change.robot_state.joint_state.position = {place(generator)};
           break;
         default:
           break;
@@ -107,6 +131,10 @@ class Soak : public RunningNode
       apply_change.request.scene = change;
       if (ask("apply_planning_scene", apply_change))
         ++(apply_change.response.success ? changes : refused);
+      std::uint64_t known = newest_change;
+      while (known < apply_change.response.scene_revision &&
+             !newest_change.compare_exchange_weak(known, apply_change.response.scene_revision))
+        ;
       ros::WallDuration(0.02).sleep();
     }
   }
@@ -188,6 +216,7 @@ class Soak : public RunningNode
 
   std::atomic<bool> done{false};
   std::atomic<int> requests{0}, lost{0}, busy{0}, failed{0}, changes{0}, refused{0}, taken{0}, killed{0};
+  std::atomic<std::uint64_t> newest_change{0};  ///< of those that were acknowledged
   std::unique_ptr<AnswerJudge> judge;
   std::mutex mutex;
   std::vector<double> latencies;
@@ -243,6 +272,8 @@ TEST_F(Soak, noAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
   std::printf("memory: %.1f MiB in the second quarter, %.1f MiB in the last\n", memory(0.25, 0.5) / 1048576.0,
               memory(0.75, 1.0) / 1048576.0);
   EXPECT_EQ(0u, judge->wrong);
+  EXPECT_EQ(0u, judge->malformed);
+  EXPECT_EQ(0u, judge->too_old);
   EXPECT_EQ(0u, judge->unknown_scenes);
   EXPECT_EQ(0u, judge->oracle_wrong);
   EXPECT_EQ(0, history.gaps());
