@@ -55,9 +55,10 @@ void SceneChanger::appendToObject(WorldObject& object, const ObjectChange& chang
 {
   const std::string where =
       "cannot append to object '" + change.id + "': it stays where it is, and poses of shapes are ";
-  if (change.pose && !change.pose->isApprox(Eigen::Isometry3d::Identity(), 1e-12))
+  const bool has_pose = change.pose && !change.pose->isApprox(Eigen::Isometry3d::Identity(), 1e-12);
+  if (has_pose && !placed(*change.pose, change.frame).isApprox(object.pose, 1e-9))
     throw Error(where + "in its own frame; leave the object's pose out");
-  if (!isPlanningFrame(change.frame.name) && change.frame.name != change.id)
+  if (!has_pose && !isPlanningFrame(change.frame.name) && change.frame.name != change.id)
     throw Error(where + "in its own frame, not in '" + change.frame.name + "'; leave frame_id out");
   count_.remove(object.shapes);
   appendShapes(change, object);

@@ -85,6 +85,11 @@ TEST_F(ClearanceTest, IsTheOraclesToAMicrometreAndNeverMore)
   expectTheOracles(scene(), "", 12);
 }
 
+TEST_F(ClearanceTest, OfAGroupIsOfThePairsThatItMoves)
+{
+  expectTheOracles(scene(), "arm", 12);
+}
+
 TEST_F(ClearanceTest, IsInfiniteWhereNothingIsChecked)
 {
   PlanningScene alone(test_.scene->robot);

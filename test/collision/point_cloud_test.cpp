@@ -193,12 +193,22 @@ TEST(PointCloud, LeavesNoStateFreeThatAPointRefutes)
   PointCloudFilter filter({0.03, 0.0, 10.0});
   scene.objects.push_back(filter.objectOf("cloud", points, sensor, scene, start.data()));
   CpuChecker with_cloud(std::make_shared<const PlanningScene>(scene));
-  // The points themselves, but for those that are the robot's own.
+  // The points themselves, but for those that are the robot's own: within a voxel of it.
   PlanningScene exact = scene;
   exact.objects = {{"points", Isometry3d::Identity(), {}}};
   for (const Vector3f& point : points)
-    if (const Vector3d there = sensor * point.cast<double>(); holds(scene.objects[0], there))
-      exact.objects[0].shapes.push_back({Sphere{1e-9}, Isometry3d(Eigen::Translation3d(there))});
+  {
+    const Isometry3d there(Eigen::Translation3d(sensor * point.cast<double>()));
+    if (holds(scene.objects[0], there.translation()))
+    {
+      exact.objects[0].shapes.push_back({Sphere{1e-9}, there});
+      continue;
+    }
+    PlanningScene ball(scene.robot);
+    ball.objects.push_back({"ball", there, {{Sphere{0.03 * std::sqrt(3.0) + 1e-6}}}});
+    EXPECT_EQ(0, CpuChecker(std::make_shared<const PlanningScene>(ball)).check(start.data(), 1).valid[0])
+        << "a point is lost that is not the robot's: " << there.translation().transpose();
+  }
   EXPECT_GT(exact.objects[0].shapes.size(), 300u);
   CpuChecker with_points(std::make_shared<const PlanningScene>(exact));
   const std::vector<double> states = test.randomStates(1000, seed);

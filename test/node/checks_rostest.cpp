@@ -1,6 +1,7 @@
 // check_states, check_motions and get_report: what they answer besides free or not.
 
 #include <limits>
+#include <set>
 
 #include "node/node_client.h"
 
@@ -43,6 +44,12 @@ TEST_F(Checks, contactsAreThoseOfTheReportedBodies)
     EXPECT_NEAR(1.0, Eigen::Vector3d(contact.normal.x, contact.normal.y, contact.normal.z).norm(), 1e-6);
     EXPECT_EQ(0u, contact.state);
   }
+  request.max_contacts = 100;
+  request.max_contacts_per_pair = 1;
+  std::set<std::string> pairs;
+  for (const ContactInformation& contact : call<CheckStates>("check_states", request).contacts)
+    EXPECT_TRUE(pairs.insert(contact.contact_body_1 + " " + contact.contact_body_2).second) << *pairs.rbegin();
+  EXPECT_FALSE(pairs.empty());
 }
 
 TEST_F(Checks, clearanceIsTheDistanceToTheWorldAndToItself)

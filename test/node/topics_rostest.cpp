@@ -128,6 +128,22 @@ TEST_F(Topics, aClientThatFollowsTheDiffsHasTheSameScene)
   CollisionObject moved = objectOperation("a", CollisionObject::MOVE);
   moved.pose = poseAt(tipPoint());
   apply(diffWith(moved));
+  AttachedCollisionObject carried;
+  carried.link_name = tip;
+  carried.touch_links = {base};
+  carried.object = objectOperation("a", CollisionObject::ADD);
+  apply(diffWith(carried));
+  PlanningSceneMessage settings = diffScene();
+  settings.link_padding.resize(1);
+  settings.link_padding[0].link_name = tip;
+  settings.link_padding[0].padding = 0.003;
+  settings.allowed_collision_matrix.entry_names = {base, "b"};
+  settings.allowed_collision_matrix.entry_values.resize(2);
+  settings.allowed_collision_matrix.entry_values[0].enabled = {0, 1};
+  settings.allowed_collision_matrix.entry_values[1].enabled = {1, 0};
+  settings.robot_state.joint_state.name = {robot->variables()[0].name};
+  settings.robot_state.joint_state.position = {free_state[0] + 0.01};
+  apply(settings);
   const std::uint64_t last = apply(diffWith(objectOperation("b", CollisionObject::REMOVE)));
   ASSERT_TRUE(becomes(
       [&]
@@ -149,7 +165,20 @@ TEST_F(Topics, aClientThatFollowsTheDiffsHasTheSameScene)
     apply(diff);
   }
   EXPECT_EQ(last, at);
-  EXPECT_EQ(there.world.collision_objects, scene().world.collision_objects);
+  const PlanningSceneMessage here = scene();
+  EXPECT_EQ(there.world.collision_objects, here.world.collision_objects);
+  EXPECT_EQ(there.robot_state.joint_state, here.robot_state.joint_state);
+  ASSERT_EQ(1u, here.robot_state.attached_collision_objects.size());
+  const AttachedCollisionObject& expected = there.robot_state.attached_collision_objects.at(0);
+  const AttachedCollisionObject& found = here.robot_state.attached_collision_objects[0];
+  EXPECT_EQ(expected.object.id, found.object.id);
+  EXPECT_EQ(expected.link_name, found.link_name);
+  EXPECT_EQ(expected.touch_links, found.touch_links);
+  EXPECT_EQ(expected.object.primitives, found.object.primitives);
+  EXPECT_NEAR(expected.object.pose.position.x, found.object.pose.position.x, 1e-12);
+  EXPECT_NEAR(expected.object.pose.position.z, found.object.pose.position.z, 1e-12);
+  EXPECT_EQ(there.link_padding, here.link_padding);
+  EXPECT_EQ(there.allowed_collision_matrix, here.allowed_collision_matrix);
 }
 
 TEST_F(Topics, aNewcomerGetsTheWholeScene)

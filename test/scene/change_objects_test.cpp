@@ -67,6 +67,9 @@ TEST_F(ChangeObjects, AppendAddsShapesAndSubframesAndLeavesTheObjectWhereItIs)
   change(append);
   EXPECT_TRUE(object("a").pose.isApprox(poseAt(1, 0, 0)));
   EXPECT_EQ(3u, object("a").shapes.size());
+  append.pose = poseAt(1, 0, 0);  // where it is
+  change(append);
+  EXPECT_EQ(4u, object("a").shapes.size());
   append.pose = poseAt(7, 0, 0);
   refused("leave the object's pose out", append);
   append.pose.reset();
