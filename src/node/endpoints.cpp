@@ -22,9 +22,15 @@ void Endpoints::stop()
   spinner_.stop();
 }
 
-void Endpoints::refused(const std::string& topic, const std::string& why)
+void Endpoints::refuse(const std::string& topic, const std::string& why)
 {
   diagnostics_.refused(topic + ": " + why);
   ROS_WARN_STREAM_THROTTLE(1.0, "a message on " << topic << " is not used: " << why);
+}
+
+void Endpoints::lose(const std::string& topic, const std::string& why)
+{
+  diagnostics_.refused(topic + ": " + why);
+  ROS_ERROR_STREAM_THROTTLE(1.0, "a message on " << topic << " is lost: " << why);
 }
 }  // namespace gpu_planning_scene

@@ -7,10 +7,10 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
-#include "gpu_planning_scene/error.h"
 #include "node/answered.h"
 #include "node/bounded_message.h"
 #include "node/diagnostics.h"
+#include "service/busy.h"
 
 namespace gpu_planning_scene
 {
@@ -37,7 +37,8 @@ class Endpoints
     services_.push_back(own_.advertiseService(options));
   }
 
-  /// A topic; "~NAME" is in the node's namespace. `take` throws what is wrong with a message.
+  /// A topic; "~NAME" is in the node's namespace. `take` throws what is wrong with a message, and Busy where
+  /// a right one cannot be taken.
   template <class Message, class Take>
   void subscribe(const std::string& name, std::uint32_t queue_size, Take take)
   {
@@ -52,12 +53,19 @@ class Endpoints
                                                       throw Error(message.fault);
                                                     take(message.message);
                                                   }
+                                                  catch (const Busy& error)
+                                                  {
+                                                    lose(topic, error.what());
+                                                  }
                                                   catch (const std::exception& error)
                                                   {
-                                                    refused(topic, error.what());
+                                                    refuse(topic, error.what());
                                                   }
                                                 }));
   }
+
+  /// Counts and logs a message that is not used.
+  void refuse(const std::string& topic, const std::string& why);
 
   /// Takes nothing new, and waits for what runs.
   void stop();
@@ -80,7 +88,7 @@ class Endpoints
       diagnostics_.refused(fault);
     return fault.empty();
   }
-  void refused(const std::string& topic, const std::string& why);
+  void lose(const std::string& topic, const std::string& why);
 
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;

@@ -28,14 +28,20 @@ FrameLookup::FrameLookup(std::string planning_frame, double timeout)
 {
 }
 
-Eigen::Isometry3d FrameLookup::operator()(const FrameAt& frame) const
+FrameLookup::Clock::time_point FrameLookup::deadline() const
 {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_));
+}
+
+Eigen::Isometry3d FrameLookup::operator()(const FrameAt& frame, Clock::time_point until) const
+{
+  const double left = std::max(0.0, std::chrono::duration<double>(until - Clock::now()).count());
   ros::Time stamp;
   stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.stamp)));
   try
   {
     const geometry_msgs::Transform found =
-        buffer_.lookupTransform(planning_frame_, withoutSlash(frame.name), stamp, ros::Duration(timeout_)).transform;
+        buffer_.lookupTransform(planning_frame_, withoutSlash(frame.name), stamp, ros::Duration(left)).transform;
     const Eigen::Quaterniond rotation(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z);
     return Eigen::Translation3d(found.translation.x, found.translation.y, found.translation.z) * rotation.normalized();
   }

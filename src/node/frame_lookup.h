@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -15,8 +16,12 @@ class FrameLookup
  public:
   FrameLookup(std::string planning_frame, double timeout);
 
-  /// Waits for the frame at its stamp (0: the latest), but no longer than the timeout. Throws Error.
-  Eigen::Isometry3d operator()(const FrameAt& frame) const;
+  using Clock = std::chrono::steady_clock;
+
+  /// Until when who asks now has to wait.
+  Clock::time_point deadline() const;
+  /// Waits for the frame at its stamp (0: the latest), but no longer than that. Throws Error.
+  Eigen::Isometry3d operator()(const FrameAt& frame, Clock::time_point until) const;
 
  private:
   const std::string planning_frame_;

@@ -177,6 +177,8 @@ ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own)
   options.most_inspected_states =
       countParameter(own, "limits/inspected_states", options.most_inspected_states, 0, kNoLimit);
   options.most_memory = countParameter(own, "limits/memory", 0, 0, std::size_t{1} << 52);
+  options.most_waiting_changes =
+      countParameter(own, "limits/waiting_changes", options.most_waiting_changes, 1, kNoLimit);
   options.marker_rate = positiveParameter(own, "markers/rate", options.marker_rate);
   options.marker_triangles = countParameter(own, "markers/triangles", options.marker_triangles, 0, kNoLimit);
   options.cloud_topic = textParameter(own, "cloud/topic", options.cloud_topic);

@@ -42,6 +42,7 @@ struct ServiceOptions
   std::size_t most_inspected_states = 10000;  ///< of one request, for contacts and clearance: ~limits/inspected_states
   std::size_t most_memory = 0;                ///< bytes, 0: 80 % of the machine's: ~limits/memory
   std::uint32_t message_size = 256U << 20;    ///< bytes: ~limits/message_size
+  std::size_t most_waiting_changes = 100000;  ///< that came on topics: ~limits/waiting_changes
   double marker_rate = 2.0;                   ///< per second: ~markers/rate
   std::size_t marker_triangles = 500000;      ///< ~markers/triangles
   std::string cloud_topic = "cloud";          ///< ~cloud/topic

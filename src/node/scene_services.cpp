@@ -10,15 +10,25 @@
 
 namespace gpu_planning_scene
 {
+namespace
+{
+/// Of messages on topics: nobody waits for an answer.
+void warn(const std::vector<std::string>& warnings)
+{
+  for (const std::string& warning : warnings)
+    ROS_WARN_STREAM_THROTTLE(1.0, warning);
+}
+}  // namespace
+
 SceneServices::SceneServices(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory)
   : store_(store), lookup_(std::move(lookup)), memory_(memory)
 {
 }
 
-SceneStore::Applied SceneServices::apply(const SceneChange& change)
+SceneStore::Applied SceneServices::apply(const SceneChange& change, const SceneStore::Lookup& lookup)
 {
   memory_.require();
-  return store_.apply(change, lookup_);
+  return store_.apply(change, lookup);
 }
 
 ApplyPlanningScene::Response SceneServices::apply(const ApplyPlanningScene::Request& request)
@@ -28,7 +38,7 @@ ApplyPlanningScene::Response SceneServices::apply(const ApplyPlanningScene::Requ
       {
         std::vector<std::string> warnings;
         const SceneChange change = changeFrom(request.scene, *store_.snapshot().scene->robot, &warnings);
-        SceneStore::Applied applied = apply(change);
+        SceneStore::Applied applied = apply(change, lookup_);
         warnings.insert(warnings.end(), applied.warnings.begin(), applied.warnings.end());
         for (const std::string& warning : warnings)
           response.message += (response.message.empty() ? "" : "; ") + warning;
@@ -49,30 +59,33 @@ GetPlanningScene::Response SceneServices::get(const GetPlanningScene::Request& r
   return response;
 }
 
-void SceneServices::take(const PlanningSceneMessage& message)
+SceneChange SceneServices::changeOf(const PlanningSceneMessage& message) const
 {
   std::vector<std::string> warnings;
-  const SceneChange change = changeFrom(message, *store_.snapshot().scene->robot, &warnings);
-  const SceneStore::Applied applied = apply(change);
-  warnings.insert(warnings.end(), applied.warnings.begin(), applied.warnings.end());
-  for (const std::string& warning : warnings)
-    ROS_WARN_STREAM_THROTTLE(1.0, warning);
+  SceneChange change = changeFrom(message, *store_.snapshot().scene->robot, &warnings);
+  warn(warnings);
+  return change;
 }
 
-void SceneServices::take(const CollisionObject& message)
+SceneChange SceneServices::changeOf(const CollisionObject& message) const
 {
   SceneChange change;
   change.is_diff = true;
   change.objects.push_back(objectChangeFrom(message));
-  apply(change);
+  return change;
 }
 
-void SceneServices::take(const AttachedCollisionObject& message)
+SceneChange SceneServices::changeOf(const AttachedCollisionObject& message) const
 {
   SceneChange change;
   change.is_diff = true;
   change.state.attached.push_back(attachedChangeFrom(message));
-  apply(change);
+  return change;
+}
+
+void SceneServices::make(const SceneChange& change, const SceneStore::Lookup& lookup)
+{
+  warn(apply(change, lookup).warnings);
 }
 
 void SceneServices::take(const sensor_msgs::JointState& message)

@@ -9,7 +9,7 @@
 
 namespace gpu_planning_scene
 {
-/// Answers apply_planning_scene, get_planning_scene and clear, and takes what comes on topics. Thread-safe.
+/// Answers apply_planning_scene, get_planning_scene and clear, and makes what comes on topics. Thread-safe.
 class SceneServices
 {
  public:
@@ -20,15 +20,18 @@ class SceneServices
   Clear::Response clear();
   GetPlanningScene::Response get(const GetPlanningScene::Request& request) const;
 
-  /// These throw Error and have changed nothing; warnings are logged.
-  void take(const PlanningSceneMessage& message);
-  void take(const CollisionObject& message);
-  void take(const AttachedCollisionObject& message);
-  /// The names of other robots, and of joints without a variable, are passed over.
+  /// What a message asks for. Throws Error; warnings are logged.
+  SceneChange changeOf(const PlanningSceneMessage& message) const;
+  SceneChange changeOf(const CollisionObject& message) const;
+  SceneChange changeOf(const AttachedCollisionObject& message) const;
+  /// Throws Error and has changed nothing; warnings are logged.
+  void make(const SceneChange& change, const SceneStore::Lookup& lookup);
+
+  /// Throws Error and has taken nothing. The names of other robots, and of joints without a variable, are passed over.
   void take(const sensor_msgs::JointState& message);
 
  private:
-  SceneStore::Applied apply(const SceneChange& change);
+  SceneStore::Applied apply(const SceneChange& change, const SceneStore::Lookup& lookup);
 
   SceneStore& store_;
   const SceneStore::Lookup lookup_;

@@ -11,7 +11,7 @@
 #include "node/marker_publisher.h"
 #include "node/node_parameters.h"
 #include "node/scene_publisher.h"
-#include "node/scene_services.h"
+#include "node/scene_topics.h"
 #include "tools/scene_text.h"
 
 namespace gpu_planning_scene
@@ -66,7 +66,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const MemoryGuard memory(options.most_memory);
   const FrameLookup lookup(planning_frame, options.tf_timeout);
   CheckServices checks(store, server, memory, {server_options.most_states, options.most_inspected_states});
-  const SceneStore::Lookup look_up = [&lookup](const FrameAt& frame) { return lookup(frame); };
+  const SceneStore::Lookup look_up = [&lookup](const FrameAt& frame) { return lookup(frame, lookup.deadline()); };
   SceneServices changes(store, look_up, memory);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
@@ -81,18 +81,13 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   scene_requests.advertise<ShowTreeLevel>("show_tree_level",
                                           [&](const ShowTreeLevel::Request& r) { return markers.show(r); });
 
-  // One thread: changes are made in the order in which they come.
-  Endpoints scene_topics(node, own, 1, diagnostics);
-  const auto take = [&changes](const auto& message) { changes.take(message); };
-  scene_topics.subscribe<PlanningSceneMessage>("~planning_scene", 100, take);
-  scene_topics.subscribe<CollisionObject>("~collision_object", 1000, take);
-  scene_topics.subscribe<AttachedCollisionObject>("~attached_collision_object", 1000, take);
-
+  SceneTopics scene_topics(node, own, changes, lookup, diagnostics, options.most_waiting_changes, options.message_size);
   Endpoints cloud_topics(node, own, 1, diagnostics);
   cloud_topics.subscribe<sensor_msgs::PointCloud2>(options.cloud_topic, 1,
                                                    [&](const sensor_msgs::PointCloud2& m) { clouds.take(m); });
   Endpoints state_topics(node, own, 1, diagnostics);
-  state_topics.subscribe<sensor_msgs::JointState>("joint_states", 1, take);
+  state_topics.subscribe<sensor_msgs::JointState>("joint_states", 1,
+                                                  [&](const sensor_msgs::JointState& m) { changes.take(m); });
 
   // Each request that waits for its check has a thread: so the one too many is told at once that the node is busy.
   // check_states comes last: where it is there, all is.
@@ -112,7 +107,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
 
   // What runs is answered, what waits is told; then the threads that bring the answers are waited for.
   server.stop();
-  for (Endpoints* endpoints : {&state_topics, &cloud_topics, &scene_topics, &scene_requests, &check_requests})
+  scene_topics.stop();
+  for (Endpoints* endpoints : {&state_topics, &cloud_topics, &scene_requests, &check_requests})
     endpoints->stop();
   timers.stop();
   // roscpp writes answers to their connections by itself, and drops what is not written when it shuts down.

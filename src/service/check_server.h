@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/state_checker.h"
+#include "service/busy.h"
 #include "service/scene_store.h"
 
 namespace gpu_planning_scene
@@ -43,13 +43,6 @@ struct CheckAnswer
   std::optional<SceneReport> report;
   std::vector<double> states;  ///< rows of all variables, if they were to be kept
   std::string device;          ///< that answered
-};
-
-/// Too much is waiting; ask again later.
-class Busy : public Error
-{
- public:
-  using Error::Error;
 };
 
 /// Since the start, and what waits now.

@@ -4,6 +4,8 @@
 #include <mutex>
 #include <thread>
 
+#include <diagnostic_msgs/DiagnosticArray.h>
+
 #include "node/child_node.h"
 #include "node/node_client.h"
 
@@ -35,7 +37,68 @@ class Load : public RunningNode
     for (std::thread& client : clients)
       client.join();
   }
+
+  /// Publishes so many objects as fast as it can.
+  static void publishBoxes(ros::Publisher& publisher, int count)
+  {
+    while (publisher.getNumSubscribers() == 0)
+      ros::WallDuration(0.02).sleep();
+    for (int i = 0; i < count; ++i)
+      publisher.publish(boxObject("box " + std::to_string(i), farAway(), 0.01));
+  }
+
+  static std::size_t objectsOf(const ChildNode& node)
+  {
+    GetPlanningScene call;
+    call.request.components.components = PlanningSceneComponents::WORLD_OBJECT_NAMES;
+    EXPECT_TRUE(callPersistently(node.service("get_planning_scene"), call));
+    return call.response.scene.world.collision_objects.size();
+  }
+
+  template <class Condition>
+  static bool becomes(Condition condition)
+  {
+    for (int i = 0; i < 300; ++i)
+    {
+      if (condition())
+        return true;
+      ros::WallDuration(0.1).sleep();
+    }
+    return false;
+  }
 };
+
+TEST_F(Load, noObjectOfManyOnATopicIsLost)
+{
+  constexpr int kObjects = 5000;
+  const ChildNode node("quick_node", {"_device:=cpu"});
+  ros::NodeHandle client;
+  ros::Publisher publisher = client.advertise<CollisionObject>(node.service("collision_object"), kObjects + 1);
+  publishBoxes(publisher, kObjects);
+  publisher.publish(objectOperation("no such object", CollisionObject::REMOVE));  // takes none of the others with it
+  EXPECT_TRUE(becomes([&] { return objectsOf(node) == kObjects; })) << objectsOf(node) << " objects are there";
+}
+
+TEST_F(Load, objectsThatAreTooManyAreCountedAsRefused)
+{
+  constexpr int kObjects = 5000;
+  const ChildNode node("small_node", {"_device:=cpu", "_limits/waiting_changes:=5"});
+  std::atomic<int> refused{0};
+  ros::NodeHandle client;
+  const ros::Subscriber diagnostics = client.subscribe<diagnostic_msgs::DiagnosticArray>(
+      "/diagnostics", 10,
+      [&refused](const diagnostic_msgs::DiagnosticArray::ConstPtr& message)
+      {
+        for (const auto& value : message->status.at(0).values)
+          if (message->status[0].name == "small_node: checks" && value.key == "refused")
+            refused = std::stoi(value.value);
+      });
+  ros::Publisher publisher = client.advertise<CollisionObject>(node.service("collision_object"), kObjects);
+  publishBoxes(publisher, kObjects);
+  EXPECT_TRUE(becomes([&] { return refused + static_cast<int>(objectsOf(node)) == kObjects; }))
+      << refused << " objects are told as refused, and " << objectsOf(node) << " are there";
+  EXPECT_GT(refused, 0);
+}
 
 TEST_F(Load, whatIsTooMuchIsToldBusyAtOnceAndTheRestIsAnswered)
 {

@@ -1,0 +1,51 @@
+#include "node/scene_topics.h"
+
+namespace gpu_planning_scene
+{
+SceneTopics::SceneTopics(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneServices& changes,
+                         const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t most_changes,
+                         std::size_t most_bytes)
+  : changes_(changes),
+    lookup_(lookup),
+    topics_(node, own, 1, diagnostics),  // one thread: it keeps their order
+    queue_([this] { return maker(); },
+           [this](const std::string& topic, const std::string& why) { topics_.refuse(topic, why); }, most_changes,
+           most_bytes)
+{
+  subscribe<PlanningSceneMessage>(own, "planning_scene");
+  subscribe<CollisionObject>(own, "collision_object");
+  subscribe<AttachedCollisionObject>(own, "attached_collision_object");
+}
+
+SceneTopics::~SceneTopics()
+{
+  stop();
+}
+
+void SceneTopics::stop()
+{
+  topics_.stop();
+  queue_.stop();
+}
+
+/// roscpp's own queue has no bound (0), as it would drop the oldest without a word; the thread moves all that comes to
+/// the queue here, which has.
+template <class Message>
+void SceneTopics::subscribe(const ros::NodeHandle& own, const std::string& name)
+{
+  topics_.subscribe<Message>("~" + name, 0,
+                             [this, topic = own.resolveName(name)](const Message& message)
+                             {
+                               const std::size_t bytes = ros::serialization::serializationLength(message);
+                               queue_.add(topic, changes_.changeOf(message), bytes);
+                             });
+}
+
+/// For changes that wait together: while one of them waits for a frame, all the others have waited as long.
+ChangeQueue::Make SceneTopics::maker() const
+{
+  const auto until = lookup_.deadline();
+  return [this, until](const SceneChange& change)
+  { changes_.make(change, [this, until](const FrameAt& frame) { return lookup_(frame, until); }); };
+}
+}  // namespace gpu_planning_scene

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+/// Too much is waiting; ask again later.
+class Busy : public Error
+{
+ public:
+  using Error::Error;
+};
+}  // namespace gpu_planning_scene

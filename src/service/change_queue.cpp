@@ -1,0 +1,147 @@
+#include "service/change_queue.h"
+
+#include <exception>
+#include <utility>
+
+#include "service/busy.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+bool changesNoSettings(const SceneChange& change)
+{
+  return change.is_diff && change.name.empty() && change.robot_model_name.empty() && change.fixed_frames.empty() &&
+         change.state.variables.empty() && change.state.is_diff && !change.matrix && change.link_padding.empty() &&
+         change.link_scale.empty() && change.colors.empty();
+}
+
+/// Whether the two are the same as the first one with the second one's objects, or carried objects, added to its own.
+/// (Not where the one has objects and the other one carries: the parts of a change have an order of their own.)
+bool canBeOne(const SceneChange& first, const SceneChange& second)
+{
+  if (!changesNoSettings(second))
+    return false;
+  if (second.state.attached.empty())
+    return !second.objects.empty() && first.state.attached.empty();
+  return second.objects.empty() && first.objects.empty() && changesNoSettings(first);
+}
+
+void append(const SceneChange& second, SceneChange& first)
+{
+  first.objects.insert(first.objects.end(), second.objects.begin(), second.objects.end());
+  first.state.attached.insert(first.state.attached.end(), second.state.attached.begin(), second.state.attached.end());
+}
+}  // namespace
+
+ChangeQueue::ChangeQueue(Maker maker, Refuse refuse, std::size_t most_changes, std::size_t most_bytes)
+  : maker_(std::move(maker)),
+    refuse_(std::move(refuse)),
+    most_changes_(most_changes),
+    most_bytes_(most_bytes),
+    thread_([this] { run(); })
+{
+}
+
+ChangeQueue::~ChangeQueue()
+{
+  stop();
+}
+
+void ChangeQueue::add(std::string source, SceneChange change, std::size_t bytes)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (stopping_)
+    throw Error("shutting down: the change was not made");
+  const std::size_t changes = making_ + waiting_.size();
+  if (changes >= most_changes_ || (changes != 0 && bytes_ + bytes > most_bytes_))
+    throw Busy("busy: " + std::to_string(changes) + " changes of " + std::to_string(bytes_) +
+               " bytes are waiting (limits/waiting_changes, limits/message_size); send fewer at "
+               "once, or use apply_planning_scene, which waits");
+  bytes_ += bytes;
+  waiting_.push_back({std::move(source), std::move(change), bytes});
+  wake_.notify_one();
+}
+
+void ChangeQueue::stop()
+{
+  std::thread thread;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+    thread.swap(thread_);
+  }
+  wake_.notify_one();
+  if (thread.joinable())
+    thread.join();
+}
+
+bool ChangeQueue::isStopping() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return stopping_;
+}
+
+void ChangeQueue::run()
+{
+  for (;;)
+  {
+    Changes changes;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      making_ = 0;
+      wake_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+      if (waiting_.empty())
+        return;
+      changes.swap(waiting_);
+      making_ = changes.size();
+    }
+    makeAll(changes);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const Waiting& made : changes)
+      bytes_ -= made.bytes;
+  }
+}
+
+void ChangeQueue::makeAll(const Changes& changes)
+{
+  const Make make_one = maker_();
+  for (std::size_t begin = 0, end = 0; begin < changes.size(); begin = end)
+  {
+    for (end = begin + 1; end < changes.size() && canBeOne(changes[end - 1].change, changes[end].change);)
+      ++end;
+    make(make_one, changes, begin, end);
+  }
+}
+
+/// Those from `begin` to `end`, which can be one. Where they are refused together, each half of them is tried: so a
+/// wrong one among thousands is found, and all others are made, with few copies of the scene.
+void ChangeQueue::make(const Make& make_one, const Changes& changes, std::size_t begin, std::size_t end)
+{
+  try
+  {
+    if (isStopping())
+      throw Error("shutting down: the change was not made");
+    if (end == begin + 1)
+    {
+      make_one(changes[begin].change);
+      return;
+    }
+    SceneChange all = changes[begin].change;
+    for (std::size_t i = begin + 1; i < end; ++i)
+      append(changes[i].change, all);
+    make_one(all);
+  }
+  catch (const std::exception& error)
+  {
+    if (end == begin + 1)
+    {
+      refuse_(changes[begin].source, error.what());
+      return;
+    }
+    const std::size_t middle = begin + (end - begin) / 2;
+    make(make_one, changes, begin, middle);
+    make(make_one, changes, middle, end);
+  }
+}
+}  // namespace gpu_planning_scene
