@@ -1,6 +1,7 @@
 #include "node/frame_lookup.h"
 
 #include <algorithm>
+#include <thread>
 
 #include "gpu_planning_scene/error.h"
 
@@ -8,6 +9,8 @@ namespace gpu_planning_scene
 {
 namespace
 {
+constexpr std::chrono::milliseconds kPause(10);
+
 /// tf2 knows no leading slash, which MoveIt's users may give.
 std::string withoutSlash(const std::string& name)
 {
@@ -23,8 +26,8 @@ std::string reasonOf(const tf2::TransformException& error)
 }
 }  // namespace
 
-FrameLookup::FrameLookup(std::string planning_frame, double timeout)
-  : planning_frame_(withoutSlash(planning_frame)), timeout_(timeout), listener_(buffer_)
+FrameLookup::FrameLookup(std::string planning_frame, double timeout, std::function<bool()> stopping)
+  : planning_frame_(withoutSlash(planning_frame)), timeout_(timeout), stopping_(std::move(stopping)), listener_(buffer_)
 {
 }
 
@@ -33,26 +36,35 @@ FrameLookup::Clock::time_point FrameLookup::deadline() const
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_));
 }
 
+/// Asks again and again: tf2 would wait by ROS time, for ever where that stands still.
 Eigen::Isometry3d FrameLookup::operator()(const FrameAt& frame, Clock::time_point until) const
 {
-  const double left = std::max(0.0, std::chrono::duration<double>(until - Clock::now()).count());
   ros::Time stamp;
   stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.stamp)));
-  try
+  for (;; std::this_thread::sleep_for(kPause))
   {
-    const geometry_msgs::Transform found =
-        buffer_.lookupTransform(planning_frame_, withoutSlash(frame.name), stamp, ros::Duration(left)).transform;
-    const Eigen::Quaterniond rotation(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z);
-    return Eigen::Translation3d(found.translation.x, found.translation.y, found.translation.z) * rotation.normalized();
-  }
-  catch (const tf2::TransformException& error)
-  {
-    std::string when = "at the latest time";
-    if (frame.stamp != 0)
-      when = "at " + std::to_string(stamp.toSec()) + " s";
-    throw Error("frame '" + frame.name + "': the scene has no such frame, and within " + std::to_string(timeout_) +
-                " s (tf_timeout) tf did not know it in the planning frame '" + planning_frame_ + "' " + when + ": " +
-                reasonOf(error));
+    const bool last = Clock::now() >= until;
+    try
+    {
+      const geometry_msgs::Transform found =
+          buffer_.lookupTransform(planning_frame_, withoutSlash(frame.name), stamp).transform;
+      const Eigen::Quaterniond rotation(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z);
+      return Eigen::Translation3d(found.translation.x, found.translation.y, found.translation.z) *
+             rotation.normalized();
+    }
+    catch (const tf2::TransformException& error)
+    {
+      if (stopping_())
+        throw Error("shutting down: frame '" + frame.name + "' is not waited for");
+      if (!last)
+        continue;
+      std::string when = "at the latest time";
+      if (frame.stamp != 0)
+        when = "at " + std::to_string(stamp.toSec()) + " s";
+      throw Error("frame '" + frame.name + "': the scene has no such frame, and within " + std::to_string(timeout_) +
+                  " s (tf_timeout) tf did not know it in the planning frame '" + planning_frame_ + "' " + when + ": " +
+                  reasonOf(error));
+    }
   }
 }
 }  // namespace gpu_planning_scene

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -14,9 +15,10 @@ namespace gpu_planning_scene
 class FrameLookup
 {
  public:
-  FrameLookup(std::string planning_frame, double timeout);
+  using Clock = std::chrono::steady_clock;  // ROS time may stand still
 
-  using Clock = std::chrono::steady_clock;
+  /// Nobody waits any more once `stopping` is true; any thread asks it.
+  FrameLookup(std::string planning_frame, double timeout, std::function<bool()> stopping);
 
   /// Until when who asks now has to wait.
   Clock::time_point deadline() const;
@@ -26,6 +28,7 @@ class FrameLookup
  private:
   const std::string planning_frame_;
   const double timeout_;
+  const std::function<bool()> stopping_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;  // with a thread of its own
 };

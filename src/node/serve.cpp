@@ -1,5 +1,7 @@
 #include "node/serve.h"
 
+#include <atomic>
+
 #include <malloc.h>
 
 #include "node/check_services.h"
@@ -64,7 +66,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   logScene(server);
 
   const MemoryGuard memory(options.most_memory);
-  const FrameLookup lookup(planning_frame, options.tf_timeout);
+  std::atomic<bool> stopping{false};
+  const FrameLookup lookup(planning_frame, options.tf_timeout, [&stopping] { return stopping || !ros::ok(); });
   CheckServices checks(store, server, memory, {server_options.most_states, options.most_inspected_states});
   const SceneStore::Lookup look_up = [&lookup](const FrameAt& frame) { return lookup(frame, lookup.deadline()); };
   SceneServices changes(store, look_up, memory);
@@ -106,6 +109,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
     ros::WallDuration(0.05).sleep();
 
   // What runs is answered, what waits is told; then the threads that bring the answers are waited for.
+  stopping = true;
   server.stop();
   scene_topics.stop();
   for (Endpoints* endpoints : {&state_topics, &cloud_topics, &scene_requests, &check_requests})

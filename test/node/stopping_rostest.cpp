@@ -1,0 +1,67 @@
+// A node that waits for something that does not come, and is told to end.
+
+#include <atomic>
+#include <thread>
+
+#include "node/child_node.h"
+#include "node/node_client.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+class Stopping : public RunningNode
+{
+ public:
+  static ApplyPlanningScene boxInUnknownFrame()
+  {
+    CollisionObject box = boxObject("box", farAway(), 0.1);
+    box.header.frame_id = "nowhere";
+    ApplyPlanningScene call;
+    call.request.scene = diffWith(box);
+    return call;
+  }
+};
+
+/// As in a simulation that is paused, or not there yet: nobody publishes /clock.
+TEST_F(Stopping, aClockThatStandsStillHoldsUpNoChangeAndNoAnswer)
+{
+  ros::param::set("/use_sim_time", true);
+  ChildNode node("node_without_clock", {"_device:=cpu", "_tf_timeout:=0.2"});
+  ros::param::del("/use_sim_time");
+  for (int i = 0; i < 5; ++i)  // the node has four threads for them
+  {
+    ApplyPlanningScene change = boxInUnknownFrame();
+    ASSERT_TRUE(callPersistently(node.service("apply_planning_scene"), change));
+    EXPECT_FALSE(change.response.success);
+    EXPECT_NE(std::string::npos, change.response.message.find("tf_timeout")) << change.response.message;
+  }
+  GetPlanningScene get;
+  ASSERT_TRUE(callPersistently(node.service("get_planning_scene"), get));
+  node.interrupt();
+  EXPECT_EQ(0, node.wait(20.0)) << "its exit code";
+}
+
+TEST_F(Stopping, aFrameThatIsWaitedForHoldsUpNoEnd)
+{
+  ChildNode node("patient_node", {"_device:=cpu", "_tf_timeout:=1000.0"});
+  std::atomic<bool> asking{false};
+  std::thread ending(
+      [&]
+      {
+        while (!asking)
+          ros::WallDuration(0.01).sleep();
+        ros::WallDuration(0.5).sleep();  // that is long enough for it to have come
+        node.interrupt();
+      });
+  ApplyPlanningScene change = boxInUnknownFrame();
+  ros::service::waitForService(node.service("apply_planning_scene"));
+  asking = true;
+  EXPECT_TRUE(callPersistently(node.service("apply_planning_scene"), change)) << "no reply";
+  ending.join();
+  EXPECT_FALSE(change.response.success);
+  EXPECT_NE(std::string::npos, change.response.message.find("shutting down")) << change.response.message;
+  EXPECT_EQ(0, node.wait(20.0)) << "its exit code";
+}
+}  // namespace
+}  // namespace gpu_planning_scene
