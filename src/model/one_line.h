@@ -13,4 +13,11 @@ inline std::string onOneLine(std::string text)
       text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
   return text;
 }
+
+/// The same, and no longer than what a person reads: names may be long too.
+inline std::string shortLine(const std::string& text)
+{
+  constexpr std::size_t kLongest = 2000;
+  return onOneLine(text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...");
+}
 }  // namespace gpu_planning_scene

@@ -13,11 +13,12 @@ namespace gpu_planning_scene
 {
 namespace
 {
-std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedCollisionMatrixMessage& message)
+std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedCollisionMatrixMessage& message,
+                                                              const SceneLimits& limits)
 {
   if (message.entry_names.empty() && message.default_entry_names.empty())
     return nullptr;
-  return std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message));
+  return std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message, limits.matrix_entries));
 }
 
 /// The columns of full rows.
@@ -77,7 +78,7 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
                                        "positions", [this](std::size_t count) { server_.requireStateCount(count); });
         job.states = request.positions;
         job.group = request.group;
-        job.matrix = requestedMatrix(request.allowed_collision_matrix);
+        job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
         job.keep_states = request.max_contacts != 0 || request.clearance;
         const bool inspects = job.keep_states;
         const CheckAnswer answer = server_.submit(std::move(job)).get();
@@ -173,7 +174,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         // What does not move is not taken from here, but from the snapshot that is checked.
         job.states = columnsOf(motions.states(), width, job.columns);
         job.group = request.group;
-        job.matrix = requestedMatrix(request.allowed_collision_matrix);
+        job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
         const CheckAnswer answer = server_.submit(std::move(job)).get();
         for (const MotionBatch::Verdict& verdict : motions.verdicts(answer.result))
         {

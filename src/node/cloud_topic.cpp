@@ -30,6 +30,8 @@ std::vector<Eigen::Vector3f> pointsOf(const sensor_msgs::PointCloud2& message)
     throw Error("a point cloud of " + std::to_string(message.data.size()) + " bytes is too short for its " +
                 std::to_string(message.height) + " rows of " + std::to_string(message.width) + " points");
   std::vector<Eigen::Vector3f> points;
+  if (row == 0)
+    return points;  // of however many rows
   points.reserve(std::size_t{message.width} * message.height);
   for (std::size_t y = 0; y < message.height; ++y)
     for (std::size_t x = 0; x < message.width; ++x)

@@ -24,13 +24,15 @@ void Endpoints::stop()
 
 void Endpoints::refuse(const std::string& topic, const std::string& why)
 {
-  diagnostics_.refused(topic + ": " + why);
-  ROS_WARN_STREAM_THROTTLE(1.0, "a message on " << topic << " is not used: " << why);
+  const std::string line = topic + ": " + shortLine(why);
+  diagnostics_.refused(line);
+  ROS_WARN_STREAM_THROTTLE(1.0, "a message is not used, on " << line);
 }
 
 void Endpoints::lose(const std::string& topic, const std::string& why)
 {
-  diagnostics_.refused(topic + ": " + why);
-  ROS_ERROR_STREAM_THROTTLE(1.0, "a message on " << topic << " is lost: " << why);
+  const std::string line = topic + ": " + shortLine(why);
+  diagnostics_.refused(line);
+  ROS_ERROR_STREAM_THROTTLE(1.0, "a message is lost, on " << line);
 }
 }  // namespace gpu_planning_scene

@@ -155,9 +155,12 @@ void readFixedFrames(const PlanningSceneMessage& message, const RobotModel& robo
 }
 }  // namespace
 
-AllowedCollisionMatrix matrixFrom(const AllowedCollisionMatrixMessage& message)
+AllowedCollisionMatrix matrixFrom(const AllowedCollisionMatrixMessage& message, std::size_t most_entries)
 {
   const std::vector<std::string>& names = message.entry_names;
+  if (most_entries != 0 && names.size() * names.size() > most_entries)
+    throw Error("allowed_collision_matrix: the entries of " + std::to_string(names.size()) +
+                " names are more than the " + std::to_string(most_entries) + " of the parameter limits/matrix_entries");
   const auto& rows = message.entry_values;
   requireAsMany(rows.size(), names.size(), "allowed_collision_matrix.entry_values");
   requireAsMany(message.default_entry_values.size(), message.default_entry_names.size(),
@@ -194,7 +197,8 @@ AttachedChange attachedChangeFrom(const AttachedCollisionObject& message)
   return attachedChangeFrom(message, meshes);
 }
 
-SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& robot, std::vector<std::string>* warnings)
+SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& robot, const SceneLimits& limits,
+                       std::vector<std::string>* warnings)
 {
   InlineMeshes meshes;
   SceneChange change;
@@ -205,7 +209,7 @@ SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& ro
   change.state = stateFrom(message.robot_state, robot, meshes, warnings);
   const AllowedCollisionMatrixMessage& matrix = message.allowed_collision_matrix;
   if (!matrix.entry_names.empty() || !matrix.entry_values.empty() || !matrix.default_entry_names.empty())
-    change.matrix = matrixFrom(matrix);
+    change.matrix = matrixFrom(matrix, limits.matrix_entries);
   for (const LinkPadding& padding : message.link_padding)
     insertOnce(change.link_padding, padding.link_name, padding.padding, "the padding");
   for (const LinkScale& scale : message.link_scale)

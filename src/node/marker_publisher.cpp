@@ -1,6 +1,5 @@
 #include "node/marker_publisher.h"
 
-#include "gpu_planning_scene/error.h"
 #include "node/answered.h"
 
 namespace gpu_planning_scene
@@ -8,15 +7,6 @@ namespace gpu_planning_scene
 namespace
 {
 constexpr std::size_t kMostContacts = 1000;
-
-bool hasBody(const PlanningScene& scene, const std::string& name)
-{
-  const std::size_t bodies = scene.robot->links().size() + scene.objects.size() + scene.attached.size();
-  for (std::size_t i = 0; i < bodies; ++i)
-    if (scene.bodyName(static_cast<int>(i)) == name)
-      return true;
-  return false;
-}
 }  // namespace
 
 MarkerPublisher::MarkerPublisher(ros::NodeHandle& own, const SceneStore& store, double rate, std::size_t most_triangles)
@@ -31,10 +21,7 @@ ShowTreeLevel::Response MarkerPublisher::show(const ShowTreeLevel::Request& requ
   return answered<ShowTreeLevel::Response>(
       [&](ShowTreeLevel::Response&)
       {
-        if (request.level < -1)
-          throw Error("there is no level " + std::to_string(request.level) + "; give 0 for the roots, -1 for no boxes");
-        if (!request.body.empty() && !hasBody(*store_.snapshot().scene, request.body))
-          throw Error("the scene has no link or object '" + request.body + "'");
+        requireTreeLevel(*store_.snapshot().scene, request.level, request.body);
         const std::lock_guard<std::mutex> lock(mutex_);
         options_.tree_level = request.level;
         options_.tree_body = request.body;

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "collision/binned_sah.h"
+#include "gpu_planning_scene/error.h"
 #include "render/drawing.h"
 #include "render/renderer.h"
 
@@ -283,7 +284,24 @@ class MarkerMaker
   std::string name_;
   BodyColor color_{};
 };
+
+bool hasBody(const PlanningScene& scene, const std::string& name)
+{
+  const std::size_t bodies = scene.robot->links().size() + scene.objects.size() + scene.attached.size();
+  for (std::size_t i = 0; i < bodies; ++i)
+    if (scene.bodyName(static_cast<int>(i)) == name)
+      return true;
+  return false;
+}
 }  // namespace
+
+void requireTreeLevel(const PlanningScene& scene, int level, const std::string& body)
+{
+  if (level < -1)
+    throw Error("there is no level " + std::to_string(level) + "; give 0 for the roots, -1 for no boxes");
+  if (!body.empty() && !hasBody(scene, body))
+    throw Error("the scene has no link or object '" + body + "'");
+}
 
 visualization_msgs::MarkerArray markersOf(const PlanningScene& scene, const double* state,
                                           const std::vector<std::array<std::int32_t, 2>>& colliding,

@@ -22,6 +22,9 @@ struct MarkerOptions
   std::string tree_body;  ///< of one body alone; empty: of all
 };
 
+/// Throws Error for a level below -1, and for a name that no link and no object has; an empty one means all.
+void requireTreeLevel(const PlanningScene& scene, int level, const std::string& body);
+
 /// What RViz draws: the robot, the objects and what is carried, in the planning frame, colliding bodies red; contact
 /// points; the boxes of a tree level. The first marker deletes those of before. Namespaces: robot, objects, attached,
 /// contacts, tree.

@@ -16,7 +16,7 @@ namespace
 void warn(const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)
-    ROS_WARN_STREAM_THROTTLE(1.0, warning);
+    ROS_WARN_STREAM_THROTTLE(1.0, shortLine(warning));
 }
 }  // namespace
 
@@ -37,11 +37,12 @@ ApplyPlanningScene::Response SceneServices::apply(const ApplyPlanningScene::Requ
       [&](ApplyPlanningScene::Response& response)
       {
         std::vector<std::string> warnings;
-        const SceneChange change = changeFrom(request.scene, *store_.snapshot().scene->robot, &warnings);
+        const SceneChange change =
+            changeFrom(request.scene, *store_.snapshot().scene->robot, store_.limits(), &warnings);
         SceneStore::Applied applied = apply(change, lookup_);
         warnings.insert(warnings.end(), applied.warnings.begin(), applied.warnings.end());
         for (const std::string& warning : warnings)
-          response.message += (response.message.empty() ? "" : "; ") + warning;
+          response.message += (response.message.empty() ? "" : "; ") + shortLine(warning);
         response.scene_revision = applied.revision;
       });
 }
@@ -62,7 +63,7 @@ GetPlanningScene::Response SceneServices::get(const GetPlanningScene::Request& r
 SceneChange SceneServices::changeOf(const PlanningSceneMessage& message) const
 {
   std::vector<std::string> warnings;
-  SceneChange change = changeFrom(message, *store_.snapshot().scene->robot, &warnings);
+  SceneChange change = changeFrom(message, *store_.snapshot().scene->robot, store_.limits(), &warnings);
   warn(warnings);
   return change;
 }

@@ -11,12 +11,6 @@ namespace gpu_planning_scene
 {
 namespace
 {
-/// Names in a message may be long.
-std::string shortened(const std::string& text)
-{
-  constexpr std::size_t kLongest = 2000;
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + " ...";
-}
 /// Most changes name none but these, and what they change may be large.
 bool namesNoOtherFrames(const RobotModel& robot, const SceneChange& change)
 {
@@ -46,7 +40,7 @@ Change applyChange(const PlanningScene& scene, const std::vector<double>& state,
   }
   catch (const Error& error)
   {
-    throw Error(shortened(onOneLine(error.what())));
+    throw Error(shortLine(error.what()));
   }
 }
 

@@ -33,6 +33,7 @@ class SceneStore
   SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits);
 
   Snapshot snapshot() const;
+  const SceneLimits& limits() const { return limits_; }
 
   struct Applied
   {

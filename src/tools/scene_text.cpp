@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "model/one_line.h"
+
 namespace gpu_planning_scene
 {
 namespace
@@ -67,6 +69,7 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
                     scene.bodyName((*report.always_colliding)[1]));
   if (report.cpu_below && *report.cpu_below != 0)
     lines.push_back("on the CPU, which is faster there: " + batchesText(*report.cpu_below));
+  std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
   return lines;
 }
 

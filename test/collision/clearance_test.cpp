@@ -110,6 +110,20 @@ TEST_F(ClearanceTest, IsZeroForABodyInsideAnother)
   EXPECT_EQ(inspector.clearance(state.data(), "").world, 0.0);
 }
 
+TEST_F(ClearanceTest, EndsHoweverFarObjectsAre)
+{
+  for (const double distance : {1e12, 1e30, 1e100})
+  {
+    PlanningScene scene(test_.scene->robot);
+    scene.objects.push_back({"far", Eigen::Isometry3d(Eigen::Translation3d(distance, 0, 0)), {{Sphere{1.0}}}});
+    const StateInspector inspector(std::make_shared<const PlanningScene>(scene));
+    const std::vector<double> state = scene.robot->defaultState();
+    const double clearance = inspector.clearance(state.data(), "").world;
+    EXPECT_GT(clearance, 0.0);
+    EXPECT_LE(clearance, distance * (1.0 + 1e-12));
+  }
+}
+
 TEST_F(ClearanceTest, NamesThePairThatIsNearest)
 {
   PlanningScene scene(test_.scene->robot);

@@ -7,6 +7,14 @@
 
 namespace gpu_planning_scene
 {
+void requireOneLine(const std::string& text, bool must_say)
+{
+  if (text.find('\n') == std::string::npos && !(must_say && text.empty()))
+    return;
+  std::fprintf(stderr, "not one line of text: '%s'\n", text.c_str());
+  std::abort();
+}
+
 void acceptOrRefuse(const std::function<void()>& action)
 {
   try
@@ -15,12 +23,7 @@ void acceptOrRefuse(const std::function<void()>& action)
   }
   catch (const Error& error)
   {
-    const std::string line = error.what();
-    if (line.empty() || line.find('\n') != std::string::npos)
-    {
-      std::fprintf(stderr, "an Error is not one line of text: '%s'\n", line.c_str());
-      std::abort();
-    }
+    requireOneLine(error.what(), true);
   }
 }
 

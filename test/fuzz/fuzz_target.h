@@ -12,6 +12,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace gpu_planning_scene
 {
+/// Ends the program if the text has a line break or, where it `must_say` something, is empty.
+void requireOneLine(const std::string& text, bool must_say);
+
 /// Runs `action`. It may throw Error, with one line of text; anything else that it throws ends the program.
 void acceptOrRefuse(const std::function<void()>& action);
 

@@ -66,7 +66,7 @@ class Messages : public SceneChanges
   void applyMessage(const PlanningSceneMessage& message)
   {
     message_warnings.clear();
-    apply(changeFrom(message, *scene.robot, &message_warnings));
+    apply(changeFrom(message, *scene.robot, limits, &message_warnings));
   }
 
   void applyObject(const CollisionObject& object)

@@ -15,6 +15,7 @@
 #include "node/scene_services.h"
 #include "scene/slider_robot.h"
 #include "service/gated_checker.h"
+#include "tools/scene_text.h"
 
 namespace gpu_planning_scene
 {
@@ -42,6 +43,14 @@ CheckStates::Request request(const std::vector<std::string>& names, const std::v
   result.joint_names = names;
   result.positions = positions;
   return result;
+}
+
+sensor_msgs::JointState jointState(const std::vector<std::string>& names, const std::vector<double>& positions)
+{
+  sensor_msgs::JointState message;
+  message.name = names;
+  message.position = positions;
+  return message;
 }
 
 class Service : public testing::Test
@@ -200,6 +209,44 @@ TEST_F(Service, wrongRequestsAreRefusedWithTheReason)
   expectRefusal(unknown_group, "sails");
 }
 
+TEST_F(Service, namesInAnswersAreShortAndOnOneLine)
+{
+  expectRefusal(request({"turn", "sli\nde"}, {}), "no variable 'sli de'");
+  CheckStates::Request unknown_group = request({"turn", "slide"}, {0.0, 0.0});
+  unknown_group.group = "sa\nils";
+  expectRefusal(unknown_group, "sa ils");
+  EXPECT_GT(3000u, answer(request({std::string(100000, 'x')}, {})).message.size());
+
+  SceneServices scenes(store, nullptr, memory);
+  ApplyPlanningScene::Request change;
+  change.scene.is_diff = true;
+  change.scene.robot_state.joint_state = jointState({"whe\nel"}, {0.0});
+  const ApplyPlanningScene::Response warned = scenes.apply(change);
+  EXPECT_TRUE(warned.success);
+  EXPECT_NE(std::string::npos, warned.message.find("whe el")) << warned.message;
+  change.scene.world.collision_objects.resize(1);
+  change.scene.world.collision_objects[0].id = "bo\nx";
+  change.scene.world.collision_objects[0].operation = 9;
+  const ApplyPlanningScene::Response refused = scenes.apply(change);
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(std::string::npos, refused.message.find("'bo x': unknown operation")) << refused.message;
+}
+
+TEST_F(Service, aMatrixOfARequestHasNoMoreEntriesThanTheLimit)
+{
+  SceneLimits limits;
+  limits.matrix_entries = 3;
+  SceneStore strict(sceneWithWall(), {}, limits);
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.0});
+  asked.allowed_collision_matrix.entry_names = {"cart", "wall"};
+  asked.allowed_collision_matrix.entry_values.resize(2);
+  for (AllowedCollisionEntry& row : asked.allowed_collision_matrix.entry_values)
+    row.enabled = {0, 0};
+  EXPECT_TRUE(answer(asked).success);
+  const std::string message = CheckServices(strict, server, memory, {1000, 10}).checkStates(asked).message;
+  EXPECT_NE(std::string::npos, message.find("limits/matrix_entries")) << message;
+}
+
 TEST_F(Service, contactsAreGivenOfCollidingStatesAlone)
 {
   CheckStates::Request with_contacts = request({"turn", "slide"}, {0.0, 0.0, 0.0, 1.0});
@@ -278,6 +325,16 @@ TEST_F(Service, aReportHasLinesAndNumbers)
   EXPECT_EQ(5u, response.scene_revision);
 }
 
+TEST_F(Service, aReportHasEachNameOnOneLine)
+{
+  PlanningScene scene = sceneWithWall();
+  scene.objects[0].id = "wa\nll";
+  SceneReport report;
+  report.always_colliding = {{0, static_cast<std::int32_t>(scene.robot->links().size())}};
+  for (const std::string& line : describeScene(scene, report, ""))
+    EXPECT_EQ(std::string::npos, line.find('\n')) << line;
+}
+
 TEST_F(Service, aProcessThatUsesTooMuchMemoryTakesNothingMore)
 {
   const MemoryGuard full(1);
@@ -305,14 +362,6 @@ TEST_F(Service, aFailureOfTheDeviceIsAnAnswer)
   const auto response = CheckServices(store, failing, memory, {}).checkStates(request({"turn", "slide"}, {0.0, 0.0}));
   EXPECT_FALSE(response.success);
   EXPECT_EQ("device lost", response.message);
-}
-
-sensor_msgs::JointState jointState(const std::vector<std::string>& names, const std::vector<double>& positions)
-{
-  sensor_msgs::JointState message;
-  message.name = names;
-  message.position = positions;
-  return message;
 }
 
 class JointStates : public Service

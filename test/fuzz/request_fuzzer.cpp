@@ -1,0 +1,200 @@
+// Bytes from anywhere, as requests and messages to the node's handlers: each is answered or refused, with one line. An
+// input is a row of messages to a node that has just started: a byte for the kind, two for the length, and the message.
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "fuzz/fuzz_target.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "node/answered.h"
+#include "node/bounded_message.h"
+#include "node/check_services.h"
+#include "node/cloud_topic.h"
+#include "node/from_messages.h"
+#include "node/markers.h"
+#include "node/scene_services.h"
+#include "node/to_messages.h"
+#include "scene/slider_robot.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr std::size_t kMostStates = 200;
+
+SceneLimits fewThings()
+{
+  SceneLimits limits;
+  limits.objects = 20;
+  limits.shapes = 50;
+  limits.triangles = 500;
+  limits.triangles_of_mesh = 200;
+  limits.matrix_entries = 10000;
+  return limits;
+}
+
+CheckServerOptions fewStates()
+{
+  CheckServerOptions options;
+  options.small_request = 64;
+  options.most_states = kMostStates;
+  return options;
+}
+
+PointCloudOptions fewVoxels()
+{
+  PointCloudOptions options;
+  options.most_voxels = 50;
+  return options;
+}
+
+/// In place of tf, which knows one frame.
+Eigen::Isometry3d frameOfTf(const FrameAt& frame)
+{
+  if (frame.name != "tf")
+    throw Error("frame '" + frame.name + "' is not known");
+  return Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+}
+
+/// The node's handlers, without a ROS master.
+class Handlers
+{
+ public:
+  explicit Handlers(const std::shared_ptr<const RobotModel>& robot)
+    : store_(PlanningScene(robot), {}, fewThings()),
+      memory_(std::size_t{1} << 40),
+      server_(
+          store_,
+          [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
+          fewStates()),
+      checks_(store_, server_, memory_, {kMostStates, 10}),
+      scenes_(store_, frameOfTf, memory_),
+      clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
+  {
+    store_.setListener([this](const auto& before, const auto& after)
+                       { requireUsable(messageOf(diffOf(*before, *after), *after->robot), *before); });
+  }
+
+  void take(unsigned kind, const std::uint8_t* data, std::uint32_t size)
+  {
+    const auto make = [this](const auto& message) { scenes_.make(scenes_.changeOf(message), frameOfTf); };
+    switch (kind % 12)
+    {
+      case 0:
+        return answer<ApplyPlanningScene>(data, size, [&](const auto& request) { return scenes_.apply(request); });
+      case 1:
+        return answer<CheckStates>(data, size, [&](const auto& request) { return checks_.checkStates(request); });
+      case 2:
+        return answer<CheckMotions>(data, size, [&](const auto& request) { return checks_.checkMotions(request); });
+      case 3:
+        return answer<GetReport>(data, size, [&](const auto& request) { return report(request); });
+      case 4:
+        return answer<Clear>(data, size, [&](const auto&) { return scenes_.clear(); });
+      case 5:
+        return read<GetPlanningScene::Request>(data, size, [&](const auto& request) { get(request); });
+      case 6:
+        return read<PlanningSceneMessage>(data, size, make);
+      case 7:
+        return read<CollisionObject>(data, size, make);
+      case 8:
+        return read<AttachedCollisionObject>(data, size, make);
+      case 9:
+        return read<sensor_msgs::JointState>(data, size, [&](const auto& message) { scenes_.take(message); });
+      case 10:
+        return read<sensor_msgs::PointCloud2>(data, size, [&](const auto& message) { clouds_.take(message); });
+      default:
+        return read<ShowTreeLevel::Request>(data, size, [&](const auto& request) { draw(request); });
+    }
+  }
+
+ private:
+  template <class Service, class Handler>
+  static void answer(const std::uint8_t* data, std::uint32_t size, Handler handler)
+  {
+    read<typename Service::Request>(data, size,
+                                    [&](const auto& request)
+                                    {
+                                      const typename Service::Response response = handler(request);
+                                      requireOneLine(response.message, !response.success);
+                                    });
+  }
+
+  /// As roscpp and then the node's endpoints do.
+  template <class M, class Handler>
+  static void read(const std::uint8_t* data, std::uint32_t size, Handler handler)
+  {
+    Bounded<M> bounded;
+    // Streams are for reading and writing alike.
+    ros::serialization::IStream stream(const_cast<std::uint8_t*>(data), size);
+    ros::serialization::deserialize(stream, bounded);
+    if (!bounded.fault.empty())
+      return requireOneLine(bounded.fault, true);
+    requireOneLine(faultOf([&] { handler(bounded.message); }), false);
+  }
+
+  GetReport::Response report(const GetReport::Request& request)
+  {
+    const GetReport::Response response = checks_.report(request);
+    for (const std::string& line : response.lines)
+      requireOneLine(line, false);
+    return response;
+  }
+
+  void get(const GetPlanningScene::Request& request)
+  {
+    const PlanningSceneMessage message = scenes_.get(request).scene;
+    if (request.components.components == 0)
+      requireUsable(message, PlanningScene(store_.snapshot().scene->robot));
+  }
+
+  /// What the node publishes and answers can be made by whoever has the scene before it.
+  void requireUsable(const PlanningSceneMessage& message, const PlanningScene& before) const
+  {
+    const auto make = [&]
+    {
+      const SceneChange change = changeFrom(message, *before.robot, store_.limits(), nullptr);
+      applyChange(before, store_.snapshot().state, change, {}, store_.limits(), {});
+    };
+    if (const std::string fault = faultOf(make); !fault.empty())
+    {
+      std::fprintf(stderr, "a scene that the node sent is refused: %s\n", fault.c_str());
+      std::abort();
+    }
+  }
+
+  void draw(const ShowTreeLevel::Request& request)
+  {
+    const Snapshot now = store_.snapshot();
+    requireTreeLevel(*now.scene, request.level, request.body);
+    MarkerOptions options;
+    options.most_triangles = 100;
+    options.tree_level = request.level;
+    options.tree_body = request.body;
+    markersOf(*now.scene, now.state.data(), {}, {}, options);
+  }
+
+  SceneStore store_;
+  const MemoryGuard memory_;
+  CheckServer server_;
+  CheckServices checks_;
+  SceneServices scenes_;
+  CloudTopic clouds_;
+};
+}  // namespace
+}  // namespace gpu_planning_scene
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+  using namespace gpu_planning_scene;
+  static const auto robot = sliderRobotOnFloor("floating");
+  Handlers handlers(robot);
+  while (size >= 3)
+  {
+    const std::size_t length = std::min<std::size_t>(data[1] | data[2] << 8, size - 3);
+    handlers.take(data[0], data + 3, static_cast<std::uint32_t>(length));
+    data += 3 + length;
+    size -= 3 + length;
+  }
+  return 0;
+}
