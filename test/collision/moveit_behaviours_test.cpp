@@ -30,6 +30,11 @@ struct Subject
   std::vector<std::pair<const char*, double>> folded;
 };
 
+void PrintTo(const Subject& subject, std::ostream* out)
+{
+  *out << subject.scene;
+}
+
 class MoveitBehaviours : public testing::TestWithParam<std::tuple<const char*, Subject>>
 {
  protected:
@@ -236,7 +241,11 @@ TEST_P(MoveitBehaviours, AMeshIsHitWhereItIsMovedTo)
   add("torus", torusMesh(0.2, 0.05), atTip() + Vector3d(0, 0, 5));
   EXPECT_TRUE(free());
   for (double height = 5.0; height > 0.0; height -= 0.5)
+  {
     scene_->objects[0].pose = Isometry3d(Translation3d(atTip() + Vector3d(0, 0, height)));
+    CpuChecker fresh(std::make_shared<const PlanningScene>(*scene_));
+    EXPECT_EQ(free(), fresh.check(state_.data(), 1).valid[0] != 0) << height << " m above the tip";
+  }
   scene_->objects[0].pose = Isometry3d(Translation3d(atTip() + Vector3d(0.2, 0, 0)));
   EXPECT_NE(collision(state_).find("torus"), std::string::npos);
   scene_->objects[0].pose = Isometry3d(Translation3d(atTip() + Vector3d(0, 0, 5)));
