@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "collision/abandonable_thread.h"
+#include "collision/batch_results.h"
 #include "collision/state_rows.h"
 #include "gpu_planning_scene/error.h"
 
@@ -41,16 +42,6 @@ double millionTriangles(const PlanningScene& scene)
   for (const AttachedObject& attached : scene.attached)
     count(attached.object);
   return 1e-6 * static_cast<double>(triangles);
-}
-
-void append(const BatchResult& part, BatchResult& all)
-{
-  all.valid.insert(all.valid.end(), part.valid.begin(), part.valid.end());
-  all.colliding.insert(all.colliding.end(), part.colliding.begin(), part.colliding.end());
-  all.revision = part.revision;
-  all.seconds += part.seconds;
-  all.undecided_states += part.undecided_states;
-  all.undecided_seconds += part.undecided_seconds;
 }
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "gpu_planning_scene/contacts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -62,18 +63,53 @@ struct Inspected
   std::unique_ptr<const ClearanceSearch> clearance;
 };
 
+/// Tells which points are nearer to another one than kSamePoint. Those that may be are in the same cell of a grid or in
+/// one beside it.
+class NearPoints
+{
+ public:
+  /// Whether it was added: not where another one is near.
+  bool add(const Eigen::Vector3d& point)
+  {
+    const Cell center = {{cellOf(point.x()), cellOf(point.y()), cellOf(point.z())}};
+    for (int i = 0; i < 27; ++i)
+    {
+      const auto found = cells_.find({{center[0] + i % 3 - 1, center[1] + i / 3 % 3 - 1, center[2] + i / 9 - 1}});
+      if (found == cells_.end())
+        continue;
+      for (const Eigen::Vector3d& other : found->second)
+        if ((other - point).norm() < kSamePoint)
+          return false;
+    }
+    cells_[center].push_back(point);
+    return true;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+
+  /// Beyond a bound, where doubles are further apart than that, all are in one cell.
+  static std::int64_t cellOf(double coordinate)
+  {
+    constexpr double kFarthest = 1e18;
+    return static_cast<std::int64_t>(std::clamp(std::floor(coordinate / kSamePoint), -kFarthest, kFarthest));
+  }
+
+  std::map<Cell, std::vector<Eigen::Vector3d>> cells_;
+};
+
 /// The deepest of those at the same place, at most `most`, deepest first.
 std::vector<Contact> deepest(std::vector<Contact> contacts, std::size_t most)
 {
   std::stable_sort(contacts.begin(), contacts.end(),
                    [](const Contact& a, const Contact& b) { return a.depth > b.depth; });
+  NearPoints points;
   std::vector<Contact> kept;
   for (const Contact& contact : contacts)
   {
     if (kept.size() == most)
       break;
-    const auto is_same = [&](const Contact& other) { return (other.point - contact.point).norm() < kSamePoint; };
-    if (std::none_of(kept.begin(), kept.end(), is_same))
+    if (points.add(contact.point))
       kept.push_back(contact);
   }
   return kept;

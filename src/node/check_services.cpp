@@ -1,6 +1,8 @@
 #include "node/check_services.h"
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/motions.h"
@@ -13,6 +15,15 @@ namespace gpu_planning_scene
 {
 namespace
 {
+constexpr std::size_t kInspections = 2;               // at a time
+constexpr std::chrono::milliseconds kLook{100};       // how often a waiting request looks whether the node ends
+constexpr std::chrono::milliseconds kPatience{4000};  // with the checker, once it does
+
+Error shuttingDown()
+{
+  return Error("shutting down: the request was not answered");
+}
+
 std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedCollisionMatrixMessage& message,
                                                               const SceneLimits& limits)
 {
@@ -63,8 +74,32 @@ ContactInformation messageOf(const Contact& contact, const PlanningScene& scene,
 
 CheckServices::CheckServices(const SceneStore& store, CheckServer& server, const MemoryGuard& memory,
                              const CheckServicesOptions& options)
-  : store_(store), server_(server), memory_(memory), options_(options)
+  : store_(store),
+    server_(server),
+    memory_(memory),
+    options_(options),
+    inspections_(kInspections, options.most_waiting_inspections)
 {
+}
+
+void CheckServices::stop()
+{
+  stopping_ = true;
+  inspections_.stop();
+}
+
+/// The server answers soon after a stop, but for a checker that hangs.
+CheckAnswer CheckServices::answerOf(CheckJob job) const
+{
+  std::future<CheckAnswer> answer = server_.submit(std::move(job));
+  std::chrono::milliseconds waited{0};  // since the stop
+  while (answer.wait_for(kLook) != std::future_status::ready)
+  {
+    waited += stopping_ ? kLook : std::chrono::milliseconds{0};
+    if (waited >= kPatience)
+      throw shuttingDown();
+  }
+  return answer.get();
 }
 
 CheckStates::Response CheckServices::checkStates(const CheckStates::Request& request)
@@ -81,7 +116,10 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
         job.keep_states = request.max_contacts != 0 || request.clearance;
         const bool inspects = job.keep_states;
-        const CheckAnswer answer = server_.submit(std::move(job)).get();
+        std::optional<Admission::Pass> pass;
+        if (inspects)
+          pass.emplace(inspections_);
+        const CheckAnswer answer = answerOf(std::move(job));
         const BatchResult& result = answer.result;
         response.valid = result.valid;
         response.body_1.resize(result.valid.size());
@@ -115,11 +153,20 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
   const std::size_t width = answer.scene->robot->variables().size();
   for (std::size_t i = 0; i < valid.size(); ++i)
   {
+    if (stopping_)
+      throw shuttingDown();
     const double* state = answer.states.data() + i * width;
     if (!valid[i] && request.max_contacts != 0)
-      for (const Contact& contact :
-           inspector->contacts(state, request.group, request.max_contacts, request.max_contacts_per_pair))
+    {
+      // One more than may be shows that there are too many.
+      const std::size_t most =
+          std::min<std::size_t>(request.max_contacts, options_.most_contacts + 1 - response.contacts.size());
+      for (const Contact& contact : inspector->contacts(state, request.group, most, request.max_contacts_per_pair))
         response.contacts.push_back(messageOf(contact, *answer.scene, i));
+      if (response.contacts.size() > options_.most_contacts)
+        throw Error("there are more than " + std::to_string(options_.most_contacts) +
+                    " contacts (limits/contacts): ask for fewer of a state (max_contacts), or about fewer states");
+    }
     if (!request.clearance)
       continue;
     const Clearance clearance = inspector->clearance(state, request.group);
@@ -175,7 +222,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         job.states = columnsOf(motions.states(), width, job.columns);
         job.group = request.group;
         job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
-        const CheckAnswer answer = server_.submit(std::move(job)).get();
+        const CheckAnswer answer = answerOf(std::move(job));
         for (const MotionBatch::Verdict& verdict : motions.verdicts(answer.result))
         {
           response.valid.push_back(verdict.valid ? 1 : 0);
@@ -203,7 +250,7 @@ GetReport::Response CheckServices::report(const GetReport::Request& request)
         CheckJob job;
         job.group = request.group;
         job.report = true;
-        const CheckAnswer answer = server_.submit(std::move(job)).get();
+        const CheckAnswer answer = answerOf(std::move(job));
         fillReport(answer, response);
       });
 }

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 
 #include "gpu_planning_scene/contacts.h"
 #include "gpu_planning_scene/messages.h"
+#include "service/admission.h"
 #include "service/check_server.h"
 #include "service/memory_guard.h"
 
@@ -14,10 +17,13 @@ struct CheckServicesOptions
 {
   std::size_t most_states = 1000000;          ///< of the motions of one request
   std::size_t most_inspected_states = 10000;  ///< of one request, for contacts and clearance
+  std::size_t most_contacts = 100000;         ///< in one answer
+  std::size_t most_waiting_inspections = 64;  ///< requests for contacts or clearance
 };
 
 /// Answers check_states, check_motions and get_report. Throws nothing: what is wrong with a request is said in the
-/// response. Thread-safe; a call waits for its answer, and looks for contacts and clearance on its own thread.
+/// response. Thread-safe; a call waits for its answer, and looks for contacts and clearance on its own thread: two at a
+/// time do, as each of them can keep a core for long.
 class CheckServices
 {
  public:
@@ -28,7 +34,12 @@ class CheckServices
   CheckMotions::Response checkMotions(const CheckMotions::Request& request);
   GetReport::Response report(const GetReport::Request& request);
 
+  /// Looks at no further state. What waits for its turn, or for a checker that takes more than some seconds, is told
+  /// that it was not answered.
+  void stop();
+
  private:
+  CheckAnswer answerOf(CheckJob job) const;
   void inspect(const CheckStates::Request& request, const CheckAnswer& answer, CheckStates::Response& response);
   std::shared_ptr<const StateInspector> inspectorOf(const std::shared_ptr<const PlanningScene>& scene);
 
@@ -36,6 +47,8 @@ class CheckServices
   CheckServer& server_;
   const MemoryGuard& memory_;
   const CheckServicesOptions options_;
+  Admission inspections_;
+  std::atomic<bool> stopping_{false};
   std::mutex mutex_;  // of the two below: the inspector of the newest scene that was asked about
   std::shared_ptr<const PlanningScene> inspected_;
   std::shared_ptr<const StateInspector> inspector_;

@@ -4,11 +4,18 @@ namespace gpu_planning_scene
 {
 Endpoints::Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads,
                      Diagnostics& diagnostics)
-  : node_(node), own_(own), diagnostics_(diagnostics), spinner_(static_cast<std::uint32_t>(threads), &queue_)
+  : node_(node), own_(own), diagnostics_(diagnostics)
 {
   node_.setCallbackQueue(&queue_);
   own_.setCallbackQueue(&queue_);
-  spinner_.start();
+  threads_.reserve(threads);
+  for (std::size_t i = 0; i < threads; ++i)
+    threads_.emplace_back(
+        [this]
+        {
+          while (!closed_)
+            queue_.callOne(ros::WallDuration(0.5));
+        });
 }
 
 Endpoints::~Endpoints()
@@ -16,10 +23,24 @@ Endpoints::~Endpoints()
   stop();
 }
 
+void Endpoints::close()
+{
+  closed_ = true;
+}
+
 /// Services and topics are taken down last: that drops connections, which answers are still written to.
 void Endpoints::stop()
 {
-  spinner_.stop();
+  close();
+  for (std::thread& thread : threads_)
+    thread.join();
+  threads_.clear();
+  refuseWaiting();
+}
+
+void Endpoints::refuseWaiting()
+{
+  queue_.callAvailable();
 }
 
 void Endpoints::refuse(const std::string& topic, const std::string& why)

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,8 @@ class Endpoints
     const auto handle =
         [this, answer](Bounded<typename Service::Request>& request, typename Service::Response& response)
     {
+      if (closed_ && request.fault.empty())
+        request.fault = "shutting down: the request was not answered";
       if (request.fault.empty())
         response = answer(request.message);
       return close(request.fault, response, 0);
@@ -51,6 +55,8 @@ class Endpoints
                                                   {
                                                     if (!message.fault.empty())
                                                       throw Error(message.fault);
+                                                    if (closed_)
+                                                      throw Error("the node is shutting down");
                                                     take(message.message);
                                                   }
                                                   catch (const Busy& error)
@@ -67,8 +73,12 @@ class Endpoints
   /// Counts and logs a message that is not used.
   void refuse(const std::string& topic, const std::string& why);
 
-  /// Takes nothing new, and waits for what runs.
+  /// From now on all that comes is told that the node shuts down.
+  void close();
+  /// Closes, and waits for what runs.
   void stop();
+  /// After stop(): tells what has come since then.
+  void refuseWaiting();
 
  private:
   /// Most responses say whether they are one; for the others the call fails.
@@ -94,8 +104,9 @@ class Endpoints
   ros::NodeHandle node_;
   ros::NodeHandle own_;
   Diagnostics& diagnostics_;
-  ros::AsyncSpinner spinner_;
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Subscriber> topics_;
+  std::atomic<bool> closed_{false};
+  std::vector<std::thread> threads_;
 };
 }  // namespace gpu_planning_scene

@@ -176,6 +176,7 @@ ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own)
   options.full_scene_period = positiveParameter(own, "full_scene_period", options.full_scene_period);
   options.most_inspected_states =
       countParameter(own, "limits/inspected_states", options.most_inspected_states, 0, kNoLimit);
+  options.most_contacts = countParameter(own, "limits/contacts", options.most_contacts, 1, kNoLimit);
   options.most_memory = countParameter(own, "limits/memory", 0, 0, std::size_t{1} << 52);
   options.most_waiting_changes =
       countParameter(own, "limits/waiting_changes", options.most_waiting_changes, 1, kNoLimit);

@@ -40,6 +40,7 @@ struct ServiceOptions
   double tf_timeout = 0.5;                    ///< seconds: ~tf_timeout
   double full_scene_period = 10.0;            ///< seconds: ~full_scene_period
   std::size_t most_inspected_states = 10000;  ///< of one request, for contacts and clearance: ~limits/inspected_states
+  std::size_t most_contacts = 100000;         ///< in one answer: ~limits/contacts
   std::size_t most_memory = 0;                ///< bytes, 0: 80 % of the machine's: ~limits/memory
   std::uint32_t message_size = 256U << 20;    ///< bytes: ~limits/message_size
   std::size_t most_waiting_changes = 100000;  ///< that came on topics: ~limits/waiting_changes

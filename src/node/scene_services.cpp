@@ -1,5 +1,7 @@
 #include "node/scene_services.h"
 
+#include <algorithm>
+
 #include <ros/console.h>
 
 #include "gpu_planning_scene/error.h"
@@ -12,6 +14,17 @@ namespace gpu_planning_scene
 {
 namespace
 {
+/// What only removes and moves is made however much memory is used: it is how a client makes room.
+bool takesMemory(const SceneChange& change)
+{
+  const auto brings = [](const ObjectChange& object) { return !object.shapes.empty() || !object.subframes.empty(); };
+  const std::vector<AttachedChange>& attached = change.state.attached;
+  return !change.fixed_frames.empty() || change.matrix || !change.link_scale.empty() || !change.colors.empty() ||
+         std::any_of(change.objects.begin(), change.objects.end(), brings) ||
+         std::any_of(attached.begin(), attached.end(),
+                     [&brings](const AttachedChange& carried) { return brings(carried.object); });
+}
+
 /// Of messages on topics: nobody waits for an answer.
 void warn(const std::vector<std::string>& warnings)
 {
@@ -27,7 +40,8 @@ SceneServices::SceneServices(SceneStore& store, SceneStore::Lookup lookup, const
 
 SceneStore::Applied SceneServices::apply(const SceneChange& change, const SceneStore::Lookup& lookup)
 {
-  memory_.require();
+  if (takesMemory(change))
+    memory_.require();
   return store_.apply(change, lookup);
 }
 

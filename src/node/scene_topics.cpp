@@ -24,8 +24,9 @@ SceneTopics::~SceneTopics()
 
 void SceneTopics::stop()
 {
-  topics_.stop();
+  topics_.close();
   queue_.stop();
+  topics_.stop();
 }
 
 /// roscpp's own queue has no bound (0), as it would drop the oldest without a word; the thread moves all that comes to

@@ -19,7 +19,9 @@ class SceneTopics
   /// As stop().
   ~SceneTopics();
 
-  /// Takes nothing new, makes what it is making, and refuses what waits.
+  /// From now on, takes nothing.
+  void close() { topics_.close(); }
+  /// Closes, makes what it is making, and refuses what waits.
   void stop();
 
  private:

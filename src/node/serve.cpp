@@ -1,6 +1,8 @@
 #include "node/serve.h"
 
+#include <array>
 #include <atomic>
+#include <optional>
 
 #include <malloc.h>
 
@@ -8,18 +10,22 @@
 #include "node/checker_maker.h"
 #include "node/cloud_topic.h"
 #include "node/diagnostics.h"
+#include "node/end_deadline.h"
 #include "node/endpoints.h"
 #include "node/frame_lookup.h"
 #include "node/marker_publisher.h"
 #include "node/node_parameters.h"
 #include "node/scene_publisher.h"
 #include "node/scene_topics.h"
+#include "node/shutdown_call.h"
 #include "tools/scene_text.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
+constexpr double kLongestEnd = 8.0;  // seconds; roslaunch kills after 15
+
 void warn(const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)
@@ -46,6 +52,7 @@ void logScene(CheckServer& server)
 void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_device,
            const std::function<bool()>& stop)
 {
+  std::optional<EndDeadline> deadline;  // the first one: it watches over the end of all others
   useOneHeap();
   const ServiceOptions options = serviceOptionsFromParameters(own);
   const CheckServerOptions server_options = serverOptionsFromParameters(own);
@@ -68,7 +75,9 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const MemoryGuard memory(options.most_memory);
   std::atomic<bool> stopping{false};
   const FrameLookup lookup(planning_frame, options.tf_timeout, [&stopping] { return stopping || !ros::ok(); });
-  CheckServices checks(store, server, memory, {server_options.most_states, options.most_inspected_states});
+  CheckServices checks(store, server, memory,
+                       {server_options.most_states, options.most_inspected_states, options.most_contacts,
+                        server_options.most_waiting_requests});
   const SceneStore::Lookup look_up = [&lookup](const FrameAt& frame) { return lookup(frame, lookup.deadline()); };
   SceneServices changes(store, look_up, memory);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
@@ -92,9 +101,10 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   state_topics.subscribe<sensor_msgs::JointState>("joint_states", 1,
                                                   [&](const sensor_msgs::JointState& m) { changes.take(m); });
 
-  // Each request that waits for its check has a thread: so the one too many is told at once that the node is busy.
-  // check_states comes last: where it is there, all is.
-  Endpoints check_requests(node, own, server_options.most_waiting_requests + 8, diagnostics);
+  // Each request that waits has a thread: so the one too many is told at once that the node is busy. As many as may
+  // wait are in the batch that the small lane checks, wait in either lane, and wait for contacts. check_states comes
+  // last: where it is there, all is.
+  Endpoints check_requests(node, own, 4 * server_options.most_waiting_requests + 8, diagnostics);
   check_requests.advertise<CheckMotions>("check_motions",
                                          [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
   check_requests.advertise<GetReport>("get_report", [&](const GetReport::Request& r) { return checks.report(r); });
@@ -105,17 +115,31 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   ros::AsyncSpinner timers(1);
   timers.start();
   ROS_INFO_STREAM("ready: " << own.resolveName("check_states"));
-  while (ros::ok() && !stop())
+  const ShutdownCall shutdown_call;
+  while (ros::ok() && !stop() && !shutdown_call.came())
     ros::WallDuration(0.05).sleep();
 
-  // What runs is answered, what waits is told; then the threads that bring the answers are waited for.
+  // What runs is answered, or told that it takes too long; what waits is told; then the threads that bring the answers
+  // are waited for.
   stopping = true;
+  deadline.emplace(kLongestEnd);
+  const std::array<Endpoints*, 4> endpoints = {{&state_topics, &cloud_topics, &scene_requests, &check_requests}};
+  for (Endpoints* some : endpoints)
+    some->close();
+  scene_topics.close();
+  checks.stop();
   server.stop();
   scene_topics.stop();
-  for (Endpoints* endpoints : {&state_topics, &cloud_topics, &scene_requests, &check_requests})
-    endpoints->stop();
+  for (Endpoints* some : endpoints)
+    some->stop();
   timers.stop();
-  // roscpp writes answers to their connections by itself, and drops what is not written when it shuts down.
-  ros::WallDuration(0.2).sleep();
+  // roscpp writes answers to their connections by itself, and drops what is not written when it shuts down. What comes
+  // in the meantime is told too.
+  for (int i = 0; i < 10; ++i)
+  {
+    ros::WallDuration(0.05).sleep();
+    for (Endpoints* some : endpoints)
+      some->refuseWaiting();
+  }
 }
 }  // namespace gpu_planning_scene

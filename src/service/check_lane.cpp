@@ -1,11 +1,17 @@
 #include "service/check_lane.h"
 
 #include <algorithm>
+#include <chrono>
+
+#include "collision/batch_results.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
+constexpr std::size_t kSmallestSlice = 16;  // states
+constexpr std::size_t kFirstSlice = 1024;
+
 std::exception_ptr shuttingDown()
 {
   return std::make_exception_ptr(Error("shutting down: the request was not answered"));
@@ -63,6 +69,7 @@ CheckLane::CheckLane(const SceneStore& store, CheckServer::MakeChecker make_chec
     options_(options),
     largest_batch_(largest_batch),
     width_(store.snapshot().scene->robot->variables().size()),
+    slice_(std::min(kFirstSlice, options.largest_batch)),
     thread_()
 {
 }
@@ -210,7 +217,7 @@ CheckAnswer CheckLane::check(Batch& batch, std::size_t count)
   std::vector<double> states = statesOf(batch, count, now);
   CheckAnswer answer;
   answer.scene = now.scene;
-  answer.result = checker_->check(states.data(), count, job.group);
+  answer.result = checkInSlices(states, count, job.group);
   if (job.report)
     answer.report = checker_->report(job.group);
   if (std::any_of(batch.begin(), batch.end(), [](const Request& request) { return request.job.keep_states; }))
@@ -233,6 +240,35 @@ std::vector<double> CheckLane::statesOf(Batch& batch, std::size_t count, const S
     states.insert(states.end(), rows.begin(), rows.end());
   }
   return states;
+}
+
+/// So a stop waits no longer than for a slice, which takes about a second at most.
+BatchResult CheckLane::checkInSlices(const std::vector<double>& states, std::size_t count, const std::string& group)
+{
+  constexpr double kLong = 1.0;  // seconds
+  BatchResult all;
+  std::size_t from = 0;
+  do  // once at least: the group is looked at in any case
+  {
+    if (from != 0 && isStopping())
+      std::rethrow_exception(shuttingDown());
+    const std::size_t rows = std::min(count - from, slice_);
+    const auto begin = std::chrono::steady_clock::now();
+    append(checker_->check(states.data() + from * width_, rows, group), all);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (seconds > kLong)
+      slice_ = std::max(kSmallestSlice, slice_ / 2);
+    else if (rows == slice_ && seconds < kLong / 4.0)
+      slice_ = std::min(options_.largest_batch, slice_ * 2);
+    from += rows;
+  } while (from < count);
+  return all;
+}
+
+bool CheckLane::isStopping() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return stopping_;
 }
 
 Snapshot CheckLane::takeScene(const AllowedCollisionMatrix* matrix)

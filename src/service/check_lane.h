@@ -38,6 +38,8 @@ class CheckLane
   Batch nextBatch();
   void answer(Batch& batch);
   CheckAnswer check(Batch& batch, std::size_t count);
+  BatchResult checkInSlices(const std::vector<double>& states, std::size_t count, const std::string& group);
+  bool isStopping() const;
   std::vector<double> statesOf(Batch& batch, std::size_t count, const Snapshot& now) const;
   /// What the checker has now: the newest scene, or that with the matrix.
   Snapshot takeScene(const AllowedCollisionMatrix* matrix);
@@ -53,6 +55,7 @@ class CheckLane
   // The thread's alone, but for open(), which is before it.
   std::shared_ptr<StateChecker> checker_;
   std::shared_ptr<const PlanningScene> checked_;  // the checker's scene
+  std::size_t slice_;                             // states that it is asked about at once
 
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable wake_;

@@ -21,7 +21,7 @@ struct CheckServerOptions
   std::size_t most_waiting_requests = 64;     ///< in each lane
   std::size_t most_waiting_states = 4000000;  ///< in each lane
   std::size_t most_states = 1000000;          ///< of one request
-  std::size_t largest_batch = 16384;          ///< states of small requests that are answered together
+  std::size_t largest_batch = 16384;          ///< states that are checked at once
 };
 
 /// States are rows of values for some of the robot's variables. The others are filled in when the check starts, from
@@ -83,7 +83,8 @@ class CheckServer
   /// that a variable is neither given nor known.
   std::future<CheckAnswer> submit(CheckJob job);
 
-  /// Answers what runs. All that waits, and what comes later, gets an Error "shutting down".
+  /// Answers what runs, but for large requests that would take longer than about a second. All that waits, and what
+  /// comes later, gets an Error "shutting down".
   void stop();
 
   CheckStatistics statistics() const;

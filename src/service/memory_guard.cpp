@@ -3,6 +3,7 @@
 #include <fstream>
 #include <string>
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include "gpu_planning_scene/error.h"
@@ -40,6 +41,19 @@ MemoryGuard::MemoryGuard(std::size_t most_bytes) : most_(most_bytes != 0 ? most_
 
 void MemoryGuard::require() const
 {
+  if (residentMemory() <= most_)
+    return;
+  {
+    // At most a tenth of the time goes into this: it takes long where there are many holes.
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const Clock::time_point begin = Clock::now();
+    if (begin >= next_return_)
+    {
+      malloc_trim(0);
+      const Clock::time_point end = Clock::now();
+      next_return_ = end + 10 * (end - begin);
+    }
+  }
   const std::size_t used = residentMemory();
   if (used > most_)
     throw Error("out of memory: the process uses " + megabytes(used) + ", and the limit is " + megabytes(most_) +

@@ -3,7 +3,9 @@
 #include <csignal>
 #include <stdexcept>
 
+#include <ros/network.h>
 #include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
 #include <spawn.h>
 #include <sys/wait.h>
 
@@ -38,6 +40,22 @@ ChildNode::~ChildNode()
 void ChildNode::interrupt() const
 {
   kill(process_, SIGINT);
+}
+
+void ChildNode::askToShutDown() const
+{
+  XmlRpc::XmlRpcValue request, response, uri;
+  request[0] = ros::this_node::getName();
+  request[1] = "/" + name_;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::master::execute("lookupNode", request, response, uri, false) ||
+      !ros::network::splitURI(static_cast<std::string&>(uri), host, port))
+    throw std::runtime_error(name_ + " is not known to the master");
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port));
+  request[1] = "a test";
+  if (!client.execute("shutdown", request, response))
+    throw std::runtime_error(name_ + " does not hear");
 }
 
 int ChildNode::wait(double seconds)

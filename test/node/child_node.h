@@ -19,6 +19,8 @@ class ChildNode
 
   std::string service(const std::string& in_its_namespace) const { return "/" + name_ + "/" + in_its_namespace; }
   void interrupt() const;
+  /// As `rosnode kill` does.
+  void askToShutDown() const;
   /// Its exit code; -1 if it has not ended after so many seconds, or was killed.
   int wait(double seconds);
 

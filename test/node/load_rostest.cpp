@@ -124,9 +124,10 @@ TEST_F(Load, whatIsTooMuchIsToldBusyAtOnceAndTheRestIsAnswered)
   EXPECT_TRUE(after.response.success) << after.response.message;
 }
 
-TEST_F(Load, aNodeThatIsEndedAnswersAllThatItHasTaken)
+/// Ends a node that has 8 requests of 300,000 states.
+template <class End>
+void expectAllAnswered(ChildNode& node, End end)
 {
-  ChildNode node("ended_node", {"_device:=cpu", "_small_request:=1"});
   std::atomic<int> right{0}, told{0}, other{0};
   std::atomic<int> asked{0};
   std::thread ending(
@@ -135,26 +136,87 @@ TEST_F(Load, aNodeThatIsEndedAnswersAllThatItHasTaken)
         while (asked < 8)
           ros::WallDuration(0.01).sleep();
         ros::WallDuration(0.3).sleep();  // that is long enough for all to have come
-        node.interrupt();
+        end(node);
       });
-  together(8,
-           [&](int)
-           {
-             CheckStates warm = requestOf(1);
-             callPersistently(node.service("check_states"), warm);
-             CheckStates call = requestOf(300000);
-             ++asked;
-             if (!callPersistently(node.service("check_states"), call))
-               ++other;
-             else if (call.response.success)
-               ++(call.response.valid.size() == 300000 ? right : other);
-             else
-               ++(call.response.message.find("shutting down") != std::string::npos ? told : other);
-           });
+  Load::together(8,
+                 [&](int)
+                 {
+                   CheckStates warm = Load::requestOf(1);
+                   callPersistently(node.service("check_states"), warm);
+                   CheckStates call = Load::requestOf(300000);
+                   ++asked;
+                   if (!callPersistently(node.service("check_states"), call))
+                     ++other;
+                   else if (call.response.success)
+                     ++(call.response.valid.size() == 300000 ? right : other);
+                   else
+                     ++(call.response.message.find("shutting down") != std::string::npos ? told : other);
+                 });
   ending.join();
   EXPECT_EQ(0, other) << "requests that were taken and got no reply, or a wrong one";
   EXPECT_EQ(8, right + told);
-  EXPECT_EQ(0, node.wait(20.0)) << "its exit code";
+  EXPECT_EQ(0, node.wait(10.0)) << "its exit code";
+}
+
+TEST_F(Load, aNodeThatIsEndedAnswersAllThatItHasTaken)
+{
+  ChildNode node("ended_node", {"_device:=cpu", "_small_request:=1"});
+  expectAllAnswered(node, [](const ChildNode& ended) { ended.interrupt(); });
+}
+
+TEST_F(Load, aNodeThatRosnodeKillEndsAnswersAllThatItHasTaken)
+{
+  ChildNode node("killed_node", {"_device:=cpu", "_small_request:=1"});
+  expectAllAnswered(node, [](const ChildNode& ended) { ended.askToShutDown(); });
+}
+
+TEST_F(Load, aNodeThatIsEndedAnswersRequestsThatNoThreadHasTakenYet)
+{
+  ChildNode node("waiting_node", {"_device:=cpu", "_tf_timeout:=3"});
+  std::atomic<int> told{0}, asked{0};
+  std::thread ending(
+      [&]
+      {
+        while (asked < 12)
+          ros::WallDuration(0.01).sleep();
+        ros::WallDuration(0.3).sleep();
+        node.interrupt();
+      });
+  together(12,
+           [&](int)
+           {
+             GetPlanningScene warm;
+             callPersistently(node.service("get_planning_scene"), warm);
+             ApplyPlanningScene call;
+             CollisionObject box = boxObject("box", farAway(), 0.1);
+             box.header.frame_id = "nowhere";
+             call.request.scene = diffWith(box);
+             ++asked;
+             if (callPersistently(node.service("apply_planning_scene"), call))
+               ++told;
+           });
+  ending.join();
+  EXPECT_EQ(12, told) << "replies to 12 requests, which 4 threads answer";
+  EXPECT_EQ(0, node.wait(10.0)) << "its exit code";
+}
+
+TEST_F(Load, aNodeEndsSoonThoughChangesWaitForFrames)
+{
+  ChildNode node("lost_node", {"_device:=cpu", "_tf_timeout:=2"});
+  ros::NodeHandle client;
+  ros::Publisher publisher = client.advertise<CollisionObject>(node.service("collision_object"), 100);
+  while (publisher.getNumSubscribers() == 0)
+    ros::WallDuration(0.02).sleep();
+  for (unsigned i = 1; i <= 100; ++i)
+  {
+    CollisionObject box = boxObject("box", farAway(), 0.1);
+    box.header.frame_id = "nowhere";
+    box.header.stamp.sec = i;
+    publisher.publish(box);
+  }
+  ros::WallDuration(0.3).sleep();
+  node.interrupt();
+  EXPECT_EQ(0, node.wait(10.0)) << "its exit code";
 }
 }  // namespace
 }  // namespace gpu_planning_scene

@@ -1,5 +1,7 @@
 // What the node does with requests, joint states and the package parameter, without a ROS master.
 
+#include <algorithm>
+#include <chrono>
 #include <future>
 #include <limits>
 #include <thread>
@@ -155,6 +157,55 @@ TEST_F(WaitingService, variablesThatAMotionLeavesOutAreThoseOfTheRevisionThatItN
   EXPECT_EQ((std::vector<std::uint8_t>{0}), response.valid);
 }
 
+/// Requests for contacts, two of which may be answered at a time, and one may wait; their checks stand at a closed
+/// gate.
+class WaitingInspections : public WaitingService
+{
+ public:
+  WaitingInspections() { gate.close(); }
+
+  void ask()
+  {
+    CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.5});
+    asked.max_contacts = 1;
+    answers.push_back(std::async(std::launch::async, [this, asked] { return bounded.checkStates(asked); }));
+  }
+
+  CheckServices bounded{store, gated_server, memory, {1000, 10, 10, 1}};
+  std::vector<std::future<CheckStates::Response>> answers;
+};
+
+TEST_F(WaitingInspections, areTurnedAwayWhereTooManyWait)
+{
+  for (int i = 0; i < 4; ++i)
+    ask();
+  const auto answered = [](const std::future<CheckStates::Response>& answer)
+  { return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
+  while (std::none_of(answers.begin(), answers.end(), answered))
+    std::this_thread::yield();
+  EXPECT_LE(gate.batches().size() + gated_server.statistics().waiting_requests, 2u);
+  gate.open();
+  int busy = 0;
+  for (auto& answer : answers)
+  {
+    const CheckStates::Response response = answer.get();
+    busy += response.message.rfind("busy: ", 0) == 0 ? 1 : 0;
+    EXPECT_TRUE(response.success || response.message.rfind("busy: ", 0) == 0) << response.message;
+  }
+  EXPECT_EQ(1, busy);
+}
+
+TEST_F(WaitingInspections, areToldOfTheEndThoughACheckerHangs)
+{
+  for (int i = 0; i < 3; ++i)
+    ask();
+  gate.waitForChecks(1);
+  bounded.stop();
+  for (auto& answer : answers)
+    EXPECT_EQ("shutting down: the request was not answered", answer.get().message);
+  gate.open();
+}
+
 TEST_F(Service, tooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
 {
   CheckServerOptions options;
@@ -285,6 +336,22 @@ TEST_F(Service, noMoreStatesAreInspectedThanTheLimit)
   expectRefusal(asked, "limits/inspected_states");
 }
 
+TEST_F(Service, moreContactsThanTheLimitAreRefusedAndNotCutOff)
+{
+  CheckServices bounded(store, server, memory, {1000, 10, 2});
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0, 0.0, 1.0, 0.0, 1.0});
+  asked.max_contacts = 1;
+  const CheckStates::Response refused = bounded.checkStates(asked);
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(std::string::npos, refused.message.find("limits/contacts")) << refused.message;
+  EXPECT_TRUE(refused.contacts.empty());
+  asked.positions.resize(4);
+  EXPECT_EQ(2u, bounded.checkStates(asked).contacts.size()) << "as many as the limit";
+  asked.max_contacts = std::numeric_limits<std::uint32_t>::max();
+  asked.max_contacts_per_pair = 1;
+  EXPECT_EQ(2u, bounded.checkStates(asked).contacts.size()) << "what is found counts, not what is asked for";
+}
+
 TEST_F(Service, aMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
 {
   CheckMotions::Request asked;
@@ -341,6 +408,30 @@ TEST_F(Service, aProcessThatUsesTooMuchMemoryTakesNothingMore)
   CheckServices guarded(store, server, full, {});
   EXPECT_NE(std::string::npos,
             guarded.checkStates(request({"turn", "slide"}, {0.0, 0.0})).message.find("limits/memory"));
+}
+
+TEST_F(Service, aProcessThatUsesTooMuchMemoryCanStillBeEmptied)
+{
+  const MemoryGuard full(1);
+  SceneServices scenes(store, nullptr, full);
+  ApplyPlanningScene::Request asked;
+  asked.scene.is_diff = true;
+  asked.scene.robot_state.is_diff = true;
+  asked.scene.world.collision_objects.resize(1);
+  CollisionObject& object = asked.scene.world.collision_objects[0];
+  object.id = "box";
+  object.pose.orientation.w = 1.0;
+  object.primitives.resize(1);
+  object.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
+  object.primitives[0].dimensions = {0.1, 0.1, 0.1};
+  EXPECT_NE(std::string::npos, scenes.apply(asked).message.find("limits/memory"));
+  object.primitives.clear();
+  object.id = "wall";
+  object.operation = CollisionObject::REMOVE;
+  const ApplyPlanningScene::Response removed = scenes.apply(asked);
+  EXPECT_TRUE(removed.success) << removed.message;
+  EXPECT_TRUE(store.snapshot().scene->objects.empty());
+  EXPECT_TRUE(scenes.clear().success);
 }
 
 class FailingChecker : public StateChecker

@@ -340,6 +340,31 @@ TEST_F(Server, aStopAnswersWhatRunsAndTellsTheOthers)
   EXPECT_THROW(server.submit(job(1)), Error);
 }
 
+TEST_F(Server, aLargeRequestIsCheckedInSlices)
+{
+  CheckJob large = job(100);
+  for (std::size_t i = 0; i < 100; i += 3)
+    large.states[2 * i] = -1.0;
+  const CheckAnswer answer = server.submit(std::move(large)).get();
+  ASSERT_EQ(100u, answer.result.valid.size());
+  ASSERT_EQ(100u, answer.result.colliding.size());
+  for (std::size_t i = 0; i < 100; ++i)
+    EXPECT_EQ(i % 3 == 0 ? 0 : 1, answer.result.valid[i]) << i;
+  EXPECT_EQ((std::vector<std::size_t>{24, 24, 24, 24, 4}), gate.batches());
+}
+
+TEST_F(Server, aStopEndsALargeRequestAfterTheSliceThatRuns)
+{
+  std::future<CheckAnswer> running = blocked(100);
+  std::future<CheckAnswer> waiting = server.submit(job(100));
+  std::thread stopping([this] { server.stop(); });
+  EXPECT_NE(std::string::npos, errorOf(waiting).find("shutting down"));
+  gate.open();
+  stopping.join();
+  EXPECT_NE(std::string::npos, errorOf(running).find("shutting down"));
+  EXPECT_EQ(1u, gate.batches().size());
+}
+
 TEST_F(Server, everyAnswerBelongsToTheRevisionThatItNames)
 {
   std::atomic<bool> done{false};

@@ -1,0 +1,32 @@
+#include "node/end_deadline.h"
+
+#include <chrono>
+#include <cstdlib>
+
+#include <ros/console.h>
+
+namespace gpu_planning_scene
+{
+EndDeadline::EndDeadline(double seconds)
+  : thread_(
+        [this, seconds]
+        {
+          std::unique_lock<std::mutex> lock(mutex_);
+          if (wake_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return over_; }))
+            return;
+          ROS_FATAL_STREAM("what runs has not ended within " << seconds << " s, and is given up");
+          std::_Exit(EXIT_FAILURE);
+        })
+{
+}
+
+EndDeadline::~EndDeadline()
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    over_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+}
+}  // namespace gpu_planning_scene
