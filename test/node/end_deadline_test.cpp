@@ -1,0 +1,35 @@
+// The end of a process that something holds up.
+
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "node/end_deadline.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+TEST(EndDeadlineDeathTest, endsAProcessThatHangs)
+{
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(
+      {
+        const EndDeadline deadline(0.05);
+        for (;;)
+          std::this_thread::sleep_for(std::chrono::hours(1));
+      },
+      testing::ExitedWithCode(EXIT_FAILURE), "");
+}
+
+TEST(EndDeadline, leavesAProcessAloneThatEndsInTime)
+{
+  {
+    const EndDeadline deadline(0.2);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+}
+}  // namespace
+}  // namespace gpu_planning_scene
