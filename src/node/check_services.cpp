@@ -29,7 +29,7 @@ std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedColli
 {
   if (message.entry_names.empty() && message.default_entry_names.empty())
     return nullptr;
-  return std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message, limits.matrix_entries));
+  return std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message, limits));
 }
 
 /// The columns of full rows.

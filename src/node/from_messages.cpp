@@ -153,14 +153,35 @@ void readFixedFrames(const PlanningSceneMessage& message, const RobotModel& robo
                isometryOf(frame.transform.translation, frame.transform.rotation), "the fixed frame");
   }
 }
+
+/// Before anything is made of it. A name is in the entries of all the others: long ones count more.
+void requireLimits(const AllowedCollisionMatrixMessage& message, const SceneLimits& limits)
+{
+  constexpr std::size_t kBytesOfAnEntry = 64;
+  std::size_t entries = 0;
+  const auto count = [&](const std::vector<std::string>& names, std::size_t entries_of_each)
+  {
+    for (const std::string& name : names)
+    {
+      if (limits.name_length != 0 && name.size() > limits.name_length)
+        throw Error("allowed_collision_matrix: a name of " + std::to_string(name.size()) + " bytes; at most " +
+                    std::to_string(limits.name_length) + " are allowed (limits/name_length)");
+      entries += entries_of_each * (1 + name.size() / kBytesOfAnEntry);
+    }
+  };
+  count(message.entry_names, message.entry_names.size());
+  count(message.default_entry_names, 1);
+  if (limits.matrix_entries != 0 && entries > limits.matrix_entries)
+    throw Error("allowed_collision_matrix: " + std::to_string(entries) + " entries (each " +
+                std::to_string(kBytesOfAnEntry) + " bytes of a name count as one); at most " +
+                std::to_string(limits.matrix_entries) + " are allowed (limits/matrix_entries)");
+}
 }  // namespace
 
-AllowedCollisionMatrix matrixFrom(const AllowedCollisionMatrixMessage& message, std::size_t most_entries)
+AllowedCollisionMatrix matrixFrom(const AllowedCollisionMatrixMessage& message, const SceneLimits& limits)
 {
+  requireLimits(message, limits);
   const std::vector<std::string>& names = message.entry_names;
-  if (most_entries != 0 && names.size() * names.size() > most_entries)
-    throw Error("allowed_collision_matrix: the entries of " + std::to_string(names.size()) +
-                " names are more than the " + std::to_string(most_entries) + " of the parameter limits/matrix_entries");
   const auto& rows = message.entry_values;
   requireAsMany(rows.size(), names.size(), "allowed_collision_matrix.entry_values");
   requireAsMany(message.default_entry_values.size(), message.default_entry_names.size(),
@@ -209,7 +230,7 @@ SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& ro
   change.state = stateFrom(message.robot_state, robot, meshes, warnings);
   const AllowedCollisionMatrixMessage& matrix = message.allowed_collision_matrix;
   if (!matrix.entry_names.empty() || !matrix.entry_values.empty() || !matrix.default_entry_names.empty())
-    change.matrix = matrixFrom(matrix, limits.matrix_entries);
+    change.matrix = matrixFrom(matrix, limits);
   for (const LinkPadding& padding : message.link_padding)
     insertOnce(change.link_padding, padding.link_name, padding.padding, "the padding");
   for (const LinkScale& scale : message.link_scale)

@@ -281,6 +281,39 @@ TEST_F(Messages, AMatrixIsTakenAsItIsWrittenAndAnEmptyOneIsNone)
   refusedMessage("twice", message);
 }
 
+TEST_F(Messages, AMatrixIsHeldAgainstTheLimitsBeforeItIsRead)
+{
+  AllowedCollisionMatrixMessage matrix;
+  matrix.entry_names = {"a", "b", "c"};  // without rows, so that reading it would be an error
+  SceneLimits some;
+  const auto refusal = [&] { return errorOf([&] { matrixFrom(matrix, some); }); };
+  const auto refusedFor = [&](const char* parameter) { return refusal().find(parameter) != std::string::npos; };
+  some.matrix_entries = 9;
+  EXPECT_FALSE(refusedFor("limits/matrix_entries"));
+  some.matrix_entries = 8;
+  EXPECT_TRUE(refusedFor("limits/matrix_entries")) << refusal();
+  some.matrix_entries = 10;
+  matrix.entry_names[1] = std::string(64, 'b');
+  EXPECT_TRUE(refusedFor("limits/matrix_entries")) << "a long name in each row: " << refusal();
+  some.matrix_entries = 12;
+  EXPECT_FALSE(refusedFor("limits/matrix_entries")) << refusal();
+  matrix.default_entry_names = {"d"};
+  EXPECT_TRUE(refusedFor("limits/matrix_entries")) << refusal();
+  some.matrix_entries = 0;
+  EXPECT_FALSE(refusedFor("limits/")) << "no limit";
+  some.name_length = 63;
+  EXPECT_TRUE(refusedFor("limits/name_length")) << refusal();
+  matrix.entry_names[1] = "b";
+  EXPECT_FALSE(refusedFor("limits/")) << refusal();
+  matrix.default_entry_names[0] = std::string(64, 'd');
+  EXPECT_TRUE(refusedFor("limits/name_length")) << refusal();
+
+  PlanningSceneMessage message = diff();
+  message.allowed_collision_matrix = matrix;
+  limits = some;
+  refusedMessage("limits/name_length", message);
+}
+
 TEST_F(Messages, AMatrixThatAllowsNothingComesBackAsOne)
 {
   PlanningSceneMessage message = diff();

@@ -90,6 +90,14 @@ TEST_F(Parameters, whatIsOverALimitIsRefusedByItsName)
   EXPECT_FALSE(refused.success);
   EXPECT_NE(std::string::npos, refused.message.find("limits/inspected_states")) << refused.message;
 
+  CheckStates::Request allowing = stateRequest(free_state);
+  allowing.allowed_collision_matrix.entry_names = {std::string(21, 'x')};
+  allowing.allowed_collision_matrix.entry_values.resize(1);
+  allowing.allowed_collision_matrix.entry_values[0].enabled = {0};
+  const auto long_name = call<CheckStates>("check_states", allowing);
+  EXPECT_FALSE(long_name.success);
+  EXPECT_NE(std::string::npos, long_name.message.find("limits/name_length")) << long_name.message;
+
   PlanningSceneMessage four = diffScene();
   for (const char* id : {"a", "b", "c", "d"})
     four.world.collision_objects.push_back(boxObject(id, farAway(), 0.02));
