@@ -3,6 +3,7 @@
 #include <ros/this_node.h>
 
 #include "collision/resilient_checker.h"
+#include "model/one_line.h"
 #include "service/memory_guard.h"
 
 namespace gpu_planning_scene
@@ -34,7 +35,7 @@ DeviceHistory sumOf(const std::vector<std::shared_ptr<const StateChecker>>& chec
     sum.on_cpu = sum.on_cpu || history.on_cpu;
     sum.rebuild_failed = sum.rebuild_failed || (history.on_cpu && history.rebuild_failed);
     if (!history.last_error.empty())
-      sum.last_error = history.last_error;
+      sum.last_error = shortLine(history.last_error);
   }
   return sum;
 }
@@ -50,7 +51,7 @@ void Diagnostics::refused(const std::string& why)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++refused_;
-  last_refusal_ = why;
+  last_refusal_ = shortLine(why);
 }
 
 DiagnosticStatus Diagnostics::status(const SceneStore& store, const CheckServer& server)

@@ -56,7 +56,8 @@ ApplyPlanningScene::Response SceneServices::apply(const ApplyPlanningScene::Requ
         SceneStore::Applied applied = apply(change, lookup_);
         warnings.insert(warnings.end(), applied.warnings.begin(), applied.warnings.end());
         for (const std::string& warning : warnings)
-          response.message += (response.message.empty() ? "" : "; ") + shortLine(warning);
+          response.message += (response.message.empty() ? "" : "; ") + warning;
+        response.message = shortLine(response.message);
         response.scene_revision = applied.revision;
       });
 }

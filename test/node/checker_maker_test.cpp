@@ -137,5 +137,17 @@ TEST_F(CheckerMaker, diagnosticsWarnWhileTheCpuStandsInAndTellOfADeviceThatIsNot
   ask(1);
   EXPECT_EQ(level(), DiagnosticStatus::OK);
 }
+
+TEST_F(CheckerMaker, diagnosticsAreShortWhateverIsInThem)
+{
+  ask(1);
+  openWith([](const auto&) { throw Error("no device '" + std::string(100000, 'x') + "'"); });
+  *losses_ = 1;
+  ask(1);
+  diagnostics_.refused("there is no group '" + std::string(100000, 'x') + "'");
+  const diagnostic_msgs::DiagnosticStatus status = diagnostics_.status(store_, server());
+  EXPECT_LT(ros::serialization::serializationLength(status), 10000u);
+  EXPECT_NE(status.message.find("no device 'xxx"), std::string::npos) << status.message;
+}
 }  // namespace
 }  // namespace gpu_planning_scene

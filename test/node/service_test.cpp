@@ -275,6 +275,12 @@ TEST_F(Service, namesInAnswersAreShortAndOnOneLine)
   const ApplyPlanningScene::Response warned = scenes.apply(change);
   EXPECT_TRUE(warned.success);
   EXPECT_NE(std::string::npos, warned.message.find("whe el")) << warned.message;
+  std::vector<std::string> many;
+  for (int i = 0; i < 100000; ++i)
+    many.push_back("wheel_" + std::to_string(i));
+  change.scene.robot_state.joint_state = jointState(many, std::vector<double>(many.size(), 0.0));
+  EXPECT_GT(3000u, scenes.apply(change).message.size());
+  change.scene.robot_state.joint_state = {};
   change.scene.world.collision_objects.resize(1);
   change.scene.world.collision_objects[0].id = "bo\nx";
   change.scene.world.collision_objects[0].operation = 9;

@@ -1,0 +1,57 @@
+#include <gtest/gtest.h>
+
+#include "model/one_line.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+TEST(OneLine, aCommonMessageStaysAsItIs)
+{
+  EXPECT_EQ(shortLine(""), "");
+  for (const std::string text : {"busy", "there is no group 'legs'; there are: arm, hand ", " a  b "})
+    EXPECT_EQ(shortLine(text), text);
+}
+
+TEST(OneLine, aLongNameIsToldByItsBeginningAndEndAndTheRestOfTheMessageStays)
+{
+  const std::string name = "first" + std::string(20000000, 'x') + "last";
+  const std::string text = shortLine("there is no group '" + name + "'; there are: arm, hand");
+  EXPECT_LT(text.size(), 500u);
+  EXPECT_EQ(text.find("there is no group 'firstxxx"), 0u) << text;
+  EXPECT_NE(text.find("xxxlast'; there are: arm, hand"), std::string::npos) << text;
+  EXPECT_NE(text.find("[... 19999713 bytes ...]"), std::string::npos) << text;
+}
+
+TEST(OneLine, aLongListIsToldByItsBeginningAndEnd)
+{
+  std::string list;
+  for (int i = 0; i < 100000; ++i)
+    list += "joint_" + std::to_string(i) + ", ";
+  const std::string text = shortLine(list);
+  EXPECT_LT(text.size(), 2100u);
+  EXPECT_EQ(text.find("joint_0, joint_1, "), 0u);
+  EXPECT_NE(text.find("joint_99999, "), std::string::npos);
+}
+
+TEST(OneLine, noCharacterIsCutIntoPieces)
+{
+  for (const char* start : {"", "a"})
+  {
+    std::string name = start;
+    for (int i = 0; i < 1000; ++i)
+      name += "\u00e9";
+    const std::string text = shortLine(name);
+    const std::size_t cut = text.find("[...");
+    ASSERT_NE(cut, std::string::npos);
+    EXPECT_EQ(text.substr(cut - 2, 2), "\u00e9");
+    EXPECT_EQ(text.substr(text.find("...]") + 4, 2), "\u00e9");
+  }
+}
+
+TEST(OneLine, itIsOneLine)
+{
+  EXPECT_EQ(shortLine("group 'a\nb\x1b'"), "group 'a b '");
+}
+}  // namespace
+}  // namespace gpu_planning_scene
