@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -116,6 +117,19 @@ class Child
       ::kill(id_, SIGKILL);
   }
 
+  /// Whether it has ended by then; waits no longer.
+  bool endsBy(Clock::time_point end) const
+  {
+    for (;; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    {
+      siginfo_t ended{};  // its status is left for wait()
+      if (waitid(P_PID, static_cast<id_t>(id_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == id_)
+        return true;
+      if (Clock::now() >= end)
+        return false;
+    }
+  }
+
   /// The status of waitpid.
   int wait()
   {
@@ -140,11 +154,9 @@ struct Answer
 };
 
 /// What the child writes, until it closes both ends, is late, or writes more than it may.
-Answer readAnswer(const Pipe& out, const Pipe& err, double seconds, std::size_t most)
+Answer readAnswer(const Pipe& out, const Pipe& err, Clock::time_point end, std::size_t most)
 {
   Answer answer;
-  const Clock::time_point end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   std::array<pollfd, 2> ends{{{out.readEnd(), POLLIN, 0}, {err.readEnd(), POLLIN, 0}}};
   std::vector<char> buffer(1 << 16);
   while (ends[0].fd >= 0 || ends[1].fd >= 0)
@@ -184,6 +196,8 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
                                         const Eigen::Vector3d& scale)
 {
   const std::string file = "mesh file '" + path + "': ";
+  const Clock::time_point end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
   Pipe out;
   Pipe err;
   Child child({program, path, exact(scale.x()), exact(scale.y()), exact(scale.z()),
@@ -192,7 +206,9 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
               out, err);
   out.closeWriteEnd();
   err.closeWriteEnd();
-  const Answer answer = readAnswer(out, err, limits.seconds, mostMeshBytes(limits.triangles));
+  Answer answer = readAnswer(out, err, end, mostMeshBytes(limits.triangles));
+  if (!answer.late && !answer.too_long)
+    answer.late = !child.endsBy(end);  // it may live on without its pipes
   if (answer.late || answer.too_long)
     child.kill();
   const int status = child.wait();

@@ -17,6 +17,12 @@ int main(int, char** argv)
   }
   if (fault == "hang.stl")
     pause();
+  if (fault == "linger.stl")
+  {
+    close(STDOUT_FILENO);
+    close(STDERR_FILENO);
+    sleep(20);
+  }
   if (fault == "babble.stl")
     while (std::fwrite(argv[0], 1, 4, stdout) == 4)
     {
