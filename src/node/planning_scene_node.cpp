@@ -23,7 +23,10 @@ void requestStop(int)
 /// The handles outlive the error: with the last of them roscpp shuts down, and its log with it.
 int run()
 {
+  // Waits for the master, deaf to what is asked of it: until then signals end the process as they end any other.
   ros::NodeHandle node;
+  std::signal(SIGINT, requestStop);
+  std::signal(SIGTERM, requestStop);
   ros::NodeHandle own("~");
   try
   {
@@ -45,8 +48,6 @@ int main(int argc, char** argv)
   {
     // Not roscpp's own handler: it would drop the requests that are being answered.
     ros::init(argc, argv, "planning_scene_node", ros::init_options::NoSigintHandler);
-    std::signal(SIGINT, gpu_planning_scene::requestStop);
-    std::signal(SIGTERM, gpu_planning_scene::requestStop);
     return gpu_planning_scene::run();
   }
   catch (const std::exception& error)

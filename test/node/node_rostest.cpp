@@ -203,6 +203,16 @@ TEST_F(Node, doesNotStartOnWhatItCannotUse)
   expectNoStart({"_tolerance:=-0.001"}, "tolerance is negative");
   expectNoStart({"_packages:=5"}, "~packages");
 }
+
+TEST_F(Node, endsAtASignalWhileItWaitsForTheMaster)
+{
+  for (const char* signal : {"--signal=INT", "--signal=TERM"})
+  {
+    const ProgramOutput output = runProgram(
+        "/usr/bin/env", {"ROS_MASTER_URI=http://localhost:1", "timeout", signal, "--kill-after=10", "1", GPS_NODE});
+    EXPECT_EQ(124, output.exit_code) << signal << ": 137 if it had to be killed";
+  }
+}
 }  // namespace
 }  // namespace gpu_planning_scene
 
