@@ -10,6 +10,7 @@ namespace gpu_planning_scene
 namespace
 {
 constexpr std::chrono::milliseconds kPause(10);
+constexpr double kForEver = 1e8;  // seconds; longer waits would not fit into the clock
 
 /// tf2 knows no leading slash, which MoveIt's users may give.
 std::string withoutSlash(const std::string& name)
@@ -33,7 +34,8 @@ FrameLookup::FrameLookup(std::string planning_frame, double timeout, std::functi
 
 FrameLookup::Clock::time_point FrameLookup::deadline() const
 {
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_));
+  return Clock::now() +
+         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(timeout_, kForEver)));
 }
 
 /// Asks again and again: tf2 would wait by ROS time, for ever where that stands still.
