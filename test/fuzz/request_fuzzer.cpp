@@ -73,7 +73,7 @@ class Handlers
       clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
   {
     store_.setListener([this](const auto& before, const auto& after)
-                       { requireUsable(messageOf(diffOf(*before, *after), *after->robot), *before); });
+                       { requireReadable(messageOf(diffOf(*before, *after), *after->robot)); });
   }
 
   void take(unsigned kind, const std::uint8_t* data, std::uint32_t size)
@@ -141,22 +141,14 @@ class Handlers
     return response;
   }
 
-  void get(const GetPlanningScene::Request& request)
-  {
-    const PlanningSceneMessage message = scenes_.get(request).scene;
-    if (request.components.components == 0)
-      requireUsable(message, PlanningScene(store_.snapshot().scene->robot));
-  }
+  void get(const GetPlanningScene::Request& request) { requireReadable(scenes_.get(request).scene); }
 
-  /// What the node publishes and answers can be made by whoever has the scene before it.
-  void requireUsable(const PlanningSceneMessage& message, const PlanningScene& before) const
+  /// What the node publishes and answers can be read by a node.
+  void requireReadable(const PlanningSceneMessage& message) const
   {
-    const auto make = [&]
-    {
-      const SceneChange change = changeFrom(message, *before.robot, store_.limits(), nullptr);
-      applyChange(before, store_.snapshot().state, change, {}, store_.limits(), {});
-    };
-    if (const std::string fault = faultOf(make); !fault.empty())
+    if (const std::string fault =
+            faultOf([&] { changeFrom(message, *store_.snapshot().scene->robot, store_.limits(), nullptr); });
+        !fault.empty())
     {
       std::fprintf(stderr, "a scene that the node sent is refused: %s\n", fault.c_str());
       std::abort();
