@@ -13,18 +13,19 @@ extern char** environ;
 
 namespace gpu_planning_scene
 {
-ChildNode::ChildNode(const std::string& node_name, std::vector<std::string> arguments) : name_(node_name)
+ChildNode::ChildNode(const std::string& node_name, std::vector<std::string> arguments, const std::string& program)
+  : name_(node_name)
 {
   const auto urdf = ros::param::param<std::string>("~urdf", "");
-  arguments.insert(arguments.begin(), GPS_NODE);
+  arguments.insert(arguments.begin(), program);
   arguments.push_back("__name:=" + name_);
   arguments.push_back("_urdf_folder:=" + urdf.substr(0, urdf.rfind('/')));
   std::vector<char*> words;
   for (std::string& argument : arguments)
     words.push_back(argument.data());
   words.push_back(nullptr);
-  if (posix_spawn(&process_, GPS_NODE, nullptr, nullptr, words.data(), environ) != 0)
-    throw std::runtime_error(std::string(GPS_NODE) + " cannot be started");
+  if (posix_spawn(&process_, program.c_str(), nullptr, nullptr, words.data(), environ) != 0)
+    throw std::runtime_error(program + " cannot be started");
   if (!ros::service::waitForService(service("check_states"), ros::Duration(60.0)))
     throw std::runtime_error(name_ + " does not come up");
 }

@@ -12,7 +12,7 @@ class ChildNode
 {
  public:
   /// Waits until it answers. `arguments`: such as "_device:=cpu".
-  ChildNode(const std::string& node_name, std::vector<std::string> arguments);
+  ChildNode(const std::string& node_name, std::vector<std::string> arguments, const std::string& program = GPS_NODE);
   ~ChildNode();
   ChildNode(const ChildNode&) = delete;
   ChildNode& operator=(const ChildNode&) = delete;

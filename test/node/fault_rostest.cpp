@@ -1,0 +1,53 @@
+// A node whose device is lost: it answers, and says who does.
+
+#include <mutex>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+
+#include "node/child_node.h"
+#include "node/node_client.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using diagnostic_msgs::DiagnosticStatus;
+
+class Fault : public RunningNode
+{
+};
+
+TEST_F(Fault, diagnosticsTellThatTheCpuHasTakenOver)
+{
+  // Its device is lost in one of several hundred calls; the first loss is enough for the CPU.
+  const ChildNode node("faulty_node", {"_device:=software", "_cpu_below:=0", "_device_losses:=1"}, GPS_FAULTY_NODE);
+  std::mutex mutex;
+  DiagnosticStatus latest;
+  ros::NodeHandle handle;
+  const ros::Subscriber subscriber =
+      handle.subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10,
+                                                         [&](const diagnostic_msgs::DiagnosticArray::ConstPtr& message)
+                                                         {
+                                                           const std::lock_guard<std::mutex> lock(mutex);
+                                                           if (message->status.at(0).name == "faulty_node: checks")
+                                                             latest = message->status.at(0);
+                                                         });
+  const auto level = [&]
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return latest.level;
+  };
+  for (int i = 0; i < 100000 && level() == DiagnosticStatus::OK; ++i)
+  {
+    CheckStates call;
+    call.request = stateRequest(free_state);
+    ASSERT_TRUE(callPersistently(node.service("check_states"), call));
+    ASSERT_TRUE(call.response.success) << call.response.message;
+    ASSERT_EQ(1, call.response.valid.at(0));
+  }
+  EXPECT_EQ(DiagnosticStatus::WARN, level());
+  const std::lock_guard<std::mutex> lock(mutex);
+  EXPECT_EQ(0u, latest.message.find("the CPU answers for the device: ")) << latest.message;
+}
+}  // namespace
+}  // namespace gpu_planning_scene
