@@ -2,9 +2,8 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <future>
+#include <exception>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -21,18 +20,31 @@ struct AbandonableThread::Queue
       wake.wait(lock, [this] { return stopping || job; });
       if (!job)
         return;
-      std::packaged_task<void()> taken = std::move(*job);
-      job.reset();
+      std::function<void()> taken = std::exchange(job, nullptr);
       lock.unlock();
-      taken();
-      taken = {};  // what it holds ends here, on this thread, before the next job
+      std::exception_ptr thrown;
+      try
+      {
+        taken();
+      }
+      catch (...)
+      {
+        thrown = std::current_exception();
+      }
+      taken = nullptr;  // what it holds ends here, on this thread, before the next job
       lock.lock();
+      error = std::move(thrown);  // the caller's alone
+      done = true;
+      ended.notify_one();
     }
   }
 
-  std::mutex mutex;
+  std::mutex mutex;  // of all below but the thread
   std::condition_variable wake;
-  std::optional<std::packaged_task<void()>> job;  // that waits; each is waited for, so there is never a second one
+  std::condition_variable ended;
+  std::function<void()> job;  // that waits; each is waited for, so there is never a second one
+  bool done = false;          // the last job
+  std::exception_ptr error;   // that it threw
   bool stopping = false;
   std::thread thread;
 };
@@ -58,24 +70,22 @@ bool AbandonableThread::run(std::function<void()> job, double seconds)
 {
   if (givenUp())
     throw std::logic_error("a job for a thread that was given up");
-  std::packaged_task<void()> task(std::move(job));
-  std::future<void> done = task.get_future();
-  {
-    const std::lock_guard<std::mutex> lock(queue_->mutex);
-    queue_->job = std::move(task);
-  }
+  std::unique_lock<std::mutex> lock(queue_->mutex);
+  queue_->job = std::move(job);
+  queue_->done = false;
   queue_->wake.notify_one();
-  if (done.wait_for(std::chrono::duration<double>(seconds)) != std::future_status::ready)
+  if (!queue_->ended.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return queue_->done; }))
   {
-    {
-      const std::lock_guard<std::mutex> lock(queue_->mutex);
-      queue_->stopping = true;  // should the job end after all
-    }
+    queue_->stopping = true;  // should the job end after all
+    lock.unlock();
     queue_->thread.detach();
     queue_.reset();
     return false;
   }
-  done.get();
+  const std::exception_ptr error = std::exchange(queue_->error, nullptr);
+  lock.unlock();
+  if (error)
+    std::rethrow_exception(error);
   return true;
 }
 }  // namespace gpu_planning_scene
