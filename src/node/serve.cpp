@@ -98,7 +98,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   cloud_topics.subscribe<sensor_msgs::PointCloud2>(options.cloud_topic, 1,
                                                    [&](const sensor_msgs::PointCloud2& m) { clouds.take(m); });
   Endpoints state_topics(node, own, 1, diagnostics);
-  state_topics.subscribe<sensor_msgs::JointState>("joint_states", 1,
+  state_topics.subscribe<sensor_msgs::JointState>("joint_states", 100,
                                                   [&](const sensor_msgs::JointState& m) { changes.take(m); });
 
   // Each request that waits has a thread: so the one too many is told at once that the node is busy. As many as may
