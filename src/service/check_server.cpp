@@ -16,7 +16,7 @@ bool isSmall(const CheckJob& job)
 }
 }  // namespace
 
-CheckServer::CheckServer(const SceneStore& store, MakeChecker make_checker, const CheckServerOptions& options)
+CheckServer::CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options)
   : options_(options),
     small_(std::make_unique<CheckLane>(store, make_checker, options, options.largest_batch)),
     large_(std::make_unique<CheckLane>(store, make_checker, options, 0))

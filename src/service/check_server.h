@@ -72,7 +72,7 @@ class CheckServer
 
   /// Makes the small lane's checker at once, and throws what that throws; the large lane's when it is first needed. A
   /// checker that does not take a scene is dropped and another one made for the next batch. `store` outlives it.
-  CheckServer(const SceneStore& store, MakeChecker make_checker, const CheckServerOptions& options);
+  CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options);
   /// As stop().
   ~CheckServer();
 
