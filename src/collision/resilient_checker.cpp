@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <malloc.h>
+
 #include "collision/abandonable_thread.h"
 #include "collision/batch_results.h"
 #include "collision/state_rows.h"
@@ -146,7 +148,14 @@ void ResilientChecker::Impl::dropDevice()
     return;
   try
   {
-    run([slot = std::exchange(device, nullptr)] { slot->checker.reset(); }, seconds_per_call);
+    run(
+        [slot = std::exchange(device, nullptr)]
+        {
+          slot->checker.reset();
+          // A software device's memory lies on the heap, in hundreds of megabytes, and would stay there with holes.
+          malloc_trim(0);
+        },
+        seconds_per_call);
   }
   catch (const DeviceLost& error)
   {

@@ -48,8 +48,7 @@ bool fits(const CheckStates& call, std::size_t count)
       return false;
     if (call.request.max_contacts != 0 && touched[i] != collides)
       return false;
-    if (call.request.clearance && collides &&
-        std::min(response.clearance_world[i], response.clearance_self[i]) != 0.0)
+    if (call.request.clearance && collides && std::min(response.clearance_world[i], response.clearance_self[i]) != 0.0)
       return false;
   }
   return true;
@@ -133,8 +132,9 @@ void AnswerJudge::judge(const Answer& answer)
     wrong += again.valid[i] == response.valid[i] ? 0 : 1;
   states += count;
 
-  // One state of each hundredth answer.
-  if (answers % 100 == 1 && samples_.size() < most_samples_ && count != 0)
+  // One state of some answers.
+  constexpr std::size_t kAnswersPerSample = 20;
+  if (answers % kAnswersPerSample == 1 && samples_.size() < most_samples_ && count != 0)
     samples_.push_back(
         {{asked.begin(), asked.begin() + static_cast<std::ptrdiff_t>(width)}, response.valid[0] != 0, scene});
 }
