@@ -53,7 +53,7 @@ TEST_F(AttachedObjects, anObjectOfTheWorldIsAttachedMovesWithItsLinkAndIsPutBack
   EXPECT_TRUE(scene().robot_state.attached_collision_objects.empty());
   ASSERT_EQ(1u, scene().world.collision_objects.size()) << "detaching puts it back";
   const Eigen::Vector3d expected = linkPose(tip, otherState()) * linkPose(tip, free_state).inverse() * tipPoint();
-  const geometry_msgs::Point& there = scene().world.collision_objects[0].pose.position;
+  const geometry_msgs::Point there = scene().world.collision_objects[0].pose.position;
   EXPECT_NEAR(0.0, (expected - Eigen::Vector3d(there.x, there.y, there.z)).norm(), 1e-9);
   EXPECT_FALSE(check(otherState()).valid.at(0));
   EXPECT_GT((expected - tipPoint()).norm(), 0.05) << "the test moves it";
