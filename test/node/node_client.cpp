@@ -113,7 +113,7 @@ void RunningNode::SetUpTestSuite()
   do
     robot->randomState(generator, free_state.data());
   while (checker.check(free_state.data(), 1).valid[0] == 0);
-  ASSERT_TRUE(ros::service::waitForService(name("check_states"), ros::Duration(60.0)));
+  ASSERT_TRUE(ros::service::waitForService(name("check_states"), ros::Duration(180.0)));
 }
 
 void RunningNode::TearDownTestSuite()
