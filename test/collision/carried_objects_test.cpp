@@ -12,7 +12,7 @@ namespace
 {
 class CarriedObjects : public testing::TestWithParam<const char*>
 {
- public:
+ protected:
   void SetUp() override
   {
     SKIP_WITHOUT(ur5Robotiq());

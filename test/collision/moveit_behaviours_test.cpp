@@ -240,8 +240,9 @@ TEST_P(MoveitBehaviours, AMeshIsHitWhereItIsMovedTo)
 {
   add("torus", torusMesh(0.2, 0.05), atTip() + Vector3d(0, 0, 5));
   EXPECT_TRUE(free());
-  for (double height = 5.0; height > 0.0; height -= 0.5)
+  for (int half_metres = 10; half_metres > 0; --half_metres)
   {
+    const double height = 0.5 * half_metres;
     scene_->objects[0].pose = Isometry3d(Translation3d(atTip() + Vector3d(0, 0, height)));
     CpuChecker fresh(std::make_shared<const PlanningScene>(*scene_));
     EXPECT_EQ(free(), fresh.check(state_.data(), 1).valid[0] != 0) << height << " m above the tip";
@@ -265,7 +266,10 @@ TEST_P(MoveitBehaviours, AShapeOfAnotherSizeIsAnotherShape)
 TEST_P(MoveitBehaviours, TenThousandBoxesAreTaken)
 {
   for (int i = 0; i < 10000; ++i)
-    add("box " + std::to_string(i), Box{{0.01, 0.01, 0.01}}, Vector3d(10.0 + 0.1 * (i % 100), 0.1 * (i / 100), 0.0));
+  {
+    const int row = i / 100;
+    add("box " + std::to_string(i), Box{{0.01, 0.01, 0.01}}, Vector3d(10.0 + 0.1 * (i % 100), 0.1 * row, 0.0));
+  }
   EXPECT_TRUE(free());
   scene_->objects[7777].pose = Isometry3d(Translation3d(atTip()));
   scene_->objects[7777].shapes = {{Box{{0.1, 0.1, 0.1}}}};

@@ -139,8 +139,9 @@ class Resilient : public testing::Test
   {
     if (!checker_)
     {
-      const auto maker = [](const std::shared_ptr<Script>& script, const char* name)
-      { return [script, name](Scene made_for) { return std::make_unique<FakeChecker>(script, name, made_for); }; };
+      const auto maker = [](const std::shared_ptr<Script>& script, const char* name) {
+        return [script, name](const Scene& made_for) { return std::make_unique<FakeChecker>(script, name, made_for); };
+      };
       checker_ = std::make_unique<ResilientChecker>(scene(1), maker(device_, "a device"), maker(cpu_, "CPU"), options_,
                                                     opening_);
     }

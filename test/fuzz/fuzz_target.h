@@ -8,6 +8,7 @@
 #include "gpu_planning_scene/robot_model.h"
 
 /// What libFuzzer calls, and replay_main.cpp in its place.
+// NOLINTNEXTLINE(readability-identifier-naming): the name is libFuzzer's
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace gpu_planning_scene

@@ -59,33 +59,33 @@ class Mutator
 
   void change(Bytes& bytes)
   {
-    static const std::vector<Bytes> kTokens = {"nan",
-                                               "1e999",
-                                               "-1",
-                                               "0",
-                                               "99999999999999999999",
-                                               "%2e%2e",
-                                               "\"",
-                                               "<",
-                                               ">",
-                                               "/",
-                                               "\n",
-                                               "- ",
-                                               ": ",
-                                               "{",
-                                               "[",
-                                               "&a ",
-                                               "*a",
-                                               "---\n",
-                                               "..",
-                                               "'",
-                                               "<!--",
-                                               "]]>",
-                                               "\t",
-                                               "\x80",
-                                               "&#0;",
-                                               std::string(4, '\0'),
-                                               std::string(4, '\xff')};
+    static const std::vector<Bytes> tokens = {"nan",
+                                              "1e999",
+                                              "-1",
+                                              "0",
+                                              "99999999999999999999",
+                                              "%2e%2e",
+                                              "\"",
+                                              "<",
+                                              ">",
+                                              "/",
+                                              "\n",
+                                              "- ",
+                                              ": ",
+                                              "{",
+                                              "[",
+                                              "&a ",
+                                              "*a",
+                                              "---\n",
+                                              "..",
+                                              "'",
+                                              "<!--",
+                                              "]]>",
+                                              "\t",
+                                              "\x80",
+                                              "&#0;",
+                                              std::string(4, '\0'),
+                                              std::string(4, '\xff')};
     const std::size_t at = below(bytes.size() + 1);
     const std::size_t length = below(std::min<std::size_t>(bytes.size() - at, 64) + 1);
     switch (below(6))
@@ -98,10 +98,10 @@ class Mutator
         bytes.erase(at, length);
         break;
       case 2:
-        bytes.insert(at, any(kTokens));
+        bytes.insert(at, any(tokens));
         break;
       case 3:
-        bytes.replace(at, length, any(kTokens));
+        bytes.replace(at, length, any(tokens));
         break;
       case 4:
         bytes.insert(below(bytes.size() + 1), bytes.substr(at, length));

@@ -135,7 +135,7 @@ class Handlers
 
   GetReport::Response report(const GetReport::Request& request)
   {
-    const GetReport::Response response = checks_.report(request);
+    GetReport::Response response = checks_.report(request);
     for (const std::string& line : response.lines)
       requireOneLine(line, false);
     return response;

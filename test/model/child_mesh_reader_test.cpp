@@ -32,7 +32,7 @@ Mesh sheet(int n)
 std::string errorOfReading(const std::string& program, const std::string& path, const MeshLimits& limits)
 {
   const ReadMesh read = childMeshReader(program, limits);
-  const std::string error = errorOf([&] { read(path, Eigen::Vector3d::Ones()); });
+  std::string error = errorOf([&] { read(path, Eigen::Vector3d::Ones()); });
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   EXPECT_NE(error.find(path), std::string::npos) << "the file is not named: " << error;
   return error;

@@ -15,6 +15,7 @@ TEST(OneLine, aCommonMessageStaysAsItIs)
 
 TEST(OneLine, aLongNameIsToldByItsBeginningAndEndAndTheRestOfTheMessageStays)
 {
+  // NOLINTNEXTLINE(bugprone-string-constructor): so long on purpose
   const std::string name = "first" + std::string(20000000, 'x') + "last";
   const std::string text = shortLine("there is no group '" + name + "'; there are: arm, hand");
   EXPECT_LT(text.size(), 500u);

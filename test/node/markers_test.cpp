@@ -179,7 +179,7 @@ TEST(Markers, noMoreTrianglesAreDrawnThanTheLimitWhereMeshesAreEqual)
   for (const Marker& marker : markers(scene, {}, {}, options).markers)
     points += marker.type == Marker::TRIANGLE_LIST || marker.type == Marker::LINE_LIST ? marker.points.size() : 0;
   // The roots' boxes are drawn in any case.
-  EXPECT_LE(points, 3 * options.most_triangles + 24 * 80);
+  EXPECT_LE(points, 3 * options.most_triangles + std::size_t{24} * 80);
   EXPECT_GT(points, 2 * options.most_triangles);
 }
 

@@ -65,8 +65,8 @@ class Messages : public SceneChanges
  protected:
   void applyMessage(const PlanningSceneMessage& message)
   {
-    message_warnings.clear();
-    apply(changeFrom(message, *scene.robot, limits, &message_warnings));
+    message_warnings_.clear();
+    apply(changeFrom(message, *scene_.robot, limits_, &message_warnings_));
   }
 
   void applyObject(const CollisionObject& object)
@@ -78,10 +78,10 @@ class Messages : public SceneChanges
 
   void refusedMessage(const std::string& fragment, const PlanningSceneMessage& message)
   {
-    const PlanningScene before = scene;
+    const PlanningScene before = scene_;
     const std::string error = errorOf([&] { applyMessage(message); });
     EXPECT_NE(std::string::npos, error.find(fragment)) << "'" << error << "' lacks '" << fragment << "'";
-    expectSameScene(before, scene);
+    expectSameScene(before, scene_);
   }
 
   void refusedObject(const std::string& fragment, const CollisionObject& object)
@@ -93,10 +93,10 @@ class Messages : public SceneChanges
 
   PlanningSceneMessage get(std::uint32_t components = 0) const
   {
-    return messageOf(scene, components, state, std::vector<bool>(state.size(), true));
+    return messageOf(scene_, components, state_, std::vector<bool>(state_.size(), true));
   }
 
-  std::vector<std::string> message_warnings;
+  std::vector<std::string> message_warnings_;
 };
 
 TEST_F(Messages, AnObjectHasAllThatItsMessageSays)
@@ -195,8 +195,8 @@ TEST_F(Messages, JointsAreSetByName)
   message.robot_state.joint_state.name = {"turn", "gripper", "flag", "bolt"};
   message.robot_state.joint_state.position = {0.25, 1.0, 2.0, 3.0};
   applyMessage(message);
-  EXPECT_EQ((std::vector<double>{0.5, 0.25}), state);
-  const std::string warnings_text = ::testing::PrintToString(message_warnings);
+  EXPECT_EQ((std::vector<double>{0.5, 0.25}), state_);
+  const std::string warnings_text = ::testing::PrintToString(message_warnings_);
   EXPECT_NE(std::string::npos, warnings_text.find("no such joints: gripper")) << warnings_text;
   EXPECT_NE(std::string::npos, warnings_text.find("follow others: flag")) << warnings_text;
   EXPECT_NE(std::string::npos, warnings_text.find("fixed: bolt")) << warnings_text;
@@ -211,8 +211,8 @@ TEST_F(Messages, JointsWithSeveralVariablesTakeTransforms)
 {
   for (const char* type : {"planar", "floating"})
   {
-    scene = PlanningScene(sliderRobotOnFloor(type));
-    state = scene.robot->defaultState();
+    scene_ = PlanningScene(sliderRobotOnFloor(type));
+    state_ = scene_.robot->defaultState();
     PlanningSceneMessage message = diff();
     sensor_msgs::MultiDOFJointState& joints = message.robot_state.multi_dof_joint_state;
     joints.header.frame_id = "hall";
@@ -221,7 +221,7 @@ TEST_F(Messages, JointsWithSeveralVariablesTakeTransforms)
     joints.transforms[0].translation.x = 3.0;
     joints.transforms[0].rotation.z = joints.transforms[0].rotation.w = 1.0;
     applyMessage(message);
-    EXPECT_TRUE(scene.frame("rail", state.data())->isApprox(poseAt(3, 0, 0, M_PI_2), 1e-15));
+    EXPECT_TRUE(scene_.frame("rail", state_.data())->isApprox(poseAt(3, 0, 0, M_PI_2), 1e-15));
     EXPECT_EQ("floor", get().robot_state.multi_dof_joint_state.joint_names.at(0));
     joints.header.frame_id = "camera";
     refusedMessage("must be the planning frame 'hall'", message);
@@ -242,15 +242,15 @@ TEST_F(Messages, AttachedObjectsFollowMoveItsRulesOfIsDiff)
   applyMessage(attach);
   EXPECT_EQ(1u, carried("a").touch_links.size());
   applyMessage(diff());
-  EXPECT_EQ(1u, scene.attached.size()) << "an empty state changes nothing";
+  EXPECT_EQ(1u, scene_.attached.size()) << "an empty state changes nothing";
   PlanningSceneMessage trap = diff();
   trap.robot_state.is_diff = false;
   applyMessage(trap);
-  EXPECT_EQ(1u, scene.attached.size()) << "without joint values too";
+  EXPECT_EQ(1u, scene_.attached.size()) << "without joint values too";
   trap.robot_state.joint_state.name = {"turn"};
   trap.robot_state.joint_state.position = {0.0};
   applyMessage(trap);
-  EXPECT_TRUE(scene.attached.empty());
+  EXPECT_TRUE(scene_.attached.empty());
   EXPECT_TRUE(warned("object 'a' is gone"));
 }
 
@@ -258,7 +258,7 @@ TEST_F(Messages, AMatrixIsTakenAsItIsWrittenAndAnEmptyOneIsNone)
 {
   PlanningSceneMessage message = diff();
   applyMessage(message);
-  EXPECT_TRUE(scene.allowed_collisions.allowed("cart", "pole"));
+  EXPECT_TRUE(scene_.allowed_collisions.allowed("cart", "pole"));
   AllowedCollisionMatrixMessage& matrix = message.allowed_collision_matrix;
   matrix.entry_names = {"cart", "nut"};
   matrix.entry_values.resize(2);
@@ -267,9 +267,9 @@ TEST_F(Messages, AMatrixIsTakenAsItIsWrittenAndAnEmptyOneIsNone)
   matrix.default_entry_names = {"lamp"};
   matrix.default_entry_values = {1};
   applyMessage(message);
-  EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "pole"));
-  EXPECT_TRUE(scene.allowed_collisions.allowed("nut", "cart"));
-  EXPECT_TRUE(scene.allowed_collisions.allowed("lamp", "drum"));
+  EXPECT_FALSE(scene_.allowed_collisions.allowed("cart", "pole"));
+  EXPECT_TRUE(scene_.allowed_collisions.allowed("nut", "cart"));
+  EXPECT_TRUE(scene_.allowed_collisions.allowed("lamp", "drum"));
   matrix.entry_values[1].enabled = {0, 0};
   refusedMessage("not symmetric", message);
   matrix.entry_values[1].enabled = {0};
@@ -287,30 +287,30 @@ TEST_F(Messages, AMatrixIsHeldAgainstTheLimitsBeforeItIsRead)
   matrix.entry_names = {"a", "b", "c"};  // without rows, so that reading it would be an error
   SceneLimits some;
   const auto refusal = [&] { return errorOf([&] { matrixFrom(matrix, some); }); };
-  const auto refusedFor = [&](const char* parameter) { return refusal().find(parameter) != std::string::npos; };
+  const auto refused_for = [&](const char* parameter) { return refusal().find(parameter) != std::string::npos; };
   some.matrix_entries = 9;
-  EXPECT_FALSE(refusedFor("limits/matrix_entries"));
+  EXPECT_FALSE(refused_for("limits/matrix_entries"));
   some.matrix_entries = 8;
-  EXPECT_TRUE(refusedFor("limits/matrix_entries")) << refusal();
+  EXPECT_TRUE(refused_for("limits/matrix_entries")) << refusal();
   some.matrix_entries = 10;
   matrix.entry_names[1] = std::string(64, 'b');
-  EXPECT_TRUE(refusedFor("limits/matrix_entries")) << "a long name in each row: " << refusal();
+  EXPECT_TRUE(refused_for("limits/matrix_entries")) << "a long name in each row: " << refusal();
   some.matrix_entries = 12;
-  EXPECT_FALSE(refusedFor("limits/matrix_entries")) << refusal();
+  EXPECT_FALSE(refused_for("limits/matrix_entries")) << refusal();
   matrix.default_entry_names = {"d"};
-  EXPECT_TRUE(refusedFor("limits/matrix_entries")) << refusal();
+  EXPECT_TRUE(refused_for("limits/matrix_entries")) << refusal();
   some.matrix_entries = 0;
-  EXPECT_FALSE(refusedFor("limits/")) << "no limit";
+  EXPECT_FALSE(refused_for("limits/")) << "no limit";
   some.name_length = 63;
-  EXPECT_TRUE(refusedFor("limits/name_length")) << refusal();
+  EXPECT_TRUE(refused_for("limits/name_length")) << refusal();
   matrix.entry_names[1] = "b";
-  EXPECT_FALSE(refusedFor("limits/")) << refusal();
+  EXPECT_FALSE(refused_for("limits/")) << refusal();
   matrix.default_entry_names[0] = std::string(64, 'd');
-  EXPECT_TRUE(refusedFor("limits/name_length")) << refusal();
+  EXPECT_TRUE(refused_for("limits/name_length")) << refusal();
 
   PlanningSceneMessage message = diff();
   message.allowed_collision_matrix = matrix;
-  limits = some;
+  limits_ = some;
   refusedMessage("limits/name_length", message);
 }
 
@@ -321,12 +321,12 @@ TEST_F(Messages, AMatrixThatAllowsNothingComesBackAsOne)
   message.allowed_collision_matrix.entry_values.resize(1);
   message.allowed_collision_matrix.entry_values[0].enabled = {0};
   applyMessage(message);
-  EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "pole"));
+  EXPECT_FALSE(scene_.allowed_collisions.allowed("cart", "pole"));
   const PlanningSceneMessage whole = get();
-  scene = PlanningScene(sliderRobot());
-  EXPECT_TRUE(scene.allowed_collisions.allowed("cart", "pole"));
+  scene_ = PlanningScene(sliderRobot());
+  EXPECT_TRUE(scene_.allowed_collisions.allowed("cart", "pole"));
   applyMessage(whole);
-  EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "pole")) << "an empty matrix would be the SRDF's";
+  EXPECT_FALSE(scene_.allowed_collisions.allowed("cart", "pole")) << "an empty matrix would be the SRDF's";
 }
 
 TEST_F(Messages, WhatDoesNotFitIsRefused)
@@ -413,13 +413,13 @@ PlanningSceneMessage everything()
 TEST_F(Messages, TheMessageOfASceneMakesItAgain)
 {
   applyMessage(everything());
-  const PlanningScene first = scene;
+  const PlanningScene first = scene_;
   const PlanningSceneMessage message = get();
   EXPECT_FALSE(message.is_diff);
-  scene = PlanningScene(sliderRobot());
-  state.clear();
+  scene_ = PlanningScene(sliderRobot());
+  state_.clear();
   applyMessage(message);
-  expectSameScene(first, scene, 1e-14);
+  expectSameScene(first, scene_, 1e-14);
 }
 
 TEST_F(Messages, OnlyTheComponentsThatAreAskedForAreThere)
@@ -460,31 +460,31 @@ TEST_F(Messages, OnlyTheComponentsThatAreAskedForAreThere)
 
 TEST_F(Messages, JointsThatAreNotKnownAreLeftOut)
 {
-  const PlanningSceneMessage message = messageOf(scene, 0, {0.5, 0.0}, {true, false});
+  const PlanningSceneMessage message = messageOf(scene_, 0, {0.5, 0.0}, {true, false});
   EXPECT_EQ((std::vector<std::string>{"slide"}), message.robot_state.joint_state.name);
 }
 
 TEST_F(Messages, ADifferenceBetweenScenesGoesThroughItsMessage)
 {
-  const PlanningScene first = scene;
-  const std::vector<double> first_state = state;
+  const PlanningScene first = scene_;
+  const std::vector<double> first_state = state_;
   applyMessage(everything());
-  const PlanningScene second = scene;
+  const PlanningScene second = scene_;
   applyObject(box("bin"));
   change(attachedChange(Operation::Remove, "tool", ""));
   ObjectChange move = objectChange(Operation::Move, "table");
   move.pose = poseAt(1, 2, 3, 0.25);
   change(move);
-  const PlanningScene third = scene;
+  const PlanningScene third = scene_;
 
-  scene = first;
-  state = first_state;
-  applyMessage(messageOf(diffOf(first, second), *scene.robot));
-  expectSameScene(second, scene, 1e-14);
+  scene_ = first;
+  state_ = first_state;
+  applyMessage(messageOf(diffOf(first, second), *scene_.robot));
+  expectSameScene(second, scene_, 1e-14);
   const SceneChange to_third = diffOf(second, third);
   EXPECT_TRUE(to_third.is_diff);
-  applyMessage(messageOf(to_third, *scene.robot));
-  expectSameScene(third, scene, 1e-14);
+  applyMessage(messageOf(to_third, *scene_.robot));
+  expectSameScene(third, scene_, 1e-14);
 }
 }  // namespace
 }  // namespace gpu_planning_scene

@@ -167,7 +167,7 @@ CheckStates::Request RunningNode::stateRequest(const std::vector<double>& states
 
 CheckStates::Response RunningNode::check(const std::vector<double>& state)
 {
-  const auto response = call<CheckStates>("check_states", stateRequest(state));
+  auto response = call<CheckStates>("check_states", stateRequest(state));
   EXPECT_TRUE(response.success) << response.message;
   return response;
 }

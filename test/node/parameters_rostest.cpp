@@ -138,7 +138,7 @@ TEST_F(Parameters, aPointCloudIsAnObstacleWithoutTheRobotsOwnPoints)
   const ros::Publisher joint_states = node.advertise<sensor_msgs::JointState>("/joint_states", 1);
   for (int i = 0; i < 100 && joint_states.getNumSubscribers() == 0; ++i)
     ros::WallDuration(0.1).sleep();
-  const auto moveTo = [&](double seconds, double slide)
+  const auto move_to = [&](double seconds, double slide)
   {
     sensor_msgs::JointState message;
     message.header.stamp = ros::Time(seconds);
@@ -150,8 +150,8 @@ TEST_F(Parameters, aPointCloudIsAnObstacleWithoutTheRobotsOwnPoints)
       ros::WallDuration(0.1).sleep();
     ASSERT_TRUE(there());
   };
-  moveTo(100.0, free_state[0]);
-  moveTo(101.0, double{far});
+  move_to(100.0, free_state[0]);
+  move_to(101.0, double{far});
   sensor_msgs::PointCloud2 earlier = cloud({on_the_cart, {0.0F, 0.0F, 5.0F}});
   earlier.header.stamp = ros::Time(100.1);
   publisher.publish(earlier);

@@ -14,7 +14,7 @@ namespace
 {
 class Topics : public RunningNode
 {
- public:
+ protected:
   /// Publishes it once the node listens.
   template <class Message>
   void publish(const std::string& topic, const Message& message)

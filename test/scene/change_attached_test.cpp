@@ -18,15 +18,15 @@ Eigen::Isometry3d inPole(const Eigen::Isometry3d& pose)
 
 TEST_F(ChangeAttached, TakesAnObjectOutOfTheWorldWhereItIs)
 {
-  defaults.object_padding = 0.25;
-  defaults.attached_padding = 0.125;
+  defaults_.object_padding = 0.25;
+  defaults_.attached_padding = 0.125;
   change(objectChange(Operation::Add, "a", {boxAt(0.1, poseAt(1, 0, 0))}));
   change(objectChange(Operation::Add, "b", {boxAt(0.1)}));
   AttachedChange attach = attachedChange(Operation::Add, "a", "pole");
   attach.touch_links = {"cart"};
   change(attach);
-  ASSERT_EQ(1u, scene.objects.size());
-  EXPECT_EQ("b", scene.objects[0].id);
+  ASSERT_EQ(1u, scene_.objects.size());
+  EXPECT_EQ("b", scene_.objects[0].id);
   EXPECT_TRUE(carried("a").object.pose.isApprox(inPole(poseAt(1, 0, 0)), 1e-15));
   EXPECT_EQ(link("pole"), carried("a").link);
   EXPECT_EQ(std::vector<int>{link("cart")}, carried("a").touch_links);
@@ -36,7 +36,7 @@ TEST_F(ChangeAttached, TakesAnObjectOutOfTheWorldWhereItIs)
 
 TEST_F(ChangeAttached, PutsItBackIntoTheWorldWhereItIs)
 {
-  defaults.object_padding = 0.25;
+  defaults_.object_padding = 0.25;
   change(attachedChange(Operation::Add, "a", "pole", {boxAt(0.1)}));
   SceneChange both;
   both.is_diff = true;
@@ -44,7 +44,7 @@ TEST_F(ChangeAttached, PutsItBackIntoTheWorldWhereItIs)
   both.state.attached = {attachedChange(Operation::Remove, "a", "")};
   EXPECT_TRUE(carried("a").object.pose.isApprox(inPole(poseAt(0, 0, 0)), 1e-15));
   apply(both);
-  EXPECT_TRUE(scene.attached.empty());
+  EXPECT_TRUE(scene_.attached.empty());
   EXPECT_TRUE(object("a").pose.isApprox(poseAt(-1.5, 0, 0), 1e-15)) << "the cart went 1.5 m: the joints are set first";
   EXPECT_EQ(0.25, object("a").padding);
 }
@@ -55,13 +55,13 @@ TEST_F(ChangeAttached, WithShapesItReplacesWhateverHasThatId)
   AttachedChange attach = attachedChange(Operation::Add, "a", "pole", {boxAt(0.2, poseAt(1, 0, 0))});
   attach.object.frame.name = "pole";
   change(attach);
-  EXPECT_TRUE(scene.objects.empty());
+  EXPECT_TRUE(scene_.objects.empty());
   EXPECT_TRUE(carried("a").object.pose.isApprox(poseAt(1, 0, 0)));
   attach.link = "cart";
   attach.object.frame.name = "/cart";
   attach.object.shapes = {{Sphere{3.0}}};
   change(attach);
-  ASSERT_EQ(1u, scene.attached.size());
+  ASSERT_EQ(1u, scene_.attached.size());
   EXPECT_EQ(link("cart"), carried("a").link);
   EXPECT_TRUE(carried("a").object.pose.isApprox(poseAt(0, 0, 0)));
   EXPECT_EQ(3.0, std::get<Sphere>(carried("a").object.shapes.at(0).shape).radius);
@@ -69,7 +69,7 @@ TEST_F(ChangeAttached, WithShapesItReplacesWhateverHasThatId)
 
 TEST_F(ChangeAttached, InItsLinksFrameItNeedsNoRobotState)
 {
-  state.clear();
+  state_.clear();
   AttachedChange attach = attachedChange(Operation::Add, "a", "pole", {boxAt(0.2, poseAt(1, 0, 0))});
   refused("state is not known yet", attach);
   attach.object.frame.name = "pole";
@@ -110,12 +110,12 @@ TEST_F(ChangeAttached, RemoveWithoutAnIdPutsBackAllOfTheLinkOrOfAll)
   };
   fill();
   change(attachedChange(Operation::Remove, "", "pole"));
-  EXPECT_EQ(1u, scene.attached.size());
-  EXPECT_EQ(2u, scene.objects.size());
+  EXPECT_EQ(1u, scene_.attached.size());
+  EXPECT_EQ(2u, scene_.objects.size());
   fill();
   change(attachedChange(Operation::Remove, "", ""));
-  EXPECT_TRUE(scene.attached.empty());
-  EXPECT_EQ(3u, scene.objects.size());
+  EXPECT_TRUE(scene_.attached.empty());
+  EXPECT_EQ(3u, scene_.objects.size());
 }
 
 TEST_F(ChangeAttached, TheSameChangeMayTakeItOutOfTheWorldAsMoveItsTutorialsDo)
@@ -127,7 +127,7 @@ TEST_F(ChangeAttached, TheSameChangeMayTakeItOutOfTheWorldAsMoveItsTutorialsDo)
   both.objects = {objectChange(Operation::Remove, "a")};
   apply(both);
   EXPECT_NO_THROW(carried("a"));
-  EXPECT_TRUE(scene.objects.empty());
+  EXPECT_TRUE(scene_.objects.empty());
 }
 
 TEST_F(ChangeAttached, KeepsItsColor)
@@ -139,7 +139,7 @@ TEST_F(ChangeAttached, KeepsItsColor)
   apply(color);
   change(attachedChange(Operation::Add, "a", "pole"));
   change(attachedChange(Operation::Remove, "a", "pole"));
-  EXPECT_EQ(1u, scene.colors.count("a"));
+  EXPECT_EQ(1u, scene_.colors.count("a"));
 }
 
 TEST_F(ChangeAttached, HasItsLinksScale)

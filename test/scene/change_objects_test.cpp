@@ -12,7 +12,7 @@ class ChangeObjects : public SceneChanges
 
 TEST_F(ChangeObjects, AddPutsTheObjectWhereItsPoseSays)
 {
-  defaults.object_padding = 0.01;
+  defaults_.object_padding = 0.01;
   ObjectChange add = objectChange(Operation::Add, "a", {boxAt(0.1, poseAt(0, 0, 1)), boxAt(0.2)});
   add.pose = poseAt(1, 2, 3, M_PI_2);
   add.subframes["tip"] = poseAt(0, 0, 4);
@@ -29,7 +29,7 @@ TEST_F(ChangeObjects, AddReplacesTheObjectOfThatId)
   change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
   change(objectChange(Operation::Add, "b", {boxAt(0.1)}));
   change(objectChange(Operation::Add, "a", {{Sphere{2.0}}}));
-  ASSERT_EQ(2u, scene.objects.size());
+  ASSERT_EQ(2u, scene_.objects.size());
   ASSERT_EQ(1u, object("a").shapes.size());
   EXPECT_EQ(2.0, std::get<Sphere>(object("a").shapes[0].shape).radius);
 }
@@ -63,7 +63,7 @@ TEST_F(ChangeObjects, AppendAddsShapesAndSubframesAndLeavesTheObjectWhereItIs)
       << "primitives come before meshes, as messages have them";
   EXPECT_EQ(2u, object("a").subframes.size());
   append.pose = poseAt(0, 0, 0);  // what clients write that fill in a quaternion
-  append.frame.name = scene.robot->planningFrame();
+  append.frame.name = scene_.robot->planningFrame();
   change(append);
   EXPECT_TRUE(object("a").pose.isApprox(poseAt(1, 0, 0)));
   EXPECT_EQ(3u, object("a").shapes.size());
@@ -123,12 +123,12 @@ TEST_F(ChangeObjects, RemoveTakesOneAndWithoutAnIdAll)
   color.colors["b"] = {1.0F, 0.0F, 0.0F, 1.0F};
   apply(color);
   change(objectChange(Operation::Remove, "b"));
-  ASSERT_EQ(2u, scene.objects.size());
-  EXPECT_EQ("a", scene.objects[0].id);
-  EXPECT_EQ("c", scene.objects[1].id);
-  EXPECT_TRUE(scene.colors.empty()) << "its colour goes with it";
+  ASSERT_EQ(2u, scene_.objects.size());
+  EXPECT_EQ("a", scene_.objects[0].id);
+  EXPECT_EQ("c", scene_.objects[1].id);
+  EXPECT_TRUE(scene_.colors.empty()) << "its colour goes with it";
   change(objectChange(Operation::Remove, ""));
-  EXPECT_TRUE(scene.objects.empty());
+  EXPECT_TRUE(scene_.objects.empty());
   change(objectChange(Operation::Remove, ""));
 }
 
@@ -148,7 +148,7 @@ TEST_F(ChangeObjects, ChangesOfOneMessageFollowEachOther)
                   objectChange(Operation::Remove, "a"),
                   objectChange(Operation::Add, "a", {boxAt(0.3)})};
   apply(many);
-  ASSERT_EQ(3u, scene.objects.size());
+  ASSERT_EQ(3u, scene_.objects.size());
   EXPECT_TRUE(object("c").pose.isApprox(poseAt(1, 0, 0)));
   EXPECT_EQ(2u, object("b").shapes.size());
   EXPECT_EQ(0.3, std::get<Box>(object("a").shapes[0].shape).size.x());

@@ -18,11 +18,11 @@ class ChangeSettings : public SceneChanges
 
   double padding(const std::string& name) const
   {
-    return scene.link_padding.empty() ? 0.0 : scene.link_padding.at(static_cast<std::size_t>(link(name)));
+    return scene_.link_padding.empty() ? 0.0 : scene_.link_padding.at(static_cast<std::size_t>(link(name)));
   }
   double scale(const std::string& name) const
   {
-    const std::vector<double>& factors = scene.robot->linkScale();
+    const std::vector<double>& factors = scene_.robot->linkScale();
     return factors.empty() ? 1.0 : factors.at(static_cast<std::size_t>(link(name)));
   }
 };
@@ -39,22 +39,22 @@ TEST_F(ChangeSettings, WhatADifferenceDoesNotNameStays)
   first.colors["table"] = {1.0F, 0.0F, 0.0F, 0.5F};
   first.objects = {objectChange(Operation::Add, "table", {boxAt(0.1)})};
   apply(first);
-  const PlanningScene before = scene;
+  const PlanningScene before = scene_;
   apply(diff());
-  expectSameScene(before, scene);
+  expectSameScene(before, scene_);
   SceneChange second = diff();
   second.link_padding["pole"] = 0.2;
   second.link_scale["cart"] = 3.0;
   second.colors["lamp"] = {};
   apply(second);
-  EXPECT_EQ("hall", scene.name);
+  EXPECT_EQ("hall", scene_.name);
   EXPECT_EQ(0.1, padding("cart"));
   EXPECT_EQ(0.2, padding("pole"));
   EXPECT_EQ(2.0, scale("pole"));
   EXPECT_EQ(3.0, scale("cart"));
-  EXPECT_EQ(2u, scene.colors.size());
-  EXPECT_TRUE(scene.allowed_collisions.allowed("cart", "table"));
-  EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "pole")) << "a matrix replaces all of the SRDF's";
+  EXPECT_EQ(2u, scene_.colors.size());
+  EXPECT_TRUE(scene_.allowed_collisions.allowed("cart", "table"));
+  EXPECT_FALSE(scene_.allowed_collisions.allowed("cart", "pole")) << "a matrix replaces all of the SRDF's";
 }
 
 TEST_F(ChangeSettings, WhatAFullSceneDoesNotNameIsAsInANewOne)
@@ -68,18 +68,18 @@ TEST_F(ChangeSettings, WhatAFullSceneDoesNotNameIsAsInANewOne)
   first.colors["table"] = {};
   first.objects = {objectChange(Operation::Add, "table", {boxAt(0.1)})};
   apply(first);
-  defaults.link_padding.assign(scene.robot->links().size(), 0.01);
-  defaults.link_scale.assign(scene.robot->links().size(), 1.5);
+  defaults_.link_padding.assign(scene_.robot->links().size(), 0.01);
+  defaults_.link_scale.assign(scene_.robot->links().size(), 1.5);
   SceneChange full;
   full.link_padding["pole"] = 0.5;
   full.link_scale["cart"] = 1.0;
   apply(full);
-  EXPECT_EQ("", scene.name);
-  EXPECT_TRUE(scene.fixed_frames.empty());
-  EXPECT_TRUE(scene.colors.empty());
-  EXPECT_TRUE(scene.objects.empty());
-  EXPECT_TRUE(scene.allowed_collisions == AllowedCollisionMatrix::fromRobot(*scene.robot));
-  EXPECT_EQ(MatrixSource::Srdf, scene.matrix_source);
+  EXPECT_EQ("", scene_.name);
+  EXPECT_TRUE(scene_.fixed_frames.empty());
+  EXPECT_TRUE(scene_.colors.empty());
+  EXPECT_TRUE(scene_.objects.empty());
+  EXPECT_TRUE(scene_.allowed_collisions == AllowedCollisionMatrix::fromRobot(*scene_.robot));
+  EXPECT_EQ(MatrixSource::Srdf, scene_.matrix_source);
   EXPECT_EQ(0.01, padding("cart"));
   EXPECT_EQ(0.5, padding("pole"));
   EXPECT_EQ(1.5, scale("pole"));
@@ -91,11 +91,11 @@ TEST_F(ChangeSettings, FixedFramesReplaceAllOthers)
   SceneChange frames_change = diff();
   frames_change.fixed_frames = {{"camera", poseAt(1, 0, 0)}, {"rail", poseAt(0, 0, 0)}};
   apply(frames_change);
-  EXPECT_EQ(1u, scene.fixed_frames.size()) << "MoveIt lists the planning frame, rail, too";
+  EXPECT_EQ(1u, scene_.fixed_frames.size()) << "MoveIt lists the planning frame, rail, too";
   frames_change.fixed_frames = {{"lamp", poseAt(2, 0, 0)}};
   apply(frames_change);
-  ASSERT_EQ(1u, scene.fixed_frames.size());
-  EXPECT_EQ(1u, scene.fixed_frames.count("lamp"));
+  ASSERT_EQ(1u, scene_.fixed_frames.size());
+  EXPECT_EQ(1u, scene_.fixed_frames.count("lamp"));
   frames_change.fixed_frames = {{"rail", poseAt(2, 0, 0)}};
   refused("must be the identity", frames_change);
   frames_change.fixed_frames = {{"pole", poseAt(0, 0, 0)}};

@@ -28,23 +28,23 @@ class ChangeState : public SceneChanges
 TEST_F(ChangeState, JointsThatAreNotNamedStayWhereTheyAre)
 {
   apply(stateChange(true, {{"slide", -1.0}}));
-  EXPECT_EQ((std::vector<double>{-1.0, M_PI_2}), state);
-  EXPECT_EQ(2u, scene.attached.size());
-  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ((std::vector<double>{-1.0, M_PI_2}), state_);
+  EXPECT_EQ(2u, scene_.attached.size());
+  EXPECT_TRUE(warnings_.empty());
 }
 
 TEST_F(ChangeState, ValuesOfSomeJointsAloneAreNoState)
 {
   change(objectChange(Operation::Add, "c", {boxAt(0.1)}));
-  state.clear();
+  state_.clear();
   SceneChange some = stateChange(true, {{"slide", -1.0}});
   apply(some);
-  EXPECT_TRUE(state.empty()) << "nothing is made up for the other joint";
+  EXPECT_TRUE(state_.empty()) << "nothing is made up for the other joint";
   some.state.attached = {attachedChange(Operation::Add, "c", "pole")};
   refused("state is not known yet", some);
   some.state.variables["turn"] = 0.5;
   apply(some);
-  EXPECT_EQ((std::vector<double>{-1.0, 0.5}), state);
+  EXPECT_EQ((std::vector<double>{-1.0, 0.5}), state_);
   EXPECT_EQ(link("pole"), carried("c").link);
 }
 
@@ -54,11 +54,11 @@ TEST_F(ChangeState, WithJointsAndNoDifferenceItReplacesWhatIsAttached)
   replace.state.attached = {attachedChange(Operation::Add, "a", "cart", {boxAt(0.2)}),
                             attachedChange(Operation::Add, "c", "cart", {boxAt(0.2)})};
   apply(replace);
-  ASSERT_EQ(2u, scene.attached.size());
+  ASSERT_EQ(2u, scene_.attached.size());
   EXPECT_EQ(link("cart"), carried("a").link);
   EXPECT_NO_THROW(carried("c"));
-  EXPECT_TRUE(scene.objects.empty()) << "what is dropped does not go back into the world";
-  ASSERT_EQ(1u, warnings.size());
+  EXPECT_TRUE(scene_.objects.empty()) << "what is dropped does not go back into the world";
+  ASSERT_EQ(1u, warnings_.size());
   EXPECT_TRUE(warned("object 'b' is gone"));
 }
 
@@ -67,7 +67,7 @@ TEST_F(ChangeState, WithoutJointsAndNoDifferenceItOnlyAdds)
   SceneChange add = stateChange(false, {});
   add.state.attached = {attachedChange(Operation::Add, "c", "cart", {boxAt(0.2)})};
   apply(add);
-  EXPECT_EQ(3u, scene.attached.size());
+  EXPECT_EQ(3u, scene_.attached.size());
   add.state.attached = {attachedChange(Operation::Remove, "c", "")};
   refused("can only add", add);
   add.state.attached = {attachedChange(Operation::Append, "c", "", {boxAt(0.2)})};
@@ -79,10 +79,10 @@ TEST_F(ChangeState, AFullSceneReplacesWhatIsAttachedWithoutAWarning)
   SceneChange full;
   full.state.attached = {attachedChange(Operation::Add, "c", "cart", {boxAt(0.2)})};
   apply(full);
-  ASSERT_EQ(1u, scene.attached.size());
-  EXPECT_EQ("c", scene.attached[0].object.id);
-  EXPECT_TRUE(warnings.empty());
-  EXPECT_EQ((std::vector<double>{0.5, M_PI_2}), state) << "joints that it does not name stay";
+  ASSERT_EQ(1u, scene_.attached.size());
+  EXPECT_EQ("c", scene_.attached[0].object.id);
+  EXPECT_TRUE(warnings_.empty());
+  EXPECT_EQ((std::vector<double>{0.5, M_PI_2}), state_) << "joints that it does not name stay";
 }
 
 TEST_F(ChangeState, AFullSceneDoesNotAttachObjectsOfTheSceneBefore)
@@ -97,7 +97,7 @@ TEST_F(ChangeState, WhatCannotBeIsRefused)
 {
   refused("no joint variable 'gripper'", stateChange(true, {{"gripper", 0.0}}));
   refused("not finite", stateChange(true, {{"slide", std::numeric_limits<double>::infinity()}}));
-  state.pop_back();
+  state_.pop_back();
   refused("1 values for 2", stateChange(true, {}));
 }
 }  // namespace

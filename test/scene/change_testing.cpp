@@ -186,12 +186,12 @@ void expectSameScene(const PlanningScene& expected, const PlanningScene& found, 
 
 void SceneChanges::apply(const SceneChange& change)
 {
-  Change result = applyChange(scene, state, change, defaults, limits, frames);
-  scene = std::move(result.scene);
-  state = std::move(result.state);
-  warnings = std::move(result.warnings);
-  EXPECT_EQ(state, scene.current_state);
-  EXPECT_NO_THROW(validateScene(scene));
+  Change result = applyChange(scene_, state_, change, defaults_, limits_, frames_);
+  scene_ = std::move(result.scene);
+  state_ = std::move(result.state);
+  warnings_ = std::move(result.warnings);
+  EXPECT_EQ(state_, scene_.current_state);
+  EXPECT_NO_THROW(validateScene(scene_));
 }
 
 void SceneChanges::change(const ObjectChange& object)
@@ -206,9 +206,9 @@ void SceneChanges::change(const AttachedChange& attached)
 
 void SceneChanges::refused(const std::string& fragment, const SceneChange& change)
 {
-  const PlanningScene before = scene;
+  const PlanningScene before = scene_;
   expectOneLine(errorOf([&] { apply(change); }), fragment);
-  expectSameScene(before, scene);
+  expectSameScene(before, scene_);
 }
 
 void SceneChanges::refused(const std::string& fragment, const ObjectChange& object)
@@ -223,19 +223,19 @@ void SceneChanges::refused(const std::string& fragment, const AttachedChange& at
 
 const WorldObject& SceneChanges::object(const std::string& id) const
 {
-  const WorldObject* const found = findObject(scene, id);
+  const WorldObject* const found = findObject(scene_, id);
   return found != nullptr ? *found : throw std::runtime_error("the world has no object " + id);
 }
 
 const AttachedObject& SceneChanges::carried(const std::string& id) const
 {
-  const AttachedObject* const found = findCarried(scene, id);
+  const AttachedObject* const found = findCarried(scene_, id);
   return found != nullptr ? *found : throw std::runtime_error("no link carries " + id);
 }
 
 bool SceneChanges::warned(const std::string& fragment) const
 {
-  return std::any_of(warnings.begin(), warnings.end(),
+  return std::any_of(warnings_.begin(), warnings_.end(),
                      [&](const std::string& warning) { return warning.find(fragment) != std::string::npos; });
 }
 }  // namespace gpu_planning_scene

@@ -41,13 +41,13 @@ class SceneChanges : public testing::Test
   const WorldObject& object(const std::string& id) const;
   const AttachedObject& carried(const std::string& id) const;
   bool warned(const std::string& fragment) const;
-  int link(const std::string& name) const { return scene.robot->linkIndex(name); }
+  int link(const std::string& name) const { return scene_.robot->linkIndex(name); }
 
-  PlanningScene scene{sliderRobot()};
-  std::vector<double> state = {0.5, M_PI_2};  // slide, turn
-  std::vector<std::string> warnings;          // of the last change
-  SceneDefaults defaults;
-  SceneLimits limits;
-  ExternalFrames frames;
+  PlanningScene scene_{sliderRobot()};
+  std::vector<double> state_ = {0.5, M_PI_2};  // slide, turn
+  std::vector<std::string> warnings_;          // of the last change
+  SceneDefaults defaults_;
+  SceneLimits limits_;
+  ExternalFrames frames_;
 };
 }  // namespace gpu_planning_scene

@@ -16,7 +16,7 @@ class RandomChanges : public SceneChanges
   double number() { return static_cast<double>(random_() % 2001) / 1000.0 - 1.0; }
   Eigen::Isometry3d pose() { return poseAt(number(), number(), number(), number()); }
   std::string id() { return std::string(1, static_cast<char>('a' + upTo(4))); }
-  std::string linkName() { return scene.robot->links()[upTo(scene.robot->links().size() - 1)].name; }
+  std::string linkName() { return scene_.robot->links()[upTo(scene_.robot->links().size() - 1)].name; }
 
   std::vector<PlacedShape> shapes()
   {
@@ -98,11 +98,11 @@ TEST_F(RandomChanges, TheirDifferenceLeadsFromOneSceneToTheOther)
   const unsigned value = std::random_device()();
   seed(value);
   SCOPED_TRACE("seed " + std::to_string(value));
-  defaults.object_padding = 0.125;
-  defaults.attached_padding = 0.25;
+  defaults_.object_padding = 0.125;
+  defaults_.attached_padding = 0.25;
   std::size_t made = 0;
   std::size_t differences = 0;
-  std::vector<PlanningScene> scenes = {scene};
+  std::vector<PlanningScene> scenes = {scene_};
   for (int i = 0; i < 2000 && !HasFailure(); ++i)
   {
     const SceneChange change = randomChange();
@@ -115,18 +115,18 @@ TEST_F(RandomChanges, TheirDifferenceLeadsFromOneSceneToTheOther)
       continue;
     }
     ++made;
-    const PlanningScene reached = scene;
+    const PlanningScene reached = scene_;
     const PlanningScene& from = scenes[upTo(scenes.size() - 1)];
     const SceneChange way = diffOf(from, reached);
     differences += way.is_diff ? 1 : 0;
-    const Change walked = applyChange(from, from.current_state, way, defaults, limits, {});
+    const Change walked = applyChange(from, from.current_state, way, defaults_, limits_, {});
     PlanningScene expected = reached;
     expected.matrix_source = walked.scene.matrix_source;  // a matrix like the SRDF's need not be the SRDF's
     if (reached.current_state.empty())
       expected.current_state = walked.scene.current_state;
     expectSameScene(expected, walked.scene);
     scenes.push_back(reached);
-    state = reached.current_state;
+    state_ = reached.current_state;
   }
   EXPECT_GT(made, 200u);
   EXPECT_GT(differences, made / 10);
@@ -136,7 +136,7 @@ TEST_F(RandomChanges, NothingLeadsFromASceneToItself)
 {
   change(objectChange(Operation::Add, "a", {boxAt(0.1), triangleAt()}));
   change(attachedChange(Operation::Add, "b", "pole", {boxAt(0.1)}));
-  const SceneChange none = diffOf(scene, scene);
+  const SceneChange none = diffOf(scene_, scene_);
   EXPECT_TRUE(none.is_diff);
   EXPECT_TRUE(none.objects.empty() && none.state.attached.empty() && none.state.variables.empty());
   EXPECT_TRUE(!none.matrix && none.link_padding.empty() && none.link_scale.empty() && none.colors.empty());
@@ -145,20 +145,20 @@ TEST_F(RandomChanges, NothingLeadsFromASceneToItself)
 TEST_F(RandomChanges, TouchLinksAloneAreADifference)
 {
   change(attachedChange(Operation::Add, "a", "pole", {boxAt(0.1)}));
-  const PlanningScene before = scene;
-  scene.attached[0].touch_links = {link("cart")};
-  const SceneChange way = diffOf(before, scene);
-  expectSameScene(scene, applyChange(before, state, way, defaults, limits, frames).scene);
+  const PlanningScene before = scene_;
+  scene_.attached[0].touch_links = {link("cart")};
+  const SceneChange way = diffOf(before, scene_);
+  expectSameScene(scene_, applyChange(before, state_, way, defaults_, limits_, frames_).scene);
 }
 
 TEST_F(RandomChanges, AMoveIsNotAnAddition)
 {
   change(objectChange(Operation::Add, "a", {triangleAt(), triangleAt()}));
-  const PlanningScene before = scene;
+  const PlanningScene before = scene_;
   ObjectChange move = objectChange(Operation::Move, "a");
   move.pose = poseAt(1, 0, 0);
   change(move);
-  const SceneChange way = diffOf(before, scene);
+  const SceneChange way = diffOf(before, scene_);
   ASSERT_EQ(1u, way.objects.size());
   EXPECT_EQ(Operation::Move, way.objects[0].operation);
   EXPECT_TRUE(way.objects[0].shapes.empty());

@@ -27,7 +27,7 @@ class Frames : public SceneChanges
 
   Eigen::Isometry3d find(const std::string& name) const
   {
-    const auto pose = scene.frame(name, state.data());
+    const auto pose = scene_.frame(name, state_.data());
     return pose ? *pose : throw std::runtime_error("no frame " + name);
   }
 };
@@ -44,8 +44,8 @@ TEST_F(Frames, AreThePlanningFrameLinksObjectsSubframesAndFixedFrames)
     EXPECT_TRUE(find(start + "tool").isApprox(poseAt(0.5, 0, 0), 1e-15));
     EXPECT_TRUE(find(start + "tool/a/tip").isApprox(poseAt(0.5, 0, 1), 1e-15));
     EXPECT_TRUE(find(start + "camera").isApprox(poseAt(0, 0, 5), 1e-15));
-    EXPECT_FALSE(scene.frame(start + "lamp", state.data()));
-    EXPECT_FALSE(scene.frame(start + "table/lamp", state.data()));
+    EXPECT_FALSE(scene_.frame(start + "lamp", state_.data()));
+    EXPECT_FALSE(scene_.frame(start + "table/lamp", state_.data()));
   }
   EXPECT_TRUE(find("").isApprox(poseAt(0, 0, 0)));
 }
@@ -64,9 +64,9 @@ TEST_F(Frames, AnObjectComesBeforeASubframeAndAFixedFrameLast)
 TEST_F(Frames, OfLinksNeedTheRobotsState)
 {
   for (const char* name : {"pole", "tool", "tool/a/tip"})
-    EXPECT_NE(std::string::npos, errorOf([&] { scene.frame(name, nullptr); }).find("state is not known yet")) << name;
-  EXPECT_TRUE(scene.frame("table", nullptr));
-  state[0] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(std::string::npos, errorOf([&] { scene_.frame(name, nullptr); }).find("state is not known yet")) << name;
+  EXPECT_TRUE(scene_.frame("table", nullptr));
+  state_[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(std::string::npos, errorOf([&] { find("pole"); }).find("not finite"));
 }
 
@@ -91,15 +91,15 @@ TEST_F(Frames, ThatTheSceneDoesNotKnowAreAskedForOnceEach)
   add("d", "a");
   add("e", "camera");  // is no fixed frame any more
   std::vector<std::string> names;
-  for (const FrameAt& frame : externalFrames(scene, change))
+  for (const FrameAt& frame : externalFrames(scene_, change))
     names.push_back(frame.name + " " + std::to_string(frame.stamp));
   EXPECT_EQ((std::vector<std::string>{"camera 0", "hand 0", "sensor 0", "sensor 7"}), names);
 
   refused("unknown frame 'hand'", change);
-  frames = {{{"camera", 0}, poseAt(1, 0, 0)},
-            {{"hand", 0}, poseAt(2, 0, 0)},
-            {{"sensor", 0}, poseAt(3, 0, 0)},
-            {{"sensor", 7}, poseAt(4, 0, 0)}};
+  frames_ = {{{"camera", 0}, poseAt(1, 0, 0)},
+             {{"hand", 0}, poseAt(2, 0, 0)},
+             {{"sensor", 0}, poseAt(3, 0, 0)},
+             {{"sensor", 7}, poseAt(4, 0, 0)}};
   apply(change);
   EXPECT_EQ(3.0, object("b").pose.translation().x());
   EXPECT_EQ(4.0, object("c").pose.translation().x());
@@ -109,20 +109,20 @@ TEST_F(Frames, ThatTheSceneDoesNotKnowAreAskedForOnceEach)
 
 TEST_F(Frames, AreAskedForWhateverTheStateIs)
 {
-  scene.current_state.clear();
+  scene_.current_state.clear();
   SceneChange change;
   change.is_diff = true;
   change.objects = {objectChange(Operation::Add, "a", {boxAt(0.1)}), objectChange(Operation::Add, "b", {boxAt(0.1)})};
   change.objects[0].frame.name = "pole";
   change.objects[1].frame.name = "sensor";
-  EXPECT_EQ(1u, externalFrames(scene, change).size());
+  EXPECT_EQ(1u, externalFrames(scene_, change).size());
 }
 
 TEST_F(Frames, ThatAreNoPosesAreRefused)
 {
   ObjectChange object = objectChange(Operation::Add, "a", {boxAt(0.1)});
   object.frame.name = "sensor";
-  frames[{"sensor", 0}] = poseAt(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+  frames_[{"sensor", 0}] = poseAt(std::numeric_limits<double>::quiet_NaN(), 0, 0);
   refused("frame 'sensor'", object);
 }
 }  // namespace

@@ -12,7 +12,7 @@ class Limits : public SceneChanges
 
 TEST_F(Limits, OfObjectsCountTheWorldsAndThoseCarried)
 {
-  limits.objects = 2;
+  limits_.objects = 2;
   change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
   change(attachedChange(Operation::Add, "b", "pole", {boxAt(0.1)}));
   refused("limits/objects", objectChange(Operation::Add, "c", {boxAt(0.1)}));
@@ -31,7 +31,7 @@ TEST_F(Limits, OfObjectsCountTheWorldsAndThoseCarried)
 
 TEST_F(Limits, OfShapesCountThoseOfAllObjects)
 {
-  limits.shapes = 3;
+  limits_.shapes = 3;
   change(objectChange(Operation::Add, "a", {boxAt(0.1), boxAt(0.1)}));
   refused("limits/shapes", objectChange(Operation::Add, "b", {boxAt(0.1), boxAt(0.1)}));
   refused("limits/shapes", objectChange(Operation::Append, "a", {boxAt(0.1), boxAt(0.1)}));
@@ -44,7 +44,7 @@ TEST_F(Limits, OfShapesCountThoseOfAllObjects)
 
 TEST_F(Limits, OfTrianglesCountEachMeshOnce)
 {
-  limits.triangles = 2;
+  limits_.triangles = 2;
   const PlacedShape mesh = triangleAt();
   change(objectChange(Operation::Add, "a", {mesh, mesh, mesh}));
   change(objectChange(Operation::Add, "b", {triangleAt()}));
@@ -54,8 +54,8 @@ TEST_F(Limits, OfTrianglesCountEachMeshOnce)
 
 TEST_F(Limits, OfFramesAndColorsCountWhatManyChangesAddUpTo)
 {
-  limits.frames = 2;
-  limits.colors = 2;
+  limits_.frames = 2;
+  limits_.colors = 2;
   ObjectChange framed = objectChange(Operation::Add, "a", {boxAt(0.1)});
   framed.subframes["tip"] = poseAt(0, 0, 1);
   change(framed);
@@ -78,7 +78,7 @@ TEST_F(Limits, OfFramesAndColorsCountWhatManyChangesAddUpTo)
 
 TEST_F(Limits, OfAMeshAreItsOwn)
 {
-  limits.triangles_of_mesh = 1;
+  limits_.triangles_of_mesh = 1;
   const Mesh two{"two", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
   change(objectChange(Operation::Add, "a", {triangleAt()}));
   refused("limits/triangles_of_mesh", objectChange(Operation::Add, "b", {{std::make_shared<const Mesh>(two)}}));
@@ -86,7 +86,7 @@ TEST_F(Limits, OfAMeshAreItsOwn)
 
 TEST_F(Limits, OfNamesAreBytes)
 {
-  limits.name_length = 3;
+  limits_.name_length = 3;
   change(objectChange(Operation::Add, "abc", {boxAt(0.1)}));
   refused("limits/name_length", objectChange(Operation::Add, "abcd", {boxAt(0.1)}));
   ObjectChange object = objectChange(Operation::Add, "abc", {boxAt(0.1)});
@@ -96,7 +96,7 @@ TEST_F(Limits, OfNamesAreBytes)
 
 TEST_F(Limits, OfTheMatrixAreItsEntries)
 {
-  limits.matrix_entries = 4;
+  limits_.matrix_entries = 4;
   SceneChange matrix;
   matrix.is_diff = true;
   matrix.matrix = AllowedCollisionMatrix();
@@ -108,7 +108,7 @@ TEST_F(Limits, OfTheMatrixAreItsEntries)
 
 TEST_F(Limits, OfZeroAreNone)
 {
-  limits = {0, 0, 0, 0, 0, 0, 0, 0};
+  limits_ = {0, 0, 0, 0, 0, 0, 0, 0};
   change(objectChange(Operation::Add, std::string(5000, 'a'), {boxAt(0.1), triangleAt()}));
 }
 }  // namespace

@@ -11,7 +11,7 @@ class SceneText : public testing::Test
  protected:
   PlanningScene load(const std::string& text)
   {
-    return loadSceneFile(folder.write("a.scene", text), sliderRobot(), {}, nullptr);
+    return loadSceneFile(folder_.write("a.scene", text), sliderRobot(), {}, nullptr);
   }
 
   void refused(const std::string& text, int line, const std::string& fragment)
@@ -22,7 +22,7 @@ class SceneText : public testing::Test
     EXPECT_EQ(std::string::npos, message.find('\n')) << message;
   }
 
-  TemporaryFolder folder;
+  TemporaryFolder folder_;
 };
 
 const char* const kNew = R"((noname)+
@@ -158,7 +158,7 @@ TEST_F(SceneText, FaultsAreSaidWithTheirLine)
   refused("a\n* b\n1\n" + sphere + "2\ntip\n0 0 0\n0 0 0 1\ntip\n0 0 0\n0 0 0 1\n.\n", 15,
           "subframe 'tip' is given twice");
   EXPECT_NE(std::string::npos,
-            errorOf([&] { loadSceneFile(folder.path("b.scene"), sliderRobot(), {}, nullptr); }).find("cannot read"));
+            errorOf([&] { loadSceneFile(folder_.path("b.scene"), sliderRobot(), {}, nullptr); }).find("cannot read"));
 }
 }  // namespace
 }  // namespace gpu_planning_scene

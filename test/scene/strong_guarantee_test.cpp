@@ -60,18 +60,18 @@ TEST_F(StrongGuarantee, OneWrongPartLeavesTheWholeSceneAsItWas)
       fault(change);
       refused("", change);
     }
-    const PlanningScene before = scene;
+    const PlanningScene before = scene_;
     apply(right(is_diff));
-    EXPECT_EQ("other", scene.name);
-    scene = before;
-    state = before.current_state;
+    EXPECT_EQ("other", scene_.name);
+    scene_ = before;
+    state_ = before.current_state;
   }
 }
 
 TEST_F(StrongGuarantee, ScenesThatShareMeshesWithTheNewOneStayAsTheyWere)
 {
   change(objectChange(Operation::Add, "mesh", {triangleAt()}));
-  const PlanningScene before = scene;
+  const PlanningScene before = scene_;
   ObjectChange move = objectChange(Operation::Move, "mesh");
   move.pose = poseAt(1, 0, 0);
   change(move);
