@@ -44,8 +44,8 @@ std::vector<Vector3d> directions()
 {
   std::vector<Vector3d> all;
   for (int i = 0; i < 27; ++i)
-    if (const Vector3d direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1); !direction.isZero())
-      all.push_back(direction.normalized());
+    if (const Eigen::Vector3i direction(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1); !direction.isZero())
+      all.push_back(direction.cast<double>().normalized());
   return all;
 }
 
