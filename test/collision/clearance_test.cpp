@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/collision_problem.h"
 #include "collision/clearance_search.h"
+#include "collision/collision_problem.h"
 #include "gpu_planning_scene/contacts.h"
 #include "oracle/problem_oracle.h"
 #include "support/obstacles.h"
