@@ -9,6 +9,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "geometries.glsl"
 #include "verdicts.glsl"
 #include "triangles.glsl"
+#include "margins.glsl"
 layout(location = 2) uniform uint half_space_count;
 layout(location = 3) uniform uint world_count;
 layout(location = 4) uniform uint half_space;
@@ -67,7 +68,7 @@ void main()
   const Instance instance = fetchInstance(robot);
   const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
   const vec4 plane = half_spaces[2u * half_space];
-  const float distance = instance.padding + half_spaces[2u * half_space + 1u].x;
+  const float distance = instance.padding + half_spaces[2u * half_space + 1u].x + worldMargin(state, robot);
   const float error = planeError(pose, farCorner(fetchNode(instance.root).box), plane.w);
   const vec3 normal = plane.xyz * pose.rotation;
   precise const float offset = plane.w - dot(plane.xyz, pose.translation);

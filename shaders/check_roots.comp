@@ -12,6 +12,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "counters.glsl"
 #include "verdicts.glsl"
 #include "containment.glsl"
+#include "margins.glsl"
 layout(location = 2) uniform uint candidate_capacity;
 layout(location = 3) uniform uint item_capacity;
 layout(location = 4) uniform uint solid_nodes;  // where the nodes of primitives lie, one an instance; 0: these have trees of triangles
@@ -52,7 +53,7 @@ void main()
   const Box box_b = fetchNode(root_b).box;
   const vec3 far_a = farCorner(box_a);
   const float error = positionError(pose_a, pose_b, pose, far_a, farCorner(box_b));
-  const float distance = world ? a.padding + b.padding : 0.0;
+  const float distance = world ? a.padding + b.padding + worldMargin(state, robot) : selfMargin(state, robot, other);
   const float gap = requiredGap(distance, (a_is_solid ? 0.0 : a.slack) + (b_is_solid ? 0.0 : b.slack));
   if (nodesApart(fetchOrientedNode(root_a), fetchOrientedNode(root_b), pose, boxMargin(gap, error)))
     return;

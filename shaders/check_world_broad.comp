@@ -31,7 +31,7 @@ void main()
   const PlacedInstance placed = place(robot, state);
   const vec3 center = placed.center;
   const vec3 extent =
-      absolute(placed.pose.rotation) * placed.box.extent + placed.instance.padding + placed.margin;
+      absolute(placed.pose.rotation) * placed.box.extent + placed.instance.padding + placed.way + placed.margin;
 
   const uint node_count = max(2u * world_count, 1u) - 1u;
   uint at = 0u;

@@ -54,6 +54,7 @@
 #define UNIT_STATES 13       // these two: see kinematics.glsl
 #define UNIT_LINK_SHAPES 14
 #define UNIT_ORIENTED_NODES 15
+#define UNIT_MARGINS 16      // see margins.glsl
 // Storage buffers.
 #define BINDING_COUNTERS 0
 #define BINDING_FLAGS 1       // one uint a state: STATE_* bits
@@ -81,6 +82,11 @@
 // 1 in the programs that may stop early, see tolerance.glsl.
 #ifndef TOLERANT
 #define TOLERANT 0
+#endif
+
+// 1 in the programs for batches with margins, see margins.glsl.
+#ifndef MARGINS
+#define MARGINS 0
 #endif
 
 // 1 in the programs that test triangles for a required distance.

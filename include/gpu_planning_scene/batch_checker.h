@@ -47,7 +47,8 @@ class BatchChecker : public StateChecker
   ~BatchChecker() override;
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
-  BatchResult check(const double* states, std::size_t count, const std::string& group = "") override;
+  BatchResult check(const double* states, std::size_t count, const std::string& group = "",
+                    const Surroundings* around = nullptr) override;
   SceneReport report(const std::string& group = "") override;
   std::string deviceName() const override;
   std::string deviceWarning() const override;

@@ -30,6 +30,21 @@ struct CheckerOptions
   Reductions reductions;
 };
 
+/// How far a joint moves.
+struct JointWay
+{
+  double length = 0.0;  ///< metres: of prismatic joints, and the straight way of planar and floating ones
+  double angle = 0.0;   ///< radians, likewise
+};
+
+/// What is to be free around the states of a batch: all states within the joints' limits in which no joint is further
+/// from where it is in the state than its way.
+struct Surroundings
+{
+  std::vector<JointWay> ways;       ///< rows of one per joint of the robot, at least 0; a mimic joint's is its own
+  std::vector<std::uint32_t> rows;  ///< one per state: which of those is its
+};
+
 struct BatchResult
 {
   std::vector<std::uint8_t> valid;                     ///< one per state: 1 free, 0 in collision
@@ -76,7 +91,12 @@ class StateChecker
   /// `states`: row-major, `count` rows of robot->variables().size() finite values. `group`: empty for all checked
   /// pairs, or a planning group: then only pairs with a link that the group moves. Throws Error for an unknown group or
   /// a value that is not finite.
-  virtual BatchResult check(const double* states, std::size_t count, const std::string& group = "") = 0;
+  /// With `around`, valid[i] is 1 only where all that is around state i is free too, by proof: each pair is further apart
+  /// than its required distance and the most that its bodies can move against each other on those ways. Where it is 0
+  /// the state itself may be free, and the pair reported may be merely near. The ways must be of joints that the group
+  /// moves. A state outside the joints' limits is 0. Throws Error for rows or ways that do not fit the states.
+  virtual BatchResult check(const double* states, std::size_t count, const std::string& group = "",
+                            const Surroundings* around = nullptr) = 0;
 
   virtual SceneReport report(const std::string& group = "") = 0;
 

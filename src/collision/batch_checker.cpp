@@ -50,8 +50,11 @@ struct BatchChecker::Impl
   }
 
   std::size_t width() const { return on_cpu.scene()->robot->variables().size(); }
-  void checkOnGpu(const double* states, std::size_t count, const std::string& group, BatchResult& result);
+  void checkOnGpu(const double* states, std::size_t count, const std::string& group, BatchResult& result,
+                  const Margins* margins = nullptr);
   void check(const double* states, std::size_t count, const std::string& group, BatchResult& result);
+  void checkAround(const double* states, std::size_t count, const std::string& group, const Margins& margins,
+                   BatchResult& result);
   std::size_t threshold(const std::string& group, const double* states, std::size_t count);
   std::size_t measure(const std::string& group, const double* states, std::size_t count);
 
@@ -66,7 +69,7 @@ struct BatchChecker::Impl
 
 /// States that the group's problem holds for.
 void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, const std::string& group,
-                                    BatchResult& result)
+                                    BatchResult& result, const Margins* margins)
 {
   if (selected_group != group)
   {
@@ -75,7 +78,7 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
     engine.selectPairs(problem);
     selected_group = group;
   }
-  engine.check(states, count, result);
+  engine.check(states, count, result, margins);
   work = engine.lastWork();
 }
 
@@ -112,6 +115,21 @@ void BatchChecker::Impl::check(const double* states, std::size_t count, const st
       result.colliding[part[i]] = answers.colliding[i];
     }
   }
+}
+
+/// States outside the joints' limits have no bounds and are not free, whatever is found of them.
+void BatchChecker::Impl::checkAround(const double* states, std::size_t count, const std::string& group,
+                                     const Margins& margins, BatchResult& result)
+{
+  if (count < threshold(group, states, count) || on_cpu.problem(group)->always_colliding)
+    return on_cpu.check(states, count, group, result, &margins);
+  checkOnGpu(states, count, group, result, &margins);
+  for (std::size_t i = 0; i < count; ++i)
+    if (margins.within[i] == 0)
+    {
+      result.valid[i] = 0;
+      result.colliding[i] = {-1, -1};
+    }
 }
 
 std::size_t BatchChecker::Impl::threshold(const std::string& group, const double* states, std::size_t count)
@@ -191,7 +209,8 @@ void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
     impl_->thresholds.clear();  // its groups may be called alike
 }
 
-BatchResult BatchChecker::check(const double* states, std::size_t count, const std::string& group)
+BatchResult BatchChecker::check(const double* states, std::size_t count, const std::string& group,
+                                const Surroundings* around)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   const PlanningScene& scene = *impl_->on_cpu.scene();
@@ -203,7 +222,10 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
   BatchResult result;
   result.revision = scene.revision;
   const Clock::time_point start = Clock::now();
-  impl_->check(states, count, group, result);
+  if (around)
+    impl_->checkAround(states, count, group, impl_->on_cpu.margins(*around, states, count, group), result);
+  else
+    impl_->check(states, count, group, result);
   result.seconds = secondsSince(start);
   return result;
 }

@@ -119,7 +119,7 @@ void BatchEngine::refuseHalfBuilt() const
     throw DeviceLost("the GPU failed while its scene was changed, so it has none");
 }
 
-void BatchEngine::check(const double* states, std::size_t count, BatchResult& result)
+void BatchEngine::check(const double* states, std::size_t count, BatchResult& result, const Margins* margins)
 {
   const RobotModel& robot = *robot_;
   const std::size_t width = robot.variables().size();
@@ -128,21 +128,25 @@ void BatchEngine::check(const double* states, std::size_t count, BatchResult& re
   bool on_gpu = kinematics_ != nullptr;
   for (std::size_t i = 0; on_gpu && i < count; ++i)
     on_gpu = kinematics_->canPlace(states + i * width);
-  if (!on_gpu)
-    return checkPoses(count, robot.links().size(), link_poses, result);
-  kinematics_->setStates(states);
-  check(*kinematics_, count, robot.links().size(), link_poses, result);
+  const std::size_t links = robot.links().size();
+  if (on_gpu)
+  {
+    kinematics_->setStates(states);
+    return check(*kinematics_, count, links, link_poses, margins, result);
+  }
+  UploadedPoses poses(*problem_, links, link_poses);
+  check(poses, count, links, link_poses, margins, result);
 }
 
 void BatchEngine::checkPoses(std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
                              BatchResult& result)
 {
   UploadedPoses poses(*problem_, link_count, link_poses);
-  check(poses, count, link_count, link_poses, result);
+  check(poses, count, link_count, link_poses, nullptr, result);
 }
 
 void BatchEngine::check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
-                        BatchResult& result)
+                        const Margins* margins, BatchResult& result)
 {
   const std::vector<Geometry>& robot = problem_->robot;
   result.valid.assign(count, 1);
@@ -151,7 +155,7 @@ void BatchEngine::check(PoseSource& source, std::size_t count, std::size_t link_
   Verdicts verdicts;
   try
   {
-    gl_.run([&] { pairs_->check(source, count, verdicts); });
+    gl_.run([&] { pairs_->check(source, count, verdicts, margins); });
   }
   catch (const OutOfDeviceMemory& error)  // OpenGL leaves everything undefined then, and states are not at fault
   {
@@ -175,12 +179,12 @@ void BatchEngine::check(PoseSource& source, std::size_t count, std::size_t link_
   result.undecided_states = undecided.size();
   const auto start = std::chrono::steady_clock::now();
   if (!undecided.empty())
-    settleOnCpu(undecided, link_count, link_poses, result);
+    settleOnCpu(undecided, link_count, link_poses, margins, result);
   result.undecided_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 void BatchEngine::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,
-                              BatchResult& result)
+                              const Margins* margins, BatchResult& result)
 {
   if (!on_cpu_)
     on_cpu_ = trees_->traversalOf(problem_);
@@ -191,7 +195,8 @@ void BatchEngine::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t 
               for (std::size_t i = from; i < to; ++i)
               {
                 link_poses(rows[i], links.data());
-                if (const auto pair = on_cpu_->firstCollision(links.data(), scratch))
+                const double* const row = margins ? margins->of(rows[i]) : nullptr;
+                if (const auto pair = on_cpu_->firstCollision(links.data(), scratch, row))
                 {
                   result.valid[rows[i]] = 0;
                   result.colliding[rows[i]] = *pair;

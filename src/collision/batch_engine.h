@@ -9,6 +9,7 @@
 
 #include "collision/collision_problem.h"
 #include "collision/cpu_traversal.h"
+#include "collision/displacement.h"
 #include "collision/forest_cache.h"
 #include "collision/gpu_kinematics.h"
 #include "collision/gpu_pair_checker.h"
@@ -36,8 +37,9 @@ class BatchEngine
   /// Restricts the checked pairs to those of `problem`, which has the same trees and instances.
   void selectPairs(std::shared_ptr<const CollisionProblem> problem);
 
-  /// Checks `count` rows of the robot's variables: fills the result but for revision and seconds.
-  void check(const double* states, std::size_t count, BatchResult& result);
+  /// Checks `count` rows of the robot's variables: fills the result but for revision and seconds. `margins`: for these
+  /// rows and the selected pairs; null: none.
+  void check(const double* states, std::size_t count, BatchResult& result, const Margins* margins = nullptr);
 
   /// The same for poses that the caller finds.
   void checkPoses(std::size_t count, std::size_t link_count, const UploadedPoses::LinkPoses& link_poses,
@@ -57,9 +59,9 @@ class BatchEngine
   void refuseHalfBuilt() const;
   void apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot);
   void check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
-             BatchResult& result);
+             const Margins* margins, BatchResult& result);
   void settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,
-                   BatchResult& result);
+                   const Margins* margins, BatchResult& result);
 
   std::string shader_folder_;
   GlThread gl_;

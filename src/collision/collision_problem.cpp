@@ -197,9 +197,9 @@ bool sameShape(const Shape& a, const Shape& b)
   return ShapeKey(a) == ShapeKey(b);
 }
 
-bool holdsFor(const CollisionProblem& problem, const double* state)
+bool withinRanges(const std::vector<VariableRange>& ranges, const double* state)
 {
-  return std::all_of(problem.ranges.begin(), problem.ranges.end(),
+  return std::all_of(ranges.begin(), ranges.end(),
                      [state](const VariableRange& range)
                      { return state[range.variable] >= range.lower && state[range.variable] <= range.upper; });
 }

@@ -74,8 +74,13 @@ HalfSpace moved(const HalfSpace& half_space, const Eigen::Isometry3d& pose);
 /// Whether two shapes can share a tree: the same mesh, or primitives of the same kind and dimensions.
 bool sameShape(const Shape& a, const Shape& b);
 
+bool withinRanges(const std::vector<VariableRange>& ranges, const double* state);
+
 /// Whether the problem has all that can collide in a state, see CollisionProblem::ranges.
-bool holdsFor(const CollisionProblem& problem, const double* state);
+inline bool holdsFor(const CollisionProblem& problem, const double* state)
+{
+  return withinRanges(problem.ranges, state);
+}
 
 /// Throws Error unless it is finite and at least 0.
 void refuseTolerance(double tolerance);

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <mutex>
+#include <optional>
 
 #include "cpu_scene.h"
 #include "state_rows.h"
@@ -31,7 +32,8 @@ void CpuChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   impl_->on_cpu.prepare("");
 }
 
-BatchResult CpuChecker::check(const double* states, std::size_t count, const std::string& group)
+BatchResult CpuChecker::check(const double* states, std::size_t count, const std::string& group,
+                              const Surroundings* around)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   refuseNonFinite(*impl_->on_cpu.scene()->robot, states, count);
@@ -39,7 +41,10 @@ BatchResult CpuChecker::check(const double* states, std::size_t count, const std
   BatchResult result;
   result.revision = impl_->on_cpu.scene()->revision;
   const auto start = std::chrono::steady_clock::now();
-  impl_->on_cpu.check(states, count, group, result);
+  std::optional<Margins> margins;
+  if (around)
+    margins = impl_->on_cpu.margins(*around, states, count, group);
+  impl_->on_cpu.check(states, count, group, result, margins ? &*margins : nullptr);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -20,8 +20,8 @@ void CpuScene::setScene(std::shared_ptr<const PlanningScene> scene)
   whole.problem = std::make_shared<const CollisionProblem>(maker_.make(*scene, "", &whole.report));
   scene_ = std::move(scene);
   groups_.clear();
+  whole.scratch.poses.resize(scene_->robot->links().size());
   groups_.emplace("", std::move(whole));
-  poses_.resize(scene_->robot->links().size());
 }
 
 CpuScene::Group& CpuScene::groupOf(const std::string& group)
@@ -31,33 +31,37 @@ CpuScene::Group& CpuScene::groupOf(const std::string& group)
     return known->second;
   Group made;
   made.problem = std::make_shared<const CollisionProblem>(maker_.make(*scene_, group, &made.report));
+  made.scratch.poses.resize(scene_->robot->links().size());
   return groups_.emplace(group, std::move(made)).first->second;
 }
 
 void CpuScene::prepare(Group& group)
 {
-  if (!group.within.on_cpu)
-    group.within.on_cpu = forest_->traversalOf(group.problem);
+  if (!group.within)
+    group.within = forest_->traversalOf(group.problem);
 }
 
 void CpuScene::prepareOutside(const std::string& name, Group& group)
 {
-  if (group.outside.on_cpu)
-    return;
   CheckerOptions options = options_;
   options.reductions.reach = false;
   const auto problem = std::make_shared<const CollisionProblem>(ProblemMaker(options).make(*scene_, name, nullptr));
-  group.outside.on_cpu = forest_outside_.traversalOf(problem);
+  group.outside = forest_outside_.traversalOf(problem);
 }
 
-void CpuScene::checkRow(const double* state, std::size_t row, const Group& group, CpuTraversal::Scratch& within,
-                        CpuTraversal::Scratch& outside, std::vector<Eigen::Isometry3d>& poses,
-                        BatchResult& result) const
+void CpuScene::checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins,
+                        Scratch& scratch, BatchResult& result) const
 {
-  const bool holds = holdsFor(*group.problem, state);
-  scene_->robot->linkPoses(state, poses.data());
-  const auto pair = holds ? group.within.on_cpu->firstCollision(poses.data(), within)
-                          : group.outside.on_cpu->firstCollision(poses.data(), outside);
+  if (margins && margins->within[row] == 0)
+  {
+    result.valid[row] = 0;
+    return;
+  }
+  scene_->robot->linkPoses(state, scratch.poses.data());
+  const Eigen::Isometry3d* const poses = scratch.poses.data();
+  const auto pair = margins ? group.within->firstCollision(poses, scratch.near, margins->of(row))
+                    : holdsFor(*group.problem, state) ? group.within->firstCollision(poses, scratch.within)
+                                                      : group.outside->firstCollision(poses, scratch.outside);
   if (pair)
   {
     result.valid[row] = 0;
@@ -65,7 +69,16 @@ void CpuScene::checkRow(const double* state, std::size_t row, const Group& group
   }
 }
 
-void CpuScene::check(const double* states, std::size_t count, const std::string& name, BatchResult& result)
+Margins CpuScene::margins(const Surroundings& around, const double* states, std::size_t count, const std::string& name)
+{
+  Group& group = groupOf(name);
+  if (!group.displacements)
+    group.displacements = std::make_unique<const Displacements>(*scene_->robot, *group.problem);
+  return group.displacements->margins(around, states, count);
+}
+
+void CpuScene::check(const double* states, std::size_t count, const std::string& name, BatchResult& result,
+                     const Margins* margins)
 {
   Group& group = groupOf(name);
   if (group.problem->always_colliding)
@@ -78,25 +91,21 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
   result.colliding.assign(count, {-1, -1});
   prepare(group);
   const std::size_t width = scene_->robot->variables().size();
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)
     if (!holdsFor(*group.problem, states + i * width))
-    {
       prepareOutside(name, group);
-      break;
-    }
   // A few states are sooner checked than threads started; and what is learned from them is kept.
   if (count <= kStatesPerChunk)
   {
     for (std::size_t i = 0; i < count; ++i)
-      checkRow(states + i * width, i, group, group.within.scratch, group.outside.scratch, poses_, result);
+      checkRow(states + i * width, i, group, margins, group.scratch, result);
     return;
   }
   forChunks(count, kStatesPerChunk,
-            [&, within = group.within.scratch, outside = group.outside.scratch, poses = poses_](std::size_t begin,
-                                                                                                std::size_t end) mutable
+            [&, scratch = group.scratch](std::size_t begin, std::size_t end) mutable
             {
               for (std::size_t i = begin; i < end; ++i)
-                checkRow(states + i * width, i, group, within, outside, poses, result);
+                checkRow(states + i * width, i, group, margins, scratch, result);
             });
 }
 }  // namespace gpu_planning_scene

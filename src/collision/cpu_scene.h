@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collision/cpu_traversal.h"
+#include "collision/displacement.h"
 #include "collision/forest_cache.h"
 #include "collision/problem_maker.h"
 
@@ -33,30 +34,38 @@ class CpuScene
   /// Makes ready what the first call of `check` would.
   void prepare(const std::string& group) { prepare(groupOf(group)); }
 
+  /// The margins of the group's pairs for `count` rows of the robot's variables. Throws Error as Displacements does.
+  Margins margins(const Surroundings& around, const double* states, std::size_t count, const std::string& group);
+
   /// Checks rows of the robot's variables on all cores: any rows, also those that `problem` does not hold for. Fills
-  /// `valid` and `colliding`.
-  void check(const double* states, std::size_t count, const std::string& group, BatchResult& result);
+  /// `valid` and `colliding`. `margins`: of the group, for these states; null: none.
+  void check(const double* states, std::size_t count, const std::string& group, BatchResult& result,
+             const Margins* margins = nullptr);
 
  private:
-  /// With what was learned of the order of its pairs.
-  struct Traversal
+  /// Of one thread, with what was learned of the order of pairs.
+  struct Scratch
   {
-    std::unique_ptr<const CpuTraversal> on_cpu;
-    CpuTraversal::Scratch scratch;
+    CpuTraversal::Scratch within;   // of states that the problem holds for
+    CpuTraversal::Scratch outside;  // of the others
+    CpuTraversal::Scratch near;     // of states with margins
+    std::vector<Eigen::Isometry3d> poses;
   };
   struct Group
   {
     SceneReport report;
     std::shared_ptr<const CollisionProblem> problem;
-    Traversal within;   // of that problem
-    Traversal outside;  // of states that it does not hold for
+    std::unique_ptr<const CpuTraversal> within;   // of that problem
+    std::unique_ptr<const CpuTraversal> outside;  // of states that it does not hold for
+    std::unique_ptr<const Displacements> displacements;
+    Scratch scratch;
   };
 
   Group& groupOf(const std::string& group);
   void prepare(Group& group);
   void prepareOutside(const std::string& name, Group& group);
-  void checkRow(const double* state, std::size_t row, const Group& group, CpuTraversal::Scratch& within,
-                CpuTraversal::Scratch& outside, std::vector<Eigen::Isometry3d>& poses, BatchResult& result) const;
+  void checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins, Scratch& scratch,
+                BatchResult& result) const;
 
   CheckerOptions options_;
   ProblemMaker maker_;
@@ -64,6 +73,5 @@ class CpuScene
   std::map<std::string, Group> groups_;
   std::shared_ptr<ForestCache> forest_ = std::make_shared<ForestCache>();
   ForestCache forest_outside_;
-  std::vector<Eigen::Isometry3d> poses_;
 };
 }  // namespace gpu_planning_scene

@@ -124,18 +124,19 @@ void CpuTraversal::place(std::uint32_t instance, const Isometry3d* link_poses, S
 }
 
 template <class Visit>
-bool CpuTraversal::checkWorld(std::uint32_t instance, Scratch& scratch, const Visit& visit) const
+bool CpuTraversal::checkWorld(std::uint32_t instance, double margin, Scratch& scratch, const Visit& visit) const
 {
   const Geometry& robot = problem_->robot[instance];
   const auto& half_spaces = problem_->half_spaces;
   const auto robots = static_cast<std::uint32_t>(problem_->robot.size());
   const auto objects = static_cast<std::uint32_t>(problem_->world.size());
-  findNearObjects(grown(scratch.bounds[instance], robot.padding), scratch);
+  const double padding = robot.padding + margin;
+  findNearObjects(grown(scratch.bounds[instance], padding), scratch);
   for (const std::uint32_t object : scratch.near_objects)
   {
     const Geometry& other = problem_->world[object];
     if (problem_->world_pairs[instance * problem_->world.size() + object] != 0 &&
-        pair_.collide(robot.tree, scratch.poses[instance], other.tree, other.pose, robot.padding + other.padding,
+        pair_.collide(robot.tree, scratch.poses[instance], other.tree, other.pose, padding + other.padding,
                       scratch.pair) &&
         visit({instance, robots + object}))
     {
@@ -146,7 +147,7 @@ bool CpuTraversal::checkWorld(std::uint32_t instance, Scratch& scratch, const Vi
   {
     const WorldHalfSpace& other = half_spaces[k];
     if (problem_->half_space_pairs[instance * half_spaces.size() + k] != 0 &&
-        pair_.collide(robot.tree, scratch.poses[instance], {other.normal, other.offset}, robot.padding + other.padding,
+        pair_.collide(robot.tree, scratch.poses[instance], {other.normal, other.offset}, padding + other.padding,
                       scratch.pair) &&
         visit({instance, robots + objects + k}))
     {
@@ -157,19 +158,20 @@ bool CpuTraversal::checkWorld(std::uint32_t instance, Scratch& scratch, const Vi
 }
 
 template <class Visit>
-bool CpuTraversal::check(std::uint32_t number, const Isometry3d* link_poses, Scratch& scratch, const Visit& visit) const
+bool CpuTraversal::check(std::uint32_t number, const Isometry3d* link_poses, double margin, Scratch& scratch,
+                         const Visit& visit) const
 {
   const auto& robot = problem_->robot;
   if (number < robot.size())
   {
     place(number, link_poses, scratch);
-    return checkWorld(number, scratch, visit);
+    return checkWorld(number, margin, scratch, visit);
   }
   const auto [first, second] = problem_->self_pairs[number - robot.size()];
   place(first, link_poses, scratch);
   place(second, link_poses, scratch);
-  return scratch.bounds[first].intersects(scratch.bounds[second]) &&
-         pair_.collide(robot[first].tree, scratch.poses[first], robot[second].tree, scratch.poses[second], 0.0,
+  return grown(scratch.bounds[first], margin).intersects(scratch.bounds[second]) &&
+         pair_.collide(robot[first].tree, scratch.poses[first], robot[second].tree, scratch.poses[second], margin,
                        scratch.pair) &&
          visit({first, second});
 }
@@ -192,7 +194,8 @@ void CpuTraversal::learnOrder(Scratch& scratch)
             });
 }
 
-std::optional<CpuTraversal::BodyPair> CpuTraversal::firstCollision(const Isometry3d* link_poses, Scratch& scratch) const
+std::optional<CpuTraversal::BodyPair> CpuTraversal::firstCollision(const Isometry3d* link_poses, Scratch& scratch,
+                                                                   const double* margins) const
 {
   std::optional<BodyPair> found = problem_->always_colliding;
   if (found)
@@ -209,7 +212,7 @@ std::optional<CpuTraversal::BodyPair> CpuTraversal::firstCollision(const Isometr
       return true;
     };
     const std::uint64_t before = scratch.pair.steps;
-    const bool hit = check(number, link_poses, scratch, visit);
+    const bool hit = check(number, link_poses, margins ? margins[number] : 0.0, scratch, visit);
     scratch.cost[number] += static_cast<double>(scratch.pair.steps - before) + 1.0;
     scratch.hits[number] += hit ? 1.0 : 0.0;
     if (hit)
@@ -236,7 +239,7 @@ std::vector<CpuTraversal::BodyPair> CpuTraversal::allCollisions(const Isometry3d
       found.push_back(bodiesOf(pair));
       return false;
     };
-    check(number, link_poses, scratch, visit);
+    check(number, link_poses, 0.0, scratch, visit);
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -255,7 +258,7 @@ std::vector<CpuTraversal::InstancePair> CpuTraversal::collidingInstances(const I
       found.push_back(pair);
       return false;
     };
-    check(number, link_poses, scratch, visit);
+    check(number, link_poses, 0.0, scratch, visit);
   }
   std::sort(found.begin(), found.end());
   return found;

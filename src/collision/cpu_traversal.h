@@ -51,8 +51,10 @@ class CpuTraversal
                std::shared_ptr<const ObjectTree> objects = nullptr);
 
   /// The bodies of a colliding pair, if there is one. `link_poses`: of every link, in the planning frame. Thread-safe
-  /// as long as each thread has its own scratch.
-  std::optional<BodyPair> firstCollision(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
+  /// as long as each thread has its own scratch. `margins`: by how much more than its required distance each robot
+  /// instance has to be away from the world, then each self pair from one another (see Displacements); null: by none.
+  std::optional<BodyPair> firstCollision(const Eigen::Isometry3d* link_poses, Scratch& scratch,
+                                         const double* margins = nullptr) const;
 
   /// All colliding pairs of bodies, each once.
   std::vector<BodyPair> allCollisions(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
@@ -65,9 +67,10 @@ class CpuTraversal
   /// A check is one of a robot instance against the world, by its index, or, counted on from there, one of a self pair.
   /// Calls visit(instance pair) for what collides until it returns true, and returns whether it did.
   template <class Visit>
-  bool check(std::uint32_t number, const Eigen::Isometry3d* link_poses, Scratch& scratch, const Visit& visit) const;
+  bool check(std::uint32_t number, const Eigen::Isometry3d* link_poses, double margin, Scratch& scratch,
+             const Visit& visit) const;
   template <class Visit>
-  bool checkWorld(std::uint32_t instance, Scratch& scratch, const Visit& visit) const;
+  bool checkWorld(std::uint32_t instance, double margin, Scratch& scratch, const Visit& visit) const;
   BodyPair bodiesOf(const InstancePair& pair) const;
   void startState(Scratch& scratch) const;
   static void learnOrder(Scratch& scratch);

@@ -49,6 +49,15 @@ ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
 }
 }  // namespace
 
+GpuPairChecker::Programs::Programs(const std::string& folder, const std::string& definitions)
+  : spheres(folder, "check_spheres.comp", definitions),
+    world(folder, "check_world_broad.comp", definitions),
+    self(folder, "check_self_broad.comp", definitions),
+    roots(folder, "check_roots.comp", definitions),
+    half_spaces(folder, "check_half_spaces.comp", definitions)
+{
+}
+
 GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, std::size_t max_states,
                                const ListCapacities& capacities)
   : float_fault_(findFloatFault(folder)),
@@ -60,11 +69,8 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
     lists_(withDefaults(capacities, max_states_)),
     traversal_(makeTraversal(traversal, folder, definitions_, lists_.capacity)),
     arguments_(folder),
-    spheres_program_(folder, "check_spheres.comp"),
-    world_program_(folder, "check_world_broad.comp"),
-    self_program_(folder, "check_self_broad.comp"),
-    roots_program_(folder, "check_roots.comp", definitions_),
-    half_spaces_program_(folder, "check_half_spaces.comp", definitions_),
+    folder_(folder),
+    plain_(folder, definitions_),
     inside_program_(folder, "check_inside.comp", definitions_),
     done_program_(folder, "check_done.comp")
 {
@@ -79,6 +85,7 @@ void GpuPairChecker::setProblem(const CollisionProblem& problem)
 {
   scene_.setProblem(problem);
   order_.setPairs(problem);
+  margins_.setPairs(problem);
   prepare();
 }
 
@@ -86,6 +93,7 @@ void GpuPairChecker::selectPairs(const CollisionProblem& problem)
 {
   scene_.selectPairs(problem);
   order_.setPairs(problem);
+  margins_.setPairs(problem);
   prepare();
 }
 
@@ -97,18 +105,27 @@ void GpuPairChecker::prepare()
   part_limit_ = std::max<std::size_t>(1, std::min(max_states_, room));
   part_size_ = std::min(part_size_, part_limit_);
   writeSearches();
-  traversal_->prepare(task(false));
+  traversal_->prepare(task(false, scene_.isPadded()));
   if (scene_.solidNodes() != 0)
-    traversal_->prepare(task(true));
+    traversal_->prepare(task(true, scene_.isPadded()));
 }
 
-void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts)
+void GpuPairChecker::usePrograms(const Margins* margins)
+{
+  if (margins && !with_margins_)
+    with_margins_.emplace(folder_, definitions_ + "#define MARGINS 1\n");
+  programs_ = margins ? &*with_margins_ : &plain_;
+}
+
+void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins)
 {
   verdicts.flags.assign(count, 0);
   verdicts.hits.assign(count, 0);
   work_ = {};
   if (scene_.robotCount() == 0)
     return;
+  const Batch batch{source, margins};
+  usePrograms(margins);
   using Clock = std::chrono::steady_clock;
   Clock::time_point last = Clock::now();
   Part* running = nullptr;
@@ -122,12 +139,12 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
       next->begin = begin;
       next->count = std::min(part_size_, count - begin);
       begin += next->count;
-      start(source, *next);
+      start(batch, *next);
     }
     if (running)
     {
       const std::size_t states = running->count;
-      finish(source, *running, verdicts);
+      finish(batch, *running, verdicts);
       const Clock::time_point now = Clock::now();
       adaptPartSize(states, std::chrono::duration<double>(now - last).count());
       last = now;
@@ -171,7 +188,7 @@ void GpuPairChecker::adaptPartSize(std::size_t count, double seconds)
     part_size_ = std::min(part_limit_, 2 * part_size_);
 }
 
-void GpuPairChecker::finish(PoseSource& source, Part& part, Verdicts& verdicts)
+void GpuPairChecker::finish(const Batch& batch, Part& part, Verdicts& verdicts)
 {
   if (fetch(part, verdicts))
     return;
@@ -189,8 +206,8 @@ void GpuPairChecker::finish(PoseSource& source, Part& part, Verdicts& verdicts)
   {
     part.begin = first;
     part.count = states;
-    start(source, part);
-    finish(source, part, verdicts);
+    start(batch, part);
+    finish(batch, part, verdicts);
   }
 }
 
@@ -211,14 +228,20 @@ bool GpuPairChecker::fetch(Part& part, Verdicts& verdicts)
 }
 
 /// All of a part's work, without waiting for any of it.
-void GpuPairChecker::start(PoseSource& source, Part& part)
+void GpuPairChecker::start(const Batch& batch, Part& part)
 {
   const AnswerOffsets offsets(part.count);
   part.answers.reserve(offsets.end);
   part.answers.clear(offsets.flags, offsets.words);
   lists_.counters.clear();
   poses_.reserve(part.count * scene_.robotCount() * 12 * sizeof(float));
-  source.write(part.begin, part.count, poses_);
+  batch.poses.write(part.begin, part.count, poses_);
+  if (batch.margins)
+  {
+    margins_.write(*batch.margins, part.begin, part.count);
+    for (const Program* program : {&programs_->spheres, &programs_->world, &programs_->roots, &programs_->half_spaces})
+      program->set(6, static_cast<std::uint32_t>(batch.margins->width));
+  }
 
   scene_.bind();
   poses_.bindTexture(UNIT_ROBOT_POSES);
@@ -232,7 +255,7 @@ void GpuPairChecker::start(PoseSource& source, Part& part)
   testHalfSpaces(states);
   findCandidates(states);
   testRoots();
-  traverse();
+  traverse(scene_.isPadded() || batch.margins);
   testContainment();
   part.serial = ++serial_;
   done_program_.set(0, part.serial);
@@ -246,24 +269,24 @@ void GpuPairChecker::testHalfSpaces(std::uint32_t states)
 {
   if (scene_.halfSpaceCount() == 0)
     return;
-  half_spaces_program_.set(0, states);
-  half_spaces_program_.set(1, scene_.robotCount());
-  half_spaces_program_.set(2, scene_.halfSpaceCount());
-  half_spaces_program_.set(3, scene_.worldCount());
+  programs_->half_spaces.set(0, states);
+  programs_->half_spaces.set(1, scene_.robotCount());
+  programs_->half_spaces.set(2, scene_.halfSpaceCount());
+  programs_->half_spaces.set(3, scene_.worldCount());
   scene_.halfSpaces().bindStorage(BINDING_C);
   scene_.halfSpacePairs().bindStorage(BINDING_D);
   // One at a time: what one lane may do is limited.
   for (std::uint32_t half_space = 0; half_space < scene_.halfSpaceCount(); ++half_space)
   {
-    half_spaces_program_.set(4, half_space);
-    half_spaces_program_.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
+    programs_->half_spaces.set(4, half_space);
+    programs_->half_spaces.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
   }
 }
 
 /// Searches that found most before come first, whether in the world or among links.
 void GpuPairChecker::findCandidates(std::uint32_t states)
 {
-  for (const Program* program : {&spheres_program_, &world_program_, &self_program_, &roots_program_})
+  for (const Program* program : {&programs_->spheres, &programs_->world, &programs_->self, &programs_->roots})
   {
     program->set(0, states);
     program->set(1, scene_.robotCount());
@@ -272,11 +295,11 @@ void GpuPairChecker::findCandidates(std::uint32_t states)
   if (!searches_.self.empty())
   {
     spheres_.buffer().bindStorage(BINDING_A);
-    spheres_program_.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
+    programs_->spheres.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
   }
   spheres_.bindTexture(UNIT_SPHERES);
   lists_.candidates.buffer().bindStorage(BINDING_B);
-  world_program_.set(5, scene_.worldCount());
+  programs_->world.set(5, scene_.worldCount());
   const auto search = [&](const Program& program, const TexelBuffer& list, std::size_t begin, std::size_t end)
   {
     if (begin == end)
@@ -287,36 +310,36 @@ void GpuPairChecker::findCandidates(std::uint32_t states)
     program.set(4, static_cast<std::uint32_t>(end - begin));
     program.dispatch(groupsFor(states * (end - begin)));
   };
-  search(self_program_, self_searches_, 0, searches_.hot_self);
-  search(world_program_, world_searches_, 0, searches_.hot_world);
-  search(self_program_, self_searches_, searches_.hot_self, searches_.self.size());
-  search(world_program_, world_searches_, searches_.hot_world, searches_.world.size());
+  search(programs_->self, self_searches_, 0, searches_.hot_self);
+  search(programs_->world, world_searches_, 0, searches_.hot_world);
+  search(programs_->self, self_searches_, searches_.hot_self, searches_.self.size());
+  search(programs_->world, world_searches_, searches_.hot_world, searches_.world.size());
 }
 
 void GpuPairChecker::testRoots()
 {
   arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, COUNTER_SCRATCH);
-  roots_program_.set(2, lists_.capacity.candidates);
-  roots_program_.set(3, lists_.capacity.items);
-  roots_program_.set(4, scene_.solidNodes());
+  programs_->roots.set(2, lists_.capacity.candidates);
+  programs_->roots.set(3, lists_.capacity.items);
+  programs_->roots.set(4, scene_.solidNodes());
   scene_.components().bindStorage(BINDING_C);
   lists_.items.buffer().bindStorage(BINDING_A);
   lists_.mesh_entries.buffer().bindStorage(BINDING_B);
   lists_.solid_entries.buffer().bindStorage(BINDING_D);
-  roots_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
+  programs_->roots.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
 }
 
-TraversalTask GpuPairChecker::task(bool solids) const
+TraversalTask GpuPairChecker::task(bool solids, bool padded) const
 {
-  return {solids, scene_.isPadded(), scene_.tolerance(), scene_.depthBound()};
+  return {solids, padded, scene_.tolerance(), scene_.depthBound()};
 }
 
 /// Solids first: what is found there costs less.
-void GpuPairChecker::traverse()
+void GpuPairChecker::traverse(bool padded)
 {
   if (scene_.solidNodes() != 0)
-    traversal_->start(lists_, task(true));
-  traversal_->start(lists_, task(false));
+    traversal_->start(lists_, task(true, padded));
+  traversal_->start(lists_, task(false, padded));
 }
 
 /// Of meshes in meshes and of primitives in meshes; what primitives contain, testRoots has seen.

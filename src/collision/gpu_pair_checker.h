@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "collision/gpu_margins.h"
 #include "collision/gpu_scene.h"
 #include "collision/gpu_traversal.h"
 #include "collision/pose_source.h"
@@ -43,8 +45,9 @@ class GpuPairChecker
 
   /// The poses come relative to the frame of the world's poses. Batches go to the device part by part, the next one
   /// before the answers of the one before are fetched; a part takes about kPartSeconds at most. A part whose lists
-  /// overflow is split; a single state that still overflows is undecided.
-  void check(PoseSource& source, std::size_t count, Verdicts& verdicts);
+  /// overflow is split; a single state that still overflows is undecided. `margins`: for these states and pairs; null:
+  /// none.
+  void check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins = nullptr);
 
   /// Of the last check; parts whose lists overflowed count once they were split.
   const GpuWork& lastWork() const { return work_; }
@@ -53,6 +56,20 @@ class GpuPairChecker
   static std::pair<std::uint32_t, std::uint32_t> pairOf(std::uint32_t hit);
 
  private:
+  /// What is done before pairs are traversed: for batches without margins, and for those with.
+  struct Programs
+  {
+    Programs(const std::string& folder, const std::string& definitions);
+    Program spheres, world, self, roots, half_spaces;
+  };
+
+  /// A batch: where its poses come from, and its margins, or null.
+  struct Batch
+  {
+    PoseSource& poses;
+    const Margins* margins;
+  };
+
   /// States of a batch that are on their way through the device, and where their answers come to lie.
   struct Part
   {
@@ -63,18 +80,19 @@ class GpuPairChecker
     Readback fetched;  // likewise
   };
 
-  void start(PoseSource& source, Part& part);
-  void finish(PoseSource& source, Part& part, Verdicts& verdicts);
+  void start(const Batch& batch, Part& part);
+  void finish(const Batch& batch, Part& part, Verdicts& verdicts);
   bool fetch(Part& part, Verdicts& verdicts);
   void adaptPartSize(std::size_t count, double seconds);
+  void usePrograms(const Margins* margins);
   void testHalfSpaces(std::uint32_t states);
   void findCandidates(std::uint32_t states);
   void writeSearches();
   void learnOrder(const Verdicts& verdicts);
   void testRoots();
-  TraversalTask task(bool solids) const;
+  TraversalTask task(bool solids, bool padded) const;
   void prepare();
-  void traverse();
+  void traverse(bool padded);
   void testContainment();
 
   std::string float_fault_;
@@ -89,8 +107,12 @@ class GpuPairChecker
   BatchLists lists_;
   std::unique_ptr<GpuTraversal> traversal_;
   ArgumentsKernel arguments_;
-  Program spheres_program_, world_program_, self_program_, roots_program_, half_spaces_program_, inside_program_;
-  Program done_program_;
+  std::string folder_;
+  Programs plain_;
+  std::optional<Programs> with_margins_;  // when they are first needed
+  const Programs* programs_ = &plain_;    // of the batch
+  Program inside_program_, done_program_;
+  GpuMargins margins_;
   TexelBuffer poses_, spheres_, world_searches_, self_searches_;
   SearchOrder order_;
   Searches searches_;

@@ -275,6 +275,18 @@ Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result
   return question(*cpu);
 }
 
+namespace
+{
+/// For some of the states. Throws Error where there are not so many.
+std::shared_ptr<const Surroundings> slice(const Surroundings& all, std::size_t from, std::size_t count)
+{
+  const std::size_t end = std::min(all.rows.size(), from + count);
+  const auto rows = all.rows.begin();
+  return std::make_shared<const Surroundings>(Surroundings{
+      all.ways, {rows + static_cast<std::ptrdiff_t>(std::min(from, end)), rows + static_cast<std::ptrdiff_t>(end)}});
+}
+}  // namespace
+
 ResilientChecker::ResilientChecker(std::shared_ptr<const PlanningScene> scene, Make device, Make cpu,
                                    const ResilientOptions& options, Opening opening)
   : impl_(std::make_unique<Impl>(std::move(device), std::move(cpu), options))
@@ -301,7 +313,8 @@ void ResilientChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   impl_->scene = std::move(scene);
 }
 
-BatchResult ResilientChecker::check(const double* states, std::size_t count, const std::string& group)
+BatchResult ResilientChecker::check(const double* states, std::size_t count, const std::string& group,
+                                    const Surroundings* around)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   refuseNonFinite(*impl_->scene->robot, states, count);  // here, where a state's number is known
@@ -314,8 +327,9 @@ BatchResult ResilientChecker::check(const double* states, std::size_t count, con
     const std::size_t rows = std::min(count - from, kStatesPerCall);
     const auto part =
         std::make_shared<const std::vector<double>>(states + from * width, states + (from + rows) * width);
-    append(impl_->ask<BatchResult>(impl_->scene, [part, rows, group](StateChecker& checker)
-                                   { return checker.check(part->data(), rows, group); }),
+    const std::shared_ptr<const Surroundings> part_around = around ? slice(*around, from, rows) : nullptr;
+    append(impl_->ask<BatchResult>(impl_->scene, [part, rows, group, part_around](StateChecker& checker)
+                                   { return checker.check(part->data(), rows, group, part_around.get()); }),
            result);
     on_cpu = on_cpu || impl_->asked_cpu;
     from += rows;

@@ -55,7 +55,8 @@ class ResilientChecker : public StateChecker
   ~ResilientChecker() override;
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
-  BatchResult check(const double* states, std::size_t count, const std::string& group = "") override;
+  BatchResult check(const double* states, std::size_t count, const std::string& group = "",
+                    const Surroundings* around = nullptr) override;
   SceneReport report(const std::string& group = "") override;
   /// Of who answers at present. These three do not wait for a check that runs.
   std::string deviceName() const override;

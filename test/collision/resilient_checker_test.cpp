@@ -76,7 +76,8 @@ class FakeChecker : public StateChecker
     take(std::move(scene));
   }
 
-  BatchResult check(const double* states, std::size_t count, const std::string& group) override
+  BatchResult check(const double* states, std::size_t count, const std::string& group,
+                    const Surroundings* around) override
   {
     if (!scene_)
       throw std::logic_error("asked with half a scene");

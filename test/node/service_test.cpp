@@ -444,7 +444,7 @@ class FailingChecker : public StateChecker
 {
  public:
   void setScene(std::shared_ptr<const PlanningScene>) override {}
-  BatchResult check(const double*, std::size_t, const std::string&) override
+  BatchResult check(const double*, std::size_t, const std::string&, const Surroundings*) override
   {
     throw std::runtime_error("device lost");
   }

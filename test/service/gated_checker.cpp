@@ -49,7 +49,7 @@ void GatedChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   scene_ = std::move(scene);
 }
 
-BatchResult GatedChecker::check(const double* states, std::size_t count, const std::string& group)
+BatchResult GatedChecker::check(const double* states, std::size_t count, const std::string& group, const Surroundings*)
 {
   {
     std::unique_lock<std::mutex> lock(gate_.mutex_);

@@ -38,7 +38,8 @@ class GatedChecker : public StateChecker
   GatedChecker(std::shared_ptr<const PlanningScene> scene, Gate& gate);
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
-  BatchResult check(const double* states, std::size_t count, const std::string& group) override;
+  BatchResult check(const double* states, std::size_t count, const std::string& group,
+                    const Surroundings* around) override;
   SceneReport report(const std::string& group) override;
   std::string deviceName() const override { return "gate"; }
 

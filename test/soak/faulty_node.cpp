@@ -28,10 +28,11 @@ class FaultyChecker : public StateChecker
     fail();
     checker_->setScene(std::move(scene));
   }
-  BatchResult check(const double* states, std::size_t count, const std::string& group) override
+  BatchResult check(const double* states, std::size_t count, const std::string& group,
+                    const Surroundings* around) override
   {
     fail();
-    BatchResult result = checker_->check(states, count, group);
+    BatchResult result = checker_->check(states, count, group, around);
     fail();
     return result;
   }

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu_planning_scene/motions.h"
+#include "gpu_planning_scene/state_checker.h"
+
+namespace gpu_planning_scene
+{
+/// When a straight motion between two states is accepted.
+enum class MotionRule
+{
+  Samples,  ///< its samples are free: as in MoveIt and OMPL, a thin obstacle between two samples is jumped
+  Bound     ///< and each is free by more than any point of the robot can move up to half way to the next sample
+};
+
+/// "samples" or "bound"; throws Error otherwise.
+MotionRule motionRuleFromName(const std::string& name);
+
+struct MotionCheckerOptions
+{
+  MotionRule rule = MotionRule::Bound;
+  MotionSteps steps{0.05, 0.05};  ///< between samples, before any subdivision
+  /// Bound: what is not proven with so many samples of a motion is not accepted.
+  std::size_t most_samples = 20000;
+};
+
+struct MotionVerdict
+{
+  bool valid = false;
+  /// Fraction (0 to 1) of the last free sample before the first collision, or before what could not be proven; with
+  /// MotionRule::Bound all up to it is proven. 0 where the start collides; 1 where the motion is valid.
+  double last_valid = 0.0;
+  /// Of the first collision that was found, or {-1, -1}: body indices.
+  std::array<std::int32_t, 2> colliding{{-1, -1}};
+};
+
+/// Checks straight motions in bulk. The samples of all motions are checked batch by batch: ends and middles, the other
+/// samples of what is left, then, for MotionRule::Bound, all again with margins, with twice the samples where that does
+/// not do (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths", with a batch for each level).
+/// Thread-safe.
+class MotionChecker
+{
+ public:
+  /// `group`: as for StateChecker::check. Throws Error for a step that is not a positive number.
+  MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_ptr<const RobotModel> robot, std::string group,
+                const MotionCheckerOptions& options = {});
+
+  /// `starts`, `ends`: `count` rows of all variables. Unless `last_valid` is wanted, a motion is given up at any of its
+  /// collisions, and its verdict's last_valid is 0. Throws Error as the checker does.
+  std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
+                                   bool last_valid = false) const;
+
+  /// States that were checked so far, with and without margins.
+  std::uint64_t statesChecked() const { return states_checked_; }
+
+ private:
+  std::shared_ptr<StateChecker> checker_;
+  std::shared_ptr<const RobotModel> robot_;
+  std::string group_;
+  MotionCheckerOptions options_;
+  mutable std::atomic<std::uint64_t> states_checked_{0};
+};
+}  // namespace gpu_planning_scene

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include <ompl/base/MotionValidator.h>
+#include <ompl/geometric/PathGeometric.h>
+
+#include "gpu_planning_scene/motion_checker.h"
+#include "gpu_planning_scene/planning/group_state_space.h"
+#include "gpu_planning_scene/planning_scene.h"
+
+namespace gpu_planning_scene
+{
+/// Straight motions between states of a GroupStateSpace: see MotionChecker for when one is valid. As OMPL's own, it takes
+/// the start of a motion to be valid for granted no more than the rest. The robot's other variables are as for
+/// StateValidityChecker. Thread-safe.
+class MotionValidator : public ompl::base::MotionValidator
+{
+ public:
+  using Motion = std::pair<const ompl::base::State*, const ompl::base::State*>;
+
+  /// `checker` has `scene`. Throws Error if the space of `information` is no GroupStateSpace of the scene's robot.
+  MotionValidator(const ompl::base::SpaceInformationPtr& information, std::shared_ptr<const PlanningScene> scene,
+                  std::shared_ptr<StateChecker> checker, const MotionCheckerOptions& options = {});
+
+  bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
+  /// `last_valid`: the last free sample before the first collision and its fraction; its state may be null. Where the
+  /// motion is valid, or its start is not, the state stays as it is and the fraction becomes 1 or 0.
+  bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
+                   std::pair<ompl::base::State*, double>& last_valid) const override;
+
+  /// In bulk: 1 for each motion that is valid, else 0.
+  std::vector<std::uint8_t> validateMotions(const std::vector<Motion>& motions) const;
+  /// Whether all motions of the path are valid, in one batch; of one state, whether it is.
+  bool validatePath(const ompl::geometric::PathGeometric& path) const;
+
+  /// States that were checked so far.
+  std::uint64_t statesChecked() const { return motions_.statesChecked(); }
+
+ private:
+  std::vector<MotionVerdict> check(const std::vector<Motion>& motions, bool last_valid) const;
+
+  std::shared_ptr<const GroupStateSpace> space_;
+  std::vector<double> reference_;  // a row of all variables
+  MotionChecker motions_;
+  mutable std::mutex counters_;  // OMPL's, of valid and invalid motions
+};
+}  // namespace gpu_planning_scene

@@ -1,0 +1,52 @@
+#include "collision/gpu_margins.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "interface.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+/// The bits of the next float that is no less.
+std::uint32_t roundedUp(double value)
+{
+  auto rounded = static_cast<float>(value);
+  if (static_cast<double>(rounded) < value)
+    rounded = std::nextafter(rounded, std::numeric_limits<float>::infinity());
+  std::uint32_t bits;
+  std::memcpy(&bits, &rounded, sizeof(bits));
+  return bits;
+}
+}  // namespace
+
+void GpuMargins::setPairs(const CollisionProblem& problem)
+{
+  robots_ = problem.robot.size();
+  self_pairs_ = problem.self_pairs;
+  numbers_.clear();
+}
+
+void GpuMargins::write(const Margins& margins, std::size_t begin, std::size_t count)
+{
+  if (numbers_.empty())
+  {
+    numbers_.resize(robots_ * robots_);
+    auto number = static_cast<std::uint32_t>(robots_);
+    for (const auto& [a, b] : self_pairs_)
+      numbers_[a * robots_ + b] = numbers_[b * robots_ + a] = number++;
+  }
+  std::vector<std::uint32_t> words = numbers_;
+  const auto rows = margins.rows.begin() + static_cast<std::ptrdiff_t>(begin);
+  words.insert(words.end(), rows, rows + static_cast<std::ptrdiff_t>(count));
+  for (const double value : margins.values)
+    words.push_back(roundedUp(value));
+  TexelBuffer& upload = uploads_[next_upload_];
+  next_upload_ = 1 - next_upload_;
+  upload.reserve((words.size() + 3) / 4 * 16);
+  upload.buffer().write(words);
+  upload.bindTexture(UNIT_MARGINS);
+}
+}  // namespace gpu_planning_scene

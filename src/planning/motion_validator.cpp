@@ -1,0 +1,1 @@
+#include "gpu_planning_scene/planning/motion_validator.h"
