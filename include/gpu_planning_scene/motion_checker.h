@@ -27,15 +27,15 @@ struct MotionCheckerOptions
 {
   MotionRule rule = MotionRule::Bound;
   MotionSteps steps{0.05, 0.05};  ///< between samples, before any subdivision
-  /// Bound: what is not proven with so many samples of a motion is not accepted.
+  /// Of a motion. Bound: what is not proven with so many is not accepted.
   std::size_t most_samples = 20000;
 };
 
 struct MotionVerdict
 {
   bool valid = false;
-  /// Fraction (0 to 1) of the last free sample before the first collision, or before what could not be proven; with
-  /// MotionRule::Bound all up to it is proven. 0 where the start collides; 1 where the motion is valid.
+  /// Fraction (0 to 1) of the last free sample before the first collision; with MotionRule::Bound, up to which the
+  /// motion is proven, at most that. 0 where the start collides; 1 where the motion is valid.
   double last_valid = 0.0;
   /// Of the first collision that was found, or {-1, -1}: body indices.
   std::array<std::int32_t, 2> colliding{{-1, -1}};
@@ -53,7 +53,8 @@ class MotionChecker
                 const MotionCheckerOptions& options = {});
 
   /// `starts`, `ends`: `count` rows of all variables. Unless `last_valid` is wanted, a motion is given up at any of its
-  /// collisions, and its verdict's last_valid is 0. Throws Error as the checker does.
+  /// collisions, and its verdict's last_valid is 0. Throws Error as the checker does, and for a motion that the steps
+  /// alone cut into more than most_samples.
   std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
                                    bool last_valid = false) const;
 

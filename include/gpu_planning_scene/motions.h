@@ -14,6 +14,17 @@ struct MotionSteps
   double prismatic = 0.0;  ///< metres
 };
 
+/// Throws Error for a step that is not a finite number above 0.
+void validateSteps(const MotionSteps& steps);
+
+/// How far each joint of the robot moves on the straight way from one state to another; a mimic joint by what it makes
+/// of its leader's. Fixed joints do not.
+std::vector<JointWay> jointWays(const RobotModel& robot, const double* from, const double* to);
+
+/// Into how many equal parts, at least 1, such a way is cut, so that no variable moves more than its step in one; as a
+/// double, as there may be more than an integer holds.
+double partsOfWay(const RobotModel& robot, const double* from, const double* to, const MotionSteps& steps);
+
 /// The state at `fraction` (0 to 1) of the straight way from one state to another: angles of continuous and planar
 /// joints the shorter way round, quaternions by slerp. At 0 and 1 it is `from` and `to` themselves, bit by bit, so an
 /// angle beyond half a turn jumps there by whole turns.

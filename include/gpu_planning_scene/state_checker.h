@@ -91,10 +91,10 @@ class StateChecker
   /// `states`: row-major, `count` rows of robot->variables().size() finite values. `group`: empty for all checked
   /// pairs, or a planning group: then only pairs with a link that the group moves. Throws Error for an unknown group or
   /// a value that is not finite.
-  /// With `around`, valid[i] is 1 only where all that is around state i is free too, by proof: each pair is further apart
-  /// than its required distance and the most that its bodies can move against each other on those ways. Where it is 0
-  /// the state itself may be free, and the pair reported may be merely near. The ways must be of joints that the group
-  /// moves. A state outside the joints' limits is 0. Throws Error for rows or ways that do not fit the states.
+  /// With `around`, valid[i] is 1 only where all that is around state i is free too, by proof: each pair is further
+  /// apart than its required distance and the most that its bodies can move against each other on those ways. Where it
+  /// is 0 the state itself may be free, and the pair reported may be merely near. The ways must be of joints that the
+  /// group moves. A state outside the joints' limits is 0. Throws Error for rows or ways that do not fit the states.
   virtual BatchResult check(const double* states, std::size_t count, const std::string& group = "",
                             const Surroundings* around = nullptr) = 0;
 

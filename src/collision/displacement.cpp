@@ -46,9 +46,8 @@ Displacements::Displacements(const RobotModel& robot, const CollisionProblem& pr
   std::vector<std::vector<Step>> chains;
   for (const Geometry& geometry : problem.robot)
   {
-    const SweptBody body =
-        reach.sweep({PlacedShape{problem.shapes[geometry.tree], Eigen::Isometry3d::Identity()}}, geometry.pose,
-                    geometry.link);
+    const SweptBody body = reach.sweep({PlacedShape{problem.shapes[geometry.tree], Eigen::Isometry3d::Identity()}},
+                                       geometry.pose, geometry.link);
     std::vector<Step> chain;
     int link = geometry.link;
     for (std::size_t above = 0; link >= 0; ++above)
@@ -94,8 +93,9 @@ Margins Displacements::margins(const Surroundings& around, const double* states,
 {
   const std::size_t rows = joints_ == 0 ? 0 : around.ways.size() / joints_;
   if (around.rows.size() != count || rows * joints_ != around.ways.size())
-    throw Error("what is around " + std::to_string(count) + " states of " + std::to_string(joints_) + " joints is given for " +
-                std::to_string(around.rows.size()) + " states and by " + std::to_string(around.ways.size()) + " ways");
+    throw Error("what is around " + std::to_string(count) + " states of " + std::to_string(joints_) +
+                " joints is given for " + std::to_string(around.rows.size()) + " states and by " +
+                std::to_string(around.ways.size()) + " ways");
   for (const JointWay& way : around.ways)
     if (!(way.length >= 0.0 && way.angle >= 0.0 && std::isfinite(way.length) && std::isfinite(way.angle)))
       throw Error("a joint's way around a state is " + std::to_string(way.length) + " m and " +

@@ -13,18 +13,19 @@ namespace gpu_planning_scene
 /// By how much more than their required distance the pairs of a problem are to be apart, for each state of a batch.
 struct Margins
 {
-  std::size_t width = 0;             ///< of a row: as Displacements::count()
-  std::vector<double> values;        ///< rows, metres
-  std::vector<std::uint32_t> rows;   ///< one per state: which of those is its
-  std::vector<std::uint8_t> within;  ///< one per state: 0 where it is outside the joints' limits, so that they are no bounds
+  std::size_t width = 0;            ///< of a row: as Displacements::count()
+  std::vector<double> values;       ///< rows, metres
+  std::vector<std::uint32_t> rows;  ///< one per state: which of those is its
+  std::vector<std::uint8_t>
+      within;  ///< one per state: 0 where it is outside the joints' limits, so that they are no bounds
 
   const double* of(std::size_t state) const { return &values[rows[state] * width]; }
 };
 
 /// How far points of a robot can move while its joints move by no more than given ways, within their limits. Bounds
-/// that hold: the sum over joints of the way times the largest distance from the joint's axis to which the joints beyond
-/// it can take the body (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"); the distances come
-/// from Reach. Immutable.
+/// that hold: the sum over joints of the way times the largest distance from the joint's axis to which the joints
+/// beyond it can take the body (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"); the
+/// distances come from Reach. Immutable.
 class Displacements
 {
  public:
@@ -35,9 +36,9 @@ class Displacements
   std::size_t count() const { return first_.size() - 1; }
 
   /// For `count` rows of the robot's variables. In metres: the largest displacement of a point of each robot instance
-  /// in the planning frame, and of each self pair that of the points of one against the other. With what rounding loses;
-  /// kLargestLength where there is no bound. 0 where nothing moves. Throws Error for ways that are not finite and at
-  /// least 0, or do not fit the robot and the states.
+  /// in the planning frame, and of each self pair that of the points of one against the other. With what rounding
+  /// loses; kLargestLength where there is no bound. 0 where nothing moves. Throws Error for ways that are not finite
+  /// and at least 0, or do not fit the robot and the states.
   Margins margins(const Surroundings& around, const double* states, std::size_t count) const;
 
  private:

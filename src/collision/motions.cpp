@@ -23,38 +23,42 @@ enum class Part
   Rotation       // a quaternion, x first
 };
 
-/// Calls visit(part, first variable, number of variables) for what the active joints' variables are made of.
+/// Calls visit(part, first variable, number of variables) for what a joint's variables are made of.
+template <class Visit>
+void forParts(const Joint& joint, const Visit& visit)
+{
+  const int first = joint.first_variable;
+  switch (joint.type)
+  {
+    case JointType::Revolute:
+      visit(Part::Angle, first, 1);
+      break;
+    case JointType::Continuous:
+      visit(Part::WrappedAngle, first, 1);
+      break;
+    case JointType::Prismatic:
+      visit(Part::Length, first, 1);
+      break;
+    case JointType::Planar:
+      visit(Part::Length, first, 2);
+      visit(Part::WrappedAngle, first + 2, 1);
+      break;
+    case JointType::Floating:
+      visit(Part::Length, first, 3);
+      visit(Part::Rotation, first + 3, 4);
+      break;
+    case JointType::Fixed:
+      break;
+  }
+}
+
+/// The same for all active joints.
 template <class Visit>
 void forParts(const RobotModel& robot, const Visit& visit)
 {
   for (const Joint& joint : robot.joints())
-  {
-    if (joint.mimic || joint.first_variable < 0)
-      continue;
-    const int first = joint.first_variable;
-    switch (joint.type)
-    {
-      case JointType::Revolute:
-        visit(Part::Angle, first, 1);
-        break;
-      case JointType::Continuous:
-        visit(Part::WrappedAngle, first, 1);
-        break;
-      case JointType::Prismatic:
-        visit(Part::Length, first, 1);
-        break;
-      case JointType::Planar:
-        visit(Part::Length, first, 2);
-        visit(Part::WrappedAngle, first + 2, 1);
-        break;
-      case JointType::Floating:
-        visit(Part::Length, first, 3);
-        visit(Part::Rotation, first + 3, 4);
-        break;
-      case JointType::Fixed:
-        break;
-    }
-  }
+    if (!joint.mimic && joint.first_variable >= 0)
+      forParts(joint, visit);
 }
 
 /// The shorter way between two angles, from -half a turn to half a turn. Finite for all finite angles.
@@ -96,8 +100,40 @@ void refuseStep(double step, const char* name, const char* unit)
                 "; it must be a finite number of " + unit + " above 0");
 }
 
-/// Steps between the two states; as a double, as there may be more than an integer holds.
-double stepsBetween(const RobotModel& robot, const double* from, const double* to, const MotionSteps& steps)
+}  // namespace
+
+void validateSteps(const MotionSteps& steps)
+{
+  refuseStep(steps.revolute, "revolute", "radians");
+  refuseStep(steps.prismatic, "prismatic", "metres");
+}
+
+std::vector<JointWay> jointWays(const RobotModel& robot, const double* from, const double* to)
+{
+  std::vector<JointWay> ways(robot.joints().size());
+  for (std::size_t i = 0; i < ways.size(); ++i)
+  {
+    const Joint& joint = robot.joints()[i];
+    const double factor = joint.mimic ? std::abs(joint.multiplier) : 1.0;
+    forParts(joint,
+             [&](Part part, int first, int count)
+             {
+               const double* const start = from + first;
+               const double* const end = to + first;
+               if (part == Part::Rotation)
+                 ways[i].angle = rotationOf(start).angularDistance(rotationOf(end));
+               else if (part == Part::Length)
+                 ways[i].length = factor * (Eigen::Map<const Eigen::VectorXd>(end, count) -
+                                            Eigen::Map<const Eigen::VectorXd>(start, count))
+                                               .norm();
+               else
+                 ways[i].angle = factor * wayOf(part, start, end, count);
+             });
+  }
+  return ways;
+}
+
+double partsOfWay(const RobotModel& robot, const double* from, const double* to, const MotionSteps& steps)
 {
   double most = 1.0;
   forParts(robot,
@@ -108,7 +144,6 @@ double stepsBetween(const RobotModel& robot, const double* from, const double* t
            });
   return most;
 }
-}  // namespace
 
 void interpolate(const RobotModel& robot, const double* from, const double* to, double fraction, double* state)
 {
@@ -135,8 +170,7 @@ void interpolate(const RobotModel& robot, const double* from, const double* to, 
 MotionBatch::MotionBatch(const RobotModel& robot, const double* starts, const double* ends, std::size_t count,
                          const MotionSteps& steps, std::size_t most_states)
 {
-  refuseStep(steps.revolute, "revolute", "radians");
-  refuseStep(steps.prismatic, "prismatic", "metres");
+  validateSteps(steps);
   refuseNonFinite(robot, starts, count);
   refuseNonFinite(robot, ends, count);
   const std::size_t width = robot.variables().size();
@@ -144,7 +178,7 @@ MotionBatch::MotionBatch(const RobotModel& robot, const double* starts, const do
   first_.push_back(0);
   for (std::size_t i = 0; i < count; ++i)
   {
-    const double states = stepsBetween(robot, starts + i * width, ends + i * width, steps) + 1.0;
+    const double states = partsOfWay(robot, starts + i * width, ends + i * width, steps) + 1.0;
     if (states > static_cast<double>(most_states - first_.back()))
       throw Error("the motions are more than " + std::to_string(most_states) + " states by motion " +
                   std::to_string(i) + "; send fewer motions or take larger steps");

@@ -10,7 +10,8 @@
 namespace gpu_planning_scene
 {
 /// The state space of a planning group of the SRDF, for OMPL: the variables of its active joints. A compound of
-///  - one RealVectorStateSpace of all revolute and prismatic joints, its dimensions named after them, with their limits,
+///  - one RealVectorStateSpace of all revolute and prismatic joints, its dimensions named after them, with their
+///  limits,
 ///  - an SO2StateSpace for each continuous joint,
 ///  - an SE2StateSpace for each planar joint and an SE3StateSpace for each floating one, whose translations are bounded
 ///    by Variable::lower and upper,

@@ -15,9 +15,8 @@
 
 namespace gpu_planning_scene
 {
-/// Straight motions between states of a GroupStateSpace: see MotionChecker for when one is valid. As OMPL's own, it takes
-/// the start of a motion to be valid for granted no more than the rest. The robot's other variables are as for
-/// StateValidityChecker. Thread-safe.
+/// Straight motions between states of a GroupStateSpace, within its bounds: see MotionChecker for when one is valid.
+/// The start is checked as well. The robot's other variables are as for StateValidityChecker. Thread-safe.
 class MotionValidator : public ompl::base::MotionValidator
 {
  public:
@@ -28,8 +27,8 @@ class MotionValidator : public ompl::base::MotionValidator
                   std::shared_ptr<StateChecker> checker, const MotionCheckerOptions& options = {});
 
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
-  /// `last_valid`: the last free sample before the first collision and its fraction; its state may be null. Where the
-  /// motion is valid, or its start is not, the state stays as it is and the fraction becomes 1 or 0.
+  /// `last_valid`, which stays as it is where the motion is valid: the last free sample before the first collision, or
+  /// what MotionVerdict::last_valid is, and its fraction; the start and 0 where that collides. The state may be null.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
                    std::pair<ompl::base::State*, double>& last_valid) const override;
 

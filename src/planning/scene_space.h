@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <ompl/base/SpaceInformation.h>
+
+#include "gpu_planning_scene/planning/group_state_space.h"
+#include "gpu_planning_scene/planning_scene.h"
+
+namespace gpu_planning_scene
+{
+/// The space of `information`. Throws Error if it is no GroupStateSpace of the scene's robot.
+std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInformation& information,
+                                                    const PlanningScene& scene);
+
+/// A row of all variables of the robot: the scene's current state, or RobotModel::defaultState() where it has none.
+std::vector<double> referenceState(const PlanningScene& scene);
+}  // namespace gpu_planning_scene
