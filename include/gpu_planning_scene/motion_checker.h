@@ -26,7 +26,7 @@ MotionRule motionRuleFromName(const std::string& name);
 struct MotionCheckerOptions
 {
   MotionRule rule = MotionRule::Bound;
-  MotionSteps steps{0.05, 0.05};  ///< between samples, before any subdivision
+  MotionSteps steps{0.02, 0.02};  ///< between samples, before any subdivision
   /// Of a motion. Bound: what is not proven with so many is not accepted.
   std::size_t most_samples = 20000;
 };

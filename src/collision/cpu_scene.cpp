@@ -9,6 +9,9 @@ namespace gpu_planning_scene
 namespace
 {
 constexpr std::size_t kStatesPerChunk = 16;
+
+// So many are sooner checked than threads started; and what is learned from them is kept.
+constexpr std::size_t kFewStates = 128;
 }  // namespace
 
 CpuScene::CpuScene(const CheckerOptions& options) : options_(options), maker_(options) {}
@@ -94,8 +97,7 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
   for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)
     if (!holdsFor(*group.problem, states + i * width))
       prepareOutside(name, group);
-  // A few states are sooner checked than threads started; and what is learned from them is kept.
-  if (count <= kStatesPerChunk)
+  if (count <= kFewStates)
   {
     for (std::size_t i = 0; i < count; ++i)
       checkRow(states + i * width, i, group, margins, group.scratch, result);

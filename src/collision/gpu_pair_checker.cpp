@@ -11,11 +11,6 @@ namespace gpu_planning_scene
 {
 namespace
 {
-/// Some devices end work that takes seconds, and it keeps others waiting: this is aimed at.
-constexpr double kPartSeconds = 0.05;
-/// What the first part has, of which it is not known how long it takes.
-constexpr std::size_t kFirstPart = 2048;
-
 /// States of a batch that are enough to learn from.
 constexpr std::size_t kMostCounted = 16384;
 
@@ -64,8 +59,8 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
     definitions_(float_fault_.empty() ? "" : "#define FLOATS_DECIDE 0\n"),
     scene_(folder),
     max_states_(std::max<std::size_t>(1, max_states)),
-    part_limit_(max_states_),
-    part_size_(std::min(max_states_, kFirstPart)),
+    plain_parts_(max_states_),
+    parts_with_margins_(max_states_),
     lists_(withDefaults(capacities, max_states_)),
     traversal_(makeTraversal(traversal, folder, definitions_, lists_.capacity)),
     arguments_(folder),
@@ -102,8 +97,8 @@ void GpuPairChecker::prepare()
 {
   const std::size_t room =
       TexelBuffer::mostBytes() / (std::size_t{std::max(1U, scene_.robotCount())} * 12 * sizeof(float));
-  part_limit_ = std::max<std::size_t>(1, std::min(max_states_, room));
-  part_size_ = std::min(part_size_, part_limit_);
+  for (PartSize* parts : {&plain_parts_, &parts_with_margins_})
+    parts->setMost(std::max<std::size_t>(1, std::min(max_states_, room)));
   writeSearches();
   traversal_->prepare(task(false, scene_.isPadded()));
   if (scene_.solidNodes() != 0)
@@ -124,7 +119,7 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
   work_ = {};
   if (scene_.robotCount() == 0)
     return;
-  const Batch batch{source, margins};
+  const Batch batch{source, margins, margins ? parts_with_margins_ : plain_parts_};
   usePrograms(margins);
   using Clock = std::chrono::steady_clock;
   Clock::time_point last = Clock::now();
@@ -137,7 +132,7 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
     {
       next = &parts_[i % 2];
       next->begin = begin;
-      next->count = std::min(part_size_, count - begin);
+      next->count = std::min(batch.parts.size(), count - begin);
       begin += next->count;
       start(batch, *next);
     }
@@ -146,7 +141,7 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
       const std::size_t states = running->count;
       finish(batch, *running, verdicts);
       const Clock::time_point now = Clock::now();
-      adaptPartSize(states, std::chrono::duration<double>(now - last).count());
+      batch.parts.took(states, std::chrono::duration<double>(now - last).count());
       last = now;
     }
     running = next;
@@ -178,16 +173,6 @@ void GpuPairChecker::writeSearches()
   }
 }
 
-/// By what a part of `count` states took.
-void GpuPairChecker::adaptPartSize(std::size_t count, double seconds)
-{
-  const double wanted = static_cast<double>(count) * kPartSeconds / std::max(seconds, 1e-6);
-  if (wanted < static_cast<double>(part_size_))
-    part_size_ = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
-  else if (count == part_size_ && wanted >= 2.0 * static_cast<double>(count))
-    part_size_ = std::min(part_limit_, 2 * part_size_);
-}
-
 void GpuPairChecker::finish(const Batch& batch, Part& part, Verdicts& verdicts)
 {
   if (fetch(part, verdicts))
@@ -199,9 +184,7 @@ void GpuPairChecker::finish(const Batch& batch, Part& part, Verdicts& verdicts)
     verdicts.flags[begin] = STATE_UNDECIDED;
     return;
   }
-  // Parts that follow are likely to be like this one.
-  part_limit_ = std::min(part_limit_, (count + 1) / 2);
-  part_size_ = std::min(part_size_, part_limit_);
+  batch.parts.tooLarge(count);
   for (const auto& [first, states] : {std::pair(begin, count / 2), std::pair(begin + count / 2, count - count / 2)})
   {
     part.begin = first;

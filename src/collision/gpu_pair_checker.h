@@ -11,6 +11,7 @@
 #include "collision/gpu_margins.h"
 #include "collision/gpu_scene.h"
 #include "collision/gpu_traversal.h"
+#include "collision/part_size.h"
 #include "collision/pose_source.h"
 #include "collision/search_order.h"
 #include "gpu/readback.h"
@@ -68,6 +69,7 @@ class GpuPairChecker
   {
     PoseSource& poses;
     const Margins* margins;
+    PartSize& parts;
   };
 
   /// States of a batch that are on their way through the device, and where their answers come to lie.
@@ -83,7 +85,6 @@ class GpuPairChecker
   void start(const Batch& batch, Part& part);
   void finish(const Batch& batch, Part& part, Verdicts& verdicts);
   bool fetch(Part& part, Verdicts& verdicts);
-  void adaptPartSize(std::size_t count, double seconds);
   void usePrograms(const Margins* margins);
   void testHalfSpaces(std::uint32_t states);
   void findCandidates(std::uint32_t states);
@@ -99,8 +100,7 @@ class GpuPairChecker
   std::string definitions_;  // of the programs that test triangles
   GpuScene scene_;
   std::size_t max_states_;
-  std::size_t part_limit_;  // fewer than max_states_ after lists overflowed
-  std::size_t part_size_;   // at most part_limit_
+  PartSize plain_parts_, parts_with_margins_;
   std::uint32_t serial_ = 0;
   std::array<Part, 2> parts_;
   GpuWork work_;

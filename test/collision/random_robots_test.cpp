@@ -1,6 +1,8 @@
 // Robots and worlds made at random - all joint types, several shapes a link, meshes and solids, few objects and
-// hundreds - on the GPU against the CPU: every traversal gives the CPU's verdicts.
+// hundreds - on the GPU against the CPU: every traversal gives the CPU's verdicts. And what is said to be free around a
+// state is.
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -129,6 +131,76 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     return made;
   }
 
+  std::vector<double> randomStates(const RobotModel& robot)
+  {
+    const std::size_t width = robot.variables().size();
+    std::vector<double> states(kStates * width);
+    for (std::size_t i = 0; i < kStates; ++i)
+      robot.randomState(generator_, &states[i * width]);
+    return states;
+  }
+
+  /// Rows from hardly anything to a good deal, each for some states; joints of which some stand still.
+  Surroundings surroundings(const RobotModel& robot)
+  {
+    Surroundings around;
+    for (const double most : {0.0, 1e-3, 0.01, 0.05, 0.2})
+      for (const Joint& joint : robot.joints())
+        around.ways.push_back(joint.type == JointType::Fixed || below(4) == 0
+                                  ? JointWay{}
+                                  : JointWay{uniform(0.0, most), uniform(0.0, most)});
+    for (std::size_t i = 0; i < kStates; ++i)
+      around.rows.push_back(static_cast<std::uint32_t>(below(5)));
+    return around;
+  }
+
+  Eigen::Vector3d direction() { return Eigen::Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized(); }
+
+  /// Each joint by up to its way, and as far as its limits let it.
+  void moveWithin(const RobotModel& robot, const JointWay* ways, double* state)
+  {
+    const auto move = [&](int variable, double by)
+    {
+      const Variable& limits = robot.variables()[static_cast<std::size_t>(variable)];
+      state[variable] += by;
+      if (limits.bounded)
+        state[variable] = std::clamp(state[variable], limits.lower, limits.upper);
+    };
+    for (std::size_t i = 0; i < robot.joints().size(); ++i)
+    {
+      const Joint& joint = robot.joints()[i];
+      const int first = joint.first_variable;
+      const double angle = below(2) == 0 ? ways[i].angle : uniform(0.0, ways[i].angle);
+      const double side = below(2) == 0 ? 1.0 : -1.0;
+      const Eigen::Vector3d by = (below(2) == 0 ? 1.0 : uniform(0.0, 1.0)) * ways[i].length * direction();
+      switch (joint.type)
+      {
+        case JointType::Revolute:
+        case JointType::Continuous:
+          move(first, side * angle);
+          break;
+        case JointType::Prismatic:
+          move(first, side * by.norm());
+          break;
+        case JointType::Planar:
+          move(first, by.x());
+          move(first + 1, by.y());
+          move(first + 2, side * angle);
+          break;
+        case JointType::Floating:
+        {
+          for (int k = 0; k < 3; ++k)
+            move(first + k, by[k]);
+          Eigen::Map<Eigen::Quaterniond> rotation(state + first + 3);
+          rotation = Eigen::AngleAxisd(angle, direction()) * rotation;
+          break;
+        }
+        case JointType::Fixed:
+          break;
+      }
+    }
+  }
+
   std::mt19937_64 generator_{GetParam()};
   std::shared_ptr<const Mesh> mesh_;
 };
@@ -137,11 +209,7 @@ TEST_P(RandomRobots, HaveTheVerdictsOfTheCpuOnTheGpu)
 {
   const auto made = scene();
   const std::size_t width = made->robot->variables().size();
-  std::vector<double> states(kStates * width);
-  for (std::size_t i = 0; i < kStates; ++i)
-  {
-    made->robot->randomState(generator_, &states[i * width]);
-  }
+  const std::vector<double> states = randomStates(*made->robot);
   const std::vector<std::uint8_t> expected = CpuChecker(made).check(states.data(), kStates).valid;
   for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
   {
@@ -156,6 +224,61 @@ TEST_P(RandomRobots, HaveTheVerdictsOfTheCpuOnTheGpu)
   std::cout << "seed " << GetParam() << ": " << made->robot->links().size() << " links, " << width << " variables, "
             << made->objects.size() << " objects, " << std::count(expected.begin(), expected.end(), 1) << " of "
             << kStates << " free" << std::endl;
+}
+TEST_P(RandomRobots, AreFreeInAllThatIsFreeAroundAState)
+{
+  constexpr std::size_t kNeighbours = 40;
+  const auto made = scene();
+  const RobotModel& robot = *made->robot;
+  const std::size_t width = robot.variables().size();
+  const std::vector<double> states = randomStates(robot);
+  const Surroundings around = surroundings(robot);
+  CpuChecker checker(made);
+  const std::vector<std::uint8_t> proven = checker.check(states.data(), kStates, "", &around).valid;
+  std::vector<double> neighbours;
+  for (std::size_t i = 0; i < kStates; ++i)
+    for (std::size_t k = 0; proven[i] != 0 && k < kNeighbours; ++k)
+    {
+      neighbours.insert(neighbours.end(), &states[i * width], &states[(i + 1) * width]);
+      moveWithin(robot, &around.ways[around.rows[i] * robot.joints().size()], &neighbours[neighbours.size() - width]);
+    }
+  const std::vector<std::uint8_t> free = checker.check(neighbours.data(), neighbours.size() / width).valid;
+  EXPECT_EQ(std::count(free.begin(), free.end(), 0), 0) << "seed " << GetParam();
+  const std::vector<std::uint8_t> plain = checker.check(states.data(), kStates).valid;
+  for (std::size_t i = 0; i < kStates; ++i)
+    EXPECT_LE(proven[i], plain[i]) << "seed " << GetParam() << ", state " << i;
+  std::cout << "seed " << GetParam() << ": " << std::count(plain.begin(), plain.end(), 1) << " free, "
+            << std::count(proven.begin(), proven.end(), 1) << " with what is around" << std::endl;
+}
+
+/// The GPU's margins are floats, rounded up.
+TEST_P(RandomRobots, AreAsFreeAroundAStateOnTheGpuAsOnTheCpu)
+{
+  const auto made = scene();
+  const std::vector<double> states = randomStates(*made->robot);
+  const Surroundings around = surroundings(*made->robot);
+  Surroundings wider = around;
+  for (JointWay& way : wider.ways)
+    way = {1.0001 * way.length + 1e-7, 1.0001 * way.angle + 1e-7};
+  CpuChecker on_cpu(made);
+  const std::vector<std::uint8_t> most = on_cpu.check(states.data(), kStates, "", &around).valid;
+  const std::vector<std::uint8_t> least = on_cpu.check(states.data(), kStates, "", &wider).valid;
+  for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
+  {
+    BatchCheckerOptions options;
+    options.traversal = traversal;
+    options.cpu_below = 0;
+    options.max_batch = below(2) == 0 ? 16384 : 64;
+    BatchChecker checker(made, options);
+    const std::vector<std::uint8_t> plain = checker.check(states.data(), kStates).valid;
+    const std::vector<std::uint8_t> proven = checker.check(states.data(), kStates, "", &around).valid;
+    for (std::size_t i = 0; i < kStates; ++i)
+    {
+      EXPECT_LE(proven[i], most[i]) << "seed " << GetParam() << ", state " << i;
+      EXPECT_GE(proven[i], least[i]) << "seed " << GetParam() << ", state " << i;
+    }
+    EXPECT_EQ(checker.check(states.data(), kStates).valid, plain) << "after margins, seed " << GetParam();
+  }
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomRobots, testing::Range<std::uint64_t>(0, 16));
 }  // namespace

@@ -1,0 +1,181 @@
+// Motions are refused where they collide, also between samples where the bound is asked for, and as far as they are
+// called free they are.
+
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/motion_checker.h"
+#include "model/model_testing.h"
+#include "support/test_scenes.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+constexpr char kLimit[] = "<limit lower='-2' upper='2' effort='1' velocity='1'/>";
+
+/// A small box that moves along x and y.
+std::shared_ptr<const RobotModel> pointRobot()
+{
+  return robotOf(
+      "<link name='base'/><link name='rail'/><link name='tip'><collision><geometry><box size='0.02 0.02 0.02'/>"
+      "</geometry></collision></link>" +
+      jointXml("x", "prismatic", "base", "rail", std::string("<axis xyz='1 0 0'/>") + kLimit) +
+      jointXml("y", "prismatic", "rail", "tip", std::string("<axis xyz='0 1 0'/>") + kLimit));
+}
+
+WorldObject wall(double x, double thickness, double y, double width)
+{
+  WorldObject object;
+  object.id = "wall at " + std::to_string(x);
+  object.pose = Eigen::Translation3d(x, y, 0.0);
+  object.shapes = {{Box{{thickness, width, 1.0}}}};
+  return object;
+}
+
+class PointMotions : public testing::Test
+{
+ protected:
+  MotionChecker checker(MotionRule rule, double step, std::size_t most_samples = 20000) const
+  {
+    MotionCheckerOptions options;
+    options.rule = rule;
+    options.steps = {step, step};
+    options.most_samples = most_samples;
+    return {std::make_shared<CpuChecker>(scene_), scene_->robot, "", options};
+  }
+
+  static MotionVerdict verdict(const MotionChecker& checker, const std::vector<double>& from,
+                               const std::vector<double>& to, bool last_valid = false)
+  {
+    return checker.check(from.data(), to.data(), 1, last_valid).front();
+  }
+
+  std::shared_ptr<PlanningScene> scene_ = std::make_shared<PlanningScene>(pointRobot());
+};
+
+TEST_F(PointMotions, DoNotJumpAWallOfAMillimetreWhereTheBoundIsAskedForAndDoWhereSamplesAre)
+{
+  scene_->objects = {wall(0.512, 0.001, 0.0, 1.0)};
+  for (const double step : {0.05, 0.2, 2.0})
+  {
+    EXPECT_TRUE(verdict(checker(MotionRule::Samples, step), {0.0, 0.0}, {1.0, 0.0}).valid) << step;
+    const MotionVerdict bound = verdict(checker(MotionRule::Bound, step), {0.0, 0.0}, {1.0, 0.0}, true);
+    EXPECT_FALSE(bound.valid) << step;
+    EXPECT_LE(bound.last_valid, 0.5015) << step;
+    EXPECT_EQ(bound.colliding, (std::array<std::int32_t, 2>{2, 3})) << step;
+  }
+}
+
+TEST_F(PointMotions, PassThroughAGapOfAMicrometreOnEachSide)
+{
+  scene_->objects = {wall(0.5, 0.1, 0.510001, 1.0), wall(0.5, 0.1, -0.510001, 1.0)};
+  for (WorldObject& object : scene_->objects)
+    object.id += std::to_string(object.pose.translation().y());
+  EXPECT_TRUE(verdict(checker(MotionRule::Bound, 0.05, 2000000), {0.0, 0.0}, {1.0, 0.0}).valid);
+}
+
+TEST_F(PointMotions, AreRefusedWhereTheirSamplesDoNotProveThem)
+{
+  scene_->objects = {wall(0.5, 0.1, 0.510001, 1.0)};
+  const MotionVerdict given_up = verdict(checker(MotionRule::Bound, 0.05, 300), {0.0, 0.0}, {1.0, 0.0}, true);
+  EXPECT_FALSE(given_up.valid);
+  EXPECT_EQ(given_up.colliding, (std::array<std::int32_t, 2>{-1, -1}));
+  EXPECT_GT(given_up.last_valid, 0.3);
+  EXPECT_LT(given_up.last_valid, 0.5);
+  // Nearer than any sample can tell from touching.
+  scene_->objects = {wall(0.5, 0.1, 0.51 + 2e-9, 1.0)};
+  EXPECT_FALSE(verdict(checker(MotionRule::Bound, 0.05, 2000000), {0.0, 0.0}, {1.0, 0.0}).valid);
+}
+
+TEST_F(PointMotions, EndTheirLastValidPartBeforeTheFirstCollision)
+{
+  scene_->objects = {wall(0.8, 0.1, 0.0, 1.0), wall(0.4, 0.1, 0.0, 1.0)};
+  for (const MotionRule rule : {MotionRule::Samples, MotionRule::Bound})
+  {
+    const MotionVerdict found = verdict(checker(rule, 0.02), {0.0, 0.0}, {1.0, 0.0}, true);
+    EXPECT_FALSE(found.valid);
+    EXPECT_LT(found.last_valid, 0.34);
+    EXPECT_GT(found.last_valid, 0.28);
+    EXPECT_EQ(verdict(checker(rule, 0.02), {0.0, 0.0}, {0.3, 0.1}, true).last_valid, 1.0);
+    EXPECT_EQ(verdict(checker(rule, 0.02), {0.4, 0.0}, {0.0, 0.0}, true).last_valid, 0.0);
+    EXPECT_FALSE(verdict(checker(rule, 0.02), {0.4, 0.0}, {0.0, 0.0}).valid);
+    EXPECT_FALSE(verdict(checker(rule, 0.02), {0.0, 0.0}, {0.4, 0.0}).valid);
+    EXPECT_TRUE(verdict(checker(rule, 0.02), {0.0, 0.0}, {0.0, 0.0}).valid);
+  }
+}
+
+TEST_F(PointMotions, RefuseWhatStepsCutIntoTooManySamplesAndStepsThatAreNone)
+{
+  EXPECT_EQ(errorOf(
+                [&] {
+                  verdict(checker(MotionRule::Bound, 0.001, 500), {0.0, 0.0}, {1.0, 0.0});
+                }),
+            "motion 0 has more than 500 samples; cut it, or take larger steps");
+  EXPECT_NE(errorOf([&] { checker(MotionRule::Bound, 0.0); }), "");
+  EXPECT_NE(errorOf([&] { verdict(checker(MotionRule::Bound, 0.1), {0.0, NAN}, {1.0, 0.0}); }), "");
+  EXPECT_EQ(motionRuleFromName("bound"), MotionRule::Bound);
+  EXPECT_EQ(motionRuleFromName("samples"), MotionRule::Samples);
+  EXPECT_EQ(errorOf([] { motionRuleFromName("exact"); }), "the motion rule is 'exact'; it must be samples or bound");
+}
+
+class RealMotions : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(RealMotions, ThatAreProvenAreFreeAtTenTimesTheResolutionAndAsFarAsTheirLastValidPart)
+{
+  if (!missingFor(GetParam()).empty())
+    GTEST_SKIP() << missingFor(GetParam()) << " is missing";
+  const std::uint64_t seed = std::random_device()();
+  const TestScene& test = testScene(GetParam());
+  const RobotModel& robot = *test.scene->robot;
+  const std::size_t width = robot.variables().size();
+  const auto cpu = std::make_shared<CpuChecker>(test.scene);
+  const std::vector<double> random = test.randomStates(400, seed);
+  const std::vector<std::uint8_t> free = cpu->check(random.data(), 400).valid;
+  std::vector<double> starts;
+  std::vector<double> ends;
+  for (std::size_t i = 0; i + 1 < 400; ++i)
+    if (free[i] != 0)
+    {
+      starts.insert(starts.end(), &random[i * width], &random[(i + 1) * width]);
+      std::vector<double> end(width);
+      interpolate(robot, &random[i * width], &random[(i + 1) * width], 0.2, end.data());
+      ends.insert(ends.end(), end.begin(), end.end());
+    }
+  const std::size_t count = starts.size() / width;
+  MotionCheckerOptions options;
+  const MotionChecker checker(cpu, test.scene->robot, "", options);
+  const std::vector<MotionVerdict> verdicts = checker.check(starts.data(), ends.data(), count, true);
+  const std::vector<MotionVerdict> without = checker.check(starts.data(), ends.data(), count);
+  std::size_t valid = 0;
+  std::vector<double> states;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    EXPECT_EQ(without[i].valid, verdicts[i].valid) << "seed " << seed;
+    valid += verdicts[i].valid ? 1 : 0;
+    const double* const from = &starts[i * width];
+    const double* const to = &ends[i * width];
+    const double parts = std::ceil(10.0 * verdicts[i].last_valid * partsOfWay(robot, from, to, options.steps));
+    for (double k = 0.0; k <= parts && verdicts[i].last_valid > 0.0; ++k)
+    {
+      states.resize(states.size() + width);
+      interpolate(robot, from, to, verdicts[i].last_valid * k / parts, &states[states.size() - width]);
+    }
+  }
+  const std::vector<std::uint8_t> again = cpu->check(states.data(), states.size() / width).valid;
+  EXPECT_EQ(std::count(again.begin(), again.end(), 0), 0) << "seed " << seed;
+  EXPECT_GT(valid, 0U);
+  EXPECT_LT(valid, count);
+  std::cout << "seed " << seed << ": " << valid << " of " << count << " motions valid, " << again.size()
+            << " states checked again" << std::endl;
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, RealMotions, testing::Values("kr5", "wam", "ur5_cage", "ur5_bookshelf_thin"));
+}  // namespace
+}  // namespace gpu_planning_scene
