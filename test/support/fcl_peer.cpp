@@ -105,9 +105,8 @@ struct FclPeer::Impl
   }
 
   /// The same. The time that FCL takes, which is many times that of reading the clock, is added to `seconds`.
-  bool collideTimed(const Placed& a, const Placed& b, bool padded, double& seconds) const
+  bool collideTimed(const Placed& a, const Placed& b, double required, double& seconds) const
   {
-    const double required = padded ? a.padding + b.padding : 0.0;
     if (!boxesAreNear(a, b, required))
       return false;
     const auto start = std::chrono::steady_clock::now();
@@ -118,19 +117,21 @@ struct FclPeer::Impl
 
   /// A check as in CpuTraversal: of a robot's instance against the world, by its index, or, counted on from there, of a
   /// self pair.
-  bool check(std::uint32_t number, double& seconds, std::optional<BodyPair>& found) const
+  bool check(std::uint32_t number, double margin, double& seconds, std::optional<BodyPair>& found) const
   {
     if (number >= robot.size())
     {
       const auto [first, second] = problem->self_pairs[number - robot.size()];
-      if (collideTimed(robot[first], robot[second], false, seconds))
+      if (collideTimed(robot[first], robot[second], margin, seconds))
         found = BodyPair{robot[first].body, robot[second].body};
       return found.has_value();
     }
     const Placed& link = robot[number];
-    const Vector3d grown = Vector3d::Constant(link.padding);
+    const double padding = link.padding + margin;
+    const Vector3d grown = Vector3d::Constant(padding);
     for (const std::uint32_t k : broad_phase->near({link.bounds.min() - grown, link.bounds.max() + grown}))
-      if (problem->world_pairs[number * world.size() + k] != 0 && collideTimed(link, world[k], true, seconds))
+      if (problem->world_pairs[number * world.size() + k] != 0 &&
+          collideTimed(link, world[k], padding + world[k].padding, seconds))
       {
         found = BodyPair{link.body, world[k].body};
         return true;
@@ -138,10 +139,12 @@ struct FclPeer::Impl
     return false;
   }
 
-  std::optional<BodyPair> firstInLearnedOrder()
+  /// `margins`: as for CpuTraversal; null: none.
+  std::optional<BodyPair> firstInLearnedOrder(const double* margins)
   {
     std::optional<BodyPair> found;
-    order->any([&](std::uint32_t number, double& seconds) { return check(number, seconds, found); });
+    order->any([&](std::uint32_t number, double& seconds)
+               { return check(number, margins ? margins[number] : 0.0, seconds, found); });
     return found;
   }
 
@@ -248,7 +251,7 @@ void FclPeer::setState(const Isometry3d* link_poses)
 std::optional<FclPeer::BodyPair> FclPeer::firstCollision()
 {
   if (impl_->order)
-    return impl_->firstInLearnedOrder();
+    return impl_->firstInLearnedOrder(nullptr);
   std::optional<BodyPair> found;
   impl_->visitPairs(
       [&](const Impl::Placed& a, const Impl::Placed& b, bool padded)
@@ -260,6 +263,11 @@ std::optional<FclPeer::BodyPair> FclPeer::firstCollision()
         return found.has_value();
       });
   return found;
+}
+
+std::optional<FclPeer::BodyPair> FclPeer::firstNear(const double* margins)
+{
+  return impl_->firstInLearnedOrder(margins);
 }
 
 std::vector<FclPeer::BodyPair> FclPeer::allCollisions() const

@@ -41,6 +41,9 @@ class FclPeer
 
   std::optional<BodyPair> firstCollision();
 
+  /// The same with margins as CpuTraversal's, by FCL's distances; the order must be learned.
+  std::optional<BodyPair> firstNear(const double* margins);
+
   /// All pairs of bodies that collide.
   std::vector<BodyPair> allCollisions() const;
 

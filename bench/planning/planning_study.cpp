@@ -1,0 +1,296 @@
+// planning_study --out DIR [--problems N] [--runs N] [--seconds S] [--device D]: plans the problems of ../shared with
+// the batch planner, and with OMPL's RRTConnect on this package's validator and on FCL, under both motion rules, with
+// the same seeds, one after the other. Each path is checked again at ten times the resolution by the exact checker.
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ompl/base/goals/GoalState.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include "benchmark/csv_table.h"
+#include "benchmark/statistics.h"
+#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning/batch_rrt_connect.h"
+#include "gpu_planning_scene/planning/motion_validator.h"
+#include "gpu_planning_scene/planning/state_validity_checker.h"
+#include "planning/fcl_checker.h"
+#include "support/planning_problems.h"
+
+namespace gpu_planning_scene::benchmark
+{
+namespace
+{
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+
+struct Settings
+{
+  std::string out;
+  std::string device = "auto";
+  std::size_t problems = 1000000;
+  std::size_t runs = 1;
+  double seconds = 10.0;
+};
+
+enum class Method
+{
+  Batch,
+  RrtConnect,
+  RrtConnectFcl
+};
+constexpr Method kMethods[] = {Method::Batch, Method::RrtConnect, Method::RrtConnectFcl};
+
+const char* nameOf(Method method)
+{
+  switch (method)
+  {
+    case Method::Batch:
+      return "batch planner";
+    case Method::RrtConnect:
+      return "RRTConnect, our validator";
+    case Method::RrtConnectFcl:
+      return "RRTConnect, FCL";
+  }
+  return "";
+}
+
+const char* nameOf(MotionRule rule)
+{
+  return rule == MotionRule::Bound ? "bound" : "samples";
+}
+
+struct Outcome
+{
+  bool solved = false;
+  double seconds = 0.0;
+  double length = 0.0;
+  std::size_t waypoints = 0;
+  std::uint64_t states = 0;  // checked
+  std::size_t checked_again = 0;
+  std::size_t colliding = 0;  // of those
+};
+
+/// Every path state by state, ten times as finely as it was planned.
+void checkAgain(const og::PathGeometric& path, const GroupStateSpace& space, const PlanningProblem& problem,
+                const MotionSteps& steps, CpuChecker& exact, Outcome& outcome)
+{
+  const RobotModel& robot = *problem.scene->robot;
+  std::vector<double> from = problem.start;
+  std::vector<double> to = problem.start;
+  std::vector<double> states;
+  for (unsigned int i = 0; i + 1 < path.getStateCount(); ++i)
+  {
+    space.copyToRow(path.getState(i), from.data());
+    space.copyToRow(path.getState(i + 1), to.data());
+    const auto parts = static_cast<std::size_t>(10.0 * partsOfWay(robot, from.data(), to.data(), steps));
+    for (std::size_t k = 0; k <= parts; ++k)
+    {
+      states.resize(states.size() + from.size());
+      interpolate(robot, from.data(), to.data(), static_cast<double>(k) / static_cast<double>(parts),
+                  &states[states.size() - from.size()]);
+    }
+  }
+  const std::vector<std::uint8_t> valid = exact.check(states.data(), states.size() / from.size(), problem.group).valid;
+  outcome.checked_again = valid.size();
+  outcome.colliding = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
+}
+
+class Study
+{
+ public:
+  explicit Study(const Settings& settings)
+    : settings_(settings),
+      table_(settings.out, "planning.csv",
+             {"problem", "run", "rule", "method", "solved", "seconds", "length", "waypoints", "states_checked",
+              "checked_again", "colliding"})
+  {
+  }
+
+  /// Returns whether a path that was accepted under the bound collides.
+  bool run()
+  {
+    std::vector<std::string> names = planningProblemNames();
+    if (names.empty())
+      throw Error("there are no problems in " + planningProblemFolder());
+    // Of each set some, where not all are wanted.
+    std::vector<std::string> chosen;
+    const std::size_t count = std::min(settings_.problems, names.size());
+    for (std::size_t i = 0; i < count; ++i)
+      chosen.push_back(names[i * names.size() / count]);
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      runProblem(chosen[i], i);
+    summarize();
+    return wrong_;
+  }
+
+ private:
+  void runProblem(const std::string& name, std::size_t number)
+  {
+    const PlanningProblem problem = loadPlanningProblem(name);
+    if (!ours_)
+    {
+      BatchCheckerOptions options;
+      options.device = settings_.device;
+      ours_ = std::make_shared<BatchChecker>(problem.scene, options);
+      exact_ = std::make_shared<CpuChecker>(problem.scene);
+      std::cout << "device: " << ours_->deviceName() << std::endl;
+    }
+    else
+    {
+      ours_->setScene(problem.scene);
+      exact_->setScene(problem.scene);
+    }
+    const auto fcl = std::make_shared<FclChecker>(problem.scene, problem.group);
+    // What is done once for a scene is not part of planning.
+    ours_->check(problem.start.data(), 1, problem.group);
+    ours_->report(problem.group);
+    for (std::size_t run = 0; run < settings_.runs; ++run)
+      for (const MotionRule rule : {MotionRule::Bound, MotionRule::Samples})
+        for (std::size_t k = 0; k < std::size(kMethods); ++k)
+        {
+          const Method method = kMethods[(k + number) % std::size(kMethods)];
+          const std::shared_ptr<StateChecker> checker =
+              method == Method::RrtConnectFcl ? std::static_pointer_cast<StateChecker>(fcl) : ours_;
+          const Outcome outcome =
+              plan(problem, method, rule, checker, static_cast<unsigned int>(1 + number + 1000 * run));
+          wrong_ = wrong_ || (rule == MotionRule::Bound && outcome.colliding != 0 && method != Method::RrtConnectFcl);
+          outcomes_[{nameOf(rule), nameOf(method)}].push_back(outcome);
+          table_.add({name, run, nameOf(rule), nameOf(method), outcome.solved ? "1" : "0", outcome.seconds,
+                      outcome.length, outcome.waypoints, static_cast<std::size_t>(outcome.states),
+                      outcome.checked_again, outcome.colliding});
+        }
+  }
+
+  Outcome plan(const PlanningProblem& problem, Method method, MotionRule rule,
+               const std::shared_ptr<StateChecker>& checker, unsigned int seed)
+  {
+    ompl::RNG::setSeed(seed);
+    const auto space = std::make_shared<GroupStateSpace>(problem.scene->robot, problem.group);
+    const auto information = std::make_shared<ob::SpaceInformation>(space);
+    MotionCheckerOptions options;
+    options.rule = rule;
+    const auto states = std::make_shared<StateValidityChecker>(information, problem.scene, checker);
+    const auto motions = std::make_shared<MotionValidator>(information, problem.scene, checker, options);
+    information->setStateValidityChecker(states);
+    information->setMotionValidator(motions);
+    information->setup();
+    ob::ScopedState<> start(space);
+    ob::ScopedState<> goal(space);
+    space->copyFromRow(problem.start.data(), start.get());
+    space->copyFromRow(problem.goal.data(), goal.get());
+    const auto definition = std::make_shared<ob::ProblemDefinition>(information);
+    definition->setStartAndGoalStates(start, goal);
+    std::unique_ptr<ob::Planner> planner;
+    if (method == Method::Batch)
+      planner = std::make_unique<BatchRrtConnect>(information);
+    else
+      planner = std::make_unique<og::RRTConnect>(information);
+    planner->setProblemDefinition(definition);
+    planner->setup();
+
+    Outcome outcome;
+    const Stopwatch watch;
+    const ob::PlannerStatus status = planner->solve(ob::timedPlannerTerminationCondition(settings_.seconds));
+    outcome.seconds = watch.seconds();
+    outcome.solved = status == ob::PlannerStatus::EXACT_SOLUTION;
+    outcome.states = states->statesChecked() + motions->statesChecked();
+    if (outcome.solved)
+    {
+      const auto& path = *definition->getSolutionPath()->as<og::PathGeometric>();
+      outcome.length = path.length();
+      outcome.waypoints = path.getStateCount();
+      checkAgain(path, *space, problem, options.steps, *exact_, outcome);
+    }
+    return outcome;
+  }
+
+  void summarize() const
+  {
+    CsvTable table(settings_.out, "planning_summary.csv",
+                   {"rule", "method", "problems", "solved", "median_s", "p95_s", "max_s", "median_length",
+                    "median_states", "checked_again", "colliding"});
+    for (const auto& [key, outcomes] : outcomes_)
+    {
+      std::vector<double> seconds;
+      std::vector<double> lengths;
+      std::vector<double> states;
+      std::size_t again = 0;
+      std::size_t colliding = 0;
+      for (const Outcome& outcome : outcomes)
+      {
+        seconds.push_back(outcome.seconds);
+        states.push_back(static_cast<double>(outcome.states));
+        if (outcome.solved)
+          lengths.push_back(outcome.length);
+        again += outcome.checked_again;
+        colliding += outcome.colliding;
+      }
+      table.add({key.first, key.second, outcomes.size(), lengths.size(), median(seconds), percentile(seconds, 0.95),
+                 percentile(seconds, 1.0), median(lengths), median(states), again, colliding});
+      std::cout << key.first << ", " << key.second << ": " << lengths.size() << " of " << outcomes.size()
+                << " solved, median " << median(seconds) << " s, p95 " << percentile(seconds, 0.95) << " s, length "
+                << median(lengths) << ", " << median(states) << " states, " << colliding << " of " << again
+                << " states of paths collide" << std::endl;
+    }
+  }
+
+  Settings settings_;
+  CsvTable table_;
+  std::shared_ptr<BatchChecker> ours_;
+  std::shared_ptr<CpuChecker> exact_;
+  std::map<std::pair<std::string, std::string>, std::vector<Outcome>> outcomes_;
+  bool wrong_ = false;
+};
+
+Settings settingsFrom(int argc, char** argv)
+{
+  Settings settings;
+  for (int i = 1; i + 1 < argc; i += 2)
+  {
+    const std::string name = argv[i];
+    const std::string value = argv[i + 1];
+    if (name == "--out")
+      settings.out = value;
+    else if (name == "--device")
+      settings.device = value;
+    else if (name == "--problems")
+      settings.problems = std::stoul(value);
+    else if (name == "--runs")
+      settings.runs = std::stoul(value);
+    else if (name == "--seconds")
+      settings.seconds = std::stod(value);
+    else
+      throw Error("unknown option " + name);
+  }
+  if (settings.out.empty() || argc % 2 == 0)
+    throw Error("usage: planning_study --out DIR [--problems N] [--runs N] [--seconds S] [--device D]");
+  return settings;
+}
+}  // namespace
+}  // namespace gpu_planning_scene::benchmark
+
+int main(int argc, char** argv)
+{
+  using namespace gpu_planning_scene::benchmark;
+  ompl::msg::noOutputHandler();
+  try
+  {
+    return Study(settingsFrom(argc, argv)).run() ? EXIT_FAILURE : EXIT_SUCCESS;
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "planning_study: " << error.what() << std::endl;
+    return 2;
+  }
+}
