@@ -1,5 +1,6 @@
 # What is needed at run time and to build against the package.
-set(libraries gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_scene_gpu gpu_planning_scene_collision)
+set(libraries gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_scene_gpu gpu_planning_scene_collision
+  gpu_planning_scene_planning)
 set(export_folder ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
 
 install(TARGETS ${libraries} EXPORT gpu_planning_scene-targets LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
@@ -9,6 +10,8 @@ install(DIRECTORY shaders config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTI
 install(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene:: DESTINATION ${export_folder})
 
 if(GPU_PLANNING_SCENE_ROS)
+  install(TARGETS gpu_planning_scene_planners LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  install(FILES planner_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
   install(TARGETS add_object planning_scene_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   catkin_install_python(PROGRAMS scripts/demo_client.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   export(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene::

@@ -5,11 +5,11 @@ if(NOT PYTHON_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that has catkin_pkg")
 endif()
 
-find_package(catkin REQUIRED COMPONENTS diagnostic_msgs geometry_msgs message_generation roscpp roslib sensor_msgs
-  shape_msgs std_msgs tf2 tf2_ros visualization_msgs)
+find_package(catkin REQUIRED COMPONENTS diagnostic_msgs geometry_msgs message_generation pluginlib roscpp roslib
+  sensor_msgs shape_msgs std_msgs tf2 tf2_ros trajectory_msgs visualization_msgs)
 find_package(Eigen3 REQUIRED)
 
-set(message_dependencies geometry_msgs sensor_msgs shape_msgs std_msgs)
+set(message_dependencies diagnostic_msgs geometry_msgs sensor_msgs shape_msgs std_msgs trajectory_msgs)
 add_message_files(FILES
   AllowedCollisionEntry.msg
   AllowedCollisionMatrix.msg
@@ -30,6 +30,7 @@ add_service_files(FILES
   Clear.srv
   GetPlanningScene.srv
   GetReport.srv
+  PlanMotion.srv
   ShowTreeLevel.srv)
 generate_messages(DEPENDENCIES ${message_dependencies})
 
@@ -37,6 +38,7 @@ generate_messages(DEPENDENCIES ${message_dependencies})
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_scene_gpu gpu_planning_scene_collision
+    gpu_planning_scene_planning
   CATKIN_DEPENDS message_runtime ${message_dependencies}
   DEPENDS EIGEN3
   CFG_EXTRAS gpu_planning_scene-extras.cmake)

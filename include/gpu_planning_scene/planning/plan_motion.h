@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ompl/base/Planner.h>
+
+#include "gpu_planning_scene/motion_checker.h"
+#include "gpu_planning_scene/planning/planner_factory.h"
+#include "gpu_planning_scene/planning_scene.h"
+
+namespace gpu_planning_scene
+{
+/// A motion that is wanted. Rows are of all variables of the robot; what the group does not move stays as it is at the
+/// start.
+struct PlanningQuery
+{
+  std::string group;
+  std::vector<double> start;
+  std::vector<std::vector<double>> goals;  ///< any of them
+  double seconds = 5.0;                    ///< for planning; simplification has what is left, and at least a tenth
+  bool simplify = true;
+  MotionCheckerOptions motions;
+  std::map<std::string, std::string> parameters = {};  ///< of the planner, by OMPL's names
+  std::vector<std::string> projection = {};            ///< joints that planners with projections look at; none: default
+};
+
+enum class PlanningStatus
+{
+  Solved,
+  Approximate,       ///< there was no time for more: the path ends as near to a goal as was found
+  NoSolution,        ///< nor was anything found that comes nearer
+  StartInCollision,
+  GoalsInCollision,  ///< all of them
+  OutOfBounds        ///< the start, or all goals that are not in collision
+};
+
+struct PlanningResult
+{
+  PlanningStatus status = PlanningStatus::NoSolution;
+  std::string message;                         ///< what is wrong, in one line; empty where it is solved
+  std::vector<std::vector<double>> waypoints;  ///< rows of all variables; none unless solved or approximate
+  double planning_seconds = 0.0;
+  double simplification_seconds = 0.0;
+  double checking_seconds = 0.0;  ///< of both
+  std::uint64_t states_checked = 0;
+  std::uint64_t revision = 0;  ///< of the scene
+};
+
+/// Plans with the planner that `factory` makes. `checker` has `scene`. `stop`: asked now and then whether to end early.
+/// Throws Error: an unknown group, parameter or joint of the projection, a row of the wrong length or with a value that
+/// is not finite, no goal, times that are not positive. Thread-safe with a checker for each call.
+PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
+                          const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,
+                          const PlannerFactory& factory, const std::function<bool()>& stop = {});
+}  // namespace gpu_planning_scene

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include <ros/node_handle.h>
+
+#include "gpu_planning_scene/PlanMotion.h"
+#include "gpu_planning_scene/planning/plan_motion.h"
+#include "node/planner_configs.h"
+#include "node/planner_plugins.h"
+#include "service/admission.h"
+#include "service/check_server.h"
+#include "service/memory_guard.h"
+
+namespace gpu_planning_scene
+{
+struct PlanServiceOptions
+{
+  double seconds = 5.0;                      ///< ~planning/time
+  double most_seconds = 120.0;               ///< ~limits/planning_time
+  MotionCheckerOptions motions;              ///< ~planning/motion_rule, resolution, translation_resolution
+  std::size_t at_once = 2;                   ///< ~planning/at_once
+  std::size_t most_waiting = 16;             ///< ~limits/waiting_plans
+  std::size_t most_goals = 1000;             ///< ~limits/goals
+};
+
+/// Answers ~plan, and draws the last path on ~plan_markers. Throws nothing: what is wrong is said in the response. Some
+/// plan at a time, each with a checker of its own, which is kept for the next; others wait. Thread-safe.
+class PlanService
+{
+ public:
+  /// Throws Error for wrong ~planners.
+  PlanService(ros::NodeHandle& own, const SceneStore& store, CheckServer::MakeChecker make_checker,
+              const MemoryGuard& memory, const PlanServiceOptions& options);
+
+  PlanMotion::Response plan(const PlanMotion::Request& request);
+
+  /// Ends the planning that runs, and tells those who wait.
+  void stop();
+
+ private:
+  class CheckerLease;
+  void fill(const PlanMotion::Request& request, PlanMotion::Response& response);
+  PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const PlannerConfig& config) const;
+  void draw(const PlanningScene& scene, const PlanningResult& result, const std::string& group);
+
+  const SceneStore& store_;
+  const CheckServer::MakeChecker make_checker_;
+  const MemoryGuard& memory_;
+  const PlanServiceOptions options_;
+  const PlannerConfigs configs_;
+  PlannerPlugins plugins_;
+  ros::Publisher markers_;
+  Admission admission_;
+  std::atomic<bool> stopping_{false};
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<StateChecker>> idle_;  // mutex_ guards it
+};
+}  // namespace gpu_planning_scene

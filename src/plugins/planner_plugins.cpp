@@ -1,0 +1,55 @@
+// The planners that this package exports to pluginlib, by the names of planner_plugins.xml: its own, and those of OMPL's
+// that MoveIt's users know, by the names that they have in an ompl_planning.yaml.
+
+#include <memory>
+
+#include <ompl/geometric/planners/bitstar/BITstar.h>
+#include <ompl/geometric/planners/est/BiEST.h>
+#include <ompl/geometric/planners/est/EST.h>
+#include <ompl/geometric/planners/kpiece/BKPIECE1.h>
+#include <ompl/geometric/planners/kpiece/KPIECE1.h>
+#include <ompl/geometric/planners/kpiece/LBKPIECE1.h>
+#include <ompl/geometric/planners/prm/LazyPRM.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/prm/PRMstar.h>
+#include <ompl/geometric/planners/rrt/RRT.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/geometric/planners/rrt/TRRT.h>
+#include <ompl/geometric/planners/sbl/SBL.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "gpu_planning_scene/planning/batch_rrt_connect.h"
+#include "gpu_planning_scene/planning/planner_factory.h"
+
+namespace gpu_planning_scene
+{
+template <class Planner>
+class FactoryOf : public PlannerFactory
+{
+ public:
+  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
+  {
+    return std::make_shared<Planner>(information);
+  }
+};
+}  // namespace gpu_planning_scene
+
+#define GPS_EXPORT_PLANNER(planner) \
+  PLUGINLIB_EXPORT_CLASS(gpu_planning_scene::FactoryOf<planner>, gpu_planning_scene::PlannerFactory)
+
+GPS_EXPORT_PLANNER(gpu_planning_scene::BatchRrtConnect)
+GPS_EXPORT_PLANNER(ompl::geometric::BITstar)
+GPS_EXPORT_PLANNER(ompl::geometric::BiEST)
+GPS_EXPORT_PLANNER(ompl::geometric::BKPIECE1)
+GPS_EXPORT_PLANNER(ompl::geometric::EST)
+GPS_EXPORT_PLANNER(ompl::geometric::KPIECE1)
+GPS_EXPORT_PLANNER(ompl::geometric::LBKPIECE1)
+GPS_EXPORT_PLANNER(ompl::geometric::LazyPRM)
+GPS_EXPORT_PLANNER(ompl::geometric::PRM)
+GPS_EXPORT_PLANNER(ompl::geometric::PRMstar)
+GPS_EXPORT_PLANNER(ompl::geometric::RRT)
+GPS_EXPORT_PLANNER(ompl::geometric::RRTConnect)
+GPS_EXPORT_PLANNER(ompl::geometric::RRTstar)
+GPS_EXPORT_PLANNER(ompl::geometric::SBL)
+GPS_EXPORT_PLANNER(ompl::geometric::TRRT)
