@@ -1,9 +1,12 @@
 # The catkin package: messages, and what other packages get by find_package(gpu_planning_scene).
 
 # Debian's ROS lives in the system's Python; a pyenv or conda python3 earlier on PATH lacks catkin_pkg.
-if(NOT PYTHON_EXECUTABLE AND EXISTS /usr/bin/python3)
-  set(PYTHON_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that has catkin_pkg")
-endif()
+# So does what Debian's pluginlib brings.
+foreach(name PYTHON_EXECUTABLE Python3_EXECUTABLE)
+  if(NOT ${name} AND EXISTS /usr/bin/python3)
+    set(${name} /usr/bin/python3 CACHE FILEPATH "The Python that has catkin_pkg and ament_package")
+  endif()
+endforeach()
 
 find_package(catkin REQUIRED COMPONENTS diagnostic_msgs geometry_msgs message_generation pluginlib roscpp roslib
   sensor_msgs shape_msgs std_msgs tf2 tf2_ros trajectory_msgs visualization_msgs)

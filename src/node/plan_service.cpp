@@ -10,6 +10,7 @@
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "model/full_states.h"
 #include "node/answered.h"
+#include "node/parameter_values.h"
 #include "node/path_markers.h"
 #include "node/requested_states.h"
 #include "service/busy.h"
@@ -66,6 +67,31 @@ trajectory_msgs::JointTrajectory trajectoryOf(const PlanningScene& scene, const 
   return trajectory;
 }
 }  // namespace
+
+PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own)
+{
+  constexpr std::size_t kMostAtOnce = 64;
+  constexpr std::size_t kNoLimit = std::size_t{1} << 31;
+  PlanServiceOptions options;
+  options.seconds = positiveParameter(own, "planning/time", options.seconds);
+  options.most_seconds = positiveParameter(own, "limits/planning_time", options.most_seconds);
+  const std::string rule = textParameter(own, "planning/motion_rule", "bound");
+  try
+  {
+    options.motions.rule = motionRuleFromName(rule);
+  }
+  catch (const Error& error)
+  {
+    throw Error("parameter " + own.resolveName("planning/motion_rule") + ": " + error.what());
+  }
+  MotionSteps& steps = options.motions.steps;
+  steps.revolute = positiveParameter(own, "planning/resolution", steps.revolute);
+  steps.prismatic = positiveParameter(own, "planning/translation_resolution", steps.prismatic);
+  options.at_once = countParameter(own, "planning/at_once", options.at_once, 1, kMostAtOnce);
+  options.most_waiting = countParameter(own, "limits/waiting_plans", options.most_waiting, 0, kNoLimit);
+  options.most_goals = countParameter(own, "limits/goals", options.most_goals, 1, kNoLimit);
+  return options;
+}
 
 /// A checker with the scene, for as long as one request is planned for. One that throws is not used again.
 class PlanService::CheckerLease

@@ -19,13 +19,16 @@ namespace gpu_planning_scene
 {
 struct PlanServiceOptions
 {
-  double seconds = 5.0;                      ///< ~planning/time
-  double most_seconds = 120.0;               ///< ~limits/planning_time
-  MotionCheckerOptions motions;              ///< ~planning/motion_rule, resolution, translation_resolution
-  std::size_t at_once = 2;                   ///< ~planning/at_once
-  std::size_t most_waiting = 16;             ///< ~limits/waiting_plans
-  std::size_t most_goals = 1000;             ///< ~limits/goals
+  double seconds = 5.0;           ///< of a request that asks for no time: ~planning/time
+  double most_seconds = 120.0;    ///< ~limits/planning_time
+  MotionCheckerOptions motions;   ///< ~planning/motion_rule, ~planning/resolution, ~planning/translation_resolution
+  std::size_t at_once = 2;        ///< plannings: ~planning/at_once
+  std::size_t most_waiting = 16;  ///< ~limits/waiting_plans
+  std::size_t most_goals = 1000;  ///< ~limits/goals
 };
+
+/// Throws Error, which names the parameter.
+PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own);
 
 /// Answers ~plan, and draws the last path on ~plan_markers. Throws nothing: what is wrong is said in the response. Some
 /// plan at a time, each with a checker of its own, which is kept for the next; others wait. Thread-safe.

@@ -1,5 +1,7 @@
 #include "node/planner_plugins.h"
 
+#include <cstdlib>
+
 #include <pluginlib/class_loader.hpp>
 
 #include "gpu_planning_scene/error.h"
@@ -13,7 +15,13 @@ struct PlannerPlugins::Impl
   std::map<std::string, std::shared_ptr<const PlannerFactory>> loaded;  // before the loader: they end first
 };
 
-PlannerPlugins::PlannerPlugins() : impl_(std::make_unique<Impl>()) {}
+/// Debian's pluginlib looks for packages as ROS 1 does, but asks ROS 2's index first, and throws where no environment
+/// was set up for that.
+PlannerPlugins::PlannerPlugins()
+{
+  setenv("AMENT_PREFIX_PATH", "/usr", 0);
+  impl_ = std::make_unique<Impl>();
+}
 
 PlannerPlugins::~PlannerPlugins() = default;
 

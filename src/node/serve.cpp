@@ -15,6 +15,7 @@
 #include "node/frame_lookup.h"
 #include "node/marker_publisher.h"
 #include "node/node_parameters.h"
+#include "node/plan_service.h"
 #include "node/scene_publisher.h"
 #include "node/scene_topics.h"
 #include "node/shutdown_call.h"
@@ -59,6 +60,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const BatchCheckerOptions checker_options = checkerOptionsFromParameters(own);
   const ResilientOptions resilience = resilienceFromParameters(own);
   const SceneLimits limits = sceneLimitsFromParameters(own);
+  const PlanServiceOptions plan_options = planOptionsFromParameters(own);
   setMessageLimit(options.message_size);
 
   std::vector<std::string> warnings;
@@ -69,7 +71,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const std::string planning_frame = scene.robot->planningFrame();
   Diagnostics diagnostics;
   SceneStore store(std::move(scene), defaults, limits);
-  CheckServer server(store, checkerMaker(checker_options, resilience, open_device, diagnostics), server_options);
+  const CheckServer::MakeChecker make_checker = checkerMaker(checker_options, resilience, open_device, diagnostics);
+  CheckServer server(store, make_checker, server_options);
   logScene(server);
 
   const MemoryGuard memory(options.most_memory);
@@ -78,6 +81,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   CheckServices checks(store, server, memory,
                        {server_options.most_states, options.most_inspected_states, options.most_contacts,
                         server_options.most_waiting_requests});
+  PlanService plans(own, store, make_checker, memory, plan_options);
   const SceneStore::Lookup look_up = [&lookup](const FrameAt& frame) { return lookup(frame, lookup.deadline()); };
   SceneServices changes(store, look_up, memory);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
@@ -101,6 +105,9 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   state_topics.subscribe<sensor_msgs::JointState>("joint_states", 100,
                                                   [&](const sensor_msgs::JointState& m) { changes.take(m); });
 
+  Endpoints plan_requests(node, own, plan_options.at_once + plan_options.most_waiting + 1, diagnostics);
+  plan_requests.advertise<PlanMotion>("plan", [&](const PlanMotion::Request& r) { return plans.plan(r); });
+
   // Each request that waits has a thread: so the one too many is told at once that the node is busy. As many as may
   // wait are in the batch that the small lane checks, wait in either lane, and wait for contacts. check_states comes
   // last: where it is there, all is.
@@ -123,11 +130,13 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   // are waited for.
   stopping = true;
   deadline.emplace(kLongestEnd);
-  const std::array<Endpoints*, 4> endpoints = {{&state_topics, &cloud_topics, &scene_requests, &check_requests}};
+  const std::array<Endpoints*, 5> endpoints = {
+      {&state_topics, &cloud_topics, &scene_requests, &plan_requests, &check_requests}};
   for (Endpoints* some : endpoints)
     some->close();
   scene_topics.close();
   checks.stop();
+  plans.stop();
   server.stop();
   scene_topics.stop();
   for (Endpoints* some : endpoints)

@@ -1,1 +1,302 @@
 #include "gpu_planning_scene/planning/group_state_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Core>
+#include <ompl/base/ProjectionEvaluator.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
+#include <ompl/base/spaces/SE2StateSpace.h>
+#include <ompl/base/spaces/SE3StateSpace.h>
+#include <ompl/base/spaces/SO2StateSpace.h>
+#include <ompl/tools/config/MagicConstants.h>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+namespace ob = ompl::base;
+
+constexpr double kPi = EIGEN_PI;  // which is a long double
+
+// Radians or metres. OMPL's setup() refuses a space without extent, and a dimension without one makes the measure of
+// the whole space 0, from which planners compute radii.
+constexpr double kLeastRange = 1e-9;
+
+// The joints' own distances are added up as they are: a radian or a metre counts the same in each joint, as within
+// RealVectorStateSpace. Which joint moves more of the robot differs from group to group, and with the state.
+constexpr double kWeight = 1.0;
+
+// KPIECE and its kin keep a grid of the projections, whose cells stay empty with more dimensions.
+constexpr std::size_t kMostDefaultJoints = 3;
+
+double rangeOf(const Variable& variable)
+{
+  return variable.upper - variable.lower;
+}
+
+bool hasLimits(const Joint& joint)
+{
+  return joint.type == JointType::Revolute || joint.type == JointType::Prismatic;
+}
+
+bool isPlannedFor(const RobotModel& robot, const Joint& joint)
+{
+  if (joint.type == JointType::Fixed || joint.mimic || joint.passive)
+    return false;
+  return !hasLimits(joint) || rangeOf(robot.variables()[joint.first_variable]) >= kLeastRange;
+}
+
+/// How many of a joint's variables, the first, are lengths, or its only position.
+int translationCount(JointType type)
+{
+  switch (type)
+  {
+    case JointType::Planar:
+      return 2;
+    case JointType::Floating:
+      return 3;
+    default:
+      return 1;
+  }
+}
+
+ob::RealVectorBounds translationBounds(const RobotModel& robot, const Joint& joint)
+{
+  const int count = translationCount(joint.type);
+  ob::RealVectorBounds bounds(count);
+  for (int i = 0; i < count; ++i)
+  {
+    const Variable& variable = robot.variables()[joint.first_variable + i];
+    if (rangeOf(variable) < kLeastRange)
+      throw Error("joint '" + joint.name +
+                  "' cannot be planned for, as its translations have no room; load the robot " +
+                  "with an unbounded translation above 0");
+    bounds.setLow(i, variable.lower);
+    bounds.setHigh(i, variable.upper);
+  }
+  return bounds;
+}
+
+/// Of a joint that has no limits. Its values are in the order of the joint's variables.
+ob::StateSpacePtr spaceOf(const RobotModel& robot, const Joint& joint)
+{
+  if (joint.type == JointType::Planar)
+  {
+    const auto space = std::make_shared<ob::SE2StateSpace>();
+    space->setBounds(translationBounds(robot, joint));
+    return space;
+  }
+  if (joint.type == JointType::Floating)
+  {
+    const auto space = std::make_shared<ob::SE3StateSpace>();
+    space->setBounds(translationBounds(robot, joint));
+    return space;
+  }
+  return std::make_shared<ob::SO2StateSpace>();
+}
+
+/// To [-pi, pi).
+double wrapped(double angle)
+{
+  const double rest = std::remainder(angle, 2.0 * kPi);
+  return rest == kPi ? -kPi : rest;
+}
+
+/// As forward kinematics reads it: any length above 0, and no rotation for 0.
+void makeUnit(double* quaternion)
+{
+  Eigen::Map<Eigen::Vector4d> coefficients(quaternion);
+  const double largest = coefficients.cwiseAbs().maxCoeff();
+  if (largest == 0.0)
+    coefficients = Eigen::Vector4d::UnitW();
+  else
+    coefficients = Eigen::Vector4d(coefficients / largest).normalized();
+}
+
+/// The joints that are planned for, in the order of their values: those with limits, continuous, planar, floating.
+/// Throws Error if there is none.
+std::vector<const Joint*> jointsByType(const RobotModel& robot, const Group& group)
+{
+  std::vector<const Joint*> joints;
+  for (const int index : group.joints)
+    if (isPlannedFor(robot, robot.joints()[index]))
+      joints.push_back(&robot.joints()[index]);
+  if (joints.empty())
+    throw Error("group '" + group.name + "' has no joint to plan for: one that is not fixed, mimic or passive, and " +
+                "whose limits differ");
+  const auto rank = [](const Joint* joint)
+  {
+    switch (joint->type)
+    {
+      case JointType::Continuous:
+        return 1;
+      case JointType::Planar:
+        return 2;
+      case JointType::Floating:
+        return 3;
+      default:
+        return 0;
+    }
+  };
+  std::stable_sort(joints.begin(), joints.end(), [&](const Joint* a, const Joint* b) { return rank(a) < rank(b); });
+  return joints;
+}
+
+/// The joints of the default projection: see GroupStateSpace::projectOnto. `joints`: as jointsByType() gives them.
+std::vector<std::string> defaultProjection(const std::vector<const Joint*>& joints)
+{
+  std::vector<std::string> names;
+  for (const Joint* joint : joints)
+    if (hasLimits(*joint) && names.size() < kMostDefaultJoints)
+      names.push_back(joint->name);
+  if (!names.empty())
+    return names;
+  const auto earlier = [](const Joint* a, const Joint* b)
+  {
+    const bool a_turns = a->type == JointType::Continuous;
+    const bool b_turns = b->type == JointType::Continuous;
+    return a_turns == b_turns ? a->first_variable < b->first_variable : b_turns;
+  };
+  return {(*std::min_element(joints.begin(), joints.end(), earlier))->name};
+}
+
+/// Some of a state's values, as they are.
+class ValueProjection : public ob::ProjectionEvaluator
+{
+ public:
+  ValueProjection(const ob::StateSpace* space, std::vector<ob::StateSpace::ValueLocation> values,
+                  const ob::RealVectorBounds& ranges)
+    : ob::ProjectionEvaluator(space), values_(std::move(values))
+  {
+    setBounds(ranges);
+  }
+
+  unsigned int getDimension() const override { return static_cast<unsigned int>(values_.size()); }
+
+  void project(const ob::State* state, Eigen::Ref<Eigen::VectorXd> projection) const override
+  {
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      projection[static_cast<Eigen::Index>(i)] = *space_->getValueAddressAtLocation(state, values_[i]);
+  }
+
+  void defaultCellSizes() override
+  {
+    cellSizes_ = bounds_.getDifference();
+    for (double& size : cellSizes_)
+      size /= ompl::magic::PROJECTION_DIMENSION_SPLITS;
+  }
+
+ private:
+  std::vector<ob::StateSpace::ValueLocation> values_;
+};
+}  // namespace
+
+GroupStateSpace::GroupStateSpace(std::shared_ptr<const RobotModel> robot, const std::string& group)
+  : robot_(std::move(robot)), group_(&robot_->group(group))
+{
+  setName(group);
+  const auto limits = std::make_shared<ob::RealVectorStateSpace>(0);
+  limits->setName(group + "/joints");  // no joint's name, so that subspaces can be told apart by theirs
+  const std::vector<const Joint*> joints = jointsByType(*robot_, *group_);
+  for (const Joint* joint : joints)
+    if (hasLimits(*joint))
+    {
+      const Variable& variable = robot_->variables()[joint->first_variable];
+      limits->addDimension(joint->name, variable.lower, variable.upper);
+    }
+  if (limits->getDimension() > 0)
+    addSubspace(limits, kWeight);
+  for (const Joint* joint : joints)
+  {
+    for (int i = 0; i < variableCount(joint->type); ++i)
+      variables_.push_back(joint->first_variable + i);
+    if (hasLimits(*joint))
+      continue;
+    const ob::StateSpacePtr space = spaceOf(*robot_, *joint);
+    space->setName(joint->name);
+    addSubspace(space, kWeight);
+  }
+  lock();
+  CompoundStateSpace::computeLocations();
+  for (std::size_t i = 0; i < valueLocationsInOrder_.size(); ++i)
+  {
+    const ValueLocation& location = valueLocationsInOrder_[i];
+    const int type = location.stateLocation.space->getType();
+    if (type == ob::STATE_SPACE_SO2)
+      angles_.push_back(i);
+    else if (type == ob::STATE_SPACE_SO3 && location.index == 0)
+      rotations_.push_back(i);
+  }
+  projected_ = projectedValues(defaultProjection(joints));
+}
+
+void GroupStateSpace::copyToRow(const ob::State* state, double* row) const
+{
+  for (std::size_t i = 0; i < variables_.size(); ++i)
+    row[variables_[i]] = *getValueAddressAtLocation(state, valueLocationsInOrder_[i]);
+}
+
+void GroupStateSpace::copyFromRow(const double* row, ob::State* state) const
+{
+  const auto value = [&](std::size_t i) { return getValueAddressAtLocation(state, valueLocationsInOrder_[i]); };
+  for (std::size_t i = 0; i < variables_.size(); ++i)
+    *value(i) = row[variables_[i]];
+  for (const std::size_t i : angles_)
+    *value(i) = wrapped(*value(i));
+  for (const std::size_t i : rotations_)
+    makeUnit(value(i));
+}
+
+std::vector<std::size_t> GroupStateSpace::projectedValues(const std::vector<std::string>& joints) const
+{
+  if (joints.empty())
+    throw Error("the projection of group '" + group_->name + "' names no joint");
+  std::vector<std::size_t> values;
+  for (const std::string& name : joints)
+  {
+    const int index = robot_->jointIndex(name);
+    const auto first = index < 0 || robot_->joints()[index].mimic
+                           ? variables_.end()
+                           : std::find(variables_.begin(), variables_.end(), robot_->joints()[index].first_variable);
+    if (first == variables_.end())
+      throw Error("the projection of group '" + group_->name + "' names joint '" + name +
+                  "', which is not planned for in this group");
+    for (int i = 0; i < translationCount(robot_->joints()[index].type); ++i)
+      values.push_back(static_cast<std::size_t>(first - variables_.begin() + i));
+  }
+  return values;
+}
+
+void GroupStateSpace::projectOnto(const std::vector<std::string>& joints)
+{
+  projected_ = projectedValues(joints);
+  // setup() would keep an earlier one whose cell sizes a user has set.
+  registerProjections();
+}
+
+void GroupStateSpace::registerProjections()
+{
+  std::vector<ValueLocation> values;
+  ob::RealVectorBounds ranges(static_cast<unsigned int>(projected_.size()));
+  for (std::size_t i = 0; i < projected_.size(); ++i)
+  {
+    const Variable& variable = robot_->variables()[variables_[projected_[i]]];
+    values.push_back(valueLocationsInOrder_[projected_[i]]);
+    ranges.low[i] = variable.lower;
+    ranges.high[i] = variable.upper;
+  }
+  registerDefaultProjection(std::make_shared<ValueProjection>(this, std::move(values), ranges));
+}
+
+void GroupStateSpace::interpolate(const ob::State* from, const ob::State* to, double t, ob::State* state) const
+{
+  CompoundStateSpace::interpolate(from, to, t, state);
+  for (const std::size_t i : angles_)
+    if (double& angle = *getValueAddressAtLocation(state, valueLocationsInOrder_[i]); angle == kPi)
+      angle = -kPi;
+}
+}  // namespace gpu_planning_scene

@@ -66,8 +66,7 @@ class Plan
     if (!query.projection.empty())
       space_->projectOnto(query.projection);
     information_->setStateValidityChecker(std::make_shared<StateValidityChecker>(information_, scene_, checker_));
-    information_->setMotionValidator(
-        std::make_shared<MotionValidator>(information_, scene_, checker_, query.motions));
+    information_->setMotionValidator(std::make_shared<MotionValidator>(information_, scene_, checker_, query.motions));
     information_->setup();
     space_->copyFromRow(query.start.data(), start_.get());
   }

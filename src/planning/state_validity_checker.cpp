@@ -1,1 +1,89 @@
 #include "gpu_planning_scene/planning/state_validity_checker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <ompl/base/SpaceInformation.h>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInformation& information,
+                                                    const PlanningScene& scene)
+{
+  auto space = std::dynamic_pointer_cast<const GroupStateSpace>(information.getStateSpace());
+  if (!space)
+    throw Error("the state space '" + information.getStateSpace()->getName() + "' is none of a planning group; use a " +
+                "GroupStateSpace");
+  if (space->robot() != scene.robot)
+    throw Error("the state space '" + space->getName() + "' is not of the scene's robot; make it with the robot of " +
+                "the scene, which is another one once its links are scaled");
+  return space;
+}
+
+/// OMPL's bounds let NaN pass, which would fail the whole batch.
+bool isFinite(const GroupStateSpace& space, const double* row)
+{
+  const std::vector<int>& variables = space.group().variables;
+  return std::all_of(variables.begin(), variables.end(), [&](int i) { return std::isfinite(row[i]); });
+}
+}  // namespace
+
+StateValidityChecker::StateValidityChecker(const ompl::base::SpaceInformationPtr& information,
+                                           std::shared_ptr<const PlanningScene> scene,
+                                           std::shared_ptr<StateChecker> checker)
+  : ompl::base::StateValidityChecker(information),
+    space_(groupSpaceOf(*information, *scene)),
+    scene_(std::move(scene)),
+    checker_(std::move(checker)),
+    reference_(scene_->current_state.empty() ? scene_->robot->defaultState() : scene_->current_state)
+{
+  specs_.clearanceComputationType = ompl::base::StateValidityCheckerSpecs::EXACT;
+}
+
+bool StateValidityChecker::isValid(const ompl::base::State* state) const
+{
+  return validateStates({state}).front() != 0;
+}
+
+std::vector<std::uint8_t> StateValidityChecker::validateStates(
+    const std::vector<const ompl::base::State*>& states) const
+{
+  std::vector<std::uint8_t> valid(states.size(), 0);
+  std::vector<std::size_t> within;  // the states within bounds, and their rows
+  std::vector<double> rows;
+  rows.reserve(states.size() * reference_.size());
+  for (std::size_t i = 0; i < states.size(); ++i)
+  {
+    if (!si_->satisfiesBounds(states[i]))
+      continue;
+    const std::size_t begin = rows.size();
+    rows.insert(rows.end(), reference_.begin(), reference_.end());
+    space_->copyToRow(states[i], &rows[begin]);
+    if (isFinite(*space_, &rows[begin]))
+      within.push_back(i);
+    else
+      rows.resize(begin);
+  }
+  if (within.empty())
+    return valid;
+  const BatchResult result = checker_->check(rows.data(), within.size(), space_->group().name);
+  states_checked_ += within.size();
+  for (std::size_t k = 0; k < within.size(); ++k)
+    valid[within[k]] = result.valid[k];
+  return valid;
+}
+
+double StateValidityChecker::clearance(const ompl::base::State* state) const
+{
+  std::call_once(inspector_made_, [this] { inspector_ = std::make_unique<StateInspector>(scene_); });
+  std::vector<double> row = reference_;
+  space_->copyToRow(state, row.data());
+  const Clearance clearance = inspector_->clearance(row.data(), space_->group().name);
+  return std::min(clearance.world, clearance.self);
+}
+}  // namespace gpu_planning_scene

@@ -1,9 +1,9 @@
-// The planners that this package exports to pluginlib, by the names of planner_plugins.xml: its own, and those of OMPL's
-// that MoveIt's users know, by the names that they have in an ompl_planning.yaml.
+// The planners that this package exports to pluginlib, by the names of planner_plugins.xml: its own, and those of
+// OMPL's that MoveIt's users know, by the names that they have in an ompl_planning.yaml.
 
 #include <memory>
 
-#include <ompl/geometric/planners/bitstar/BITstar.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/est/BiEST.h>
 #include <ompl/geometric/planners/est/EST.h>
 #include <ompl/geometric/planners/kpiece/BKPIECE1.h>

@@ -32,8 +32,8 @@ struct PlanningQuery
 enum class PlanningStatus
 {
   Solved,
-  Approximate,       ///< there was no time for more: the path ends as near to a goal as was found
-  NoSolution,        ///< nor was anything found that comes nearer
+  Approximate,  ///< there was no time for more: the path ends as near to a goal as was found
+  NoSolution,   ///< nor was anything found that comes nearer
   StartInCollision,
   GoalsInCollision,  ///< all of them
   OutOfBounds        ///< the start, or all goals that are not in collision

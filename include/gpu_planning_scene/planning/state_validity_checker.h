@@ -24,14 +24,16 @@ class StateValidityChecker : public ompl::base::StateValidityChecker
                        std::shared_ptr<StateChecker> checker);
 
   bool isValid(const ompl::base::State* state) const override;
+  using ompl::base::StateValidityChecker::isValid;
   /// Metres beyond the required distance to the nearest of the world and of the robot itself: see StateInspector.
+  /// Bounds do not count. Throws Error for a value that is not finite.
   double clearance(const ompl::base::State* state) const override;
   using ompl::base::StateValidityChecker::clearance;
 
   /// In bulk: 1 for each state that is valid, else 0.
   std::vector<std::uint8_t> validateStates(const std::vector<const ompl::base::State*>& states) const;
 
-  /// States that were checked so far.
+  /// States that were checked so far; those out of bounds never are.
   std::uint64_t statesChecked() const { return states_checked_; }
 
  private:

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <ompl/base/Planner.h>
+#include <ompl/base/PlannerData.h>
+#include <ompl/datastructures/NearestNeighbors.h>
+
+namespace gpu_planning_scene
+{
+/// A tree of states that grows from a root, or several, with the search for the nearest of them.
+class RrtTree
+{
+ public:
+  struct Vertex
+  {
+    ompl::base::State* state = nullptr;
+    const Vertex* parent = nullptr;  // null: a root
+
+    const Vertex& root() const;
+  };
+
+  /// Empty. Distances are those of the planner's space.
+  explicit RrtTree(const ompl::base::Planner& planner);
+  ~RrtTree();
+  RrtTree(const RrtTree&) = delete;
+  RrtTree& operator=(const RrtTree&) = delete;
+
+  /// Takes a copy of the state. The vertex lives as long as the tree.
+  const Vertex& add(const ompl::base::State* state, const Vertex* parent);
+  /// The tree must not be empty.
+  const Vertex& nearest(const ompl::base::State* state) const;
+  /// Parents before children.
+  const std::vector<std::unique_ptr<Vertex>>& vertices() const { return vertices_; }
+  std::size_t size() const { return vertices_.size(); }
+
+ private:
+  ompl::base::SpaceInformationPtr information_;
+  std::vector<std::unique_ptr<Vertex>> vertices_;
+  std::unique_ptr<ompl::NearestNeighbors<const Vertex*>> nearest_;
+};
+}  // namespace gpu_planning_scene

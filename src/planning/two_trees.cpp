@@ -1,0 +1,132 @@
+#include "planning/two_trees.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace gpu_planning_scene
+{
+namespace
+{
+// From root to root much is gained if the whole way is free, and there are few such ways.
+constexpr std::size_t kPiecesBetweenRoots = 32;
+
+TwoTrees::Side otherThan(TwoTrees::Side side)
+{
+  return side == TwoTrees::Start ? TwoTrees::Goal : TwoTrees::Start;
+}
+}  // namespace
+
+TwoTrees::TwoTrees(const ompl::base::Planner& planner)
+  : information_(planner.getSpaceInformation()),
+    sampler_(information_->allocStateSampler()),
+    trees_{RrtTree(planner), RrtTree(planner)}
+{
+}
+
+TwoTrees::~TwoTrees()
+{
+  for (ompl::base::State* state : scratch_)
+    information_->freeState(state);
+}
+
+void TwoTrees::addRoot(Side side, const ompl::base::State* state)
+{
+  const Vertex& root = trees_[side].add(state, nullptr);
+  if (trees_[otherThan(side)].size() != 0)
+    ways_.push_back({otherThan(side), nullptr, &root, kPiecesBetweenRoots});
+}
+
+ompl::base::State* TwoTrees::scratch()
+{
+  if (scratch_used_ == scratch_.size())
+    scratch_.push_back(information_->allocState());
+  return scratch_[scratch_used_++];
+}
+
+/// The next pieces of a way.
+TwoTrees::Attempt TwoTrees::pieces(Way way, double range)
+{
+  if (!way.from)
+    way.from = &trees_[way.side].nearest(way.to->state);
+  const double distance = information_->distance(way.from->state, way.to->state);
+  const double count = std::max(1.0, std::ceil(distance / range));
+  Attempt attempt{way, {}};
+  for (double i = 1.0; i <= count && attempt.states.size() < way.most_pieces; ++i)
+  {
+    if (i == count)
+    {
+      attempt.states.push_back(way.to->state);
+      break;
+    }
+    ompl::base::State* state = scratch();
+    information_->getStateSpace()->interpolate(way.from->state, way.to->state, i / count, state);
+    attempt.states.push_back(state);
+  }
+  return attempt;
+}
+
+TwoTrees::Attempt TwoTrees::randomBranch(Side side, double range)
+{
+  ompl::base::State* state = scratch();
+  sampler_->sampleUniform(state);
+  const Vertex& from = trees_[side].nearest(state);
+  const double distance = information_->distance(from.state, state);
+  if (distance > range)
+    information_->getStateSpace()->interpolate(from.state, state, range / distance, state);
+  return {{side, &from, nullptr, 1}, {state}};
+}
+
+/// Adds the valid first part of an attempt; returns the last vertex of it.
+const RrtTree::Vertex& TwoTrees::advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done)
+{
+  const Vertex* tip = attempt.way.from;
+  for (done = 0; done < attempt.states.size() && valid[done] != 0; ++done)
+    if (!attempt.way.to || attempt.states[done] != attempt.way.to->state)
+      tip = &trees_[attempt.way.side].add(attempt.states[done], tip);
+  return *tip;
+}
+
+std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, std::size_t branches, double range)
+{
+  scratch_used_ = 0;
+  std::vector<Attempt> attempts;
+  for (const Way& way : std::exchange(ways_, {}))
+    attempts.push_back(pieces(way, range));
+  for (std::size_t i = 0; i < branches; ++i)
+    attempts.push_back(randomBranch(turn_, range));
+  turn_ = otherThan(turn_);
+
+  // In the direction in which the path will have them.
+  std::vector<MotionValidator::Motion> motions;
+  for (const Attempt& attempt : attempts)
+  {
+    const ompl::base::State* last = attempt.way.from->state;
+    for (const ompl::base::State* state : attempt.states)
+    {
+      motions.emplace_back(attempt.way.side == Start ? last : state, attempt.way.side == Start ? state : last);
+      last = state;
+    }
+  }
+  const std::vector<std::uint8_t> valid = validator.validateMotions(motions);
+
+  std::vector<Meeting> meetings;
+  const std::uint8_t* first = valid.data();
+  for (const Attempt& attempt : attempts)
+  {
+    const Way& way = attempt.way;
+    std::size_t done = 0;
+    const Vertex& tip = advance(attempt, first, done);
+    first += attempt.states.size();
+    if (!way.to && done != 0)
+      ways_.push_back({otherThan(way.side), nullptr, &tip, 1});
+    if (!way.to || done < attempt.states.size())
+      continue;
+    if (attempt.states.back() == way.to->state)
+      meetings.push_back(way.side == Start ? Meeting{&tip, way.to} : Meeting{way.to, &tip});
+    else
+      ways_.push_back({way.side, &tip, way.to, 2 * way.most_pieces});
+  }
+  return meetings;
+}
+}  // namespace gpu_planning_scene

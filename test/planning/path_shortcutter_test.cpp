@@ -1,0 +1,103 @@
+// Shortened paths are shorter, valid, and end where they did.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <ompl/base/DiscreteMotionValidator.h>
+#include <ompl/util/Exception.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include "gpu_planning_scene/planning/path_shortcutter.h"
+#include "planning/point_robot.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+namespace ob = ompl::base;
+using ompl::geometric::PathGeometric;
+
+TEST(PathShortcutter, FindsTheStraightLineInFreeSpace)
+{
+  const PointRobot robot({});
+  PathGeometric path = robot.path({{-1.0, 0.0}, {-1.5, 1.5}, {0.0, -1.0}, {1.5, 1.5}, {1.0, 0.0}});
+  EXPECT_TRUE(PathShortcutter(robot.information()).shorten(path, ob::plannerNonTerminatingCondition()));
+  EXPECT_EQ(path.getStateCount(), 2U);
+  EXPECT_NEAR(path.length(), 2.0, 1e-12);
+}
+
+TEST(PathShortcutter, ComesNearTheShortestWayRoundAWall)
+{
+  const PointRobot robot({{-0.1, -3.0, 0.1, 0.95}});
+  PathGeometric path =
+      robot.path({{-1.0, 0.0}, {-1.8, 0.7}, {-1.0, 1.3}, {0.0, 1.9}, {1.5, 1.5}, {1.9, 0.3}, {1.0, 0.0}});
+  ASSERT_TRUE(robot.isValid(path));
+  EXPECT_TRUE(PathShortcutter(robot.information()).shorten(path, ob::plannerNonTerminatingCondition()));
+  EXPECT_TRUE(robot.isValid(path));
+  EXPECT_EQ(PointRobot::positionOf(path.getStates().front()), PointRobot::Position(-1.0, 0.0));
+  EXPECT_EQ(PointRobot::positionOf(path.getStates().back()), PointRobot::Position(1.0, 0.0));
+  // The cube's centre goes round the corners (+-0.15, 1).
+  const double shortest = 2.0 * std::hypot(0.85, 1.0) + 0.3;
+  EXPECT_GE(path.length(), shortest);
+  EXPECT_LE(path.length(), 1.05 * shortest);
+}
+
+TEST(PathShortcutter, NeverLengthensOrInvalidatesAPath)
+{
+  const PointRobot robot(
+      {{-0.6, -0.6, -0.2, -0.2}, {0.2, -0.6, 0.6, -0.2}, {-0.6, 0.2, -0.2, 0.6}, {0.2, 0.2, 0.6, 0.6}});
+  ompl::RNG random(3);
+  for (int i = 0; i < 50; ++i)
+  {
+    std::vector<PointRobot::Position> positions = {{-1.0, -1.0}};
+    while (positions.size() < 10)
+    {
+      const PointRobot::Position next(random.uniformReal(-1.5, 1.5), random.uniformReal(-1.5, 1.5));
+      if (robot.isValid(robot.path({positions.back(), next})))
+        positions.push_back(next);
+    }
+    PathGeometric path = robot.path(positions);
+    const double length = path.length();
+    const bool shorter = PathShortcutter(robot.information()).shorten(path, ob::plannerNonTerminatingCondition());
+    EXPECT_EQ(shorter, path.length() < length);
+    EXPECT_LE(path.length(), length);
+    EXPECT_TRUE(robot.isValid(path)) << i;
+    EXPECT_EQ(PointRobot::positionOf(path.getStates().front()), positions.front());
+    EXPECT_EQ(PointRobot::positionOf(path.getStates().back()), positions.back());
+  }
+}
+
+TEST(PathShortcutter, LeavesAPathAloneThatCannotBeShorter)
+{
+  const PointRobot robot({});
+  PathShortcutter shortcutter(robot.information());
+  for (const std::vector<PointRobot::Position>& positions :
+       std::vector<std::vector<PointRobot::Position>>{{},
+                                                      {{0.0, 0.0}},
+                                                      {{0.0, 0.0}, {1.0, 0.0}},
+                                                      {{0.0, 0.0}, {0.5, 0.0}, {1.0, 0.0}},
+                                                      {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}})
+  {
+    PathGeometric path = robot.path(positions);
+    EXPECT_FALSE(shortcutter.shorten(path, ob::plannerNonTerminatingCondition()));
+    EXPECT_EQ(path.getStateCount(), positions.size());
+  }
+}
+
+TEST(PathShortcutter, DoesNothingIfThereIsNoTime)
+{
+  const PointRobot robot({});
+  PathGeometric path = robot.path({{-1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}});
+  EXPECT_FALSE(PathShortcutter(robot.information()).shorten(path, ob::plannerAlwaysTerminatingCondition()));
+  EXPECT_EQ(path.getStateCount(), 3U);
+}
+
+TEST(PathShortcutter, NeedsMotionsInBulk)
+{
+  const PointRobot robot({});
+  robot.information()->setMotionValidator(std::make_shared<ob::DiscreteMotionValidator>(robot.information()));
+  EXPECT_THROW(PathShortcutter(robot.information()), ompl::Exception);
+}
+}  // namespace
+}  // namespace gpu_planning_scene

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/geometric/PathGeometric.h>
+
+#include "gpu_planning_scene/planning/motion_validator.h"
+
+namespace gpu_planning_scene
+{
+/// A wall of the plane, from a lower to an upper corner (x, y).
+struct Wall
+{
+  double x_lower;
+  double y_lower;
+  double x_upper;
+  double y_upper;
+};
+
+/// A cube with edges of 0.1 m that two prismatic joints move in the plane, from -2 to 2 m, among walls.
+class PointRobot
+{
+ public:
+  explicit PointRobot(const std::vector<Wall>& walls);
+
+  using Position = std::pair<double, double>;
+  ompl::base::ScopedState<> at(const Position& position) const;
+  static Position positionOf(const ompl::base::State* state);
+
+  /// From the start to any of the goals.
+  ompl::base::ProblemDefinitionPtr problem(const Position& start, const std::vector<Position>& goals) const;
+  ompl::geometric::PathGeometric path(const std::vector<Position>& positions) const;
+  bool isValid(const ompl::geometric::PathGeometric& path) const { return validator_->validatePath(path); }
+
+  const ompl::base::SpaceInformationPtr& information() const { return information_; }
+  const MotionValidator& validator() const { return *validator_; }
+
+ private:
+  ompl::base::SpaceInformationPtr information_;
+  std::shared_ptr<MotionValidator> validator_;
+};
+}  // namespace gpu_planning_scene
