@@ -33,10 +33,9 @@ double armOf(const Joint& joint, const Region& region)
 }  // namespace
 
 Displacements::Displacements(const RobotModel& robot, const CollisionProblem& problem)
-  : joints_(robot.joints().size()), variables_(robot.variables().size())
+  : joints_(robot.joints().size()), variables_(robot.variables().size()), ranges_(limitRanges(robot))
 {
   const Reach reach(robot);
-  ranges_ = reach.ranges();
   // Terms of each instance by link, from its own up to the root.
   struct Step
   {

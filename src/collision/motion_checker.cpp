@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "collision/reach.h"
 #include "collision/state_rows.h"
 #include "gpu_planning_scene/error.h"
 
@@ -70,7 +71,12 @@ class Check
  public:
   Check(StateChecker& checker, const RobotModel& robot, const std::string& group, const MotionCheckerOptions& options,
         bool last_valid)
-    : checker_(checker), robot_(robot), group_(group), options_(options), last_valid_(last_valid)
+    : checker_(checker),
+      robot_(robot),
+      limits_(limitRanges(robot)),
+      group_(group),
+      options_(options),
+      last_valid_(last_valid)
   {
   }
 
@@ -86,6 +92,12 @@ class Check
       motion.ways = jointWays(robot_, from, to);
     for (const JointWay& way : motion.ways)
       motion.longest_way = std::max({motion.longest_way, way.length, way.angle});
+    // Beyond the limits displacements have no bounds.
+    if (options_.rule == MotionRule::Bound && !(withinRanges(limits_, from) && withinRanges(limits_, to)))
+    {
+      motion.valid = false;
+      motion.limit = 0.0;
+    }
     motions_.push_back(std::move(motion));
   }
 
@@ -121,6 +133,7 @@ class Check
 
   StateChecker& checker_;
   const RobotModel& robot_;
+  const std::vector<VariableRange> limits_;
   const std::string& group_;
   const MotionCheckerOptions& options_;
   const bool last_valid_;

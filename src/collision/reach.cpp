@@ -179,7 +179,24 @@ PlacedBox::PlacedBox(const Isometry3d& pose_of_center, const Vector3d& half_leng
 {
 }
 
-Reach::Reach(const RobotModel& robot)
+std::vector<VariableRange> limitRanges(const RobotModel& robot)
+{
+  std::vector<VariableRange> ranges;
+  for (const Link& link : robot.links())
+  {
+    if (link.parent_joint < 0)
+      continue;
+    const Joint& joint = robot.joints()[static_cast<std::size_t>(link.parent_joint)];
+    if (joint.type != JointType::Revolute && joint.type != JointType::Prismatic)
+      continue;
+    const Variable& variable = robot.variables()[static_cast<std::size_t>(joint.first_variable)];
+    if (variable.bounded)
+      ranges.push_back({joint.first_variable, variable.lower - kLimitSlack, variable.upper + kLimitSlack});
+  }
+  return ranges;
+}
+
+Reach::Reach(const RobotModel& robot) : ranges_(limitRanges(robot))
 {
   for (const Variable& variable : robot.variables())
     intervals_.push_back(variable.bounded
@@ -190,12 +207,6 @@ Reach::Reach(const RobotModel& robot)
     const Joint joint = link.parent_joint < 0 ? Joint() : robot.joints()[static_cast<std::size_t>(link.parent_joint)];
     depths_.push_back(depth(joint.parent_link) + 1);
     parent_joints_.push_back(joint);
-    const bool has_limits = joint.type == JointType::Revolute || joint.type == JointType::Prismatic;
-    if (has_limits && intervals_[static_cast<std::size_t>(joint.first_variable)])
-    {
-      const Interval& interval = *intervals_[static_cast<std::size_t>(joint.first_variable)];
-      ranges_.push_back({joint.first_variable, interval.lower, interval.upper});
-    }
   }
 }
 

@@ -32,6 +32,9 @@ struct SweptBody
   std::vector<Region> above;  ///< by how many links the frame is above `link`
 };
 
+/// The limits of the robot's revolute and prismatic joints, and a little more: within them bounds on reach hold.
+std::vector<VariableRange> limitRanges(const RobotModel& robot);
+
 /// Where the joints of a robot, within their limits, can take what moves with its links. Bounds that hold: nothing is
 /// sampled. Regions are sets of balls, since a ball that is turned is the same ball; each joint sweeps them along arcs
 /// or segments, which are cut into parts and covered with balls again.
@@ -50,7 +53,7 @@ class Reach
   /// Where a body can be in the planning frame; null: anywhere.
   const Region* inPlanningFrame(const SweptBody& body) const;
 
-  /// The ranges of variables that bounds were made for: their limits and a little more.
+  /// See limitRanges.
   const std::vector<VariableRange>& ranges() const { return ranges_; }
 
  private:

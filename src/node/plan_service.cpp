@@ -42,12 +42,12 @@ std::uint8_t statusOf(PlanningStatus status)
 }
 
 /// Only what the group plans for can be a goal.
-void requireInGroup(const RobotModel& robot, const std::vector<int>& columns, const Group& group)
+void requirePlannedFor(const std::vector<int>& columns, const GroupStateSpace& space)
 {
   for (const int column : columns)
-    if (!std::binary_search(group.variables.begin(), group.variables.end(), column))
-      throw Error("goal_names has " + robot.variables()[static_cast<std::size_t>(column)].name + ", which group '" +
-                  group.name + "' does not plan for");
+    if (std::find(space.variables().begin(), space.variables().end(), column) == space.variables().end())
+      throw Error("goal_names has " + space.robot()->variables()[static_cast<std::size_t>(column)].name +
+                  ", which group '" + space.group().name + "' does not plan for");
 }
 
 trajectory_msgs::JointTrajectory trajectoryOf(const PlanningScene& scene, const PlanningResult& result,
@@ -198,7 +198,6 @@ PlanningQuery PlanService::queryFrom(const PlanMotion::Request& request, const S
                                      const PlannerConfig& config) const
 {
   const RobotModel& robot = *now.scene->robot;
-  const Group& group = robot.group(request.group);
   PlanningQuery query;
   query.group = request.group;
   const auto one = [](std::size_t count)
@@ -221,7 +220,8 @@ PlanningQuery PlanService::queryFrom(const PlanMotion::Request& request, const S
                   " (limits/goals)");
   };
   const std::vector<int> columns = requestedColumns(robot, request.goal_names, request.goals, "goals", few);
-  requireInGroup(robot, columns, group);
+  const GroupStateSpace space(now.scene->robot, request.group);
+  requirePlannedFor(columns, space);
   const std::size_t width = columns.size();
   const PartialState start(robot, query.start);
   const std::size_t goals = request.goals.size() / width;
@@ -240,7 +240,7 @@ PlanningQuery PlanService::queryFrom(const PlanMotion::Request& request, const S
     query.motions.rule = motionRuleFromName(request.motion_rule);
   if (const auto& fraction = configs_.ofGroup(request.group).longest_valid_segment_fraction)
   {
-    const double step = *fraction * GroupStateSpace(now.scene->robot, request.group).getMaximumExtent();
+    const double step = *fraction * space.getMaximumExtent();
     query.motions.steps = {step, step};
   }
   if (request.resolution != 0.0)

@@ -9,6 +9,7 @@
 
 #include "gpu_planning_scene/PlanMotion.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
+#include "node/ompl_log.h"
 #include "node/planner_configs.h"
 #include "node/planner_plugins.h"
 #include "service/admission.h"
@@ -55,6 +56,7 @@ class PlanService
   const MemoryGuard& memory_;
   const PlanServiceOptions options_;
   const PlannerConfigs configs_;
+  const OmplLog log_;
   PlannerPlugins plugins_;
   ros::Publisher markers_;
   Admission admission_;

@@ -11,6 +11,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "gpu_planning_scene/planning/motion_validator.h"
+#include "gpu_planning_scene/planning/path_length_objective.h"
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "gpu_planning_scene/planning/state_validity_checker.h"
 #include "planning/counted_checker.h"
@@ -107,7 +108,7 @@ class Plan
 
 std::string Plan::outOfBounds(const std::vector<double>& row) const
 {
-  for (const int variable : space_->group().variables)
+  for (const int variable : space_->variables())
   {
     const Variable& limits = scene_->robot->variables()[static_cast<std::size_t>(variable)];
     const double value = row[static_cast<std::size_t>(variable)];
@@ -146,7 +147,7 @@ bool Plan::findEnds(ob::GoalStates& goals)
   for (std::size_t i = 0; i < query_.goals.size(); ++i)
   {
     std::vector<double> row = query_.start;
-    for (const int variable : space_->group().variables)
+    for (const int variable : space_->variables())
       row[static_cast<std::size_t>(variable)] = query_.goals[i][static_cast<std::size_t>(variable)];
     const std::string name = query_.goals.size() == 1 ? "the goal" : "goal " + std::to_string(i);
     std::string wrong = outOfBounds(row);
@@ -179,7 +180,15 @@ void Plan::setParameters(ob::Planner& planner) const
       throw Error("planner " + planner.getName() + " has no parameter '" + name + "'; it has " +
                   (all.empty() ? "none" : all));
     }
-    if (!planner.params().setParam(name, value))
+    bool taken = false;
+    try
+    {
+      taken = planner.params().setParam(name, value);
+    }
+    catch (const std::exception&)  // OMPL's, of a value that is no number
+    {
+    }
+    if (!taken)
       throw Error("parameter " + name + " of planner " + planner.getName() + " cannot be '" + value + "'");
   }
 }
@@ -200,6 +209,7 @@ PlanningResult Plan::run(const PlannerFactory& factory)
     const auto definition = std::make_shared<ob::ProblemDefinition>(information_);
     definition->addStartState(start_);
     definition->setGoal(goals);
+    definition->setOptimizationObjective(std::make_shared<PathLengthObjective>(information_));
     const ob::PlannerPtr planner = factory.create(information_);
     setParameters(*planner);
     planner->setProblemDefinition(definition);

@@ -9,10 +9,11 @@ std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInfor
 {
   auto space = std::dynamic_pointer_cast<const GroupStateSpace>(information.getStateSpace());
   if (!space)
-    throw Error("the state space '" + information.getStateSpace()->getName() +
-                "' is no GroupStateSpace; make the space information with one");
+    throw Error("the state space '" + information.getStateSpace()->getName() + "' is none of a planning group; use a " +
+                "GroupStateSpace");
   if (space->robot() != scene.robot)
-    throw Error("the state space of group '" + space->group().name + "' is of another robot model than the scene's");
+    throw Error("the state space '" + space->getName() + "' is not of the scene's robot; make it with the robot of " +
+                "the scene, which is another one once its links are scaled");
   return space;
 }
 

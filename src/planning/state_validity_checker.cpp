@@ -7,24 +7,12 @@
 #include <ompl/base/SpaceInformation.h>
 
 #include "gpu_planning_scene/error.h"
+#include "planning/scene_space.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
-std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInformation& information,
-                                                    const PlanningScene& scene)
-{
-  auto space = std::dynamic_pointer_cast<const GroupStateSpace>(information.getStateSpace());
-  if (!space)
-    throw Error("the state space '" + information.getStateSpace()->getName() + "' is none of a planning group; use a " +
-                "GroupStateSpace");
-  if (space->robot() != scene.robot)
-    throw Error("the state space '" + space->getName() + "' is not of the scene's robot; make it with the robot of " +
-                "the scene, which is another one once its links are scaled");
-  return space;
-}
-
 /// OMPL's bounds let NaN pass, which would fail the whole batch.
 bool isFinite(const GroupStateSpace& space, const double* row)
 {
@@ -40,7 +28,7 @@ StateValidityChecker::StateValidityChecker(const ompl::base::SpaceInformationPtr
     space_(groupSpaceOf(*information, *scene)),
     scene_(std::move(scene)),
     checker_(std::move(checker)),
-    reference_(scene_->current_state.empty() ? scene_->robot->defaultState() : scene_->current_state)
+    reference_(referenceState(*scene_))
 {
   specs_.clearanceComputationType = ompl::base::StateValidityCheckerSpecs::EXACT;
 }

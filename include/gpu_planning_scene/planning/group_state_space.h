@@ -28,6 +28,8 @@ class GroupStateSpace : public ompl::base::CompoundStateSpace
 
   const std::shared_ptr<const RobotModel>& robot() const { return robot_; }
   const Group& group() const { return *group_; }
+  /// The robot's variables that are planned for: one per value of a state, in the order of getValueLocations().
+  const std::vector<int>& variables() const { return variables_; }
 
   /// Writes a state into a row of all variables of the robot; the others stay as they are.
   void copyToRow(const ompl::base::State* state, double* row) const;
@@ -51,7 +53,7 @@ class GroupStateSpace : public ompl::base::CompoundStateSpace
 
   std::shared_ptr<const RobotModel> robot_;
   const Group* group_;
-  std::vector<int> variables_;          // of the robot: one per value of a state, in the order of getValueLocations()
+  std::vector<int> variables_;
   std::vector<std::size_t> angles_;     // which of the values are in an SO2StateSpace
   std::vector<std::size_t> rotations_;  // which of the values are the x of a quaternion
   std::vector<std::size_t> projected_;  // which of the values the default projection keeps

@@ -1,0 +1,279 @@
+// ~plan: motions are found over ROS, by planners of any name, also for two clients at once; what is wrong with a
+// request is said. The node has planners.yaml, plan_parameters.yaml and the slider robot.
+
+#include <cmath>
+#include <thread>
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "gpu_planning_scene/PlanMotion.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/motion_checker.h"
+#include "node/node_client.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using Response = PlanMotion::Response;
+
+constexpr double kTurned = 0.785;  // radians: the pole does not fit into the slot
+
+CollisionObject plate(const std::string& id, const Eigen::Vector3d& position, const Eigen::Vector3d& size)
+{
+  CollisionObject object = boxObject(id, position, 1.0);
+  object.primitives[0].dimensions = {size.x(), size.y(), size.z()};
+  return object;
+}
+
+class Planning : public RunningNode
+{
+ public:
+  void SetUp() override
+  {
+    RunningNode::SetUp();
+    // Between them the pole, which is 0.1 m wide, has to be turned.
+    apply(diffWith(plate("left", {0.0, 0.565, 0.5}, {0.4, 1.0, 0.4})));
+    apply(diffWith(plate("right", {0.0, -0.565, 0.5}, {0.4, 1.0, 0.4})));
+  }
+
+  static PlanMotion::Request request()
+  {
+    PlanMotion::Request request;
+    request.group = "drive";
+    request.start_names = request.goal_names = {"slide", "turn"};
+    request.start = {-1.0, kTurned};
+    request.goals = {1.0, kTurned};
+    request.simplify = true;
+    return request;
+  }
+
+  static Response plan(const PlanMotion::Request& request) { return call<PlanMotion>("plan", request); }
+
+  /// Solved, from the start to the goal, and free all the way.
+  static void expectSolved(const Response& response, const std::vector<double>& start, const std::vector<double>& goal)
+  {
+    ASSERT_TRUE(response.success) << response.message;
+    EXPECT_EQ(response.status, Response::SOLVED);
+    EXPECT_EQ(response.trajectory.joint_names, (std::vector<std::string>{"slide", "turn"}));
+    ASSERT_GT(response.trajectory.points.size(), 2u);
+    EXPECT_EQ(response.trajectory.points.front().positions, start);
+    EXPECT_EQ(response.trajectory.points.back().positions, goal);
+    EXPECT_GT(response.states_checked, 0u);
+    EXPECT_GT(response.planning_time, 0.0);
+    for (std::size_t i = 0; i + 1 < response.trajectory.points.size(); ++i)
+    {
+      CheckMotions::Request motion;
+      motion.group = "drive";
+      motion.joint_names = response.trajectory.joint_names;
+      motion.starts = response.trajectory.points[i].positions;
+      motion.ends = response.trajectory.points[i + 1].positions;
+      motion.resolution = motion.translation_resolution = 0.001;
+      const auto checked = call<CheckMotions>("check_motions", motion);
+      ASSERT_TRUE(checked.success) << checked.message;
+      EXPECT_EQ(checked.valid, std::vector<std::uint8_t>{1}) << "motion " << i;
+    }
+  }
+
+  static void expectStatus(const PlanMotion::Request& request, std::uint8_t status, const std::string& message)
+  {
+    const Response response = plan(request);
+    EXPECT_FALSE(response.success);
+    EXPECT_EQ(response.status, status) << response.message;
+    EXPECT_NE(response.message.find(message), std::string::npos) << response.message;
+  }
+};
+
+TEST_F(Planning, findsTheWayThroughASlotByPlannersOfAnyName)
+{
+  for (const std::string name : {"", "Batch", "RRTConnectkConfigDefault", "KPIECEkConfigDefault",
+                                 "gpu_planning_scene/BatchRrtConnect", "geometric::PRM", "geometric::BITstar"})
+  {
+    SCOPED_TRACE(name);
+    PlanMotion::Request wanted = request();
+    wanted.planner = name;
+    expectSolved(plan(wanted), wanted.start, wanted.goals);
+  }
+}
+
+TEST_F(Planning, usesAPlannerOfAnotherPackage)
+{
+  PlanMotion::Request wanted = request();
+  wanted.planner = "Elsewhere";
+  const Response response = plan(wanted);
+  expectSolved(response, wanted.start, wanted.goals);
+  EXPECT_EQ(response.planner, "other_package/AnyPlanner");
+}
+
+TEST_F(Planning, takesTheDefaultOfTheGroupAndParametersOfTheRequest)
+{
+  PlanMotion::Request wanted = request();
+  EXPECT_EQ(plan(wanted).planner, "geometric::RRTConnect");
+  wanted.parameters.resize(1);
+  wanted.parameters[0].key = "range";
+  wanted.parameters[0].value = "0.2";
+  expectSolved(plan(wanted), wanted.start, wanted.goals);
+  wanted.parameters[0].key = "reach";
+  expectStatus(wanted, Response::BAD_REQUEST, "has no parameter 'reach'; it has");
+  wanted.parameters[0].key = "range";
+  wanted.parameters[0].value = "far";
+  expectStatus(wanted, Response::BAD_REQUEST, "parameter range of planner RRTConnect cannot be 'far'");
+}
+
+TEST_F(Planning, servesTwoClientsAtOnce)
+{
+  std::vector<std::thread> clients;
+  std::vector<std::vector<Response>> answers(2);
+  for (std::vector<Response>& mine : answers)
+    clients.emplace_back(
+        [&mine]
+        {
+          for (int i = 0; i < 10; ++i)
+            mine.push_back(plan(request()));
+        });
+  for (std::thread& client : clients)
+    client.join();
+  for (const std::vector<Response>& mine : answers)
+    for (const Response& response : mine)
+      expectSolved(response, request().start, request().goals);
+}
+
+TEST_F(Planning, goesToAnyOfSeveralGoalsAndLeavesOutThoseInCollision)
+{
+  PlanMotion::Request wanted = request();
+  wanted.goals = {0.0, kTurned, 1.0, 0.0};
+  expectSolved(plan(wanted), wanted.start, {1.0, 0.0});
+}
+
+TEST_F(Planning, startsAtTheCurrentStateWhereNoneIsGiven)
+{
+  PlanningSceneMessage change = diffScene();
+  change.robot_state.is_diff = true;
+  change.robot_state.joint_state.name = {"slide", "turn"};
+  change.robot_state.joint_state.position = {-0.9, kTurned};
+  apply(change);
+  PlanMotion::Request wanted = request();
+  wanted.start_names.clear();
+  wanted.start.clear();
+  expectSolved(plan(wanted), {-0.9, kTurned}, wanted.goals);
+}
+
+TEST_F(Planning, underTheBoundDoesNotJumpAWallOfAMillimetreAndBySamplesDoes)
+{
+  apply(diffWith(plate("sheet", {0.5003, 0.0, 0.0}, {0.001, 2.0, 0.15})));
+  PlanMotion::Request wanted = request();
+  wanted.start = {0.3, 0.0};
+  wanted.goals = {0.9, 0.0};
+  wanted.allowed_planning_time = 0.5;
+  const Response bound = plan(wanted);
+  EXPECT_FALSE(bound.success);
+  EXPECT_TRUE(bound.status == Response::APPROXIMATE || bound.status == Response::NO_SOLUTION);
+  EXPECT_NE(bound.message.find("no solution within 0.5"), std::string::npos) << bound.message;
+  wanted.motion_rule = "samples";
+  wanted.translation_resolution = 0.6;
+  EXPECT_TRUE(plan(wanted).success);
+}
+
+TEST_F(Planning, saysWhichBodiesCollideAtTheStartAndAtTheGoal)
+{
+  PlanMotion::Request wanted = request();
+  wanted.start = {0.0, kTurned};
+  expectStatus(wanted, Response::START_IN_COLLISION, "the start is in collision: pole and ");
+  wanted = request();
+  wanted.goals = {0.0, kTurned};
+  expectStatus(wanted, Response::GOAL_IN_COLLISION, "the goal is in collision: pole and ");
+}
+
+TEST_F(Planning, saysWhatIsOutOfBounds)
+{
+  PlanMotion::Request wanted = request();
+  wanted.start = {-2.5, 0.0};
+  expectStatus(wanted, Response::OUT_OF_BOUNDS, "the start is out of bounds: slide is -2.5");
+  wanted = request();
+  wanted.goals = {1.0, 3.5};
+  expectStatus(wanted, Response::OUT_OF_BOUNDS, "the goal is out of bounds: turn is 3.5");
+}
+
+TEST_F(Planning, tellsAnApproximateSolutionFromASolution)
+{
+  apply(diffWith(plate("wall", {0.6, 0.0, 0.0}, {0.1, 2.0, 0.15})));
+  PlanMotion::Request wanted = request();
+  wanted.allowed_planning_time = 1.0;
+  const Response response = plan(wanted);
+  EXPECT_FALSE(response.success);
+  EXPECT_EQ(response.status, Response::APPROXIMATE) << response.message;
+  ASSERT_FALSE(response.trajectory.points.empty());
+  EXPECT_EQ(response.trajectory.points.front().positions, wanted.start);
+  EXPECT_GT(response.trajectory.points.back().positions[0], -0.9);
+  EXPECT_LT(response.trajectory.points.back().positions[0], 0.5);
+  EXPECT_NE(response.message.find("the path ends"), std::string::npos) << response.message;
+}
+
+TEST_F(Planning, refusesWhatIsNoRequest)
+{
+  PlanMotion::Request wanted = request();
+  wanted.group = "crane";
+  expectStatus(wanted, Response::BAD_REQUEST, "crane");
+  wanted = request();
+  wanted.planner = "geometric::Best";
+  expectStatus(wanted, Response::BAD_REQUEST, "there is no planner 'geometric::Best'");
+  wanted = request();
+  wanted.group = "mast";
+  wanted.goal_names = {"turn"};
+  wanted.goals = {0.0};
+  wanted.planner = "RRTConnectkConfigDefault";
+  expectStatus(wanted, Response::BAD_REQUEST, "is not among the planner_configs of group 'mast'");
+  wanted.planner.clear();
+  wanted.goal_names = {"slide"};
+  expectStatus(wanted, Response::BAD_REQUEST, "goal_names has slide, which group 'mast' does not plan for");
+  wanted = request();
+  wanted.goals = {1.0, NAN};
+  expectStatus(wanted, Response::BAD_REQUEST, "turn");
+  wanted.goals.clear();
+  expectStatus(wanted, Response::BAD_REQUEST, "goal");
+  wanted.goals = {1, 0, 1, 0, 1, 0, 1, 0};
+  expectStatus(wanted, Response::BAD_REQUEST, "4 goals are more than 3 (limits/goals)");
+  wanted = request();
+  wanted.start = {-1, 0, -1, 0};
+  expectStatus(wanted, Response::BAD_REQUEST, "start has 2 rows");
+  wanted = request();
+  wanted.allowed_planning_time = 9.0;
+  expectStatus(wanted, Response::BAD_REQUEST, "the limit is 8.0");
+  wanted.allowed_planning_time = -1.0;
+  expectStatus(wanted, Response::BAD_REQUEST, "the planning time is -1.0");
+  wanted = request();
+  wanted.motion_rule = "hope";
+  expectStatus(wanted, Response::BAD_REQUEST, "the motion rule is 'hope'");
+  wanted = request();
+  wanted.resolution = -0.1;
+  expectStatus(wanted, Response::BAD_REQUEST, "the revolute step of motions is -0.1");
+}
+
+TEST_F(Planning, drawsThePath)
+{
+  ros::NodeHandle node;
+  std::vector<visualization_msgs::MarkerArray> drawn;
+  const ros::Subscriber subscriber = node.subscribe<visualization_msgs::MarkerArray>(
+      name("plan_markers"), 10,
+      [&drawn](const visualization_msgs::MarkerArrayConstPtr& message) { drawn.push_back(*message); });
+  const auto wait = [&](const auto& condition)
+  {
+    for (int i = 0; i < 200 && !condition(); ++i)
+    {
+      ros::spinOnce();
+      ros::WallDuration(0.05).sleep();
+    }
+  };
+  wait([&] { return subscriber.getNumPublishers() > 0; });
+  drawn.clear();
+  const Response response = plan(request());
+  wait([&] { return !drawn.empty() && drawn.back().markers.size() > 1; });
+  ASSERT_FALSE(drawn.empty());
+  ASSERT_EQ(drawn.back().markers.size(), 4u);  // deletes, pennant's and nut's lines, waypoints
+  EXPECT_EQ(drawn.back().markers[0].action, visualization_msgs::Marker::DELETEALL);
+  EXPECT_EQ(drawn.back().markers[3].points.size(), 2 * response.trajectory.points.size());
+  EXPECT_NEAR(drawn.back().markers[1].points.front().x, -1.0, 1e-9);
+  EXPECT_NEAR(drawn.back().markers[1].points.back().x, 1.0, 1e-9);
+}
+}  // namespace
+}  // namespace gpu_planning_scene

@@ -1,0 +1,22 @@
+// What another package does to bring a planner.
+
+#include <memory>
+
+#include <ompl/geometric/planners/kpiece/BKPIECE1.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "gpu_planning_scene/planning/planner_factory.h"
+
+namespace other_package
+{
+class AnyPlanner : public gpu_planning_scene::PlannerFactory
+{
+ public:
+  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
+  {
+    return std::make_shared<ompl::geometric::BKPIECE1>(information);
+  }
+};
+}  // namespace other_package
+
+PLUGINLIB_EXPORT_CLASS(other_package::AnyPlanner, gpu_planning_scene::PlannerFactory)
