@@ -1,0 +1,159 @@
+// The motion validator keeps OMPL's contract, also for many threads, and OMPL's own planners find valid paths with it.
+
+#include <atomic>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
+#include <ompl/geometric/planners/kpiece/LBKPIECE1.h>
+#include <ompl/geometric/planners/prm/PRM.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+
+#include "gpu_planning_scene/planning/path_length_objective.h"
+#include "planning/point_robot.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+using Position = PointRobot::Position;
+
+/// Walls with a gap each, at different ends; the robot is 0.1 m wide.
+const std::vector<Wall> kTwoWalls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
+
+struct MotionValidatorTest : testing::Test
+{
+  bool check(const Position& from, const Position& to)
+  {
+    return robot.validator().checkMotion(robot.at(from).get(), robot.at(to).get());
+  }
+
+  PointRobot robot{kTwoWalls};
+};
+
+TEST_F(MotionValidatorTest, CountsValidAndInvalidMotions)
+{
+  EXPECT_TRUE(check({-1.0, 0.0}, {-1.0, 1.0}));
+  EXPECT_FALSE(check({-1.0, 0.0}, {1.0, 0.0}));
+  EXPECT_FALSE(check({-0.4, 0.0}, {-1.0, 0.0})) << "the start collides";
+  EXPECT_FALSE(check({-1.0, 0.0}, {-2.5, 0.0})) << "out of bounds";
+  EXPECT_EQ(robot.validator().getValidMotionCount(), 1u);
+  EXPECT_EQ(robot.validator().getInvalidMotionCount(), 3u);
+}
+
+TEST_F(MotionValidatorTest, GivesTheLastValidStateOfAnInvalidMotionAlone)
+{
+  const auto from = robot.at({-1.0, 0.0});
+  const auto beyond = robot.at({1.0, 0.0});
+  auto storage = robot.at({1.5, 1.5});
+  std::pair<ob::State*, double> last_valid{storage.get(), 7.0};
+  EXPECT_TRUE(robot.validator().checkMotion(from.get(), robot.at({-1.0, 1.0}).get(), last_valid));
+  EXPECT_EQ(last_valid.second, 7.0);
+  EXPECT_EQ(PointRobot::positionOf(storage.get()), Position(1.5, 1.5));
+
+  EXPECT_FALSE(robot.validator().checkMotion(from.get(), beyond.get(), last_valid));
+  // The wall begins at -0.5, the robot's half is 0.05.
+  EXPECT_LT(PointRobot::positionOf(storage.get()).first, -0.55);
+  EXPECT_GT(PointRobot::positionOf(storage.get()).first, -0.6);
+  EXPECT_NEAR(last_valid.second, (PointRobot::positionOf(storage.get()).first + 1.0) / 2.0, 1e-12);
+  EXPECT_TRUE(robot.validator().checkMotion(from.get(), storage.get()));
+
+  std::pair<ob::State*, double> without_state{nullptr, 7.0};
+  EXPECT_FALSE(robot.validator().checkMotion(from.get(), beyond.get(), without_state));
+  EXPECT_EQ(without_state.second, last_valid.second);
+
+  const auto inside = robot.at({-0.4, 0.0});
+  EXPECT_FALSE(robot.validator().checkMotion(inside.get(), beyond.get(), last_valid));
+  EXPECT_EQ(last_valid.second, 0.0);
+  EXPECT_EQ(PointRobot::positionOf(storage.get()), Position(-0.4, 0.0));
+}
+
+TEST_F(MotionValidatorTest, MayWriteTheLastValidStateOverTheEnd)
+{
+  const auto from = robot.at({-1.0, 0.0});
+  auto to = robot.at({1.0, 0.0});
+  std::pair<ob::State*, double> last_valid{to.get(), 0.0};
+  EXPECT_FALSE(robot.validator().checkMotion(from.get(), to.get(), last_valid));
+  EXPECT_LT(PointRobot::positionOf(to.get()).first, -0.55);
+  EXPECT_GT(PointRobot::positionOf(to.get()).first, -0.6);
+}
+
+TEST_F(MotionValidatorTest, AnswersInBulkAsOneByOne)
+{
+  const auto start = robot.at({-1.0, 0.0});
+  std::vector<ob::ScopedState<>> ends;
+  std::vector<MotionValidator::Motion> motions;
+  for (int i = 0; i < 40; ++i)
+    ends.push_back(robot.at({-1.9 + 0.095 * i, 1.9 - 0.07 * i}));
+  for (const auto& end : ends)
+    motions.emplace_back(start.get(), end.get());
+  const std::vector<std::uint8_t> bulk = robot.validator().validateMotions(motions);
+  ASSERT_EQ(bulk.size(), motions.size());
+  int valid = 0;
+  for (std::size_t i = 0; i < motions.size(); ++i)
+  {
+    EXPECT_EQ(bulk[i] != 0, robot.validator().checkMotion(motions[i].first, motions[i].second)) << i;
+    valid += bulk[i];
+  }
+  EXPECT_GT(valid, 5);
+  EXPECT_LT(valid, 35);
+  EXPECT_TRUE(robot.validator().validateMotions({}).empty());
+}
+
+TEST_F(MotionValidatorTest, ValidatesPathsOfAnyLength)
+{
+  EXPECT_TRUE(robot.validator().validatePath(robot.path({{-1.0, 0.0}, {-1.0, 1.0}, {-1.5, 1.5}})));
+  EXPECT_FALSE(robot.validator().validatePath(robot.path({{-1.0, 0.0}, {-1.0, 1.0}, {1.0, 0.0}})));
+  EXPECT_TRUE(robot.validator().validatePath(robot.path({{-1.0, 0.0}})));
+  EXPECT_FALSE(robot.validator().validatePath(robot.path({{-0.4, 0.0}})));
+  EXPECT_FALSE(robot.validator().validatePath(robot.path({})));
+}
+
+TEST_F(MotionValidatorTest, ServesManyThreads)
+{
+  constexpr int kThreads = 4;
+  constexpr int kMotions = 50;
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kThreads; ++t)
+    threads.emplace_back(
+        [&]
+        {
+          for (int i = 0; i < kMotions; ++i)
+            if (check({-1.0, 0.0}, {i % 2 == 0 ? -1.0 : 1.0, 1.0}) != (i % 2 == 0))
+              ++wrong;
+        });
+  for (std::thread& thread : threads)
+    thread.join();
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(robot.validator().getCheckedMotionCount(), static_cast<unsigned int>(kThreads * kMotions));
+}
+
+template <class Planner>
+class OmplPlanners : public testing::Test
+{
+};
+using Planners = testing::Types<og::RRTConnect, og::PRM, og::BITstar, og::LBKPIECE1>;
+TYPED_TEST_SUITE(OmplPlanners, Planners);
+
+TYPED_TEST(OmplPlanners, FindAValidPath)
+{
+  const PointRobot robot(kTwoWalls);
+  const ob::ProblemDefinitionPtr problem = robot.problem({-1.0, 0.0}, {{1.0, 0.0}});
+  problem->setOptimizationObjective(std::make_shared<PathLengthObjective>(robot.information()));
+  TypeParam planner(robot.information());
+  planner.setProblemDefinition(problem);
+  planner.setup();
+  // Those that look for the shortest path end with the first one.
+  const auto found = [&problem] { return problem->hasExactSolution(); };
+  const auto ptc = ob::plannerOrTerminationCondition(ob::timedPlannerTerminationCondition(60.0),
+                                                     ob::PlannerTerminationCondition(found));
+  EXPECT_EQ(planner.solve(ptc), ob::PlannerStatus::EXACT_SOLUTION);
+  ASSERT_TRUE(problem->hasExactSolution());
+  EXPECT_TRUE(robot.isValid(*problem->getSolutionPath()->as<og::PathGeometric>()));
+}
+}  // namespace
+}  // namespace gpu_planning_scene
