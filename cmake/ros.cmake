@@ -43,5 +43,5 @@ catkin_package(
   LIBRARIES gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_scene_gpu gpu_planning_scene_collision
     gpu_planning_scene_planning
   CATKIN_DEPENDS message_runtime ${message_dependencies}
-  DEPENDS EIGEN3
+  DEPENDS EIGEN3 OMPL
   CFG_EXTRAS gpu_planning_scene-extras.cmake)

@@ -1,5 +1,5 @@
 # What install.a_package_builds_against_the_installed_one runs. BUILD: the build to install; CONSUMER: the package to
-# build; FOLDER: where all of it goes; PREFIX: the CMAKE_INSTALL_PREFIX of BUILD; GENERATOR: CMake's, since a machine may
+# build; EXAMPLE: another, which plans for the robot of ROBOT.urdf and ROBOT.srdf; FOLDER: where all of it goes; PREFIX: the CMAKE_INSTALL_PREFIX of BUILD; GENERATOR: CMake's, since a machine may
 # have only one; SANITIZE: whether BUILD has sanitizers, which CONSUMER then needs too.
 
 # run(WHAT COMMAND...): fails, saying WHAT, with the command's output. Sets output.
@@ -34,6 +34,15 @@ foreach(program with_variables with_targets)
   run("${program} gives wrong answers" ${FOLDER}/build/${program})
 endforeach()
 
+# The example finds a path: from its first row to its last.
+run("find_package does not find it for the example" ${CMAKE_COMMAND} -S ${EXAMPLE} -B ${FOLDER}/example -G ${GENERATOR}
+  -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${flags} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
+run("the example does not build" ${CMAKE_COMMAND} --build ${FOLDER}/example)
+run("the example finds no path" ${FOLDER}/example/plan_a_motion ${ROBOT}.urdf ${ROBOT}.srdf drive)
+if(NOT output MATCHES "-1 0\\.8[^\n]*\n(.*\n)+1 0\\.8")
+  message(FATAL_ERROR "the example's path is another one:\n${output}")
+endif()
+
 # The tools run from where they were installed, with nothing sourced.
 foreach(tool check_states generate_acm)
   run("${tool} does not run" ${prefix}/lib/gpu_planning_scene/${tool} --version)
@@ -41,7 +50,8 @@ endforeach()
 
 set(share share/gpu_planning_scene)
 foreach(file setup.bash ${share}/launch/planning_scene.launch ${share}/config/demo/kr5_scene.yaml ${share}/package.xml
-        lib/gpu_planning_scene/planning_scene_node lib/gpu_planning_scene/demo_client.py)
+        lib/gpu_planning_scene/planning_scene_node lib/gpu_planning_scene/demo_client.py
+        ${share}/planner_plugins.xml lib/libgpu_planning_scene_planners.so)
   if(NOT EXISTS ${prefix}/${file})
     message(FATAL_ERROR "${file} is not installed")
   endif()
