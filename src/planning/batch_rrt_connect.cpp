@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <ompl/geometric/PathGeometric.h>
-#include <ompl/tools/config/SelfConfig.h>
 
 #include "planning/bulk_validator.h"
 #include "planning/two_trees.h"
@@ -20,8 +19,14 @@ namespace ob = ompl::base;
 using ompl::geometric::PathGeometric;
 using Vertex = RrtTree::Vertex;
 
-// Random branches of the first round; each next one has twice as many, up to the parameter.
-constexpr std::size_t kFirstBranches = 4;
+// The chosen range, as a part of the largest distance in the space. OMPL's RRTConnect takes a fifth of it; short motions
+// need far fewer states for a solution amid obstacles, and motions in bulk make up for their number.
+constexpr double kRangeOfExtent = 0.04;
+
+// A round has a random branch for so many vertices. Branches of one round know nothing of each other; while the trees
+// are small, many would be wasted.
+constexpr std::size_t kVerticesPerBranch = 8;
+constexpr std::size_t kLeastBranches = 2;
 
 // Goal states that are taken at once. More of them follow as the goal tree grows, as in OMPL's RRTConnect.
 constexpr std::size_t kFirstGoals = 8;
@@ -46,7 +51,7 @@ struct BatchRrtConnect::Progress
   explicit Progress(const ob::Planner& planner) : trees(planner) {}
 
   TwoTrees trees;
-  std::size_t branches = 0;  // of the last round
+  bool is_first_round = true;
   /// Of the last solution. Its goal vertex is null where its start vertex is in the goal region.
   TwoTrees::Meeting meeting{nullptr, nullptr};
   std::size_t looked_at = 0;        // vertices of the start tree whose distance to the goal is known
@@ -82,7 +87,8 @@ void BatchRrtConnect::setup()
 {
   Planner::setup();
   bulkValidatorOf(*si_, getName());
-  ompl::tools::SelfConfig(si_, getName()).configurePlannerRange(range_);
+  if (range_ <= 0.0)
+    range_ = kRangeOfExtent * si_->getMaximumExtent();
 }
 
 void BatchRrtConnect::clear()
@@ -138,9 +144,12 @@ void BatchRrtConnect::takeMoreGoals()
 bool BatchRrtConnect::runRound(const ob::GoalSampleableRegion& goal)
 {
   Progress& progress = *progress_;
+  // At first nothing but the straight ways.
+  const std::size_t size = progress.trees.tree(TwoTrees::Start).size() + progress.trees.tree(TwoTrees::Goal).size();
+  const std::size_t branches = std::min<std::size_t>(branches_, std::max(kLeastBranches, size / kVerticesPerBranch));
   std::vector<TwoTrees::Meeting> meetings =
-      progress.trees.grow(bulkValidatorOf(*si_, getName()), progress.branches, range_);
-  progress.branches = std::min<std::size_t>(branches_, std::max(kFirstBranches, 2 * progress.branches));
+      progress.trees.grow(bulkValidatorOf(*si_, getName()), progress.is_first_round ? 0 : branches, range_);
+  progress.is_first_round = false;
 
   const auto& vertices = progress.trees.tree(TwoTrees::Start).vertices();
   for (; progress.looked_at < vertices.size(); ++progress.looked_at)

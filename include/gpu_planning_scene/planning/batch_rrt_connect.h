@@ -27,12 +27,11 @@ class BatchRrtConnect : public ompl::base::Planner
   explicit BatchRrtConnect(const ompl::base::SpaceInformationPtr& information);
   ~BatchRrtConnect() override;
 
-  /// The longest motion that is added to a tree; 0: setup() chooses one.
+  /// The longest motion that is added to a tree; 0 or less: setup() chooses one, 4 % of the space's extent.
   void setRange(double range);
   double getRange() const { return range_; }
 
-  /// How many random branches a round has at most, at least 1. The first rounds have fewer: what is easy is solved
-  /// by few.
+  /// How many random branches a round has at most, at least 1. While the trees are small it has fewer.
   void setBranches(unsigned int branches);
   unsigned int getBranches() const { return branches_; }
 
@@ -54,7 +53,7 @@ class BatchRrtConnect : public ompl::base::Planner
   bool runRound(const ompl::base::GoalSampleableRegion& goal);
 
   double range_ = 0.0;
-  unsigned int branches_ = 32;
+  unsigned int branches_ = 64;
   std::unique_ptr<Progress> progress_;  // what clear() forgets
 };
 }  // namespace gpu_planning_scene
