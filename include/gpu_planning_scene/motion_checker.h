@@ -58,10 +58,18 @@ class MotionChecker
   std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
                                    bool last_valid = false) const;
 
+  /// The same under MotionRule::Samples, whatever the options' rule is: what is not valid here is not under any rule.
+  std::vector<MotionVerdict> checkSamples(const double* starts, const double* ends, std::size_t count) const;
+
+  MotionRule rule() const { return options_.rule; }
+
   /// States that were checked so far, with and without margins.
   std::uint64_t statesChecked() const { return states_checked_; }
 
  private:
+  std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
+                                   const MotionCheckerOptions& options, bool last_valid) const;
+
   std::shared_ptr<StateChecker> checker_;
   std::shared_ptr<const RobotModel> robot_;
   std::string group_;

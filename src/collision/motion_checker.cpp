@@ -286,14 +286,28 @@ MotionChecker::MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_
 std::vector<MotionVerdict> MotionChecker::check(const double* starts, const double* ends, std::size_t count,
                                                 bool last_valid) const
 {
+  return check(starts, ends, count, options_, last_valid);
+}
+
+std::vector<MotionVerdict> MotionChecker::checkSamples(const double* starts, const double* ends,
+                                                       std::size_t count) const
+{
+  MotionCheckerOptions options = options_;
+  options.rule = MotionRule::Samples;
+  return check(starts, ends, count, options, false);
+}
+
+std::vector<MotionVerdict> MotionChecker::check(const double* starts, const double* ends, std::size_t count,
+                                                const MotionCheckerOptions& options, bool last_valid) const
+{
   refuseNonFinite(*robot_, starts, count);
   refuseNonFinite(*robot_, ends, count);
   const std::size_t width = robot_->variables().size();
-  Check check(*checker_, *robot_, group_, options_, last_valid);
+  Check check(*checker_, *robot_, group_, options, last_valid);
   for (std::size_t i = 0; i < count; ++i)
     check.add(starts + i * width, ends + i * width);
   check.checkSamples();
-  if (options_.rule == MotionRule::Bound)
+  if (options.rule == MotionRule::Bound)
     check.prove();
   states_checked_ += check.statesChecked();
   return check.verdicts();

@@ -19,8 +19,8 @@ namespace ob = ompl::base;
 using ompl::geometric::PathGeometric;
 using Vertex = RrtTree::Vertex;
 
-// The chosen range, as a part of the largest distance in the space. OMPL's RRTConnect takes a fifth of it; short motions
-// need far fewer states for a solution amid obstacles, and motions in bulk make up for their number.
+// The chosen range, as a part of the largest distance in the space. OMPL's RRTConnect takes a fifth of it; short
+// motions need far fewer states for a solution amid obstacles, and motions in bulk make up for their number.
 constexpr double kRangeOfExtent = 0.04;
 
 // A round has a random branch for so many vertices. Branches of one round know nothing of each other; while the trees
@@ -46,18 +46,163 @@ std::shared_ptr<PathGeometric> pathOf(const ob::SpaceInformationPtr& information
 }
 }  // namespace
 
-struct BatchRrtConnect::Progress
+/// The trees, and what was found with them so far.
+class BatchRrtConnect::Search
 {
-  explicit Progress(const ob::Planner& planner) : trees(planner) {}
+ public:
+  /// The planner's space information has a MotionValidator, which outlives this.
+  explicit Search(const ob::Planner& planner)
+    : information_(planner.getSpaceInformation()),
+      validator_(bulkValidatorOf(*information_, planner.getName())),
+      trees_(planner)
+  {
+  }
 
-  TwoTrees trees;
-  bool is_first_round = true;
+  TwoTrees& trees() { return trees_; }
+
+  /// A round of the trees. Returns a solution, if there is one.
+  std::shared_ptr<PathGeometric> runRound(const ob::GoalSampleableRegion& goal, std::size_t most_branches,
+                                          double range);
+
+  /// The way to the vertex that is closest to the goal, as far as it is proven; null if that is nothing.
+  std::shared_ptr<PathGeometric> approximatePath();
+
+  void addTo(ob::PlannerData& data) const;
+
+ private:
+  void lookAtNewVertices(const ob::GoalSampleableRegion& goal, std::vector<TwoTrees::Meeting>& meetings);
+  bool isProven(const TwoTrees::Meeting& meeting);
+
+  ob::SpaceInformationPtr information_;
+  const MotionValidator& validator_;
+  TwoTrees trees_;
+  bool is_first_round_ = true;
   /// Of the last solution. Its goal vertex is null where its start vertex is in the goal region.
-  TwoTrees::Meeting meeting{nullptr, nullptr};
-  std::size_t looked_at = 0;        // vertices of the start tree whose distance to the goal is known
-  const Vertex* closest = nullptr;  // of those
-  double distance = std::numeric_limits<double>::infinity();
+  TwoTrees::Meeting meeting_{nullptr, nullptr};
+  std::size_t looked_at_ = 0;        // vertices of the start tree whose distance to the goal is known
+  const Vertex* closest_ = nullptr;  // of those
+  double distance_ = std::numeric_limits<double>::infinity();
 };
+
+/// Finds those that are in the goal region, which may be more than the goal tree's states, and the one closest to it.
+void BatchRrtConnect::Search::lookAtNewVertices(const ob::GoalSampleableRegion& goal,
+                                                std::vector<TwoTrees::Meeting>& meetings)
+{
+  if (closest_ && closest_->removed)
+  {
+    looked_at_ = 0;
+    closest_ = nullptr;
+    distance_ = std::numeric_limits<double>::infinity();
+  }
+  const auto& vertices = trees_.tree(TwoTrees::Start).vertices();
+  for (; looked_at_ < vertices.size(); ++looked_at_)
+  {
+    const Vertex& vertex = *vertices[looked_at_];
+    if (vertex.removed)
+      continue;
+    double distance = 0.0;
+    if (goal.isSatisfied(vertex.state, &distance))
+      meetings.push_back({&vertex, nullptr});
+    if (distance < distance_)
+    {
+      distance_ = distance;
+      closest_ = &vertex;
+    }
+  }
+}
+
+/// Whether all motions of the path through a meeting are valid by the validator's own rule. Those that are not are
+/// taken out of the trees.
+bool BatchRrtConnect::Search::isProven(const TwoTrees::Meeting& meeting)
+{
+  if (validator_.rule() == MotionRule::Samples)
+    return true;
+  std::vector<MotionValidator::Motion> motions;
+  std::vector<std::pair<TwoTrees::Side, const Vertex*>> ends;  // of the motions within the trees
+  for (const Vertex* vertex = meeting.start; vertex->parent; vertex = vertex->parent)
+  {
+    motions.emplace_back(vertex->parent->state, vertex->state);
+    ends.emplace_back(TwoTrees::Start, vertex);
+  }
+  for (const Vertex* vertex = meeting.goal; vertex && vertex->parent; vertex = vertex->parent)
+  {
+    motions.emplace_back(vertex->state, vertex->parent->state);
+    ends.emplace_back(TwoTrees::Goal, vertex);
+  }
+  if (meeting.goal)
+    motions.emplace_back(meeting.start->state, meeting.goal->state);
+  const std::vector<std::uint8_t> valid = validator_.validateMotions(motions);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    if (valid[i] == 0)
+      trees_.remove(ends[i].first, *ends[i].second);
+  return std::find(valid.begin(), valid.end(), 0) == valid.end();
+}
+
+std::shared_ptr<PathGeometric> BatchRrtConnect::Search::runRound(const ob::GoalSampleableRegion& goal,
+                                                                 std::size_t most_branches, double range)
+{
+  const std::size_t size = trees_.tree(TwoTrees::Start).size() + trees_.tree(TwoTrees::Goal).size();
+  const std::size_t branches = std::min(most_branches, std::max(kLeastBranches, size / kVerticesPerBranch));
+  // At first nothing but the straight ways.
+  std::vector<TwoTrees::Meeting> meetings = trees_.grow(validator_, is_first_round_ ? 0 : branches, range);
+  is_first_round_ = false;
+  lookAtNewVertices(goal, meetings);
+
+  std::vector<std::pair<std::shared_ptr<PathGeometric>, TwoTrees::Meeting>> paths;
+  for (const TwoTrees::Meeting& meeting : meetings)
+  {
+    const ob::State* end = meeting.goal ? meeting.goal->root().state : meeting.start->state;
+    if (goal.isStartGoalPairValid(meeting.start->root().state, end))
+      paths.emplace_back(pathOf(information_, meeting), meeting);
+  }
+  std::stable_sort(paths.begin(), paths.end(),
+                   [](const auto& a, const auto& b) { return a.first->length() < b.first->length(); });
+  for (const auto& [path, meeting] : paths)
+  {
+    const bool is_there = !meeting.start->removed && !(meeting.goal && meeting.goal->removed);
+    if (!is_there || !isProven(meeting))
+      continue;
+    meeting_ = meeting;
+    return path;
+  }
+  return nullptr;
+}
+
+std::shared_ptr<PathGeometric> BatchRrtConnect::Search::approximatePath()
+{
+  while (closest_ && closest_->parent)
+  {
+    if (isProven({closest_, nullptr}))
+      return pathOf(information_, {closest_, nullptr});
+    while (closest_->removed)
+      closest_ = closest_->parent;
+  }
+  return nullptr;
+}
+
+void BatchRrtConnect::Search::addTo(ob::PlannerData& data) const
+{
+  for (const auto& vertex : trees_.tree(TwoTrees::Start).vertices())
+  {
+    if (vertex->removed)
+      continue;
+    if (vertex->parent)
+      data.addEdge(ob::PlannerDataVertex(vertex->parent->state, 1), ob::PlannerDataVertex(vertex->state, 1));
+    else
+      data.addStartVertex(ob::PlannerDataVertex(vertex->state, 1));
+  }
+  for (const auto& vertex : trees_.tree(TwoTrees::Goal).vertices())
+  {
+    if (vertex->removed)
+      continue;
+    if (vertex->parent)
+      data.addEdge(ob::PlannerDataVertex(vertex->state, 2), ob::PlannerDataVertex(vertex->parent->state, 2));
+    else
+      data.addGoalVertex(ob::PlannerDataVertex(vertex->state, 2));
+  }
+  if (meeting_.goal)
+    data.addEdge(ob::PlannerDataVertex(meeting_.start->state, 1), ob::PlannerDataVertex(meeting_.goal->state, 2));
+}
 
 BatchRrtConnect::BatchRrtConnect(const ob::SpaceInformationPtr& information)
   : ob::Planner(information, "BatchRrtConnect")
@@ -94,7 +239,7 @@ void BatchRrtConnect::setup()
 void BatchRrtConnect::clear()
 {
   Planner::clear();
-  progress_.reset();
+  search_.reset();
 }
 
 /// Null if there is none, or no time. Waits for goals that arrive late, but not where all of them are known.
@@ -113,7 +258,7 @@ const ob::State* BatchRrtConnect::firstGoal(const ob::GoalSampleableRegion& goal
 ob::PlannerStatus BatchRrtConnect::takeInputs(const ob::GoalSampleableRegion& goal,
                                               const ob::PlannerTerminationCondition& ptc)
 {
-  TwoTrees& trees = progress_->trees;
+  TwoTrees& trees = search_->trees();
   while (const ob::State* state = pis_.nextStart())
     trees.addRoot(TwoTrees::Start, state);
   if (trees.tree(TwoTrees::Start).size() == 0)
@@ -133,53 +278,11 @@ ob::PlannerStatus BatchRrtConnect::takeInputs(const ob::GoalSampleableRegion& go
 
 void BatchRrtConnect::takeMoreGoals()
 {
-  TwoTrees& trees = progress_->trees;
+  TwoTrees& trees = search_->trees();
   const std::size_t wanted = std::max(kFirstGoals, trees.tree(TwoTrees::Goal).size() / 2);
   for (std::size_t i = 0; i < kFirstGoals && pis_.haveMoreGoalStates() && pis_.getSampledGoalsCount() < wanted; ++i)
     if (const ob::State* state = pis_.nextGoal())
       trees.addRoot(TwoTrees::Goal, state);
-}
-
-/// Whether there is a solution now.
-bool BatchRrtConnect::runRound(const ob::GoalSampleableRegion& goal)
-{
-  Progress& progress = *progress_;
-  // At first nothing but the straight ways.
-  const std::size_t size = progress.trees.tree(TwoTrees::Start).size() + progress.trees.tree(TwoTrees::Goal).size();
-  const std::size_t branches = std::min<std::size_t>(branches_, std::max(kLeastBranches, size / kVerticesPerBranch));
-  std::vector<TwoTrees::Meeting> meetings =
-      progress.trees.grow(bulkValidatorOf(*si_, getName()), progress.is_first_round ? 0 : branches, range_);
-  progress.is_first_round = false;
-
-  const auto& vertices = progress.trees.tree(TwoTrees::Start).vertices();
-  for (; progress.looked_at < vertices.size(); ++progress.looked_at)
-  {
-    const Vertex& vertex = *vertices[progress.looked_at];
-    double distance = 0.0;
-    if (goal.isSatisfied(vertex.state, &distance))
-      meetings.push_back({&vertex, nullptr});
-    if (distance < progress.distance)
-    {
-      progress.distance = distance;
-      progress.closest = &vertex;
-    }
-  }
-
-  std::shared_ptr<PathGeometric> shortest;
-  for (const TwoTrees::Meeting& meeting : meetings)
-  {
-    const ob::State* end = meeting.goal ? meeting.goal->root().state : meeting.start->state;
-    if (!goal.isStartGoalPairValid(meeting.start->root().state, end))
-      continue;
-    std::shared_ptr<PathGeometric> path = pathOf(si_, meeting);
-    if (shortest && path->length() >= shortest->length())
-      continue;
-    shortest = std::move(path);
-    progress.meeting = meeting;
-  }
-  if (shortest)
-    pdef_->addSolutionPath(shortest, false, 0.0, getName());
-  return shortest != nullptr;
 }
 
 ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& ptc)
@@ -191,8 +294,8 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
     OMPL_ERROR("%s: the goal cannot be sampled", getName().c_str());
     return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
   }
-  if (!progress_)
-    progress_ = std::make_unique<Progress>(*this);
+  if (!search_)
+    search_ = std::make_unique<Search>(*this);
   if (const ob::PlannerStatus status = takeInputs(*goal, ptc); !status)
   {
     OMPL_ERROR("%s: there is no valid %s state", getName().c_str(),
@@ -202,37 +305,25 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
   while (!ptc)
   {
     takeMoreGoals();
-    if (runRound(*goal))
+    if (const auto path = search_->runRound(*goal, branches_, range_))
+    {
+      pdef_->addSolutionPath(path, false, 0.0, getName());
       return ob::PlannerStatus::EXACT_SOLUTION;
+    }
   }
-  const Vertex* closest = progress_->closest;
-  if (!closest || !closest->parent)
+  const std::shared_ptr<PathGeometric> path = search_->approximatePath();
+  if (!path)
     return ob::PlannerStatus::TIMEOUT;
-  pdef_->addSolutionPath(pathOf(si_, {closest, nullptr}), true, progress_->distance, getName());
+  double distance = 0.0;
+  goal->isSatisfied(path->getStates().back(), &distance);
+  pdef_->addSolutionPath(path, true, distance, getName());
   return ob::PlannerStatus::APPROXIMATE_SOLUTION;
 }
 
 void BatchRrtConnect::getPlannerData(ob::PlannerData& data) const
 {
   Planner::getPlannerData(data);
-  if (!progress_)
-    return;
-  for (const auto& vertex : progress_->trees.tree(TwoTrees::Start).vertices())
-  {
-    if (vertex->parent)
-      data.addEdge(ob::PlannerDataVertex(vertex->parent->state, 1), ob::PlannerDataVertex(vertex->state, 1));
-    else
-      data.addStartVertex(ob::PlannerDataVertex(vertex->state, 1));
-  }
-  for (const auto& vertex : progress_->trees.tree(TwoTrees::Goal).vertices())
-  {
-    if (vertex->parent)
-      data.addEdge(ob::PlannerDataVertex(vertex->state, 2), ob::PlannerDataVertex(vertex->parent->state, 2));
-    else
-      data.addGoalVertex(ob::PlannerDataVertex(vertex->state, 2));
-  }
-  const TwoTrees::Meeting& meeting = progress_->meeting;
-  if (meeting.goal)
-    data.addEdge(ob::PlannerDataVertex(meeting.start->state, 1), ob::PlannerDataVertex(meeting.goal->state, 2));
+  if (search_)
+    search_->addTo(data);
 }
 }  // namespace gpu_planning_scene

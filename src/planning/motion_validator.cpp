@@ -17,7 +17,7 @@ MotionValidator::MotionValidator(const ompl::base::SpaceInformationPtr& informat
 }
 
 /// Those that leave the bounds are not looked at.
-std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& motions, bool last_valid) const
+std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& motions, Question question) const
 {
   const std::size_t width = reference_.size();
   std::vector<std::size_t> within;
@@ -35,7 +35,10 @@ std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& mot
     }
     within.push_back(i);
   }
-  const std::vector<MotionVerdict> checked = motions_.check(starts.data(), ends.data(), within.size(), last_valid);
+  const std::vector<MotionVerdict> checked =
+      question == Question::Samples
+          ? motions_.checkSamples(starts.data(), ends.data(), within.size())
+          : motions_.check(starts.data(), ends.data(), within.size(), question == Question::LastValid);
   std::vector<MotionVerdict> verdicts(motions.size());
   for (std::size_t i = 0; i < within.size(); ++i)
     verdicts[within[i]] = checked[i];
@@ -47,13 +50,13 @@ std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& mot
 
 bool MotionValidator::checkMotion(const ompl::base::State* from, const ompl::base::State* to) const
 {
-  return check({{from, to}}, false).front().valid;
+  return check({{from, to}}, Question::Valid).front().valid;
 }
 
 bool MotionValidator::checkMotion(const ompl::base::State* from, const ompl::base::State* to,
                                   std::pair<ompl::base::State*, double>& last_valid) const
 {
-  const MotionVerdict verdict = check({{from, to}}, true).front();
+  const MotionVerdict verdict = check({{from, to}}, Question::LastValid).front();
   if (verdict.valid)
     return true;
   last_valid.second = verdict.last_valid;
@@ -62,13 +65,23 @@ bool MotionValidator::checkMotion(const ompl::base::State* from, const ompl::bas
   return false;
 }
 
-std::vector<std::uint8_t> MotionValidator::validateMotions(const std::vector<Motion>& motions) const
+std::vector<std::uint8_t> MotionValidator::validOf(const std::vector<MotionVerdict>& verdicts)
 {
   std::vector<std::uint8_t> valid;
-  valid.reserve(motions.size());
-  for (const MotionVerdict& verdict : check(motions, false))
+  valid.reserve(verdicts.size());
+  for (const MotionVerdict& verdict : verdicts)
     valid.push_back(verdict.valid ? 1 : 0);
   return valid;
+}
+
+std::vector<std::uint8_t> MotionValidator::validateMotions(const std::vector<Motion>& motions) const
+{
+  return validOf(check(motions, Question::Valid));
+}
+
+std::vector<std::uint8_t> MotionValidator::validateSamples(const std::vector<Motion>& motions) const
+{
+  return validOf(check(motions, Question::Samples));
 }
 
 bool MotionValidator::validatePath(const ompl::geometric::PathGeometric& path) const

@@ -33,6 +33,16 @@ const RrtTree::Vertex& RrtTree::add(const ompl::base::State* state, const Vertex
   return *vertices_.back();
 }
 
+void RrtTree::remove(const Vertex& vertex)
+{
+  for (const std::unique_ptr<Vertex>& each : vertices_)
+    if (!each->removed && (each.get() == &vertex || (each->parent && each->parent->removed)))
+    {
+      each->removed = true;
+      nearest_->remove(each.get());
+    }
+}
+
 const RrtTree::Vertex& RrtTree::nearest(const ompl::base::State* state) const
 {
   // The search only reads the vertex that it is given.

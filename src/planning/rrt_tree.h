@@ -18,6 +18,7 @@ class RrtTree
   {
     ompl::base::State* state = nullptr;
     const Vertex* parent = nullptr;  // null: a root
+    bool removed = false;
 
     const Vertex& root() const;
   };
@@ -30,9 +31,11 @@ class RrtTree
 
   /// Takes a copy of the state. The vertex lives as long as the tree.
   const Vertex& add(const ompl::base::State* state, const Vertex* parent);
+  /// From now on the vertex, which is no root, and all that has grown from it are never the nearest.
+  void remove(const Vertex& vertex);
   /// The tree must not be empty.
   const Vertex& nearest(const ompl::base::State* state) const;
-  /// Parents before children.
+  /// Parents before children, removed ones too.
   const std::vector<std::unique_ptr<Vertex>>& vertices() const { return vertices_; }
   std::size_t size() const { return vertices_.size(); }
 

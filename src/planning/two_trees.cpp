@@ -37,6 +37,14 @@ void TwoTrees::addRoot(Side side, const ompl::base::State* state)
     ways_.push_back({otherThan(side), nullptr, &root, kPiecesBetweenRoots});
 }
 
+void TwoTrees::remove(Side side, const Vertex& vertex)
+{
+  trees_[side].remove(vertex);
+  ways_.erase(std::remove_if(ways_.begin(), ways_.end(),
+                             [](const Way& way) { return way.to->removed || (way.from && way.from->removed); }),
+              ways_.end());
+}
+
 ompl::base::State* TwoTrees::scratch()
 {
   if (scratch_used_ == scratch_.size())
@@ -108,7 +116,7 @@ std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, 
       last = state;
     }
   }
-  const std::vector<std::uint8_t> valid = validator.validateMotions(motions);
+  const std::vector<std::uint8_t> valid = validator.validateSamples(motions);
 
   std::vector<Meeting> meetings;
   const std::uint8_t* first = valid.data();

@@ -21,7 +21,7 @@ class TwoTrees
     Goal
   };
 
-  /// Where the trees meet: the straight motion between the two vertices is valid.
+  /// Where the trees meet: the samples of the straight motion between the two vertices are free.
   struct Meeting
   {
     const RrtTree::Vertex* start;
@@ -35,12 +35,16 @@ class TwoTrees
 
   const RrtTree& tree(Side side) const { return trees_[side]; }
 
+  /// Where the straight motion from a vertex's parent to it is not valid after all: see RrtTree::remove.
+  void remove(Side side, const RrtTree::Vertex& vertex);
+
   /// The other tree tries the straight way to it in the next round.
   void addRoot(Side side, const ompl::base::State* state);
 
-  /// A round, whose motions are checked in one call. The tree whose turn it is grows `branches` motions towards random
-  /// states. Both go on with the straight ways that they are on; each vertex of a new branch becomes the end of such a
-  /// way of the other tree, from the next round on. `range`: the longest motion, above 0. Returns where they meet.
+  /// A round, whose motions' samples are checked in one call. The tree whose turn it is grows `branches` motions
+  /// towards random states. Both go on with the straight ways that they are on; each vertex of a new branch becomes the
+  /// end of such a way of the other tree, from the next round on. `range`: the longest motion, above 0. Returns where
+  /// they meet.
   std::vector<Meeting> grow(const MotionValidator& validator, std::size_t branches, double range);
 
  private:

@@ -40,8 +40,9 @@ const std::vector<Wall> kTwoWalls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3
 /// A planner with a problem.
 struct Planning
 {
-  Planning(const std::vector<Wall>& walls, const Position& start, const std::vector<Position>& goals)
-    : robot(walls),
+  Planning(const std::vector<Wall>& walls, const Position& start, const std::vector<Position>& goals,
+           const MotionCheckerOptions& options = {})
+    : robot(walls, options),
       problem(robot.problem(start, goals)),
       planner(std::make_shared<BatchRrtConnect>(robot.information()))
   {
@@ -101,6 +102,26 @@ TEST(BatchRrtConnect, FindsAWayRoundWallsWithMotionsWithinItsRange)
             planning.robot.information()->distance(planning.path().getStates()[i - 1], planning.path().getStates()[i]),
             planning.planner->getRange() + 1e-9);
     }
+}
+
+/// Samples half a metre apart hardly ever see a wall of a millimetre: what has grown through it is taken out again.
+TEST(BatchRrtConnect, DoesNotJumpAThinWallUnderTheBoundAndBySamplesDoes)
+{
+  MotionCheckerOptions coarse;
+  coarse.steps = {0.5, 0.5};
+  const std::vector<Wall> closed = {{0.3, -3.0, 0.301, 3.0}};
+  const std::vector<Wall> open = {{0.3, -3.0, 0.301, 1.5}};
+  coarse.rule = MotionRule::Samples;
+  EXPECT_EQ(Planning(closed, kLeft, {kRight}, coarse).solve(), ob::PlannerStatus::EXACT_SOLUTION);
+
+  coarse.rule = MotionRule::Bound;
+  Planning round(open, kLeft, {kRight}, coarse);
+  ASSERT_EQ(round.solve(), ob::PlannerStatus::EXACT_SOLUTION);
+  round.expectPath(kLeft, kRight);
+  Planning stuck(closed, kLeft, {kRight}, coarse);
+  ASSERT_EQ(stuck.solve(1.0), ob::PlannerStatus::APPROXIMATE_SOLUTION);
+  EXPECT_TRUE(stuck.robot.isValid(stuck.path()));
+  EXPECT_LT(PointRobot::positionOf(stuck.path().getStates().back()).first, 0.25);
 }
 
 TEST(BatchRrtConnect, ApproachesAGoalThatIsOutOfReach)

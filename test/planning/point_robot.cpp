@@ -26,7 +26,7 @@ std::shared_ptr<const RobotModel> slidingCube()
 }
 }  // namespace
 
-PointRobot::PointRobot(const std::vector<Wall>& walls)
+PointRobot::PointRobot(const std::vector<Wall>& walls, const MotionCheckerOptions& options)
 {
   PlanningScene scene(slidingCube());
   for (const Wall& wall : walls)
@@ -42,7 +42,7 @@ PointRobot::PointRobot(const std::vector<Wall>& walls)
   const auto checker = std::make_shared<CpuChecker>(shared);
   information_ = std::make_shared<ob::SpaceInformation>(std::make_shared<GroupStateSpace>(shared->robot, "plane"));
   information_->setStateValidityChecker(std::make_shared<StateValidityChecker>(information_, shared, checker));
-  validator_ = std::make_shared<MotionValidator>(information_, shared, checker);
+  validator_ = std::make_shared<MotionValidator>(information_, shared, checker, options);
   information_->setMotionValidator(validator_);
   information_->setup();
 }

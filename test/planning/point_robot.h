@@ -26,7 +26,7 @@ struct Wall
 class PointRobot
 {
  public:
-  explicit PointRobot(const std::vector<Wall>& walls);
+  explicit PointRobot(const std::vector<Wall>& walls, const MotionCheckerOptions& options = {});
 
   using Position = std::pair<double, double>;
   ompl::base::ScopedState<> at(const Position& position) const;

@@ -8,15 +8,15 @@
 
 namespace gpu_planning_scene
 {
-class TwoTrees;
-
 /// RRT-Connect for a MotionValidator, which checks many motions in little more time than one: a tree from the start
 /// states and one from the goal states grow in rounds, and the motions of a round are checked in one call.
 ///  - At first, the straight ways between start and goal states.
 ///  - Then the trees take turns: one grows by motions towards many random states. In the next round, the other tree
 ///    heads for each of the vertices that this gave, in pieces no longer than the range, as far as they are valid,
 ///    while it grows random branches of its own.
-/// Where the trees meet in several places at once, the shortest path is the solution.
+/// Where the trees meet in several places at once, the shortest path is the solution. The trees grow by motions whose
+/// samples are free; where the validator asks for more (MotionRule::Bound), the motions of a path are proven once there
+/// is one, and what is not proven is taken out of the trees, with all that has grown from it.
 ///
 /// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
 /// On growing many branches of a tree at once, there by threads: J. Ichnowski, R. Alterovitz: Parallel sampling-based
@@ -43,17 +43,16 @@ class BatchRrtConnect : public ompl::base::Planner
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
  private:
-  struct Progress;
+  class Search;
 
   const ompl::base::State* firstGoal(const ompl::base::GoalSampleableRegion& goal,
                                      const ompl::base::PlannerTerminationCondition& ptc);
   ompl::base::PlannerStatus takeInputs(const ompl::base::GoalSampleableRegion& goal,
                                        const ompl::base::PlannerTerminationCondition& ptc);
   void takeMoreGoals();
-  bool runRound(const ompl::base::GoalSampleableRegion& goal);
 
   double range_ = 0.0;
   unsigned int branches_ = 64;
-  std::unique_ptr<Progress> progress_;  // what clear() forgets
+  std::unique_ptr<Search> search_;  // what clear() forgets
 };
 }  // namespace gpu_planning_scene

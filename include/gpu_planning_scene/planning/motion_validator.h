@@ -34,6 +34,10 @@ class MotionValidator : public ompl::base::MotionValidator
 
   /// In bulk: 1 for each motion that is valid, else 0.
   std::vector<std::uint8_t> validateMotions(const std::vector<Motion>& motions) const;
+  /// In bulk: 1 for each motion whose samples are free. For planners that have only the motions of a solution proven:
+  /// see MotionRule.
+  std::vector<std::uint8_t> validateSamples(const std::vector<Motion>& motions) const;
+  MotionRule rule() const { return motions_.rule(); }
   /// Whether all motions of the path are valid, in one batch; of one state, whether it is.
   bool validatePath(const ompl::geometric::PathGeometric& path) const;
 
@@ -41,7 +45,14 @@ class MotionValidator : public ompl::base::MotionValidator
   std::uint64_t statesChecked() const { return motions_.statesChecked(); }
 
  private:
-  std::vector<MotionVerdict> check(const std::vector<Motion>& motions, bool last_valid) const;
+  enum class Question
+  {
+    Valid,
+    LastValid,
+    Samples
+  };
+  std::vector<MotionVerdict> check(const std::vector<Motion>& motions, Question question) const;
+  static std::vector<std::uint8_t> validOf(const std::vector<MotionVerdict>& verdicts);
 
   std::shared_ptr<const GroupStateSpace> space_;
   std::vector<double> reference_;  // a row of all variables
