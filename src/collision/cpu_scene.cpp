@@ -74,6 +74,7 @@ void CpuScene::checkRow(const double* state, std::size_t row, const Group& group
 
 Margins CpuScene::margins(const Surroundings& around, const double* states, std::size_t count, const std::string& name)
 {
+  refuseUnfitting(*scene_->robot, around, count);
   Group& group = groupOf(name);
   if (!group.displacements)
     group.displacements = std::make_unique<const Displacements>(*scene_->robot, *group.problem);

@@ -1,12 +1,9 @@
 #include "collision/displacement.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <string>
 
 #include "collision/reach.h"
-#include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene
 {
@@ -91,25 +88,12 @@ Displacements::Displacements(const RobotModel& robot, const CollisionProblem& pr
 Margins Displacements::margins(const Surroundings& around, const double* states, std::size_t count) const
 {
   const std::size_t rows = joints_ == 0 ? 0 : around.ways.size() / joints_;
-  if (around.rows.size() != count || rows * joints_ != around.ways.size())
-    throw Error("what is around " + std::to_string(count) + " states of " + std::to_string(joints_) +
-                " joints is given for " + std::to_string(around.rows.size()) + " states and by " +
-                std::to_string(around.ways.size()) + " ways");
-  for (const JointWay& way : around.ways)
-    if (!(way.length >= 0.0 && way.angle >= 0.0 && std::isfinite(way.length) && std::isfinite(way.angle)))
-      throw Error("a joint's way around a state is " + std::to_string(way.length) + " m and " +
-                  std::to_string(way.angle) + " rad; both must be finite and at least 0");
   Margins result{this->count(), std::vector<double>(rows * this->count()), around.rows, {}};
   for (std::size_t row = 0; row < rows; ++row)
     margins(&around.ways[row * joints_], &result.values[row * this->count()]);
   result.within.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
-  {
-    if (around.rows[i] >= rows)
-      throw Error("what is around state " + std::to_string(i) + " is row " + std::to_string(around.rows[i]) + " of " +
-                  std::to_string(rows));
     result.within.push_back(withinRanges(ranges_, states + i * variables_) ? 1 : 0);
-  }
   return result;
 }
 

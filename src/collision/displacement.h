@@ -37,8 +37,8 @@ class Displacements
 
   /// For `count` rows of the robot's variables. In metres: the largest displacement of a point of each robot instance
   /// in the planning frame, and of each self pair that of the points of one against the other. With what rounding
-  /// loses; kLargestLength where there is no bound. 0 where nothing moves. Throws Error for ways that are not finite
-  /// and at least 0, or do not fit the robot and the states.
+  /// loses; kLargestLength where there is no bound. 0 where nothing moves. `around` fits: see
+  /// refuseUnfitting.
   Margins margins(const Surroundings& around, const double* states, std::size_t count) const;
 
  private:

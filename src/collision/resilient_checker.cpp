@@ -277,13 +277,12 @@ Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result
 
 namespace
 {
-/// For some of the states. Throws Error where there are not so many.
+/// Of some of the states.
 std::shared_ptr<const Surroundings> slice(const Surroundings& all, std::size_t from, std::size_t count)
 {
-  const std::size_t end = std::min(all.rows.size(), from + count);
-  const auto rows = all.rows.begin();
-  return std::make_shared<const Surroundings>(Surroundings{
-      all.ways, {rows + static_cast<std::ptrdiff_t>(std::min(from, end)), rows + static_cast<std::ptrdiff_t>(end)}});
+  const auto rows = all.rows.begin() + static_cast<std::ptrdiff_t>(from);
+  return std::make_shared<const Surroundings>(
+      Surroundings{all.ways, {rows, rows + static_cast<std::ptrdiff_t>(count)}});
 }
 }  // namespace
 
@@ -318,6 +317,8 @@ BatchResult ResilientChecker::check(const double* states, std::size_t count, con
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   refuseNonFinite(*impl_->scene->robot, states, count);  // here, where a state's number is known
+  if (around)
+    refuseUnfitting(*impl_->scene->robot, *around, count);
   const std::size_t width = impl_->scene->robot->variables().size();
   BatchResult result;
   bool on_cpu = false;

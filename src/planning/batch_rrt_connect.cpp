@@ -50,31 +50,24 @@ std::shared_ptr<PathGeometric> pathOf(const ob::SpaceInformationPtr& information
 class BatchRrtConnect::Search
 {
  public:
-  /// The planner's space information has a MotionValidator, which outlives this.
-  explicit Search(const ob::Planner& planner)
-    : information_(planner.getSpaceInformation()),
-      validator_(bulkValidatorOf(*information_, planner.getName())),
-      trees_(planner)
-  {
-  }
+  explicit Search(const ob::Planner& planner) : information_(planner.getSpaceInformation()), trees_(planner) {}
 
   TwoTrees& trees() { return trees_; }
 
   /// A round of the trees. Returns a solution, if there is one.
-  std::shared_ptr<PathGeometric> runRound(const ob::GoalSampleableRegion& goal, std::size_t most_branches,
-                                          double range);
+  std::shared_ptr<PathGeometric> runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
+                                          std::size_t most_branches, double range);
 
   /// The way to the vertex that is closest to the goal, as far as it is proven; null if that is nothing.
-  std::shared_ptr<PathGeometric> approximatePath();
+  std::shared_ptr<PathGeometric> approximatePath(const MotionValidator& validator);
 
   void addTo(ob::PlannerData& data) const;
 
  private:
   void lookAtNewVertices(const ob::GoalSampleableRegion& goal, std::vector<TwoTrees::Meeting>& meetings);
-  bool isProven(const TwoTrees::Meeting& meeting);
+  bool isProven(const MotionValidator& validator, const TwoTrees::Meeting& meeting);
 
   ob::SpaceInformationPtr information_;
-  const MotionValidator& validator_;
   TwoTrees trees_;
   bool is_first_round_ = true;
   /// Of the last solution. Its goal vertex is null where its start vertex is in the goal region.
@@ -113,9 +106,9 @@ void BatchRrtConnect::Search::lookAtNewVertices(const ob::GoalSampleableRegion& 
 
 /// Whether all motions of the path through a meeting are valid by the validator's own rule. Those that are not are
 /// taken out of the trees.
-bool BatchRrtConnect::Search::isProven(const TwoTrees::Meeting& meeting)
+bool BatchRrtConnect::Search::isProven(const MotionValidator& validator, const TwoTrees::Meeting& meeting)
 {
-  if (validator_.rule() == MotionRule::Samples)
+  if (validator.rule() == MotionRule::Samples)
     return true;
   std::vector<MotionValidator::Motion> motions;
   std::vector<std::pair<TwoTrees::Side, const Vertex*>> ends;  // of the motions within the trees
@@ -131,20 +124,21 @@ bool BatchRrtConnect::Search::isProven(const TwoTrees::Meeting& meeting)
   }
   if (meeting.goal)
     motions.emplace_back(meeting.start->state, meeting.goal->state);
-  const std::vector<std::uint8_t> valid = validator_.validateMotions(motions);
+  const std::vector<std::uint8_t> valid = validator.validateMotions(motions);
   for (std::size_t i = 0; i < ends.size(); ++i)
     if (valid[i] == 0)
       trees_.remove(ends[i].first, *ends[i].second);
   return std::find(valid.begin(), valid.end(), 0) == valid.end();
 }
 
-std::shared_ptr<PathGeometric> BatchRrtConnect::Search::runRound(const ob::GoalSampleableRegion& goal,
+std::shared_ptr<PathGeometric> BatchRrtConnect::Search::runRound(const MotionValidator& validator,
+                                                                 const ob::GoalSampleableRegion& goal,
                                                                  std::size_t most_branches, double range)
 {
   const std::size_t size = trees_.tree(TwoTrees::Start).size() + trees_.tree(TwoTrees::Goal).size();
   const std::size_t branches = std::min(most_branches, std::max(kLeastBranches, size / kVerticesPerBranch));
   // At first nothing but the straight ways.
-  std::vector<TwoTrees::Meeting> meetings = trees_.grow(validator_, is_first_round_ ? 0 : branches, range);
+  std::vector<TwoTrees::Meeting> meetings = trees_.grow(validator, is_first_round_ ? 0 : branches, range);
   is_first_round_ = false;
   lookAtNewVertices(goal, meetings);
 
@@ -160,7 +154,7 @@ std::shared_ptr<PathGeometric> BatchRrtConnect::Search::runRound(const ob::GoalS
   for (const auto& [path, meeting] : paths)
   {
     const bool is_there = !meeting.start->removed && !(meeting.goal && meeting.goal->removed);
-    if (!is_there || !isProven(meeting))
+    if (!is_there || !isProven(validator, meeting))
       continue;
     meeting_ = meeting;
     return path;
@@ -168,11 +162,11 @@ std::shared_ptr<PathGeometric> BatchRrtConnect::Search::runRound(const ob::GoalS
   return nullptr;
 }
 
-std::shared_ptr<PathGeometric> BatchRrtConnect::Search::approximatePath()
+std::shared_ptr<PathGeometric> BatchRrtConnect::Search::approximatePath(const MotionValidator& validator)
 {
   while (closest_ && closest_->parent)
   {
-    if (isProven({closest_, nullptr}))
+    if (isProven(validator, {closest_, nullptr}))
       return pathOf(information_, {closest_, nullptr});
     while (closest_->removed)
       closest_ = closest_->parent;
@@ -302,16 +296,17 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
                status == ob::PlannerStatus::INVALID_START ? "start" : "goal");
     return status;
   }
+  const MotionValidator& validator = bulkValidatorOf(*si_, getName());
   while (!ptc)
   {
     takeMoreGoals();
-    if (const auto path = search_->runRound(*goal, branches_, range_))
+    if (const auto path = search_->runRound(validator, *goal, branches_, range_))
     {
       pdef_->addSolutionPath(path, false, 0.0, getName());
       return ob::PlannerStatus::EXACT_SOLUTION;
     }
   }
-  const std::shared_ptr<PathGeometric> path = search_->approximatePath();
+  const std::shared_ptr<PathGeometric> path = search_->approximatePath(validator);
   if (!path)
     return ob::PlannerStatus::TIMEOUT;
   double distance = 0.0;
