@@ -33,7 +33,11 @@ TEST(PathShortcutter, ComesNearTheShortestWayRoundAWall)
   PathGeometric path =
       robot.path({{-1.0, 0.0}, {-1.8, 0.7}, {-1.0, 1.3}, {0.0, 1.9}, {1.5, 1.5}, {1.9, 0.3}, {1.0, 0.0}});
   ASSERT_TRUE(robot.isValid(path));
-  EXPECT_TRUE(PathShortcutter(robot.information()).shorten(path, ob::plannerNonTerminatingCondition()));
+  ShortcutterOptions options;
+  options.candidates = 64;
+  options.idle_rounds = 5;
+  options.least_gain = 1e-3;
+  EXPECT_TRUE(PathShortcutter(robot.information(), options).shorten(path, ob::plannerNonTerminatingCondition()));
   EXPECT_TRUE(robot.isValid(path));
   EXPECT_EQ(PointRobot::positionOf(path.getStates().front()), PointRobot::Position(-1.0, 0.0));
   EXPECT_EQ(PointRobot::positionOf(path.getStates().back()), PointRobot::Position(1.0, 0.0));
@@ -43,12 +47,20 @@ TEST(PathShortcutter, ComesNearTheShortestWayRoundAWall)
   EXPECT_LE(path.length(), 1.05 * shortest);
 }
 
-TEST(PathShortcutter, NeverLengthensOrInvalidatesAPath)
+class ShortenedPaths : public testing::TestWithParam<MotionRule>
 {
+};
+
+TEST_P(ShortenedPaths, AreNeitherLongerNorInvalid)
+{
+  // By samples this far apart, a part of a valid motion is often invalid.
+  MotionCheckerOptions options;
+  options.rule = GetParam();
+  options.steps.prismatic = 0.5;
   const PointRobot robot(
-      {{-0.6, -0.6, -0.2, -0.2}, {0.2, -0.6, 0.6, -0.2}, {-0.6, 0.2, -0.2, 0.6}, {0.2, 0.2, 0.6, 0.6}});
+      {{-0.6, -0.6, -0.2, -0.2}, {0.2, -0.6, 0.6, -0.2}, {-0.6, 0.2, -0.2, 0.6}, {0.2, 0.2, 0.6, 0.6}}, options);
   ompl::RNG random(3);
-  for (int i = 0; i < 50; ++i)
+  for (int i = 0; i < 100; ++i)
   {
     std::vector<PointRobot::Position> positions = {{-1.0, -1.0}};
     while (positions.size() < 10)
@@ -67,6 +79,8 @@ TEST(PathShortcutter, NeverLengthensOrInvalidatesAPath)
     EXPECT_EQ(PointRobot::positionOf(path.getStates().back()), positions.back());
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Rules, ShortenedPaths, testing::Values(MotionRule::Bound, MotionRule::Samples));
 
 TEST(PathShortcutter, LeavesAPathAloneThatCannotBeShorter)
 {

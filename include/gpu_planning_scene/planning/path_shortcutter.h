@@ -11,10 +11,10 @@ namespace gpu_planning_scene
 {
 struct ShortcutterOptions
 {
-  std::size_t candidates = 32;   ///< shortcuts that are checked at once
+  std::size_t candidates = 16;   ///< shortcuts that are checked at once
   std::size_t most_rounds = 64;  ///< of so many candidates
-  std::size_t idle_rounds = 3;   ///< the end, after so many rounds in a row that gain too little
-  double least_gain = 1e-3;      ///< of a round, as a part of the path's length
+  std::size_t idle_rounds = 2;   ///< the end, after so many rounds in a row that gain too little
+  double least_gain = 1e-2;      ///< of a round, as a part of the path's length
 };
 
 /// Shortens paths for a MotionValidator, which checks many motions in little more time than one. In each round,
