@@ -7,9 +7,8 @@
 
 #include <ros/node_handle.h>
 
-#include "gpu_planning_scene/PlanMotion.h"
-#include "gpu_planning_scene/planning/plan_motion.h"
 #include "node/ompl_log.h"
+#include "node/plan_request.h"
 #include "node/planner_configs.h"
 #include "node/planner_plugins.h"
 #include "service/admission.h"
@@ -18,19 +17,6 @@
 
 namespace gpu_planning_scene
 {
-struct PlanServiceOptions
-{
-  double seconds = 5.0;           ///< of a request that asks for no time: ~planning/time
-  double most_seconds = 120.0;    ///< ~limits/planning_time
-  MotionCheckerOptions motions;   ///< ~planning/motion_rule, ~planning/resolution, ~planning/translation_resolution
-  std::size_t at_once = 2;        ///< plannings: ~planning/at_once
-  std::size_t most_waiting = 16;  ///< ~limits/waiting_plans
-  std::size_t most_goals = 1000;  ///< ~limits/goals
-};
-
-/// Throws Error, which names the parameter.
-PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own);
-
 /// Answers ~plan, and draws the last path on ~plan_markers. Throws nothing: what is wrong is said in the response. Some
 /// plan at a time, each with a checker of its own, which is kept for the next; others wait. Thread-safe.
 class PlanService
@@ -48,8 +34,6 @@ class PlanService
  private:
   class CheckerLease;
   void fill(const PlanMotion::Request& request, PlanMotion::Response& response);
-  PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const PlannerConfig& config) const;
-  void draw(const PlanningScene& scene, const PlanningResult& result, const std::string& group);
 
   const SceneStore& store_;
   const CheckServer::MakeChecker make_checker_;
