@@ -19,7 +19,7 @@ try
   auto scene = std::make_shared<PlanningScene>(robot);
   WorldObject ball;
   ball.id = "ball";
-  ball.pose.translation() = {0.0, 0.12, 0.5};
+  ball.pose.translation() = Eigen::Vector3d(0.0, 0.12, 0.5);
   ball.shapes.push_back({Sphere{0.06}});
   scene->objects.push_back(ball);
 
