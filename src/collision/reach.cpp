@@ -280,7 +280,7 @@ SweptBody Reach::sweep(const std::vector<PlacedShape>& shapes, const Isometry3d&
 
 const Region* Reach::inPlanningFrame(const SweptBody& body) const
 {
-  const auto above = static_cast<std::size_t>(depth(body.link) + 1);
+  const auto above = static_cast<std::size_t>(depth(body.link)) + 1;
   return above < body.above.size() ? &body.above[above] : nullptr;
 }
 

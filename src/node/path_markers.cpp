@@ -67,7 +67,7 @@ visualization_msgs::MarkerArray pathMarkers(const PlanningScene& scene,
     const std::vector<double>& to = waypoints[std::min(i + 1, waypoints.size() - 1)];
     const double parts = std::min(kMostSteps, partsOfWay(robot, from.data(), to.data(), {kStep, kStep}));
     std::vector<double> state = from;
-    for (double k = 0.0; k < parts; ++k)
+    for (int k = 0; k < static_cast<int>(parts); ++k)
     {
       interpolate(robot, from.data(), to.data(), k / parts, state.data());
       robot.linkPoses(state.data(), poses.data());

@@ -42,7 +42,7 @@ std::string textOf(XmlRpcValue value, const std::string& name)
   }
 }
 
-PlannerConfig configOf(XmlRpcValue value, const std::string& name)
+PlannerConfig configOf(XmlRpcValue& value, const std::string& name)
 {
   requireType(value, XmlRpcValue::TypeStruct, name, "a map: type and the planner's parameters");
   PlannerConfig config;
@@ -75,7 +75,7 @@ std::vector<std::string> projectionOf(const std::string& text, const std::string
   return joints;
 }
 
-GroupPlanners groupOf(XmlRpcValue value, const std::string& name)
+GroupPlanners groupOf(XmlRpcValue& value, const std::string& name)
 {
   requireType(value, XmlRpcValue::TypeStruct, name, "a map");
   GroupPlanners group;

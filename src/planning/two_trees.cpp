@@ -60,15 +60,16 @@ TwoTrees::Attempt TwoTrees::pieces(Way way, double range)
   const double distance = information_->distance(way.from->state, way.to->state);
   const double count = std::max(1.0, std::ceil(distance / range));
   Attempt attempt{way, {}};
-  for (double i = 1.0; i <= count && attempt.states.size() < way.most_pieces; ++i)
+  while (attempt.states.size() < way.most_pieces)
   {
-    if (i == count)
+    const double piece = static_cast<double>(attempt.states.size()) + 1.0;
+    if (piece >= count)
     {
       attempt.states.push_back(way.to->state);
       break;
     }
     ompl::base::State* state = scratch();
-    information_->getStateSpace()->interpolate(way.from->state, way.to->state, i / count, state);
+    information_->getStateSpace()->interpolate(way.from->state, way.to->state, piece / count, state);
     attempt.states.push_back(state);
   }
   return attempt;

@@ -162,11 +162,13 @@ TEST_P(RealMotions, ThatAreProvenAreFreeAtTenTimesTheResolutionAndAsFarAsTheirLa
     valid += verdicts[i].valid ? 1 : 0;
     const double* const from = &starts[i * width];
     const double* const to = &ends[i * width];
-    const double parts = std::ceil(10.0 * verdicts[i].last_valid * partsOfWay(robot, from, to, options.steps));
-    for (double k = 0.0; k <= parts && verdicts[i].last_valid > 0.0; ++k)
+    const double last = verdicts[i].last_valid;
+    const auto parts = static_cast<std::size_t>(std::ceil(10.0 * last * partsOfWay(robot, from, to, options.steps)));
+    for (std::size_t k = 0; k <= parts && last > 0.0; ++k)
     {
       states.resize(states.size() + width);
-      interpolate(robot, from, to, verdicts[i].last_valid * k / parts, &states[states.size() - width]);
+      interpolate(robot, from, to, last * static_cast<double>(k) / static_cast<double>(parts),
+                  &states[states.size() - width]);
     }
   }
   const std::vector<std::uint8_t> again = cpu->check(states.data(), states.size() / width).valid;

@@ -77,11 +77,12 @@ std::size_t collisionsOf(const PlanningProblem& problem, const PlanMotion::Respo
   {
     const std::vector<double> from = row(points[i]);
     const std::vector<double> to = row(points[i + 1]);
-    const double parts = partsOfWay(robot, from.data(), to.data(), {kResolution, kResolution});
-    for (double k = 0.0; k <= parts; ++k)
+    const auto parts = static_cast<std::size_t>(partsOfWay(robot, from.data(), to.data(), {kResolution, kResolution}));
+    for (std::size_t k = 0; k <= parts; ++k)
     {
       states.resize(states.size() + from.size());
-      interpolate(robot, from.data(), to.data(), k / parts, &states[states.size() - from.size()]);
+      interpolate(robot, from.data(), to.data(), static_cast<double>(k) / static_cast<double>(parts),
+                  &states[states.size() - from.size()]);
     }
   }
   const auto valid = exact.check(states.data(), states.size() / problem.start.size(), problem.group).valid;
