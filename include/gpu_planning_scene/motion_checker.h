@@ -27,7 +27,7 @@ struct MotionCheckerOptions
 {
   MotionRule rule = MotionRule::Bound;
   MotionSteps steps{0.02, 0.02};  ///< between samples, before any subdivision
-  /// Of a motion. Bound: what is not proven with so many is not accepted.
+  /// Of a motion: one that the steps cut into more is not accepted; Bound: nor what is not proven with so many.
   std::size_t most_samples = 20000;
 };
 
@@ -53,8 +53,7 @@ class MotionChecker
                 const MotionCheckerOptions& options = {});
 
   /// `starts`, `ends`: `count` rows of all variables. Unless `last_valid` is wanted, a motion is given up at any of its
-  /// collisions, and its verdict's last_valid is 0. Throws Error as the checker does, and for a motion that the steps
-  /// alone cut into more than most_samples.
+  /// collisions, and its verdict's last_valid is 0. Throws Error as the checker does.
   std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
                                    bool last_valid = false) const;
 

@@ -25,9 +25,14 @@ std::vector<JointWay> jointWays(const RobotModel& robot, const double* from, con
 /// double, as there may be more than an integer holds.
 double partsOfWay(const RobotModel& robot, const double* from, const double* to, const MotionSteps& steps);
 
+/// Whether a whole turn of a continuous joint makes another state of it: where a joint mimics it by a multiplier that
+/// is no whole number, or is a prismatic one.
+bool hasNoPeriod(const RobotModel& robot, const Joint& joint);
+
 /// The state at `fraction` (0 to 1) of the straight way from one state to another: angles of continuous and planar
 /// joints the shorter way round, quaternions by slerp. At 0 and 1 it is `from` and `to` themselves, bit by bit, so an
-/// angle beyond half a turn jumps there by whole turns.
+/// angle beyond half a turn jumps there by whole turns, which is the same place. A joint that hasNoPeriod
+/// goes straight from value to value.
 void interpolate(const RobotModel& robot, const double* from, const double* to, double fraction, double* state);
 
 /// Motions as rows of states for a StateChecker, and what its answers say of the motions. As with MoveIt and OMPL, a

@@ -83,10 +83,13 @@ class Check
   void add(const double* from, const double* to)
   {
     const double parts = partsOfWay(robot_, from, to, options_.steps);
-    if (parts >= static_cast<double>(options_.most_samples))
-      throw Error("motion " + std::to_string(motions_.size()) + " has more than " +
-                  std::to_string(options_.most_samples) + " samples; cut it, or take larger steps");
-    Motion motion{from, to, static_cast<std::size_t>(parts), {}, {}};
+    const bool is_too_long = parts >= static_cast<double>(options_.most_samples);
+    Motion motion{from, to, is_too_long ? 1 : static_cast<std::size_t>(parts), {}, {}};
+    if (is_too_long)
+    {
+      motion.valid = false;
+      motion.limit = 0.0;
+    }
     motion.order = bisectionOrder(motion.parts);
     if (options_.rule == MotionRule::Bound)
       motion.ways = jointWays(robot_, from, to);
@@ -307,7 +310,7 @@ std::vector<MotionVerdict> MotionChecker::check(const double* starts, const doub
   for (std::size_t i = 0; i < count; ++i)
     check.add(starts + i * width, ends + i * width);
   check.checkSamples();
-  if (options.rule == MotionRule::Bound)
+  if (options.rule == MotionRule::Bound && !robot_->joints().empty())
     check.prove();
   states_checked_ += check.statesChecked();
   return check.verdicts();

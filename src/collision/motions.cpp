@@ -23,9 +23,9 @@ enum class Part
   Rotation       // a quaternion, x first
 };
 
-/// Calls visit(part, first variable, number of variables) for what a joint's variables are made of.
+/// Calls visit(part, first variable, number of variables) for what an active joint's variables are made of.
 template <class Visit>
-void forParts(const Joint& joint, const Visit& visit)
+void forParts(const RobotModel& robot, const Joint& joint, const Visit& visit)
 {
   const int first = joint.first_variable;
   switch (joint.type)
@@ -34,7 +34,7 @@ void forParts(const Joint& joint, const Visit& visit)
       visit(Part::Angle, first, 1);
       break;
     case JointType::Continuous:
-      visit(Part::WrappedAngle, first, 1);
+      visit(hasNoPeriod(robot, joint) ? Part::Angle : Part::WrappedAngle, first, 1);
       break;
     case JointType::Prismatic:
       visit(Part::Length, first, 1);
@@ -58,7 +58,7 @@ void forParts(const RobotModel& robot, const Visit& visit)
 {
   for (const Joint& joint : robot.joints())
     if (!joint.mimic && joint.first_variable >= 0)
-      forParts(joint, visit);
+      forParts(robot, joint, visit);
 }
 
 /// The shorter way between two angles, from -half a turn to half a turn. Finite for all finite angles.
@@ -102,20 +102,38 @@ void refuseStep(double step, const char* name, const char* unit)
 
 }  // namespace
 
+bool hasNoPeriod(const RobotModel& robot, const Joint& joint)
+{
+  return std::any_of(robot.joints().begin(), robot.joints().end(),
+                     [&joint](const Joint& other)
+                     {
+                       return other.mimic && other.first_variable == joint.first_variable &&
+                              (other.type == JointType::Prismatic || other.multiplier != std::round(other.multiplier));
+                     });
+}
+
 void validateSteps(const MotionSteps& steps)
 {
   refuseStep(steps.revolute, "revolute", "radians");
   refuseStep(steps.prismatic, "prismatic", "metres");
 }
 
+/// A joint that mimics another one has its variable, and moves as that one does.
 std::vector<JointWay> jointWays(const RobotModel& robot, const double* from, const double* to)
 {
   std::vector<JointWay> ways(robot.joints().size());
+  const auto follow = [&](const Joint& leader, double amount)
+  {
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      if (const Joint& joint = robot.joints()[i]; joint.mimic && joint.first_variable == leader.first_variable)
+        (joint.type == JointType::Prismatic ? ways[i].length : ways[i].angle) = std::abs(joint.multiplier) * amount;
+  };
   for (std::size_t i = 0; i < ways.size(); ++i)
   {
     const Joint& joint = robot.joints()[i];
-    const double factor = joint.mimic ? std::abs(joint.multiplier) : 1.0;
-    forParts(joint,
+    if (joint.mimic || joint.first_variable < 0)
+      continue;
+    forParts(robot, joint,
              [&](Part part, int first, int count)
              {
                const double* const start = from + first;
@@ -123,12 +141,13 @@ std::vector<JointWay> jointWays(const RobotModel& robot, const double* from, con
                if (part == Part::Rotation)
                  ways[i].angle = rotationOf(start).angularDistance(rotationOf(end));
                else if (part == Part::Length)
-                 ways[i].length = factor * (Eigen::Map<const Eigen::VectorXd>(end, count) -
-                                            Eigen::Map<const Eigen::VectorXd>(start, count))
-                                               .norm();
+                 ways[i].length =
+                     (Eigen::Map<const Eigen::VectorXd>(end, count) - Eigen::Map<const Eigen::VectorXd>(start, count))
+                         .norm();
                else
-                 ways[i].angle = factor * wayOf(part, start, end, count);
+                 ways[i].angle = wayOf(part, start, end, count);
              });
+    follow(joint, joint.type == JointType::Prismatic ? ways[i].length : ways[i].angle);
   }
   return ways;
 }

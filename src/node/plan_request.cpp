@@ -65,6 +65,7 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   else
   {
     const std::vector<int> columns = requestedColumns(robot, request.start_names, request.start, "start", one);
+    requireWholeRotations(robot, columns);
     query.start = fullStates(robot, columns, request.start.data(), 1, current);
   }
   const auto few = [&options](std::size_t count)
@@ -76,6 +77,7 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   const std::vector<int> columns = requestedColumns(robot, request.goal_names, request.goals, "goals", few);
   const GroupStateSpace space(now.scene->robot, request.group);
   requirePlannedFor(columns, space);
+  requireWholeRotations(robot, columns);
   const std::size_t width = columns.size();
   const PartialState start(robot, query.start);
   const std::size_t goals = request.goals.size() / width;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include <ros/console.h>
+
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene
@@ -88,7 +90,9 @@ GroupPlanners groupOf(XmlRpcValue& value, const std::string& name)
       group.projection = projectionOf(textOf(entry, full), full);
     else if (key == "longest_valid_segment_fraction")
     {
-      const double fraction = entry.getType() == XmlRpcValue::TypeDouble ? static_cast<double>(entry) : 0.0;
+      const double fraction = entry.getType() == XmlRpcValue::TypeDouble ? static_cast<double>(entry)
+                              : entry.getType() == XmlRpcValue::TypeInt  ? static_cast<int>(entry)
+                                                                         : 0.0;
       if (!(fraction > 0.0 && fraction <= 1.0))
         throw Error("parameter " + full + " must be a number above 0 and at most 1");
       group.longest_valid_segment_fraction = fraction;
@@ -100,9 +104,9 @@ GroupPlanners groupOf(XmlRpcValue& value, const std::string& name)
         group.configs.push_back(textOf(entry[i], full));
     }
     else
-      throw Error("parameter " + full +
-                  " is not known; a group has default_planner_config, planner_configs, projection_evaluator and "
-                  "longest_valid_segment_fraction");
+      ROS_WARN_STREAM("parameter " << full
+                                   << " is not used; a group has default_planner_config, planner_configs, "
+                                      "projection_evaluator and longest_valid_segment_fraction");
   }
   return group;
 }

@@ -28,7 +28,7 @@ struct GroupPlanners
 class PlannerConfigs
 {
  public:
-  /// From ~planners: planner_configs/NAME/{type, PARAMETER...} and
+  /// From ~planners (other keys of a group are warned of): planner_configs/NAME/{type, PARAMETER...} and
   /// GROUP/{default_planner_config, planner_configs, projection_evaluator, longest_valid_segment_fraction}. Throws
   /// Error, which names the parameter.
   static PlannerConfigs fromParameters(const ros::NodeHandle& own);

@@ -10,17 +10,26 @@ namespace gpu_planning_scene
 {
 struct PlannerPlugins::Impl
 {
+  using Loader = pluginlib::ClassLoader<PlannerFactory>;
+
+  /// Made when a planner is first wanted: who checks states alone needs none, nor a package that rospack finds.
+  Loader& theLoader()
+  {
+    if (!loader)
+      loader = std::make_unique<Loader>("gpu_planning_scene", "gpu_planning_scene::PlannerFactory");
+    return *loader;
+  }
+
   std::mutex mutex;
-  pluginlib::ClassLoader<PlannerFactory> loader{"gpu_planning_scene", "gpu_planning_scene::PlannerFactory"};
+  std::unique_ptr<Loader> loader;
   std::map<std::string, std::shared_ptr<const PlannerFactory>> loaded;  // before the loader: they end first
 };
 
-/// Debian's pluginlib looks for packages as ROS 1 does, but asks ROS 2's index first, and throws where no environment
-/// was set up for that.
-PlannerPlugins::PlannerPlugins()
+PlannerPlugins::PlannerPlugins() : impl_(std::make_unique<Impl>()) {}
+
+void PlannerPlugins::prepareEnvironment()
 {
   setenv("AMENT_PREFIX_PATH", "/usr", 0);
-  impl_ = std::make_unique<Impl>();
 }
 
 PlannerPlugins::~PlannerPlugins() = default;
@@ -31,16 +40,17 @@ std::shared_ptr<const PlannerFactory> PlannerPlugins::find(const std::string& na
   const auto known = impl_->loaded.find(name);
   if (known != impl_->loaded.end())
     return known->second;
-  if (!impl_->loader.isClassAvailable(name))
-  {
-    std::string all;
-    for (const std::string& one : impl_->loader.getDeclaredClasses())
-      all += (all.empty() ? "" : ", ") + one;
-    throw Error("there is no planner '" + name + "', neither in planners.yaml nor as a plugin; plugins: " + all);
-  }
   try
   {
-    const boost::shared_ptr<PlannerFactory> made = impl_->loader.createInstance(name);
+    Impl::Loader& loader = impl_->theLoader();
+    if (!loader.isClassAvailable(name))
+    {
+      std::string all;
+      for (const std::string& one : loader.getDeclaredClasses())
+        all += (all.empty() ? "" : ", ") + one;
+      throw Error("there is no planner '" + name + "', neither in planners.yaml nor as a plugin; plugins: " + all);
+    }
+    const boost::shared_ptr<PlannerFactory> made = loader.createInstance(name);
     const std::shared_ptr<const PlannerFactory> factory(made.get(), [made](const PlannerFactory*) {});
     return impl_->loaded.emplace(name, factory).first->second;
   }

@@ -16,6 +16,10 @@ class PlannerPlugins
   PlannerPlugins();
   ~PlannerPlugins();
 
+  /// Debian's pluginlib looks for packages as ROS 1 does, but asks ROS 2's index first, and throws where no environment
+  /// was set up for that. To be called before there are other threads.
+  static void prepareEnvironment();
+
   /// The plugin of that name; it is loaded once. Throws Error that lists the names there are.
   std::shared_ptr<const PlannerFactory> find(const std::string& name);
 

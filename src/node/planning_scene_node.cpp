@@ -6,6 +6,7 @@
 
 #include <ros/ros.h>
 
+#include "node/planner_plugins.h"
 #include "node/serve.h"
 #include "tools/open_checker.h"
 
@@ -47,6 +48,7 @@ int main(int argc, char** argv)
   try
   {
     // Not roscpp's own handler: it would drop the requests that are being answered.
+    PlannerPlugins::prepareEnvironment();
     ros::init(argc, argv, "planning_scene_node", ros::init_options::NoSigintHandler);
     return gpu_planning_scene::run();
   }

@@ -13,6 +13,7 @@
 #include <ompl/tools/config/MagicConstants.h>
 
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/motions.h"
 
 namespace gpu_planning_scene
 {
@@ -125,6 +126,11 @@ std::vector<const Joint*> jointsByType(const RobotModel& robot, const Group& gro
   for (const int index : group.joints)
     if (isPlannedFor(robot, robot.joints()[index]))
       joints.push_back(&robot.joints()[index]);
+  for (const Joint* joint : joints)
+    if (joint->type == JointType::Continuous && hasNoPeriod(robot, *joint))
+      throw Error("continuous joint '" + joint->name + "' of group '" + group.name +
+                  "' cannot be planned for: another joint mimics it by no whole multiple, so that a turn of it leads " +
+                  "elsewhere; give it limits");
   if (joints.empty())
     throw Error("group '" + group.name + "' has no joint to plan for: one that is not fixed, mimic or passive, and " +
                 "whose limits differ");

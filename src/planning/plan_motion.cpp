@@ -14,6 +14,7 @@
 #include "gpu_planning_scene/planning/path_length_objective.h"
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "gpu_planning_scene/planning/state_validity_checker.h"
+#include "collision/reach.h"
 #include "planning/counted_checker.h"
 
 namespace gpu_planning_scene
@@ -87,6 +88,8 @@ class Plan
   void setParameters(ob::Planner& planner) const;
   void simplify(og::PathGeometric& path);
   std::string outOfBounds(const std::vector<double>& row) const;
+  std::string outsideOfProof() const;
+  void takePath(const og::PathGeometric& path);
   /// The pair of bodies that collides, in words; empty if the state is free.
   std::string collisionOf(const std::vector<double>& row);
 
@@ -121,6 +124,22 @@ std::string Plan::outOfBounds(const std::vector<double>& row) const
   return space_->satisfiesBounds(state.get()) ? "" : "a position is outside of the planning bounds";
 }
 
+/// Where a joint is beyond its limits, also one that is not planned for, no motion can be proven.
+std::string Plan::outsideOfProof() const
+{
+  if (query_.motions.rule == MotionRule::Samples)
+    return "";
+  for (const VariableRange& range : limitRanges(*scene_->robot))
+  {
+    const auto variable = static_cast<std::size_t>(range.variable);
+    const double value = query_.start[variable];
+    if (value < range.lower || value > range.upper)
+      return "the start is out of bounds: " + scene_->robot->variables()[variable].name + " is " +
+             std::to_string(value) + ", beyond its limits, where no motion can be proven (motion rule bound)";
+  }
+  return "";
+}
+
 std::string Plan::collisionOf(const std::vector<double>& row)
 {
   const BatchResult found = checker_->check(row.data(), 1, query_.group, nullptr);
@@ -138,30 +157,33 @@ bool Plan::findEnds(ob::GoalStates& goals)
     result_.message = message;
     return false;
   };
+  if (const std::string wrong = outsideOfProof(); !wrong.empty())
+    return fail(PlanningStatus::OutOfBounds, wrong);
   if (const std::string wrong = outOfBounds(query_.start); !wrong.empty())
     return fail(PlanningStatus::OutOfBounds, "the start is out of bounds: " + wrong);
   if (const std::string bodies = collisionOf(query_.start); !bodies.empty())
     return fail(PlanningStatus::StartInCollision, "the start is in collision: " + bodies);
   std::string first_wrong;
-  PlanningStatus status = PlanningStatus::GoalsInCollision;
+  PlanningStatus status = PlanningStatus::GoalsInCollision;  // what is wrong with the first one
   for (std::size_t i = 0; i < query_.goals.size(); ++i)
   {
     std::vector<double> row = query_.start;
     for (const int variable : space_->variables())
       row[static_cast<std::size_t>(variable)] = query_.goals[i][static_cast<std::size_t>(variable)];
     const std::string name = query_.goals.size() == 1 ? "the goal" : "goal " + std::to_string(i);
-    std::string wrong = outOfBounds(row);
-    if (!wrong.empty())
-      status = PlanningStatus::OutOfBounds;
-    wrong = !wrong.empty() ? name + " is out of bounds: " + wrong : collisionOf(row);
-    if (wrong.empty())
+    const std::string beyond = outOfBounds(row);
+    const std::string bodies = beyond.empty() ? collisionOf(row) : "";
+    if (beyond.empty() && bodies.empty())
     {
       ob::ScopedState<> state(space_);
       space_->copyFromRow(row.data(), state.get());
       goals.addState(state);
     }
     else if (first_wrong.empty())
-      first_wrong = wrong.rfind(name, 0) == 0 ? wrong : name + " is in collision: " + wrong;
+    {
+      status = beyond.empty() ? PlanningStatus::GoalsInCollision : PlanningStatus::OutOfBounds;
+      first_wrong = name + (beyond.empty() ? " is in collision: " + bodies : " is out of bounds: " + beyond);
+    }
   }
   return goals.getStateCount() != 0 || fail(status, first_wrong);
 }
@@ -201,6 +223,27 @@ void Plan::simplify(og::PathGeometric& path)
   result_.simplification_seconds = secondsSince(start);
 }
 
+/// Angles of continuous and planar joints go on from the start's as the motions do, without jumps by whole turns.
+void Plan::takePath(const og::PathGeometric& path)
+{
+  const RobotModel& robot = *scene_->robot;
+  std::vector<double> last = query_.start;
+  for (const ob::State* state : path.getStates())
+  {
+    std::vector<double> row = last;
+    space_->copyToRow(state, row.data());
+    for (const Joint& joint : robot.joints())
+    {
+      if (joint.mimic || (joint.type != JointType::Continuous && joint.type != JointType::Planar))
+        continue;
+      const auto angle = static_cast<std::size_t>(joint.first_variable + (joint.type == JointType::Planar ? 2 : 0));
+      row[angle] = last[angle] + std::remainder(row[angle] - last[angle], 2.0 * EIGEN_PI);
+    }
+    result_.waypoints.push_back(row);
+    last = std::move(row);
+  }
+}
+
 PlanningResult Plan::run(const PlannerFactory& factory)
 {
   const auto goals = std::make_shared<ob::GoalStates>(information_);
@@ -232,11 +275,7 @@ PlanningResult Plan::run(const PlannerFactory& factory)
       }
       if (query_.simplify)
         simplify(path);
-      for (const ob::State* state : path.getStates())
-      {
-        result_.waypoints.push_back(query_.start);
-        space_->copyToRow(state, result_.waypoints.back().data());
-      }
+      takePath(path);
     }
   }
   result_.checking_seconds = checker_->seconds();

@@ -8,6 +8,9 @@ namespace gpu_planning_scene
 {
 namespace
 {
+// So that a round ends in time, whatever the range is.
+constexpr std::size_t kMostPieces = 64;
+
 // From root to root much is gained if the whole way is free, and there are few such ways.
 constexpr std::size_t kPiecesBetweenRoots = 32;
 
@@ -134,7 +137,7 @@ std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, 
     if (attempt.states.back() == way.to->state)
       meetings.push_back(way.side == Start ? Meeting{&tip, way.to} : Meeting{way.to, &tip});
     else
-      ways_.push_back({way.side, &tip, way.to, 2 * way.most_pieces});
+      ways_.push_back({way.side, &tip, way.to, std::min(kMostPieces, 2 * way.most_pieces)});
   }
   return meetings;
 }

@@ -110,18 +110,55 @@ TEST_F(PointMotions, EndTheirLastValidPartBeforeTheFirstCollision)
   }
 }
 
-TEST_F(PointMotions, RefuseWhatStepsCutIntoTooManySamplesAndStepsThatAreNone)
+TEST_F(PointMotions, AreRefusedWhereStepsCutThemIntoTooManySamples)
 {
-  EXPECT_EQ(errorOf(
-                [&] {
-                  verdict(checker(MotionRule::Bound, 0.001, 500), {0.0, 0.0}, {1.0, 0.0});
-                }),
-            "motion 0 has more than 500 samples; cut it, or take larger steps");
+  for (const MotionRule rule : {MotionRule::Samples, MotionRule::Bound})
+  {
+    const MotionVerdict found = verdict(checker(rule, 0.001, 500), {0.0, 0.0}, {1.0, 0.0}, true);
+    EXPECT_FALSE(found.valid);
+    EXPECT_EQ(found.last_valid, 0.0);
+    EXPECT_TRUE(verdict(checker(rule, 0.001, 500), {0.0, 0.0}, {0.2, 0.0}).valid);
+  }
+}
+
+TEST_F(PointMotions, RefuseStepsThatAreNone)
+{
   EXPECT_NE(errorOf([&] { checker(MotionRule::Bound, 0.0); }), "");
   EXPECT_NE(errorOf([&] { verdict(checker(MotionRule::Bound, 0.1), {0.0, NAN}, {1.0, 0.0}); }), "");
   EXPECT_EQ(motionRuleFromName("bound"), MotionRule::Bound);
   EXPECT_EQ(motionRuleFromName("samples"), MotionRule::Samples);
   EXPECT_EQ(errorOf([] { motionRuleFromName("exact"); }), "the motion rule is 'exact'; it must be samples or bound");
+}
+
+/// An arm of 1 m on a wheel that goes with a crank: the wheel goes round by the crank's way, not by the shorter one.
+TEST(MotionsOfFollowers, AreNotFreeWhereAFollowerSweepsThroughAWall)
+{
+  const auto robot = robotOf(
+      "<link name='base'/><link name='crank'/><link name='wheel'><collision><origin xyz='0.5 0 0'/><geometry>"
+      "<box size='1 0.02 0.02'/></geometry></collision></link>" +
+      jointXml("turn", "revolute", "base", "crank",
+               "<axis xyz='0 0 1'/><limit lower='-4' upper='4' effort='1' velocity='1'/>") +
+      jointXml("follow", "continuous", "base", "wheel", "<axis xyz='0 0 1'/><mimic joint='turn' multiplier='1'/>"));
+  auto scene = std::make_shared<PlanningScene>(robot);
+  scene->objects = {wall(0.9, 0.02, 0.0005, 0.001)};
+  const auto cpu = std::make_shared<CpuChecker>(scene);
+  MotionCheckerOptions options;
+  options.steps = {0.31, 0.31};  // 0 is not among its samples
+  const MotionChecker checker(cpu, robot, "", options);
+  const double from = -3.0;
+  const double to = 3.05;
+  const MotionVerdict found = checker.check(&from, &to, 1, true).front();
+  EXPECT_FALSE(found.valid);
+  EXPECT_GT(found.last_valid, 0.4);
+  EXPECT_LT(found.last_valid, 0.5);
+}
+
+TEST(MotionsOfFollowers, OfARobotWithoutJointsAreItsState)
+{
+  const auto robot =
+      robotOf("<link name='base'><collision><geometry><box size='1 1 1'/></geometry></collision></link>");
+  auto scene = std::make_shared<PlanningScene>(robot);
+  EXPECT_TRUE(MotionChecker(std::make_shared<CpuChecker>(scene), robot, "").check(nullptr, nullptr, 1).front().valid);
 }
 
 class RealMotions : public testing::TestWithParam<std::string>

@@ -62,6 +62,39 @@ class Motions : public testing::Test
   std::vector<double> start_ = robot_->defaultState();
 };
 
+TEST_F(Motions, JointsMoveAsFarAsTheirLeadersMakeThem)
+{
+  const auto rack =
+      robotOf(boxLink("base") + boxLink("rack") + boxLink("wheel") + boxLink("pin") +
+              jointXml("slide", "prismatic", "base", "rack", kLimits) +
+              jointXml("spin", "continuous", "base", "wheel", "<mimic joint=\"slide\" multiplier=\"-10\"/>") +
+              jointXml("bolt", "fixed", "base", "pin"));
+  const double from[] = {-0.5};
+  const double to[] = {1.5};
+  const std::vector<JointWay> ways = jointWays(*rack, from, to);
+  const auto way = [&](const char* name) { return ways[static_cast<std::size_t>(rack->jointIndex(name))]; };
+  EXPECT_NEAR(way("slide").length, 2.0, 1e-12);
+  EXPECT_EQ(way("slide").angle, 0.0);
+  EXPECT_NEAR(way("spin").angle, 20.0, 1e-12);
+  EXPECT_EQ(way("spin").length, 0.0);
+  EXPECT_EQ(way("bolt").angle, 0.0);
+}
+
+TEST_F(Motions, AContinuousJointWithAnUnevenFollowerDoesNotWrap)
+{
+  const auto geared =
+      robotOf(boxLink("base") + boxLink("wheel") + boxLink("hand") + jointXml("spin", "continuous", "base", "wheel") +
+              jointXml("turn", "continuous", "base", "hand", "<mimic joint=\"spin\" multiplier=\"0.5\"/>"));
+  const double from[] = {3.0};
+  const double to[] = {-3.0};
+  double state[] = {0.0};
+  interpolate(*geared, from, to, 0.5, state);
+  EXPECT_NEAR(state[0], 0.0, 1e-12);
+  const std::vector<JointWay> ways = jointWays(*geared, from, to);
+  EXPECT_NEAR(ways[0].angle, 6.0, 1e-12);
+  EXPECT_NEAR(ways[1].angle, 3.0, 1e-12);
+}
+
 TEST_F(Motions, AnglesGoTheShorterWayAndLimitedOnesTheWayWithinTheirLimits)
 {
   std::vector<double> end = start_;

@@ -77,7 +77,7 @@ class FakeChecker : public StateChecker
   }
 
   BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const Surroundings* around) override
+                    const Surroundings* /*around*/) override
   {
     if (!scene_)
       throw std::logic_error("asked with half a scene");

@@ -234,7 +234,7 @@ TEST(BatchRrtConnect, ExportsBothTreesAndWhereTheyMet)
   ASSERT_EQ(data.numGoalVertices(), 1U);
   EXPECT_GE(data.numEdges() + 1, data.numVertices());
   // The path's states are copies: they are looked for by where they are.
-  const auto vertexAt = [&](const ob::State* state)
+  const auto vertex_at = [&](const ob::State* state)
   {
     for (unsigned int i = 0; i < data.numVertices(); ++i)
       if (PointRobot::positionOf(data.getVertex(i).getState()) == PointRobot::positionOf(state))
@@ -242,10 +242,10 @@ TEST(BatchRrtConnect, ExportsBothTreesAndWhereTheyMet)
     return ob::PlannerData::INVALID_INDEX;
   };
   const std::vector<ob::State*>& states = planning.path().getStates();
-  EXPECT_EQ(vertexAt(states.front()), data.getStartIndex(0));
-  EXPECT_EQ(vertexAt(states.back()), data.getGoalIndex(0));
+  EXPECT_EQ(vertex_at(states.front()), data.getStartIndex(0));
+  EXPECT_EQ(vertex_at(states.back()), data.getGoalIndex(0));
   for (std::size_t i = 1; i < states.size(); ++i)
-    EXPECT_TRUE(data.edgeExists(vertexAt(states[i - 1]), vertexAt(states[i]))) << i;
+    EXPECT_TRUE(data.edgeExists(vertex_at(states[i - 1]), vertex_at(states[i]))) << i;
 }
 
 TEST(BatchRrtConnect, GoesOnWithItsTreesAndForgetsThemWhenCleared)

@@ -22,8 +22,8 @@ namespace gpu_planning_scene
 class GroupStateSpace : public ompl::base::CompoundStateSpace
 {
  public:
-  /// Its name is the group's. Throws Error for an unknown group, for one without a joint to plan for, and for a planar
-  /// or floating joint of it whose translations have no room.
+  /// Its name is the group's. Throws Error for an unknown group, for one without a joint to plan for, for a planar or
+  /// floating joint of it whose translations have no room, and for a continuous one that hasNoPeriod.
   GroupStateSpace(std::shared_ptr<const RobotModel> robot, const std::string& group);
 
   const std::shared_ptr<const RobotModel>& robot() const { return robot_; }
