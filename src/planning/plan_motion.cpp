@@ -89,7 +89,7 @@ class Plan
   void simplify(og::PathGeometric& path);
   std::string outOfBounds(const std::vector<double>& row) const;
   std::string outsideOfProof() const;
-  void takePath(const og::PathGeometric& path);
+  void takePath(og::PathGeometric& path);
   /// The pair of bodies that collides, in words; empty if the state is free.
   std::string collisionOf(const std::vector<double>& row);
 
@@ -224,7 +224,7 @@ void Plan::simplify(og::PathGeometric& path)
 }
 
 /// Angles of continuous and planar joints go on from the start's as the motions do, without jumps by whole turns.
-void Plan::takePath(const og::PathGeometric& path)
+void Plan::takePath(og::PathGeometric& path)
 {
   const RobotModel& robot = *scene_->robot;
   std::vector<double> last = query_.start;
