@@ -48,7 +48,7 @@ int main(int argc, char** argv)
   try
   {
     // Not roscpp's own handler: it would drop the requests that are being answered.
-    PlannerPlugins::prepareEnvironment();
+    gpu_planning_scene::PlannerPlugins::prepareEnvironment();
     ros::init(argc, argv, "planning_scene_node", ros::init_options::NoSigintHandler);
     return gpu_planning_scene::run();
   }
