@@ -90,7 +90,7 @@ Margins Displacements::margins(const Surroundings& around, const double* states,
   const std::size_t rows = joints_ == 0 ? 0 : around.ways.size() / joints_;
   Margins result{this->count(), std::vector<double>(rows * this->count()), around.rows, {}};
   for (std::size_t row = 0; row < rows; ++row)
-    margins(&around.ways[row * joints_], &result.values[row * this->count()]);
+    margins(around.ways.data() + row * joints_, result.values.data() + row * this->count());
   result.within.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
     result.within.push_back(withinRanges(ranges_, states + i * variables_) ? 1 : 0);

@@ -19,7 +19,7 @@ struct Margins
   std::vector<std::uint8_t>
       within;  ///< one per state: 0 where it is outside the joints' limits, so that they are no bounds
 
-  const double* of(std::size_t state) const { return &values[rows[state] * width]; }
+  const double* of(std::size_t state) const { return values.data() + rows[state] * width; }
 };
 
 /// How far points of a robot can move while its joints move by no more than given ways, within their limits. Bounds

@@ -159,7 +159,7 @@ void Check::ask(const std::vector<Interval>& intervals, bool with_margins, const
     {
       const Interval& interval = intervals[begin + i];
       Motion& motion = motions_[interval.motion];
-      interpolate(robot_, motion.from, motion.to, interval.middle, &states[i * width]);
+      interpolate(robot_, motion.from, motion.to, interval.middle, states.data() + i * width);
       ++motion.samples;
       if (!with_margins)
         continue;
