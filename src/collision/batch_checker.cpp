@@ -217,7 +217,12 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
   const bool decided = impl_->on_cpu.problem(group)->always_colliding.has_value();
   refuseNonFinite(*scene.robot, states, count);
   if (count != 0 && !decided)
-    impl_->threshold(group, states, count);  // measured now, if it must be, and not as part of the check
+  {
+    const std::size_t on_gpu =
+        impl_->threshold(group, states, count);  // measured now, if it must be: no part of the check
+    if (around && count >= on_gpu)
+      impl_->engine.prepareMargins();
+  }
   impl_->work = {};
   BatchResult result;
   result.revision = scene.revision;

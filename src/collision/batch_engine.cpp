@@ -113,6 +113,12 @@ void BatchEngine::selectPairs(std::shared_ptr<const CollisionProblem> problem)
   on_cpu_.reset();
 }
 
+void BatchEngine::prepareMargins()
+{
+  refuseHalfBuilt();
+  gl_.run([&] { pairs_->prepareMargins(); });
+}
+
 void BatchEngine::refuseHalfBuilt() const
 {
   if (!usable_)

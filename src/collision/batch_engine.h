@@ -37,6 +37,9 @@ class BatchEngine
   /// Restricts the checked pairs to those of `problem`, which has the same trees and instances.
   void selectPairs(std::shared_ptr<const CollisionProblem> problem);
 
+  /// Compiles what batches with margins need, unless that is done, so that no check has to.
+  void prepareMargins();
+
   /// Checks `count` rows of the robot's variables: fills the result but for revision and seconds. `margins`: for these
   /// rows and the selected pairs; null: none.
   void check(const double* states, std::size_t count, BatchResult& result, const Margins* margins = nullptr);

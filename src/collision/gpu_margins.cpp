@@ -4,6 +4,7 @@
 #include <cstring>
 #include <limits>
 
+#include "collision/used_rows.h"
 #include "interface.h"
 
 namespace gpu_planning_scene
@@ -39,9 +40,9 @@ void GpuMargins::write(const Margins& margins, std::size_t begin, std::size_t co
       numbers_[a * robots_ + b] = numbers_[b * robots_ + a] = number++;
   }
   std::vector<std::uint32_t> words = numbers_;
-  const auto rows = margins.rows.begin() + static_cast<std::ptrdiff_t>(begin);
-  words.insert(words.end(), rows, rows + static_cast<std::ptrdiff_t>(count));
-  for (const double value : margins.values)
+  const UsedRows used(margins.rows, begin, count);
+  words.insert(words.end(), used.rows.begin(), used.rows.end());
+  for (const double value : used.cut(margins.values, margins.width))
     words.push_back(roundedUp(value));
   TexelBuffer& upload = uploads_[next_upload_];
   next_upload_ = 1 - next_upload_;

@@ -105,11 +105,13 @@ void GpuPairChecker::prepare()
     traversal_->prepare(task(true, scene_.isPadded()));
 }
 
-void GpuPairChecker::usePrograms(const Margins* margins)
+void GpuPairChecker::prepareMargins()
 {
-  if (margins && !with_margins_)
+  if (!with_margins_)
     with_margins_.emplace(folder_, definitions_ + "#define MARGINS 1\n");
-  programs_ = margins ? &*with_margins_ : &plain_;
+  for (const bool solids : {false, true})
+    if (!solids || scene_.solidNodes() != 0)
+      traversal_->prepare(task(solids, true));
 }
 
 void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins)
@@ -120,7 +122,9 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
   if (scene_.robotCount() == 0)
     return;
   const Batch batch{source, margins, margins ? parts_with_margins_ : plain_parts_};
-  usePrograms(margins);
+  if (margins)
+    prepareMargins();
+  programs_ = margins ? &*with_margins_ : &plain_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point last = Clock::now();
   Part* running = nullptr;

@@ -40,6 +40,9 @@ class GpuPairChecker
   void selectPairs(const CollisionProblem& problem);
   const GpuScene& scene() const { return scene_; }
 
+  /// Compiles what batches with margins need, unless that is done.
+  void prepareMargins();
+
   /// What is wrong with the device's float arithmetic, in one line; then every triangle test leaves its state
   /// undecided. Empty where it is as docs/error_bounds.md assumes.
   const std::string& floatFault() const { return float_fault_; }
@@ -85,7 +88,6 @@ class GpuPairChecker
   void start(const Batch& batch, Part& part);
   void finish(const Batch& batch, Part& part, Verdicts& verdicts);
   bool fetch(Part& part, Verdicts& verdicts);
-  void usePrograms(const Margins* margins);
   void testHalfSpaces(std::uint32_t states);
   void findCandidates(std::uint32_t states);
   void writeSearches();

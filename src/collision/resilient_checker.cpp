@@ -14,6 +14,7 @@
 #include "collision/abandonable_thread.h"
 #include "collision/batch_results.h"
 #include "collision/state_rows.h"
+#include "collision/used_rows.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene
@@ -277,12 +278,14 @@ Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result
 
 namespace
 {
-/// Of some of the states.
-std::shared_ptr<const Surroundings> slice(const Surroundings& all, std::size_t from, std::size_t count)
+/// Of some of the states. `joints`: of the robot.
+std::shared_ptr<const Surroundings> slice(const Surroundings& all, std::size_t from, std::size_t count,
+                                          std::size_t joints)
 {
-  const auto rows = all.rows.begin() + static_cast<std::ptrdiff_t>(from);
-  return std::make_shared<const Surroundings>(
-      Surroundings{all.ways, {rows, rows + static_cast<std::ptrdiff_t>(count)}});
+  if (count == 0)
+    return std::make_shared<const Surroundings>();
+  const UsedRows used(all.rows, from, count);
+  return std::make_shared<const Surroundings>(Surroundings{used.cut(all.ways, joints), used.rows});
 }
 }  // namespace
 
@@ -316,10 +319,11 @@ BatchResult ResilientChecker::check(const double* states, std::size_t count, con
                                     const Surroundings* around)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  refuseNonFinite(*impl_->scene->robot, states, count);  // here, where a state's number is known
+  const RobotModel& robot = *impl_->scene->robot;
+  refuseNonFinite(robot, states, count);  // here, where a state's number is known
   if (around)
-    refuseUnfitting(*impl_->scene->robot, *around, count);
-  const std::size_t width = impl_->scene->robot->variables().size();
+    refuseUnfitting(robot, *around, count);
+  const std::size_t width = robot.variables().size();
   BatchResult result;
   bool on_cpu = false;
   std::size_t from = 0;
@@ -328,7 +332,8 @@ BatchResult ResilientChecker::check(const double* states, std::size_t count, con
     const std::size_t rows = std::min(count - from, kStatesPerCall);
     const auto part =
         std::make_shared<const std::vector<double>>(states + from * width, states + (from + rows) * width);
-    const std::shared_ptr<const Surroundings> part_around = around ? slice(*around, from, rows) : nullptr;
+    const std::shared_ptr<const Surroundings> part_around =
+        around ? slice(*around, from, rows, robot.joints().size()) : nullptr;
     append(impl_->ask<BatchResult>(impl_->scene, [part, rows, group, part_around](StateChecker& checker)
                                    { return checker.check(part->data(), rows, group, part_around.get()); }),
            result);

@@ -50,7 +50,7 @@ struct Script
   }
 };
 
-/// A state is free where its first variable is above 0. It answers from no scene that it has only a half of.
+/// A state is free where its first variable is above 0, or the way of the first joint around it. It answers from no scene that it has only a half of.
 class FakeChecker : public StateChecker
 {
  public:
@@ -77,7 +77,7 @@ class FakeChecker : public StateChecker
   }
 
   BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const Surroundings* /*around*/) override
+                    const Surroundings* around) override
   {
     if (!scene_)
       throw std::logic_error("asked with half a scene");
@@ -85,10 +85,12 @@ class FakeChecker : public StateChecker
     if (!group.empty())
       throw Error("there is no group '" + group + "'");
     const std::size_t width = scene_->robot->variables().size();
+    const std::size_t joints = scene_->robot->joints().size();
     BatchResult result;
     for (std::size_t i = 0; i < count; ++i)
     {
-      result.valid.push_back(states[i * width] > 0.0 ? 1 : 0);
+      const double way = around ? around->ways[around->rows[i] * joints].angle : 0.0;
+      result.valid.push_back(states[i * width] > way ? 1 : 0);
       result.colliding.push_back(result.valid.back() ? std::array<std::int32_t, 2>{-1, -1}
                                                      : std::array<std::int32_t, 2>{0, 1});
     }
@@ -400,6 +402,28 @@ TEST_F(Resilient, ManyStatesAreAskedInPartsOfWhichOneMayFail)
   EXPECT_EQ(cpu_->batches, (std::vector<std::size_t>{ResilientChecker::kStatesPerCall, 1}));
   states[(count - 1) * width] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(errorOf([&] { checker().check(states.data(), count); }).find("state 32768:"), std::string::npos);
+}
+
+TEST_F(Resilient, ManyStatesHaveWhatIsAroundThemInEachPart)
+{
+  const RobotModel& robot = *scene(1)->robot;
+  const std::size_t width = robot.variables().size();
+  constexpr std::size_t kRows = 7;
+  Surroundings around;
+  around.ways.resize(kRows * robot.joints().size());
+  for (std::size_t row = 0; row < kRows; ++row)
+    around.ways[row * robot.joints().size()].angle = static_cast<double>(row);
+  const std::size_t count = 2 * ResilientChecker::kStatesPerCall + 1;
+  std::vector<double> states(count * width, 0.0);
+  std::vector<std::uint8_t> expected;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    // Each part has rows of its own, and one that two of them share.
+    around.rows.push_back(static_cast<std::uint32_t>(2 * (i / ResilientChecker::kStatesPerCall) + i % 3));
+    states[i * width] = static_cast<double>(i % 5) + 0.5;
+    expected.push_back(states[i * width] > around.rows[i] ? 1 : 0);
+  }
+  EXPECT_EQ(checker().check(states.data(), count, "", &around).valid, expected);
 }
 
 TEST_F(Resilient, ADevicesCheckerIsDestroyedOnTheDevicesThread)

@@ -25,14 +25,15 @@ class Device : public CpuChecker
     : CpuChecker(std::move(scene)), losses_(std::move(losses))
   {
   }
-  BatchResult check(const double* states, std::size_t count, const std::string& group) override
+  BatchResult check(const double* states, std::size_t count, const std::string& group,
+                    const Surroundings* around) override
   {
     if (*losses_ > 0)
     {
       --*losses_;
       throw DeviceLost("the GPU was reset");
     }
-    return CpuChecker::check(states, count, group);
+    return CpuChecker::check(states, count, group, around);
   }
   std::string deviceName() const override { return "a device"; }
 
