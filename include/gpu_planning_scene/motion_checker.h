@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,6 +42,13 @@ struct MotionVerdict
   std::array<std::int32_t, 2> colliding{{-1, -1}};
 };
 
+enum class MotionQuestion
+{
+  Valid,      ///< is it valid? A motion is given up at any of its collisions, and its verdict's last_valid is 0
+  LastValid,  ///< up to where?
+  Samples     ///< is it under MotionRule::Samples, whatever the rule is? What is not, is not under any rule
+};
+
 /// Checks straight motions in bulk. The samples of all motions are checked batch by batch: ends and middles, the other
 /// samples of what is left, then, for MotionRule::Bound, all again with margins, with twice the samples where that does
 /// not do (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths", with a batch for each level).
@@ -52,13 +60,11 @@ class MotionChecker
   MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_ptr<const RobotModel> robot, std::string group,
                 const MotionCheckerOptions& options = {});
 
-  /// `starts`, `ends`: `count` rows of all variables. Unless `last_valid` is wanted, a motion is given up at any of its
-  /// collisions, and its verdict's last_valid is 0. Throws Error as the checker does.
+  /// `starts`, `ends`: `count` rows of all variables. `stop` is asked before each batch of states; where it says so,
+  /// motions that are not decided yet are not valid. Throws Error as the checker does.
   std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
-                                   bool last_valid = false) const;
-
-  /// The same under MotionRule::Samples, whatever the options' rule is: what is not valid here is not under any rule.
-  std::vector<MotionVerdict> checkSamples(const double* starts, const double* ends, std::size_t count) const;
+                                   MotionQuestion question = MotionQuestion::Valid,
+                                   const std::function<bool()>& stop = {}) const;
 
   MotionRule rule() const { return options_.rule; }
 
@@ -66,9 +72,6 @@ class MotionChecker
   std::uint64_t statesChecked() const { return states_checked_; }
 
  private:
-  std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
-                                   const MotionCheckerOptions& options, bool last_valid) const;
-
   std::shared_ptr<StateChecker> checker_;
   std::shared_ptr<const RobotModel> robot_;
   std::string group_;

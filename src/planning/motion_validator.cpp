@@ -17,28 +17,23 @@ MotionValidator::MotionValidator(const ompl::base::SpaceInformationPtr& informat
 }
 
 /// Those that leave the bounds are not looked at.
-std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& motions, Question question) const
+std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& motions, MotionQuestion question,
+                                                  const Termination& ptc) const
 {
-  const std::size_t width = reference_.size();
   std::vector<std::size_t> within;
   std::vector<double> starts;
   std::vector<double> ends;
   for (std::size_t i = 0; i < motions.size(); ++i)
   {
     const auto& [from, to] = motions[i];
-    if (!si_->satisfiesBounds(from) || !si_->satisfiesBounds(to))
+    if (!isWithin(*space_, from) || !isWithin(*space_, to))
       continue;
-    for (const auto& [state, rows] : {std::pair(from, &starts), std::pair(to, &ends)})
-    {
-      rows->insert(rows->end(), reference_.begin(), reference_.end());
-      space_->copyToRow(state, &(*rows)[within.size() * width]);
-    }
+    appendRow(*space_, reference_, from, starts);
+    appendRow(*space_, reference_, to, ends);
     within.push_back(i);
   }
   const std::vector<MotionVerdict> checked =
-      question == Question::Samples
-          ? motions_.checkSamples(starts.data(), ends.data(), within.size())
-          : motions_.check(starts.data(), ends.data(), within.size(), question == Question::LastValid);
+      motions_.check(starts.data(), ends.data(), within.size(), question, [&ptc] { return ptc(); });
   std::vector<MotionVerdict> verdicts(motions.size());
   for (std::size_t i = 0; i < within.size(); ++i)
     verdicts[within[i]] = checked[i];
@@ -50,13 +45,13 @@ std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& mot
 
 bool MotionValidator::checkMotion(const ompl::base::State* from, const ompl::base::State* to) const
 {
-  return check({{from, to}}, Question::Valid).front().valid;
+  return check({{from, to}}, MotionQuestion::Valid, never()).front().valid;
 }
 
 bool MotionValidator::checkMotion(const ompl::base::State* from, const ompl::base::State* to,
                                   std::pair<ompl::base::State*, double>& last_valid) const
 {
-  const MotionVerdict verdict = check({{from, to}}, Question::LastValid).front();
+  const MotionVerdict verdict = check({{from, to}}, MotionQuestion::LastValid, never()).front();
   if (verdict.valid)
     return true;
   last_valid.second = verdict.last_valid;
@@ -74,24 +69,26 @@ std::vector<std::uint8_t> MotionValidator::validOf(const std::vector<MotionVerdi
   return valid;
 }
 
-std::vector<std::uint8_t> MotionValidator::validateMotions(const std::vector<Motion>& motions) const
+std::vector<std::uint8_t> MotionValidator::validateMotions(const std::vector<Motion>& motions,
+                                                           const Termination& ptc) const
 {
-  return validOf(check(motions, Question::Valid));
+  return validOf(check(motions, MotionQuestion::Valid, ptc));
 }
 
-std::vector<std::uint8_t> MotionValidator::validateSamples(const std::vector<Motion>& motions) const
+std::vector<std::uint8_t> MotionValidator::validateSamples(const std::vector<Motion>& motions,
+                                                           const Termination& ptc) const
 {
-  return validOf(check(motions, Question::Samples));
+  return validOf(check(motions, MotionQuestion::Samples, ptc));
 }
 
-bool MotionValidator::validatePath(const ompl::geometric::PathGeometric& path) const
+bool MotionValidator::validatePath(const ompl::geometric::PathGeometric& path, const Termination& ptc) const
 {
   std::vector<Motion> motions;
   for (std::size_t i = 0; i + 1 < path.getStateCount(); ++i)
     motions.emplace_back(path.getState(static_cast<unsigned int>(i)), path.getState(static_cast<unsigned int>(i + 1)));
   if (motions.empty() && path.getStateCount() == 1)
     motions.emplace_back(path.getState(0), path.getState(0));
-  for (const std::uint8_t valid : validateMotions(motions))
+  for (const std::uint8_t valid : validateMotions(motions, ptc))
     if (valid == 0)
       return false;
   return path.getStateCount() != 0;

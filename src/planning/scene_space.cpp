@@ -1,5 +1,8 @@
 #include "planning/scene_space.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene
@@ -20,5 +23,21 @@ std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInfor
 std::vector<double> referenceState(const PlanningScene& scene)
 {
   return scene.current_state.empty() ? scene.robot->defaultState() : scene.current_state;
+}
+
+bool isWithin(const GroupStateSpace& space, const ompl::base::State* state)
+{
+  std::vector<double> values;
+  space.copyToReals(values, state);
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }) &&
+         space.satisfiesBounds(state);
+}
+
+void appendRow(const GroupStateSpace& space, const std::vector<double>& reference, const ompl::base::State* state,
+               std::vector<double>& rows)
+{
+  const std::size_t begin = rows.size();
+  rows.insert(rows.end(), reference.begin(), reference.end());
+  space.copyToRow(state, &rows[begin]);
 }
 }  // namespace gpu_planning_scene

@@ -16,4 +16,11 @@ std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInfor
 
 /// A row of all variables of the robot: the scene's current state, or RobotModel::defaultState() where it has none.
 std::vector<double> referenceState(const PlanningScene& scene);
+
+/// Whether a state of the space is within its bounds; not where a value is not finite, which OMPL's bounds let pass.
+bool isWithin(const GroupStateSpace& space, const ompl::base::State* state);
+
+/// Appends the reference row with the state's values in it.
+void appendRow(const GroupStateSpace& space, const std::vector<double>& reference, const ompl::base::State* state,
+               std::vector<double>& rows);
 }  // namespace gpu_planning_scene

@@ -1,7 +1,6 @@
 #include "gpu_planning_scene/planning/state_validity_checker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <ompl/base/SpaceInformation.h>
@@ -11,16 +10,6 @@
 
 namespace gpu_planning_scene
 {
-namespace
-{
-/// OMPL's bounds let NaN pass, which would fail the whole batch.
-bool isFinite(const GroupStateSpace& space, const double* row)
-{
-  const std::vector<int>& variables = space.group().variables;
-  return std::all_of(variables.begin(), variables.end(), [&](int i) { return std::isfinite(row[i]); });
-}
-}  // namespace
-
 StateValidityChecker::StateValidityChecker(const ompl::base::SpaceInformationPtr& information,
                                            std::shared_ptr<const PlanningScene> scene,
                                            std::shared_ptr<StateChecker> checker)
@@ -47,15 +36,10 @@ std::vector<std::uint8_t> StateValidityChecker::validateStates(
   rows.reserve(states.size() * reference_.size());
   for (std::size_t i = 0; i < states.size(); ++i)
   {
-    if (!si_->satisfiesBounds(states[i]))
+    if (!isWithin(*space_, states[i]))
       continue;
-    const std::size_t begin = rows.size();
-    rows.insert(rows.end(), reference_.begin(), reference_.end());
-    space_->copyToRow(states[i], &rows[begin]);
-    if (isFinite(*space_, &rows[begin]))
-      within.push_back(i);
-    else
-      rows.resize(begin);
+    appendRow(*space_, reference_, states[i], rows);
+    within.push_back(i);
   }
   if (within.empty())
     return valid;

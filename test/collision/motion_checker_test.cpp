@@ -53,7 +53,8 @@ class PointMotions : public testing::Test
   static MotionVerdict verdict(const MotionChecker& checker, const std::vector<double>& from,
                                const std::vector<double>& to, bool last_valid = false)
   {
-    return checker.check(from.data(), to.data(), 1, last_valid).front();
+    return checker.check(from.data(), to.data(), 1, last_valid ? MotionQuestion::LastValid : MotionQuestion::Valid)
+        .front();
   }
 
   std::shared_ptr<PlanningScene> scene_ = std::make_shared<PlanningScene>(pointRobot());
@@ -121,6 +122,35 @@ TEST_F(PointMotions, AreRefusedWhereStepsCutThemIntoTooManySamples)
   }
 }
 
+TEST_F(PointMotions, AreNotValidWhereTheCallIsStoppedBeforeTheyAreDecided)
+{
+  scene_->objects = {wall(0.5, 0.1, 0.5101, 1.0)};
+  const std::vector<double> starts = {0.0, 0.0, 0.0, 0.6};
+  const std::vector<double> ends = {1.0, 0.0, 1.0, 0.6};  // the second one collides
+  const MotionChecker checking = checker(MotionRule::Bound, 0.05);
+  for (const MotionQuestion question : {MotionQuestion::Valid, MotionQuestion::LastValid})
+  {
+    int asked = 0;
+    const auto check = [&](int batches)
+    {
+      asked = 0;
+      return checking.check(starts.data(), ends.data(), 2, question, [&] { return asked++ == batches; });
+    };
+    EXPECT_TRUE(check(-1)[0].valid);
+    const int needed = asked;
+    EXPECT_GT(needed, 4);
+    EXPECT_TRUE(check(needed)[0].valid);
+    for (int batches = 0; batches < needed; ++batches)
+    {
+      const std::vector<MotionVerdict> verdicts = check(batches);
+      EXPECT_FALSE(verdicts[0].valid) << batches;
+      EXPECT_LT(verdicts[0].last_valid, 1.0) << batches;
+      EXPECT_FALSE(verdicts[1].valid) << batches;
+      EXPECT_LE(asked, batches + 1) << "asked again after it was stopped";
+    }
+  }
+}
+
 TEST_F(PointMotions, RefuseStepsThatAreNone)
 {
   EXPECT_NE(errorOf([&] { checker(MotionRule::Bound, 0.0); }), "");
@@ -147,7 +177,7 @@ TEST(MotionsOfFollowers, AreNotFreeWhereAFollowerSweepsThroughAWall)
   const MotionChecker checker(cpu, robot, "", options);
   const double from = -3.0;
   const double to = 3.05;
-  const MotionVerdict found = checker.check(&from, &to, 1, true).front();
+  const MotionVerdict found = checker.check(&from, &to, 1, MotionQuestion::LastValid).front();
   EXPECT_FALSE(found.valid);
   EXPECT_GT(found.last_valid, 0.4);
   EXPECT_LT(found.last_valid, 0.5);
@@ -189,7 +219,8 @@ TEST_P(RealMotions, ThatAreProvenAreFreeAtTenTimesTheResolutionAndAsFarAsTheirLa
   const std::size_t count = starts.size() / width;
   MotionCheckerOptions options;
   const MotionChecker checker(cpu, test.scene->robot, "", options);
-  const std::vector<MotionVerdict> verdicts = checker.check(starts.data(), ends.data(), count, true);
+  const std::vector<MotionVerdict> verdicts =
+      checker.check(starts.data(), ends.data(), count, MotionQuestion::LastValid);
   const std::vector<MotionVerdict> without = checker.check(starts.data(), ends.data(), count);
   std::size_t valid = 0;
   std::vector<double> states;

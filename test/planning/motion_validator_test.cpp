@@ -1,6 +1,7 @@
 // The motion validator keeps OMPL's contract, also for many threads, and OMPL's own planners find valid paths with it.
 
 #include <atomic>
+#include <limits>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -42,6 +43,30 @@ TEST_F(MotionValidatorTest, CountsValidAndInvalidMotions)
   EXPECT_FALSE(check({-1.0, 0.0}, {-2.5, 0.0})) << "out of bounds";
   EXPECT_EQ(robot.validator().getValidMotionCount(), 1u);
   EXPECT_EQ(robot.validator().getInvalidMotionCount(), 3u);
+}
+
+/// OMPL's bounds let NaN pass, as no comparison with it is true.
+TEST_F(MotionValidatorTest, FindsNoMotionValidThatHasNoNumbers)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(check({-1.0, nan}, {-1.0, 0.0}));
+  EXPECT_FALSE(check({-1.0, 0.0}, {nan, 0.0}));
+  EXPECT_FALSE(robot.information()->isValid(robot.at({nan, 0.0}).get()));
+  auto storage = robot.at({1.5, 1.5});
+  std::pair<ob::State*, double> last_valid{storage.get(), 7.0};
+  EXPECT_FALSE(robot.validator().checkMotion(robot.at({-1.0, 0.0}).get(), robot.at({nan, 0.0}).get(), last_valid));
+  EXPECT_EQ(last_valid.second, 0.0);
+}
+
+TEST_F(MotionValidatorTest, FindsNoMotionValidThatIsNotDecidedInTime)
+{
+  const auto from = robot.at({-1.0, 0.0});
+  const auto to = robot.at({-1.0, 1.0});
+  const auto never = ob::plannerAlwaysTerminatingCondition();
+  EXPECT_EQ(robot.validator().validateMotions({{from.get(), to.get()}}, never), std::vector<std::uint8_t>{0});
+  EXPECT_EQ(robot.validator().validateSamples({{from.get(), to.get()}}, never), std::vector<std::uint8_t>{0});
+  EXPECT_FALSE(robot.validator().validatePath(robot.path({{-1.0, 0.0}, {-1.0, 1.0}}), never));
+  EXPECT_EQ(robot.validator().statesChecked(), 0u);
 }
 
 TEST_F(MotionValidatorTest, GivesTheLastValidStateOfAnInvalidMotionAlone)
