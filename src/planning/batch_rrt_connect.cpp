@@ -1,202 +1,29 @@
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 
 #include <algorithm>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include <ompl/geometric/PathGeometric.h>
+#include <ompl/util/Time.h>
 
 #include "planning/bulk_validator.h"
-#include "planning/two_trees.h"
+#include "planning/rrt_search.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
 namespace ob = ompl::base;
-using ompl::geometric::PathGeometric;
-using Vertex = RrtTree::Vertex;
 
 // The chosen range, as a part of the largest distance in the space. OMPL's RRTConnect takes a fifth of it; short
 // motions need far fewer states for a solution amid obstacles, and motions in bulk make up for their number.
 constexpr double kRangeOfExtent = 0.04;
 
-// A round has a random branch for so many vertices. Branches of one round know nothing of each other; while the trees
-// are small, many would be wasted.
-constexpr std::size_t kVerticesPerBranch = 8;
-constexpr std::size_t kLeastBranches = 2;
-
 // Goal states that are taken at once. More of them follow as the goal tree grows, as in OMPL's RRTConnect.
 constexpr std::size_t kFirstGoals = 8;
 
-std::shared_ptr<PathGeometric> pathOf(const ob::SpaceInformationPtr& information, const TwoTrees::Meeting& meeting)
-{
-  std::vector<const ob::State*> states;
-  for (const Vertex* vertex = meeting.start; vertex; vertex = vertex->parent)
-    states.push_back(vertex->state);
-  std::reverse(states.begin(), states.end());
-  for (const Vertex* vertex = meeting.goal; vertex; vertex = vertex->parent)
-    states.push_back(vertex->state);
-  auto path = std::make_shared<PathGeometric>(information);
-  for (const ob::State* state : states)
-    path->append(state);
-  return path;
-}
+// An answer that ends short of the goal is proven once the time is over: for this part of it, and at least so long.
+constexpr double kProofOfTime = 0.1;
+constexpr double kLeastProof = 0.1;  // seconds
 }  // namespace
-
-/// The trees, and what was found with them so far.
-class BatchRrtConnect::Search
-{
- public:
-  explicit Search(const ob::Planner& planner) : information_(planner.getSpaceInformation()), trees_(planner) {}
-
-  TwoTrees& trees() { return trees_; }
-
-  /// A round of the trees. Returns a solution, if there is one.
-  std::shared_ptr<PathGeometric> runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
-                                          std::size_t most_branches, double range);
-
-  /// The way to the vertex that is closest to the goal, as far as it is proven; null if that is nothing.
-  std::shared_ptr<PathGeometric> approximatePath(const MotionValidator& validator);
-
-  void addTo(ob::PlannerData& data) const;
-
- private:
-  void lookAtNewVertices(const ob::GoalSampleableRegion& goal, std::vector<TwoTrees::Meeting>& meetings);
-  bool isProven(const MotionValidator& validator, const TwoTrees::Meeting& meeting);
-
-  ob::SpaceInformationPtr information_;
-  TwoTrees trees_;
-  bool is_first_round_ = true;
-  /// Of the last solution. Its goal vertex is null where its start vertex is in the goal region.
-  TwoTrees::Meeting meeting_{nullptr, nullptr};
-  std::size_t looked_at_ = 0;        // vertices of the start tree whose distance to the goal is known
-  const Vertex* closest_ = nullptr;  // of those
-  double distance_ = std::numeric_limits<double>::infinity();
-};
-
-/// Finds those that are in the goal region, which may be more than the goal tree's states, and the one closest to it.
-void BatchRrtConnect::Search::lookAtNewVertices(const ob::GoalSampleableRegion& goal,
-                                                std::vector<TwoTrees::Meeting>& meetings)
-{
-  if (closest_ && closest_->removed)
-  {
-    looked_at_ = 0;
-    closest_ = nullptr;
-    distance_ = std::numeric_limits<double>::infinity();
-  }
-  const auto& vertices = trees_.tree(TwoTrees::Start).vertices();
-  for (; looked_at_ < vertices.size(); ++looked_at_)
-  {
-    const Vertex& vertex = *vertices[looked_at_];
-    if (vertex.removed)
-      continue;
-    double distance = 0.0;
-    if (goal.isSatisfied(vertex.state, &distance))
-      meetings.push_back({&vertex, nullptr});
-    if (distance < distance_)
-    {
-      distance_ = distance;
-      closest_ = &vertex;
-    }
-  }
-}
-
-/// Whether all motions of the path through a meeting are valid by the validator's own rule. Those that are not are
-/// taken out of the trees.
-bool BatchRrtConnect::Search::isProven(const MotionValidator& validator, const TwoTrees::Meeting& meeting)
-{
-  if (validator.rule() == MotionRule::Samples)
-    return true;
-  std::vector<MotionValidator::Motion> motions;
-  std::vector<std::pair<TwoTrees::Side, const Vertex*>> ends;  // of the motions within the trees
-  for (const Vertex* vertex = meeting.start; vertex->parent; vertex = vertex->parent)
-  {
-    motions.emplace_back(vertex->parent->state, vertex->state);
-    ends.emplace_back(TwoTrees::Start, vertex);
-  }
-  for (const Vertex* vertex = meeting.goal; vertex && vertex->parent; vertex = vertex->parent)
-  {
-    motions.emplace_back(vertex->state, vertex->parent->state);
-    ends.emplace_back(TwoTrees::Goal, vertex);
-  }
-  if (meeting.goal)
-    motions.emplace_back(meeting.start->state, meeting.goal->state);
-  const std::vector<std::uint8_t> valid = validator.validateMotions(motions);
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    if (valid[i] == 0)
-      trees_.remove(ends[i].first, *ends[i].second);
-  return std::find(valid.begin(), valid.end(), 0) == valid.end();
-}
-
-std::shared_ptr<PathGeometric> BatchRrtConnect::Search::runRound(const MotionValidator& validator,
-                                                                 const ob::GoalSampleableRegion& goal,
-                                                                 std::size_t most_branches, double range)
-{
-  const std::size_t size = trees_.tree(TwoTrees::Start).size() + trees_.tree(TwoTrees::Goal).size();
-  const std::size_t branches = std::min(most_branches, std::max(kLeastBranches, size / kVerticesPerBranch));
-  // At first nothing but the straight ways.
-  std::vector<TwoTrees::Meeting> meetings = trees_.grow(validator, is_first_round_ ? 0 : branches, range);
-  is_first_round_ = false;
-  lookAtNewVertices(goal, meetings);
-
-  std::vector<std::pair<std::shared_ptr<PathGeometric>, TwoTrees::Meeting>> paths;
-  for (const TwoTrees::Meeting& meeting : meetings)
-  {
-    const ob::State* end = meeting.goal ? meeting.goal->root().state : meeting.start->state;
-    if (goal.isStartGoalPairValid(meeting.start->root().state, end))
-      paths.emplace_back(pathOf(information_, meeting), meeting);
-  }
-  std::stable_sort(paths.begin(), paths.end(),
-                   [](const auto& a, const auto& b) { return a.first->length() < b.first->length(); });
-  for (const auto& [path, meeting] : paths)
-  {
-    const bool is_there = !meeting.start->removed && !(meeting.goal && meeting.goal->removed);
-    if (!is_there || !isProven(validator, meeting))
-      continue;
-    meeting_ = meeting;
-    return path;
-  }
-  return nullptr;
-}
-
-std::shared_ptr<PathGeometric> BatchRrtConnect::Search::approximatePath(const MotionValidator& validator)
-{
-  while (closest_ && closest_->parent)
-  {
-    if (isProven(validator, {closest_, nullptr}))
-      return pathOf(information_, {closest_, nullptr});
-    while (closest_->removed)
-      closest_ = closest_->parent;
-  }
-  return nullptr;
-}
-
-void BatchRrtConnect::Search::addTo(ob::PlannerData& data) const
-{
-  for (const auto& vertex : trees_.tree(TwoTrees::Start).vertices())
-  {
-    if (vertex->removed)
-      continue;
-    if (vertex->parent)
-      data.addEdge(ob::PlannerDataVertex(vertex->parent->state, 1), ob::PlannerDataVertex(vertex->state, 1));
-    else
-      data.addStartVertex(ob::PlannerDataVertex(vertex->state, 1));
-  }
-  for (const auto& vertex : trees_.tree(TwoTrees::Goal).vertices())
-  {
-    if (vertex->removed)
-      continue;
-    if (vertex->parent)
-      data.addEdge(ob::PlannerDataVertex(vertex->state, 2), ob::PlannerDataVertex(vertex->parent->state, 2));
-    else
-      data.addGoalVertex(ob::PlannerDataVertex(vertex->state, 2));
-  }
-  if (meeting_.goal)
-    data.addEdge(ob::PlannerDataVertex(meeting_.start->state, 1), ob::PlannerDataVertex(meeting_.goal->state, 2));
-}
 
 BatchRrtConnect::BatchRrtConnect(const ob::SpaceInformationPtr& information)
   : ob::Planner(information, "BatchRrtConnect")
@@ -289,7 +116,7 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
     return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
   }
   if (!search_)
-    search_ = std::make_unique<Search>(*this);
+    search_ = std::make_unique<RrtSearch>(*this);
   if (const ob::PlannerStatus status = takeInputs(*goal, ptc); !status)
   {
     OMPL_ERROR("%s: there is no valid %s state", getName().c_str(),
@@ -297,16 +124,18 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
     return status;
   }
   const MotionValidator& validator = bulkValidatorOf(*si_, getName());
+  const ompl::time::point start = ompl::time::now();
   while (!ptc)
   {
     takeMoreGoals();
-    if (const auto path = search_->runRound(validator, *goal, branches_, range_))
+    if (const auto path = search_->runRound(validator, *goal, branches_, range_, ptc))
     {
       pdef_->addSolutionPath(path, false, 0.0, getName());
       return ob::PlannerStatus::EXACT_SOLUTION;
     }
   }
-  const std::shared_ptr<PathGeometric> path = search_->approximatePath(validator);
+  const double proof = std::max(kLeastProof, kProofOfTime * ompl::time::seconds(ompl::time::now() - start));
+  const RrtSearch::Path path = search_->approximatePath(validator, ob::timedPlannerTerminationCondition(proof));
   if (!path)
     return ob::PlannerStatus::TIMEOUT;
   double distance = 0.0;

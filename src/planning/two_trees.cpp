@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace gpu_planning_scene
 {
@@ -99,15 +98,15 @@ const RrtTree::Vertex& TwoTrees::advance(const Attempt& attempt, const std::uint
   return *tip;
 }
 
-std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, std::size_t branches, double range)
+std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, std::size_t branches, double range,
+                                              const ompl::base::PlannerTerminationCondition& ptc)
 {
   scratch_used_ = 0;
   std::vector<Attempt> attempts;
-  for (const Way& way : std::exchange(ways_, {}))
+  for (const Way& way : ways_)
     attempts.push_back(pieces(way, range));
   for (std::size_t i = 0; i < branches; ++i)
     attempts.push_back(randomBranch(turn_, range));
-  turn_ = otherThan(turn_);
 
   // In the direction in which the path will have them.
   std::vector<MotionValidator::Motion> motions;
@@ -120,7 +119,11 @@ std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, 
       last = state;
     }
   }
-  const std::vector<std::uint8_t> valid = validator.validateSamples(motions);
+  const std::vector<std::uint8_t> valid = validator.validateSamples(motions, ptc);
+  if (ptc)  // what was not looked at counts as invalid
+    return {};
+  turn_ = otherThan(turn_);
+  ways_.clear();
 
   std::vector<Meeting> meetings;
   const std::uint8_t* first = valid.data();

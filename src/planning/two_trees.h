@@ -44,8 +44,9 @@ class TwoTrees
   /// A round, whose motions' samples are checked in one call. The tree whose turn it is grows `branches` motions
   /// towards random states. Both go on with the straight ways that they are on; each vertex of a new branch becomes the
   /// end of such a way of the other tree, from the next round on. `range`: the longest motion, above 0. Returns where
-  /// they meet.
-  std::vector<Meeting> grow(const MotionValidator& validator, std::size_t branches, double range);
+  /// they meet. Where `ptc` ends the round, nothing comes of it.
+  std::vector<Meeting> grow(const MotionValidator& validator, std::size_t branches, double range,
+                            const ompl::base::PlannerTerminationCondition& ptc);
 
  private:
   using Vertex = RrtTree::Vertex;

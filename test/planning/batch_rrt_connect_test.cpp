@@ -52,9 +52,10 @@ struct Planning
   }
 
   ob::PlannerStatus::StatusType solve(double seconds = kSeconds) { return planner->Planner::solve(seconds); }
-  ob::PlannerStatus::StatusType solveInRounds(unsigned int rounds)
+  /// Until it asks once more. Each round asks several times.
+  ob::PlannerStatus::StatusType solveAsking(unsigned int times)
   {
-    return planner->solve(ob::IterationTerminationCondition(rounds));
+    return planner->solve(ob::IterationTerminationCondition(times));
   }
   PathGeometric& path() const { return *problem->getSolutionPath()->as<PathGeometric>(); }
 
@@ -132,7 +133,7 @@ TEST(BatchRrtConnect, DoesNotJumpAThinWallUnderTheBoundAndBySamplesDoes)
 TEST(BatchRrtConnect, ApproachesAGoalThatIsOutOfReach)
 {
   Planning planning(kClosedWall, kLeft, {kRight});
-  ASSERT_EQ(planning.solveInRounds(200), ob::PlannerStatus::APPROXIMATE_SOLUTION);
+  ASSERT_EQ(planning.solveAsking(1000), ob::PlannerStatus::APPROXIMATE_SOLUTION);
   EXPECT_FALSE(planning.problem->hasExactSolution());
   EXPECT_TRUE(planning.problem->hasApproximateSolution());
   EXPECT_TRUE(planning.robot.isValid(planning.path()));
@@ -257,10 +258,10 @@ TEST(BatchRrtConnect, GoesOnWithItsTreesAndForgetsThemWhenCleared)
     planning.planner->getPlannerData(data);
     return data.numVertices();
   };
-  planning.solveInRounds(20);
+  planning.solveAsking(100);
   const unsigned int before = vertices();
   EXPECT_GT(before, 2U);
-  planning.solveInRounds(20);
+  planning.solveAsking(100);
   EXPECT_GT(vertices(), before);
   planning.planner->clear();
   EXPECT_EQ(vertices(), 0U);

@@ -8,6 +8,8 @@
 
 namespace gpu_planning_scene
 {
+class RrtSearch;
+
 /// RRT-Connect for a MotionValidator, which checks many motions in little more time than one: a tree from the start
 /// states and one from the goal states grow in rounds, and the motions of a round are checked in one call.
 ///  - At first, the straight ways between start and goal states.
@@ -38,13 +40,12 @@ class BatchRrtConnect : public ompl::base::Planner
   /// Throws ompl::Exception if the space information has no gpu_planning_scene::MotionValidator.
   void setup() override;
   void clear() override;
-  /// The termination condition is asked between rounds. Called again, it goes on with the trees that there are.
+  /// Called again, it goes on with the trees that there are. The termination condition is asked between batches of
+  /// states; a path that ends short of the goal is then proven for up to a tenth of the time that was spent, or 0.1 s.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
  private:
-  class Search;
-
   const ompl::base::State* firstGoal(const ompl::base::GoalSampleableRegion& goal,
                                      const ompl::base::PlannerTerminationCondition& ptc);
   ompl::base::PlannerStatus takeInputs(const ompl::base::GoalSampleableRegion& goal,
@@ -53,6 +54,6 @@ class BatchRrtConnect : public ompl::base::Planner
 
   double range_ = 0.0;
   unsigned int branches_ = 64;
-  std::unique_ptr<Search> search_;  // what clear() forgets
+  std::unique_ptr<RrtSearch> search_;  // what clear() forgets
 };
 }  // namespace gpu_planning_scene

@@ -1,0 +1,163 @@
+#include "planning/rrt_search.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace gpu_planning_scene
+{
+namespace
+{
+namespace ob = ompl::base;
+using ompl::geometric::PathGeometric;
+
+// A round has a random branch for so many vertices. Branches of one round know nothing of each other; while the trees
+// are small, many would be wasted.
+constexpr std::size_t kVerticesPerBranch = 8;
+constexpr std::size_t kLeastBranches = 2;
+
+/// From the root to the vertex.
+std::vector<const RrtTree::Vertex*> wayTo(const RrtTree::Vertex* vertex)
+{
+  std::vector<const RrtTree::Vertex*> way;
+  for (; vertex; vertex = vertex->parent)
+    way.push_back(vertex);
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
+RrtSearch::Path pathOf(const ob::SpaceInformationPtr& information, const TwoTrees::Meeting& meeting)
+{
+  auto path = std::make_shared<PathGeometric>(information);
+  for (const RrtTree::Vertex* vertex : wayTo(meeting.start))
+    path->append(vertex->state);
+  for (const RrtTree::Vertex* vertex = meeting.goal; vertex; vertex = vertex->parent)
+    path->append(vertex->state);
+  return path;
+}
+}  // namespace
+
+RrtSearch::RrtSearch(const ob::Planner& planner) : information_(planner.getSpaceInformation()), trees_(planner) {}
+
+/// Finds those that are in the goal region, which may be more than the goal tree's states, and the one closest to it.
+void RrtSearch::lookAtNewVertices(const ob::GoalSampleableRegion& goal, std::vector<TwoTrees::Meeting>& meetings)
+{
+  if (closest_ && closest_->removed)
+  {
+    looked_at_ = 0;
+    closest_ = nullptr;
+    distance_ = std::numeric_limits<double>::infinity();
+  }
+  const auto& vertices = trees_.tree(TwoTrees::Start).vertices();
+  for (; looked_at_ < vertices.size(); ++looked_at_)
+  {
+    const Vertex& vertex = *vertices[looked_at_];
+    if (vertex.removed)
+      continue;
+    double distance = 0.0;
+    if (goal.isSatisfied(vertex.state, &distance))
+      meetings.push_back({&vertex, nullptr});
+    if (distance < distance_)
+    {
+      distance_ = distance;
+      closest_ = &vertex;
+    }
+  }
+}
+
+/// Whether all motions of the path through a meeting are valid by the validator's own rule. Those that are not are
+/// taken out of the trees.
+bool RrtSearch::isProven(const MotionValidator& validator, const TwoTrees::Meeting& meeting,
+                         const ob::PlannerTerminationCondition& ptc)
+{
+  if (validator.rule() == MotionRule::Samples)
+    return true;
+  std::vector<MotionValidator::Motion> motions;
+  std::vector<std::pair<TwoTrees::Side, const Vertex*>> ends;  // of the motions within the trees
+  for (const Vertex* vertex = meeting.start; vertex->parent; vertex = vertex->parent)
+  {
+    motions.emplace_back(vertex->parent->state, vertex->state);
+    ends.emplace_back(TwoTrees::Start, vertex);
+  }
+  for (const Vertex* vertex = meeting.goal; vertex && vertex->parent; vertex = vertex->parent)
+  {
+    motions.emplace_back(vertex->state, vertex->parent->state);
+    ends.emplace_back(TwoTrees::Goal, vertex);
+  }
+  if (meeting.goal)
+    motions.emplace_back(meeting.start->state, meeting.goal->state);
+  const std::vector<std::uint8_t> valid = validator.validateMotions(motions, ptc);
+  if (ptc)  // what was not looked at counts as invalid
+    return std::find(valid.begin(), valid.end(), 0) == valid.end();
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    if (valid[i] == 0)
+      trees_.remove(ends[i].first, *ends[i].second);
+  return std::find(valid.begin(), valid.end(), 0) == valid.end();
+}
+
+RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
+                                    std::size_t most_branches, double range, const ob::PlannerTerminationCondition& ptc)
+{
+  const std::size_t size = trees_.tree(TwoTrees::Start).size() + trees_.tree(TwoTrees::Goal).size();
+  const std::size_t branches = std::min(most_branches, std::max(kLeastBranches, size / kVerticesPerBranch));
+  // At first nothing but the straight ways.
+  std::vector<TwoTrees::Meeting> meetings = trees_.grow(validator, is_first_round_ ? 0 : branches, range, ptc);
+  is_first_round_ = false;
+  lookAtNewVertices(goal, meetings);
+
+  std::vector<std::pair<Path, TwoTrees::Meeting>> paths;
+  for (const TwoTrees::Meeting& meeting : meetings)
+  {
+    const ob::State* end = meeting.goal ? meeting.goal->root().state : meeting.start->state;
+    if (goal.isStartGoalPairValid(meeting.start->root().state, end))
+      paths.emplace_back(pathOf(information_, meeting), meeting);
+  }
+  std::stable_sort(paths.begin(), paths.end(),
+                   [](const auto& a, const auto& b) { return a.first->length() < b.first->length(); });
+  for (const auto& [path, meeting] : paths)
+  {
+    const bool is_there = !meeting.start->removed && !(meeting.goal && meeting.goal->removed);
+    if (!is_there || !isProven(validator, meeting, ptc))
+      continue;
+    meeting_ = meeting;
+    return path;
+  }
+  return nullptr;
+}
+
+RrtSearch::Path RrtSearch::approximatePath(const MotionValidator& validator,
+                                           const ob::PlannerTerminationCondition& ptc) const
+{
+  const std::vector<const Vertex*> way = wayTo(closest_);
+  std::vector<MotionValidator::Motion> motions;
+  for (std::size_t i = 1; i < way.size(); ++i)
+    motions.emplace_back(way[i - 1]->state, way[i]->state);
+  const std::vector<std::uint8_t> valid = validator.validateMotions(motions, ptc);
+  const auto proven = static_cast<std::size_t>(std::find(valid.begin(), valid.end(), 0) - valid.begin());
+  return proven == 0 ? nullptr : pathOf(information_, {way[proven], nullptr});
+}
+
+void RrtSearch::addTo(ob::PlannerData& data) const
+{
+  for (const auto& vertex : trees_.tree(TwoTrees::Start).vertices())
+  {
+    if (vertex->removed)
+      continue;
+    if (vertex->parent)
+      data.addEdge(ob::PlannerDataVertex(vertex->parent->state, 1), ob::PlannerDataVertex(vertex->state, 1));
+    else
+      data.addStartVertex(ob::PlannerDataVertex(vertex->state, 1));
+  }
+  for (const auto& vertex : trees_.tree(TwoTrees::Goal).vertices())
+  {
+    if (vertex->removed)
+      continue;
+    if (vertex->parent)
+      data.addEdge(ob::PlannerDataVertex(vertex->state, 2), ob::PlannerDataVertex(vertex->parent->state, 2));
+    else
+      data.addGoalVertex(ob::PlannerDataVertex(vertex->state, 2));
+  }
+  if (meeting_.goal)
+    data.addEdge(ob::PlannerDataVertex(meeting_.start->state, 1), ob::PlannerDataVertex(meeting_.goal->state, 2));
+}
+}  // namespace gpu_planning_scene
