@@ -87,16 +87,44 @@ TEST(PathShortcutter, LeavesAPathAloneThatCannotBeShorter)
   const PointRobot robot({});
   PathShortcutter shortcutter(robot.information());
   for (const std::vector<PointRobot::Position>& positions :
-       std::vector<std::vector<PointRobot::Position>>{{},
-                                                      {{0.0, 0.0}},
-                                                      {{0.0, 0.0}, {1.0, 0.0}},
-                                                      {{0.0, 0.0}, {0.5, 0.0}, {1.0, 0.0}},
-                                                      {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}})
+       std::vector<std::vector<PointRobot::Position>>{{}, {{0.0, 0.0}}, {{0.0, 0.0}, {1.0, 0.0}}})
   {
     PathGeometric path = robot.path(positions);
     EXPECT_FALSE(shortcutter.shorten(path, ob::plannerNonTerminatingCondition()));
     EXPECT_EQ(path.getStateCount(), positions.size());
   }
+}
+
+TEST(PathShortcutter, MakesOneMotionOfSeveralThatAreAsLong)
+{
+  const PointRobot robot({{-0.1, -3.0, 0.1, 0.4}});
+  using Positions = std::vector<PointRobot::Position>;
+  const Positions over_the_wall = {{-1.0, 0.5}, {0.0, 0.5}, {1.0, 0.5}};
+  const Positions ends = {{-1.0, 0.5}, {1.0, 0.5}};
+  const Positions nowhere = {{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}};
+  for (const auto& [positions, expected] :
+       {std::pair(over_the_wall, ends), std::pair(nowhere, Positions{{0.5, 0.5}, {0.5, 0.5}})})
+  {
+    PathGeometric path = robot.path(positions);
+    EXPECT_FALSE(PathShortcutter(robot.information()).shorten(path, ob::plannerNonTerminatingCondition()));
+    Positions left;
+    for (const ob::State* state : path.getStates())
+      left.push_back(PointRobot::positionOf(state));
+    EXPECT_EQ(left, expected);
+  }
+}
+
+TEST(PathShortcutter, KeepsWhatIsAsLongAsAMotionThatIsNotValid)
+{
+  // Half way, a sample of the whole motion meets the wall, which those of its parts jump.
+  MotionCheckerOptions options;
+  options.rule = MotionRule::Samples;
+  options.steps.prismatic = 1.0;
+  const PointRobot robot({{-0.1, -3.0, 0.1, 0.4}}, options);
+  PathGeometric path = robot.path({{-1.0, 0.0}, {-0.4, 0.0}, {0.4, 0.0}, {1.0, 0.0}});
+  ASSERT_TRUE(robot.isValid(path));
+  EXPECT_FALSE(PathShortcutter(robot.information()).shorten(path, ob::plannerNonTerminatingCondition()));
+  EXPECT_EQ(path.getStateCount(), 4U);
 }
 
 TEST(PathShortcutter, DoesNothingIfThereIsNoTime)

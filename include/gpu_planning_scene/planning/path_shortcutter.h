@@ -17,7 +17,8 @@ struct ShortcutterOptions
   double least_gain = 1e-2;      ///< of a round, as a part of the path's length
 };
 
-/// Shortens paths for a MotionValidator, which checks many motions in little more time than one. In each round,
+/// Shortens paths for a MotionValidator, which checks many motions in little more time than one. At first, one motion
+/// takes the place of several that are as long together. Then, in each round,
 /// shortcuts between two points of the path are drawn and checked in one call; of the valid ones those are taken,
 /// largest gain first, that do not overlap one taken before. Points are vertices as well as points on edges.
 ///
@@ -30,11 +31,13 @@ class PathShortcutter
   explicit PathShortcutter(const ompl::base::SpaceInformationPtr& information, const ShortcutterOptions& options = {});
 
   /// Whether the path became shorter. Its first and last state stay as they are; each motion that it did not have
-  /// before was found valid, also where it is a part of an old one. `ptc` is asked between rounds.
+  /// before was found valid, also where it is a part of an old one. `ptc` is asked between batches of states.
   bool shorten(ompl::geometric::PathGeometric& path, const ompl::base::PlannerTerminationCondition& ptc);
 
  private:
-  double shortenOnce(ompl::geometric::PathGeometric& path, bool first);
+  void joinDirectRuns(ompl::geometric::PathGeometric& path, const ompl::base::PlannerTerminationCondition& ptc);
+  double shortenOnce(ompl::geometric::PathGeometric& path, bool first,
+                     const ompl::base::PlannerTerminationCondition& ptc);
 
   ompl::base::SpaceInformationPtr information_;
   ShortcutterOptions options_;
