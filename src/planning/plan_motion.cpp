@@ -14,8 +14,9 @@
 #include "gpu_planning_scene/planning/path_length_objective.h"
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "gpu_planning_scene/planning/state_validity_checker.h"
-#include "collision/reach.h"
 #include "planning/counted_checker.h"
+#include "planning/planner_parameters.h"
+#include "planning/planning_ends.h"
 
 namespace gpu_planning_scene
 {
@@ -68,7 +69,8 @@ class Plan
     if (!query.projection.empty())
       space_->projectOnto(query.projection);
     information_->setStateValidityChecker(std::make_shared<StateValidityChecker>(information_, scene_, checker_));
-    information_->setMotionValidator(std::make_shared<MotionValidator>(information_, scene_, checker_, query.motions));
+    validator_ = std::make_shared<MotionValidator>(information_, scene_, checker_, query.motions);
+    information_->setMotionValidator(validator_);
     information_->setup();
     space_->copyFromRow(query.start.data(), start_.get());
   }
@@ -84,14 +86,9 @@ class Plan
     return copy;
   }
 
-  bool findEnds(ob::GoalStates& goals);
-  void setParameters(ob::Planner& planner) const;
-  void simplify(og::PathGeometric& path);
-  std::string outOfBounds(const std::vector<double>& row) const;
-  std::string outsideOfProof() const;
+  void findPath(const PlannerFactory& factory, const std::vector<ob::ScopedState<>>& goal_states);
+  void finish(og::PathGeometric& path, const std::string& planner);
   void takePath(og::PathGeometric& path);
-  /// The pair of bodies that collides, in words; empty if the state is free.
-  std::string collisionOf(const std::vector<double>& row);
 
   ob::PlannerTerminationCondition within(double seconds) const
   {
@@ -99,129 +96,17 @@ class Plan
     return stop_ ? ob::plannerOrTerminationCondition(timed, ob::PlannerTerminationCondition(stop_)) : timed;
   }
 
+  const Clock::time_point begin_ = Clock::now();
   std::shared_ptr<const PlanningScene> scene_;
   std::shared_ptr<CountedChecker> checker_;
   const PlanningQuery& query_;
   const std::function<bool()>& stop_;
   std::shared_ptr<GroupStateSpace> space_;
   ob::SpaceInformationPtr information_;
+  std::shared_ptr<MotionValidator> validator_;
   ob::ScopedState<> start_;
   PlanningResult result_;
 };
-
-std::string Plan::outOfBounds(const std::vector<double>& row) const
-{
-  for (const int variable : space_->variables())
-  {
-    const Variable& limits = scene_->robot->variables()[static_cast<std::size_t>(variable)];
-    const double value = row[static_cast<std::size_t>(variable)];
-    if (limits.bounded && (value < limits.lower || value > limits.upper))
-      return limits.name + " is " + std::to_string(value) + ", outside of " + std::to_string(limits.lower) + " to " +
-             std::to_string(limits.upper);
-  }
-  ob::ScopedState<> state(space_);
-  space_->copyFromRow(row.data(), state.get());
-  return space_->satisfiesBounds(state.get()) ? "" : "a position is outside of the planning bounds";
-}
-
-/// Where a joint is beyond its limits, also one that is not planned for, no motion can be proven.
-std::string Plan::outsideOfProof() const
-{
-  if (query_.motions.rule == MotionRule::Samples)
-    return "";
-  for (const VariableRange& range : limitRanges(*scene_->robot))
-  {
-    const auto variable = static_cast<std::size_t>(range.variable);
-    const double value = query_.start[variable];
-    if (value < range.lower || value > range.upper)
-      return "the start is out of bounds: " + scene_->robot->variables()[variable].name + " is " +
-             std::to_string(value) + ", beyond its limits, where no motion can be proven (motion rule bound)";
-  }
-  return "";
-}
-
-std::string Plan::collisionOf(const std::vector<double>& row)
-{
-  const BatchResult found = checker_->check(row.data(), 1, query_.group, nullptr);
-  if (found.valid[0] != 0)
-    return "";
-  return scene_->bodyName(found.colliding[0][0]) + " and " + scene_->bodyName(found.colliding[0][1]);
-}
-
-/// False, with the status set, where there is nothing to plan between.
-bool Plan::findEnds(ob::GoalStates& goals)
-{
-  const auto fail = [this](PlanningStatus status, const std::string& message)
-  {
-    result_.status = status;
-    result_.message = message;
-    return false;
-  };
-  if (const std::string wrong = outsideOfProof(); !wrong.empty())
-    return fail(PlanningStatus::OutOfBounds, wrong);
-  if (const std::string wrong = outOfBounds(query_.start); !wrong.empty())
-    return fail(PlanningStatus::OutOfBounds, "the start is out of bounds: " + wrong);
-  if (const std::string bodies = collisionOf(query_.start); !bodies.empty())
-    return fail(PlanningStatus::StartInCollision, "the start is in collision: " + bodies);
-  std::string first_wrong;
-  PlanningStatus status = PlanningStatus::GoalsInCollision;  // what is wrong with the first one
-  for (std::size_t i = 0; i < query_.goals.size(); ++i)
-  {
-    std::vector<double> row = query_.start;
-    for (const int variable : space_->variables())
-      row[static_cast<std::size_t>(variable)] = query_.goals[i][static_cast<std::size_t>(variable)];
-    const std::string name = query_.goals.size() == 1 ? "the goal" : "goal " + std::to_string(i);
-    const std::string beyond = outOfBounds(row);
-    const std::string bodies = beyond.empty() ? collisionOf(row) : "";
-    if (beyond.empty() && bodies.empty())
-    {
-      ob::ScopedState<> state(space_);
-      space_->copyFromRow(row.data(), state.get());
-      goals.addState(state);
-    }
-    else if (first_wrong.empty())
-    {
-      status = beyond.empty() ? PlanningStatus::GoalsInCollision : PlanningStatus::OutOfBounds;
-      first_wrong = name + (beyond.empty() ? " is in collision: " + bodies : " is out of bounds: " + beyond);
-    }
-  }
-  return goals.getStateCount() != 0 || fail(status, first_wrong);
-}
-
-void Plan::setParameters(ob::Planner& planner) const
-{
-  for (const auto& [name, value] : query_.parameters)
-  {
-    if (!planner.params().hasParam(name))
-    {
-      std::vector<std::string> names;
-      planner.params().getParamNames(names);
-      std::string all;
-      for (const std::string& known : names)
-        all += (all.empty() ? "" : ", ") + known;
-      throw Error("planner " + planner.getName() + " has no parameter '" + name + "'; it has " +
-                  (all.empty() ? "none" : all));
-    }
-    bool taken = false;
-    try
-    {
-      taken = planner.params().setParam(name, value);
-    }
-    catch (const std::exception&)  // OMPL's, of a value that is no number
-    {
-    }
-    if (!taken)
-      throw Error("parameter " + name + " of planner " + planner.getName() + " cannot be '" + value + "'");
-  }
-}
-
-void Plan::simplify(og::PathGeometric& path)
-{
-  const Clock::time_point start = Clock::now();
-  const double left = std::max(0.1 * query_.seconds, query_.seconds - result_.planning_seconds);
-  PathShortcutter(information_).shorten(path, within(left));
-  result_.simplification_seconds = secondsSince(start);
-}
 
 /// Angles of continuous and planar joints go on from the start's as the motions do, without jumps by whole turns.
 void Plan::takePath(og::PathGeometric& path)
@@ -244,40 +129,64 @@ void Plan::takePath(og::PathGeometric& path)
   }
 }
 
-PlanningResult Plan::run(const PlannerFactory& factory)
+/// Planning, from the start of the call on.
+void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedState<>>& goal_states)
 {
   const auto goals = std::make_shared<ob::GoalStates>(information_);
-  if (findEnds(*goals))
+  for (const ob::ScopedState<>& goal : goal_states)
+    goals->addState(goal);
+  const auto definition = std::make_shared<ob::ProblemDefinition>(information_);
+  definition->addStartState(start_);
+  definition->setGoal(goals);
+  definition->setOptimizationObjective(std::make_shared<PathLengthObjective>(information_));
+  const ob::PlannerPtr planner = factory.create(information_);
+  setParameters(*planner, query_.parameters);
+  planner->setProblemDefinition(definition);
+  planner->setup();
+  const ob::PlannerStatus status = planner->solve(within(query_.seconds - secondsSince(begin_)));
+  result_.planning_seconds = secondsSince(begin_);
+  const bool exact = status == ob::PlannerStatus::EXACT_SOLUTION;
+  result_.status = exact ? PlanningStatus::Solved : PlanningStatus::NoSolution;
+  if (!exact)
+    result_.message = "no solution within " + std::to_string(query_.seconds) + " s (" + planner->getName() + ": " +
+                      status.asString() + ")";
+  if (!definition->hasSolution())
+    return;
+  auto path = *definition->getSolutionPath()->as<og::PathGeometric>();
+  if (!exact)
   {
-    const auto definition = std::make_shared<ob::ProblemDefinition>(information_);
-    definition->addStartState(start_);
-    definition->setGoal(goals);
-    definition->setOptimizationObjective(std::make_shared<PathLengthObjective>(information_));
-    const ob::PlannerPtr planner = factory.create(information_);
-    setParameters(*planner);
-    planner->setProblemDefinition(definition);
-    planner->setup();
-    const Clock::time_point start = Clock::now();
-    const ob::PlannerStatus status = planner->solve(within(query_.seconds));
-    result_.planning_seconds = secondsSince(start);
-    const bool exact = status == ob::PlannerStatus::EXACT_SOLUTION;
-    result_.status = exact ? PlanningStatus::Solved : PlanningStatus::NoSolution;
-    if (!exact)
-      result_.message = "no solution within " + std::to_string(query_.seconds) + " s (" + planner->getName() + ": " +
-                        status.asString() + ")";
-    if (definition->hasSolution())
-    {
-      auto path = *definition->getSolutionPath()->as<og::PathGeometric>();
-      if (!exact)
-      {
-        result_.status = PlanningStatus::Approximate;
-        result_.message += "; the path ends " + std::to_string(definition->getSolutionDifference()) + " from a goal";
-      }
-      if (query_.simplify)
-        simplify(path);
-      takePath(path);
-    }
+    result_.status = PlanningStatus::Approximate;
+    result_.message += "; the path ends " + std::to_string(definition->getSolutionDifference()) + " from a goal";
   }
+  finish(path, planner->getName());
+}
+
+/// Simplification, and a last look at the path as it is answered: not every planner asks about all of its motions.
+void Plan::finish(og::PathGeometric& path, const std::string& planner)
+{
+  constexpr double kLeast = 0.1;  // of the time for planning
+  const Clock::time_point start = Clock::now();
+  const double left = std::max(kLeast * query_.seconds, query_.seconds - result_.planning_seconds);
+  if (query_.simplify)
+    PathShortcutter(information_).shorten(path, within(left));
+  result_.simplification_seconds = secondsSince(start);
+  const bool valid = validator_->validatePath(path, within(left));
+  result_.planning_seconds += secondsSince(start) - result_.simplification_seconds;
+  if (valid)
+    return takePath(path);
+  result_.status = PlanningStatus::NoSolution;
+  result_.message =
+      "the path that " + planner + " found is not valid by the motion rule, or there was no time to prove it";
+}
+
+PlanningResult Plan::run(const PlannerFactory& factory)
+{
+  const PlanningEnds ends = findEnds(*scene_, *checker_, space_, query_);
+  result_.status = ends.status;
+  result_.message = ends.message;
+  result_.planning_seconds = secondsSince(begin_);
+  if (!ends.goals.empty())
+    findPath(factory, ends.goals);
   result_.checking_seconds = checker_->seconds();
   result_.states_checked = checker_->states();
   result_.revision = scene_->revision;

@@ -38,11 +38,11 @@ PointRobot::PointRobot(const std::vector<Wall>& walls, const MotionCheckerOption
     object.shapes.push_back({Box{{wall.x_upper - wall.x_lower, wall.y_upper - wall.y_lower, 1.0}}});
     scene.objects.push_back(object);
   }
-  const auto shared = std::make_shared<const PlanningScene>(std::move(scene));
-  const auto checker = std::make_shared<CpuChecker>(shared);
-  information_ = std::make_shared<ob::SpaceInformation>(std::make_shared<GroupStateSpace>(shared->robot, "plane"));
-  information_->setStateValidityChecker(std::make_shared<StateValidityChecker>(information_, shared, checker));
-  validator_ = std::make_shared<MotionValidator>(information_, shared, checker, options);
+  scene_ = std::make_shared<const PlanningScene>(std::move(scene));
+  checker_ = std::make_shared<CpuChecker>(scene_);
+  information_ = std::make_shared<ob::SpaceInformation>(std::make_shared<GroupStateSpace>(scene_->robot, "plane"));
+  information_->setStateValidityChecker(std::make_shared<StateValidityChecker>(information_, scene_, checker_));
+  validator_ = std::make_shared<MotionValidator>(information_, scene_, checker_, options);
   information_->setMotionValidator(validator_);
   information_->setup();
 }

@@ -22,7 +22,8 @@ struct Wall
   double y_upper;
 };
 
-/// A cube with edges of 0.1 m that two prismatic joints move in the plane, from -2 to 2 m, among walls.
+/// A cube with edges of 0.1 m that two prismatic joints, the group "plane", move in the plane, from -2 to 2 m, among
+/// walls.
 class PointRobot
 {
  public:
@@ -39,8 +40,12 @@ class PointRobot
 
   const ompl::base::SpaceInformationPtr& information() const { return information_; }
   const MotionValidator& validator() const { return *validator_; }
+  const std::shared_ptr<const PlanningScene>& scene() const { return scene_; }
+  const std::shared_ptr<StateChecker>& checker() const { return checker_; }
 
  private:
+  std::shared_ptr<const PlanningScene> scene_;
+  std::shared_ptr<StateChecker> checker_;
   ompl::base::SpaceInformationPtr information_;
   std::shared_ptr<MotionValidator> validator_;
 };

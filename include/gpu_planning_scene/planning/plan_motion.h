@@ -22,7 +22,9 @@ struct PlanningQuery
   std::string group;
   std::vector<double> start;
   std::vector<std::vector<double>> goals;  ///< any of them
-  double seconds = 5.0;                    ///< for planning; simplification has what is left, and at least a tenth
+  /// For planning, with a look at the start and the goals. Simplification, and then a last look at the path, each have
+  /// what is left, and at least a tenth.
+  double seconds = 5.0;
   bool simplify = true;
   MotionCheckerOptions motions;
   std::map<std::string, std::string> parameters = {};  ///< of the planner, by OMPL's names
@@ -33,10 +35,10 @@ enum class PlanningStatus
 {
   Solved,
   Approximate,  ///< there was no time for more: the path ends as near to a goal as was found
-  NoSolution,   ///< nor was anything found that comes nearer
+  NoSolution,   ///< nor was anything found that comes nearer, or it is not valid by the motion rule
   StartInCollision,
-  GoalsInCollision,  ///< all of them
-  OutOfBounds        ///< the start, or all goals that are not in collision
+  GoalsInCollision,  ///< the first of the goals, of which none is both free and within bounds
+  OutOfBounds        ///< the start, or the first of the goals, of which none is both free and within bounds
 };
 
 struct PlanningResult
@@ -44,7 +46,7 @@ struct PlanningResult
   PlanningStatus status = PlanningStatus::NoSolution;
   std::string message;                         ///< what is wrong, in one line; empty where it is solved
   std::vector<std::vector<double>> waypoints;  ///< rows of all variables; none unless solved or approximate
-  double planning_seconds = 0.0;
+  double planning_seconds = 0.0;               ///< with the look at the start and the goals, and the proof of the path
   double simplification_seconds = 0.0;
   double checking_seconds = 0.0;  ///< of both
   std::uint64_t states_checked = 0;

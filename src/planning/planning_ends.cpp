@@ -1,0 +1,110 @@
+#include "planning/planning_ends.h"
+
+#include <algorithm>
+
+#include "collision/reach.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+namespace ob = ompl::base;
+
+/// What is wrong with the start or a goal: a status and a message. None: it is free.
+struct Fault
+{
+  PlanningStatus status = PlanningStatus::Solved;
+  std::string message;
+};
+
+Fault outOfBounds(const RobotModel& robot, const ob::StateSpacePtr& space_pointer, const double* row)
+{
+  const auto& space = *space_pointer->as<GroupStateSpace>();
+  for (const int variable : space.variables())
+  {
+    const Variable& limits = robot.variables()[static_cast<std::size_t>(variable)];
+    const double value = row[variable];
+    if (limits.bounded && (value < limits.lower || value > limits.upper))
+      return {PlanningStatus::OutOfBounds, "out of bounds: " + limits.name + " is " + std::to_string(value) +
+                                               ", outside of " + std::to_string(limits.lower) + " to " +
+                                               std::to_string(limits.upper)};
+  }
+  ob::ScopedState<> state(space_pointer);
+  space.copyFromRow(row, state.get());
+  return space.satisfiesBounds(state.get())
+             ? Fault{}
+             : Fault{PlanningStatus::OutOfBounds, "out of bounds: a position is outside of the planning bounds"};
+}
+
+/// Where a joint is beyond its limits, also one that is not planned for, no motion can be proven.
+Fault outsideOfProof(const RobotModel& robot, const double* row)
+{
+  for (const VariableRange& range : limitRanges(robot))
+    if (const double value = row[range.variable]; value < range.lower || value > range.upper)
+      return {PlanningStatus::OutOfBounds,
+              "out of bounds: " + robot.variables()[static_cast<std::size_t>(range.variable)].name + " is " +
+                  std::to_string(value) + ", beyond its limits, where no motion can be proven (motion rule bound)"};
+  return {};
+}
+
+/// The start's row, then each goal's, with what is not planned for as it is at the start.
+std::vector<double> rowsOf(const PlanningQuery& query, const GroupStateSpace& space)
+{
+  std::vector<double> rows = query.start;
+  for (const std::vector<double>& goal : query.goals)
+  {
+    rows.insert(rows.end(), query.start.begin(), query.start.end());
+    for (const int variable : space.variables())
+      rows[rows.size() - query.start.size() + static_cast<std::size_t>(variable)] =
+          goal[static_cast<std::size_t>(variable)];
+  }
+  return rows;
+}
+
+std::vector<Fault> faultsOf(const PlanningScene& scene, StateChecker& checker, const ob::StateSpacePtr& space,
+                            const PlanningQuery& query, const std::vector<double>& rows)
+{
+  const std::size_t width = query.start.size();
+  const std::size_t count = query.goals.size() + 1;
+  const BatchResult found = checker.check(rows.data(), count, query.group);
+  std::vector<Fault> faults(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double* const row = rows.data() + i * width;
+    Fault& fault = faults[i];
+    if (i == 0 && query.motions.rule == MotionRule::Bound)
+      fault = outsideOfProof(*scene.robot, row);
+    if (fault.message.empty())
+      fault = outOfBounds(*scene.robot, space, row);
+    if (fault.message.empty() && found.valid[i] == 0)
+      fault = {
+          i == 0 ? PlanningStatus::StartInCollision : PlanningStatus::GoalsInCollision,
+          "in collision: " + scene.bodyName(found.colliding[i][0]) + " and " + scene.bodyName(found.colliding[i][1])};
+  }
+  return faults;
+}
+}  // namespace
+
+PlanningEnds findEnds(const PlanningScene& scene, StateChecker& checker, const ob::StateSpacePtr& space,
+                      const PlanningQuery& query)
+{
+  const auto& group_space = *space->as<GroupStateSpace>();
+  const std::vector<double> rows = rowsOf(query, group_space);
+  const std::vector<Fault> faults = faultsOf(scene, checker, space, query, rows);
+  PlanningEnds ends;
+  if (!faults.front().message.empty())
+    return {faults.front().status, "the start is " + faults.front().message, {}};
+  for (std::size_t i = 1; i < faults.size(); ++i)
+    if (faults[i].message.empty())
+    {
+      ends.goals.emplace_back(space);
+      group_space.copyFromRow(rows.data() + i * query.start.size(), ends.goals.back().get());
+    }
+  if (ends.goals.empty())
+  {
+    ends.status = faults[1].status;
+    ends.message = (query.goals.size() == 1 ? "the goal is " : "goal 0 is ") + faults[1].message;
+  }
+  return ends;
+}
+}  // namespace gpu_planning_scene
