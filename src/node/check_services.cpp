@@ -109,8 +109,9 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
       {
         memory_.require();
         CheckJob job;
-        job.columns = requestedColumns(*store_.snapshot().scene->robot, request.joint_names, request.positions,
-                                       "positions", [this](std::size_t count) { server_.requireStateCount(count); });
+        job.columns = requestedColumns(*store_.snapshot().scene->robot, {"joint_names", request.joint_names},
+                                       {"positions", request.positions},
+                                       [this](std::size_t count) { server_.requireStateCount(count); });
         job.states = request.positions;
         job.group = request.group;
         job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
@@ -209,8 +210,9 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         const std::size_t width = robot.variables().size();
         const auto require_count = [this](std::size_t count) { server_.requireStateCount(count); };
         CheckJob job;
-        job.columns = requestedColumns(robot, request.joint_names, request.starts, "starts", require_count);
-        requestedColumns(robot, request.joint_names, request.ends, "ends", require_count);
+        job.columns =
+            requestedColumns(robot, {"joint_names", request.joint_names}, {"starts", request.starts}, require_count);
+        requestedColumns(robot, {"joint_names", request.joint_names}, {"ends", request.ends}, require_count);
         requireWholeRotations(robot, job.columns);
         const PartialState current = now.partialState();
         const std::size_t count = request.starts.size() / job.columns.size();

@@ -1,6 +1,8 @@
 #include "node/plan_request.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "gpu_planning_scene/error.h"
@@ -8,6 +10,7 @@
 #include "model/full_states.h"
 #include "node/parameter_values.h"
 #include "node/requested_states.h"
+#include "scene/parse_number.h"
 
 namespace gpu_planning_scene
 {
@@ -20,6 +23,25 @@ void requirePlannedFor(const std::vector<int>& columns, const GroupStateSpace& s
     if (std::find(space.variables().begin(), space.variables().end(), column) == space.variables().end())
       throw Error("goal_names has " + space.robot()->variables()[static_cast<std::size_t>(column)].name +
                   ", which group '" + space.group().name + "' does not plan for");
+}
+/// Planners take any number. A count of many millions, or a motion a billionth as long as the space, which planners
+/// answer with as many states, keep them busy for hours between two looks at the clock.
+void refuseCostly(const std::map<std::string, std::string>& parameters, double extent, std::size_t most)
+{
+  constexpr double kLeastRange = 1e-4;  // of the extent
+  for (const auto& [name, text] : parameters)
+  {
+    const std::optional<double> value = parseNumber(text);
+    if (!value)
+      continue;
+    if (!(*value >= 0.0 && *value <= static_cast<double>(most)))
+      throw Error("the planner's parameter " + name + " is " + text + "; it must be from 0 to " + std::to_string(most) +
+                  " (limits/planner_parameter)");
+    if (name == "range" && *value > 0.0 && *value < kLeastRange * extent)
+      throw Error("the planner's parameter range is " + text +
+                  "; it must be 0, for the planner to choose, or at least " + std::to_string(kLeastRange * extent) +
+                  ", a 10,000th of the extent of the group's space");
+  }
 }
 }  // namespace
 
@@ -45,6 +67,7 @@ PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own)
   options.at_once = countParameter(own, "planning/at_once", options.at_once, 1, kMostAtOnce);
   options.most_waiting = countParameter(own, "limits/waiting_plans", options.most_waiting, 0, kNoLimit);
   options.most_goals = countParameter(own, "limits/goals", options.most_goals, 1, kNoLimit);
+  options.most_parameter = countParameter(own, "limits/planner_parameter", options.most_parameter, 1, kNoLimit);
   return options;
 }
 
@@ -64,7 +87,8 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
     query.start = fullStates(robot, {}, nullptr, 1, current);
   else
   {
-    const std::vector<int> columns = requestedColumns(robot, request.start_names, request.start, "start", one);
+    const std::vector<int> columns =
+        requestedColumns(robot, {"start_names", request.start_names}, {"start", request.start}, one);
     requireWholeRotations(robot, columns);
     query.start = fullStates(robot, columns, request.start.data(), 1, current);
   }
@@ -74,7 +98,8 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
       throw Error(std::to_string(count) + " goals are more than " + std::to_string(options.most_goals) +
                   " (limits/goals)");
   };
-  const std::vector<int> columns = requestedColumns(robot, request.goal_names, request.goals, "goals", few);
+  const std::vector<int> columns =
+      requestedColumns(robot, {"goal_names", request.goal_names}, {"goals", request.goals}, few);
   const GroupStateSpace space(now.scene->robot, request.group);
   requirePlannedFor(columns, space);
   requireWholeRotations(robot, columns);
@@ -111,6 +136,7 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
       throw Error("parameter '" + parameter.key + "' is given twice");
     query.parameters[parameter.key] = parameter.value;
   }
+  refuseCostly(query.parameters, space.getMaximumExtent(), options.most_parameter);
   query.projection = planners.projection;
   return query;
 }

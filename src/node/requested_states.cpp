@@ -8,22 +8,23 @@
 
 namespace gpu_planning_scene
 {
-std::vector<int> requestedColumns(const RobotModel& robot, const std::vector<std::string>& joint_names,
-                                  const std::vector<double>& values, const std::string& what,
+std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<std::vector<std::string>>& names,
+                                  const RequestField<std::vector<double>>& rows,
                                   const std::function<void(std::size_t)>& require_count)
 {
-  if (joint_names.empty())
-    throw Error("joint_names is empty; name at least one variable");
-  std::vector<int> columns = variableIndices(robot, joint_names);
+  if (names.values.empty())
+    throw Error(std::string(names.name) + " is empty; name at least one variable");
+  std::vector<int> columns = variableIndices(robot, names.values);
   const std::size_t width = columns.size();
+  const std::vector<double>& values = rows.values;
   if (values.size() % width != 0)
-    throw Error(std::to_string(values.size()) + " " + what + " are not rows of " + std::to_string(width) +
-                " values, one per joint name");
+    throw Error(std::to_string(values.size()) + " " + rows.name + " are not rows of " + std::to_string(width) +
+                " values, one per name of " + names.name);
   require_count(values.size() / width);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (!std::isfinite(values[i]))
-      throw Error("state " + std::to_string(i / width) + ": the position of '" + joint_names[i % width] +
-                  "' is not a finite number");
+      throw Error(std::string(rows.name) + ": state " + std::to_string(i / width) + ": the position of '" +
+                  names.values[i % width] + "' is not a finite number");
   return columns;
 }
 

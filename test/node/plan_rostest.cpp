@@ -118,6 +118,19 @@ TEST_F(Planning, takesTheDefaultOfTheGroupAndParametersOfTheRequest)
   wanted.parameters[0].key = "range";
   wanted.parameters[0].value = "far";
   expectStatus(wanted, Response::BAD_REQUEST, "parameter range of planner RRTConnect cannot be 'far'");
+  // What would keep a planner busy, far beyond the time.
+  wanted.parameters[0].value = "1e-9";
+  expectStatus(wanted, Response::BAD_REQUEST, "parameter range is 1e-9; it must be 0");
+  wanted.planner = "geometric::BITstar";
+  wanted.parameters[0].key = "samples_per_batch";
+  for (const std::string count : {"1000000", "-1", "inf"})
+  {
+    wanted.parameters[0].value = count;
+    expectStatus(wanted, Response::BAD_REQUEST,
+                 "samples_per_batch is " + count + "; it must be from 0 to 10000 (limits/planner_parameter)");
+  }
+  wanted.parameters[0].value = "50";
+  expectSolved(plan(wanted), wanted.start, wanted.goals);
 }
 
 TEST_F(Planning, servesTwoClientsAtOnce)
@@ -231,6 +244,9 @@ TEST_F(Planning, refusesWhatIsNoRequest)
   expectStatus(wanted, Response::BAD_REQUEST, "turn");
   wanted.goals.clear();
   expectStatus(wanted, Response::BAD_REQUEST, "goal");
+  wanted.goal_names.clear();
+  expectStatus(wanted, Response::BAD_REQUEST, "goal_names is empty");
+  wanted.goal_names = request().goal_names;
   wanted.goals = {1, 0, 1, 0, 1, 0, 1, 0};
   expectStatus(wanted, Response::BAD_REQUEST, "4 goals are more than 3 (limits/goals)");
   wanted = request();
