@@ -79,7 +79,7 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   query.group = request.group;
   const auto one = [](std::size_t count)
   {
-    if (count > 1)
+    if (count != 1)
       throw Error("start has " + std::to_string(count) + " rows; a motion has one start");
   };
   const PartialState current = now.partialState();

@@ -252,6 +252,8 @@ TEST_F(Planning, refusesWhatIsNoRequest)
   wanted = request();
   wanted.start = {-1, 0, -1, 0};
   expectStatus(wanted, Response::BAD_REQUEST, "start has 2 rows");
+  wanted.start.clear();
+  expectStatus(wanted, Response::BAD_REQUEST, "start has 0 rows");
   wanted = request();
   wanted.allowed_planning_time = 9.0;
   expectStatus(wanted, Response::BAD_REQUEST, "the limit is 8.0");
