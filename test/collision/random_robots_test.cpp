@@ -1,6 +1,6 @@
 // Robots and worlds made at random - all joint types, several shapes a link, meshes and solids, few objects and
-// hundreds - on the GPU against the CPU: every traversal gives the CPU's verdicts. And what is said to be free around a
-// state is.
+// hundreds, joints that follow others - on the GPU against the CPU: every traversal gives the CPU's verdicts. And what
+// is said to be free around a state is, and no motion takes a point of the robot further than its margin.
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/displacement.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/motions.h"
 
 namespace gpu_planning_scene
 {
@@ -60,9 +62,23 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     return types[static_cast<std::size_t>(below(4))];
   }
 
+  /// By any factor, also of another type than the leader; a leader may itself follow another.
+  std::string mimicXml(const std::vector<std::string>& leaders)
+  {
+    if (leaders.empty() || below(2) == 0)
+      return "";
+    const double any = uniform(-3, 3);
+    const double whole = any < 0.0 ? std::floor(any) : std::ceil(any);  // a continuous leader keeps its period
+    std::ostringstream xml;
+    xml << "<mimic joint='" << leaders[static_cast<std::size_t>(below(static_cast<int>(leaders.size())))]
+        << "' multiplier='" << (below(2) == 0 ? any : whole) << "' offset='" << uniform(-1, 1) << "'/>";
+    return xml.str();
+  }
+
   std::shared_ptr<const RobotModel> robot()
   {
     std::ostringstream xml;
+    std::vector<std::string> leaders;
     const int links = 3 + below(12);
     xml << "<robot name='random'>";
     for (int i = 0; i < links; ++i)
@@ -78,9 +94,15 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     {
       // Chains, with a branch now and then.
       const int parent = below(3) == 0 ? below(i) : i - 1;
-      xml << "<joint name='j" << i << "' type='" << jointType(i) << "'><parent link='l" << parent << "'/><child link='l"
-          << i << "'/>" << originXml(0.3) << "<axis xyz='" << uniform(-1, 1) << ' ' << uniform(-1, 1) << ' '
-          << uniform(0.1, 1) << "'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>";
+      const std::string name = "j" + std::to_string(i);
+      const std::string type = jointType(i);
+      const bool can_follow = i > 1 && type != "fixed";
+      xml << "<joint name='" << name << "' type='" << type << "'><parent link='l" << parent << "'/><child link='l" << i
+          << "'/>" << originXml(0.3) << "<axis xyz='" << uniform(-1, 1) << ' ' << uniform(-1, 1) << ' '
+          << uniform(0.1, 1) << "'/><limit lower='-1' upper='1' effort='1' velocity='1'/>"
+          << (can_follow ? mimicXml(leaders) : "") << "</joint>";
+      if (can_follow)
+        leaders.push_back(name);
     }
     xml << "</robot>";
     return RobotModel::fromXml(xml.str(), "", {});
@@ -140,15 +162,32 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     return states;
   }
 
+  /// Sets the ways of followers to what these make of their leaders'.
+  static void follow(const RobotModel& robot, JointWay* ways)
+  {
+    const std::vector<Joint>& joints = robot.joints();
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      for (std::size_t k = 0; k < joints.size(); ++k)
+        if (joints[i].mimic && !joints[k].mimic && joints[i].first_variable == joints[k].first_variable)
+        {
+          const double moved = joints[k].type == JointType::Prismatic ? ways[k].length : ways[k].angle;
+          const double way = std::abs(joints[i].multiplier) * moved;
+          ways[i] = joints[i].type == JointType::Prismatic ? JointWay{way, 0.0} : JointWay{0.0, way};
+        }
+  }
+
   /// Rows from hardly anything to a good deal, each for some states; joints of which some stand still.
   Surroundings surroundings(const RobotModel& robot)
   {
     Surroundings around;
     for (const double most : {0.0, 1e-3, 0.01, 0.05, 0.2})
+    {
       for (const Joint& joint : robot.joints())
         around.ways.push_back(joint.type == JointType::Fixed || below(4) == 0
                                   ? JointWay{}
                                   : JointWay{uniform(0.0, most), uniform(0.0, most)});
+      follow(robot, &around.ways[around.ways.size() - robot.joints().size()]);
+    }
     for (std::size_t i = 0; i < kStates; ++i)
       around.rows.push_back(static_cast<std::uint32_t>(below(5)));
     return around;
@@ -169,6 +208,8 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     for (std::size_t i = 0; i < robot.joints().size(); ++i)
     {
       const Joint& joint = robot.joints()[i];
+      if (joint.mimic)
+        continue;
       const int first = joint.first_variable;
       const double angle = below(2) == 0 ? ways[i].angle : uniform(0.0, ways[i].angle);
       const double side = below(2) == 0 ? 1.0 : -1.0;
@@ -201,9 +242,132 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     }
   }
 
+  /// The end of a motion from a state to anywhere or near by, of all joints or of few. Continuous joints may be given
+  /// whole turns away.
+  std::vector<double> endOfMotion(const RobotModel& robot, const std::vector<double>& start)
+  {
+    std::vector<double> far(start.size());
+    robot.randomState(generator_, far.data());
+    const bool few = below(2) == 0;
+    for (const Joint& joint : robot.joints())
+    {
+      if (joint.mimic || joint.first_variable < 0)
+        continue;
+      const auto first = static_cast<std::size_t>(joint.first_variable);
+      const auto count = static_cast<std::size_t>(variableCount(joint.type));
+      if (few && below(4) != 0)
+        std::copy_n(&start[first], count, &far[first]);
+      else if (joint.type == JointType::Continuous)
+        far[first] += 2.0 * EIGEN_PI * (below(3) - 1);
+    }
+    std::vector<double> end(start.size());
+    const double fractions[] = {0.001, 0.03, 0.3, 1.0};
+    interpolate(robot, start.data(), far.data(), fractions[below(4)], end.data());
+    return end;
+  }
+
   std::mt19937_64 generator_{GetParam()};
   std::shared_ptr<const Mesh> mesh_;
 };
+
+/// Points on the shapes of a problem's robot, where a state has them.
+class PlacedPoints
+{
+ public:
+  PlacedPoints(const RobotModel& robot, const CollisionProblem& problem, const double* state)
+    : problem_(problem), links_(robot.links().size())
+  {
+    robot.linkPoses(state, links_.data());
+  }
+
+  /// The largest distance of a point of `shape` from where it is in `other`, as the link `viewer` sees it; -1: the
+  /// planning frame.
+  double furthest(const PlacedPoints& other, std::uint32_t shape, int viewer) const
+  {
+    constexpr std::size_t kPoints = 24;
+    const std::vector<Eigen::Vector3d>& points = problem_.trees[problem_.robot[shape].tree].mesh->vertices;
+    const Eigen::Isometry3d here = poseOf(shape, viewer);
+    const Eigen::Isometry3d there = other.poseOf(shape, viewer);
+    double most = 0.0;
+    for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / kPoints)
+      most = std::max(most, (here * points[i] - there * points[i]).norm());
+    return most;
+  }
+
+ private:
+  Eigen::Isometry3d poseOf(std::uint32_t shape, int viewer) const
+  {
+    const Geometry& geometry = problem_.robot[shape];
+    const Eigen::Isometry3d pose = links_[static_cast<std::size_t>(geometry.link)] * geometry.pose;
+    return viewer < 0 ? pose : links_[static_cast<std::size_t>(viewer)].inverse() * pose;
+  }
+
+  const CollisionProblem& problem_;
+  std::vector<Eigen::Isometry3d> links_;
+};
+
+/// The last link on the way from the root that is on the ways to both.
+int commonLink(const RobotModel& robot, int a, int b)
+{
+  while (a != b)  // parents come before children
+  {
+    int& later = a > b ? a : b;
+    const int joint = robot.links()[static_cast<std::size_t>(later)].parent_joint;
+    later = robot.joints()[static_cast<std::size_t>(joint)].parent_link;
+  }
+  return a;
+}
+
+/// Looks at a motion in parts, and at how far each takes the robot's points, from its start and in all. Returns the
+/// largest share of its margin that anything moved.
+double expectWithinMargins(const PlanningScene& scene, const CollisionProblem& problem,
+                           const Displacements& displacements, const std::vector<double>& start,
+                           const std::vector<double>& end)
+{
+  constexpr int kParts = 8;
+  constexpr double kRounding = 1e-12;  // metres: states in between are rounded where a joint stands still, too
+  const RobotModel& robot = *scene.robot;
+  Surroundings around{jointWays(robot, start.data(), end.data()), {0, 1}};
+  for (std::size_t i = 0; i < robot.joints().size(); ++i)
+    around.ways.push_back({around.ways[i].length / kParts, around.ways[i].angle / kParts});
+  std::vector<double> states = start;
+  states.insert(states.end(), end.begin(), end.end());
+  const Margins margins = displacements.margins(around, states.data(), 2);
+  EXPECT_EQ(margins.within, (std::vector<std::uint8_t>{1, 1}));
+
+  std::vector<PlacedPoints> placed;
+  std::vector<double> state(start.size());
+  for (int part = 0; part <= kParts; ++part)
+  {
+    interpolate(robot, start.data(), end.data(), static_cast<double>(part) / kParts, state.data());
+    placed.emplace_back(robot, problem, state.data());
+  }
+  double fullest = 0.0;
+  const auto compare = [&](std::size_t margin, const std::vector<std::uint32_t>& shapes, int viewer)
+  {
+    for (std::size_t part = 1; part < placed.size(); ++part)
+      for (const std::size_t from : {std::size_t{0}, part - 1})
+      {
+        const double most = margins.of(from == 0 && part != 1 ? 0 : 1)[margin];
+        double moved = 0.0;
+        for (const std::uint32_t shape : shapes)
+          moved += placed[part].furthest(placed[from], shape, viewer);
+        EXPECT_LE(moved, most + kRounding)
+            << "parts " << from << " to " << part << ", " << scene.bodyName(problem.robot[shapes.front()].body)
+            << " and " << scene.bodyName(problem.robot[shapes.back()].body);
+        fullest = most > 0.0 ? std::max(fullest, moved / most) : fullest;
+      }
+  };
+  for (std::uint32_t i = 0; i < problem.robot.size(); ++i)
+    compare(i, {i}, -1);
+  // Two shapes come nearer by no more than both move against what carries both.
+  for (std::size_t i = 0; i < problem.self_pairs.size(); ++i)
+  {
+    const auto [a, b] = problem.self_pairs[i];
+    compare(problem.robot.size() + i, {a, b}, commonLink(robot, problem.robot[a].link, problem.robot[b].link));
+  }
+  return fullest;
+}
 
 TEST_P(RandomRobots, HaveTheVerdictsOfTheCpuOnTheGpu)
 {
@@ -249,6 +413,33 @@ TEST_P(RandomRobots, AreFreeInAllThatIsFreeAroundAState)
     EXPECT_LE(proven[i], plain[i]) << "seed " << GetParam() << ", state " << i;
   std::cout << "seed " << GetParam() << ": " << std::count(plain.begin(), plain.end(), 1) << " free, "
             << std::count(proven.begin(), proven.end(), 1) << " with what is around" << std::endl;
+}
+
+TEST_P(RandomRobots, HaveNoPointThatAMotionTakesFurtherThanItsMargin)
+{
+  constexpr int kRobots = 8;
+  constexpr int kMotions = 100;
+  std::ptrdiff_t followers = 0;
+  double fullest = 0.0;
+  for (int i = 0; i < kRobots && !HasFailure(); ++i)
+  {
+    const PlanningScene alone(robot());
+    const RobotModel& robot = *alone.robot;
+    const CollisionProblem problem = makeProblem(alone, "", nullptr);
+    const Displacements displacements(robot, problem);
+    followers +=
+        std::count_if(robot.joints().begin(), robot.joints().end(), [](const Joint& joint) { return joint.mimic; });
+    for (int motion = 0; motion < kMotions && !HasFailure(); ++motion)
+    {
+      SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", robot " + std::to_string(i) + ", motion " +
+                   std::to_string(motion));
+      std::vector<double> start(robot.variables().size());
+      robot.randomState(generator_, start.data());
+      fullest = std::max(fullest, expectWithinMargins(alone, problem, displacements, start, endOfMotion(robot, start)));
+    }
+  }
+  std::cout << "seed " << GetParam() << ": " << kRobots << " robots with " << followers
+            << " joints that follow others, moved by up to " << 100.0 * fullest << " % of a margin" << std::endl;
 }
 
 TEST_P(RandomRobots, AreAsFreeAroundAStateOnTheGpuAsOnTheCpu)
