@@ -1,18 +1,22 @@
 // Bytes from anywhere, as requests and messages to the node's handlers: each is answered or refused, with one line. An
 // input is a row of messages to a node that has just started: a byte for the kind, two for the length, and the message.
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 #include "fuzz/fuzz_target.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning/group_state_space.h"
 #include "node/answered.h"
 #include "node/bounded_message.h"
 #include "node/check_services.h"
 #include "node/cloud_topic.h"
 #include "node/from_messages.h"
 #include "node/markers.h"
+#include "node/plan_request.h"
 #include "node/scene_services.h"
 #include "node/to_messages.h"
 #include "scene/slider_robot.h"
@@ -49,6 +53,25 @@ PointCloudOptions fewVoxels()
   return options;
 }
 
+PlanServiceOptions fewGoals()
+{
+  PlanServiceOptions options;
+  options.most_goals = 20;
+  return options;
+}
+
+/// As in a planners.yaml that knows one group.
+GroupPlanners plannersOf(const std::string& group)
+{
+  GroupPlanners planners;
+  if (group == "drive")
+  {
+    planners.projection = {"slide", "turn"};
+    planners.longest_valid_segment_fraction = 0.005;
+  }
+  return planners;
+}
+
 /// In place of tf, which knows one frame.
 Eigen::Isometry3d frameOfTf(const FrameAt& frame)
 {
@@ -79,7 +102,7 @@ class Handlers
   void take(unsigned kind, const std::uint8_t* data, std::uint32_t size)
   {
     const auto make = [this](const auto& message) { scenes_.make(scenes_.changeOf(message), frameOfTf); };
-    switch (kind % 12)
+    switch (kind % 13)
     {
       case 0:
         return answer<ApplyPlanningScene>(data, size, [&](const auto& request) { return scenes_.apply(request); });
@@ -103,8 +126,10 @@ class Handlers
         return read<sensor_msgs::JointState>(data, size, [&](const auto& message) { scenes_.take(message); });
       case 10:
         return read<sensor_msgs::PointCloud2>(data, size, [&](const auto& message) { clouds_.take(message); });
-      default:
+      case 11:
         return read<ShowTreeLevel::Request>(data, size, [&](const auto& request) { draw(request); });
+      default:
+        return read<PlanMotion::Request>(data, size, [&](const auto& request) { plan(request); });
     }
   }
 
@@ -164,6 +189,34 @@ class Handlers
     options.tree_level = request.level;
     options.tree_body = request.body;
     markersOf(*now.scene, now.state.data(), {}, {}, options);
+  }
+
+  /// What is asked for is read, and nothing planned: that takes its time whatever the bytes are.
+  void plan(const PlanMotion::Request& request) const
+  {
+    const PlannerConfig config{"geometric::RRTConnect", {{"range", "0.5"}}};
+    const Snapshot now = store_.snapshot();
+    const PlanningQuery query = queryFrom(request, now, config, plannersOf(request.group), fewGoals());
+    requireWithinGroup(query, now.scene->robot);
+  }
+
+  /// Rows of all variables, finite, and goals that leave the start only where the group moves.
+  static void requireWithinGroup(const PlanningQuery& query, const std::shared_ptr<const RobotModel>& robot)
+  {
+    const GroupStateSpace space(robot, query.group);
+    const auto fits = [&](std::vector<double> row)
+    {
+      const auto finite = [](double value) { return std::isfinite(value); };
+      if (row.size() != robot->variables().size() || !std::all_of(row.begin(), row.end(), finite))
+        return false;
+      for (const int variable : space.variables())
+        row[static_cast<std::size_t>(variable)] = query.start[static_cast<std::size_t>(variable)];
+      return row == query.start;
+    };
+    if (fits(query.start) && std::all_of(query.goals.begin(), query.goals.end(), fits))
+      return;
+    std::fprintf(stderr, "a plan request becomes a query that does not fit group '%s'\n", query.group.c_str());
+    std::abort();
   }
 
   SceneStore store_;
