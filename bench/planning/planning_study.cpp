@@ -1,9 +1,9 @@
-// planning_study --out DIR [--problems N] [--runs N] [--seconds S] [--device D]: plans the problems of ../shared with
-// the batch planner, and with OMPL's RRTConnect on this package's validator and on FCL, under both motion rules, with
-// the same seeds, one after the other. Each path is checked again at ten times the resolution by the exact checker.
+// planning_study: plans the problems of ../shared, or of $GPU_PLANNING_SCENE_DATA, with the batch planner, and with
+// OMPL's RRTConnect on this package's validator and on FCL, under both motion rules, with the same seeds, one after the
+// other. Each path is checked again at ten times the resolution by the exact checker. See --help.
 
 #include <algorithm>
-#include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -26,6 +26,7 @@
 #include "gpu_planning_scene/planning/state_validity_checker.h"
 #include "planning/fcl_checker.h"
 #include "support/planning_problems.h"
+#include "tools/command_line.h"
 
 namespace gpu_planning_scene::benchmark
 {
@@ -38,8 +39,8 @@ struct Settings
 {
   std::string out;
   std::string device = "auto";
-  std::size_t problems = 1000000;
-  std::size_t runs = 1;
+  std::size_t problems = 0;
+  std::size_t runs = 0;
   double seconds = 10.0;
 };
 
@@ -253,44 +254,38 @@ class Study
   bool wrong_ = false;
 };
 
-Settings settingsFrom(int argc, char** argv)
+void study(const CommandLine& arguments)
 {
+  constexpr long long kMost = 1000000;
   Settings settings;
-  for (int i = 1; i + 1 < argc; i += 2)
-  {
-    const std::string name = argv[i];
-    const std::string value = argv[i + 1];
-    if (name == "--out")
-      settings.out = value;
-    else if (name == "--device")
-      settings.device = value;
-    else if (name == "--problems")
-      settings.problems = std::stoul(value);
-    else if (name == "--runs")
-      settings.runs = std::stoul(value);
-    else if (name == "--seconds")
-      settings.seconds = std::stod(value);
-    else
-      throw Error("unknown option " + name);
-  }
-  if (settings.out.empty() || argc % 2 == 0)
-    throw Error("usage: planning_study --out DIR [--problems N] [--runs N] [--seconds S] [--device D]");
-  return settings;
+  settings.out = arguments.required("--out");
+  settings.problems = static_cast<std::size_t>(arguments.integer("--problems", kMost, 1, kMost));
+  settings.runs = static_cast<std::size_t>(arguments.integer("--runs", 1, 1, kMost));
+  settings.seconds = arguments.number("--seconds", settings.seconds, 1e-3, 1e6);
+  settings.device = arguments.value("--device", settings.device);
+  std::filesystem::create_directories(settings.out);
+  if (Study(settings).run())
+    throw Error("a path that was accepted under the bound collides: see planning.csv");
 }
 }  // namespace
 }  // namespace gpu_planning_scene::benchmark
 
 int main(int argc, char** argv)
 {
-  using namespace gpu_planning_scene::benchmark;
+  using namespace gpu_planning_scene;
   ompl::msg::noOutputHandler();
-  try
-  {
-    return Study(settingsFrom(argc, argv)).run() ? EXIT_FAILURE : EXIT_SUCCESS;
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << "planning_study: " << error.what() << std::endl;
-    return 2;
-  }
+  const Tool tool{
+      "planning_study",
+      "--out DIR [OPTIONS]",
+      "Plans the problems of the ur5 with the batch planner, and with OMPL's RRTConnect on this package's\n"
+      "checker and on FCL, under both motion rules. Prints how many are solved and how fast.\n"
+      "Exit code: 0 no wrong path, 1 a path that was accepted under the bound collides, or another error,\n"
+      "2 bad usage.",
+      {{"--out", "DIR", "folder for planning.csv, a row for each plan, and planning_summary.csv"},
+       {"--problems", "N", "so many of the problems, of each set some (default: all)"},
+       {"--runs", "N", "each problem so often, with other seeds (default 1)"},
+       {"--seconds", "S", "for each plan (default 10)"},
+       {"--device", "D", "\"auto\" (a GPU, else llvmpipe), \"software\", an index, part of a renderer's name"}},
+      benchmark::study};
+  return runTool(tool, argc, argv);
 }

@@ -1,5 +1,6 @@
 """The bundle that another machine gets: made of this build, small, complete and without a look at the build tree."""
 
+import csv
 import os
 import subprocess
 import sys
@@ -108,6 +109,19 @@ class BundleTest(unittest.TestCase):
             "check_states", "--urdf", robot, "--scene", scene, "--random", "16", GPU_PLANNING_SCENE_PROGRAM_CACHE="off"
         )
         self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_the_planning_study_has_its_problems(self):
+        if not os.path.isdir(os.path.join(self.bundle, "data/problems")):
+            self.skipTest("../shared is not here")
+        out = os.path.join(self.folder.name, "planning")
+        result = self.run_program(
+            *("planning_study", "--out", out, "--problems", "1", "--seconds", "2"), GPU_PLANNING_SCENE_PROGRAM_CACHE="off"
+        )
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(os.path.join(out, "planning.csv"), newline="") as table:
+            methods = {(row["rule"], row["method"]) for row in csv.DictReader(table)}
+        self.assertEqual(len(methods), 6)
+        self.assertTrue(os.path.exists(os.path.join(self.bundle, "draw_planning.py")))
 
     def test_an_unknown_program_is_named_with_those_that_there_are(self):
         result = self.run_program("benchmrak")

@@ -6,30 +6,15 @@
 #include <yaml-cpp/yaml.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/real_robots.h"
 
 namespace gpu_planning_scene
 {
 namespace
 {
-std::string robotFolder()
-{
-  return std::string(GPS_SHARED_DIR) + "/robots";
-}
-
-PackageResolver packages()
-{
-  return [](const std::string& package) { return robotFolder() + "/" + package; };
-}
-
 std::shared_ptr<const RobotModel> robot()
 {
-  static const std::shared_ptr<const RobotModel> model = []
-  {
-    RobotModelOptions options;
-    options.packages = packages();
-    const std::string folder = robotFolder() + "/ur5_robotiq/";
-    return RobotModel::fromFiles(folder + "urdf/ur5.urdf", folder + "srdf/ur5.srdf", options);
-  }();
+  static const std::shared_ptr<const RobotModel> model = ur5Robotiq().load();
   return model;
 }
 
@@ -44,7 +29,7 @@ void setVariable(const RobotModel& model, const std::string& name, double value,
 
 std::string planningProblemFolder()
 {
-  return std::string(GPS_SHARED_DIR) + "/problems/ur5";
+  return problemFolder("");
 }
 
 std::vector<std::string> planningProblemNames()
@@ -67,12 +52,12 @@ std::vector<std::string> planningProblemNames()
 PlanningProblem loadPlanningProblem(const std::string& name)
 {
   const std::size_t slash = name.find('/');
-  const std::string folder = planningProblemFolder() + "/" + name.substr(0, slash) + "/";
+  const std::string folder = problemFolder(name.substr(0, slash)) + "/";
   const std::string number = name.substr(slash + 1);
   PlanningProblem problem;
   problem.name = name;
-  problem.scene =
-      std::make_shared<const PlanningScene>(loadSceneFile(folder + "scene" + number + ".yaml", robot(), packages()));
+  problem.scene = std::make_shared<const PlanningScene>(
+      loadSceneFile(folder + "scene" + number + ".yaml", robot(), packageResolver(ur5Robotiq().packages)));
   const std::string path = folder + "request" + number + ".yaml";
   try
   {
