@@ -29,6 +29,9 @@ double partsOfWay(const RobotModel& robot, const double* from, const double* to,
 /// is no whole number, or is a prismatic one.
 bool hasNoPeriod(const RobotModel& robot, const Joint& joint);
 
+/// The shorter way from one angle to another, from -half a turn to half a turn. Finite for all finite angles.
+double shorterWay(double from, double to);
+
 /// The state at `fraction` (0 to 1) of the straight way from one state to another: angles of continuous and planar
 /// joints the shorter way round, quaternions by slerp. At 0 and 1 it is `from` and `to` themselves, bit by bit, so an
 /// angle beyond half a turn jumps there by whole turns, which is the same place. A joint that hasNoPeriod

@@ -61,12 +61,6 @@ void forParts(const RobotModel& robot, const Visit& visit)
       forParts(robot, joint, visit);
 }
 
-/// The shorter way between two angles, from -half a turn to half a turn. Finite for all finite angles.
-double shorterWay(double from, double to)
-{
-  return std::remainder(std::remainder(to, kTurn) - std::remainder(from, kTurn), kTurn);
-}
-
 /// As forward kinematics reads it: any length above 0, and no rotation for 0.
 Eigen::Quaterniond rotationOf(const double* variables)
 {
@@ -101,6 +95,11 @@ void refuseStep(double step, const char* name, const char* unit)
 }
 
 }  // namespace
+
+double shorterWay(double from, double to)
+{
+  return std::remainder(std::remainder(to, kTurn) - std::remainder(from, kTurn), kTurn);
+}
 
 bool hasNoPeriod(const RobotModel& robot, const Joint& joint)
 {

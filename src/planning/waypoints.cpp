@@ -1,0 +1,85 @@
+#include "planning/waypoints.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include "gpu_planning_scene/motions.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using Row = std::vector<double>;
+
+/// The index of the angle that wraps, of joints that have one; else -1.
+int wrappedAngle(const Joint& joint)
+{
+  switch (joint.type)
+  {
+    case JointType::Continuous:
+      return joint.first_variable;
+    case JointType::Planar:
+      return joint.first_variable + 2;
+    default:
+      return -1;
+  }
+}
+
+bool isHalfATurn(const RobotModel& robot, const Row& from, const Row& to)
+{
+  constexpr double kNearly = 1e-6;  // radians: more than anybody's rounding
+  const std::vector<JointWay> ways = jointWays(robot, from.data(), to.data());
+  for (std::size_t i = 0; i < ways.size(); ++i)
+  {
+    const Joint& joint = robot.joints()[i];
+    if (!joint.mimic && (wrappedAngle(joint) >= 0 || joint.type == JointType::Floating) &&
+        ways[i].angle > EIGEN_PI - kNearly)
+      return true;
+  }
+  return false;
+}
+
+/// Continues the values of `from` to those of `row`, which is reached from `last`, the same place as `from`.
+void unwind(const RobotModel& robot, const Row& from, const Row& last, Row& row)
+{
+  constexpr int kRotation = 3;  // of a floating joint's variables: the first one after the position
+  const Row reached = row;
+  for (const Joint& joint : robot.joints())
+  {
+    if (joint.mimic)
+      continue;
+    if (const int angle = wrappedAngle(joint); angle >= 0)
+      row[angle] = from[angle] + shorterWay(last[angle], reached[angle]);
+    if (joint.type != JointType::Floating)
+      continue;
+    Eigen::Map<Eigen::Vector4d> rotation(&row[joint.first_variable + kRotation]);
+    if (rotation.dot(Eigen::Map<const Eigen::Vector4d>(&from[joint.first_variable + kRotation])) < 0.0)
+      rotation = -rotation;
+  }
+}
+}  // namespace
+
+std::vector<Row> waypointsOf(const ompl::geometric::PathGeometric& path, const GroupStateSpace& space, const Row& start)
+{
+  const RobotModel& robot = *space.robot();
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < path.getStateCount(); ++i)
+  {
+    Row row = start;
+    space.copyToRow(path.getState(static_cast<unsigned int>(i)), row.data());
+    if (!rows.empty() && isHalfATurn(robot, rows.back(), row))
+    {
+      Row middle(row.size());
+      interpolate(robot, rows.back().data(), row.data(), 0.5, middle.data());
+      rows.push_back(std::move(middle));
+    }
+    rows.push_back(std::move(row));
+  }
+  std::vector<Row> waypoints = rows;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    unwind(robot, i == 0 ? start : waypoints[i - 1], i == 0 ? start : rows[i - 1], waypoints[i]);
+  return waypoints;
+}
+}  // namespace gpu_planning_scene
