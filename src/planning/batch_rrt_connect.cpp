@@ -20,9 +20,10 @@ constexpr double kRangeOfExtent = 0.04;
 // Goal states that are taken at once. More of them follow as the goal tree grows, as in OMPL's RRTConnect.
 constexpr std::size_t kFirstGoals = 8;
 
-// An answer that ends short of the goal is proven once the time is over: for this part of it, and at least so long.
+// What the time was too short to prove is proven once it is over: for a part of it, but within these bounds (seconds).
 constexpr double kProofOfTime = 0.1;
-constexpr double kLeastProof = 0.1;  // seconds
+constexpr double kLeastProof = 0.1;
+constexpr double kMostProof = 1.0;
 }  // namespace
 
 BatchRrtConnect::BatchRrtConnect(const ob::SpaceInformationPtr& information)
@@ -125,17 +126,22 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
   }
   const MotionValidator& validator = bulkValidatorOf(*si_, getName());
   const ompl::time::point start = ompl::time::now();
-  while (!ptc)
+  RrtSearch::Path path;
+  while (!path && !ptc)
   {
     takeMoreGoals();
-    if (const auto path = search_->runRound(validator, *goal, branches_, range_, ptc))
-    {
-      pdef_->addSolutionPath(path, false, 0.0, getName());
-      return ob::PlannerStatus::EXACT_SOLUTION;
-    }
+    path = search_->runRound(validator, *goal, branches_, range_, ptc);
   }
-  const double proof = std::max(kLeastProof, kProofOfTime * ompl::time::seconds(ompl::time::now() - start));
-  const RrtSearch::Path path = search_->approximatePath(validator, ob::timedPlannerTerminationCondition(proof));
+  const double spent = ompl::time::seconds(ompl::time::now() - start);
+  const auto proof = ob::timedPlannerTerminationCondition(std::clamp(kProofOfTime * spent, kLeastProof, kMostProof));
+  if (!path)
+    path = search_->provenPath(validator, proof);
+  if (path)
+  {
+    pdef_->addSolutionPath(path, false, 0.0, getName());
+    return ob::PlannerStatus::EXACT_SOLUTION;
+  }
+  path = search_->approximatePath(validator, proof);
   if (!path)
     return ob::PlannerStatus::TIMEOUT;
   double distance = 0.0;

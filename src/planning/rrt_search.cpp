@@ -1,7 +1,9 @@
 #include "planning/rrt_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace gpu_planning_scene
@@ -39,30 +41,39 @@ RrtSearch::Path pathOf(const ob::SpaceInformationPtr& information, const TwoTree
 
 RrtSearch::RrtSearch(const ob::Planner& planner) : information_(planner.getSpaceInformation()), trees_(planner) {}
 
-/// Finds those that are in the goal region, which may be more than the goal tree's states, and the one closest to it.
-void RrtSearch::lookAtNewVertices(const ob::GoalSampleableRegion& goal, std::vector<TwoTrees::Meeting>& meetings)
+void RrtSearch::addCandidate(const ob::GoalSampleableRegion& goal, const TwoTrees::Meeting& meeting)
 {
-  if (closest_ && closest_->removed)
-  {
-    looked_at_ = 0;
-    closest_ = nullptr;
-    distance_ = std::numeric_limits<double>::infinity();
-  }
+  const ob::State* end = meeting.goal ? meeting.goal->root().state : meeting.start->state;
+  if (goal.isStartGoalPairValid(meeting.start->root().state, end))
+    candidates_.push_back({meeting, pathOf(information_, meeting)});
+}
+
+/// Finds those that are in the goal region, which may be more than the goal tree's states.
+void RrtSearch::lookAtNewVertices(const ob::GoalSampleableRegion& goal)
+{
   const auto& vertices = trees_.tree(TwoTrees::Start).vertices();
-  for (; looked_at_ < vertices.size(); ++looked_at_)
+  while (distances_.size() < vertices.size())
   {
-    const Vertex& vertex = *vertices[looked_at_];
-    if (vertex.removed)
-      continue;
-    double distance = 0.0;
-    if (goal.isSatisfied(vertex.state, &distance))
-      meetings.push_back({&vertex, nullptr});
-    if (distance < distance_)
-    {
-      distance_ = distance;
-      closest_ = &vertex;
-    }
+    const Vertex& vertex = *vertices[distances_.size()];
+    distances_.push_back(0.0);
+    if (goal.isSatisfied(vertex.state, &distances_.back()))
+      addCandidate(goal, {&vertex, nullptr});
   }
+}
+
+/// The vertex of the start tree that is closest to the goal; null if there is none.
+const RrtTree::Vertex* RrtSearch::closest() const
+{
+  const auto& vertices = trees_.tree(TwoTrees::Start).vertices();
+  const Vertex* closest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < distances_.size(); ++i)
+    if (!vertices[i]->removed && distances_[i] < least)
+    {
+      closest = vertices[i].get();
+      least = distances_[i];
+    }
+  return closest;
 }
 
 /// Whether all motions of the path through a meeting are valid by the validator's own rule. Those that are not are
@@ -89,10 +100,36 @@ bool RrtSearch::isProven(const MotionValidator& validator, const TwoTrees::Meeti
   const std::vector<std::uint8_t> valid = validator.validateMotions(motions, ptc);
   if (ptc)  // what was not looked at counts as invalid
     return std::find(valid.begin(), valid.end(), 0) == valid.end();
+  std::array<std::vector<const Vertex*>, 2> invalid;  // by the tree
   for (std::size_t i = 0; i < ends.size(); ++i)
     if (valid[i] == 0)
-      trees_.remove(ends[i].first, *ends[i].second);
+      invalid[ends[i].first].push_back(ends[i].second);
+  for (const TwoTrees::Side side : {TwoTrees::Start, TwoTrees::Goal})
+    trees_.remove(side, invalid[side]);
   return std::find(valid.begin(), valid.end(), 0) == valid.end();
+}
+
+RrtSearch::Path RrtSearch::provenPath(const MotionValidator& validator, const ob::PlannerTerminationCondition& ptc)
+{
+  std::stable_sort(candidates_.begin(), candidates_.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.path->length() < b.path->length(); });
+  std::size_t done = 0;
+  Path found;
+  for (; !found && done < candidates_.size() && !ptc; ++done)
+  {
+    const auto& [meeting, path] = candidates_[done];
+    if (meeting.start->removed || (meeting.goal && meeting.goal->removed))
+      continue;
+    if (isProven(validator, meeting, ptc))
+    {
+      meeting_ = meeting;
+      found = path;
+    }
+    else if (ptc)
+      break;
+  }
+  candidates_.erase(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(done));
+  return found;
 }
 
 RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
@@ -101,34 +138,17 @@ RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::
   const std::size_t size = trees_.tree(TwoTrees::Start).size() + trees_.tree(TwoTrees::Goal).size();
   const std::size_t branches = std::min(most_branches, std::max(kLeastBranches, size / kVerticesPerBranch));
   // At first nothing but the straight ways.
-  std::vector<TwoTrees::Meeting> meetings = trees_.grow(validator, is_first_round_ ? 0 : branches, range, ptc);
+  for (const TwoTrees::Meeting& meeting : trees_.grow(validator, is_first_round_ ? 0 : branches, range, ptc))
+    addCandidate(goal, meeting);
   is_first_round_ = false;
-  lookAtNewVertices(goal, meetings);
-
-  std::vector<std::pair<Path, TwoTrees::Meeting>> paths;
-  for (const TwoTrees::Meeting& meeting : meetings)
-  {
-    const ob::State* end = meeting.goal ? meeting.goal->root().state : meeting.start->state;
-    if (goal.isStartGoalPairValid(meeting.start->root().state, end))
-      paths.emplace_back(pathOf(information_, meeting), meeting);
-  }
-  std::stable_sort(paths.begin(), paths.end(),
-                   [](const auto& a, const auto& b) { return a.first->length() < b.first->length(); });
-  for (const auto& [path, meeting] : paths)
-  {
-    const bool is_there = !meeting.start->removed && !(meeting.goal && meeting.goal->removed);
-    if (!is_there || !isProven(validator, meeting, ptc))
-      continue;
-    meeting_ = meeting;
-    return path;
-  }
-  return nullptr;
+  lookAtNewVertices(goal);
+  return provenPath(validator, ptc);
 }
 
 RrtSearch::Path RrtSearch::approximatePath(const MotionValidator& validator,
                                            const ob::PlannerTerminationCondition& ptc) const
 {
-  const std::vector<const Vertex*> way = wayTo(closest_);
+  const std::vector<const Vertex*> way = wayTo(closest());
   std::vector<MotionValidator::Motion> motions;
   for (std::size_t i = 1; i < way.size(); ++i)
     motions.emplace_back(way[i - 1]->state, way[i]->state);

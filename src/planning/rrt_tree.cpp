@@ -1,5 +1,8 @@
 #include "planning/rrt_tree.h"
 
+#include <unordered_set>
+#include <utility>
+
 #include <ompl/tools/config/SelfConfig.h>
 
 namespace gpu_planning_scene
@@ -33,18 +36,26 @@ const RrtTree::Vertex& RrtTree::add(const ompl::base::State* state, const Vertex
   return *vertices_.back();
 }
 
-void RrtTree::remove(const Vertex& vertex)
+void RrtTree::remove(const std::vector<const Vertex*>& vertices)
 {
+  const std::unordered_set<const Vertex*> wanted(vertices.begin(), vertices.end());
   for (const std::unique_ptr<Vertex>& each : vertices_)
-    if (!each->removed && (each.get() == &vertex || (each->parent && each->parent->removed)))
-    {
+    if (wanted.count(each.get()) != 0 || (each->parent && each->parent->removed))
       each->removed = true;
-      nearest_->remove(each.get());
-    }
+  is_stale_ = is_stale_ || !vertices.empty();
 }
 
-const RrtTree::Vertex& RrtTree::nearest(const ompl::base::State* state) const
+const RrtTree::Vertex& RrtTree::nearest(const ompl::base::State* state)
 {
+  if (std::exchange(is_stale_, false))
+  {
+    std::vector<const Vertex*> left;
+    for (const std::unique_ptr<Vertex>& each : vertices_)
+      if (!each->removed)
+        left.push_back(each.get());
+    nearest_->clear();
+    nearest_->add(left);
+  }
   // The search only reads the vertex that it is given.
   const Vertex query{const_cast<ompl::base::State*>(state), nullptr};
   return *nearest_->nearest(&query);

@@ -31,10 +31,10 @@ class RrtTree
 
   /// Takes a copy of the state. The vertex lives as long as the tree.
   const Vertex& add(const ompl::base::State* state, const Vertex* parent);
-  /// From now on the vertex, which is no root, and all that has grown from it are never the nearest.
-  void remove(const Vertex& vertex);
+  /// From now on these vertices, which are no roots, and all that has grown from them are never the nearest.
+  void remove(const std::vector<const Vertex*>& vertices);
   /// The tree must not be empty.
-  const Vertex& nearest(const ompl::base::State* state) const;
+  const Vertex& nearest(const ompl::base::State* state);
   /// Parents before children, removed ones too.
   const std::vector<std::unique_ptr<Vertex>>& vertices() const { return vertices_; }
   std::size_t size() const { return vertices_.size(); }
@@ -42,6 +42,8 @@ class RrtTree
  private:
   ompl::base::SpaceInformationPtr information_;
   std::vector<std::unique_ptr<Vertex>> vertices_;
+  /// OMPL's removes a vertex only by building itself anew, now and then, so removed ones stay until that is due.
   std::unique_ptr<ompl::NearestNeighbors<const Vertex*>> nearest_;
+  bool is_stale_ = false;  // it has removed vertices
 };
 }  // namespace gpu_planning_scene

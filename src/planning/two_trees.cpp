@@ -39,9 +39,9 @@ void TwoTrees::addRoot(Side side, const ompl::base::State* state)
     ways_.push_back({otherThan(side), nullptr, &root, kPiecesBetweenRoots});
 }
 
-void TwoTrees::remove(Side side, const Vertex& vertex)
+void TwoTrees::remove(Side side, const std::vector<const Vertex*>& vertices)
 {
-  trees_[side].remove(vertex);
+  trees_[side].remove(vertices);
   ways_.erase(std::remove_if(ways_.begin(), ways_.end(),
                              [](const Way& way) { return way.to->removed || (way.from && way.from->removed); }),
               ways_.end());

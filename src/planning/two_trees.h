@@ -35,8 +35,8 @@ class TwoTrees
 
   const RrtTree& tree(Side side) const { return trees_[side]; }
 
-  /// Where the straight motion from a vertex's parent to it is not valid after all: see RrtTree::remove.
-  void remove(Side side, const RrtTree::Vertex& vertex);
+  /// Where the straight motions from vertices' parents to them are not valid after all: see RrtTree::remove.
+  void remove(Side side, const std::vector<const RrtTree::Vertex*>& vertices);
 
   /// The other tree tries the straight way to it in the next round.
   void addRoot(Side side, const ompl::base::State* state);

@@ -271,6 +271,22 @@ TEST(BatchRrtConnect, GoesOnWithItsTreesAndForgetsThemWhenCleared)
   planning.expectPath(kLeft, {-1.5, 1.0});
 }
 
+/// A call may end amid a proof, which takes several batches: what was found before is not lost. (A call that ends amid
+/// its first round finds nothing.)
+TEST(BatchRrtConnect, FindsInShortCallsWhatItFindsInALongOne)
+{
+  for (const unsigned int asks : {8U, 12U})
+  {
+    Planning planning(kOpenWall, kLeft, {kRight});
+    planning.planner->setRange(0.5);
+    ob::PlannerStatus::StatusType status = ob::PlannerStatus::UNKNOWN;
+    for (int call = 0; call < 200 && status != ob::PlannerStatus::EXACT_SOLUTION; ++call)
+      status = planning.solveAsking(asks);
+    EXPECT_EQ(status, ob::PlannerStatus::EXACT_SOLUTION) << asks;
+    planning.expectPath(kLeft, kRight);
+  }
+}
+
 TEST(BatchRrtConnect, RepeatsAPathForASeed)
 {
   // OMPL complains of every seed but the first; all that draws from it is made anew here.

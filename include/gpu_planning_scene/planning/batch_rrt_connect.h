@@ -41,7 +41,8 @@ class BatchRrtConnect : public ompl::base::Planner
   void setup() override;
   void clear() override;
   /// Called again, it goes on with the trees that there are. The termination condition is asked between batches of
-  /// states; a path that ends short of the goal is then proven for up to a tenth of the time that was spent, or 0.1 s.
+  /// states. Once it holds, there is some time more, a tenth of what was spent, from 0.1 s to 1 s, to prove a solution
+  /// that there was no time for, or else the way to what is closest to the goal.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
