@@ -17,6 +17,7 @@
 #include "planning/counted_checker.h"
 #include "planning/planner_parameters.h"
 #include "planning/planning_ends.h"
+#include "planning/waypoints.h"
 
 namespace gpu_planning_scene
 {
@@ -48,8 +49,9 @@ void refuse(const PlanningScene& scene, const PlanningQuery& query)
     throw Error("there is no goal; give at least one");
   for (std::size_t i = 0; i < query.goals.size(); ++i)
     refuseRow(*scene.robot, query.goals[i], "goal " + std::to_string(i));
-  if (!(query.seconds > 0.0) || !std::isfinite(query.seconds))
-    throw Error("the planning time is " + std::to_string(query.seconds) + " s; it must be finite and above 0");
+  constexpr double kMostSeconds = 1e9;  // OMPL's clock counts nanoseconds, as integers
+  if (!(query.seconds > 0.0 && query.seconds <= kMostSeconds))
+    throw Error("the planning time is " + std::to_string(query.seconds) + " s; it must be above 0 and at most 1e9");
 }
 
 /// One query on its way.
@@ -87,8 +89,8 @@ class Plan
   }
 
   void findPath(const PlannerFactory& factory, const std::vector<ob::ScopedState<>>& goal_states);
+  std::string faultOf(const og::PathGeometric* path, const ob::Goal* goals) const;
   void finish(og::PathGeometric& path, const std::string& planner);
-  void takePath(og::PathGeometric& path);
 
   ob::PlannerTerminationCondition within(double seconds) const
   {
@@ -108,25 +110,17 @@ class Plan
   PlanningResult result_;
 };
 
-/// Angles of continuous and planar joints go on from the start's as the motions do, without jumps by whole turns.
-void Plan::takePath(og::PathGeometric& path)
+/// What is wrong with a planner's path, in words; empty if it goes from the start, to one of the goals where these are
+/// given.
+std::string Plan::faultOf(const og::PathGeometric* path, const ob::Goal* goals) const
 {
-  const RobotModel& robot = *scene_->robot;
-  std::vector<double> last = query_.start;
-  for (const ob::State* state : path.getStates())
-  {
-    std::vector<double> row = last;
-    space_->copyToRow(state, row.data());
-    for (const Joint& joint : robot.joints())
-    {
-      if (joint.mimic || (joint.type != JointType::Continuous && joint.type != JointType::Planar))
-        continue;
-      const auto angle = static_cast<std::size_t>(joint.first_variable + (joint.type == JointType::Planar ? 2 : 0));
-      row[angle] = last[angle] + std::remainder(row[angle] - last[angle], 2.0 * EIGEN_PI);
-    }
-    result_.waypoints.push_back(row);
-    last = std::move(row);
-  }
+  if (!path || path->getStateCount() == 0)
+    return "no path";
+  if (!space_->equalStates(path->getState(0), start_.get()))
+    return "a path that does not begin at the start";
+  if (goals && !goals->isSatisfied(path->getState(static_cast<unsigned int>(path->getStateCount() - 1))))
+    return "a path that does not end at a goal";
+  return "";
 }
 
 /// Planning, from the start of the call on.
@@ -150,15 +144,21 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
   if (!exact)
     result_.message = "no solution within " + std::to_string(query_.seconds) + " s (" + planner->getName() + ": " +
                       status.asString() + ")";
-  if (!definition->hasSolution())
+  if (!definition->hasSolution() && !exact)
     return;
-  auto path = *definition->getSolutionPath()->as<og::PathGeometric>();
+  const auto path = std::dynamic_pointer_cast<og::PathGeometric>(definition->getSolutionPath());
+  if (const std::string wrong = faultOf(path.get(), exact ? goals.get() : nullptr); !wrong.empty())
+  {
+    result_.status = PlanningStatus::NoSolution;
+    result_.message = "planner " + planner->getName() + " has answered " + wrong;
+    return;
+  }
   if (!exact)
   {
     result_.status = PlanningStatus::Approximate;
     result_.message += "; the path ends " + std::to_string(definition->getSolutionDifference()) + " from a goal";
   }
-  finish(path, planner->getName());
+  finish(*path, planner->getName());
 }
 
 /// Simplification, and a last look at the path as it is answered: not every planner asks about all of its motions.
@@ -173,7 +173,10 @@ void Plan::finish(og::PathGeometric& path, const std::string& planner)
   const bool valid = validator_->validatePath(path, within(left));
   result_.planning_seconds += secondsSince(start) - result_.simplification_seconds;
   if (valid)
-    return takePath(path);
+  {
+    result_.waypoints = waypointsOf(path, *space_, query_.start);
+    return;
+  }
   result_.status = PlanningStatus::NoSolution;
   result_.message =
       "the path that " + planner + " found is not valid by the motion rule, or there was no time to prove it";

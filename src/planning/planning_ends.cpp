@@ -17,23 +17,32 @@ struct Fault
   std::string message;
 };
 
-Fault outOfBounds(const RobotModel& robot, const ob::StateSpacePtr& space_pointer, const double* row)
+/// Whether a variable has a range in a GroupStateSpace: it has limits, or is a translation.
+bool hasRange(const RobotModel& robot, int variable)
 {
-  const auto& space = *space_pointer->as<GroupStateSpace>();
+  if (robot.variables()[static_cast<std::size_t>(variable)].bounded)
+    return true;
+  for (const Joint& joint : robot.joints())
+  {
+    const int translations = joint.type == JointType::Planar ? 2 : joint.type == JointType::Floating ? 3 : 0;
+    if (!joint.mimic && variable >= joint.first_variable && variable < joint.first_variable + translations)
+      return true;
+  }
+  return false;
+}
+
+Fault outOfBounds(const RobotModel& robot, const GroupStateSpace& space, const double* row)
+{
   for (const int variable : space.variables())
   {
     const Variable& limits = robot.variables()[static_cast<std::size_t>(variable)];
     const double value = row[variable];
-    if (limits.bounded && (value < limits.lower || value > limits.upper))
+    if (hasRange(robot, variable) && (value < limits.lower || value > limits.upper))
       return {PlanningStatus::OutOfBounds, "out of bounds: " + limits.name + " is " + std::to_string(value) +
                                                ", outside of " + std::to_string(limits.lower) + " to " +
                                                std::to_string(limits.upper)};
   }
-  ob::ScopedState<> state(space_pointer);
-  space.copyFromRow(row, state.get());
-  return space.satisfiesBounds(state.get())
-             ? Fault{}
-             : Fault{PlanningStatus::OutOfBounds, "out of bounds: a position is outside of the planning bounds"};
+  return {};
 }
 
 /// Where a joint is beyond its limits, also one that is not planned for, no motion can be proven.
@@ -61,7 +70,7 @@ std::vector<double> rowsOf(const PlanningQuery& query, const GroupStateSpace& sp
   return rows;
 }
 
-std::vector<Fault> faultsOf(const PlanningScene& scene, StateChecker& checker, const ob::StateSpacePtr& space,
+std::vector<Fault> faultsOf(const PlanningScene& scene, StateChecker& checker, const GroupStateSpace& space,
                             const PlanningQuery& query, const std::vector<double>& rows)
 {
   const std::size_t width = query.start.size();
@@ -90,7 +99,7 @@ PlanningEnds findEnds(const PlanningScene& scene, StateChecker& checker, const o
 {
   const auto& group_space = *space->as<GroupStateSpace>();
   const std::vector<double> rows = rowsOf(query, group_space);
-  const std::vector<Fault> faults = faultsOf(scene, checker, space, query, rows);
+  const std::vector<Fault> faults = faultsOf(scene, checker, group_space, query, rows);
   PlanningEnds ends;
   if (!faults.front().message.empty())
     return {faults.front().status, "the start is " + faults.front().message, {}};

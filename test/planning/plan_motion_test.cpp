@@ -1,5 +1,8 @@
 // What planMotion answers, whatever its planner does.
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -8,9 +11,11 @@
 
 #include <ompl/geometric/PathGeometric.h>
 
+#include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
+#include "model/model_testing.h"
 #include "planning/point_robot.h"
 
 namespace gpu_planning_scene
@@ -41,6 +46,36 @@ class Reckless : public ob::Planner
   ob::PlannerStatus solve(const ob::PlannerTerminationCondition& /*ptc*/) override
   {
     pdef_->addSolutionPath(std::make_shared<PathGeometric>(si_, pis_.nextStart(), pis_.nextGoal()));
+    return ob::PlannerStatus::EXACT_SOLUTION;
+  }
+};
+
+/// Says that it has a solution, and has none.
+class Boastful : public ob::Planner
+{
+ public:
+  explicit Boastful(const ob::SpaceInformationPtr& information) : ob::Planner(information, "Boastful") {}
+
+  ob::PlannerStatus solve(const ob::PlannerTerminationCondition& /*ptc*/) override
+  {
+    return ob::PlannerStatus::EXACT_SOLUTION;
+  }
+};
+
+/// Goes from the start, or from the goal where `Backwards`, to half way between them.
+template <bool Backwards>
+class Lost : public ob::Planner
+{
+ public:
+  explicit Lost(const ob::SpaceInformationPtr& information) : ob::Planner(information, "Lost") {}
+
+  ob::PlannerStatus solve(const ob::PlannerTerminationCondition& /*ptc*/) override
+  {
+    const ob::State* const start = pis_.nextStart();
+    const ob::State* const goal = pis_.nextGoal();
+    ob::ScopedState<> middle(si_);
+    si_->getStateSpace()->interpolate(start, goal, 0.5, middle.get());
+    pdef_->addSolutionPath(std::make_shared<PathGeometric>(si_, Backwards ? goal : start, middle.get()));
     return ob::PlannerStatus::EXACT_SOLUTION;
   }
 };
@@ -78,6 +113,18 @@ TEST(PlanMotion, RefusesAPathThatItsPlannerHadNotChecked)
     }
 }
 
+TEST(PlanMotion, RefusesASolutionThatIsNone)
+{
+  const PlanningQuery wanted = query({-1.0, 0.0}, {{1.0, 0.0}});
+  for (const PlanningResult& refused :
+       {plan<Boastful>({}, wanted), plan<Lost<false>>({}, wanted), plan<Lost<true>>({}, wanted)})
+  {
+    EXPECT_EQ(refused.status, PlanningStatus::NoSolution) << refused.message;
+    EXPECT_TRUE(refused.waypoints.empty());
+    EXPECT_NE(refused.message.find("has answered"), std::string::npos) << refused.message;
+  }
+}
+
 TEST(PlanMotion, AnswersAStraightWayByItsEnds)
 {
   const PlanningResult result = plan<BatchRrtConnect>({}, query({-1.0, -1.5}, {{1.0, 1.5}}));
@@ -113,10 +160,103 @@ TEST(PlanMotion, SaysWhatIsOutOfBounds)
   EXPECT_EQ(goal.message.find("the goal is out of bounds: y is 2.5"), 0U) << goal.message;
 }
 
-TEST(PlanMotion, EndsWhenItIsToldTo)
+/// In planning, simplification, and the last look at the path.
+TEST(PlanMotion, EndsWheneverItIsToldTo)
 {
-  EXPECT_EQ(plan<BatchRrtConnect>({}, query({-1.0, 0.0}, {{1.0, 0.0}}), [] { return true; }).status,
-            PlanningStatus::NoSolution);
+  const std::vector<Wall> walls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
+  int needed = 0;
+  const PlanningQuery wanted = query({-1.0, 0.0}, {{1.0, 0.0}});
+  EXPECT_EQ(plan<BatchRrtConnect>(walls, wanted, [&] { return ++needed < 0; }).status, PlanningStatus::Solved);
+  for (int last : {1, 2, 5, needed / 4, needed / 2, 3 * needed / 4})
+  {
+    int asked = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    const PlanningResult ended = plan<BatchRrtConnect>(walls, wanted, [&] { return ++asked >= last; });
+    EXPECT_NE(ended.status, PlanningStatus::Solved) << last << " of " << needed;
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+  }
+}
+
+/// An arm that turns freely, on a lift that is not planned for, amid posts.
+class Turning : public testing::Test
+{
+ protected:
+  static std::shared_ptr<const RobotModel> robot()
+  {
+    static const auto made = robotOf(
+        "<link name='base'/><link name='mast'/><link name='arm'><collision><origin xyz='0.5 0 0'/><geometry>"
+        "<box size='1 0.02 0.02'/></geometry></collision></link>" +
+            jointXml("lift", "prismatic", "base", "mast",
+                     "<axis xyz='0 0 1'/><limit lower='0' upper='1' effort='1' velocity='1'/>") +
+            jointXml("turn", "continuous", "mast", "arm", "<axis xyz='0 0 1'/>"),
+        "<group name='round'><joint name='turn'/></group>");
+    return made;
+  }
+
+  PlanningResult plan(double start, double goal, double lift = 0.5)
+  {
+    PlanningQuery wanted = query({lift, start}, {{lift, goal}});
+    wanted.group = "round";
+    return planMotion(scene_, checker_, wanted, Factory<BatchRrtConnect>());
+  }
+
+  void put(double angle)
+  {
+    auto scene = std::make_shared<PlanningScene>(robot());
+    WorldObject post;
+    post.id = "post";
+    post.pose = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(0.6, 0.0, 0.0);
+    post.shapes = {{Box{{0.05, 0.05, 3.0}}}};
+    scene->objects = {post};
+    scene_ = scene;
+    checker_ = std::make_shared<CpuChecker>(scene);
+  }
+
+  std::shared_ptr<const PlanningScene> scene_;
+  std::shared_ptr<StateChecker> checker_;
+};
+
+/// Of half a turn either way round is the shorter one.
+TEST_F(Turning, IsAnsweredByValuesThatGoTheWayThatWasChecked)
+{
+  constexpr double kPi = EIGEN_PI;  // which is a long double
+  int solved = 0;
+  for (const double post : {0.5 * kPi, -0.5 * kPi, 2.0})
+  {
+    put(post);
+    for (const double offset : {0.0, 0.3, -1.1, 1e-7})
+      for (int start = -3; start <= 3; ++start)
+        for (const double turn : {kPi, -kPi, 2.9, -1.0})
+        {
+          const double from = offset + start * kPi;
+          const PlanningResult result = plan(from, from + turn);
+          if (result.status != PlanningStatus::Solved)
+            continue;
+          ++solved;
+          EXPECT_EQ(result.waypoints.front(), (std::vector<double>{0.5, from}));
+          EXPECT_NEAR(std::remainder(result.waypoints.back()[1] - from - turn, 2.0 * kPi), 0.0, 1e-9);
+          std::vector<double> followed;
+          for (std::size_t i = 0; i + 1 < result.waypoints.size(); ++i)
+            for (int k = 0; k <= 500; ++k)
+            {
+              const double part = k / 500.0;
+              followed.push_back(0.5);
+              followed.push_back((1.0 - part) * result.waypoints[i][1] + part * result.waypoints[i + 1][1]);
+            }
+          const std::vector<std::uint8_t> free = checker_->check(followed.data(), followed.size() / 2).valid;
+          EXPECT_EQ(std::count(free.begin(), free.end(), 0), 0) << "from " << from << " by " << turn;
+        }
+  }
+  EXPECT_GT(solved, 200);
+}
+
+TEST_F(Turning, IsRefusedWhereAnotherJointIsBeyondItsLimits)
+{
+  put(2.0);
+  EXPECT_EQ(plan(0.0, 1.0).status, PlanningStatus::Solved);
+  const PlanningResult beyond = plan(0.0, 1.0, 1.5);
+  EXPECT_EQ(beyond.status, PlanningStatus::OutOfBounds);
+  EXPECT_EQ(beyond.message.find("the start is out of bounds: lift is 1.5"), 0U) << beyond.message;
 }
 
 TEST(PlanMotion, RefusesWhatIsNoQuery)
@@ -130,8 +270,11 @@ TEST(PlanMotion, RefusesWhatIsNoQuery)
   wanted.parameters = {{"twigs", "3"}};
   EXPECT_THROW(plan<BatchRrtConnect>({}, wanted), Error);
   wanted.parameters.clear();
-  wanted.seconds = 0.0;
-  EXPECT_THROW(plan<BatchRrtConnect>({}, wanted), Error);
+  for (const double seconds : {0.0, -1.0, 1e10, std::numeric_limits<double>::infinity()})
+  {
+    wanted.seconds = seconds;
+    EXPECT_THROW(plan<BatchRrtConnect>({}, wanted), Error) << seconds;
+  }
 }
 }  // namespace
 }  // namespace gpu_planning_scene
