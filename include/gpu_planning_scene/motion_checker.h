@@ -28,7 +28,8 @@ struct MotionCheckerOptions
 {
   MotionRule rule = MotionRule::Bound;
   MotionSteps steps{0.02, 0.02};  ///< between samples, before any subdivision
-  /// Of a motion: one that the steps cut into more is not accepted; Bound: nor what is not proven with so many.
+  /// Of a motion: one that the steps cut into more is not accepted; Bound: nor what is not proven when so many checks
+  /// of states were made for it, those of its samples included.
   std::size_t most_samples = 20000;
 };
 
@@ -60,8 +61,8 @@ class MotionChecker
   MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_ptr<const RobotModel> robot, std::string group,
                 const MotionCheckerOptions& options = {});
 
-  /// `starts`, `ends`: `count` rows of all variables. `stop` is asked before each batch of states; where it says so,
-  /// motions that are not decided yet are not valid. Throws Error as the checker does.
+  /// `starts`, `ends`: `count` rows of all variables. `stop` is asked before each batch of states, which takes some
+  /// 0.05 s; where it says so, motions that are not decided yet are not valid. Throws Error as the checker does.
   std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
                                    MotionQuestion question = MotionQuestion::Valid,
                                    const std::function<bool()>& stop = {}) const;

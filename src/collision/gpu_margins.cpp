@@ -30,6 +30,13 @@ void GpuMargins::setPairs(const CollisionProblem& problem)
   numbers_.clear();
 }
 
+std::size_t GpuMargins::mostStates() const
+{
+  const std::size_t words = TexelBuffer::mostBytes() / sizeof(std::uint32_t);
+  const std::size_t numbers = robots_ * robots_;
+  return words < numbers ? 0 : (words - numbers) / (1 + robots_ + self_pairs_.size());
+}
+
 void GpuMargins::write(const Margins& margins, std::size_t begin, std::size_t count)
 {
   if (numbers_.empty())
@@ -41,6 +48,7 @@ void GpuMargins::write(const Margins& margins, std::size_t begin, std::size_t co
   }
   std::vector<std::uint32_t> words = numbers_;
   const UsedRows used(margins.rows, begin, count);
+  words.reserve(words.size() + count + (used.end - used.first) * margins.width);
   words.insert(words.end(), used.rows.begin(), used.rows.end());
   for (const double value : used.cut(margins.values, margins.width))
     words.push_back(roundedUp(value));

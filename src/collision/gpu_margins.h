@@ -17,6 +17,9 @@ class GpuMargins
  public:
   void setPairs(const CollisionProblem& problem);
 
+  /// How many states' margins a device holds at once, each with a row of its own.
+  std::size_t mostStates() const;
+
   /// Uploads those of states [begin, begin + count) and binds them.
   void write(const Margins& margins, std::size_t begin, std::size_t count);
 

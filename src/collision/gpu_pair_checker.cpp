@@ -97,8 +97,8 @@ void GpuPairChecker::prepare()
 {
   const std::size_t room =
       TexelBuffer::mostBytes() / (std::size_t{std::max(1U, scene_.robotCount())} * 12 * sizeof(float));
-  for (PartSize* parts : {&plain_parts_, &parts_with_margins_})
-    parts->setMost(std::max<std::size_t>(1, std::min(max_states_, room)));
+  plain_parts_.setMost(std::max<std::size_t>(1, std::min(max_states_, room)));
+  parts_with_margins_.setMost(std::max<std::size_t>(1, std::min({max_states_, room, margins_.mostStates()})));
   writeSearches();
   traversal_->prepare(task(false, scene_.isPadded()));
   if (scene_.solidNodes() != 0)

@@ -6,8 +6,10 @@ namespace gpu_planning_scene
 {
 namespace
 {
-// States that are asked about at once, between which a call can be stopped.
-constexpr std::size_t kMostStates = 16384;
+// States that are asked about at once. A call can be stopped between two batches: they are to take about so long.
+constexpr std::size_t kFirstStates = 2048;
+constexpr std::size_t kMostStates = 65536;
+constexpr double kBatchSeconds = 0.05;
 
 // The first samples of a motion that are asked about: its ends and its middle; each time later so many times as many.
 constexpr std::size_t kFirstSamples = 3;
@@ -44,7 +46,8 @@ MotionCheck::MotionCheck(StateChecker& checker, const RobotModel& robot, const s
     group_(group),
     options_(options),
     last_valid_(question == MotionQuestion::LastValid),
-    stop_(stop)
+    stop_(stop),
+    most_states_(kFirstStates)
 {
 }
 
@@ -77,9 +80,10 @@ void MotionCheck::ask(const std::vector<Interval>& intervals, bool with_margins,
 {
   const std::size_t width = robot_.variables().size();
   std::vector<double> states;
-  for (std::size_t begin = 0; begin < intervals.size(); begin += kMostStates)
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin < intervals.size(); begin += count)
   {
-    const std::size_t count = std::min(kMostStates, intervals.size() - begin);
+    count = std::min(most_states_, intervals.size() - begin);
     stopped_ = stopped_ || (stop_ && stop_());
     if (stopped_)
     {
@@ -108,6 +112,10 @@ void MotionCheck::ask(const std::vector<Interval>& intervals, bool with_margins,
     const BatchResult result = checker_.check(states.data(), count, group_, with_margins ? &around : nullptr);
     for (std::size_t i = 0; i < count; ++i)
       visit(intervals[begin + i], result.valid[i] != 0, result.colliding[i]);
+    if (count == most_states_ && result.seconds < 0.5 * kBatchSeconds)
+      most_states_ = std::min(kMostStates, 2 * most_states_);
+    else if (result.seconds > kBatchSeconds)
+      most_states_ = std::max(kFirstStates, most_states_ / 2);
   }
 }
 

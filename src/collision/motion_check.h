@@ -93,6 +93,7 @@ class MotionCheck
   const std::function<bool()>& stop_;
 
   bool stopped_ = false;
+  std::size_t most_states_;  // of a batch
   std::vector<Motion> motions_;
   std::size_t states_checked_ = 0;
 };

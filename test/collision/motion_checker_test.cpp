@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/motion_checker.h"
@@ -222,11 +223,17 @@ TEST_P(RealMotions, ThatAreProvenAreFreeAtTenTimesTheResolutionAndAsFarAsTheirLa
   const std::vector<MotionVerdict> verdicts =
       checker.check(starts.data(), ends.data(), count, MotionQuestion::LastValid);
   const std::vector<MotionVerdict> without = checker.check(starts.data(), ends.data(), count);
+  BatchCheckerOptions all_on_gpu;
+  all_on_gpu.cpu_below = 0;
+  const auto gpu = std::make_shared<BatchChecker>(test.scene, all_on_gpu);
+  const std::vector<MotionVerdict> on_gpu =
+      MotionChecker(gpu, test.scene->robot, "", options).check(starts.data(), ends.data(), count);
   std::size_t valid = 0;
   std::vector<double> states;
   for (std::size_t i = 0; i < count; ++i)
   {
     EXPECT_EQ(without[i].valid, verdicts[i].valid) << "seed " << seed;
+    EXPECT_EQ(on_gpu[i].valid, verdicts[i].valid) << "seed " << seed << ", on the GPU";
     valid += verdicts[i].valid ? 1 : 0;
     const double* const from = &starts[i * width];
     const double* const to = &ends[i * width];

@@ -50,7 +50,8 @@ struct Script
   }
 };
 
-/// A state is free where its first variable is above 0, or the way of the first joint around it. It answers from no scene that it has only a half of.
+/// A state is free where its first variable is above 0, or the way of the first joint around it. It answers from no
+/// scene that it has only a half of.
 class FakeChecker : public StateChecker
 {
  public:
