@@ -17,5 +17,6 @@
 #include <gpu_planning_scene/ContactInformation.h>
 #include <gpu_planning_scene/GetPlanningScene.h>
 #include <gpu_planning_scene/GetReport.h>
+#include <gpu_planning_scene/PlanMotion.h>
 #include <gpu_planning_scene/PlanningSceneComponents.h>
 #include <gpu_planning_scene/ShowTreeLevel.h>

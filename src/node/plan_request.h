@@ -19,7 +19,7 @@ struct PlanServiceOptions
   std::size_t at_once = 2;        ///< plannings: ~planning/at_once
   std::size_t most_waiting = 16;  ///< ~limits/waiting_plans
   std::size_t most_goals = 1000;  ///< ~limits/goals
-  std::size_t most_parameter = 10000;  ///< largest number that a planner's parameter can be: ~limits/planner_parameter
+  std::size_t most_parameter = 1000;  ///< largest number that a planner's parameter can be: ~limits/planner_parameter
 };
 
 /// Throws Error, which names the parameter.

@@ -53,7 +53,7 @@ trajectory_msgs::JointTrajectory trajectoryOf(const PlanningScene& scene, const 
 }
 }  // namespace
 
-/// A checker with the scene, for as long as one request is planned for. One that throws is not used again.
+/// A checker with the scene, for as long as one request is planned for. One that is not given back is not used again.
 class PlanService::CheckerLease
 {
  public:
@@ -106,7 +106,7 @@ void PlanService::stop()
 
 PlanMotion::Response PlanService::plan(const PlanMotion::Request& request)
 {
-  bool busy = false;
+  std::uint8_t fault = Response::FAILED;
   auto response = answered<Response>(
       [&](Response& filled)
       {
@@ -116,15 +116,41 @@ PlanMotion::Response PlanService::plan(const PlanMotion::Request& request)
         }
         catch (const Busy&)
         {
-          busy = true;
+          fault = Response::BUSY;
+          throw;
+        }
+        catch (const DeviceLost&)
+        {
+          throw;
+        }
+        catch (const Error&)
+        {
+          fault = stopping_ ? Response::FAILED : Response::BAD_REQUEST;
           throw;
         }
       });
   if (!response.success)
-    response.status = busy ? Response::BUSY : Response::BAD_REQUEST;
+    response.status = fault;
   else
     response.success = response.status == Response::SOLVED;
   return response;
+}
+
+PlanningResult PlanService::planIn(const std::shared_ptr<const PlanningScene>& scene, const PlanningQuery& query,
+                                   const PlannerFactory& factory)
+{
+  CheckerLease lease(*this, scene);
+  try
+  {
+    PlanningResult result = planMotion(scene, lease.checker(), query, factory, [this] { return stopping_.load(); });
+    lease.giveBack();
+    return result;
+  }
+  catch (const Error&)  // the request is to blame, not the checker
+  {
+    lease.giveBack();
+    throw;
+  }
 }
 
 void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response& response)
@@ -135,10 +161,7 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type);
   const Snapshot now = store_.snapshot();
   const PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
-  CheckerLease lease(*this, now.scene);
-  const PlanningResult result =
-      planMotion(now.scene, lease.checker(), query, *factory, [this] { return stopping_.load(); });
-  lease.giveBack();
+  const PlanningResult result = planIn(now.scene, query, *factory);
   if (stopping_)
     throw Error("shutting down: the request was not answered");
   const Group& group = now.scene->robot->group(request.group);

@@ -34,6 +34,8 @@ class PlanService
  private:
   class CheckerLease;
   void fill(const PlanMotion::Request& request, PlanMotion::Response& response);
+  PlanningResult planIn(const std::shared_ptr<const PlanningScene>& scene, const PlanningQuery& query,
+                        const PlannerFactory& factory);
 
   const SceneStore& store_;
   const CheckServer::MakeChecker make_checker_;

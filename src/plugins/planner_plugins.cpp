@@ -33,6 +33,17 @@ class FactoryOf : public PlannerFactory
     return std::make_shared<Planner>(information);
   }
 };
+
+/// Without the parameters for ordered sampling, with which OMPL 1.5's RRTstar uses a sampler that it has not made.
+template <>
+ompl::base::PlannerPtr FactoryOf<ompl::geometric::RRTstar>::create(
+    const ompl::base::SpaceInformationPtr& information) const
+{
+  auto planner = std::make_shared<ompl::geometric::RRTstar>(information);
+  planner->params().remove("ordered_sampling");
+  planner->params().remove("ordering_batch_size");
+  return planner;
+}
 }  // namespace gpu_planning_scene
 
 #define GPS_EXPORT_PLANNER(planner) \

@@ -127,10 +127,15 @@ TEST_F(Planning, takesTheDefaultOfTheGroupAndParametersOfTheRequest)
   {
     wanted.parameters[0].value = count;
     expectStatus(wanted, Response::BAD_REQUEST,
-                 "samples_per_batch is " + count + "; it must be from 0 to 10000 (limits/planner_parameter)");
+                 "samples_per_batch is " + count + "; it must be from 0 to 1000 (limits/planner_parameter)");
   }
   wanted.parameters[0].value = "50";
   expectSolved(plan(wanted), wanted.start, wanted.goals);
+  // With it OMPL's planner uses what it has not made.
+  wanted.planner = "geometric::RRTstar";
+  wanted.parameters[0].key = "ordered_sampling";
+  wanted.parameters[0].value = "1";
+  expectStatus(wanted, Response::BAD_REQUEST, "has no parameter 'ordered_sampling'");
 }
 
 TEST_F(Planning, servesTwoClientsAtOnce)
