@@ -13,12 +13,12 @@ namespace gpu_planning_scene
 {
 struct PlanServiceOptions
 {
-  double seconds = 5.0;           ///< of a request that asks for no time: ~planning/time
-  double most_seconds = 120.0;    ///< ~limits/planning_time
-  MotionCheckerOptions motions;   ///< ~planning/motion_rule, ~planning/resolution, ~planning/translation_resolution
-  std::size_t at_once = 2;        ///< plannings: ~planning/at_once
-  std::size_t most_waiting = 16;  ///< ~limits/waiting_plans
-  std::size_t most_goals = 1000;  ///< ~limits/goals
+  double seconds = 5.0;               ///< of a request that asks for no time: ~planning/time
+  double most_seconds = 120.0;        ///< ~limits/planning_time
+  MotionCheckerOptions motions;       ///< ~planning/motion_rule, ~planning/resolution, ~planning/translation_resolution
+  std::size_t at_once = 2;            ///< plannings: ~planning/at_once
+  std::size_t most_waiting = 16;      ///< ~limits/waiting_plans
+  std::size_t most_goals = 1000;      ///< ~limits/goals
   std::size_t most_parameter = 1000;  ///< largest number that a planner's parameter can be: ~limits/planner_parameter
 };
 
