@@ -17,7 +17,7 @@ class GpuMargins
  public:
   void setPairs(const CollisionProblem& problem);
 
-  /// How many states' margins a device holds at once, each with a row of its own.
+  /// How many states' margins a device holds at once, each with a row of its own, in the order of the states.
   std::size_t mostStates() const;
 
   /// Uploads those of states [begin, begin + count) and binds them.

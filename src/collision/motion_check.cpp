@@ -7,6 +7,7 @@ namespace gpu_planning_scene
 namespace
 {
 // States that are asked about at once. A call can be stopped between two batches: they are to take about so long.
+constexpr std::size_t kLeastStates = 64;
 constexpr std::size_t kFirstStates = 2048;
 constexpr std::size_t kMostStates = 65536;
 constexpr double kBatchSeconds = 0.05;
@@ -115,7 +116,8 @@ void MotionCheck::ask(const std::vector<Interval>& intervals, bool with_margins,
     if (count == most_states_ && result.seconds < 0.5 * kBatchSeconds)
       most_states_ = std::min(kMostStates, 2 * most_states_);
     else if (result.seconds > kBatchSeconds)
-      most_states_ = std::max(kFirstStates, most_states_ / 2);
+      most_states_ =
+          std::max(kLeastStates, static_cast<std::size_t>(static_cast<double>(count) * kBatchSeconds / result.seconds));
   }
 }
 

@@ -51,6 +51,30 @@ trajectory_msgs::JointTrajectory trajectoryOf(const PlanningScene& scene, const 
   }
   return trajectory;
 }
+/// What the request is to blame for.
+class BadRequest : public Error
+{
+ public:
+  using Error::Error;
+};
+
+/// Of work in which an Error comes from the request.
+template <class Work>
+auto blamingTheRequest(const Work& work)
+{
+  try
+  {
+    return work();
+  }
+  catch (const DeviceLost&)
+  {
+    throw;
+  }
+  catch (const Error& error)
+  {
+    throw BadRequest(error.what());
+  }
+}
 }  // namespace
 
 /// A checker with the scene, for as long as one request is planned for. One that is not given back is not used again.
@@ -119,13 +143,9 @@ PlanMotion::Response PlanService::plan(const PlanMotion::Request& request)
           fault = Response::BUSY;
           throw;
         }
-        catch (const DeviceLost&)
+        catch (const BadRequest&)
         {
-          throw;
-        }
-        catch (const Error&)
-        {
-          fault = stopping_ ? Response::FAILED : Response::BAD_REQUEST;
+          fault = Response::BAD_REQUEST;
           throw;
         }
       });
@@ -136,19 +156,28 @@ PlanMotion::Response PlanService::plan(const PlanMotion::Request& request)
   return response;
 }
 
-PlanningResult PlanService::planIn(const std::shared_ptr<const PlanningScene>& scene, const PlanningQuery& query,
-                                   const PlannerFactory& factory)
+PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
 {
-  CheckerLease lease(*this, scene);
+  const PlannerConfig config = configs_.find(request.planner, request.group);
+  const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type);
+  const Snapshot now = store_.snapshot();
+  return {now.scene, queryFrom(request, now, config, configs_.ofGroup(request.group), options_), factory, config.type};
+}
+
+PlanningResult PlanService::plan(const Task& task)
+{
+  CheckerLease lease(*this, task.scene);
+  const auto stop = [this] { return stopping_.load(); };
   try
   {
-    PlanningResult result = planMotion(scene, lease.checker(), query, factory, [this] { return stopping_.load(); });
+    const PlanningResult result =
+        blamingTheRequest([&] { return planMotion(task.scene, lease.checker(), task.query, *task.factory, stop); });
     lease.giveBack();
     return result;
   }
-  catch (const Error&)  // the request is to blame, not the checker
+  catch (const BadRequest&)
   {
-    lease.giveBack();
+    lease.giveBack();  // nothing is wrong with it
     throw;
   }
 }
@@ -157,24 +186,21 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
 {
   memory_.require();
   const Admission::Pass pass(admission_);
-  const PlannerConfig config = configs_.find(request.planner, request.group);
-  const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type);
-  const Snapshot now = store_.snapshot();
-  const PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
-  const PlanningResult result = planIn(now.scene, query, *factory);
+  const Task task = blamingTheRequest([&] { return taskOf(request); });
+  const PlanningResult result = plan(task);
   if (stopping_)
     throw Error("shutting down: the request was not answered");
-  const Group& group = now.scene->robot->group(request.group);
+  const Group& group = task.scene->robot->group(request.group);
   response.status = statusOf(result.status);
   response.message = result.message;
-  response.trajectory = trajectoryOf(*now.scene, result, group);
-  response.planner = config.type;
+  response.trajectory = trajectoryOf(*task.scene, result, group);
+  response.planner = task.planner;
   response.planning_time = result.planning_seconds;
   response.simplification_time = result.simplification_seconds;
   response.checking_time = result.checking_seconds;
   response.states_checked = result.states_checked;
   response.scene_revision = result.revision;
-  markers_.publish(pathMarkers(*now.scene, result.waypoints, group));
+  markers_.publish(pathMarkers(*task.scene, result.waypoints, group));
 }
 
 }  // namespace gpu_planning_scene

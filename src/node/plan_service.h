@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include <ros/node_handle.h>
@@ -33,9 +34,19 @@ class PlanService
 
  private:
   class CheckerLease;
+
+  /// What a request asks for, and in which scene.
+  struct Task
+  {
+    std::shared_ptr<const PlanningScene> scene;
+    PlanningQuery query;
+    std::shared_ptr<const PlannerFactory> factory;
+    std::string planner;  // its name as a plugin
+  };
+
   void fill(const PlanMotion::Request& request, PlanMotion::Response& response);
-  PlanningResult planIn(const std::shared_ptr<const PlanningScene>& scene, const PlanningQuery& query,
-                        const PlannerFactory& factory);
+  Task taskOf(const PlanMotion::Request& request);
+  PlanningResult plan(const Task& task);
 
   const SceneStore& store_;
   const CheckServer::MakeChecker make_checker_;

@@ -1,6 +1,7 @@
 #include "node/planner_plugins.h"
 
 #include <cstdlib>
+#include <stdexcept>
 
 #include <pluginlib/class_loader.hpp>
 
@@ -56,7 +57,7 @@ std::shared_ptr<const PlannerFactory> PlannerPlugins::find(const std::string& na
   }
   catch (const pluginlib::PluginlibException& error)
   {
-    throw Error("planner '" + name + "' cannot be loaded: " + error.what());
+    throw std::runtime_error("planner '" + name + "' cannot be loaded: " + error.what());
   }
 }
 }  // namespace gpu_planning_scene

@@ -20,7 +20,8 @@ class PlannerPlugins
   /// was set up for that. To be called before there are other threads.
   static void prepareEnvironment();
 
-  /// The plugin of that name; it is loaded once. Throws Error that lists the names there are.
+  /// The plugin of that name; it is loaded once. Throws Error that lists the names there are, and std::runtime_error
+  /// for one that cannot be loaded.
   std::shared_ptr<const PlannerFactory> find(const std::string& name);
 
  private:

@@ -133,15 +133,15 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
     path = search_->runRound(validator, *goal, branches_, range_, ptc);
   }
   const double spent = ompl::time::seconds(ompl::time::now() - start);
-  const auto proof = ob::timedPlannerTerminationCondition(std::clamp(kProofOfTime * spent, kLeastProof, kMostProof));
+  const double more = std::clamp(kProofOfTime * spent, kLeastProof, kMostProof);
   if (!path)
-    path = search_->provenPath(validator, proof);
+    path = search_->provenPath(validator, ob::timedPlannerTerminationCondition(more));
   if (path)
   {
     pdef_->addSolutionPath(path, false, 0.0, getName());
     return ob::PlannerStatus::EXACT_SOLUTION;
   }
-  path = search_->approximatePath(validator, proof);
+  path = search_->approximatePath(validator, ob::timedPlannerTerminationCondition(more));
   if (!path)
     return ob::PlannerStatus::TIMEOUT;
   double distance = 0.0;

@@ -42,9 +42,25 @@ void refuseRow(const RobotModel& robot, const std::vector<double>& row, const st
       throw Error(what + ": " + robot.variables()[i].name + " is " + std::to_string(row[i]) + "; it must be finite");
 }
 
+/// Doubles tell angles of many turns apart only coarsely.
+void refuseManyTurns(const RobotModel& robot, const std::vector<double>& start)
+{
+  constexpr double kMost = 1e6;  // radians; to within 1e-10
+  for (const Joint& joint : robot.joints())
+  {
+    if (joint.mimic || (joint.type != JointType::Continuous && joint.type != JointType::Planar))
+      continue;
+    const int angle = joint.first_variable + (joint.type == JointType::Planar ? 2 : 0);
+    if (const double value = start[static_cast<std::size_t>(angle)]; std::abs(value) > kMost)
+      throw Error("the start: " + robot.variables()[static_cast<std::size_t>(angle)].name + " is " +
+                  std::to_string(value) + " rad; it must be from -1e6 to 1e6");
+  }
+}
+
 void refuse(const PlanningScene& scene, const PlanningQuery& query)
 {
   refuseRow(*scene.robot, query.start, "the start");
+  refuseManyTurns(*scene.robot, query.start);
   if (query.goals.empty())
     throw Error("there is no goal; give at least one");
   for (std::size_t i = 0; i < query.goals.size(); ++i)
@@ -164,9 +180,10 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
 /// Simplification, and a last look at the path as it is answered: not every planner asks about all of its motions.
 void Plan::finish(og::PathGeometric& path, const std::string& planner)
 {
-  constexpr double kLeast = 0.1;  // of the time for planning
+  constexpr double kPart = 0.1;   // of the time for planning
+  constexpr double kLeast = 0.1;  // seconds
   const Clock::time_point start = Clock::now();
-  const double left = std::max(kLeast * query_.seconds, query_.seconds - result_.planning_seconds);
+  const double left = std::max({kLeast, kPart * query_.seconds, query_.seconds - result_.planning_seconds});
   if (query_.simplify)
     PathShortcutter(information_).shorten(path, within(left));
   result_.simplification_seconds = secondsSince(start);
@@ -202,13 +219,6 @@ PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const PlannerFactory& factory, const std::function<bool()>& stop)
 {
   refuse(*scene, query);
-  try
-  {
-    return Plan(scene, checker, query, stop).run(factory);
-  }
-  catch (const ompl::Exception& error)
-  {
-    throw Error(error.what());
-  }
+  return Plan(scene, checker, query, stop).run(factory);
 }
 }  // namespace gpu_planning_scene

@@ -71,8 +71,11 @@ std::vector<Row> waypointsOf(const ompl::geometric::PathGeometric& path, const G
     space.copyToRow(path.getState(static_cast<unsigned int>(i)), row.data());
     if (!rows.empty() && isHalfATurn(robot, rows.back(), row))
     {
-      Row middle(row.size());
-      interpolate(robot, rows.back().data(), row.data(), 0.5, middle.data());
+      Row half(row.size());
+      interpolate(robot, rows.back().data(), row.data(), 0.5, half.data());
+      Row middle = start;
+      for (const int variable : space.variables())
+        middle[variable] = half[variable];
       rows.push_back(std::move(middle));
     }
     rows.push_back(std::move(row));

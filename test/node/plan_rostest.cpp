@@ -105,6 +105,15 @@ TEST_F(Planning, usesAPlannerOfAnotherPackage)
   EXPECT_EQ(response.planner, "other_package/AnyPlanner");
 }
 
+TEST_F(Planning, saysThatThePlannerHasFailedWhereTheRequestIsNotToBlame)
+{
+  PlanMotion::Request wanted = request();
+  wanted.planner = "other_package/Broken";
+  expectStatus(wanted, Response::FAILED, "a planner that is broken");
+  wanted.planner = "other_package/AnyPlanner";
+  expectSolved(plan(wanted), wanted.start, wanted.goals);
+}
+
 TEST_F(Planning, takesTheDefaultOfTheGroupAndParametersOfTheRequest)
 {
   PlanMotion::Request wanted = request();

@@ -41,8 +41,8 @@ class BatchRrtConnect : public ompl::base::Planner
   void setup() override;
   void clear() override;
   /// Called again, it goes on with the trees that there are. The termination condition is asked between batches of
-  /// states. Once it holds, there is some time more, a tenth of what was spent, from 0.1 s to 1 s, to prove a solution
-  /// that there was no time for, or else the way to what is closest to the goal.
+  /// states. Once it holds, there is some time more, whatever it says, to prove a solution that there was no time for:
+  /// a tenth of what was spent, from 0.1 s to 1 s; and if there is none, as much to prove the way to what is closest.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
   void getPlannerData(ompl::base::PlannerData& data) const override;
 

@@ -22,8 +22,8 @@ struct PlanningQuery
   std::string group;
   std::vector<double> start;
   std::vector<std::vector<double>> goals;  ///< any of them
-  /// For planning, with a look at the start and the goals. Simplification, and then a last look at the path, each have
-  /// what is left, and at least a tenth.
+  /// For planning, with a look at the start and the goals; planners take a little more. Simplification, and then a last
+  /// look at the path, each have what is left, and at least a tenth and 0.1 s.
   double seconds = 5.0;
   bool simplify = true;
   MotionCheckerOptions motions;
@@ -53,9 +53,10 @@ struct PlanningResult
   std::uint64_t revision = 0;  ///< of the scene
 };
 
-/// Plans with the planner that `factory` makes. `checker` has `scene`. `stop`: asked now and then whether to end early.
-/// Throws Error: an unknown group, parameter or joint of the projection, a row of the wrong length or with a value that
-/// is not finite, no goal, times that are not positive. Thread-safe with a checker for each call.
+/// Plans with the planner that `factory` makes. `checker` has `scene`. `stop`: asked now and then whether to end early;
+/// a planner may then take its time to end. Throws Error: an unknown group, parameter or joint of the projection, a row
+/// of the wrong length or with a value that is not finite, an angle of the start beyond 1e6 rad, no goal, times that
+/// are not above 0 or beyond 1e9 s. Throws what the planner throws. Thread-safe with a checker for each call.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,
                           const PlannerFactory& factory, const std::function<bool()>& stop = {});
