@@ -170,7 +170,7 @@ PlanningResult PlanService::plan(const Task& task)
   const auto stop = [this] { return stopping_.load(); };
   try
   {
-    const PlanningResult result =
+    PlanningResult result =
         blamingTheRequest([&] { return planMotion(task.scene, lease.checker(), task.query, *task.factory, stop); });
     lease.giveBack();
     return result;
