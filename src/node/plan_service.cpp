@@ -32,7 +32,7 @@ std::uint8_t statusOf(PlanningStatus status)
     case PlanningStatus::OutOfBounds:
       return Response::OUT_OF_BOUNDS;
   }
-  return Response::BAD_REQUEST;
+  return Response::FAILED;
 }
 
 trajectory_msgs::JointTrajectory trajectoryOf(const PlanningScene& scene, const PlanningResult& result,
@@ -51,6 +51,7 @@ trajectory_msgs::JointTrajectory trajectoryOf(const PlanningScene& scene, const 
   }
   return trajectory;
 }
+
 /// What the request is to blame for.
 class BadRequest : public Error
 {
@@ -202,5 +203,4 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   response.scene_revision = result.revision;
   markers_.publish(pathMarkers(*task.scene, result.waypoints, group));
 }
-
 }  // namespace gpu_planning_scene

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "planning/bulk_validator.h"
+#include "planning/direct_runs.h"
 
 namespace gpu_planning_scene
 {
@@ -154,39 +155,6 @@ struct CutPath
 };
 }  // namespace
 
-namespace
-{
-/// Runs of several motions that are no longer than one would be: the first and the last vertex of each.
-std::vector<std::pair<std::size_t, std::size_t>> directRuns(const ob::SpaceInformation& information,
-                                                            const PathGeometric& path)
-{
-  // Of the length of a run: more than rounding lengthens it by, less than anybody would miss.
-  constexpr double kDirect = 1e-9;
-  const auto distance = [&](std::size_t from, std::size_t to)
-  {
-    return information.distance(path.getState(static_cast<unsigned int>(from)),
-                                path.getState(static_cast<unsigned int>(to)));
-  };
-  std::vector<std::pair<std::size_t, std::size_t>> runs;
-  for (std::size_t begin = 0; begin + 1 < path.getStateCount();)
-  {
-    std::size_t end = begin + 1;
-    double length = distance(begin, end);
-    for (; end + 1 < path.getStateCount(); ++end)
-    {
-      const double longer = length + distance(end, end + 1);
-      if (distance(begin, end + 1) < (1.0 - kDirect) * longer)
-        break;
-      length = longer;
-    }
-    if (end > begin + 1)
-      runs.emplace_back(begin, end);
-    begin = end;
-  }
-  return runs;
-}
-}  // namespace
-
 PathShortcutter::PathShortcutter(const ob::SpaceInformationPtr& information, const ShortcutterOptions& options)
   : information_(information), options_(options)
 {
@@ -195,7 +163,7 @@ PathShortcutter::PathShortcutter(const ob::SpaceInformationPtr& information, con
 
 bool PathShortcutter::shorten(PathGeometric& path, const ob::PlannerTerminationCondition& ptc)
 {
-  joinDirectRuns(path, ptc);
+  joinDirectRuns(path, bulkValidatorOf(*information_, "PathShortcutter"), ptc);
   bool shorter = false;
   std::size_t idle = 0;
   for (std::size_t round = 0; round < options_.most_rounds && idle < options_.idle_rounds && !ptc; ++round)
@@ -205,27 +173,6 @@ bool PathShortcutter::shorten(PathGeometric& path, const ob::PlannerTerminationC
     idle = gain < options_.least_gain ? idle + 1 : 0;
   }
   return shorter;
-}
-
-/// One motion instead of several that are as long: planners cut long motions into pieces.
-void PathShortcutter::joinDirectRuns(PathGeometric& path, const ob::PlannerTerminationCondition& ptc)
-{
-  const auto runs = directRuns(*information_, path);
-  std::vector<MotionValidator::Motion> motions;
-  for (const auto& [begin, end] : runs)
-    motions.emplace_back(path.getState(static_cast<unsigned int>(begin)),
-                         path.getState(static_cast<unsigned int>(end)));
-  const std::vector<std::uint8_t> valid =
-      bulkValidatorOf(*information_, "PathShortcutter").validateMotions(motions, ptc);
-  std::vector<std::uint8_t> is_kept(path.getStateCount(), 1);
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    for (std::size_t vertex = runs[i].first + 1; valid[i] != 0 && vertex < runs[i].second; ++vertex)
-      is_kept[vertex] = 0;
-  PathGeometric joined(information_);
-  for (std::size_t vertex = 0; vertex < is_kept.size(); ++vertex)
-    if (is_kept[vertex] != 0)
-      joined.append(path.getState(static_cast<unsigned int>(vertex)));
-  path = joined;
 }
 
 /// Returns what was gained, as a part of the path's length.

@@ -48,12 +48,10 @@ void refuseManyTurns(const RobotModel& robot, const std::vector<double>& start)
   constexpr double kMost = 1e6;  // radians; to within 1e-10
   for (const Joint& joint : robot.joints())
   {
-    if (joint.mimic || (joint.type != JointType::Continuous && joint.type != JointType::Planar))
-      continue;
-    const int angle = joint.first_variable + (joint.type == JointType::Planar ? 2 : 0);
-    if (const double value = start[static_cast<std::size_t>(angle)]; std::abs(value) > kMost)
+    const int angle = joint.mimic ? -1 : wrappedAngle(joint);
+    if (angle >= 0 && std::abs(start[static_cast<std::size_t>(angle)]) > kMost)
       throw Error("the start: " + robot.variables()[static_cast<std::size_t>(angle)].name + " is " +
-                  std::to_string(value) + " rad; it must be from -1e6 to 1e6");
+                  std::to_string(start[static_cast<std::size_t>(angle)]) + " rad; it must be from -1e6 to 1e6");
   }
 }
 

@@ -13,20 +13,6 @@ namespace
 {
 using Row = std::vector<double>;
 
-/// The index of the angle that wraps, of joints that have one; else -1.
-int wrappedAngle(const Joint& joint)
-{
-  switch (joint.type)
-  {
-    case JointType::Continuous:
-      return joint.first_variable;
-    case JointType::Planar:
-      return joint.first_variable + 2;
-    default:
-      return -1;
-  }
-}
-
 bool isHalfATurn(const RobotModel& robot, const Row& from, const Row& to)
 {
   constexpr double kNearly = 1e-6;  // radians: more than anybody's rounding
@@ -60,6 +46,19 @@ void unwind(const RobotModel& robot, const Row& from, const Row& last, Row& row)
   }
 }
 }  // namespace
+
+int wrappedAngle(const Joint& joint)
+{
+  switch (joint.type)
+  {
+    case JointType::Continuous:
+      return joint.first_variable;
+    case JointType::Planar:
+      return joint.first_variable + 2;
+    default:
+      return -1;
+  }
+}
 
 std::vector<Row> waypointsOf(const ompl::geometric::PathGeometric& path, const GroupStateSpace& space, const Row& start)
 {

@@ -8,6 +8,9 @@
 
 namespace gpu_planning_scene
 {
+/// The variable of a joint that is an angle without limits; -1 where it has none.
+int wrappedAngle(const Joint& joint);
+
 /// A path as rows of all variables, `start` first, whose other variables all have. Values go the way that the motions
 /// were checked on, also for those who follow them number by number: angles go on from `start` without jumps by whole
 /// turns, quaternions do not change their sign. Of a motion of half a turn the middle is a waypoint as well, as either

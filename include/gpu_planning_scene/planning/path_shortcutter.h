@@ -18,9 +18,9 @@ struct ShortcutterOptions
 };
 
 /// Shortens paths for a MotionValidator, which checks many motions in little more time than one. At first, one motion
-/// takes the place of several that are as long together. Then, in each round,
-/// shortcuts between two points of the path are drawn and checked in one call; of the valid ones those are taken,
-/// largest gain first, that do not overlap one taken before. Points are vertices as well as points on edges.
+/// takes the place of several that are as long together. Then, in each round, shortcuts between two points of the path
+/// are drawn and checked in one call; of the valid ones those are taken, largest gain first, that do not overlap one
+/// taken before. Points are vertices as well as points on edges.
 ///
 /// R. Geraerts, M. H. Overmars: Creating high-quality paths for motion planning. IJRR 26(8), 2007, has such shortcuts
 /// one at a time.
@@ -35,7 +35,6 @@ class PathShortcutter
   bool shorten(ompl::geometric::PathGeometric& path, const ompl::base::PlannerTerminationCondition& ptc);
 
  private:
-  void joinDirectRuns(ompl::geometric::PathGeometric& path, const ompl::base::PlannerTerminationCondition& ptc);
   double shortenOnce(ompl::geometric::PathGeometric& path, bool first,
                      const ompl::base::PlannerTerminationCondition& ptc);
 
