@@ -163,8 +163,9 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
   const auto path = std::dynamic_pointer_cast<og::PathGeometric>(definition->getSolutionPath());
   if (const std::string wrong = faultOf(path.get(), exact ? goals.get() : nullptr); !wrong.empty())
   {
+    // Seen of OMPL's RRTConnect, now and then, where there was no time for a solution.
     result_.status = PlanningStatus::NoSolution;
-    result_.message = "planner " + planner->getName() + " has answered " + wrong;
+    result_.message += (exact ? "" : "; ") + planner->getName() + " has answered " + wrong;
     return;
   }
   if (!exact)

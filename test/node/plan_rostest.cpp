@@ -226,6 +226,7 @@ TEST_F(Planning, tellsAnApproximateSolutionFromASolution)
   apply(diffWith(plate("wall", {0.6, 0.0, 0.0}, {0.1, 2.0, 0.15})));
   PlanMotion::Request wanted = request();
   wanted.allowed_planning_time = 1.0;
+  wanted.planner = "gpu_planning_scene/BatchRrtConnect";
   const Response response = plan(wanted);
   EXPECT_FALSE(response.success);
   EXPECT_EQ(response.status, Response::APPROXIMATE) << response.message;

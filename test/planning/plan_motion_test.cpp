@@ -64,7 +64,7 @@ class Boastful : public ob::Planner
 };
 
 /// Goes from the start, or from the goal where `Backwards`, to half way between them.
-template <bool Backwards>
+template <bool Backwards, ob::PlannerStatus::StatusType Status = ob::PlannerStatus::EXACT_SOLUTION>
 class Lost : public ob::Planner
 {
  public:
@@ -76,8 +76,9 @@ class Lost : public ob::Planner
     const ob::State* const goal = pis_.nextGoal();
     ob::ScopedState<> middle(si_);
     si_->getStateSpace()->interpolate(start, goal, 0.5, middle.get());
-    pdef_->addSolutionPath(std::make_shared<PathGeometric>(si_, Backwards ? goal : start, middle.get()));
-    return ob::PlannerStatus::EXACT_SOLUTION;
+    pdef_->addSolutionPath(std::make_shared<PathGeometric>(si_, Backwards ? goal : start, middle.get()),
+                           Status != ob::PlannerStatus::EXACT_SOLUTION, 1.0);
+    return Status;
   }
 };
 
@@ -124,6 +125,19 @@ TEST(PlanMotion, RefusesASolutionThatIsNone)
     EXPECT_TRUE(refused.waypoints.empty());
     EXPECT_NE(refused.message.find("has answered"), std::string::npos) << refused.message;
   }
+}
+
+/// As OMPL's RRTConnect does now and then.
+TEST(PlanMotion, RefusesAnApproximateSolutionThatDoesNotBeginAtTheStart)
+{
+  const PlanningQuery wanted = query({-1.0, 0.0}, {{1.0, 0.0}});
+  const PlanningResult good = plan<Lost<false, ob::PlannerStatus::APPROXIMATE_SOLUTION>>({}, wanted);
+  EXPECT_EQ(good.status, PlanningStatus::Approximate) << good.message;
+  EXPECT_EQ(good.waypoints, (std::vector<std::vector<double>>{{-1.0, 0.0}, {0.0, 0.0}}));
+  const PlanningResult wrong = plan<Lost<true, ob::PlannerStatus::APPROXIMATE_SOLUTION>>({}, wanted);
+  EXPECT_EQ(wrong.status, PlanningStatus::NoSolution);
+  EXPECT_TRUE(wrong.waypoints.empty());
+  EXPECT_EQ(wrong.message.find("no solution within"), 0U) << wrong.message;
 }
 
 TEST(PlanMotion, AnswersAStraightWayByItsEnds)
