@@ -5,6 +5,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "geometries.glsl"
 #include "candidates.glsl"
 #include "searches.glsl"
+#include "comparisons.glsl"
 layout(binding = UNIT_SPHERES) uniform usamplerBuffer spheres;
 
 vec4 sphereOf(uint robot, uint state)
@@ -32,7 +33,7 @@ void main()
     const vec4 theirs = sphereOf(min(partner, robot_count - 1u), state);
     const vec3 apart = mine.xyz - theirs.xyz;
     const float reach = mine.w + theirs.w;
-    near |= partner != NO_PARTNER && !(dot(apart, apart) > reach * reach) ? 1u << k : 0u;
+    near |= partner != NO_PARTNER && !provenGreater(dot(apart, apart), reach * reach) ? 1u << k : 0u;
   }
   for (; near != 0u; near &= near - 1u)
     addCandidate(state, packPair(search.x, partnerOf(search, uint(findLSB(near)))));

@@ -94,6 +94,9 @@
 #define PADDED 0
 #endif
 
+// The bits of float32's infinity: those of NaN are larger.
+#define INFINITY_BITS 0x7f800000u
+
 #define STATE_HIT 1u
 #define STATE_UNDECIDED 2u
 
@@ -113,6 +116,9 @@
 #define PAIR_OTHER_BITS 20
 #define MAX_ROBOT_GEOMETRIES (1 << 12)
 #define MAX_GEOMETRIES (1 << PAIR_OTHER_BITS)
+
+// Lanes that one dispatch of a part may have: indices of lanes and texels are products in 32 bits, which must not wrap.
+#define MOST_LANES (1 << 30)
 
 // How many others one search of the broad phase compares a robot instance with, 16 bits each, and none.
 #define SEARCH_PARTNERS 6

@@ -22,11 +22,15 @@ class AllowedCollisionMatrix
 
   void setEntry(const std::string& body_1, const std::string& body_2, bool allowed);
   void setDefault(const std::string& body, bool allowed);
+  /// Removes all entries of a body and its default, as if the matrix had never named it.
+  void removeEntry(const std::string& body);
   bool allowed(const std::string& body_1, const std::string& body_2) const;
 
   std::vector<std::string> bodies() const;             ///< that it has an entry or a default of, in alphabetical order
   std::vector<std::string> bodiesWithEntries() const;  ///< likewise
   std::optional<bool> defaultOf(const std::string& body) const;
+  /// The bodies that an entry allows to touch `body`, in alphabetical order. Defaults do not count.
+  std::vector<std::string> allowedPartners(const std::string& body) const;
   /// Whether it has the same entries and defaults.
   bool operator==(const AllowedCollisionMatrix& other) const { return bodies_ == other.bodies_; }
 
@@ -54,6 +58,9 @@ class AllowedCollisionMatrix
     std::optional<bool> by_default;
     bool operator==(const Body& other) const { return entries == other.entries && by_default == other.by_default; }
   };
+
+  /// Removes the entry for `other` from those of `body`, and `body` where it was its last.
+  void removeHalfOfEntry(const std::string& body, const std::string& other);
 
   std::map<std::string, Body> bodies_;
 };

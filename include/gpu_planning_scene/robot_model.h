@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <random>
 #include <string>
@@ -25,6 +26,9 @@ struct Variable
   bool bounded = false;  ///< has limits in the URDF
   double lower = 0.0;    ///< the limits, or the range for random states of an unbounded variable
   double upper = 0.0;    ///< (see RobotModelOptions)
+  /// The largest magnitude that a state may have here: for translations, what moves no joint by more than
+  /// kLargestLength; for angles and quaternions any finite number.
+  double largest = std::numeric_limits<double>::max();
 };
 
 enum class JointType

@@ -47,6 +47,9 @@ struct ObjectChange
   std::vector<PlacedShape> shapes;             ///< in the object's frame: primitives, then meshes, then half-spaces
   std::vector<Eigen::Isometry3d> shape_poses;  ///< Move alone: none, or one per shape of the object, in that order
   std::map<std::string, Eigen::Isometry3d> subframes;  ///< in the object's frame
+  /// Remove alone. True: the allowed-collision matrix keeps the object's entries, for an object that comes and goes, such
+  /// as a point cloud. False, as in MoveIt: the entries are removed with the object.
+  bool keeps_allowed_collisions = false;
 };
 
 /// What a link carries. Add without shapes takes the world's object of that id, where it is; with shapes it replaces
@@ -63,7 +66,9 @@ struct StateChange
 {
   std::map<std::string, double> variables;  ///< by name
   std::vector<AttachedChange> attached;     ///< in order, after the variables are set
-  /// False, with `variables`: `attached` replaces what is carried.
+  /// True: objects that links carry stay. False: `attached` replaces them, in a full scene always, in a difference where
+  /// `variables` are given. Objects that are replaced by none are gone, with a warning and without their entries in the
+  /// allowed-collision matrix.
   bool is_diff = true;
 };
 

@@ -215,7 +215,7 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   const PlanningScene& scene = *impl_->on_cpu.scene();
   const bool decided = impl_->on_cpu.problem(group)->always_colliding.has_value();
-  refuseNonFinite(*scene.robot, states, count);
+  refuseUnusableStates(*scene.robot, states, count);
   if (count != 0 && !decided)
   {
     const std::size_t on_gpu =

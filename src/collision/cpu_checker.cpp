@@ -36,7 +36,7 @@ BatchResult CpuChecker::check(const double* states, std::size_t count, const std
                               const Surroundings* around)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  refuseNonFinite(*impl_->on_cpu.scene()->robot, states, count);
+  refuseUnusableStates(*impl_->on_cpu.scene()->robot, states, count);
   impl_->on_cpu.prepare(group);
   BatchResult result;
   result.revision = impl_->on_cpu.scene()->revision;

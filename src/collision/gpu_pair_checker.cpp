@@ -92,14 +92,14 @@ void GpuPairChecker::selectPairs(const CollisionProblem& problem)
   prepare();
 }
 
-/// What would otherwise be done within a batch: programs are compiled. Poses of a part have to fit a buffer texture.
+/// What would otherwise be done within a batch: programs are compiled.
 void GpuPairChecker::prepare()
 {
-  const std::size_t room =
-      TexelBuffer::mostBytes() / (std::size_t{std::max(1U, scene_.robotCount())} * 12 * sizeof(float));
-  plain_parts_.setMost(std::max<std::size_t>(1, std::min(max_states_, room)));
-  parts_with_margins_.setMost(std::max<std::size_t>(1, std::min({max_states_, room, margins_.mostStates()})));
   writeSearches();
+  const std::size_t room = mostStatesOfPart(TexelBuffer::mostBytes(), scene_.robotCount(),
+                                            std::max(searches_.world.size(), searches_.self.size()));
+  plain_parts_.setMost(std::min(max_states_, room));
+  parts_with_margins_.setMost(std::max<std::size_t>(1, std::min({max_states_, room, margins_.mostStates()})));
   traversal_->prepare(task(false, scene_.isPadded()));
   if (scene_.solidNodes() != 0)
     traversal_->prepare(task(true, scene_.isPadded()));

@@ -27,8 +27,8 @@ MotionChecker::MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_
 std::vector<MotionVerdict> MotionChecker::check(const double* starts, const double* ends, std::size_t count,
                                                 MotionQuestion question, const std::function<bool()>& stop) const
 {
-  refuseNonFinite(*robot_, starts, count);
-  refuseNonFinite(*robot_, ends, count);
+  refuseUnusableStates(*robot_, starts, count);
+  refuseUnusableStates(*robot_, ends, count);
   MotionCheckerOptions options = options_;
   if (question == MotionQuestion::Samples)
     options.rule = MotionRule::Samples;

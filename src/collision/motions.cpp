@@ -189,8 +189,8 @@ MotionBatch::MotionBatch(const RobotModel& robot, const double* starts, const do
                          const MotionSteps& steps, std::size_t most_states)
 {
   validateSteps(steps);
-  refuseNonFinite(robot, starts, count);
-  refuseNonFinite(robot, ends, count);
+  refuseUnusableStates(robot, starts, count);
+  refuseUnusableStates(robot, ends, count);
   const std::size_t width = robot.variables().size();
   first_.reserve(count + 1);
   first_.push_back(0);

@@ -3,8 +3,24 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "interface.h"
+
 namespace gpu_planning_scene
 {
+/// The most states of a part whose poses fit a buffer texture and whose dispatches have no more than MOST_LANES lanes.
+/// `texture_bytes`: the most of a buffer texture; `searches`: of the larger of the two lists of the broad phase.
+inline std::size_t mostStatesOfPart(std::size_t texture_bytes, std::size_t robot_instances, std::size_t searches)
+{
+  constexpr std::size_t kPoseBytes = 12 * sizeof(float);
+  const std::size_t instances = std::max<std::size_t>(1, robot_instances);
+  // Texels are counted in 31 bits.
+  constexpr std::size_t kTexelBytes = 16;
+  const std::size_t bytes = std::min(texture_bytes, (std::size_t{1} << 31) * kTexelBytes - kPoseBytes);
+  const std::size_t by_poses = bytes / (instances * kPoseBytes);
+  const std::size_t by_lanes = std::size_t{MOST_LANES} / std::max(instances, searches);
+  return std::max<std::size_t>(1, std::min(by_poses, by_lanes));
+}
+
 /// How many states of a batch go to a device at once: as many as take it about kPartSeconds, fewer where its lists are
 /// too short for them.
 class PartSize

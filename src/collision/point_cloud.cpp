@@ -189,7 +189,7 @@ PointCloudFilter::~PointCloudFilter() = default;
 WorldObject PointCloudFilter::objectOf(const std::string& id, const std::vector<Eigen::Vector3f>& points,
                                        const Isometry3d& sensor, const PlanningScene& scene, const double* state)
 {
-  refuseNonFinite(*scene.robot, state, 1);
+  refuseUnusableStates(*scene.robot, state, 1);
   const std::vector<std::uint64_t> voxels = impl_->voxelsOf(points, rigid(sensor, "the sensor's pose"));
   if (voxels.size() > impl_->options.most_voxels)
     throw Error("the cloud fills " + std::to_string(voxels.size()) + " voxels, there may be at most " +

@@ -320,7 +320,7 @@ BatchResult ResilientChecker::check(const double* states, std::size_t count, con
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   const RobotModel& robot = *impl_->scene->robot;
-  refuseNonFinite(robot, states, count);  // here, where a state's number is known
+  refuseUnusableStates(robot, states, count);  // here, where a state's number is known
   if (around)
     refuseUnfitting(robot, *around, count);
   const std::size_t width = robot.variables().size();

@@ -149,7 +149,7 @@ const Inspected& StateInspector::Impl::inspected(const std::string& group)
 
 std::vector<Eigen::Isometry3d> StateInspector::Impl::linkPoses(const double* state) const
 {
-  refuseNonFinite(*scene->robot, state, 1);
+  refuseUnusableStates(*scene->robot, state, 1);
   std::vector<Eigen::Isometry3d> poses(scene->robot->links().size());
   scene->robot->linkPoses(state, poses.data());
   return poses;

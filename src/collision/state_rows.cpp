@@ -1,12 +1,25 @@
 #include "collision/state_rows.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene
 {
+namespace
+{
+/// With as many digits as tell 1e39 from 1e6.
+std::string text(double value)
+{
+  std::array<char, 32> digits;
+  std::snprintf(digits.data(), digits.size(), "%.9g", value);
+  return digits.data();
+}
+}  // namespace
+
 void refuseMissingRobot(const std::shared_ptr<const PlanningScene>& scene)
 {
   if (!scene || !scene->robot)
@@ -33,12 +46,15 @@ void refuseUnfitting(const RobotModel& robot, const Surroundings& around, std::s
                   std::to_string(way.angle) + " rad; both must be finite and at least 0");
 }
 
-void refuseNonFinite(const RobotModel& robot, const double* states, std::size_t count)
+void refuseUnusableStates(const RobotModel& robot, const double* states, std::size_t count)
 {
   const auto& variables = robot.variables();
-  for (std::size_t i = 0; i < count * variables.size(); ++i)
-    if (!std::isfinite(states[i]))
-      throw Error("state " + std::to_string(i / variables.size()) + ": the value of variable '" +
-                  variables[i % variables.size()].name + "' is not a finite number");
+  for (std::size_t row = 0; row < count; ++row, states += variables.size())
+    for (std::size_t i = 0; i < variables.size(); ++i)
+      if (!(std::abs(states[i]) <= variables[i].largest))
+        throw Error("state " + std::to_string(row) + ": the value of variable '" + variables[i].name + "' is " +
+                    (std::isfinite(states[i]) ? text(states[i]) + "; it must be within " + text(variables[i].largest) +
+                                                    ", as no joint can be moved by more than 1000 km"
+                                              : "not a finite number"));
 }
 }  // namespace gpu_planning_scene

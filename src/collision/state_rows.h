@@ -20,8 +20,9 @@ void refuseMissingRobot(const std::shared_ptr<const PlanningScene>& scene);
 /// 0.
 void refuseUnfitting(const RobotModel& robot, const Surroundings& around, std::size_t count);
 
-/// Throws Error if one of `count` rows of the robot's variables holds a value that is not finite.
-void refuseNonFinite(const RobotModel& robot, const double* states, std::size_t count);
+/// Throws Error if one of `count` rows of the robot's variables holds a value that is not finite or beyond
+/// Variable::largest.
+void refuseUnusableStates(const RobotModel& robot, const double* states, std::size_t count);
 
 /// Calls `work(begin, end)` for chunks of [0, count) on all cores; the calling thread is one of them. Each thread works
 /// with its own copy of `work`, so that what it captures by value may serve as scratch. `work` must not throw. Where

@@ -35,12 +35,14 @@ Shape toShape(const urdf::Geometry& geometry, const RobotModelOptions& options, 
 }
 }  // namespace
 
-Eigen::Isometry3d toIsometry(const urdf::Pose& pose)
+Eigen::Isometry3d toIsometry(const urdf::Pose& pose, const std::string& where)
 {
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
   const urdf::Rotation& q = pose.rotation;
   result.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
   result.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
+  if (!(result.translation().cwiseAbs().maxCoeff() <= kLargestLength))
+    throw Error(where + " has an origin that is not finite, or more than 1000 km away");
   return result;
 }
 
@@ -53,7 +55,7 @@ std::vector<PlacedShape> collisionShapes(const urdf::Link& link, const std::stri
     const std::string element = where + ": link '" + link.name + "'";
     try
     {
-      shapes.push_back({toShape(*collision->geometry, options, meshes), toIsometry(collision->origin)});
+      shapes.push_back({toShape(*collision->geometry, options, meshes), toIsometry(collision->origin, "its <collision>")});
     }
     catch (const Error& error)
     {

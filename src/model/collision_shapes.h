@@ -17,7 +17,7 @@ class Pose;
 
 namespace gpu_planning_scene
 {
-Eigen::Isometry3d toIsometry(const urdf::Pose& pose);
+Eigen::Isometry3d toIsometry(const urdf::Pose& pose, const std::string& where);
 
 /// The collision elements of a link, in its frame. `where` is the link's place in the URDF.
 std::vector<PlacedShape> collisionShapes(const urdf::Link& link, const std::string& where,

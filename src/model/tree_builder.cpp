@@ -1,5 +1,6 @@
 #include "tree_builder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -31,6 +32,7 @@ class TreeBuilder
     }
     addSubtree(root);
     resolveMimics();
+    limitTranslations();
     return std::move(tree_);
   }
 
@@ -91,7 +93,7 @@ class TreeBuilder
     result.type = jointType(joint);
     result.parent_link = parent_link;
     result.child_link = static_cast<int>(tree_.links.size());
-    result.origin = toIsometry(joint.parent_to_joint_origin_transform);
+    result.origin = toIsometry(joint.parent_to_joint_origin_transform, whereJoint(joint.name));
     if (result.type != JointType::Fixed && result.type != JointType::Floating)
     {
       const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
@@ -221,6 +223,23 @@ class TreeBuilder
       }
       requireOneVariable(joint, *leader);
       joint.first_variable = leader->first_variable;
+    }
+  }
+
+  void limitTranslations()
+  {
+    for (const Joint& joint : tree_.joints)
+    {
+      const int count = joint.type == JointType::Prismatic  ? 1
+                        : joint.type == JointType::Planar   ? 2
+                        : joint.type == JointType::Floating ? 3
+                                                            : 0;
+      const double most = std::max(0.0, kLargestLength - std::abs(joint.offset)) / std::max(std::abs(joint.multiplier), 1e-300);
+      for (int i = 0; i < count; ++i)
+      {
+        double& largest = tree_.variables[static_cast<std::size_t>(joint.first_variable + i)].largest;
+        largest = std::min(largest, most);
+      }
     }
   }
 

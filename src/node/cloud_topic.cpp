@@ -73,6 +73,7 @@ void CloudTopic::take(const sensor_msgs::PointCloud2& message)
     if (!is_there)
       return;
     change.operation = Operation::Remove;
+    change.keeps_allowed_collisions = true;  // the next cloud has the same id
   }
   SceneChange diff;
   diff.is_diff = true;

@@ -229,7 +229,15 @@ SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& ro
   readFixedFrames(message, robot, change);
   change.state = stateFrom(message.robot_state, robot, meshes, warnings);
   const AllowedCollisionMatrixMessage& matrix = message.allowed_collision_matrix;
-  if (!matrix.entry_names.empty() || !matrix.entry_values.empty() || !matrix.default_entry_names.empty())
+  const bool has_defaults_alone =
+      matrix.entry_names.empty() && matrix.entry_values.empty() && !matrix.default_entry_names.empty();
+  if (message.is_diff && has_defaults_alone)
+  {
+    if (warnings != nullptr)
+      warnings->push_back("allowed_collision_matrix: not used, as it has default entries alone, which change nothing in " +
+                          std::string("a difference (as in MoveIt); give entry_names and entry_values too"));
+  }
+  else if (!matrix.entry_names.empty() || !matrix.entry_values.empty() || !matrix.default_entry_names.empty())
     change.matrix = matrixFrom(matrix, limits);
   for (const LinkPadding& padding : message.link_padding)
     insertOnce(change.link_padding, padding.link_name, padding.padding, "the padding");

@@ -175,8 +175,8 @@ AllowedCollisionMatrixMessage messageOf(const AllowedCollisionMatrix& matrix, co
 {
   AllowedCollisionMatrixMessage message;
   message.entry_names = matrix.bodiesWithEntries();
-  // A message without names says nothing of the matrix; one with a lone name says that nothing is allowed.
-  if (matrix.bodies().empty())
+  // A message without names says nothing of the matrix; one with a lone name has no entries.
+  if (message.entry_names.empty())
     message.entry_names.push_back(a_link);
   message.entry_values.resize(message.entry_names.size());
   for (std::size_t i = 0; i < message.entry_names.size(); ++i)

@@ -42,6 +42,25 @@ void AllowedCollisionMatrix::setDefault(const std::string& body, bool allowed)
   bodies_[body].by_default = allowed;
 }
 
+void AllowedCollisionMatrix::removeEntry(const std::string& body)
+{
+  const auto known = bodies_.find(body);
+  if (known == bodies_.end())
+    return;
+  for (const auto& entry : known->second.entries)
+    if (entry.first != body)
+      removeHalfOfEntry(entry.first, body);
+  bodies_.erase(known);
+}
+
+void AllowedCollisionMatrix::removeHalfOfEntry(const std::string& body, const std::string& other)
+{
+  const auto known = bodies_.find(body);
+  known->second.entries.erase(other);
+  if (known->second.entries.empty() && !known->second.by_default)
+    bodies_.erase(known);
+}
+
 bool AllowedCollisionMatrix::allowed(const std::string& body_1, const std::string& body_2) const
 {
   return row(body_1).allowed(row(body_2));
@@ -68,6 +87,18 @@ std::optional<bool> AllowedCollisionMatrix::defaultOf(const std::string& body) c
 {
   const auto known = bodies_.find(body);
   return known == bodies_.end() ? std::nullopt : known->second.by_default;
+}
+
+std::vector<std::string> AllowedCollisionMatrix::allowedPartners(const std::string& body) const
+{
+  std::vector<std::string> names;
+  const auto known = bodies_.find(body);
+  if (known == bodies_.end())
+    return names;
+  for (const auto& [name, allowed] : known->second.entries)
+    if (allowed)
+      names.push_back(name);
+  return names;
 }
 
 AllowedCollisionMatrix::Row AllowedCollisionMatrix::row(const std::string& body) const

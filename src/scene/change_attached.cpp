@@ -39,6 +39,7 @@ void SceneChanger::attach(const AttachedChange& change)
   addTouchLinks(change, carried);
   carried.padding = defaults_.attached_padding;
   result_.scene.scaleCarried(carried);
+  warnOfAllowedCollisions(id);
 
   if (objects_.find(id) != nullptr)
     count_.remove(objects_.take(id).shapes);

@@ -8,7 +8,10 @@ namespace gpu_planning_scene
 void SceneChanger::clearWorld()
 {
   for (const std::string& id : objects_.ids())
-    removeObject(id);
+  {
+    count_.remove(objects_.take(id).shapes);
+    forget(id);
+  }
 }
 
 void SceneChanger::changeObject(const ObjectChange& change)
@@ -18,7 +21,7 @@ void SceneChanger::changeObject(const ObjectChange& change)
     if (change.id.empty())
       clearWorld();
     else
-      removeObject(change.id);
+      removeObject(change);
     return;
   }
   requireNewId(change.id);
@@ -39,6 +42,7 @@ void SceneChanger::addObject(const ObjectChange& change)
 {
   WorldObject object = newObject(change);
   object.pose = placed(object.pose, change.frame);
+  warnOfAllowedCollisions(change.id);
   WorldObject* const known = objects_.find(change.id);
   if (known != nullptr)
     count_.remove(known->shapes);
@@ -87,13 +91,17 @@ void SceneChanger::moveObject(const ObjectChange& change)
     object->subframes[name] = pose;
 }
 
-/// That what was attached is also taken out of the world is how MoveIt's tutorials do it.
-void SceneChanger::removeObject(const std::string& id)
+/// MoveIt's tutorials attach an object and remove it from the world in one change: that removal is no error here.
+void SceneChanger::removeObject(const ObjectChange& change)
 {
+  const std::string& id = change.id;
   if (objects_.find(id) != nullptr)
   {
     count_.remove(objects_.take(id).shapes);
-    result_.scene.colors.erase(id);
+    if (change.keeps_allowed_collisions)
+      result_.scene.colors.erase(id);
+    else
+      forget(id);
     return;
   }
   if (attached_here_.count(id) != 0)

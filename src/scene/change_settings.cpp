@@ -49,6 +49,7 @@ void SceneChanger::changeMatrix(const SceneChange& change)
   {
     count_.requireMatrix(*change.matrix);
     scene.allowed_collisions = *change.matrix;
+    has_new_matrix_ = true;
     scene.matrix_source = MatrixSource::SceneFile;
   }
   else if (!change.is_diff)

@@ -11,14 +11,13 @@ namespace gpu_planning_scene
 void SceneChanger::changeState(const StateChange& change, bool is_full_scene)
 {
   setVariables(change.variables);
-  const bool replaces = is_full_scene || (!change.is_diff && !change.variables.empty());
-  if (replaces)
-    dropCarried(change, is_full_scene);
+  if (!change.is_diff && (is_full_scene || !change.variables.empty()))
+    dropCarried(change);
   for (const AttachedChange& attached : change.attached)
   {
-    if ((replaces || !change.is_diff) && attached.object.operation != Operation::Add)
+    if (!change.is_diff && attached.object.operation != Operation::Add)
       throw Error("object '" + attached.object.id + "': a robot state that is no difference can only add attached " +
-                  "objects; set is_diff of the scene and of its robot_state");
+                  "objects; set is_diff of the robot_state");
     changeAttached(attached);
   }
 }
@@ -45,8 +44,9 @@ void SceneChanger::setVariables(const std::map<std::string, double>& variables)
     result_.state = std::move(state);
 }
 
-/// MoveIt's well-known trap: a robot state with joint values that does not say is_diff drops what is attached.
-void SceneChanger::dropCarried(const StateChange& change, bool is_full_scene)
+/// As in MoveIt, a robot state whose is_diff is false replaces what links carry. Clients often leave is_diff unset by
+/// mistake, so each object that is gone has a warning.
+void SceneChanger::dropCarried(const StateChange& change)
 {
   for (const std::string& id : attached_.ids())
   {
@@ -56,10 +56,9 @@ void SceneChanger::dropCarried(const StateChange& change, bool is_full_scene)
                                         [&id](const AttachedChange& added) { return added.object.id == id; });
     if (comes_back)
       continue;
-    result_.scene.colors.erase(id);
-    if (!is_full_scene)
-      result_.warnings.push_back("object '" + id + "' is gone: link '" + linkName(dropped.link) +
-                                 "' carried it, and robot_state.is_diff is false, which replaces what is attached");
+    forget(id);
+    result_.warnings.push_back("object '" + id + "' is gone: link '" + linkName(dropped.link) +
+                               "' carried it, and robot_state.is_diff is false, which replaces what is attached");
   }
 }
 }  // namespace gpu_planning_scene

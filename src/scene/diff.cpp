@@ -149,8 +149,8 @@ std::map<std::string, double> allLinks(const RobotModel& robot, const std::vecto
   return all;
 }
 
-/// What a difference cannot say: that there is no name, fixed frame or matrix any more, that an object has lost its
-/// colour but not its place, or kept its colour but not its place.
+/// What a difference cannot say: that there is no name, fixed frame or matrix any more; that an object has lost its
+/// colour and is still there; that an object is gone and its colour or its entry in the matrix is still there.
 bool needsFullScene(const PlanningScene& from, const PlanningScene& to)
 {
   if ((to.name.empty() && !from.name.empty()) || (to.fixed_frames.empty() && !from.fixed_frames.empty()))
@@ -160,9 +160,14 @@ bool needsFullScene(const PlanningScene& from, const PlanningScene& to)
   const auto before = objectsOf(from);
   const auto after = objectsOf(to);
   const auto goes = [&](const std::string& id) { return before.count(id) != 0 && after.count(id) == 0; };
+  const auto keepsEntries = [&](const std::string& id) { return goes(id) && to.allowed_collisions.row(id).known(); };
   return std::any_of(from.colors.begin(), from.colors.end(),
                      [&](const auto& color) { return to.colors.count(color.first) == 0 && !goes(color.first); }) ||
-         std::any_of(to.colors.begin(), to.colors.end(), [&](const auto& color) { return goes(color.first); });
+         std::any_of(to.colors.begin(), to.colors.end(), [&](const auto& color) { return goes(color.first); }) ||
+         std::any_of(from.objects.begin(), from.objects.end(),
+                     [&](const WorldObject& object) { return keepsEntries(object.id); }) ||
+         std::any_of(from.attached.begin(), from.attached.end(),
+                     [&](const AttachedObject& attached) { return keepsEntries(attached.object.id); });
 }
 
 /// What is carried no more is put back first: where it is then does not matter, as it is added or removed after.

@@ -105,6 +105,28 @@ void SceneChanger::require(const ObjectChange& change)
   }
 }
 
+void SceneChanger::forget(const std::string& id)
+{
+  result_.scene.colors.erase(id);
+  result_.scene.allowed_collisions.removeEntry(id);
+}
+
+void SceneChanger::warnOfAllowedCollisions(const std::string& id)
+{
+  const AllowedCollisionMatrix& matrix = result_.scene.allowed_collisions;
+  if (has_new_matrix_ || objects_.find(id) != nullptr || attached_.find(id) != nullptr)
+    return;
+  const std::vector<std::string> partners = matrix.allowedPartners(id);
+  if (partners.empty() && !matrix.defaultOf(id).value_or(false))
+    return;
+  result_.warnings.push_back(
+      "object '" + id + "' is new, and the allowed-collision matrix lets it touch " +
+      (partners.empty() ? "all bodies by default"
+                        : "'" + partners.front() + "'" +
+                              (partners.size() == 1 ? "" : " and " + std::to_string(partners.size() - 1) + " more")) +
+      "; set the matrix anew if these entries were meant for another object of that id");
+}
+
 WorldObject SceneChanger::newObject(const ObjectChange& change) const
 {
   if (change.shapes.empty())

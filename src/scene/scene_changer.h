@@ -38,7 +38,7 @@ class SceneChanger
   // change_state.cpp
   void changeState(const StateChange& change, bool is_full_scene);
   void setVariables(const std::map<std::string, double>& variables);
-  void dropCarried(const StateChange& change, bool is_full_scene);
+  void dropCarried(const StateChange& change);
 
   // change_attached.cpp
   void changeAttached(const AttachedChange& change);
@@ -57,7 +57,7 @@ class SceneChanger
   void addObject(const ObjectChange& change);
   void appendToObject(WorldObject& object, const ObjectChange& change);
   void moveObject(const ObjectChange& change);
-  void removeObject(const std::string& id);
+  void removeObject(const ObjectChange& change);
 
   // scene_changer.cpp
   void requireNewId(const std::string& id) const;
@@ -65,6 +65,10 @@ class SceneChanger
   /// Throws Error unless all that the change gives can be used.
   void require(const ObjectChange& change);
   void requirePose(const Eigen::Isometry3d& pose, const std::string& where) const;
+  /// Forgets what the scene knows of an object that is gone: its colour and its allowed collisions.
+  void forget(const std::string& id);
+  /// Warns where earlier changes allow the new object to touch other bodies, as those pairs are not checked.
+  void warnOfAllowedCollisions(const std::string& id);
   /// The object that an Add describes, its pose in the change's frame.
   WorldObject newObject(const ObjectChange& change) const;
   /// A pose in a frame, in the planning frame.
@@ -82,6 +86,7 @@ class SceneChanger
   SceneCount count_;
   const SceneDefaults& defaults_;
   Lookup lookup_;
+  bool has_new_matrix_ = false;          // set by this change
   std::set<std::string> attached_here_;  // by this change
   std::set<const Mesh*> valid_meshes_;   // of this change
 };

@@ -87,6 +87,10 @@ std::uint64_t SceneStore::clear()
 {
   const std::lock_guard<std::mutex> changing(changes_);
   PlanningScene scene = *snapshot().scene;
+  for (const WorldObject& object : scene.objects)
+    scene.allowed_collisions.removeEntry(object.id);
+  for (const AttachedObject& carried : scene.attached)
+    scene.allowed_collisions.removeEntry(carried.object.id);
   scene.objects.clear();
   scene.attached.clear();
   scene.colors.clear();

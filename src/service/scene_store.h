@@ -45,7 +45,8 @@ class SceneStore
   /// See applyChange. One change comes after the other; the revision grows by 1. What throws changes nothing.
   Applied apply(const SceneChange& change, const Lookup& lookup);
 
-  /// Takes away objects, what is carried, and colours. Returns the new revision.
+  /// Removes all objects, those that links carry too, with their entries in the allowed-collision matrix, and all
+  /// colours. Returns the new revision.
   std::uint64_t clear();
 
   /// Takes the robot's variables, by name; other names are passed over. The revision stays. Throws Error and takes

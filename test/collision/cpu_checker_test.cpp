@@ -152,6 +152,35 @@ TEST_F(CpuCheckerTest, RefusesWhatItCannotCheckAndGoesOn)
   EXPECT_TRUE(checker_.check(nullptr, 0).valid.empty());
 }
 
+TEST(StatesFarAway, AreRefusedWithTheVariableAndItsBound)
+{
+  const std::string limits = "<limit lower='-9' upper='9' effort='1' velocity='1'/>";
+  const std::string follower = "<axis xyz='1 0 0'/>" + limits + "<mimic joint='turn' multiplier='1000' offset='5'/>";
+  const auto robot = robotOf(
+      boxOf("base", "1 1 1", "0 0 0") + boxOf("a", "1 1 1", "0 0 0") + boxOf("b", "1 1 1", "0 0 0") +
+          boxOf("c", "1 1 1", "0 0 0") + joint("turn", "base", "a", "0 0 1", "0 0 0") +
+          jointXml("push", "prismatic", "base", "b", follower) + jointXml("cart", "planar", "base", "c"),
+      "<virtual_joint name='world' type='floating' parent_frame='map' child_link='base'/>");
+  CpuChecker checker(std::make_shared<PlanningScene>(robot));
+  const auto refusal = [&](const std::string& variable, double value)
+  {
+    std::vector<double> state = robot->defaultState();
+    state[static_cast<std::size_t>(robot->variableIndex(variable))] = value;
+    return errorOf([&] { checker.check(state.data(), 1); });
+  };
+  for (const char* variable : {"world/trans_x", "world/trans_z", "cart/x", "cart/y"})
+  {
+    EXPECT_EQ("", refusal(variable, -1e6)) << variable;
+    for (const double value : {1.1e6, -1e39, 1e300})
+      EXPECT_NE(std::string::npos, refusal(variable, value).find(std::string("'") + variable + "'")) << value;
+    EXPECT_NE(std::string::npos, refusal(variable, -1e39).find("-1e+39; it must be within 1000000")) << variable;
+  }
+  EXPECT_EQ("", refusal("turn", 999.0));
+  EXPECT_NE(std::string::npos, refusal("turn", 1001.0).find("within 999.995")) << "push follows it, by 1000 m a radian";
+  for (const char* variable : {"world/rot_x", "cart/theta"})
+    EXPECT_EQ("", refusal(variable, 1e300)) << variable;
+}
+
 TEST_F(CpuCheckerTest, ANewSceneReplacesTheOldOneUnlessItIsRefused)
 {
   const BatchResult expected = checker_.check(states_.data(), kCount);

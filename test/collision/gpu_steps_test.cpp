@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <iostream>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -139,6 +140,27 @@ const char* const kTriangleIncludes =
     "#include \"triangle_distance.glsl\"\n";
 const char* const kTriangleCall =
     "trianglePair(vec3[3](at(0u), at(1u), at(2u)), vec3[3](at(3u), at(4u), at(5u)), vec3(0.0), at(6u).x, at(6u).y)";
+
+TEST_F(GpuStep, NothingIsProvenGreaterThanOrByANumberThatIsNone)
+{
+  const float infinity = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float negative_nan = std::copysign(nan, -1.0F);
+  const float smallest = std::numeric_limits<float>::denorm_min();
+  const std::vector<float> values = {0.0F, smallest, 1e-30F, 1.0F, 2.0F, 3.4e38F, infinity, nan, negative_nan};
+  std::vector<float> input;
+  for (const float a : values)
+    for (const float b : values)
+      input.insert(input.end(), {a, b, 0.0F});
+  const auto result =
+      run("#include \"comparisons.glsl\"\n", "provenGreater(at(0u).x, at(0u).y) ? 1u : 0u", input, 3);
+  for (std::size_t i = 0; i < result.size(); ++i)
+  {
+    const float a = input[3 * i];
+    const float b = input[3 * i + 1];
+    EXPECT_EQ(a > b ? 1u : 0u, result[i]) << a << " > " << b;
+  }
+}
 
 TEST_F(GpuStep, TrianglePairsAreDecidedAsInDoubleOrLeftUndecided)
 {

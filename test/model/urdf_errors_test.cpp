@@ -62,6 +62,15 @@ TEST(UrdfErrors, numbersMustBeFinite)
       "test.urdf:1: link 'a'", "inf");
 }
 
+TEST(UrdfErrors, nothingIsPlacedFurtherThanAThousandKilometres)
+{
+  expectError(kTwoLinks + jointXml("j", "fixed", "a", "b", "<origin xyz='0 -1.1e6 0'/>"), "test.urdf:2: joint 'j'",
+              "more than 1000 km");
+  expectError("<link name=\"a\"><collision><origin xyz=\"1e39 0 0\"/><geometry><sphere radius=\"1\"/></geometry>"
+              "</collision></link>",
+              "test.urdf:1: link 'a'", "more than 1000 km");
+}
+
 TEST(UrdfErrors, theAxisMustHaveALength)
 {
   expectError(kTwoLinks + jointXml("j", "continuous", "a", "b", "<axis xyz=\"0 0 0\"/>"), "test.urdf:2: joint 'j'",

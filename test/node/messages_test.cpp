@@ -281,6 +281,29 @@ TEST_F(Messages, AMatrixIsTakenAsItIsWrittenAndAnEmptyOneIsNone)
   refusedMessage("twice", message);
 }
 
+TEST_F(Messages, AMatrixOfDefaultsAloneChangesNothingInADifference)
+{
+  PlanningSceneMessage message = diff();
+  message.allowed_collision_matrix.default_entry_names = {"lamp"};
+  message.allowed_collision_matrix.default_entry_values = {1};
+  applyMessage(message);
+  EXPECT_TRUE(scene_.allowed_collisions == AllowedCollisionMatrix::fromRobot(*scene_.robot));
+  ASSERT_EQ(1u, message_warnings_.size());
+  EXPECT_NE(std::string::npos, message_warnings_[0].find("not used, as it has default entries alone"));
+  message.is_diff = false;
+  applyMessage(message);
+  EXPECT_TRUE(scene_.allowed_collisions.allowed("lamp", "drum")) << "a full scene has no matrix before it";
+  const PlanningSceneMessage whole = get();
+  EXPECT_FALSE(whole.allowed_collision_matrix.entry_names.empty());
+  message = whole;
+  message.is_diff = true;
+  message.robot_state.is_diff = true;
+  message.robot_state.attached_collision_objects.clear();
+  scene_ = PlanningScene(sliderRobot());
+  applyMessage(message);
+  EXPECT_TRUE(scene_.allowed_collisions.allowed("lamp", "drum")) << "what the node itself says can be sent back";
+}
+
 TEST_F(Messages, AMatrixIsHeldAgainstTheLimitsBeforeItIsRead)
 {
   AllowedCollisionMatrixMessage matrix;

@@ -74,15 +74,33 @@ TEST_F(ChangeState, WithoutJointsAndNoDifferenceItOnlyAdds)
   refused("can only add", add);
 }
 
-TEST_F(ChangeState, AFullSceneReplacesWhatIsAttachedWithoutAWarning)
+TEST_F(ChangeState, AFullSceneReplacesWhatIsAttachedWithAWarning)
 {
   SceneChange full;
+  full.state.is_diff = false;
+  full.state.attached = {attachedChange(Operation::Add, "a", "cart", {boxAt(0.2)}),
+                         attachedChange(Operation::Add, "c", "cart", {boxAt(0.2)})};
+  apply(full);
+  ASSERT_EQ(2u, scene_.attached.size());
+  EXPECT_NO_THROW(carried("c"));
+  ASSERT_EQ(1u, warnings_.size());
+  EXPECT_TRUE(warned("object 'b' is gone"));
+  EXPECT_EQ((std::vector<double>{0.5, M_PI_2}), state_) << "joints that it does not name stay";
+}
+
+TEST_F(ChangeState, AFullSceneWhoseRobotStateIsADifferenceKeepsWhatIsAttached)
+{
+  SceneChange full;
+  full.state.is_diff = true;
+  full.state.variables["slide"] = -1.0;
   full.state.attached = {attachedChange(Operation::Add, "c", "cart", {boxAt(0.2)})};
   apply(full);
-  ASSERT_EQ(1u, scene_.attached.size());
-  EXPECT_EQ("c", scene_.attached[0].object.id);
+  EXPECT_EQ(3u, scene_.attached.size());
+  EXPECT_EQ(link("pole"), carried("a").link);
   EXPECT_TRUE(warnings_.empty());
-  EXPECT_EQ((std::vector<double>{0.5, M_PI_2}), state_) << "joints that it does not name stay";
+  full.state.attached = {attachedChange(Operation::Remove, "c", "")};
+  apply(full);
+  EXPECT_EQ(2u, scene_.attached.size());
 }
 
 TEST_F(ChangeState, AFullSceneDoesNotAttachObjectsOfTheSceneBefore)

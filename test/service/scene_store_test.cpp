@@ -49,6 +49,20 @@ TEST_F(Store, aChangeMakesANewRevisionAndLeavesOldScenesAlone)
   EXPECT_TRUE(store.snapshot().scene->objects.empty());
 }
 
+TEST_F(Store, clearRemovesWhatTheMatrixAllowsTheObjects)
+{
+  SceneChange change = boxIn("");
+  change.matrix = store.snapshot().scene->allowed_collisions;
+  change.matrix->setEntry("box", "cart", true);
+  change.matrix->setEntry("held", "cart", true);
+  change.state.attached.resize(1);
+  change.state.attached[0].link = "pole";
+  change.state.attached[0].object = boxIn("pole", "held").objects[0];
+  store.apply(change, unknownFrame);
+  store.clear();
+  EXPECT_TRUE(store.snapshot().scene->allowed_collisions == AllowedCollisionMatrix::fromRobot(*sliderRobot()));
+}
+
 TEST_F(Store, whatIsWrongChangesNothing)
 {
   store.apply(boxIn(""), unknownFrame);
