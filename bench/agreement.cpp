@@ -11,7 +11,7 @@
 #include "support/fcl_agreement.h"
 #include "support/test_scenes.h"
 
-using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::core;
 
 namespace
 {

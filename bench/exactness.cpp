@@ -10,7 +10,7 @@
 #include "support/near_contact.h"
 #include "tools/command_line.h"
 
-using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::core;
 
 namespace
 {

@@ -9,21 +9,17 @@
 #include <iostream>
 #include <set>
 
-#include "collision/binned_sah.h"
-#include "collision/gpu_forest.h"
+#include "collision/exact/binned_sah.h"
+#include "collision/gpu/tree_build/gpu_forest.h"
 #include "gpu/egl_context.h"
 #include "gpu_planning_scene/error.h"
+#include "model/seconds_since.h"
 #include "support/test_scenes.h"
 
-using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::core;
 
 namespace
 {
-double secondsSince(std::chrono::steady_clock::time_point start)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 std::vector<Tessellation> treesOf(const RobotModel& robot)
 {
   std::vector<Tessellation> trees;

@@ -23,8 +23,8 @@
 #include "support/test_scenes.h"
 #include "tools/command_line.h"
 
-using namespace gpu_planning_scene;
-using namespace gpu_planning_scene::benchmark;
+using namespace gpu_planning_scene::core;
+using namespace gpu_planning_scene::core::benchmark;
 
 namespace
 {

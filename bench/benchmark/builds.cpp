@@ -12,7 +12,7 @@
 #include "support/test_scenes.h"
 #include "tools/progress_bar.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -60,4 +60,4 @@ std::size_t measureBuilds(const Settings& settings)
   }
   return wrong;
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -7,9 +7,9 @@
 #include <btBulletCollisionCommon.h>
 
 #include "benchmark/pairwise_peer.h"
-#include "bullet_shapes.h"
+#include "peers/bullet_shapes.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -20,7 +20,7 @@ class BulletHulls : public PairwisePeer
   {
     for (const Shape& shape : problem->shapes)
       shapes_.push_back(bulletShape(shape, HullPoints::Corners));
-    for (const Geometry& geometry : problem->world)
+    for (const ShapeInstance& geometry : problem->world)
       world_.push_back(placed(geometry, geometry.pose));
   }
 
@@ -38,7 +38,7 @@ class BulletHulls : public PairwisePeer
   void place(const Eigen::Isometry3d* link_poses) override
   {
     robot_.clear();
-    for (const Geometry& geometry : problem().robot)
+    for (const ShapeInstance& geometry : problem().robot)
       robot_.push_back(placed(geometry, link_poses[geometry.link] * geometry.pose));
   }
   bool meetsWorld(std::size_t robot, std::size_t world, double required) override
@@ -47,7 +47,7 @@ class BulletHulls : public PairwisePeer
   }
   bool meetsSelf(std::size_t first, std::size_t second) override { return meet(robot_[first], robot_[second], 0); }
 
-  Placed placed(const Geometry& geometry, const Eigen::Isometry3d& pose) const
+  Placed placed(const ShapeInstance& geometry, const Eigen::Isometry3d& pose) const
   {
     Placed result{shapes_[geometry.tree].get(), bulletPose(pose), {}, {}};
     result.shape->getAabb(result.pose, result.lower, result.upper);
@@ -83,4 +83,4 @@ std::unique_ptr<PairwisePeer> makeBulletHulls(const std::shared_ptr<const Collis
 {
   return std::make_unique<BulletHulls>(problem);
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 Cell::Cell(const std::string& word) : text(word)
 {
@@ -42,4 +42,4 @@ void CsvTable::add(const std::vector<Cell>& cells)
   if (!(file_ << std::endl))
     throw Error(path_ + ": cannot be written; give --out another folder");
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

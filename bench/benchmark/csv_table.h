@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 /// A cell of a table. Numbers that are not known are left empty.
 struct Cell
@@ -31,4 +31,4 @@ class CsvTable
   std::size_t columns_;
   std::ofstream file_;
 };
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

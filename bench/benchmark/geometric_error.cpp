@@ -1,8 +1,9 @@
 #include "benchmark/geometric_error.h"
+#include "collision/bounds/problem_maker.h"
 
 #include <algorithm>
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -20,12 +21,9 @@ std::shared_ptr<const CpuForest> forestOf(const CollisionProblem& problem)
 }
 
 /// The problem with no other pairs than those of two bodies.
-std::shared_ptr<const CollisionProblem> restrictedTo(const CollisionProblem& problem,
-                                                     const CpuTraversal::BodyPair& pair)
+std::shared_ptr<const CollisionProblem> restrictedTo(const CollisionProblem& problem, const BodyPair& pair)
 {
-  const auto is_pair = [&](std::int32_t a, std::int32_t b) {
-    return CpuTraversal::BodyPair{std::min(a, b), std::max(a, b)} == pair;
-  };
+  const auto is_pair = [&](std::int32_t a, std::int32_t b) { return BodyPair{std::min(a, b), std::max(a, b)} == pair; };
   auto restricted = std::make_shared<CollisionProblem>(problem);
   auto& self = restricted->self_pairs;
   self.erase(
@@ -53,8 +51,8 @@ std::vector<Vector3d> directions()
 class Separation
 {
  public:
-  Separation(const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
-             const CpuTraversal::BodyPair& pair, const std::vector<Isometry3d>& poses)
+  Separation(const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest, const BodyPair& pair,
+             const std::vector<Isometry3d>& poses)
     : exact_(restrictedTo(problem, pair), forest), poses_(poses), shifted_(poses), link_(linkOf(problem, pair))
   {
   }
@@ -68,11 +66,11 @@ class Separation
 
  private:
   /// Of the pair's bodies one at least is the robot's, or is carried.
-  static std::size_t linkOf(const CollisionProblem& problem, const CpuTraversal::BodyPair& pair)
+  static std::size_t linkOf(const CollisionProblem& problem, const BodyPair& pair)
   {
-    const auto moved =
-        std::find_if(problem.robot.begin(), problem.robot.end(),
-                     [&](const Geometry& geometry) { return geometry.body == pair[0] || geometry.body == pair[1]; });
+    const auto moved = std::find_if(problem.robot.begin(), problem.robot.end(),
+                                    [&](const ShapeInstance& geometry)
+                                    { return geometry.body == pair[0] || geometry.body == pair[1]; });
     return static_cast<std::size_t>(moved->link);
   }
 
@@ -163,4 +161,4 @@ double GeometricError::depth(const double* state)
   }
   return deepest;
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -3,11 +3,11 @@
 #include <memory>
 #include <vector>
 
-#include "collision/cpu_traversal.h"
+#include "collision/exact/cpu_traversal.h"
 #include "support/fcl_peer.h"
 #include "support/test_scenes.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 /// How far from the truth a wrong answer is, in metres.
 class GeometricError
@@ -37,4 +37,4 @@ class GeometricError
   CpuTraversal::Scratch scratch_;
   FclPeer fcl_;
 };
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

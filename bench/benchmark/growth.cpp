@@ -15,7 +15,7 @@
 #include "support/test_scenes.h"
 #include "tools/progress_bar.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -81,8 +81,8 @@ class Growth
  private:
   static std::size_t countOf(const std::vector<MethodInfo>& methods)
   {
-    return static_cast<std::size_t>(
-        std::count_if(methods.begin(), methods.end(), [](const MethodInfo& info) { return info.responsive; }));
+    return static_cast<std::size_t>(std::count_if(
+        methods.begin(), methods.end(), [](const MethodInfo& info) { return info.responsive; }));
   }
 
   struct Once
@@ -183,4 +183,4 @@ std::size_t measureGrowth(const Settings& settings)
     growth.measure("objects", amount, sceneOf(robot, world(amount)), NAN);
   return growth.wrong();
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

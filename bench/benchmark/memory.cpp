@@ -7,7 +7,7 @@
 
 #include <epoxy/gl.h>
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -56,4 +56,4 @@ double DeviceMemory::used() const
   glGetIntegerv(GL_GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX, &available);
   return (total - available) / kKibInMib;
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

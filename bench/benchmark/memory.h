@@ -5,7 +5,7 @@
 
 #include "gpu/egl_context.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 /// How much memory this process came to hold, at its peak, beyond what it held at first; in MiB.
 class HostMemory
@@ -31,4 +31,4 @@ class DeviceMemory
   std::unique_ptr<EglContext> context_;
   bool known_;
 };
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

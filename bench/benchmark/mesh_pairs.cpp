@@ -9,13 +9,13 @@
 #include "benchmark/csv_table.h"
 #include "benchmark/settings.h"
 #include "benchmark/statistics.h"
-#include "collision/cpu_traversal.h"
-#include "collision/state_rows.h"
+#include "collision/exact/cpu_traversal.h"
+#include "collision/parallel_for.h"
 #include "gpu_planning_scene/mesh_pair_checker.h"
 #include "support/obstacles.h"
 #include "tools/progress_bar.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -101,12 +101,12 @@ Collide exactly(const std::shared_ptr<const CollisionProblem>& problem)
   return [traversal](const std::vector<Isometry3d>& poses)
   {
     Answers answers(poses.size());
-    forChunks(poses.size(), 16,
-              [&, scratch = CpuTraversal::Scratch()](std::size_t begin, std::size_t end) mutable
-              {
-                for (std::size_t i = begin; i < end; ++i)
-                  answers[i] = traversal->firstCollision(&poses[i], scratch) ? 1 : 0;
-              });
+    parallelFor(poses.size(), 16,
+                [&, scratch = CpuTraversal::Scratch()](std::size_t begin, std::size_t end) mutable
+                {
+                  for (std::size_t i = begin; i < end; ++i)
+                    answers[i] = traversal->firstCollision(&poses[i], scratch) ? 1 : 0;
+                });
     return answers;
   };
 }
@@ -117,14 +117,14 @@ Collide byPeer(const std::shared_ptr<const CollisionProblem>& problem, const Pee
   return [first](const std::vector<Isometry3d>& poses)
   {
     Answers answers(poses.size());
-    forChunks(poses.size(), 16,
-              [&, peer = std::shared_ptr<Peer>()](std::size_t begin, std::size_t end) mutable
-              {
-                if (!peer)
-                  peer = first->copy();
-                for (std::size_t i = begin; i < end; ++i)
-                  answers[i] = peer->collides(&poses[i]) ? 1 : 0;
-              });
+    parallelFor(poses.size(), 16,
+                [&, peer = std::shared_ptr<Peer>()](std::size_t begin, std::size_t end) mutable
+                {
+                  if (!peer)
+                    peer = first->copy();
+                  for (std::size_t i = begin; i < end; ++i)
+                    answers[i] = peer->collides(&poses[i]) ? 1 : 0;
+                });
     return answers;
   };
 }
@@ -202,4 +202,4 @@ std::size_t measureMeshPairs(const Settings& settings)
   }
   return wrong_of_exact;
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

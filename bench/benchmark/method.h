@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "collision/collision_problem.h"
+#include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 /// What a method looks at, on average over some states. Not numbers where it does not count.
 struct WorkPerState
@@ -81,4 +81,4 @@ using PeerMaker = std::function<std::unique_ptr<Peer>(const std::shared_ptr<cons
 
 /// The peers that can be asked about two meshes alone, with their names as in peerMethods().
 std::vector<std::pair<std::string, PeerMaker>> meshPeers();
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

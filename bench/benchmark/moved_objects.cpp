@@ -13,7 +13,7 @@
 #include "support/test_scenes.h"
 #include "tools/progress_bar.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -72,4 +72,4 @@ std::size_t measureMovedObjects(const Settings& settings)
   }
   return wrong;
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

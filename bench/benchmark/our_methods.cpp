@@ -1,12 +1,12 @@
 #include "benchmark/method.h"
-#include "collision/forest_cache.h"
-#include "collision/problem_maker.h"
+#include "collision/bounds/problem_maker.h"
+#include "collision/exact/forest_cache.h"
 #include "gpu/program.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "support/shader_folder.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -157,7 +157,7 @@ class FloatsAlone : public Method
   {
     shaders_.define("UNIT_ROUNDOFF", "0.0");
     shaders_.define("CONTRACT_BAND", "0.0");
-    shaders_.replace("verdicts.glsl", "if ((found & STATE_HIT) != 0u)",
+    shaders_.replace("traversal/verdicts.glsl", "if ((found & STATE_HIT) != 0u)",
                      "found = found != 0u ? STATE_HIT : 0u;\n  if (found != 0u)");
     options.shader_folder = shaders_.path();
     options.cpu_below = 0;
@@ -202,4 +202,4 @@ std::vector<MethodInfo> ourMethods()
   methods.push_back(floats);
   return methods;
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

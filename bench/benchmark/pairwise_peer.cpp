@@ -4,10 +4,10 @@
 #include <random>
 #include <set>
 
-#include "collision/cpu_traversal.h"
+#include "collision/exact/cpu_traversal.h"
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 PairwisePeer::PairwisePeer(std::shared_ptr<const CollisionProblem> problem)
   : problem_(std::move(problem)), self_pairs_(problem_->self_pairs)
@@ -35,7 +35,7 @@ void PairwisePeer::leaveOutPairs(const RobotModel& robot)
   constexpr std::size_t kAlways = kStates * 95 / 100;
   const CpuTraversal exact(problem_, std::make_shared<const Forest>(buildBinnedSah(problem_->trees)));
   CpuTraversal::Scratch scratch;
-  std::set<CpuTraversal::BodyPair> truly;
+  std::set<BodyPair> truly;
   std::vector<std::size_t> collisions(self_pairs_.size());
   std::mt19937_64 generator(1);
   std::vector<double> state(robot.variables().size());
@@ -60,4 +60,4 @@ void PairwisePeer::leaveOutPairs(const RobotModel& robot)
   }
   self_pairs_ = std::move(kept);
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

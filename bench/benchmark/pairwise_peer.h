@@ -6,7 +6,7 @@
 
 #include "benchmark/method.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 /// A peer that puts simpler shapes in the place of meshes, and looks at pair by pair.
 class PairwisePeer : public Peer
@@ -38,4 +38,4 @@ class PairwisePeer : public Peer
 std::unique_ptr<PairwisePeer> makeBulletHulls(const std::shared_ptr<const CollisionProblem>& problem);
 /// `count`: spheres for each shape.
 std::unique_ptr<PairwisePeer> makeSpheres(const std::shared_ptr<const CollisionProblem>& problem, std::size_t count);
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -2,9 +2,10 @@
 #include <thread>
 
 #include "benchmark/pairwise_peer.h"
+#include "collision/bounds/problem_maker.h"
 #include "support/fcl_peer.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -152,4 +153,4 @@ std::vector<MethodInfo> allMethods()
     methods.push_back(std::move(method));
   return methods;
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

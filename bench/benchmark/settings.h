@@ -7,7 +7,7 @@
 
 #include "benchmark/method.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 /// What is measured, and how long.
 struct Settings
@@ -40,4 +40,4 @@ std::size_t measureMovedObjects(const Settings& settings);
 std::size_t measureGrowth(const Settings& settings);
 /// mesh_pairs.csv
 std::size_t measureMeshPairs(const Settings& settings);
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -144,4 +144,4 @@ Ball boundingBall(const Mesh& mesh)
     radius = std::max(radius, (vertex - center).norm());
   return {center.cast<float>(), static_cast<float>(radius)};
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

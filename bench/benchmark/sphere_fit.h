@@ -7,7 +7,7 @@
 
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 struct Ball
 {
@@ -22,4 +22,4 @@ std::vector<Ball> fitBalls(const Mesh& mesh, std::size_t count);
 
 /// A ball around all of a mesh, its centre that of the mesh's box.
 Ball boundingBall(const Mesh& mesh);
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -7,7 +7,7 @@
 #include "benchmark/pairwise_peer.h"
 #include "benchmark/sphere_fit.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -74,7 +74,7 @@ class Spheres : public PairwisePeer
     std::vector<bool> made_of_balls;
     for (const Shape& shape : problem->shapes)
       made_of_balls.push_back(std::holds_alternative<std::shared_ptr<const Mesh>>(shape));
-    for (const Geometry& geometry : problem->robot)
+    for (const ShapeInstance& geometry : problem->robot)
       made_of_balls[geometry.tree] = true;
     for (std::size_t i = 0; i < problem->trees.size(); ++i)
     {
@@ -82,9 +82,9 @@ class Spheres : public PairwisePeer
       fitted->push_back({boundingBall(mesh), made_of_balls[i] ? fitBalls(mesh, count) : std::vector<Ball>()});
     }
     fitted_ = std::move(fitted);
-    for (const Geometry& geometry : problem->robot)
+    for (const ShapeInstance& geometry : problem->robot)
       robot_.push_back({&(*fitted_)[geometry.tree]});
-    for (const Geometry& geometry : problem->world)
+    for (const ShapeInstance& geometry : problem->world)
     {
       Obstacle obstacle{&problem->shapes[geometry.tree], geometry.pose.inverse().cast<float>(), {}, {}};
       const Fitted& fit = (*fitted_)[geometry.tree];
@@ -121,7 +121,7 @@ class Spheres : public PairwisePeer
   {
     for (std::size_t i = 0; i < robot_.size(); ++i)
     {
-      const Geometry& geometry = problem().robot[i];
+      const ShapeInstance& geometry = problem().robot[i];
       robot_[i].pose = (link_poses[geometry.link] * geometry.pose).cast<float>();
       robot_[i].bound = {robot_[i].pose * robot_[i].fit->bound.center, robot_[i].fit->bound.radius};
       robot_[i].placed = false;
@@ -186,4 +186,4 @@ std::unique_ptr<PairwisePeer> makeSpheres(const std::shared_ptr<const CollisionP
 {
   return std::make_unique<Spheres>(problem, count);
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

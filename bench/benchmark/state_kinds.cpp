@@ -2,7 +2,7 @@
 
 #include "support/near_contact.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -38,4 +38,4 @@ std::vector<double> makeStates(const TestScene& scene, const std::string& kind, 
     return nearContactStates(scene, count, seed);
   return kind == "motion" ? motionStates(scene, count, seed) : scene.randomStates(count, seed);
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -7,7 +7,7 @@
 
 #include "support/test_scenes.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 /// "random": uniform in the scene's ranges. "near_contact": within about 1e-10 ... 1e-4 m of contact, one half free.
 /// "motion": straight ways in joint space between random states, 64 states each, as a planner's edges are.
@@ -15,4 +15,4 @@ const std::vector<std::string>& stateKinds();
 
 /// `count` rows; the same for the same seed.
 std::vector<double> makeStates(const TestScene& scene, const std::string& kind, std::size_t count, std::uint64_t seed);
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -7,7 +7,9 @@
 #include <limits>
 #include <vector>
 
-namespace gpu_planning_scene::benchmark
+#include "model/seconds_since.h"
+
+namespace gpu_planning_scene::core::benchmark
 {
 /// The value that `share` of all are not above; not a number if there are none.
 inline double percentile(std::vector<double> values, double share)
@@ -31,7 +33,7 @@ inline double median(std::vector<double> values)
 class Stopwatch
 {
  public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double seconds() const { return secondsSince(start_); }
   double cpuSeconds() const { return static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC; }
 
  private:
@@ -46,4 +48,4 @@ double secondsOf(const Work& work)
   work();
   return watch.seconds();
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -13,11 +13,11 @@
 #include "benchmark/state_kinds.h"
 #include "benchmark/statistics.h"
 #include "benchmark/truth.h"
-#include "collision/state_rows.h"
+#include "collision/parallel_for.h"
 #include "support/test_scenes.h"
 #include "tools/progress_bar.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -222,7 +222,8 @@ class Tables
         most = std::max(most, size(&batch.states[wrong[i * wrong.size() / count] * batch.scene->lower.size()]));
       return most;
     };
-    const double clearance = largest(wrong_collision, [&](const double* state) { return error.clearance(state); });
+    const double clearance = largest(
+        wrong_collision, [&](const double* state) { return error.clearance(state); });
     const double depth = largest(wrong_free, [&](const double* state) { return error.depth(state); });
     const std::size_t wrong = wrong_free.size() + wrong_collision.size();
     accuracy_.add({batch.scene->name, batch.kind, batch.padding, run.info->name, run.info->title, run.info->family,
@@ -242,12 +243,12 @@ std::vector<std::uint8_t> openStates(const Batch& batch, const GeometricError& e
 {
   std::vector<std::uint8_t> open(batch.truth.size());
   if (batch.kind == "near_contact")
-    forChunks(open.size(), 16,
-              [&, own = error](std::size_t begin, std::size_t end) mutable
-              {
-                for (std::size_t i = begin; i < end; ++i)
-                  open[i] = own.isOpen(&batch.states[i * batch.scene->lower.size()], batch.truth[i] != 0) ? 1 : 0;
-              });
+    parallelFor(open.size(), 16,
+                [&, own = error](std::size_t begin, std::size_t end) mutable
+                {
+                  for (std::size_t i = begin; i < end; ++i)
+                    open[i] = own.isOpen(&batch.states[i * batch.scene->lower.size()], batch.truth[i] != 0) ? 1 : 0;
+                });
   return open;
 }
 
@@ -310,4 +311,4 @@ std::size_t measureThroughput(const Settings& settings)
     }
   return wrong;
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

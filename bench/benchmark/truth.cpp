@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -42,4 +42,4 @@ std::size_t tellWrong(const std::string& where, const MethodInfo& info, std::siz
     std::cerr << where << ": " << info.title << " gives " << wrong << " wrong answers\n";
   return wrong;
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -9,7 +9,7 @@
 #include "benchmark/method.h"
 #include "gpu_planning_scene/cpu_checker.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 /// The yardstick of answers: the exact checker, which `exactness` holds against the oracle, with everything in the
 /// problem. What the methods under test leave out of theirs, this looks at.
@@ -35,4 +35,4 @@ std::size_t wrongAnswers(const MethodInfo& info, const std::vector<std::uint8_t>
 
 /// Says on stderr where a method that is to be exact was wrong; nothing if `wrong` is 0. Returns `wrong`.
 std::size_t tellWrong(const std::string& where, const MethodInfo& info, std::size_t wrong);
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

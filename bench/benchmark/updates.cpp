@@ -3,7 +3,7 @@
 #include "benchmark/statistics.h"
 #include "benchmark/truth.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -50,4 +50,4 @@ Updates::Result Updates::measure(const MethodInfo& info, Method& method) const
   }
   return result;
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -7,7 +7,7 @@
 #include "benchmark/method.h"
 #include "support/test_scenes.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 /// Scenes in which one object was moved, and the true answers in them.
 class Updates
@@ -35,4 +35,4 @@ class Updates
   std::vector<double> states_;
   std::vector<Update> updates_;
 };
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

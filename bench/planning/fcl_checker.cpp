@@ -1,11 +1,12 @@
 #include "planning/fcl_checker.h"
+#include "collision/bounds/problem_maker.h"
 
 #include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 FclChecker::FclChecker(std::shared_ptr<const PlanningScene> scene, const std::string& group)
   : scene_(std::move(scene)),
@@ -23,7 +24,7 @@ void FclChecker::setScene(std::shared_ptr<const PlanningScene> /*scene*/)
 }
 
 BatchResult FclChecker::check(const double* states, std::size_t count, const std::string& group,
-                              const Surroundings* around)
+                              const JointNeighbourhood* around)
 {
   if (group != group_)
     throw std::logic_error("an FclChecker of group " + group_ + " is asked about " + group);
@@ -54,4 +55,4 @@ SceneReport FclChecker::report(const std::string& /*group*/)
 {
   return {};
 }
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark

@@ -28,7 +28,7 @@
 #include "support/planning_problems.h"
 #include "tools/command_line.h"
 
-namespace gpu_planning_scene::benchmark
+namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
@@ -94,7 +94,7 @@ void checkAgain(const og::PathGeometric& path, const GroupStateSpace& space, con
   {
     space.copyToRow(path.getState(i), from.data());
     space.copyToRow(path.getState(i + 1), to.data());
-    const auto parts = static_cast<std::size_t>(10.0 * partsOfWay(robot, from.data(), to.data(), steps));
+    const auto parts = static_cast<std::size_t>(10.0 * segmentCount(robot, from.data(), to.data(), steps));
     for (std::size_t k = 0; k <= parts; ++k)
     {
       states.resize(states.size() + from.size());
@@ -268,11 +268,11 @@ void study(const CommandLine& arguments)
     throw Error("a path that was accepted under the bound collides: see planning.csv");
 }
 }  // namespace
-}  // namespace gpu_planning_scene::benchmark
+}  // namespace gpu_planning_scene::core::benchmark
 
 int main(int argc, char** argv)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   ompl::msg::noOutputHandler();
   const Tool tool{
       "planning_study",

@@ -1,9 +1,9 @@
 #include <btBulletCollisionCommon.h>
 
-#include "bullet_shapes.h"
+#include "peers/bullet_shapes.h"
 #include "stability/peers.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -41,4 +41,4 @@ bool bulletCollides(const Case& c)
   world.contactPairTest(&a, &b, contact);
   return contact.found;
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -11,7 +11,7 @@
 
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 /// Two placed shapes. `a` belongs to a robot; `b` to the world, or to another link of the robot (`self`).
 struct Case
@@ -57,4 +57,4 @@ std::vector<Family> contactFamilies();
 std::vector<Family> containmentFamilies();
 std::vector<Family> primitiveFamilies();
 std::vector<Family> paddingFamilies();
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

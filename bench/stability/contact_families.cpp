@@ -4,7 +4,7 @@
 #include "stability/placing.h"
 #include "stability/shapes.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -145,4 +145,4 @@ std::vector<Family> contactFamilies()
       {"gripper finger on a held box", fingerOnHeldBox, true, true},
   };
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

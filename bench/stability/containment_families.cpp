@@ -4,7 +4,7 @@
 #include "stability/placing.h"
 #include "stability/shapes.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -170,4 +170,4 @@ std::vector<Family> containmentFamilies()
       {"cracks, flipped, duplicate, self-crossing", damagedSurfaces},
   };
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

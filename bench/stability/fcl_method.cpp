@@ -9,7 +9,7 @@
 
 #include "stability/peers.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -57,4 +57,4 @@ std::optional<bool> fclCollides(const Case& c, bool own_narrow_phase)
   fcl::CollisionResultd result;
   return fcl::collide(a.get(), pose_a, b.get(), c.pose_b, request, result) > 0;
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

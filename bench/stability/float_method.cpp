@@ -3,7 +3,7 @@
 
 #include "stability/peers.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -45,10 +45,8 @@ bool overlap(const FloatTriangle& a, const FloatTriangle& b)
     if (separates(normal_a.cross(edges_a[i]), a, b) || separates(normal_b.cross(edges_b[i]), a, b))
       return false;
     for (int k = 0; k < 3; ++k)
-    {
       if (separates(edges_a[i].cross(edges_b[k]), a, b))
         return false;
-    }
   }
   return true;
 }
@@ -58,10 +56,8 @@ bool floatCollides(const Case& c)
 {
   const std::vector<FloatTriangle> b = trianglesOf(c.b, c.pose_b);
   for (const FloatTriangle& triangle : trianglesOf(c.a, c.link_a * c.a_in_link))
-  {
     if (std::any_of(b.begin(), b.end(), [&](const FloatTriangle& other) { return overlap(triangle, other); }))
       return true;
-  }
   return false;
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

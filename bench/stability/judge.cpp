@@ -5,12 +5,12 @@
 #include <mutex>
 #include <sstream>
 
-#include "collision/state_rows.h"
+#include "collision/parallel_for.h"
 #include "gpu_planning_scene/error.h"
 #include "oracle/oracle.h"
 #include "stability/peers.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -93,22 +93,22 @@ Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& our
   std::vector<Judged> all(count);
   std::exception_ptr error;
   std::mutex mutex;
-  forChunks(count, 4,
-            [&](std::size_t begin, std::size_t end)
-            {
-              for (std::size_t i = begin; i < end; ++i)
+  parallelFor(count, 4,
+              [&](std::size_t begin, std::size_t end)
               {
-                try
+                for (std::size_t i = begin; i < end; ++i)
                 {
-                  all[i] = judgeOne(family, seed, i);
+                  try
+                  {
+                    all[i] = judgeOne(family, seed, i);
+                  }
+                  catch (...)
+                  {
+                    const std::lock_guard<std::mutex> lock(mutex);
+                    error = std::current_exception();
+                  }
                 }
-                catch (...)
-                {
-                  const std::lock_guard<std::mutex> lock(mutex);
-                  error = std::current_exception();
-                }
-              }
-            });
+              });
   if (error)
     std::rethrow_exception(error);
 
@@ -150,4 +150,4 @@ Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& our
   }
   return row;
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

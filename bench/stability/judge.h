@@ -7,7 +7,7 @@
 #include "stability/ours.h"
 #include "stability/table.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 struct Failure
 {
@@ -22,4 +22,4 @@ struct Failure
 /// construction.
 Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& ours,
           const std::function<void(const Failure&)>& report);
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "collision/batch_engine.h"
-#include "collision/binned_sah.h"
-#include "collision/cpu_traversal.h"
+#include "collision/exact/binned_sah.h"
+#include "collision/exact/cpu_traversal.h"
+#include "collision/gpu/gpu_checker.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -70,12 +70,10 @@ struct Part
     std::size_t object = 0;
     std::size_t half_space = 0;
     for (std::size_t i = 0; i < count; ++i)
-    {
       if (std::holds_alternative<HalfSpace>(cases[i].b))
         problem->half_space_pairs[i * problem->half_spaces.size() + half_space++] = 1;
       else if (!cases[i].self)
         problem->world_pairs[i * problem->world.size() + object++] = 1;
-    }
   }
 
   std::size_t linkCount() const { return 2 * count; }
@@ -97,10 +95,10 @@ struct Part
 
 struct Ours::Impl
 {
-  BatchEngine work_queue;
-  BatchEngine breadth_first;
+  GpuChecker work_queue;
+  GpuChecker breadth_first;
 
-  static std::size_t append(BatchEngine& engine, const Part& part, std::vector<std::uint8_t>& answers)
+  static std::size_t append(GpuChecker& engine, const Part& part, std::vector<std::uint8_t>& answers)
   {
     BatchResult result;
     engine.setProblem(part.problem);
@@ -126,8 +124,8 @@ struct Ours::Impl
 };
 
 Ours::Ours(const std::string& device, const std::string& shaders)
-  : impl_(new Impl{BatchEngine(engineOptions(device, shaders, Traversal::WorkQueue)),
-                   BatchEngine(engineOptions(device, shaders, Traversal::BreadthFirst))})
+  : impl_(new Impl{GpuChecker(engineOptions(device, shaders, Traversal::WorkQueue)),
+                   GpuChecker(engineOptions(device, shaders, Traversal::BreadthFirst))})
 {
 }
 
@@ -150,4 +148,4 @@ std::string Ours::deviceName() const
 {
   return impl_->work_queue.device().renderer;
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -7,7 +7,7 @@
 
 #include "stability/case.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 /// The project's own methods on many cases: some go into one collision problem, on links and objects of their own, and
 /// state i of the problem has the shapes of case i in their places and all others far apart.
@@ -35,4 +35,4 @@ class Ours
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -4,7 +4,7 @@
 
 #include "stability/case.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 /// FCL: meshes as BVHModel<OBBRSS>, primitives as its own; a required distance above 0 by its distance query. Which of
 /// its two narrow phases finds contacts of convex shapes: libccd (the default), or its own. Nothing where it has no
@@ -18,4 +18,4 @@ bool floatCollides(const Case& c);
 /// Bullet (in single precision, as it is commonly built): meshes as convex hulls, primitives as its own; contacts at
 /// distances up to the required one.
 bool bulletCollides(const Case& c);
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -4,7 +4,7 @@
 
 #include "oracle/oracle.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -106,4 +106,4 @@ Eigen::Vector3d innerPoint(Random& random, const Shape& shape)
   const auto& p = (*mesh)->vertices;
   return p[t[0]] + u * (p[t[1]] - p[t[0]]) + v * (p[t[2]] - p[t[0]]);
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

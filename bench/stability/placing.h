@@ -5,7 +5,7 @@
 #include "stability/case.h"
 #include "stability/random.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 /// How cases are placed in the world: a random motion of both, by up to `distance` along each axis, from `origin`. One
 /// in three has quarter turns only, which keep exact contacts exact.
@@ -32,4 +32,4 @@ Eigen::Isometry3d justApart(const Shape& a, const Shape& b, const Eigen::Isometr
 
 /// A point in the triangle, or in a convex body.
 Eigen::Vector3d innerPoint(Random& random, const Shape& shape);
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -5,7 +5,7 @@
 #include "stability/placing.h"
 #include "stability/shapes.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -296,4 +296,4 @@ std::vector<Family> allFamilies()
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 /// Numbers for one case.
 class Random
@@ -74,4 +74,4 @@ class Random
  private:
   std::mt19937_64 generator_;
 };
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -196,4 +196,4 @@ MeshPtr damagedBall(Random& random)
   return makeMesh(std::move(vertices), std::move(triangles));
 }
 
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

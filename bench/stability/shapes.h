@@ -7,7 +7,7 @@
 #include "gpu_planning_scene/shapes.h"
 #include "stability/random.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 using MeshPtr = std::shared_ptr<const Mesh>;
 
@@ -43,4 +43,4 @@ MeshPtr joined(const Mesh& first, const Mesh& second);
 MeshPtr without(const Mesh& mesh, std::size_t triangle);
 /// The triangles in another order, each with its corners in another order.
 MeshPtr reordered(const Mesh& mesh, int corner_order);
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

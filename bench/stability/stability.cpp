@@ -5,11 +5,12 @@
 #include <fstream>
 #include <iostream>
 
+#include "model/seconds_since.h"
 #include "stability/judge.h"
 #include "tools/command_line.h"
 
-using namespace gpu_planning_scene;
-using namespace gpu_planning_scene::stability;
+using namespace gpu_planning_scene::core;
+using namespace gpu_planning_scene::core::stability;
 
 namespace
 {
@@ -76,9 +77,8 @@ void runStability(const CommandLine& arguments)
     wrong += failures;
     if (failures > kReported)
       std::cerr << "\n  and " << failures - kReported << " more wrong answers";
-    std::cerr << (failures > 0 ? "\n  " : ": ")
-              << std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() << " s, "
-              << rows.back().undecided << " settled by the CPU" << std::endl;
+    std::cerr << (failures > 0 ? "\n  " : ": ") << secondsSince(start) << " s, " << rows.back().undecided
+              << " settled by the CPU" << std::endl;
   }
   writeMarkdown(markdown.is_open() ? markdown : std::cout, {seed, cases, ours.deviceName()}, rows);
   if (csv.is_open())

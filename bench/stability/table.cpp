@@ -2,7 +2,7 @@
 
 #include <ostream>
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 const std::array<MethodName, MethodCount>& methodNames()
 {
@@ -79,4 +79,4 @@ void writeCsv(std::ostream& out, const std::vector<Row>& rows)
     }
   }
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -8,7 +8,7 @@
 
 #include "oracle/oracle.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 enum Method : std::size_t
 {
@@ -64,4 +64,4 @@ struct Run
 void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& rows);
 /// One line for each cell.
 void writeCsv(std::ostream& out, const std::vector<Row>& rows);
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -4,7 +4,7 @@
 #include "stability/placing.h"
 #include "stability/shapes.h"
 
-namespace gpu_planning_scene::stability
+namespace gpu_planning_scene::core::stability
 {
 namespace
 {
@@ -256,4 +256,4 @@ std::vector<Family> triangleFamilies()
   families.push_back(far);
   return families;
 }
-}  // namespace gpu_planning_scene::stability
+}  // namespace gpu_planning_scene::core::stability

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-namespace gpu_planning_scene::volumes
+namespace gpu_planning_scene::core::volumes
 {
 namespace
 {
@@ -139,4 +139,4 @@ TurnedBox TurnedBox::fit(const Points& points)
   best_axes = Eigen::Quaterniond(best_axes).normalized().toRotationMatrix();
   return {grown(boxAlong(best_axes, triangles.data(), triangles.size()))};
 }
-}  // namespace gpu_planning_scene::volumes
+}  // namespace gpu_planning_scene::core::volumes

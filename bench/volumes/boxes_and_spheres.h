@@ -5,10 +5,10 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/cpu_box_pair.h"
-#include "collision/forest.h"
+#include "collision/exact/forest.h"
+#include "collision/geometry/cpu_box_pair.h"
 
-namespace gpu_planning_scene::volumes
+namespace gpu_planning_scene::core::volumes
 {
 /// A bounding volume is a class with
 ///   static Volume fit(points)  a volume that holds the points, and kGrowth more on all sides;
@@ -124,7 +124,7 @@ struct OwnAxesBox : OrientedBox
     explicit Test(const Eigen::Isometry3d& b_in_a) : b_in_a_(b_in_a) {}
     bool overlap(const OrientedBox& a, const OrientedBox& b) const
     {
-      return gpu_planning_scene::overlap(a, placed(b, b_in_a_), 0.0);
+      return gpu_planning_scene::core::overlap(a, placed(b, b_in_a_), 0.0);
     }
 
    private:
@@ -177,4 +177,4 @@ struct AxisBoxOrientedLeaf
     OwnAxesBox::Test leaves_;
   };
 };
-}  // namespace gpu_planning_scene::volumes
+}  // namespace gpu_planning_scene::core::volumes

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gpu_planning_scene::volumes
+namespace gpu_planning_scene::core::volumes
 {
 namespace
 {
@@ -90,4 +90,4 @@ Cone DopDirections<kDirections>::around(const Vector3d& direction) const
 template class DopDirections<14>;
 template class DopDirections<18>;
 template class DopDirections<26>;
-}  // namespace gpu_planning_scene::volumes
+}  // namespace gpu_planning_scene::core::volumes

@@ -5,7 +5,7 @@
 
 #include "volumes/boxes_and_spheres.h"
 
-namespace gpu_planning_scene::volumes
+namespace gpu_planning_scene::core::volumes
 {
 /// How far a volume reaches along a direction, from how far it reaches along three directions of a k-DOP.
 struct Cone
@@ -131,4 +131,4 @@ struct Dop
     std::array<Slab, kBothSides ? kSlabs : 0> along_b_;
   };
 };
-}  // namespace gpu_planning_scene::volumes
+}  // namespace gpu_planning_scene::core::volumes

@@ -5,7 +5,7 @@
 #include "volumes/dop.h"
 #include "volumes/traversal.h"
 
-namespace gpu_planning_scene::volumes
+namespace gpu_planning_scene::core::volumes
 {
 namespace
 {
@@ -97,4 +97,4 @@ std::vector<std::unique_ptr<Method>> makeMethods(const PlacedPairs& placed)
   addMethods<Dop<26, true>>("26-DOP, slabs of both", placed, methods);
   return methods;
 }
-}  // namespace gpu_planning_scene::volumes
+}  // namespace gpu_planning_scene::core::volumes

@@ -8,7 +8,7 @@
 #include "volumes/pairs.h"
 #include "volumes/work.h"
 
-namespace gpu_planning_scene::volumes
+namespace gpu_planning_scene::core::volumes
 {
 /// A kind of volume under a scheme of traversal.
 class Method
@@ -38,4 +38,4 @@ class Method
 
 /// All volumes under all schemes, AABBs first. They keep a reference to `placed`.
 std::vector<std::unique_ptr<Method>> makeMethods(const PlacedPairs& placed);
-}  // namespace gpu_planning_scene::volumes
+}  // namespace gpu_planning_scene::core::volumes

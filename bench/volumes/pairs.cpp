@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "collision/binned_sah.h"
-#include "collision/cpu_shape_pair.h"
-#include "collision/problem_maker.h"
+#include "collision/bounds/problem_maker.h"
+#include "collision/exact/binned_sah.h"
+#include "collision/exact/cpu_shape_pair.h"
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene::volumes
+namespace gpu_planning_scene::core::volumes
 {
 namespace
 {
@@ -46,9 +46,10 @@ void addPair(std::size_t number, const Instance& a, const Instance& b, std::vect
 void PlacedPairs::sortByHits(const std::vector<std::size_t>& hits)
 {
   for (std::size_t state = 0; state < states(); ++state)
-    std::stable_sort(pairs.begin() + static_cast<std::ptrdiff_t>(first[state]),
-                     pairs.begin() + static_cast<std::ptrdiff_t>(first[state + 1]),
-                     [&hits](const PlacedPair& a, const PlacedPair& b) { return hits[a.number] > hits[b.number]; });
+    std::stable_sort(
+        pairs.begin() + static_cast<std::ptrdiff_t>(first[state]),
+        pairs.begin() + static_cast<std::ptrdiff_t>(first[state + 1]),
+        [&hits](const PlacedPair& a, const PlacedPair& b) { return hits[a.number] > hits[b.number]; });
 }
 
 PlacedPairs placePairs(const TestScene& scene, const std::vector<double>& states)
@@ -67,7 +68,7 @@ PlacedPairs placePairs(const TestScene& scene, const std::vector<double>& states
   }
 
   std::vector<Instance> world;
-  for (const Geometry& object : problem.world)
+  for (const ShapeInstance& object : problem.world)
     world.emplace_back(placed.forest, object.tree, object.pose);
   const RobotModel& robot = *scene.scene->robot;
   std::vector<Isometry3d> link_poses(robot.links().size());
@@ -77,7 +78,7 @@ PlacedPairs placePairs(const TestScene& scene, const std::vector<double>& states
     placed.first.push_back(placed.pairs.size());
     robot.linkPoses(&states[row], link_poses.data());
     links.clear();
-    for (const Geometry& geometry : problem.robot)
+    for (const ShapeInstance& geometry : problem.robot)
       links.emplace_back(placed.forest, geometry.tree, link_poses[geometry.link] * geometry.pose);
     for (std::size_t pair = 0; pair < problem.world_pairs.size(); ++pair)
       if (problem.world_pairs[pair] != 0)
@@ -89,4 +90,4 @@ PlacedPairs placePairs(const TestScene& scene, const std::vector<double>& states
   placed.first.push_back(placed.pairs.size());
   return placed;
 }
-}  // namespace gpu_planning_scene::volumes
+}  // namespace gpu_planning_scene::core::volumes

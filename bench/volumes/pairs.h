@@ -6,11 +6,11 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/collision_problem.h"
-#include "collision/cpu_forest.h"
+#include "collision/exact/cpu_forest.h"
+#include "collision/problem/collision_problem.h"
 #include "support/test_scenes.h"
 
-namespace gpu_planning_scene::volumes
+namespace gpu_planning_scene::core::volumes
 {
 /// A checked pair of two instances in a state.
 struct PlacedPair
@@ -40,4 +40,4 @@ struct PlacedPairs
 
 /// `states`: rows of the robot's variables. Throws Error for a scene with half-spaces, and one that always collides.
 PlacedPairs placePairs(const TestScene& scene, const std::vector<double>& states);
-}  // namespace gpu_planning_scene::volumes
+}  // namespace gpu_planning_scene::core::volumes

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "collision/triangle_pair.h"
+#include "collision/geometry/triangle_pair.h"
 #include "gpu_planning_scene/error.h"
 #include "volumes/boxes_and_spheres.h"
 #include "volumes/pairs.h"
 
-namespace gpu_planning_scene::volumes
+namespace gpu_planning_scene::core::volumes
 {
 /// Which of two overlapping nodes is replaced by its children. A leaf stays as it is.
 enum class Opening
@@ -184,4 +184,4 @@ class Traversal
   std::vector<Item> list_;
   std::vector<Item> next_;
 };
-}  // namespace gpu_planning_scene::volumes
+}  // namespace gpu_planning_scene::core::volumes

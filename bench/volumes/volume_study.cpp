@@ -14,8 +14,8 @@
 #include "tools/command_line.h"
 #include "volumes/methods.h"
 
-using namespace gpu_planning_scene;
-using namespace gpu_planning_scene::volumes;
+using namespace gpu_planning_scene::core;
+using namespace gpu_planning_scene::core::volumes;
 using benchmark::Cell;
 
 namespace

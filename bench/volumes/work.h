@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace gpu_planning_scene::volumes
+namespace gpu_planning_scene::core::volumes
 {
 /// What was done at one level of the traversal: the number of openings since the roots.
 struct LevelWork
@@ -63,4 +63,4 @@ struct NoCount
   void leafPair(std::size_t) {}
   void trianglePair(std::size_t) {}
 };
-}  // namespace gpu_planning_scene::volumes
+}  // namespace gpu_planning_scene::core::volumes

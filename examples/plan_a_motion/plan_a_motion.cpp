@@ -8,7 +8,7 @@
 #include <gpu_planning_scene/planning/motion_validator.h>
 #include <gpu_planning_scene/planning/state_validity_checker.h>
 
-using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::core;
 
 int main(int argc, char** argv)
 try

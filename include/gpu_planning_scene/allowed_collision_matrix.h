@@ -7,7 +7,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Which pairs of bodies may touch, by name (links and objects). As in MoveIt: an entry for the pair decides; without
 /// one the default entries of the two bodies do (both present: allowed only if both allow; one present: that one);
@@ -64,4 +64,4 @@ class AllowedCollisionMatrix
 
   std::map<std::string, Body> bodies_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 
 #include "gpu_planning_scene/state_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Double-precision traversal of bounding volume trees on all cores, without any GL device.
 class CpuChecker : public StateChecker
@@ -15,7 +15,7 @@ class CpuChecker : public StateChecker
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
   BatchResult check(const double* states, std::size_t count, const std::string& group = "",
-                    const Surroundings* around = nullptr) override;
+                    const JointNeighbourhood* around = nullptr) override;
   SceneReport report(const std::string& group = "") override;
   std::string deviceName() const override;
 
@@ -23,4 +23,4 @@ class CpuChecker : public StateChecker
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

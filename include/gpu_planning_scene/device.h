@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// An EGL device that can be asked for an OpenGL 4.5 context without a window.
 struct Device
@@ -16,4 +16,4 @@ struct Device
 
 /// Every usable device, in EGL's order. Creates and destroys a context on each.
 std::vector<Device> listDevices();
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A wrong input or a device that cannot be used. `what()` is one line: what is wrong, where, and what to do.
 /// Whoever throws it has changed nothing.
@@ -20,4 +20,4 @@ class DeviceLost : public Error
  public:
   using Error::Error;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -8,10 +8,10 @@
 
 #include <Eigen/Geometry>
 
-#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/batch_checker_options.h"
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Two rigid shapes in many relative poses, without a robot: the experiment of Gress and Zachmann, "Object-Space
 /// Interference Detection on Programmable Graphics Hardware" (2003). Thread-safe: calls are served one after the other.
@@ -34,4 +34,4 @@ class MeshPairChecker
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 
 #include "gpu_planning_scene/resources.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// What one mesh file may cost. The node's parameters in brackets.
 struct MeshLimits
@@ -47,4 +47,4 @@ struct MeshAccess
   /// resolveAllowed, or resolveUri where there are no roots.
   std::string resolve(const std::string& uri, const std::string& base_folder, const PackageResolver& packages) const;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "gpu_planning_scene/motions.h"
+#include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/state_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// When a straight motion between two states is accepted.
 enum class MotionRule
@@ -39,11 +39,14 @@ struct MotionVerdict
   /// Fraction (0 to 1) of the last free sample before the first collision; with MotionRule::Bound, up to which the
   /// motion is proven, at most that. 0 where the start collides; 1 where the motion is valid.
   double last_valid = 0.0;
-  /// Of the first collision that was found, or {-1, -1}: body indices.
-  std::array<std::int32_t, 2> colliding{{-1, -1}};
+  /// Fraction of the sample where `last_valid` ends: it collides, or the motion is not proven free around it. 1 where
+  /// the motion is valid.
+  double first_invalid = 0.0;
+  /// The pair that collides there; no pair where the motion is merely not proven free.
+  BodyPair colliding = kNoPair;
 };
 
-enum class MotionQuestion
+enum class MotionQuery
 {
   Valid,      ///< is it valid? A motion is given up at any of its collisions, and its verdict's last_valid is 0
   LastValid,  ///< up to where?
@@ -64,7 +67,7 @@ class MotionChecker
   /// `starts`, `ends`: `count` rows of all variables. `stop` is asked before each batch of states, which takes some
   /// 0.05 s; where it says so, motions that are not decided yet are not valid. Throws Error as the checker does.
   std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
-                                   MotionQuestion question = MotionQuestion::Valid,
+                                   MotionQuery question = MotionQuery::Valid,
                                    const std::function<bool()>& stop = {}) const;
 
   MotionRule rule() const { return options_.rule; }
@@ -79,4 +82,4 @@ class MotionChecker
   MotionCheckerOptions options_;
   mutable std::atomic<std::uint64_t> states_checked_{0};
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -13,7 +13,7 @@
 #include "gpu_planning_scene/robot_model.h"
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct WorldObject
 {
@@ -124,4 +124,4 @@ struct PlanningScene
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings = nullptr,
                             const MeshAccess& meshes = {}, const SceneDefaults& defaults = {});
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

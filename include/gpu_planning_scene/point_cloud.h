@@ -9,7 +9,7 @@
 
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct PointCloudOptions
 {
@@ -40,4 +40,4 @@ class PointCloudFilter
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -11,7 +11,7 @@
 
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Maps a ROS package name to its folder; returns an empty string where it does not know the package.
 /// The libraries know no ROS: the node passes ros::package::getPath, the tools what --package said.
@@ -44,4 +44,4 @@ class MeshCache
   ReadMesh read_;
   std::map<std::pair<std::string, std::array<double, 3>>, std::shared_ptr<const Mesh>> meshes_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

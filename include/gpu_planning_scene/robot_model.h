@@ -15,7 +15,7 @@
 #include "gpu_planning_scene/resources.h"
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// One number of a robot state: radians, metres, or a quaternion's component.
 /// Named as in MoveIt: the joint's name where the joint has one variable; JOINT/x, /y, /theta for a planar joint;
@@ -179,4 +179,4 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   std::shared_ptr<const RobotModel> as_loaded_;  // null: this one
   std::vector<double> link_scale_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -12,7 +12,7 @@
 
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 // What MoveIt's messages ask for, without ROS. Names and meanings are those of moveit_msgs, but that a change is made
 // wholly or not at all (MoveIt makes the parts that it can).
@@ -47,8 +47,8 @@ struct ObjectChange
   std::vector<PlacedShape> shapes;             ///< in the object's frame: primitives, then meshes, then half-spaces
   std::vector<Eigen::Isometry3d> shape_poses;  ///< Move alone: none, or one per shape of the object, in that order
   std::map<std::string, Eigen::Isometry3d> subframes;  ///< in the object's frame
-  /// Remove alone. True: the allowed-collision matrix keeps the object's entries, for an object that comes and goes, such
-  /// as a point cloud. False, as in MoveIt: the entries are removed with the object.
+  /// Remove alone. True: the allowed-collision matrix keeps the object's entries, for an object that comes and goes,
+  /// such as a point cloud. False, as in MoveIt: the entries are removed with the object.
   bool keeps_allowed_collisions = false;
 };
 
@@ -66,9 +66,9 @@ struct StateChange
 {
   std::map<std::string, double> variables;  ///< by name
   std::vector<AttachedChange> attached;     ///< in order, after the variables are set
-  /// True: objects that links carry stay. False: `attached` replaces them, in a full scene always, in a difference where
-  /// `variables` are given. Objects that are replaced by none are gone, with a warning and without their entries in the
-  /// allowed-collision matrix.
+  /// True: objects that links carry stay. False: `attached` replaces them, in a full scene always, in a difference
+  /// where `variables` are given. Objects that are replaced by none are gone, with a warning and without their entries
+  /// in the allowed-collision matrix.
   bool is_diff = true;
 };
 
@@ -127,4 +127,4 @@ SceneChange fullSceneOf(const PlanningScene& scene);
 /// of objects and for paddings of objects, which a change cannot name. It is a full scene where no difference leads
 /// there.
 SceneChange diffOf(const PlanningScene& from, const PlanningScene& to);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

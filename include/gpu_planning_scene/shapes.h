@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Metres: no coordinate, size or padding may be larger. Far beyond it, squares overflow, and doubles have no
 /// micrometres.
@@ -81,4 +81,4 @@ struct Tessellation
 /// The surface of a shape as triangles. Curved shapes are cut so finely that the sagitta is at most 100 micrometres,
 /// or as finely as 2^15 triangles go. Throws std::logic_error for a half-space, which has no finite surface.
 Tessellation tessellate(const Shape& shape);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -10,8 +10,12 @@
 
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
+/// Two body indices (see PlanningScene), ascending.
+using BodyPair = std::array<std::int32_t, 2>;
+constexpr BodyPair kNoPair = {-1, -1};
+
 /// What is left out of a scene because it can change no answer. Each can be switched off, which costs time alone.
 struct Reductions
 {
@@ -31,7 +35,7 @@ struct CheckerOptions
 };
 
 /// How far a joint moves.
-struct JointWay
+struct JointTravel
 {
   double length = 0.0;  ///< metres: of prismatic joints, and the straight way of planar and floating ones
   double angle = 0.0;   ///< radians, likewise
@@ -39,20 +43,20 @@ struct JointWay
 
 /// What is to be free around the states of a batch: all states within the joints' limits in which no joint is further
 /// from where it is in the state than its way.
-struct Surroundings
+struct JointNeighbourhood
 {
-  std::vector<JointWay> ways;       ///< rows of one per joint of the robot, at least 0; a mimic joint's is its own
+  std::vector<JointTravel> travel;  ///< rows of one per joint of the robot, at least 0; a mimic joint's is its own
   std::vector<std::uint32_t> rows;  ///< one per state: which of those is its
 };
 
 struct BatchResult
 {
-  std::vector<std::uint8_t> valid;                     ///< one per state: 1 free, 0 in collision
-  std::vector<std::array<std::int32_t, 2>> colliding;  ///< body indices of a colliding pair, {-1, -1} where valid
-  std::uint64_t revision = 0;                          ///< of the scene that was checked
-  double seconds = 0.0;                                ///< wall time of the check, without compiling and building
-  std::size_t undecided_states = 0;                    ///< how many the CPU had to settle
-  double undecided_seconds = 0.0;                      ///< of `seconds`, what it took to settle them
+  std::vector<std::uint8_t> valid;   ///< one per state: 1 free, 0 in collision
+  std::vector<BodyPair> colliding;   ///< body indices of a colliding pair, {-1, -1} where valid
+  std::uint64_t revision = 0;        ///< of the scene that was checked
+  double seconds = 0.0;              ///< wall time of the check, without compiling and building
+  std::size_t undecided_states = 0;  ///< how many the CPU had to settle
+  double undecided_seconds = 0.0;    ///< of `seconds`, what it took to settle them
 };
 
 /// What of the scene is checked, and what is left out and why.
@@ -70,7 +74,7 @@ struct SceneReport
   std::size_t unreachable_objects = 0;      ///< left out: no link comes near them
   std::size_t settled_pairs = 0;            ///< left out: decided once, as no joint moves one against the other
   /// One of those that collides, so that every state does: body indices.
-  std::optional<std::array<std::int32_t, 2>> always_colliding;
+  std::optional<BodyPair> always_colliding;
   std::size_t triangles = 0;     ///< in the trees
   std::size_t trees = 0;         ///< of distinct shapes
   std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal one
@@ -96,7 +100,7 @@ class StateChecker
   /// is 0 the state itself may be free, and the pair reported may be merely near. The ways must be of joints that the
   /// group moves. A state outside the joints' limits is 0. Throws Error for rows or ways that do not fit the states.
   virtual BatchResult check(const double* states, std::size_t count, const std::string& group = "",
-                            const Surroundings* around = nullptr) = 0;
+                            const JointNeighbourhood* around = nullptr) = 0;
 
   virtual SceneReport report(const std::string& group = "") = 0;
 
@@ -107,4 +111,4 @@ class StateChecker
   /// that comes near; else empty. Answers are right all the same.
   virtual std::string deviceWarning() const { return {}; }
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 #include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -112,7 +112,7 @@ std::size_t TexelBuffer::mostBytes()
 {
   GLint texels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-  return static_cast<std::size_t>(texels) * 16;
+  return static_cast<std::size_t>(texels) * kTexelBytes;
 }
 
 void TexelBuffer::reserve(std::size_t size)
@@ -121,8 +121,9 @@ void TexelBuffer::reserve(std::size_t size)
     return;
   const std::size_t most = mostBytes();
   if (size > most)
-    throw Error("the device holds at most " + std::to_string(most / 16) + " texels in a buffer texture, " +
-                std::to_string((size + 15) / 16) + " are needed; use fewer triangles or a smaller batch");
+    throw Error("the device holds at most " + std::to_string(most / kTexelBytes) + " texels in a buffer texture, " +
+                std::to_string((size + kTexelBytes - 1) / kTexelBytes) +
+                " are needed; use fewer triangles or a smaller batch");
   buffer_.reserve(size, most);
   if (!texture_)
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
@@ -134,4 +135,4 @@ void TexelBuffer::bindTexture(std::uint32_t unit) const
 {
   glBindTextureUnit(unit, texture_);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

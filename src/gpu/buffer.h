@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A block of GPU memory of fixed size. Move-only; used on the context's thread. All sizes are in bytes.
 /// Throws Error where OpenGL fails (out of memory, out of range).
@@ -60,10 +60,11 @@ class TexelBuffer
   Buffer& buffer() { return buffer_; }
   const Buffer& buffer() const { return buffer_; }
   static std::size_t mostBytes();  ///< the device's limit
+  static constexpr std::size_t kTexelBytes = 16;
   void bindTexture(std::uint32_t unit) const;
 
  private:
   Buffer buffer_;
   std::uint32_t texture_ = 0;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

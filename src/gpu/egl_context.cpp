@@ -11,7 +11,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -37,7 +37,8 @@ bool isSoftware(const std::string& renderer)
 bool isNumber(const std::string& text)
 {
   return !text.empty() && text.size() < 7 &&
-         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
+         std::all_of(
+             text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
 /// EGL's displays without a window system: one per device, or Mesa's surfaceless platform where devices cannot be
@@ -216,4 +217,4 @@ std::vector<Device> listDevices()
       devices.push_back(candidate.device);
   return devices;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

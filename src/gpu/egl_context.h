@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/device.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// An OpenGL 4.5 core context without a window or surface, on one EGL device. It is current on the thread that made it
 /// and must be used and destroyed there.
@@ -26,4 +26,4 @@ class EglContext
   void* display_ = nullptr;  // EGLDisplay
   void* context_ = nullptr;  // EGLContext
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,9 +9,9 @@
 
 #include "gpu/buffer.h"
 #include "gpu/program.h"
-#include "interface.h"
+#include "shader_constants.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -74,8 +74,8 @@ std::string findFloatFault(const std::string& shader_folder)
   Buffer output(kCases * sizeof(Outcome));
   input.bindStorage(BINDING_C);
   output.bindStorage(BINDING_A);
-  const Program program(shader_folder, "float_arithmetic.comp");
-  program.set(0, kCases);
+  const Program program(shader_folder, "self_test/float_arithmetic.comp");
+  program.set(LOCATION_CASE_COUNT, kCases);
   program.dispatch(kCases / GROUP_SIZE);
   std::vector<Outcome> outcomes(kCases);
   output.read(outcomes.data(), kCases * sizeof(Outcome));
@@ -106,8 +106,8 @@ std::string findDoubleFault(const std::string& shader_folder)
   input.bindStorage(BINDING_C);
   output.bindStorage(BINDING_A);
   rounded.bindStorage(BINDING_B);
-  const Program program(shader_folder, "double_arithmetic.comp");
-  program.set(0, kCases);
+  const Program program(shader_folder, "self_test/double_arithmetic.comp");
+  program.set(LOCATION_CASE_COUNT, kCases);
   program.dispatch(kCases / GROUP_SIZE);
   std::vector<std::array<double, 4>> results(kCases);
   std::vector<float> floats(kCases);
@@ -125,4 +125,4 @@ std::string findDoubleFault(const std::string& shader_folder)
   }
   return {};
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 
 #include <epoxy/gl.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -63,4 +63,4 @@ void refuseLostContext()
   }
   throw DeviceLost(std::string("the GPU was reset ") + cause);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// What was asked for needs more memory than the device has left. Unlike other errors of OpenGL a scene can cause it.
 class OutOfDeviceMemory : public Error
@@ -17,4 +17,4 @@ void checkGl(const char* where);
 
 /// Throws DeviceLost if the current context was reset: nothing that was done with it can be relied on.
 void refuseLostContext();
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

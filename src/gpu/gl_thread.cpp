@@ -4,7 +4,7 @@
 
 #include "gpu/gl_check.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 GlThread::GlThread(const std::string& device_selector)
 {
@@ -84,4 +84,4 @@ void GlThread::serve(const std::string& device_selector, std::promise<Device>& s
     job();
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

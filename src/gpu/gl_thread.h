@@ -11,7 +11,7 @@
 
 #include "gpu/egl_context.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A thread that owns an OpenGL context and does one job after the other: a context is current on one thread only.
 class GlThread
@@ -38,4 +38,4 @@ class GlThread
   Device device_;
   std::thread thread_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -13,9 +13,9 @@
 #include "gpu/gl_check.h"
 #include "gpu/program_cache.h"
 #include "gpu_planning_scene/error.h"
-#include "interface.h"
+#include "shader_constants.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -124,7 +124,7 @@ std::string shaderFolder()
     return chosen;
   const std::string installed = installedShaderFolder();
   for (const std::string& folder : {installed, std::string(GPS_SOURCE_SHADERS)})
-    if (std::filesystem::exists(folder + "/interface.h"))
+    if (std::filesystem::exists(folder + "/shader_constants.h"))
       return folder;
   throw Error("the shaders are neither in " + installed +
               " nor in " GPS_SOURCE_SHADERS "; install the package, or set GPU_PLANNING_SCENE_SHADERS");
@@ -208,4 +208,4 @@ void Program::dispatchIndirect(const Buffer& arguments, std::size_t offset) cons
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments.id());
   glDispatchComputeIndirect(static_cast<GLintptr>(offset));
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 
 #include "gpu/buffer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The folder that holds the shaders: $GPU_PLANNING_SCENE_SHADERS if set, else where they were installed, else the
 /// source tree. Throws Error if none of them has any.
@@ -52,4 +52,4 @@ class Program
 
   std::uint32_t id_ = 0;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -15,7 +15,7 @@
 #include <epoxy/gl.h>
 #include <unistd.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -232,4 +232,4 @@ void cacheProgram(std::uint32_t program, const std::string& source)
   writeEntry(fileOf(folder, key), key, entry);
   removeOldest(folder);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 Readback::~Readback()
 {
@@ -68,4 +68,4 @@ const std::uint32_t* Readback::wait()
     throw Error("the GPU failed in waiting for answers");
   return words_;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include "gpu/buffer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Host memory that the device copies a buffer's front to. What it was asked for can be read without waiting for what
 /// the device was given to do later, as a plain download would. Used on the context's thread.
@@ -32,4 +32,4 @@ class Readback
   const std::uint32_t* words_ = nullptr;
   void* fence_ = nullptr;  // GLsync
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,7 +3,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/mesh_reader.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -77,4 +77,4 @@ std::string MeshAccess::resolve(const std::string& uri, const std::string& base_
 {
   return roots ? resolveAllowed(uri, base_folder, packages, *roots) : resolveUri(uri, base_folder, packages);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

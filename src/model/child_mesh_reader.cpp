@@ -17,10 +17,10 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/mesh_reader.h"
-#include "mesh_pipe.h"
-#include "one_line.h"
+#include "model/mesh_pipe.h"
+#include "model/one_line.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -244,4 +244,4 @@ std::string meshReaderBesideThisProgram()
 {
   return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "read_mesh").string();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,10 +1,10 @@
-#include "collision_shapes.h"
+#include "model/collision_shapes.h"
 
 #include <urdf_model/link.h>
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -55,7 +55,8 @@ std::vector<PlacedShape> collisionShapes(const urdf::Link& link, const std::stri
     const std::string element = where + ": link '" + link.name + "'";
     try
     {
-      shapes.push_back({toShape(*collision->geometry, options, meshes), toIsometry(collision->origin, "its <collision>")});
+      shapes.push_back(
+          {toShape(*collision->geometry, options, meshes), toIsometry(collision->origin, "its <collision>")});
     }
     catch (const Error& error)
     {
@@ -65,4 +66,4 @@ std::vector<PlacedShape> collisionShapes(const urdf::Link& link, const std::stri
   }
   return shapes;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

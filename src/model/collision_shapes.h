@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <urdf_model/types.h>
+#include <Eigen/Geometry>
 
 #include "gpu_planning_scene/resources.h"
 #include "gpu_planning_scene/robot_model.h"
@@ -15,11 +15,11 @@ class Link;
 class Pose;
 }  // namespace urdf
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose, const std::string& where);
 
 /// The collision elements of a link, in its frame. `where` is the link's place in the URDF.
 std::vector<PlacedShape> collisionShapes(const urdf::Link& link, const std::string& where,
                                          const RobotModelOptions& options, MeshCache& meshes);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

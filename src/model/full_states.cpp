@@ -1,8 +1,8 @@
-#include "full_states.h"
+#include "model/full_states.h"
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -87,4 +87,4 @@ std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& 
   }
   return states;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A robot state of which some variables may not be known yet.
 struct PartialState
@@ -27,4 +27,4 @@ std::vector<int> variableIndices(const RobotModel& robot, const std::vector<std:
 /// Throws Error if one of those is not known there.
 std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& columns, const double* rows,
                                std::size_t count, const PartialState& current);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

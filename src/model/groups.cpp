@@ -1,11 +1,11 @@
-#include "groups.h"
+#include "model/groups.h"
 
 #include <algorithm>
 #include <map>
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -17,16 +17,10 @@ class GroupResolver
     : robot_(robot), ignored_joints_(ignored_joints), warnings_(warnings)
   {
     for (const SrdfGroup& group : groups)
-    {
       if (by_name_.emplace(group.name, &group).second)
-      {
         order_.push_back(&group);
-      }
       else
-      {
         warnings_.push_back(group.where + ": group '" + group.name + "' is defined twice, the first definition holds");
-      }
-    }
   }
 
   std::vector<Group> resolve()
@@ -36,9 +30,7 @@ class GroupResolver
     {
       result.push_back(finish(group->name, jointsOf(*group)));
       if (result.back().variables.empty())
-      {
         warnings_.push_back(group->where + ": group '" + group->name + "' has no joint that can move");
-      }
     }
     return result;
   }
@@ -48,9 +40,7 @@ class GroupResolver
   {
     const int index = robot_.linkIndex(link);
     if (index < 0)
-    {
       throw Error(where + ": group '" + group + "' names link '" + link + "', which the robot does not have");
-    }
     return index;
   }
 
@@ -59,22 +49,14 @@ class GroupResolver
     const auto [position, is_new] = joints_.emplace(group.name, std::set<int>());
     std::set<int>& joints = position->second;
     if (!is_new)
-    {
       return joints;
-    }
     open_.insert(group.name);
     for (const SrdfName& joint : group.joints)
-    {
       addJoint(joint, group.name, joints);
-    }
     for (const SrdfName& link : group.links)
-    {
       addParentJoint(linkIndex(link.name, link.where, group.name), joints);
-    }
     for (const SrdfChain& chain : group.chains)
-    {
       addChain(chain, group.name, joints);
-    }
     for (const SrdfName& subgroup : group.subgroups)
     {
       const auto found = by_name_.find(subgroup.name);
@@ -84,9 +66,7 @@ class GroupResolver
                     "', which does not exist");
       }
       if (open_.count(subgroup.name) != 0)
-      {
         throw Error(subgroup.where + ": group '" + subgroup.name + "' contains itself, directly or through subgroups");
-      }
       const std::set<int>& added = jointsOf(*found->second);
       joints.insert(added.begin(), added.end());
     }
@@ -116,9 +96,7 @@ class GroupResolver
   void addParentJoint(int link, std::set<int>& joints) const
   {
     if (robot_.links()[link].parent_joint >= 0)
-    {
       joints.insert(robot_.links()[link].parent_joint);
-    }
   }
 
   // A link and its ancestors, the root last.
@@ -144,20 +122,14 @@ class GroupResolver
     if (std::find(from_tip.begin(), from_tip.end(), base) != from_tip.end())
     {
       for (auto link = from_tip.begin(); *link != base; ++link)
-      {
         addParentJoint(*link, joints);
-      }
       return;
     }
     auto tip_link = from_tip.begin();
     while (std::find(from_base.begin(), from_base.end(), *tip_link) == from_base.end())
-    {
       addParentJoint(*tip_link++, joints);
-    }
     for (auto link = from_base.begin(); *link != *tip_link; ++link)
-    {
       addParentJoint(*link, joints);
-    }
     addParentJoint(*tip_link, joints);
   }
 
@@ -171,14 +143,10 @@ class GroupResolver
     {
       const Joint& joint = robot_.joints()[index];
       if (joint.type == JointType::Fixed || joint.mimic)
-      {
         continue;
-      }
       active.insert(joint.first_variable);
       for (int i = 0; i < variableCount(joint.type); ++i)
-      {
         group.variables.push_back(joint.first_variable + i);
-      }
     }
     // Mimic joints carry their leader's variable, so they move with it. Parents come before children.
     std::vector<bool> moved(robot_.links().size(), false);
@@ -186,15 +154,11 @@ class GroupResolver
     {
       const int parent_joint = robot_.links()[link].parent_joint;
       if (parent_joint < 0)
-      {
         continue;
-      }
       const Joint& joint = robot_.joints()[parent_joint];
       moved[link] = active.count(joint.first_variable) != 0 || (joint.parent_link >= 0 && moved[joint.parent_link]);
       if (moved[link])
-      {
         group.moved_links.push_back(static_cast<int>(link));
-      }
     }
     return group;
   }
@@ -214,4 +178,4 @@ std::vector<Group> resolveGroups(const std::vector<SrdfGroup>& groups, const Rob
 {
   return GroupResolver(groups, robot, ignored_joints, warnings).resolve();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,8 +1,8 @@
-#include "kinematics.h"
+#include "model/kinematics.h"
 
-#include "sine.h"
+#include "model/sine.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -123,13 +123,9 @@ void Kinematics::linkPoses(const double* state, Eigen::Isometry3d* poses) const
     const Eigen::Matrix4d relative = relativePose(step, state);
     // Products of 4x4 matrices are vectorised; their last rows come out as exactly 0 0 0 1.
     if (step.parent < 0)
-    {
       poses[i].matrix() = relative;
-    }
     else
-    {
       poses[i].matrix().noalias() = poses[step.parent].matrix() * relative;
-    }
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

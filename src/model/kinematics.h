@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Forward kinematics, laid out flat for speed: one step per link, parents first.
 class Kinematics
@@ -39,4 +39,4 @@ class Kinematics
 
   std::vector<Step> steps_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

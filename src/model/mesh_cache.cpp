@@ -5,15 +5,16 @@
 #include <filesystem>
 #include <new>
 
-#include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/Importer.hpp>
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/resources.h"
+#include "model/coordinate_hash.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -25,9 +26,7 @@ class VertexWelder
   std::uint32_t index(const Eigen::Vector3d& position, std::vector<Eigen::Vector3d>& vertices)
   {
     if (2 * vertices.size() >= slots_.size())
-    {
       grow(vertices);
-    }
     const Eigen::Vector3d vertex = position.array() + 0.0;  // -0 becomes +0
     std::uint32_t& slot = slots_[find(vertex, vertices)];
     if (slot == kEmpty)
@@ -45,11 +44,9 @@ class VertexWelder
   std::size_t find(const Eigen::Vector3d& vertex, const std::vector<Eigen::Vector3d>& vertices) const
   {
     const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = hash(vertex) & mask;
+    std::size_t slot = hashOf(vertex) & mask;
     while (slots_[slot] != kEmpty && vertices[slots_[slot]] != vertex)
-    {
       slot = (slot + 1) & mask;
-    }
     return slot;
   }
 
@@ -57,22 +54,7 @@ class VertexWelder
   {
     slots_.assign(std::max<std::size_t>(1024, 4 * slots_.size()), kEmpty);
     for (std::size_t i = 0; i < vertices.size(); ++i)
-    {
       slots_[find(vertices[i], vertices)] = static_cast<std::uint32_t>(i);
-    }
-  }
-
-  static std::size_t hash(const Eigen::Vector3d& vertex)
-  {
-    std::uint64_t mixed = 0;
-    for (int i = 0; i < 3; ++i)
-    {
-      std::uint64_t bits;
-      std::memcpy(&bits, &vertex[i], sizeof bits);
-      mixed = (mixed ^ bits) * 0x9e3779b97f4a7c15u;
-      mixed ^= mixed >> 32;
-    }
-    return mixed;
   }
 
   std::vector<std::uint32_t> slots_;
@@ -105,13 +87,9 @@ class SceneFlattener
     pose.matrix() << toEigen(node.mTransformation), 0.0, 0.0, 0.0, 1.0;
     pose = parent * pose;
     for (unsigned i = 0; i < node.mNumMeshes; ++i)
-    {
       addMesh(*scene_.mMeshes[node.mMeshes[i]], Eigen::Scaling(scale_) * pose);
-    }
     for (unsigned i = 0; i < node.mNumChildren; ++i)
-    {
       addNode(*node.mChildren[i], pose);
-    }
   }
 
   void addMesh(const aiMesh& part, const Eigen::Affine3d& pose)
@@ -121,18 +99,12 @@ class SceneFlattener
     {
       const aiFace& face = part.mFaces[i];
       if (face.mNumIndices != 3)
-      {
         continue;  // points and lines have no surface
-      }
       std::array<std::uint32_t, 3> triangle;
       for (int corner = 0; corner < 3; ++corner)
-      {
         triangle[corner] = welder_.index(position(part, face.mIndices[corner], pose), mesh_->vertices);
-      }
       if (mirrored)
-      {
         std::swap(triangle[1], triangle[2]);
-      }
       mesh_->triangles.push_back(triangle);
     }
   }
@@ -174,9 +146,7 @@ void throwIfOutOfMemory(const std::exception_ptr& thrown)
   try
   {
     if (thrown)
-    {
       std::rethrow_exception(thrown);
-    }
   }
   catch (const std::bad_alloc&)
   {
@@ -191,18 +161,12 @@ std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vecto
 {
   const std::string extension = lowerCaseExtension(path);
   if (extension != ".stl" && extension != ".dae" && extension != ".obj" && extension != ".ply")
-  {
     throw Error("mesh file '" + path + "': only .stl, .dae, .obj and .ply files can be read");
-  }
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(path, unreadable))
-  {
     throw Error("mesh file '" + path + "' does not exist");
-  }
   if (!scale.allFinite() || scale.prod() == 0.0)
-  {
     throw Error("mesh file '" + path + "': its scale has a component that is zero or not finite");
-  }
 
   Assimp::Importer importer;
   // For a Collada file Assimp puts two things on the root node: the scale that the file's unit asks for, and a rotation
@@ -220,9 +184,7 @@ std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vecto
   }
   std::shared_ptr<const Mesh> mesh = SceneFlattener(*scene, path, scale).mesh();
   if (mesh->triangles.empty())
-  {
     throw Error("mesh file '" + path + "' has no triangles");
-  }
   return mesh;
 }
 }  // namespace
@@ -234,9 +196,7 @@ std::shared_ptr<const Mesh> MeshCache::load(const std::string& path, const Eigen
   const auto key = std::pair(path, std::array<double, 3>{scale.x(), scale.y(), scale.z()});
   const auto found = meshes_.find(key);
   if (found != meshes_.end())
-  {
     return found->second;
-  }
   return meshes_.emplace(key, read_(path, scale)).first->second;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

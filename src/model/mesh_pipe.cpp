@@ -1,11 +1,11 @@
-#include "mesh_pipe.h"
+#include "model/mesh_pipe.h"
 
 #include <array>
 #include <cstring>
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -69,4 +69,4 @@ std::shared_ptr<const Mesh> meshFromBytes(const std::string& bytes, const std::s
   }
   return mesh;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,10 +1,10 @@
-#include "one_line.h"
+#include "model/one_line.h"
 
 #include <algorithm>
 #include <cctype>
 #include <string_view>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -52,4 +52,4 @@ std::string shortLine(const std::string& text)
   }
   return withoutMiddle(result, kLongestText);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -34,9 +34,7 @@ std::string decodePercents(const std::string& text, const std::string& uri)
     }
   }
   if (decoded.find('\0') != std::string::npos)
-  {
     throw Error("mesh URI '" + uri + "' holds a zero byte");
-  }
   return decoded;
 }
 
@@ -50,14 +48,10 @@ std::string resolvePackageUri(const std::string& uri, const PackageResolver& pac
                               ? fs::path()
                               : fs::path(decodePercents(rest.substr(slash + 1), uri)).lexically_normal();
   if (package.empty() || inside.empty() || inside == ".")
-  {
     throw Error("mesh URI '" + uri + "' is not of the form package://NAME/PATH");
-  }
   if (package == "." || package == ".." || package.find('/') != std::string::npos || inside.is_absolute() ||
       *inside.begin() == "..")
-  {
     throw Error("mesh URI '" + uri + "' leaves its package");
-  }
   const std::string folder = packages ? packages(package) : std::string();
   if (folder.empty())
   {
@@ -71,14 +65,10 @@ std::string resolveFileUri(const std::string& uri)
 {
   std::string path = uri.substr(std::string("file://").size());
   if (startsWith(path, "localhost/"))
-  {
     path.erase(0, std::string("localhost").size());
-  }
   path = decodePercents(path, uri);
   if (path.empty() || path[0] != '/')
-  {
     throw Error("mesh URI '" + uri + "' names no absolute path; write file:///PATH");
-  }
   return path;
 }
 }  // namespace
@@ -95,25 +85,15 @@ PackageResolver packageResolver(std::map<std::string, std::string> folders)
 std::string resolveUri(const std::string& uri, const std::string& base_folder, const PackageResolver& packages)
 {
   if (uri.empty())
-  {
     throw Error("a mesh has an empty file name");
-  }
   if (startsWith(uri, "package://"))
-  {
     return resolvePackageUri(uri, packages);
-  }
   if (startsWith(uri, "file://"))
-  {
     return resolveFileUri(uri);
-  }
   if (uri.find("://") != std::string::npos)
-  {
     throw Error("mesh URI '" + uri + "': only package://, file:// and plain paths can be read");
-  }
   if (uri[0] == '/')
-  {
     return uri;
-  }
   if (base_folder.empty())
   {
     throw Error("mesh path '" + uri +
@@ -121,4 +101,4 @@ std::string resolveUri(const std::string& uri, const std::string& base_folder, c
   }
   return (fs::path(base_folder) / uri).string();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
-#include "kinematics.h"
+#include "model/kinematics.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -30,9 +30,7 @@ void randomQuaternion(std::mt19937_64& generator, double* coefficients)
   do
   {
     for (int i = 0; i < 4; ++i)
-    {
       quaternion[i] = 2.0 * uniform(generator) - 1.0;
-    }
     squared_norm = quaternion.squaredNorm();
   } while (squared_norm > 1.0 || squared_norm < 1e-6);
   quaternion /= std::sqrt(squared_norm);
@@ -75,9 +73,7 @@ const Group& RobotModel::group(const std::string& name) const
   for (const Group& group : groups_)
   {
     if (group.name == name)
-    {
       return group;
-    }
     names += (names.empty() ? "" : ", ") + group.name;
   }
   throw Error("robot '" + name_ + "' has no group '" + name + "'; " +
@@ -95,9 +91,7 @@ std::vector<std::pair<int, int>> RobotModel::adjacentLinks() const
     const int ancestor = parent < 0 ? -1 : nearest[parent];
     nearest[i] = links_[i].shapes.empty() ? ancestor : link;
     if (nearest[i] == link && ancestor >= 0)
-    {
       pairs.emplace_back(ancestor, link);
-    }
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;
@@ -118,31 +112,19 @@ void RobotModel::randomState(std::mt19937_64& generator, double* state) const
     state[i] = std::clamp((1.0 - u) * variable.lower + u * variable.upper, variable.lower, variable.upper);
   }
   for (const Joint& joint : joints_)
-  {
     if (joint.type == JointType::Floating)
-    {
       randomQuaternion(generator, state + joint.first_variable + 3);
-    }
-  }
 }
 
 std::vector<double> RobotModel::defaultState() const
 {
   std::vector<double> state(variables_.size(), 0.0);
   for (std::size_t i = 0; i < variables_.size(); ++i)
-  {
     if (variables_[i].lower > 0.0 || variables_[i].upper < 0.0)
-    {
       state[i] = 0.5 * variables_[i].lower + 0.5 * variables_[i].upper;
-    }
-  }
   for (const Joint& joint : joints_)
-  {
     if (joint.type == JointType::Floating)
-    {
       state[joint.first_variable + 6] = 1.0;
-    }
-  }
   return state;
 }
 
@@ -152,13 +134,9 @@ std::size_t RobotModel::triangleCount() const
   for (const Link& link : links_)
   {
     for (const PlacedShape& placed : link.shapes)
-    {
       if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&placed.shape))
-      {
         count += (*mesh)->triangles.size();
-      }
-    }
   }
   return count;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,14 +7,14 @@
 #include <urdf_model/model.h>
 
 #include "gpu_planning_scene/error.h"
-#include "groups.h"
-#include "kinematics.h"
-#include "one_line.h"
-#include "srdf_reader.h"
-#include "tree_builder.h"
-#include "urdf_reader.h"
+#include "model/groups.h"
+#include "model/kinematics.h"
+#include "model/one_line.h"
+#include "model/srdf_reader.h"
+#include "model/tree_builder.h"
+#include "model/urdf_reader.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Puts a RobotModel together from its two texts.
 class RobotModelBuilder
@@ -42,9 +42,7 @@ class RobotModelBuilder
 
     model_->srdf_collisions_.has_srdf = has_srdf;
     if (has_srdf)
-    {
       addSrdf(srdf);
-    }
     return model_;
   }
 
@@ -77,9 +75,7 @@ class RobotModelBuilder
     const auto number = [](const auto& items, std::unordered_map<std::string, int>& indices)
     {
       for (std::size_t i = 0; i < items.size(); ++i)
-      {
         indices[items[i].name] = static_cast<int>(i);
-      }
     };
     number(model_->links_, model_->link_indices_);
     number(model_->joints_, model_->joint_indices_);
@@ -97,13 +93,9 @@ class RobotModelBuilder
     {
       const int joint = model_->jointIndex(passive.name);
       if (joint >= 0)
-      {
         model_->joints_[joint].passive = true;
-      }
       else
-      {
         warnings_.push_back(passive.where + ": passive joint '" + passive.name + "' is not in the robot");
-      }
     }
     SrdfCollisions& collisions = model_->srdf_collisions_;
     collisions.disabled = resolvePairs(srdf.disabled);
@@ -112,9 +104,7 @@ class RobotModelBuilder
     {
       const int index = knownLink(link.name, link.where);
       if (index >= 0)
-      {
         collisions.disabled_by_default.push_back(index);
-      }
     }
     model_->groups_ = resolveGroups(srdf.groups, *model_, ignored_joints_, warnings_);
   }
@@ -123,9 +113,7 @@ class RobotModelBuilder
   {
     const int index = model_->linkIndex(link);
     if (index < 0)
-    {
       warnings_.push_back(where + ": link '" + link + "' is not in the robot, the entry is ignored");
-    }
     return index;
   }
 
@@ -137,13 +125,9 @@ class RobotModelBuilder
       const int link_1 = knownLink(pair.link_1, pair.where);
       const int link_2 = link_1 < 0 ? -1 : knownLink(pair.link_2, pair.where);
       if (link_1 >= 0 && link_1 == link_2)
-      {
         warnings_.push_back(pair.where + ": link '" + pair.link_1 + "' is paired with itself, the entry is ignored");
-      }
       else if (link_1 >= 0 && link_2 >= 0)
-      {
         result.push_back({std::min(link_1, link_2), std::max(link_1, link_2), pair.reason});
-      }
     }
     return result;
   }
@@ -161,14 +145,10 @@ std::string readFile(const std::string& path, const char* what)
   std::error_code unreadable;
   std::ifstream file(path, std::ios::binary);
   if (!file.is_open() || std::filesystem::is_directory(path, unreadable))
-  {
     throw Error(std::string("cannot read ") + what + " '" + path + "'");
-  }
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (text.empty())
-  {
     throw Error(std::string(what) + " '" + path + "' is empty");
-  }
   return text;
 }
 }  // namespace
@@ -188,9 +168,7 @@ std::shared_ptr<const RobotModel> RobotModel::fromXml(const std::string& urdf, c
     throw Error(onOneLine(error.what()));
   }
   if (warnings != nullptr)
-  {
     warnings->insert(warnings->end(), builder.warnings().begin(), builder.warnings().end());
-  }
   return model;
 }
 
@@ -204,4 +182,4 @@ std::shared_ptr<const RobotModel> RobotModel::fromFiles(const std::string& urdf_
   const std::string srdf = srdf_path.empty() ? std::string() : readFile(srdf_path, "SRDF");
   return fromXml(readFile(urdf_path, "URDF"), srdf, options, warnings);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

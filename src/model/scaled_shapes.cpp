@@ -1,4 +1,4 @@
-#include "scaled_shapes.h"
+#include "model/scaled_shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -89,4 +89,4 @@ std::shared_ptr<const RobotModel> RobotModel::scaled(const std::vector<double>& 
   }
   return result;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Scales shapes about their own origins, and meshes, as MoveIt does, about the mean of their vertices. Instances of
 /// one mesh that are scaled alike stay instances of one mesh.
@@ -22,4 +22,4 @@ class ShapeScaler
 
   std::map<std::pair<const Mesh*, double>, std::shared_ptr<const Mesh>> meshes_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

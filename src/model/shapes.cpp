@@ -4,7 +4,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -41,16 +41,12 @@ struct DimensionCheck
   void operator()(const HalfSpace& half_space) const
   {
     if (!(std::abs(half_space.offset) <= kLargestLength) || !(std::abs(half_space.normal.norm() - 1.0) <= 1e-12))
-    {
       throw Error(where + ": a half-space's offset must be at most 1000 km and its normal of unit length");
-    }
   }
   void operator()(const std::shared_ptr<const Mesh>& mesh) const
   {
     if (!mesh)
-    {
       throw Error(where + ": there is no mesh");
-    }
     try
     {
       validateMesh(*mesh);
@@ -67,16 +63,12 @@ void validateMesh(const Mesh& mesh)
 {
   const std::string name = "mesh '" + mesh.name + "'";
   if (mesh.triangles.empty())
-  {
     throw Error(name + " has no triangles");
-  }
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
   {
     // Written so that what is not a number fails.
     if (!(mesh.vertices[i].array().abs() <= kLargestLength).all())
-    {
       throw Error(name + ": vertex " + std::to_string(i) + " is not finite or further than 1000 km away");
-    }
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
   {
@@ -95,4 +87,4 @@ void validateShape(const Shape& shape, const std::string& where)
 {
   std::visit(DimensionCheck{where}, shape);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

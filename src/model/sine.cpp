@@ -1,10 +1,10 @@
 // Argument reduction with pi / 2 in three parts, after Cody and Waite, "Software Manual for the Elementary Functions"
 // (1980), then Taylor series.
-#include "sine.h"
+#include "model/sine.h"
 
 #include <cmath>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -54,9 +54,7 @@ double cosineNearZero(double x, double tail)
 SineCosine sineCosine(double x)
 {
   if (!(std::abs(x) <= kLargest))
-  {
     return {std::sin(x), std::cos(x)};
-  }
   const double quadrants = std::nearbyint(x * kQuadrantsPerRadian);
   // The first difference is exact: both are multiples of the last place of kPart1 * quadrants or of x, and near.
   const double first = x - quadrants * kPart1;
@@ -80,4 +78,4 @@ SineCosine sineCosine(double x)
       return {-cosine, sine};
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

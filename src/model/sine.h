@@ -1,6 +1,6 @@
 #pragma once
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct SineCosine
 {
@@ -12,4 +12,4 @@ struct SineCosine
 /// alone: the same bits on every machine and with every C library. Beyond |x| = 2^20 the C library's, which may differ
 /// between machines.
 SineCosine sineCosine(double x);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,11 +1,11 @@
-#include "srdf_reader.h"
+#include "model/srdf_reader.h"
 
 #include <tinyxml2.h>
 
 #include "gpu_planning_scene/error.h"
-#include "xml.h"
+#include "model/xml.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -13,9 +13,7 @@ template <typename Function>
 void forEachChild(const tinyxml2::XMLElement& parent, const char* tag, Function function)
 {
   for (const auto* child = parent.FirstChildElement(tag); child != nullptr; child = child->NextSiblingElement(tag))
-  {
     function(*child);
-  }
 }
 
 std::vector<SrdfName> readNames(const XmlText& xml, const tinyxml2::XMLElement& parent, const char* tag,
@@ -79,9 +77,9 @@ Srdf readSrdf(const std::string& text, const std::string& name)
   const char* robot_name = xml.root().Attribute("name");
   srdf.robot_name = robot_name == nullptr ? "" : robot_name;
   srdf.where = xml.where(xml.root());
-  forEachChild(xml.root(), "virtual_joint",
-               [&](const tinyxml2::XMLElement& element)
-               { srdf.virtual_joints.push_back(readVirtualJoint(xml, element)); });
+  forEachChild(
+      xml.root(), "virtual_joint",
+      [&](const tinyxml2::XMLElement& element) { srdf.virtual_joints.push_back(readVirtualJoint(xml, element)); });
   forEachChild(xml.root(), "group",
                [&](const tinyxml2::XMLElement& element) { srdf.groups.push_back(readGroup(xml, element)); });
   srdf.passive_joints = readNames(xml, xml.root(), "passive_joint");
@@ -90,4 +88,4 @@ Srdf readSrdf(const std::string& text, const std::string& name)
   srdf.disabled_by_default = readNames(xml, xml.root(), "disable_default_collisions", "link");
   return srdf;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A name and where it stands ("FILE:LINE").
 struct SrdfName
@@ -61,4 +61,4 @@ struct Srdf
 
 /// Throws Error with `name` and line: malformed XML, a missing attribute, an unknown type of virtual joint.
 Srdf readSrdf(const std::string& text, const std::string& name);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -84,9 +84,7 @@ int ringSides(double radius, int max_sides)
   const double sine = std::sqrt(std::min(0.25, kTargetSagitta / (2.0 * radius)));
   int sides = std::clamp(static_cast<int>(std::min<double>(kPi / (2.0 * std::asin(sine)), max_sides)), 3, max_sides);
   while (sides < max_sides && ringSagitta(radius, sides) > kTargetSagitta)
-  {
     ++sides;
-  }
   return sides;
 }
 
@@ -142,9 +140,7 @@ class Geodesic
                                                        {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
                                                        {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}}};
     for (const auto& face : faces)
-    {
       addFace(corners, face);
-    }
   }
 
   std::vector<Eigen::Vector3d> vertices;  // of length 1
@@ -156,21 +152,15 @@ class Geodesic
     const int n = frequency_;
     std::vector<std::vector<std::uint32_t>> rows(n + 1);
     for (int row = 0; row <= n; ++row)
-    {
       for (int column = 0; column <= n - row; ++column)
-      {
         rows[row].push_back(vertex(corners, face, row, column));
-      }
-    }
     for (int row = 0; row < n; ++row)
     {
       for (int column = 0; column < n - row; ++column)
       {
         triangles.push_back({rows[row][column], rows[row][column + 1], rows[row + 1][column]});
         if (column + 1 < n - row)
-        {
           triangles.push_back({rows[row][column + 1], rows[row + 1][column + 1], rows[row + 1][column]});
-        }
       }
     }
   }
@@ -198,9 +188,7 @@ class Geodesic
       std::sort(weights.begin(), weights.end());
       const auto [known, is_new] = on_edges_.emplace(weights, next);
       if (!is_new)
-      {
         return known->second;
-      }
     }
     vertices.push_back(sum.normalized());
     return next;
@@ -240,9 +228,7 @@ Tessellation tessellateSphere(const Sphere& sphere)
       auto mesh = emptyMesh("sphere");
       mesh->triangles = unit.triangles;
       for (const Eigen::Vector3d& vertex : unit.vertices)
-      {
         mesh->vertices.push_back(sphere.radius * vertex);
-      }
       return {mesh, sagitta};
     }
   }
@@ -266,4 +252,4 @@ Tessellation tessellate(const Shape& shape)
 {
   return std::visit(Tessellator{}, shape);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,4 +1,4 @@
-#include "tree_builder.h"
+#include "model/tree_builder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 
 #include <urdf_model/model.h>
 
-#include "collision_shapes.h"
 #include "gpu_planning_scene/error.h"
+#include "model/collision_shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -27,9 +27,7 @@ class TreeBuilder
   {
     const urdf::Link& root = *urdf_.model->getRoot();
     if (virtual_joint != nullptr)
-    {
       addVirtualJoint(*virtual_joint);
-    }
     addSubtree(root);
     resolveMimics();
     limitTranslations();
@@ -98,9 +96,7 @@ class TreeBuilder
     {
       const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
       if (axis.stableNorm() == 0.0)
-      {
         throw Error(whereJoint(joint.name) + " has an axis of zero length");
-      }
       result.axis = axis.stableNormalized();
     }
     if (result.type == JointType::Planar && !urdf_.xml.hasChild("joint", joint.name, "axis"))
@@ -109,17 +105,11 @@ class TreeBuilder
                           " is planar and has no <axis>: its normal is x, as the URDF format has it");
     }
     if (joint.mimic && result.type == JointType::Fixed)
-    {
       warnings_.push_back(whereJoint(joint.name) + " is fixed, its <mimic> is ignored");
-    }
     else if (joint.mimic)
-    {
       result.mimic = true;
-    }
     if (!result.mimic)
-    {
       addVariables(result, joint.limits.get());
-    }
     tree_.joints.push_back(result);
   }
 
@@ -152,9 +142,7 @@ class TreeBuilder
     };
 
     if (joint.type == JointType::Fixed)
-    {
       return;
-    }
     joint.first_variable = static_cast<int>(tree_.variables.size());
     if (joint.type == JointType::Continuous)
     {
@@ -169,13 +157,9 @@ class TreeBuilder
     else if (joint.type == JointType::Floating)
     {
       for (const char* suffix : {"/trans_x", "/trans_y", "/trans_z"})
-      {
         add(suffix, reach);
-      }
       for (const char* suffix : {"/rot_x", "/rot_y", "/rot_z", "/rot_w"})
-      {
         add(suffix, 1.0);
-      }
     }
     else
     {
@@ -194,15 +178,11 @@ class TreeBuilder
   {
     std::map<std::string, const Joint*> joints;
     for (const Joint& joint : tree_.joints)
-    {
       joints[joint.name] = &joint;
-    }
     for (Joint& joint : tree_.joints)
     {
       if (!joint.mimic)
-      {
         continue;
-      }
       requireOneVariable(joint, joint);
       const Joint* leader = &joint;
       for (std::size_t steps = 0; leader->mimic; ++steps)
@@ -212,13 +192,9 @@ class TreeBuilder
         joint.multiplier *= mimic.multiplier;
         const auto found = joints.find(mimic.joint_name);
         if (found == joints.end())
-        {
           throw Error(whereJoint(leader->name) + " mimics joint '" + mimic.joint_name + "', which does not exist");
-        }
         if (steps == tree_.joints.size())
-        {
           throw Error(whereJoint(joint.name) + " mimics itself, directly or through other joints");
-        }
         leader = found->second;
       }
       requireOneVariable(joint, *leader);
@@ -234,7 +210,8 @@ class TreeBuilder
                         : joint.type == JointType::Planar   ? 2
                         : joint.type == JointType::Floating ? 3
                                                             : 0;
-      const double most = std::max(0.0, kLargestLength - std::abs(joint.offset)) / std::max(std::abs(joint.multiplier), 1e-300);
+      const double most =
+          std::max(0.0, kLargestLength - std::abs(joint.offset)) / std::max(std::abs(joint.multiplier), 1e-300);
       for (int i = 0; i < count; ++i)
       {
         double& largest = tree_.variables[static_cast<std::size_t>(joint.first_variable + i)].largest;
@@ -265,4 +242,4 @@ RobotTree buildTree(const UrdfText& urdf, const SrdfVirtualJoint* virtual_joint,
 {
   return TreeBuilder(urdf, options, warnings).build(virtual_joint);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

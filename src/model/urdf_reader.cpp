@@ -1,4 +1,4 @@
-#include "urdf_reader.h"
+#include "model/urdf_reader.h"
 
 #include <algorithm>
 #include <map>
@@ -11,7 +11,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -63,9 +63,7 @@ std::string whereOf(const std::vector<std::string>& messages, const XmlText& xml
       {
         std::string where = xml.where(tag, name);
         if (where != xml.name())
-        {
           return where;
-        }
       }
     }
   }
@@ -76,18 +74,14 @@ std::string joined(const std::vector<std::string>& messages)
 {
   std::string text;
   for (const std::string& message : messages)
-  {
     text += (text.empty() ? "" : "; ") + message;
-  }
   return text.empty() ? "urdfdom refused it without saying why" : text;
 }
 
 void removeChildren(tinyxml2::XMLElement& parent, const char* tag)
 {
   while (tinyxml2::XMLElement* child = parent.FirstChildElement(tag))
-  {
     parent.DeleteChild(child);
-  }
 }
 
 // What urdfdom need not see: where it dislikes a link's inertia or looks, it drops the link's collision elements too.
@@ -111,9 +105,7 @@ int childCount(const tinyxml2::XMLElement& parent, const char* tag)
 {
   int count = 0;
   for (const auto* child = parent.FirstChildElement(tag); child != nullptr; child = child->NextSiblingElement(tag))
-  {
     ++count;
-  }
   return count;
 }
 
@@ -127,9 +119,7 @@ void requireTree(const XmlText& xml)
     const auto* parent = joint->FirstChildElement("parent");
     const auto* child = joint->FirstChildElement("child");
     if (parent == nullptr || child == nullptr)
-    {
       throw Error(xml.where(*joint) + ": joint '" + xml.attribute(*joint, "name") + "' lacks a parent or a child link");
-    }
     const std::string link = xml.attribute(*child, "link");
     if (!parents.emplace(link, std::pair(xml.attribute(*parent, "link"), joint)).second)
     {
@@ -182,9 +172,7 @@ UrdfText::UrdfText(const std::string& text, const std::string& name) : xml(text,
     log.errors.push_back(exception.what());
   }
   if (!model)
-  {
     throw Error(whereOf(log.errors, xml) + ": not a valid URDF: " + joined(log.errors));
-  }
   requireAllCollisionElements(xml, *model, log.errors);
   for (const auto* messages : {&log.errors, &log.warnings})
   {
@@ -192,10 +180,8 @@ UrdfText::UrdfText(const std::string& text, const std::string& name) : xml(text,
     {
       const std::string warning = name + ": " + message;
       if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
-      {
         warnings.push_back(warning);
-      }
     }
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

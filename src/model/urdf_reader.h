@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "xml.h"
+#include "model/xml.h"
 
 namespace urdf
 {
 class ModelInterface;
 }
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A URDF as urdfdom reads it, without its visuals and inertias, and with the text's lines for messages.
 struct UrdfText
@@ -22,4 +22,4 @@ struct UrdfText
   std::shared_ptr<const urdf::ModelInterface> model;
   std::vector<std::string> warnings;  ///< what urdfdom said although it took the text
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

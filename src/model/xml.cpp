@@ -1,4 +1,4 @@
-#include "xml.h"
+#include "model/xml.h"
 
 #include <algorithm>
 #include <cctype>
@@ -7,7 +7,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -16,9 +16,7 @@ std::string readable(std::string error_name)
 {
   const std::string prefix = "XML_ERROR_";
   if (error_name.compare(0, prefix.size(), prefix) == 0)
-  {
     error_name.erase(0, prefix.size());
-  }
   std::transform(error_name.begin(), error_name.end(), error_name.begin(),
                  [](unsigned char c) { return c == '_' ? ' ' : static_cast<char>(std::tolower(c)); });
   return error_name;
@@ -35,13 +33,9 @@ XmlText::XmlText(const std::string& text, const std::string& name, const std::st
   }
   root_ = document_->RootElement();
   if (root_ == nullptr)
-  {
     throw Error(name + ": malformed XML (no element)");
-  }
   if (root_->Name() != root)
-  {
     throw Error(where(*root_) + ": the root element is <" + root_->Name() + ">, it must be <" + root + ">");
-  }
 }
 
 std::string XmlText::where(const tinyxml2::XMLElement& element) const
@@ -53,12 +47,8 @@ const tinyxml2::XMLElement* XmlText::find(const std::string& tag, const std::str
 {
   for (const auto* element = root_->FirstChildElement(tag.c_str()); element != nullptr;
        element = element->NextSiblingElement(tag.c_str()))
-  {
     if (element->Attribute("name", value.c_str()) != nullptr)
-    {
       return element;
-    }
-  }
   return nullptr;
 }
 
@@ -78,9 +68,7 @@ std::string XmlText::attribute(const tinyxml2::XMLElement& element, const char* 
 {
   const char* value = element.Attribute(attribute);
   if (value == nullptr)
-  {
     throw Error(where(element) + ": <" + element.Name() + "> lacks the attribute '" + attribute + "'");
-  }
   return value;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

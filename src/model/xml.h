@@ -9,7 +9,7 @@ class XMLDocument;
 class XMLElement;
 }  // namespace tinyxml2
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A parsed XML text that can say, for messages, where an element stands.
 class XmlText
@@ -37,4 +37,4 @@ class XmlText
   std::shared_ptr<tinyxml2::XMLDocument> document_;
   const tinyxml2::XMLElement* root_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

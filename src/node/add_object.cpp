@@ -5,11 +5,11 @@
 #include <ros/ros.h>
 
 #include "gpu_planning_scene/error.h"
-#include "gpu_planning_scene/messages.h"
+#include "node/messages.h"
 #include "tools/command_line.h"
 #include "tools/scene_arguments.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -88,11 +88,11 @@ void run(const CommandLine& arguments)
   std::cerr << "the scene has revision " << service.response.scene_revision << "\n";
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 int main(int argc, char** argv)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   ros::init(argc, argv, "add_object", ros::init_options::AnonymousName | ros::init_options::NoSigintHandler);
   ros::V_string words;
   ros::removeROSArgs(argc, argv, words);

@@ -6,7 +6,7 @@
 
 #include "model/one_line.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// What `work` throws, as a short line; empty if it throws nothing.
 template <class Work>
@@ -48,4 +48,4 @@ Response answered(Work work)
   failed.message = fault;
   return failed;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

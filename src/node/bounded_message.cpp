@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -62,4 +62,4 @@ void BoundedStream::require(std::size_t bytes) const
   if (static_cast<std::size_t>(end_ - at_) < bytes)
     throw std::runtime_error("a message ends early, or a length in it is wrong");
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

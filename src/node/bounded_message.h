@@ -8,16 +8,16 @@
 #include <type_traits>
 #include <vector>
 
-#include <boost/array.hpp>
-#include <boost/make_shared.hpp>
 #include <ros/advertise_service_options.h>
 #include <ros/message_traits.h>
 #include <ros/node_handle.h>
 #include <ros/serialization.h>
 #include <ros/service_callback_helper.h>
 #include <ros/service_traits.h>
+#include <boost/array.hpp>
+#include <boost/make_shared.hpp>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// [~limits/message_size] bytes of a message or request; 256 MiB before it is set. Thread-safe.
 void setMessageLimit(std::uint32_t bytes);
@@ -132,49 +132,49 @@ ros::Subscriber subscribeBounded(ros::NodeHandle& node, const std::string& topic
   return node.subscribe<Bounded<M>>(
       topic, queue_size, boost::function<void(const Pointer&)>([handler](const Pointer& m) { handler(*m); }));
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 namespace ros
 {
 namespace message_traits
 {
 template <class M>
-struct IsMessage<gpu_planning_scene::Bounded<M>> : TrueType
+struct IsMessage<gpu_planning_scene::core::Bounded<M>> : TrueType
 {
 };
 template <class M>
-struct MD5Sum<gpu_planning_scene::Bounded<M>>
+struct MD5Sum<gpu_planning_scene::core::Bounded<M>>
 {
   static const char* value() { return MD5Sum<M>::value(); }
-  static const char* value(const gpu_planning_scene::Bounded<M>&) { return value(); }
+  static const char* value(const gpu_planning_scene::core::Bounded<M>&) { return value(); }
 };
 template <class M>
-struct DataType<gpu_planning_scene::Bounded<M>>
+struct DataType<gpu_planning_scene::core::Bounded<M>>
 {
   static const char* value() { return DataType<M>::value(); }
-  static const char* value(const gpu_planning_scene::Bounded<M>&) { return value(); }
+  static const char* value(const gpu_planning_scene::core::Bounded<M>&) { return value(); }
 };
 template <class M>
-struct Definition<gpu_planning_scene::Bounded<M>>
+struct Definition<gpu_planning_scene::core::Bounded<M>>
 {
   static const char* value() { return Definition<M>::value(); }
-  static const char* value(const gpu_planning_scene::Bounded<M>&) { return value(); }
+  static const char* value(const gpu_planning_scene::core::Bounded<M>&) { return value(); }
 };
 }  // namespace message_traits
 
 namespace serialization
 {
 template <class M>
-struct Serializer<gpu_planning_scene::Bounded<M>>
+struct Serializer<gpu_planning_scene::core::Bounded<M>>
 {
   /// Never throws: roscpp would drop the connection without a word to the client.
   template <class Stream>
-  static void read(Stream& stream, gpu_planning_scene::Bounded<M>& bounded)
+  static void read(Stream& stream, gpu_planning_scene::core::Bounded<M>& bounded)
   {
     const std::uint32_t size = stream.getLength();
     try
     {
-      gpu_planning_scene::readBounded(stream.getData(), size, bounded.message);
+      gpu_planning_scene::core::readBounded(stream.getData(), size, bounded.message);
       bounded.fault.clear();
     }
     catch (const std::exception& error)

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
+#include <tuple>
+#include <utility>
 
+#include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
-#include "gpu_planning_scene/motions.h"
+#include "gpu_planning_scene/interpolation.h"
 #include "node/answered.h"
 #include "node/from_messages.h"
 #include "node/report_text.h"
 #include "node/requested_states.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -32,15 +35,34 @@ std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedColli
   return std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message, limits));
 }
 
-/// The columns of full rows.
-std::vector<double> columnsOf(const std::vector<double>& rows, std::size_t width, const std::vector<int>& columns)
+/// The options for a request's motions, and the samples that they are cut into, at most `most_samples`. `starts`,
+/// `ends`: `count` full rows.
+std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions::Request& request,
+                                                              const RobotModel& robot, MotionRule default_rule,
+                                                              const std::vector<double>& starts,
+                                                              const std::vector<double>& ends, std::size_t most_samples)
 {
-  std::vector<double> values;
-  values.reserve(rows.size() / width * columns.size());
-  for (std::size_t row = 0; row < rows.size(); row += width)
-    for (const int column : columns)
-      values.push_back(rows[row + static_cast<std::size_t>(column)]);
-  return values;
+  MotionCheckerOptions options;
+  options.rule = request.motion_rule.empty() ? default_rule : motionRuleFromName(request.motion_rule);
+  options.steps = {request.resolution, request.translation_resolution};
+  validateSteps(options.steps);
+  if (options.rule == MotionRule::Samples)
+    options.most_samples = most_samples;
+  const std::size_t width = robot.variables().size();
+  double all = 0.0;
+  for (std::size_t row = 0; row < starts.size(); row += width)
+  {
+    const double samples = segmentCount(robot, &starts[row], &ends[row], options.steps) + 1.0;
+    all += samples;
+    const std::string motion = "motion " + std::to_string(row / width);
+    if (samples > static_cast<double>(options.most_samples))
+      throw Error(motion + " has more than " + std::to_string(options.most_samples) +
+                  " samples; cut it into several motions, or take larger steps");
+    if (all > static_cast<double>(most_samples))
+      throw Error("the motions have more than " + std::to_string(most_samples) + " samples by " + motion +
+                  " (limits/request_states); send fewer motions, or take larger steps");
+  }
+  return {options, static_cast<std::size_t>(all)};
 }
 
 std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
@@ -109,9 +131,9 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
       {
         memory_.require();
         CheckJob job;
-        job.columns = requestedColumns(*store_.snapshot().scene->robot, {"joint_names", request.joint_names},
-                                       {"positions", request.positions},
-                                       [this](std::size_t count) { server_.requireStateCount(count); });
+        job.columns = requestedColumns(
+            *store_.snapshot().scene->robot, {"joint_names", request.joint_names}, {"positions", request.positions},
+            [this](std::size_t count) { server_.requireStateCount(count); });
         job.states = request.positions;
         job.group = request.group;
         job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
@@ -207,7 +229,6 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
                       std::to_string(request.ends.size()) + " in ends; give one row of each per motion");
         const Snapshot now = store_.snapshot();
         const RobotModel& robot = *now.scene->robot;
-        const std::size_t width = robot.variables().size();
         const auto require_count = [this](std::size_t count) { server_.requireStateCount(count); };
         CheckJob job;
         job.columns =
@@ -218,27 +239,26 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         const std::size_t count = request.starts.size() / job.columns.size();
         const std::vector<double> starts = fullStates(robot, job.columns, request.starts.data(), count, current);
         const std::vector<double> ends = fullStates(robot, job.columns, request.ends.data(), count, current);
-        const MotionBatch motions(robot, starts.data(), ends.data(), count,
-                                  {request.resolution, request.translation_resolution}, options_.most_states);
-        // What does not move is not taken from here, but from the snapshot that is checked.
-        job.states = columnsOf(motions.states(), width, job.columns);
+        validateStates(robot, starts.data(), count);
+        validateStates(robot, ends.data(), count);
+        std::tie(job.motions, job.samples) =
+            requestedMotions(request, robot, options_.motion_rule, starts, ends, options_.most_states);
+        // The variables that the request does not name are taken from the snapshot that is checked, not from this one.
+        job.states = request.starts;
+        job.states.insert(job.states.end(), request.ends.begin(), request.ends.end());
         job.group = request.group;
         job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
         const CheckAnswer answer = answerOf(std::move(job));
-        for (const MotionBatch::Verdict& verdict : motions.verdicts(answer.result))
+        for (const MotionVerdict& verdict : answer.motions)
         {
           response.valid.push_back(verdict.valid ? 1 : 0);
           response.last_valid_fraction.push_back(verdict.last_valid);
           response.first_invalid_fraction.push_back(verdict.first_invalid);
-          response.body_1.emplace_back();
-          response.body_2.emplace_back();
-          if (verdict.valid)
-            continue;
-          const std::array<std::int32_t, 2>& pair = answer.result.colliding[verdict.invalid_state];
-          response.body_1.back() = answer.scene->bodyName(pair[0]);
-          response.body_2.back() = answer.scene->bodyName(pair[1]);
+          const bool collides = verdict.colliding != kNoPair;
+          response.body_1.push_back(collides ? answer.scene->bodyName(verdict.colliding[0]) : "");
+          response.body_2.push_back(collides ? answer.scene->bodyName(verdict.colliding[1]) : "");
         }
-        response.states_checked = motions.stateCount();
+        response.states_checked = answer.states_checked;
         response.scene_revision = answer.result.revision;
         response.seconds = answer.result.seconds;
       });
@@ -256,4 +276,4 @@ GetReport::Response CheckServices::report(const GetReport::Request& request)
         fillReport(answer, response);
       });
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,20 +5,21 @@
 #include <mutex>
 #include <optional>
 
-#include "gpu_planning_scene/contacts.h"
-#include "gpu_planning_scene/messages.h"
+#include "gpu_planning_scene/state_inspector.h"
+#include "node/messages.h"
 #include "service/admission.h"
 #include "service/check_server.h"
 #include "service/memory_guard.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct CheckServicesOptions
 {
-  std::size_t most_states = 1000000;          ///< of the motions of one request
-  std::size_t most_inspected_states = 10000;  ///< of one request, for contacts and clearance
-  std::size_t most_contacts = 100000;         ///< in one answer
-  std::size_t most_waiting_inspections = 64;  ///< requests for contacts or clearance
+  std::size_t most_states = 1000000;           ///< of the motions of one request
+  std::size_t most_inspected_states = 10000;   ///< of one request, for contacts and clearance
+  std::size_t most_contacts = 100000;          ///< in one answer
+  std::size_t most_waiting_inspections = 64;   ///< requests for contacts or clearance
+  MotionRule motion_rule = MotionRule::Bound;  ///< of requests that name none: ~planning/motion_rule
 };
 
 /// Answers check_states, check_motions and get_report. Throws nothing: what is wrong with a request is said in the
@@ -53,4 +54,4 @@ class CheckServices
   std::shared_ptr<const PlanningScene> inspected_;
   std::shared_ptr<const StateInspector> inspector_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

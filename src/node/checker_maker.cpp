@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/cpu_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 CheckServer::MakeChecker checkerMaker(const BatchCheckerOptions& options, const ResilientOptions& resilience,
                                       const OpenDevice& open_device, Diagnostics& diagnostics)
@@ -32,4 +32,4 @@ CheckServer::MakeChecker checkerMaker(const BatchCheckerOptions& options, const 
     return checker;
   };
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

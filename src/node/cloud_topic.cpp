@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -80,4 +80,4 @@ void CloudTopic::take(const sensor_msgs::PointCloud2& message)
   diff.objects.push_back(std::move(change));
   store_.apply(diff, lookup_);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

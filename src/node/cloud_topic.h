@@ -9,7 +9,7 @@
 #include "service/memory_guard.h"
 #include "service/scene_store.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The points of a cloud, from its fields x, y and z of 32-bit floats. Throws Error: no such fields, or sizes that do
 /// not fit together.
@@ -32,4 +32,4 @@ class CloudTopic
   const std::string id_;
   PointCloudFilter filter_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,11 +2,11 @@
 
 #include <ros/this_node.h>
 
-#include "collision/resilient_checker.h"
+#include "collision/checkers/resilient_checker.h"
 #include "model/one_line.h"
 #include "service/memory_guard.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -110,13 +110,14 @@ DiagnosticsPublisher::DiagnosticsPublisher(ros::NodeHandle& node, Diagnostics& d
                                            const CheckServer& server)
   : publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10))
 {
-  timer_ = node.createWallTimer(ros::WallDuration(1.0),
-                                [this, &diagnostics, &store, &server](const ros::WallTimerEvent&)
-                                {
-                                  diagnostic_msgs::DiagnosticArray message;
-                                  message.header.stamp = ros::Time::now();
-                                  message.status.push_back(diagnostics.status(store, server));
-                                  publisher_.publish(message);
-                                });
+  timer_ = node.createWallTimer(
+      ros::WallDuration(1.0),
+      [this, &diagnostics, &store, &server](const ros::WallTimerEvent&)
+      {
+        diagnostic_msgs::DiagnosticArray message;
+        message.header.stamp = ros::Time::now();
+        message.status.push_back(diagnostics.status(store, server));
+        publisher_.publish(message);
+      });
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

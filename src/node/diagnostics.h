@@ -12,7 +12,7 @@
 #include "gpu_planning_scene/state_checker.h"
 #include "service/check_server.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// What the node is doing, for people and for those who watch over it: /diagnostics, once a second.
 class Diagnostics
@@ -47,4 +47,4 @@ class DiagnosticsPublisher
   ros::Publisher publisher_;
   ros::WallTimer timer_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include <ros/console.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 EndDeadline::EndDeadline(double seconds)
   : thread_(
@@ -29,4 +29,4 @@ EndDeadline::~EndDeadline()
   wake_.notify_one();
   thread_.join();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 #include <mutex>
 #include <thread>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Ends the process, with an exit code of 1, if it still lives after so many seconds: what runs then, on a device that
 /// hangs, say, cannot be ended by itself, and whoever started the process would kill it some seconds later.
@@ -22,4 +22,4 @@ class EndDeadline
   bool over_ = false;
   std::thread thread_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,6 +1,6 @@
 #include "node/endpoints.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 Endpoints::Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads,
                      Diagnostics& diagnostics)
@@ -56,4 +56,4 @@ void Endpoints::lose(const std::string& topic, const std::string& why)
   diagnostics_.refused(line);
   ROS_ERROR_STREAM_THROTTLE(1.0, "a message is lost, on " << line);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -14,7 +14,7 @@
 #include "node/diagnostics.h"
 #include "service/busy.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Services and topics that share threads of their own. All that comes is read with care (see Bounded), and what is
 /// refused is counted.
@@ -109,4 +109,4 @@ class Endpoints
   std::atomic<bool> closed_{false};
   std::vector<std::thread> threads_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -69,4 +69,4 @@ Eigen::Isometry3d FrameLookup::operator()(const FrameAt& frame, Clock::time_poin
     }
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,12 +4,12 @@
 #include <functional>
 #include <string>
 
-#include <Eigen/Geometry>
 #include <tf2_ros/transform_listener.h>
+#include <Eigen/Geometry>
 
 #include "gpu_planning_scene/scene_change.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Where frames of tf are in the planning frame. Thread-safe.
 class FrameLookup
@@ -32,4 +32,4 @@ class FrameLookup
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;  // with a thread of its own
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

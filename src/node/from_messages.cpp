@@ -7,7 +7,7 @@
 #include "node/object_from_message.h"
 #include "scene/message_values.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -234,8 +234,9 @@ SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& ro
   if (message.is_diff && has_defaults_alone)
   {
     if (warnings != nullptr)
-      warnings->push_back("allowed_collision_matrix: not used, as it has default entries alone, which change nothing in " +
-                          std::string("a difference (as in MoveIt); give entry_names and entry_values too"));
+      warnings->push_back(
+          "allowed_collision_matrix: not used, as it has default entries alone, which change nothing in " +
+          std::string("a difference (as in MoveIt); give entry_names and entry_values too"));
   }
   else if (!matrix.entry_names.empty() || !matrix.entry_values.empty() || !matrix.default_entry_names.empty())
     change.matrix = matrixFrom(matrix, limits);
@@ -249,4 +250,4 @@ SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& ro
     change.objects.push_back(objectChangeFrom(object, meshes));
   return change;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

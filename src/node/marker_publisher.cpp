@@ -2,7 +2,7 @@
 
 #include "node/answered.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -41,7 +41,7 @@ void MarkerPublisher::publish()
       return;
     if (!inspector_ || now.scene != drawn_.scene)
       inspector_ = std::make_unique<const StateInspector>(now.scene, inspector_.get());
-    std::vector<std::array<std::int32_t, 2>> colliding;
+    std::vector<BodyPair> colliding;
     std::vector<Eigen::Vector3d> points;
     for (const Contact& contact : inspector_->contacts(now.state.data(), "", kMostContacts, 0))
     {
@@ -58,4 +58,4 @@ void MarkerPublisher::publish()
     ROS_WARN_STREAM_THROTTLE(10.0, "markers: " << error.what());
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,12 +5,12 @@
 
 #include <ros/node_handle.h>
 
-#include "gpu_planning_scene/contacts.h"
-#include "gpu_planning_scene/messages.h"
+#include "gpu_planning_scene/state_inspector.h"
 #include "node/markers.h"
+#include "node/messages.h"
 #include "service/scene_store.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Draws the scene on ~markers while somebody looks: the robot in its current state, the objects, what collides,
 /// contact points, and the boxes that were asked for. Latched, at a rate, and only where something has changed.
@@ -35,4 +35,4 @@ class MarkerPublisher
   std::unique_ptr<const StateInspector> inspector_;
   ros::WallTimer timer_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,12 +4,12 @@
 #include <map>
 #include <tuple>
 
-#include "collision/binned_sah.h"
+#include "collision/exact/binned_sah.h"
 #include "gpu_planning_scene/error.h"
 #include "render/drawing.h"
 #include "render/renderer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -304,7 +304,7 @@ void requireTreeLevel(const PlanningScene& scene, int level, const std::string& 
 }
 
 visualization_msgs::MarkerArray markersOf(const PlanningScene& scene, const double* state,
-                                          const std::vector<std::array<std::int32_t, 2>>& colliding,
+                                          const std::vector<BodyPair>& colliding,
                                           const std::vector<Eigen::Vector3d>& contact_points,
                                           const MarkerOptions& options)
 {
@@ -315,4 +315,4 @@ visualization_msgs::MarkerArray markersOf(const PlanningScene& scene, const doub
     maker.addTreeLevel();
   return maker.take();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

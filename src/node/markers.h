@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <visualization_msgs/MarkerArray.h>
+#include <Eigen/Geometry>
 
 #include "gpu_planning_scene/planning_scene.h"
+#include "gpu_planning_scene/state_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct MarkerOptions
 {
@@ -29,7 +30,7 @@ void requireTreeLevel(const PlanningScene& scene, int level, const std::string& 
 /// points; the boxes of a tree level. The first marker deletes those of before. Namespaces: robot, objects, attached,
 /// contacts, tree.
 visualization_msgs::MarkerArray markersOf(const PlanningScene& scene, const double* state,
-                                          const std::vector<std::array<std::int32_t, 2>>& colliding,
+                                          const std::vector<BodyPair>& colliding,
                                           const std::vector<Eigen::Vector3d>& contact_points,
                                           const MarkerOptions& options);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

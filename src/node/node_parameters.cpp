@@ -6,7 +6,7 @@
 #include "node/parameter_values.h"
 #include "node/planning_parameters.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -192,4 +192,4 @@ ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own)
       countParameter(own, "limits/message_size", options.message_size, 1, std::size_t{1} << 30));
   return options;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,13 +7,13 @@
 
 #include <ros/node_handle.h>
 
+#include "collision/checkers/resilient_checker.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/planning_scene.h"
 #include "gpu_planning_scene/point_cloud.h"
-#include "collision/resilient_checker.h"
 #include "service/check_server.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Each function throws Error, which names the parameter, for a value of the wrong type or out of range.
 
@@ -54,4 +54,4 @@ ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own);
 
 /// A value of ~packages: a map NAME: DIR, or a list of such maps or of "NAME=DIR" or "NAME: DIR".
 std::map<std::string, std::string> packageFolders(const XmlRpc::XmlRpcValue& value);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,23 +1,18 @@
 #include "node/object_from_message.h"
 
-#include <functional>
-
 #include "gpu_planning_scene/error.h"
+#include "model/coordinate_hash.h"
 #include "scene/message_values.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
-std::size_t hashOf(const Mesh& mesh)
+std::size_t hashOfMesh(const Mesh& mesh)
 {
   std::size_t hash = mesh.triangles.size();
   for (const Eigen::Vector3d& vertex : mesh.vertices)
-    for (const double coordinate : vertex)
-    {
-      hash = (hash ^ std::hash<double>()(coordinate)) * 0x9E3779B97F4A7C15U;
-      hash ^= hash >> 32U;
-    }
+    hash = hashOf(vertex, hash);
   return hash;
 }
 
@@ -60,10 +55,12 @@ class ShapeReader
 
   std::vector<PlacedShape> read()
   {
-    add(message_.primitives, message_.primitive_poses, "primitive",
+    add(
+        message_.primitives, message_.primitive_poses, "primitive",
         [](const shape_msgs::SolidPrimitive& primitive)
         { return primitiveOf(static_cast<PrimitiveType>(primitive.type), primitive.dimensions); });
-    add(message_.meshes, message_.mesh_poses, "mesh",
+    add(
+        message_.meshes, message_.mesh_poses, "mesh",
         [this](const shape_msgs::Mesh& mesh) { return meshes_.meshOf(mesh, message_.id); });
     add(message_.planes, message_.plane_poses, "plane",
         [](const shape_msgs::Plane& plane) { return halfSpaceBehind(Eigen::Vector4d(plane.coef.data())); });
@@ -108,7 +105,7 @@ std::shared_ptr<const Mesh> InlineMeshes::meshOf(const shape_msgs::Mesh& message
   mesh.triangles.reserve(message.triangles.size());
   for (const shape_msgs::MeshTriangle& triangle : message.triangles)
     mesh.triangles.push_back({triangle.vertex_indices[0], triangle.vertex_indices[1], triangle.vertex_indices[2]});
-  const std::size_t hash = hashOf(mesh);
+  const std::size_t hash = hashOfMesh(mesh);
   const auto [first, last] = meshes_.equal_range(hash);
   for (auto known = first; known != last; ++known)
     if (known->second->triangles == mesh.triangles && known->second->vertices == mesh.vertices)
@@ -160,4 +157,4 @@ AttachedChange attachedChangeFrom(const AttachedCollisionObject& message, Inline
   change.touch_links = message.touch_links;
   return change;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

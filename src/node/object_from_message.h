@@ -6,10 +6,10 @@
 #include <geometry_msgs/Quaternion.h>
 #include <shape_msgs/Mesh.h>
 
-#include "gpu_planning_scene/messages.h"
 #include "gpu_planning_scene/scene_change.h"
+#include "node/messages.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The meshes of one message: those that are equal become one, so that one tree serves them all.
 class InlineMeshes
@@ -32,4 +32,4 @@ Eigen::Isometry3d isometryOf(const Position& position, const geometry_msgs::Quat
 {
   return Eigen::Translation3d(position.x, position.y, position.z) * rotationOf(orientation);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

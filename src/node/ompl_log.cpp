@@ -2,7 +2,7 @@
 
 #include <ros/console.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 OmplLog::OmplLog()
 {
@@ -23,4 +23,4 @@ void OmplLog::log(const std::string& text, ompl::msg::LogLevel level, const char
   else
     ROS_DEBUG_STREAM_NAMED("ompl", text);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include <ompl/util/Console.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// While it is there, what OMPL logs goes to rosconsole, as "ompl": what it calls information as debugging.
 class OmplLog : public ompl::msg::OutputHandler
@@ -15,4 +15,4 @@ class OmplLog : public ompl::msg::OutputHandler
 
   void log(const std::string& text, ompl::msg::LogLevel level, const char* filename, int line) override;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

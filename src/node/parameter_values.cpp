@@ -4,7 +4,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -66,4 +66,4 @@ std::string searchedParameter(const ros::NodeHandle& node, const std::string& na
   std::string found;
   return node.searchParam(name, found) ? found : node.resolveName(name);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include <ros/node_handle.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Each reads one parameter, `fallback` where it is not set, and throws Error, which names the parameter and the values
 /// it may have, for one of the wrong type or out of range.
@@ -22,4 +22,4 @@ std::size_t countParameter(const ros::NodeHandle& node, const std::string& name,
 
 /// The full name of a parameter that lies in this namespace or one above it; under that name where there is none.
 std::string searchedParameter(const ros::NodeHandle& node, const std::string& name);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gpu_planning_scene/motions.h"
+#include "gpu_planning_scene/interpolation.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -65,7 +65,7 @@ visualization_msgs::MarkerArray pathMarkers(const PlanningScene& scene,
     for (const int link : links)
       points.points.push_back(pointOf(poses[static_cast<std::size_t>(link)]));
     const std::vector<double>& to = waypoints[std::min(i + 1, waypoints.size() - 1)];
-    const double parts = std::min(kMostSteps, partsOfWay(robot, from.data(), to.data(), {kStep, kStep}));
+    const double parts = std::min(kMostSteps, segmentCount(robot, from.data(), to.data(), {kStep, kStep}));
     std::vector<double> state = from;
     for (int k = 0; k < static_cast<int>(parts); ++k)
     {
@@ -87,4 +87,4 @@ visualization_msgs::MarkerArray pathMarkers(const PlanningScene& scene,
     array.markers.push_back(std::move(points));
   return array;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -12,7 +12,7 @@
 #include "node/requested_states.h"
 #include "scene/parse_number.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -140,4 +140,4 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   query.projection = planners.projection;
   return query;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 #include "node/planner_configs.h"
 #include "service/scene_store.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct PlanServiceOptions
 {
@@ -28,4 +28,4 @@ PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own);
 /// What a request of ~plan asks for. `config`: of its planner; `planners`: of its group. Throws Error.
 PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const PlannerConfig& config,
                         const GroupPlanners& planners, const PlanServiceOptions& options);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

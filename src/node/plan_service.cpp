@@ -9,7 +9,7 @@
 #include "node/path_markers.h"
 #include "service/busy.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -203,4 +203,4 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   response.scene_revision = result.revision;
   markers_.publish(pathMarkers(*task.scene, result.waypoints, group));
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -16,7 +16,7 @@
 #include "service/check_server.h"
 #include "service/memory_guard.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Answers ~plan, and draws the last path on ~plan_markers. Throws nothing: what is wrong is said in the response. Some
 /// plan at a time, each with a checker of its own, which is kept for the next; others wait. Thread-safe.
@@ -61,4 +61,4 @@ class PlanService
   std::mutex mutex_;
   std::vector<std::shared_ptr<StateChecker>> idle_;  // mutex_ guards it
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

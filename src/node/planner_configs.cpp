@@ -7,7 +7,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -166,4 +166,4 @@ const GroupPlanners& PlannerConfigs::ofGroup(const std::string& group) const
   const auto found = groups_.find(group);
   return found == groups_.end() ? none : found->second;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

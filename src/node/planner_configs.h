@@ -7,7 +7,7 @@
 
 #include <ros/node_handle.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A planner by its type and its parameters, by OMPL's names.
 struct PlannerConfig
@@ -43,4 +43,4 @@ class PlannerConfigs
   std::map<std::string, PlannerConfig> configs_;
   std::map<std::string, GroupPlanners> groups_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct PlannerPlugins::Impl
 {
@@ -17,7 +17,7 @@ struct PlannerPlugins::Impl
   Loader& theLoader()
   {
     if (!loader)
-      loader = std::make_unique<Loader>("gpu_planning_scene", "gpu_planning_scene::PlannerFactory");
+      loader = std::make_unique<Loader>("gpu_planning_scene", "gpu_planning_scene::core::PlannerFactory");
     return *loader;
   }
 
@@ -60,4 +60,4 @@ std::shared_ptr<const PlannerFactory> PlannerPlugins::find(const std::string& na
     throw std::runtime_error("planner '" + name + "' cannot be loaded: " + error.what());
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 
 #include "gpu_planning_scene/planning/planner_factory.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Planners of all packages that export some to pluginlib. Thread-safe.
 class PlannerPlugins
@@ -28,4 +28,4 @@ class PlannerPlugins
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "node/parameter_values.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -56,4 +56,4 @@ SceneDefaults defaultsFromParameters(const ros::NodeHandle& node, const std::str
   defaults.attached_padding = lengthParameter(node, folder + "default_attached_padding", 0.0);
   return defaults;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,11 +6,11 @@
 
 #include <ros/ros.h>
 
+#include "collision/checkers/open_checker.h"
 #include "node/planner_plugins.h"
 #include "node/serve.h"
-#include "tools/open_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -41,16 +41,16 @@ int run()
   }
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 int main(int argc, char** argv)
 {
   try
   {
     // Not roscpp's own handler: it would drop the requests that are being answered.
-    gpu_planning_scene::PlannerPlugins::prepareEnvironment();
+    gpu_planning_scene::core::PlannerPlugins::prepareEnvironment();
     ros::init(argc, argv, "planning_scene_node", ros::init_options::NoSigintHandler);
-    return gpu_planning_scene::run();
+    return gpu_planning_scene::core::run();
   }
   catch (const std::exception& error)
   {

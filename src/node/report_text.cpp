@@ -1,8 +1,8 @@
 #include "node/report_text.h"
 
-#include "tools/scene_text.h"
+#include "collision/checkers/scene_text.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void fillReport(const CheckAnswer& answer, GetReport::Response& response)
 {
@@ -33,4 +33,4 @@ void fillReport(const CheckAnswer& answer, GetReport::Response& response)
   add("attached_objects", answer.scene->attached.size());
   response.scene_revision = answer.result.revision;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

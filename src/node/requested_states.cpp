@@ -6,7 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<std::vector<std::string>>& names,
                                   const RequestField<std::vector<double>>& rows,
@@ -43,4 +43,4 @@ void requireWholeRotations(const RobotModel& robot, const std::vector<int>& colu
       throw Error("joint '" + joint.name + "': a motion needs all four variables of its rotation, or none of them");
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A field of a request, with its name there, for messages.
 template <class Values>
@@ -25,4 +25,4 @@ std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<st
 /// Throws Error where some of a rotation's variables are among the columns, and some are not: such a rotation cannot be
 /// moved from one to another without those that are missing.
 void requireWholeRotations(const RobotModel& robot, const std::vector<int>& columns);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

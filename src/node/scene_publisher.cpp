@@ -1,9 +1,9 @@
 #include "node/scene_publisher.h"
 
-#include "gpu_planning_scene/messages.h"
+#include "node/messages.h"
 #include "node/to_messages.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 ScenePublisher::ScenePublisher(ros::NodeHandle& own, SceneStore& store, double full_scene_period)
   : store_(store),
@@ -51,4 +51,4 @@ void ScenePublisher::publishFull(const Snapshot& now)
   full_.publish(messageOf(*now.scene, 0, now.state, now.known));
   full_revision_ = now.scene->revision;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 
 #include "service/scene_store.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Publishes the scene: ~monitored_planning_scene_diffs gets each change, ~monitored_planning_scene (latched) the whole
 /// scene at the start, after each change that is no difference, and every few seconds where it has changed. A diff
@@ -29,4 +29,4 @@ class ScenePublisher
   std::mutex mutex_;  // of the full scenes' order
   std::uint64_t full_revision_ = 0;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,13 +4,13 @@
 
 #include <ros/console.h>
 
+#include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/error.h"
 #include "node/answered.h"
 #include "node/from_messages.h"
 #include "node/to_messages.h"
-#include "tools/scene_text.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -117,4 +117,4 @@ void SceneServices::take(const sensor_msgs::JointState& message)
     variables[message.name[i]] = message.position[i];
   store_.updateState(variables, static_cast<std::int64_t>(message.header.stamp.toNSec()));
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,12 +2,12 @@
 
 #include <sensor_msgs/JointState.h>
 
-#include "gpu_planning_scene/messages.h"
 #include "node/frame_lookup.h"
+#include "node/messages.h"
 #include "service/memory_guard.h"
 #include "service/scene_store.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Answers apply_planning_scene, get_planning_scene and clear, and makes what comes on topics. Thread-safe.
 class SceneServices
@@ -37,4 +37,4 @@ class SceneServices
   const SceneStore::Lookup lookup_;
   const MemoryGuard& memory_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,6 +1,6 @@
 #include "node/scene_topics.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 SceneTopics::SceneTopics(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneServices& changes,
                          const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t most_changes,
@@ -34,12 +34,13 @@ void SceneTopics::stop()
 template <class Message>
 void SceneTopics::subscribe(const ros::NodeHandle& own, const std::string& name)
 {
-  topics_.subscribe<Message>("~" + name, 0,
-                             [this, topic = own.resolveName(name)](const Message& message)
-                             {
-                               const std::size_t bytes = ros::serialization::serializationLength(message);
-                               queue_.add(topic, changes_.changeOf(message), bytes);
-                             });
+  topics_.subscribe<Message>(
+      "~" + name, 0,
+      [this, topic = own.resolveName(name)](const Message& message)
+      {
+        const std::size_t bytes = ros::serialization::serializationLength(message);
+        queue_.add(topic, changes_.changeOf(message), bytes);
+      });
 }
 
 /// For changes that wait together: while one of them waits for a frame, all the others have waited as long.
@@ -49,4 +50,4 @@ ChangeQueue::Make SceneTopics::maker() const
   return [this, until](const SceneChange& change)
   { changes_.make(change, [this, until](const FrameAt& frame) { return lookup_(frame, until); }); };
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

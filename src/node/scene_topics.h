@@ -5,7 +5,7 @@
 #include "node/scene_services.h"
 #include "service/change_queue.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Takes changes of the scene from the topics ~planning_scene, ~collision_object and ~attached_collision_object, and
 /// makes them in the order in which they come. None is dropped without a word: over the bounds an error is logged, and
@@ -34,4 +34,4 @@ class SceneTopics
   Endpoints topics_;
   ChangeQueue queue_;  // its thread tells topics_ what is refused
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

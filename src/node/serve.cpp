@@ -6,6 +6,7 @@
 
 #include <malloc.h>
 
+#include "collision/checkers/scene_text.h"
 #include "node/check_services.h"
 #include "node/checker_maker.h"
 #include "node/cloud_topic.h"
@@ -19,9 +20,8 @@
 #include "node/scene_publisher.h"
 #include "node/scene_topics.h"
 #include "node/shutdown_call.h"
-#include "tools/scene_text.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -80,7 +80,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const FrameLookup lookup(planning_frame, options.tf_timeout, [&stopping] { return stopping || !ros::ok(); });
   CheckServices checks(store, server, memory,
                        {server_options.most_states, options.most_inspected_states, options.most_contacts,
-                        server_options.most_waiting_requests});
+                        server_options.most_waiting_requests, plan_options.motions.rule});
   PlanService plans(own, store, make_checker, memory, plan_options);
   const SceneStore::Lookup look_up = [&lookup](const FrameAt& frame) { return lookup(frame, lookup.deadline()); };
   SceneServices changes(store, look_up, memory);
@@ -89,11 +89,12 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const ScenePublisher publisher(own, store, options.full_scene_period);
 
   Endpoints scene_requests(node, own, 4, diagnostics);
-  scene_requests.advertise<ApplyPlanningScene>("apply_planning_scene",
-                                               [&](const ApplyPlanningScene::Request& r) { return changes.apply(r); });
-  scene_requests.advertise<GetPlanningScene>("get_planning_scene",
-                                             [&](const GetPlanningScene::Request& r) { return changes.get(r); });
-  scene_requests.advertise<Clear>("clear", [&](const Clear::Request&) { return changes.clear(); });
+  scene_requests.advertise<ApplyPlanningScene>(
+      "apply_planning_scene", [&](const ApplyPlanningScene::Request& r) { return changes.apply(r); });
+  scene_requests.advertise<GetPlanningScene>(
+      "get_planning_scene", [&](const GetPlanningScene::Request& r) { return changes.get(r); });
+  scene_requests.advertise<Clear>(
+      "clear", [&](const Clear::Request&) { return changes.clear(); });
   scene_requests.advertise<ShowTreeLevel>("show_tree_level",
                                           [&](const ShowTreeLevel::Request& r) { return markers.show(r); });
 
@@ -112,9 +113,10 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   // wait are in the batch that the small lane checks, wait in either lane, and wait for contacts. check_states comes
   // last: where it is there, all is.
   Endpoints check_requests(node, own, 4 * server_options.most_waiting_requests + 8, diagnostics);
-  check_requests.advertise<CheckMotions>("check_motions",
-                                         [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
-  check_requests.advertise<GetReport>("get_report", [&](const GetReport::Request& r) { return checks.report(r); });
+  check_requests.advertise<CheckMotions>(
+      "check_motions", [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
+  check_requests.advertise<GetReport>(
+      "get_report", [&](const GetReport::Request& r) { return checks.report(r); });
   check_requests.advertise<CheckStates>("check_states",
                                         [&](const CheckStates::Request& r) { return checks.checkStates(r); });
 
@@ -151,4 +153,4 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
       some->refuseWaiting();
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

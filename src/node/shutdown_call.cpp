@@ -5,7 +5,7 @@
 #include <ros/console.h>
 #include <ros/xmlrpc_manager.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -33,4 +33,4 @@ ShutdownCall::~ShutdownCall()
 {
   ros::XMLRPCManager::instance()->unbind(kMethod);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <memory>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Listens for what `rosnode kill`, and the master where another node of this name starts, ask for: an end. roscpp
 /// would shut down at once, and drop the requests that are being answered; as long as this lives it is told instead.
@@ -21,4 +21,4 @@ class ShutdownCall
  private:
   const std::shared_ptr<std::atomic<bool>> came_;  // the call may outlive this
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 
 #include "scene/message_values.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -298,4 +298,4 @@ PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t compone
   message.scene_revision = scene.revision;
   return message;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "gpu_planning_scene/messages.h"
 #include "gpu_planning_scene/scene_change.h"
+#include "node/messages.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A scene as the message that makes it. `components`: a sum of PlanningSceneComponents' numbers, 0 for all. `state`
 /// and `known`: of each variable its value, and whether it is known; those that are not are left out.
@@ -15,4 +15,4 @@ PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t compone
 
 /// The message that changeFrom makes `change` of.
 PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robot);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include "planning/bulk_validator.h"
 #include "planning/rrt_search.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -156,4 +156,4 @@ void BatchRrtConnect::getPlannerData(ob::PlannerData& data) const
   if (search_)
     search_->addTo(data);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include <ompl/util/Exception.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 const MotionValidator& bulkValidatorOf(const ompl::base::SpaceInformation& information, const std::string& user)
 {
@@ -10,7 +10,7 @@ const MotionValidator& bulkValidatorOf(const ompl::base::SpaceInformation& infor
   if (!validator)
     throw ompl::Exception(user,
                           "the motion validator of the space information does not check motions in bulk; set a "
-                          "gpu_planning_scene::MotionValidator");
+                          "gpu_planning_scene::core::MotionValidator");
   return *validator;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -8,7 +8,7 @@
 
 #include "gpu_planning_scene/state_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Passes on what it is asked, and adds up states and time.
 class CountedChecker : public StateChecker
@@ -18,7 +18,7 @@ class CountedChecker : public StateChecker
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override { checker_->setScene(std::move(scene)); }
   BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const Surroundings* around) override
+                    const JointNeighbourhood* around) override
   {
     BatchResult result = checker_->check(states, count, group, around);
     states_ += count;
@@ -37,4 +37,4 @@ class CountedChecker : public StateChecker
   std::atomic<std::uint64_t> states_{0};
   std::atomic<std::uint64_t> microseconds_{0};
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 using ompl::geometric::PathGeometric;
 
@@ -60,4 +60,4 @@ void joinDirectRuns(PathGeometric& path, const MotionValidator& validator,
       joined.append(path.getState(static_cast<unsigned int>(vertex)));
   path = joined;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Core>
 #include <ompl/base/ProjectionEvaluator.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
 #include <ompl/base/spaces/SO2StateSpace.h>
 #include <ompl/tools/config/MagicConstants.h>
+#include <Eigen/Core>
 
 #include "gpu_planning_scene/error.h"
-#include "gpu_planning_scene/motions.h"
+#include "gpu_planning_scene/interpolation.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -305,4 +305,4 @@ void GroupStateSpace::interpolate(const ob::State* from, const ob::State* to, do
     if (double& angle = *getValueAddressAtLocation(state, valueLocationsInOrder_[i]); angle == kPi)
       angle = -kPi;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 
 #include "planning/scene_space.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 MotionValidator::MotionValidator(const ompl::base::SpaceInformationPtr& information,
                                  std::shared_ptr<const PlanningScene> scene, std::shared_ptr<StateChecker> checker,
@@ -17,7 +17,7 @@ MotionValidator::MotionValidator(const ompl::base::SpaceInformationPtr& informat
 }
 
 /// Those that leave the bounds are not looked at.
-std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& motions, MotionQuestion question,
+std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& motions, MotionQuery question,
                                                   const Termination& ptc) const
 {
   std::vector<std::size_t> within;
@@ -45,13 +45,13 @@ std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& mot
 
 bool MotionValidator::checkMotion(const ompl::base::State* from, const ompl::base::State* to) const
 {
-  return check({{from, to}}, MotionQuestion::Valid, never()).front().valid;
+  return check({{from, to}}, MotionQuery::Valid, never()).front().valid;
 }
 
 bool MotionValidator::checkMotion(const ompl::base::State* from, const ompl::base::State* to,
                                   std::pair<ompl::base::State*, double>& last_valid) const
 {
-  const MotionVerdict verdict = check({{from, to}}, MotionQuestion::LastValid, never()).front();
+  const MotionVerdict verdict = check({{from, to}}, MotionQuery::LastValid, never()).front();
   if (verdict.valid)
     return true;
   last_valid.second = verdict.last_valid;
@@ -72,13 +72,13 @@ std::vector<std::uint8_t> MotionValidator::validOf(const std::vector<MotionVerdi
 std::vector<std::uint8_t> MotionValidator::validateMotions(const std::vector<Motion>& motions,
                                                            const Termination& ptc) const
 {
-  return validOf(check(motions, MotionQuestion::Valid, ptc));
+  return validOf(check(motions, MotionQuery::Valid, ptc));
 }
 
 std::vector<std::uint8_t> MotionValidator::validateSamples(const std::vector<Motion>& motions,
                                                            const Termination& ptc) const
 {
-  return validOf(check(motions, MotionQuestion::Samples, ptc));
+  return validOf(check(motions, MotionQuery::Samples, ptc));
 }
 
 bool MotionValidator::validatePath(const ompl::geometric::PathGeometric& path, const Termination& ptc) const
@@ -93,4 +93,4 @@ bool MotionValidator::validatePath(const ompl::geometric::PathGeometric& path, c
       return false;
   return path.getStateCount() != 0;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

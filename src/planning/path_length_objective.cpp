@@ -4,7 +4,7 @@
 
 #include <ompl/base/samplers/informed/RejectionInfSampler.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 PathLengthObjective::PathLengthObjective(const ompl::base::SpaceInformationPtr& information)
   : ompl::base::PathLengthOptimizationObjective(information)
@@ -16,4 +16,4 @@ ompl::base::InformedSamplerPtr PathLengthObjective::allocInformedStateSampler(
 {
   return std::make_shared<ompl::base::RejectionInfSampler>(definition, most_calls);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

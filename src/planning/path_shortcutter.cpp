@@ -8,7 +8,7 @@
 #include "planning/bulk_validator.h"
 #include "planning/direct_runs.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -215,4 +215,4 @@ double PathShortcutter::shortenOnce(PathGeometric& path, bool first, const ob::P
   path = cut.path;
   return 1.0 - length / old.length();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

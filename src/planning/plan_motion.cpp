@@ -14,23 +14,19 @@
 #include "gpu_planning_scene/planning/path_length_objective.h"
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "gpu_planning_scene/planning/state_validity_checker.h"
+#include "model/seconds_since.h"
 #include "planning/counted_checker.h"
 #include "planning/planner_parameters.h"
 #include "planning/planning_ends.h"
 #include "planning/waypoints.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 void refuseRow(const RobotModel& robot, const std::vector<double>& row, const std::string& what)
 {
@@ -220,4 +216,4 @@ PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
   refuse(*scene, query);
   return Plan(scene, checker, query, stop).run(factory);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

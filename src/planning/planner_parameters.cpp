@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void setParameters(ompl::base::Planner& planner, const std::map<std::string, std::string>& parameters)
 {
@@ -33,4 +33,4 @@ void setParameters(ompl::base::Planner& planner, const std::map<std::string, std
       throw Error("parameter " + name + " of planner " + planner.getName() + " cannot be '" + value + "'");
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "collision/reach.h"
+#include "collision/bounds/reach.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -116,4 +116,4 @@ PlanningEnds findEnds(const PlanningScene& scene, StateChecker& checker, const o
   }
   return ends;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "gpu_planning_scene/state_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// What a query can be planned between.
 struct PlanningEnds
@@ -23,4 +23,4 @@ struct PlanningEnds
 /// variables.
 PlanningEnds findEnds(const PlanningScene& scene, StateChecker& checker, const ompl::base::StateSpacePtr& space,
                       const PlanningQuery& query);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -180,4 +180,4 @@ void RrtSearch::addTo(ob::PlannerData& data) const
   if (meeting_.goal)
     data.addEdge(ob::PlannerDataVertex(meeting_.start->state, 1), ob::PlannerDataVertex(meeting_.goal->state, 2));
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -11,7 +11,7 @@
 #include "gpu_planning_scene/planning/motion_validator.h"
 #include "planning/two_trees.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The search of BatchRrtConnect: two trees that grow by motions whose samples are free, and the paths through where
 /// they meet, whose motions are proven by the validator's own rule. Not thread-safe.
@@ -61,4 +61,4 @@ class RrtSearch
   TwoTrees::Meeting meeting_{nullptr, nullptr};
   std::vector<double> distances_;  // to the goal, of the start tree's vertices
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include <ompl/tools/config/SelfConfig.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 const RrtTree::Vertex& RrtTree::Vertex::root() const
 {
@@ -60,4 +60,4 @@ const RrtTree::Vertex& RrtTree::nearest(const ompl::base::State* state)
   const Vertex query{const_cast<ompl::base::State*>(state), nullptr};
   return *nearest_->nearest(&query);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

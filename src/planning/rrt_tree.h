@@ -8,7 +8,7 @@
 #include <ompl/base/PlannerData.h>
 #include <ompl/datastructures/NearestNeighbors.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A tree of states that grows from a root, or several, with the search for the nearest of them.
 class RrtTree
@@ -46,4 +46,4 @@ class RrtTree
   std::unique_ptr<ompl::NearestNeighbors<const Vertex*>> nearest_;
   bool is_stale_ = false;  // it has removed vertices
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInformation& information,
                                                     const PlanningScene& scene)
@@ -40,4 +40,4 @@ void appendRow(const GroupStateSpace& space, const std::vector<double>& referenc
   rows.insert(rows.end(), reference.begin(), reference.end());
   space.copyToRow(state, &rows[begin]);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

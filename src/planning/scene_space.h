@@ -8,7 +8,7 @@
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The space of `information`. Throws Error if it is no GroupStateSpace of the scene's robot.
 std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInformation& information,
@@ -23,4 +23,4 @@ bool isWithin(const GroupStateSpace& space, const ompl::base::State* state);
 /// Appends the reference row with the state's values in it.
 void appendRow(const GroupStateSpace& space, const std::vector<double>& reference, const ompl::base::State* state,
                std::vector<double>& rows);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

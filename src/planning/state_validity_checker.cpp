@@ -8,7 +8,7 @@
 #include "gpu_planning_scene/error.h"
 #include "planning/scene_space.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 StateValidityChecker::StateValidityChecker(const ompl::base::SpaceInformationPtr& information,
                                            std::shared_ptr<const PlanningScene> scene,
@@ -58,4 +58,4 @@ double StateValidityChecker::clearance(const ompl::base::State* state) const
   const Clearance clearance = inspector_->clearance(row.data(), space_->group().name);
   return std::min(clearance.world, clearance.self);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

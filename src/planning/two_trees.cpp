@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -144,4 +144,4 @@ std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, 
   }
   return meetings;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

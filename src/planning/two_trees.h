@@ -9,7 +9,7 @@
 #include "gpu_planning_scene/planning/motion_validator.h"
 #include "planning/rrt_tree.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A tree from the start states and one from the goal states that grow towards each other, many branches at a time.
 class TwoTrees
@@ -80,4 +80,4 @@ class TwoTrees
   std::vector<ompl::base::State*> scratch_;  // of a round
   std::size_t scratch_used_ = 0;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "gpu_planning_scene/motions.h"
+#include "gpu_planning_scene/interpolation.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -16,12 +16,12 @@ using Row = std::vector<double>;
 bool isHalfATurn(const RobotModel& robot, const Row& from, const Row& to)
 {
   constexpr double kNearly = 1e-6;  // radians: more than anybody's rounding
-  const std::vector<JointWay> ways = jointWays(robot, from.data(), to.data());
-  for (std::size_t i = 0; i < ways.size(); ++i)
+  const std::vector<JointTravel> travel = jointTravel(robot, from.data(), to.data());
+  for (std::size_t i = 0; i < travel.size(); ++i)
   {
     const Joint& joint = robot.joints()[i];
     if (!joint.mimic && (wrappedAngle(joint) >= 0 || joint.type == JointType::Floating) &&
-        ways[i].angle > EIGEN_PI - kNearly)
+        travel[i].angle > EIGEN_PI - kNearly)
       return true;
   }
   return false;
@@ -37,7 +37,7 @@ void unwind(const RobotModel& robot, const Row& from, const Row& last, Row& row)
     if (joint.mimic)
       continue;
     if (const int angle = wrappedAngle(joint); angle >= 0)
-      row[angle] = from[angle] + shorterWay(last[angle], reached[angle]);
+      row[angle] = from[angle] + shortestAngularDistance(last[angle], reached[angle]);
     if (joint.type != JointType::Floating)
       continue;
     Eigen::Map<Eigen::Vector4d> rotation(&row[joint.first_variable + kRotation]);
@@ -84,4 +84,4 @@ std::vector<Row> waypointsOf(const ompl::geometric::PathGeometric& path, const G
     unwind(robot, i == 0 ? start : waypoints[i - 1], i == 0 ? start : rows[i - 1], waypoints[i]);
   return waypoints;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

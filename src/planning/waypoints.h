@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/planning/group_state_space.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The variable of a joint that is an angle without limits; -1 where it has none.
 int wrappedAngle(const Joint& joint);
@@ -17,4 +17,4 @@ int wrappedAngle(const Joint& joint);
 /// way round would be the shorter one.
 std::vector<std::vector<double>> waypointsOf(const ompl::geometric::PathGeometric& path, const GroupStateSpace& space,
                                              const std::vector<double>& start);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/est/BiEST.h>
 #include <ompl/geometric/planners/est/EST.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/kpiece/BKPIECE1.h>
 #include <ompl/geometric/planners/kpiece/KPIECE1.h>
 #include <ompl/geometric/planners/kpiece/LBKPIECE1.h>
@@ -22,7 +22,7 @@
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/planner_factory.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 template <class Planner>
 class FactoryOf : public PlannerFactory
@@ -44,12 +44,12 @@ ompl::base::PlannerPtr FactoryOf<ompl::geometric::RRTstar>::create(
   planner->params().remove("ordering_batch_size");
   return planner;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 #define GPS_EXPORT_PLANNER(planner) \
-  PLUGINLIB_EXPORT_CLASS(gpu_planning_scene::FactoryOf<planner>, gpu_planning_scene::PlannerFactory)
+  PLUGINLIB_EXPORT_CLASS(gpu_planning_scene::core::FactoryOf<planner>, gpu_planning_scene::core::PlannerFactory)
 
-GPS_EXPORT_PLANNER(gpu_planning_scene::BatchRrtConnect)
+GPS_EXPORT_PLANNER(gpu_planning_scene::core::BatchRrtConnect)
 GPS_EXPORT_PLANNER(ompl::geometric::BITstar)
 GPS_EXPORT_PLANNER(ompl::geometric::BiEST)
 GPS_EXPORT_PLANNER(ompl::geometric::BKPIECE1)

@@ -4,7 +4,7 @@
 #include "render/drawing.h"
 #include "render/renderer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -57,4 +57,4 @@ Camera cameraFor(const PlanningScene& scene, const double* state, const Eigen::V
   camera.eye = camera.target + 1.05 * distance * side;
   return camera;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,11 +1,12 @@
-#include "collision/collision_problem.h"
-#include "collision/cpu_traversal.h"
-#include "collision/forest_cache.h"
+#include "collision/bounds/problem_maker.h"
+#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/forest_cache.h"
+#include "collision/problem/collision_problem.h"
 #include "render/renderer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
-std::vector<std::array<std::int32_t, 2>> collidingPairs(const PlanningScene& scene, const double* state)
+std::vector<BodyPair> collidingPairs(const PlanningScene& scene, const double* state)
 {
   // Nothing is left out, so that the state may lie outside the joints' limits.
   const auto problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
@@ -15,4 +16,4 @@ std::vector<std::array<std::int32_t, 2>> collidingPairs(const PlanningScene& sce
   CpuTraversal::Scratch scratch;
   return traversal->allCollisions(poses.data(), scratch);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 
 #include "render/renderer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -143,7 +143,7 @@ BodyColor bodyColor(const PlanningScene& scene, std::size_t body)
   return kCarried;
 }
 
-std::set<std::size_t> bodiesOf(const std::vector<std::array<std::int32_t, 2>>& pairs)
+std::set<std::size_t> bodiesOf(const std::vector<BodyPair>& pairs)
 {
   std::set<std::size_t> bodies;
   for (const auto& pair : pairs)
@@ -170,8 +170,7 @@ Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen
   return bounds;
 }
 
-Drawing drawingOf(const PlanningScene& scene, const double* state,
-                  const std::vector<std::array<std::int32_t, 2>>& colliding,
+Drawing drawingOf(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
                   const std::vector<Eigen::Vector3d>& contact_points)
 {
   const std::set<std::size_t> red = bodiesOf(colliding);
@@ -198,4 +197,4 @@ Drawing drawingOf(const PlanningScene& scene, const double* state,
     painter.addMesh(*tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContactColor);
   return drawing;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -8,8 +8,9 @@
 #include <Eigen/Geometry>
 
 #include "gpu_planning_scene/planning_scene.h"
+#include "gpu_planning_scene/state_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 using BodyColor = std::array<std::uint8_t, 4>;  ///< red, green, blue, opacity
 
@@ -23,9 +24,9 @@ BodyColor bodyColor(const PlanningScene& scene, std::size_t body);
 const std::vector<PlacedShape>& bodyShapes(const PlanningScene& scene, std::size_t body);
 
 /// Those of the pairs.
-std::set<std::size_t> bodiesOf(const std::vector<std::array<std::int32_t, 2>>& pairs);
+std::set<std::size_t> bodiesOf(const std::vector<BodyPair>& pairs);
 
-/// A corner of a triangle, as shaders/draw.vert reads it.
+/// A corner of a triangle, as shaders/draw/draw.vert reads it.
 struct DrawnVertex
 {
   std::array<float, 3> position;  ///< metres, in the planning frame
@@ -48,7 +49,6 @@ struct Drawing
 
 /// All bodies: links grey, objects in their colours, those of `colliding` pairs red; then the contact points, small
 /// yellow spheres, which mostly lie inside. A half-space is a square as large as what is near the robot.
-Drawing drawingOf(const PlanningScene& scene, const double* state,
-                  const std::vector<std::array<std::int32_t, 2>>& colliding,
+Drawing drawingOf(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
                   const std::vector<Eigen::Vector3d>& contact_points);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,7 +3,7 @@
 #include "gpu_planning_scene/error.h"
 #include "render/renderer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void writePng(const Image& image, const std::string& path)
 {
@@ -15,4 +15,4 @@ void writePng(const Image& image, const std::string& path)
   if (png_image_write_to_file(&png, path.c_str(), 0, image.rgb.data(), 0, nullptr) == 0)
     throw Error(path + ": cannot write the picture: " + png.message);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

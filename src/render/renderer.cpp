@@ -13,7 +13,7 @@
 #include "gpu_planning_scene/error.h"
 #include "render/drawing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -105,9 +105,9 @@ std::vector<std::uint8_t> draw(const Drawing& drawing, const Eigen::Matrix4f& ma
   const Target target(width, height);
   GLuint pipeline = 0;
   glCreateProgramPipelines(1, &pipeline);
-  const GLuint vertex_stage = compileStage(GL_VERTEX_SHADER, folder, "draw.vert");
+  const GLuint vertex_stage = compileStage(GL_VERTEX_SHADER, folder, "draw/draw.vert");
   glUseProgramStages(pipeline, GL_VERTEX_SHADER_BIT, vertex_stage);
-  const GLuint fragment_stage = compileStage(GL_FRAGMENT_SHADER, folder, "draw.frag");
+  const GLuint fragment_stage = compileStage(GL_FRAGMENT_SHADER, folder, "draw/draw.frag");
   glUseProgramStages(pipeline, GL_FRAGMENT_SHADER_BIT, fragment_stage);
   glBindProgramPipeline(pipeline);
   glProgramUniformMatrix4fv(vertex_stage, 0, 1, GL_FALSE, matrix.data());
@@ -163,7 +163,7 @@ Image reduced(const std::vector<std::uint8_t>& pixels, int width, int height)
 }
 }  // namespace
 
-Image render(const PlanningScene& scene, const double* state, const std::vector<std::array<std::int32_t, 2>>& colliding,
+Image render(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
              const std::vector<Eigen::Vector3d>& contact_points, const Camera& camera, int width, int height,
              const std::string& device)
 {
@@ -182,4 +182,4 @@ Image render(const PlanningScene& scene, const double* state, const std::vector<
   thread.run([&] { pixels = draw(drawing, matrix, camera, width * kSamples, height * kSamples); });
   return reduced(pixels, width, height);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -8,8 +8,9 @@
 #include <Eigen/Geometry>
 
 #include "gpu_planning_scene/planning_scene.h"
+#include "gpu_planning_scene/state_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct Camera
 {
@@ -34,14 +35,14 @@ struct Image
 };
 
 /// Every pair of bodies that collides in `state`, by the exact checker.
-std::vector<std::array<std::int32_t, 2>> collidingPairs(const PlanningScene& scene, const double* state);
+std::vector<BodyPair> collidingPairs(const PlanningScene& scene, const double* state);
 
 /// A picture of the scene: see drawingOf for the colours. `device`: as EglContext has it. The same scene gives the same
 /// picture on the same device. Throws Error.
-Image render(const PlanningScene& scene, const double* state, const std::vector<std::array<std::int32_t, 2>>& colliding,
+Image render(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
              const std::vector<Eigen::Vector3d>& contact_points, const Camera& camera, int width, int height,
              const std::string& device);
 
 /// Throws Error: the file cannot be written.
 void writePng(const Image& image, const std::string& path);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,6 +1,6 @@
 #include "gpu_planning_scene/allowed_collision_matrix.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 AllowedCollisionMatrix AllowedCollisionMatrix::fromRobot(const RobotModel& robot)
 {
@@ -10,24 +10,16 @@ AllowedCollisionMatrix AllowedCollisionMatrix::fromRobot(const RobotModel& robot
   if (!srdf.has_srdf)
   {
     for (const auto& pair : robot.adjacentLinks())
-    {
       matrix.setEntry(links[pair.first].name, links[pair.second].name, true);
-    }
     return matrix;
   }
   for (const int link : srdf.disabled_by_default)
-  {
     matrix.setDefault(links[link].name, true);
-  }
   // As in MoveIt, a pair that is both enabled and disabled ends up disabled.
   for (const LinkPair& pair : srdf.enabled)
-  {
     matrix.setEntry(links[pair.first].name, links[pair.second].name, false);
-  }
   for (const LinkPair& pair : srdf.disabled)
-  {
     matrix.setEntry(links[pair.first].name, links[pair.second].name, true);
-  }
   return matrix;
 }
 
@@ -118,14 +110,10 @@ bool AllowedCollisionMatrix::Row::allowed(const Row& other) const
   {
     const auto entry = body_->entries.find(*other.name_);
     if (entry != body_->entries.end())
-    {
       return entry->second;
-    }
   }
   if (first && second)
-  {
     return *first && *second;
-  }
   return first ? *first : second && *second;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

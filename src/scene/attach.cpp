@@ -7,7 +7,7 @@
 
 // Objects taken up by a link and put back.
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -57,4 +57,4 @@ void PlanningScene::detach(const std::string& object, const double* state)
   objects.push_back(std::move(freed));
   attached.erase(found);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

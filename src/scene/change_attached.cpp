@@ -7,7 +7,7 @@
 
 // What links carry: taken up, appended to, put back.
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void SceneChanger::changeAttached(const AttachedChange& change)
 {
@@ -145,4 +145,4 @@ void SceneChanger::putBack(const std::string& id)
   objects_.add(std::move(carried.object));
   attached_here_.erase(id);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

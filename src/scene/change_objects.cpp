@@ -3,7 +3,7 @@
 
 // Objects of the world: added, appended to, moved, removed.
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void SceneChanger::clearWorld()
 {
@@ -111,4 +111,4 @@ void SceneChanger::removeObject(const ObjectChange& change)
               (carried != nullptr ? "link '" + linkName(carried->link) + "' carries it; detach it first"
                                   : "the scene has no such object"));
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 
 // Names, fixed frames, the allowed-collision matrix, padding, scale, colours.
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void SceneChanger::changeNames(const SceneChange& change)
 {
@@ -98,4 +98,4 @@ void SceneChanger::changeColors(const SceneChange& change)
     result_.scene.colors[id] = color;
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 
 // The robot's state, and what it carries.
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void SceneChanger::changeState(const StateChange& change, bool is_full_scene)
 {
@@ -61,4 +61,4 @@ void SceneChanger::dropCarried(const StateChange& change)
                                "' carried it, and robot_state.is_diff is false, which replaces what is attached");
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

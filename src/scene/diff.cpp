@@ -7,7 +7,7 @@
 
 // What leads from one scene to another.
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -36,23 +36,25 @@ bool same(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
 
 bool sameShapes(const WorldObject& a, const WorldObject& b)
 {
-  return std::equal(a.shapes.begin(), a.shapes.end(), b.shapes.begin(), b.shapes.end(),
-                    [](const PlacedShape& x, const PlacedShape& y)
-                    { return std::visit(SameShape(), x.shape, y.shape); });
+  return std::equal(
+      a.shapes.begin(), a.shapes.end(), b.shapes.begin(), b.shapes.end(),
+      [](const PlacedShape& x, const PlacedShape& y) { return std::visit(SameShape(), x.shape, y.shape); });
 }
 
 bool sameShapePoses(const WorldObject& a, const WorldObject& b)
 {
-  return std::equal(a.shapes.begin(), a.shapes.end(), b.shapes.begin(), b.shapes.end(),
-                    [](const PlacedShape& x, const PlacedShape& y) { return same(x.pose, y.pose); });
+  return std::equal(
+      a.shapes.begin(), a.shapes.end(), b.shapes.begin(), b.shapes.end(),
+      [](const PlacedShape& x, const PlacedShape& y) { return same(x.pose, y.pose); });
 }
 
 using Frames = std::map<std::string, Eigen::Isometry3d>;
 
 bool sameFrames(const Frames& a, const Frames& b)
 {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const auto& x, const auto& y) { return x.first == y.first && same(x.second, y.second); });
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const auto& x, const auto& y) { return x.first == y.first && same(x.second, y.second); });
 }
 
 bool sameObject(const WorldObject& a, const WorldObject& b)
@@ -149,13 +151,11 @@ std::map<std::string, double> allLinks(const RobotModel& robot, const std::vecto
   return all;
 }
 
-/// What a difference cannot say: that there is no name, fixed frame or matrix any more; that an object has lost its
+/// What a difference cannot say: that there is no name or fixed frame any more; that an object has lost its
 /// colour and is still there; that an object is gone and its colour or its entry in the matrix is still there.
 bool needsFullScene(const PlanningScene& from, const PlanningScene& to)
 {
   if ((to.name.empty() && !from.name.empty()) || (to.fixed_frames.empty() && !from.fixed_frames.empty()))
-    return true;
-  if (to.allowed_collisions.bodies().empty() && !from.allowed_collisions.bodies().empty())
     return true;
   const auto before = objectsOf(from);
   const auto after = objectsOf(to);
@@ -263,4 +263,4 @@ SceneChange diffOf(const PlanningScene& from, const PlanningScene& to)
                   [](const AttachedChange& attached) { return attached.object.operation == Operation::Remove; });
   return puts_back && to.current_state.empty() ? fullSceneOf(to) : change;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -79,4 +79,4 @@ std::optional<Eigen::Isometry3d> PlanningScene::frame(const std::string& frame_n
   };
   return findFrame({*robot, fixed_frames, find_object}, frame_name, state);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The pose of a link in the planning frame. Throws Error where `state` is null or not finite.
 Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* state);
@@ -32,4 +32,4 @@ struct KnownFrames
 
 /// See PlanningScene::frame.
 std::optional<Eigen::Isometry3d> findFrame(const KnownFrames& known, const std::string& name, const double* state);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 
 // The scale of links, which what they carry has too.
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -43,4 +43,4 @@ void PlanningScene::scaleCarried(AttachedObject& carried) const
   ShapeScaler scaler;
   scaleCarriedBy(*robot, carried, scaler);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

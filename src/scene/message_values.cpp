@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -81,4 +81,4 @@ Eigen::Isometry3d poseOfVariables(const Joint& joint, const double* values)
   pose.linear() = Eigen::Quaterniond(values[6], values[3], values[4], values[5]).normalized().toRotationMatrix();
   return pose;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include "gpu_planning_scene/robot_model.h"
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 // What the numbers of MoveIt's messages mean, in messages and in files. All throw Error.
 
@@ -31,4 +31,4 @@ HalfSpace halfSpaceBehind(const Eigen::Vector4d& plane);
 std::vector<double> variablesAt(const Joint& joint, const Eigen::Isometry3d& pose);
 /// The opposite. Not for a quaternion of zero length.
 Eigen::Isometry3d poseOfVariables(const Joint& joint, const double* values);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -28,4 +28,4 @@ std::optional<long long> parseInteger(std::string_view text)
 {
   return parse<long long>(text);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include "scene/scene_reader.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 PlanningScene::PlanningScene(std::shared_ptr<const RobotModel> robot_model, const SceneDefaults& defaults)
   : robot(std::move(robot_model)),
@@ -30,4 +30,4 @@ void SceneReader::warn(const std::string& line) const
   if (warnings)
     warnings->push_back(line);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

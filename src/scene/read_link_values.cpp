@@ -4,7 +4,7 @@
 
 // Padding and scale of links.
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -76,4 +76,4 @@ std::map<std::string, Color> readColors(const YamlValue& scene, const SceneReade
   }
   return colors;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

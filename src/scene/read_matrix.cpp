@@ -2,7 +2,7 @@
 
 #include "scene/scene_reader.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -66,4 +66,4 @@ bool readMatrix(const YamlValue& value, const SceneReader& reader, AllowedCollis
   matrix = std::move(result);
   return true;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 #include "scene/scene_reader.h"
 #include "scene/validate_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -152,4 +152,4 @@ void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& res
     result.attached.push_back(std::move(attached));
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include "scene/scene_reader.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -90,4 +90,4 @@ Eigen::Isometry3d readFrame(const YamlValue* header, const SceneReader& reader)
   value->fail("unknown frame '" + value->text() + "'; known are the planning frame '" + reader.robot.planningFrame() +
               "', the robot's links and the file's fixed_frame_transforms");
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

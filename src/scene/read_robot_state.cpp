@@ -2,7 +2,7 @@
 #include "scene/message_values.h"
 #include "scene/scene_reader.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -142,4 +142,4 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
     reader.warn(start + "not given, so the default is taken: " + join(missing));
   return state.values;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

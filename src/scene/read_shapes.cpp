@@ -5,7 +5,7 @@
 #include "scene/message_values.h"
 #include "scene/scene_reader.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -158,4 +158,4 @@ std::vector<PlacedShape> readShapes(const YamlValue& object, SceneReader& reader
   add("planes", "plane_poses", readPlane);
   return shapes;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 // What MoveIt's messages can say and this package does not model: better no answer than one for another scene.
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void refuseUnsupported(const YamlValue& scene)
 {
@@ -13,4 +13,4 @@ void refuseUnsupported(const YamlValue& scene)
   if (data && !data->items().empty())
     data->fail("octomaps are not supported; give the obstacles as objects, or as a point cloud");
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -49,4 +49,4 @@ Eigen::Isometry3d rigidProduct(const Eigen::Isometry3d& body, const Eigen::Isome
   static const std::string of_shape = "a shape's pose";
   return rigid(body, of_body) * rigid(shape, of_shape);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

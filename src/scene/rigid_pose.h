@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Whether `rigid` takes the pose.
 bool isRigid(const Eigen::Isometry3d& pose);
@@ -17,4 +17,4 @@ Eigen::Isometry3d rigid(const Eigen::Isometry3d& pose, const std::string& where)
 /// The pose of a shape whose pose in a body's frame is `shape`; the scene's validation has seen both. All that asks
 /// where a shape is takes it from here: how far a rotation that is a little off moves a shape grows with the distance.
 Eigen::Isometry3d rigidProduct(const Eigen::Isometry3d& body, const Eigen::Isometry3d& shape);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

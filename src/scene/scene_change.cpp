@@ -7,7 +7,7 @@
 #include "model/one_line.h"
 #include "scene/scene_changer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -66,4 +66,4 @@ std::vector<FrameAt> externalFrames(const PlanningScene& scene, const SceneChang
   }
   return {unknown.begin(), unknown.end()};
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

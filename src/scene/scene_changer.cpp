@@ -10,7 +10,7 @@
 
 // What all parts of a change need.
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -174,4 +174,4 @@ void appendShapes(const ObjectChange& change, WorldObject& object)
   for (const auto& [name, pose] : change.subframes)
     object.subframes[name] = pose;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

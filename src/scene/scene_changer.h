@@ -10,7 +10,7 @@
 #include "scene/scene_count.h"
 #include "scene/scene_items.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void appendShapes(const ObjectChange& change, WorldObject& object);
 
@@ -90,4 +90,4 @@ class SceneChanger
   std::set<std::string> attached_here_;  // by this change
   std::set<const Mesh*> valid_meshes_;   // of this change
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -103,4 +103,4 @@ void SceneCount::requireMatrix(const AllowedCollisionMatrix& matrix) const
   requireAtMost(width * width, limits_.matrix_entries, "the entries of the allowed-collision matrix are",
                 "matrix_entries");
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/scene_change.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Holds what a scene has against its limits. Throws Error that names the limit as the node's parameters do.
 class SceneCount
@@ -33,4 +33,4 @@ class SceneCount
   std::size_t shapes_ = 0;
   bool has_new_mesh_ = false;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 #include "scene/scene_reader.h"
 #include "scene/scene_text_file.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -84,4 +84,4 @@ PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const Robot
     throw Error(onOneLine(error.what()));
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -8,7 +8,7 @@
 
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 inline const std::string& idOf(const WorldObject& object)
 {
@@ -96,4 +96,4 @@ class SceneItems
   std::unordered_map<std::string, std::size_t> table_;  // made when first needed
   std::vector<bool> is_gap_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -11,7 +11,7 @@
 #include "gpu_planning_scene/resources.h"
 #include "scene/yaml_value.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 // The parts of a scene file. Each function throws Error with file and line.
 
@@ -65,4 +65,4 @@ std::map<std::string, Color> readColors(const YamlValue& scene, const SceneReade
 
 /// Octomaps: fails where there is one.
 void refuseUnsupported(const YamlValue& scene);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

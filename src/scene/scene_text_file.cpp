@@ -12,7 +12,7 @@
 #include "scene/shape_order.h"
 #include "scene/text_tokens.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -183,4 +183,4 @@ PlanningScene loadSceneTextFile(const std::string& path, std::shared_ptr<const R
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   return readSceneText(text, path, std::move(robot), defaults);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

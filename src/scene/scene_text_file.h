@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A .scene file, as RViz's MotionPlanning plugin writes it: a line with the scene's name; for each object a line
 /// "* NAME", its pose (not in older files), the number of shapes; for each shape its kind and dimensions, pose and
@@ -17,4 +17,4 @@ PlanningScene loadSceneTextFile(const std::string& path, std::shared_ptr<const R
 /// The same of its text; `file` is the name for messages.
 PlanningScene readSceneText(const std::string& text, const std::string& file, std::shared_ptr<const RobotModel> robot,
                             const SceneDefaults& defaults);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 #include <memory>
 #include <variant>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -18,7 +18,7 @@ int rankOf(const PlacedShape& placed)
 
 void orderShapes(std::vector<PlacedShape>& shapes)
 {
-  std::stable_sort(shapes.begin(), shapes.end(),
-                   [](const PlacedShape& a, const PlacedShape& b) { return rankOf(a) < rankOf(b); });
+  std::stable_sort(
+      shapes.begin(), shapes.end(), [](const PlacedShape& a, const PlacedShape& b) { return rankOf(a) < rankOf(b); });
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -8,7 +8,7 @@
 #include "model/one_line.h"
 #include "scene/parse_number.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -108,4 +108,4 @@ Eigen::Isometry3d TextTokens::pose()
     fail("the quaternion is zero; no rotation is 0 0 0 1");
   return Eigen::Translation3d(position) * Eigen::Quaterniond(Eigen::Vector4d(components / norm)).normalized();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

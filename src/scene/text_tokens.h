@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A text of words between blanks, read from its beginning, that knows where it stands, so that what is wrong can be
 /// said with file and line.
@@ -40,4 +40,4 @@ class TextTokens
   std::size_t at_ = 0;
   std::size_t line_ = 1;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

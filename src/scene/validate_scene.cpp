@@ -9,7 +9,7 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/rigid_pose.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -75,8 +75,9 @@ void validateAttached(const AttachedObject& attached, const RobotModel& robot, c
 
 bool hasHalfSpace(const std::vector<PlacedShape>& shapes)
 {
-  return std::any_of(shapes.begin(), shapes.end(),
-                     [](const PlacedShape& placed) { return std::holds_alternative<HalfSpace>(placed.shape); });
+  return std::any_of(
+      shapes.begin(), shapes.end(),
+      [](const PlacedShape& placed) { return std::holds_alternative<HalfSpace>(placed.shape); });
 }
 
 void validateScene(const PlanningScene& scene)
@@ -118,4 +119,4 @@ void SceneValidator::validate(const PlanningScene& scene)
   }
   valid_ = std::move(valid);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// What no checker can use, as scenes may come from a program as well as from a file: throws Error for two objects of
 /// one name, a pose or shape that is not valid, a negative padding, a half-space in a link or a carried object, or an
@@ -24,4 +24,4 @@ class SceneValidator
 };
 
 bool hasHalfSpace(const std::vector<PlacedShape>& shapes);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

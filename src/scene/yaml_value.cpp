@@ -13,7 +13,7 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/parse_number.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Builds the values from the parser's events. yaml-cpp's own node tree would be several times slower for large meshes
 /// and takes a key that is given twice without a word.
@@ -261,4 +261,4 @@ void YamlValue::warnOfUnknownKeys(std::initializer_list<const char*> known, std:
     if (warnings && std::find(known.begin(), known.end(), member.first) == known.end())
       warnings->push_back(member.second.where() + ": unknown key '" + member.first + "' is not used");
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A value of a YAML file that knows where it stands, so that what is wrong with it can be said with file and line.
 class YamlValue
@@ -57,4 +57,4 @@ class YamlValue
   std::vector<YamlValue> items_;
   std::vector<std::pair<std::string, YamlValue>> members_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

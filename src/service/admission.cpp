@@ -4,7 +4,7 @@
 
 #include "service/busy.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void Admission::stop()
 {
@@ -32,4 +32,4 @@ void Admission::leave()
   ++left_;
   changed_.notify_all();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

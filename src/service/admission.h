@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <mutex>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Lets a few at a time in, in the order in which they come. So many others wait; the rest is turned away.
 class Admission
@@ -44,4 +44,4 @@ class Admission
   std::uint64_t left_ = 0;
   bool stopping_ = false;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Too much is waiting; ask again later.
 class Busy : public Error
@@ -10,4 +10,4 @@ class Busy : public Error
  public:
   using Error::Error;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

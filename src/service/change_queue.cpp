@@ -5,7 +5,7 @@
 
 #include "service/busy.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -144,4 +144,4 @@ void ChangeQueue::make(const Make& make_one, const Changes& changes, std::size_t
     make(make_one, changes, middle, end);
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -10,7 +10,7 @@
 
 #include "gpu_planning_scene/scene_change.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Changes of the scene that nobody waits for. They are made in the order in which they come, on a thread of the
 /// queue's own; what waits together is made as one change where that leads to the same scene, since each change copies
@@ -63,4 +63,4 @@ class ChangeQueue
   bool stopping_ = false;
   std::thread thread_;  // the last one: it uses all of the above
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

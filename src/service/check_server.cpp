@@ -1,8 +1,8 @@
 #include "service/check_server.h"
 
-#include "service/check_lane.h"
+#include "service/check_queue.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -18,8 +18,8 @@ bool isSmall(const CheckJob& job)
 
 CheckServer::CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options)
   : options_(options),
-    small_(std::make_unique<CheckLane>(store, make_checker, options, options.largest_batch)),
-    large_(std::make_unique<CheckLane>(store, make_checker, options, 0))
+    small_(std::make_unique<CheckQueue>(store, make_checker, options, options.largest_batch)),
+    large_(std::make_unique<CheckQueue>(store, make_checker, options, 0))
 {
   small_->open();
 }
@@ -38,10 +38,13 @@ std::future<CheckAnswer> CheckServer::submit(CheckJob job)
   const std::size_t width = job.columns.empty() ? small_->stateWidth() : job.columns.size();
   if (width == 0 ? !job.states.empty() : job.states.size() % width != 0)
     throw Error(std::to_string(job.states.size()) + " numbers are not rows of " + std::to_string(width) + " variables");
-  const std::size_t count = width == 0 ? 0 : job.states.size() / width;
+  const std::size_t rows = width == 0 ? 0 : job.states.size() / width;
+  if (job.motions && rows % 2 != 0)
+    throw Error(std::to_string(rows) + " states are not the starts and the ends of motions");
+  const std::size_t count = job.motions ? job.samples : rows;
   requireStateCount(count);
-  CheckLane& lane = count <= options_.small_request && isSmall(job) ? *small_ : *large_;
-  return lane.submit(std::move(job), count);
+  CheckQueue& queue = count <= options_.small_request && isSmall(job) ? *small_ : *large_;
+  return queue.submit(std::move(job), count);
 }
 
 void CheckServer::stop()
@@ -64,4 +67,4 @@ CheckStatistics CheckServer::statistics() const
   sum.waiting_states += large.waiting_states;
   return sum;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

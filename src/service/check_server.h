@@ -9,11 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "gpu_planning_scene/motion_checker.h"
 #include "gpu_planning_scene/state_checker.h"
 #include "service/busy.h"
 #include "service/scene_store.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct CheckServerOptions
 {
@@ -34,11 +35,16 @@ struct CheckJob
   std::shared_ptr<const AllowedCollisionMatrix> matrix;  ///< in place of the scene's; null: none
   bool report = false;                                   ///< whether the scene's report is wanted too
   bool keep_states = false;                              ///< whether the answer is to have the full states
+  /// Set: the states are the starts of straight motions, then as many ends, and the answer is about the motions.
+  std::optional<MotionCheckerOptions> motions;
+  std::size_t samples = 0;  ///< of the motions, by their steps: what the job counts for in the queues
 };
 
 struct CheckAnswer
 {
-  BatchResult result;                          ///< seconds: of all that was answered together
+  BatchResult result;                  ///< seconds: of all that was answered together; of motions nothing else
+  std::vector<MotionVerdict> motions;  ///< of a job that has motions, up to where each is valid
+  std::uint64_t states_checked = 0;
   std::shared_ptr<const PlanningScene> scene;  ///< that was checked, the job's matrix in it
   std::optional<SceneReport> report;
   std::vector<double> states;  ///< rows of all variables, if they were to be kept
@@ -58,7 +64,7 @@ struct CheckStatistics
   std::size_t waiting_states = 0;
 };
 
-class CheckLane;
+class CheckQueue;
 
 /// Checks for many clients at once, in two lanes, each with a thread and a checker of its own: one merges small
 /// requests that wait together (of the same group and matrix), the other does large ones in turn, so a small one never
@@ -91,7 +97,7 @@ class CheckServer
 
  private:
   const CheckServerOptions options_;
-  std::unique_ptr<CheckLane> small_;
-  std::unique_ptr<CheckLane> large_;
+  std::unique_ptr<CheckQueue> small_;
+  std::unique_ptr<CheckQueue> large_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

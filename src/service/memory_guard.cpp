@@ -8,7 +8,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -59,4 +59,4 @@ void MemoryGuard::require() const
     throw Error("out of memory: the process uses " + megabytes(used) + ", and the limit is " + megabytes(most_) +
                 " (limits/memory); remove objects, or ask later");
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <mutex>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Bytes of memory that this process uses.
 std::size_t residentMemory();
@@ -27,4 +27,4 @@ class MemoryGuard
   mutable std::mutex mutex_;                 // of the one below
   mutable Clock::time_point next_return_{};  // when free memory is given back again
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

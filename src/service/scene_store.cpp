@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -20,7 +20,8 @@ void findFrames(const PlanningScene& scene, const SceneChange& change, const Sce
 
 bool hasAll(const ExternalFrames& frames, const std::vector<FrameAt>& wanted)
 {
-  return std::all_of(wanted.begin(), wanted.end(), [&](const FrameAt& frame) { return frames.count(frame) != 0; });
+  return std::all_of(
+      wanted.begin(), wanted.end(), [&](const FrameAt& frame) { return frames.count(frame) != 0; });
 }
 
 /// What the change starts from: the robot's state where all of it is known, or known with what the change brings.
@@ -149,4 +150,4 @@ void SceneStore::setListener(Listener listener)
   const std::lock_guard<std::mutex> changing(changes_);
   listener_ = std::move(listener);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -12,7 +12,7 @@
 #include "model/full_states.h"
 #include "service/state_history.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// An immutable scene, and the robot's state in the same instant.
 struct Snapshot
@@ -76,4 +76,4 @@ class SceneStore
   const SceneLimits limits_;
   Listener listener_;  // changes_ guards it
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void StateHistory::add(std::int64_t stamp, const std::vector<double>& state)
 {
@@ -44,4 +44,4 @@ const std::vector<double>* StateHistory::nearest(std::int64_t stamp) const
   const auto before = std::prev(after);
   return after->stamp - stamp < stamp - before->stamp ? &after->state : &before->state;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The robot's states of the last seconds, by their stamps. Not thread-safe.
 class StateHistory
@@ -28,4 +28,4 @@ class StateHistory
   std::deque<Stamped> states_;  // by stamp
   bool forgot_ = false;         // there were older ones
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

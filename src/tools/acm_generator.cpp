@@ -4,17 +4,17 @@
 #include <map>
 #include <set>
 
-#include "collision/binned_sah.h"
-#include "collision/collision_problem.h"
-#include "collision/cpu_traversal.h"
-#include "collision/state_rows.h"
+#include "collision/bounds/problem_maker.h"
+#include "collision/exact/binned_sah.h"
+#include "collision/exact/cpu_traversal.h"
+#include "collision/parallel_for.h"
+#include "collision/problem/collision_problem.h"
 #include "tools/progress_bar.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
-using BodyPair = CpuTraversal::BodyPair;
 using HitCounts = std::map<BodyPair, std::size_t>;
 
 constexpr DisabledReason kReasons[] = {DisabledReason::Adjacent, DisabledReason::Default, DisabledReason::Always,
@@ -43,16 +43,16 @@ class PairSampler
   {
     const std::size_t width = robot_->variables().size();
     std::vector<std::vector<BodyPair>> hits(count);
-    forChunks(count, 16,
-              [&, scratch = CpuTraversal::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot_->links().size())](
-                  std::size_t begin, std::size_t end) mutable
-              {
-                for (std::size_t i = begin; i < end; ++i)
+    parallelFor(count, 16,
+                [&, scratch = CpuTraversal::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot_->links().size())](
+                    std::size_t begin, std::size_t end) mutable
                 {
-                  robot_->linkPoses(states.data() + i * width, poses.data());
-                  hits[i] = traversal_->allCollisions(poses.data(), scratch);
-                }
-              });
+                  for (std::size_t i = begin; i < end; ++i)
+                  {
+                    robot_->linkPoses(states.data() + i * width, poses.data());
+                    hits[i] = traversal_->allCollisions(poses.data(), scratch);
+                  }
+                });
     for (const auto& pairs : hits)
       for (const BodyPair& pair : pairs)
         ++counts[ordered(pair[0], pair[1])];
@@ -114,7 +114,8 @@ const char* nameOf(DisabledReason reason)
 
 bool isUsersReason(const std::string& reason)
 {
-  return std::none_of(std::begin(kReasons), std::end(kReasons), [&](DisabledReason r) { return reason == nameOf(r); });
+  return std::none_of(
+      std::begin(kReasons), std::end(kReasons), [&](DisabledReason r) { return reason == nameOf(r); });
 }
 
 GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const SamplingOptions& options)
@@ -152,4 +153,4 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Sa
   }
   return matrix;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

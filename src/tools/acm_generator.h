@@ -8,7 +8,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Why a pair of links need not be checked, in the words of MoveIt's Setup Assistant.
 enum class DisabledReason
@@ -47,4 +47,4 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Sa
 
 /// Whether an SRDF entry with this reason is the user's own, and not one that the generator makes.
 bool isUsersReason(const std::string& reason);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

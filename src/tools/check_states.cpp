@@ -5,15 +5,15 @@
 #include <fstream>
 #include <iostream>
 
-#include "tools/open_checker.h"
+#include "collision/checkers/open_checker.h"
+#include "collision/checkers/scene_text.h"
 #include "tools/progress_bar.h"
 #include "tools/robot_arguments.h"
 #include "tools/scene_arguments.h"
-#include "tools/scene_text.h"
 #include "tools/state_source.h"
 #include "tools/state_table.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -68,12 +68,10 @@ void writeAnswers(std::ostream& out, const BatchResult& result, const PlanningSc
   for (std::size_t body = 0; body < bodies; ++body)
     names.push_back(csvCell(scene.bodyName(static_cast<int>(body))));
   for (std::size_t i = 0; i < result.valid.size(); ++i)
-  {
     if (result.valid[i])
       out << "1,,\n";
     else
       out << "0," << names[result.colliding[i][0]] << ',' << names[result.colliding[i][1]] << '\n';
-  }
 }
 
 std::size_t countValid(const BatchResult& result)
@@ -147,11 +145,11 @@ void run(const CommandLine& arguments)
   printSummary(*scene, checker->report(group), *source, result, checker->deviceName());
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 int main(int argc, char** argv)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   const Tool tool{"check_states",
                   "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
                   "                    (--states FILE.csv | --random N [--seed S]) [options]",

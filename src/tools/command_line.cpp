@@ -6,7 +6,7 @@
 
 #include "scene/parse_number.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -127,4 +127,4 @@ int runTool(const Tool& tool, int argc, const char* const* argv)
     return 1;
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

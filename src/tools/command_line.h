@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A command line that the tool cannot make sense of; the exit code is 2, not 1.
 class UsageError : public Error
@@ -57,4 +57,4 @@ struct Tool
 /// The body of main(): handles --help, --version and errors. Returns 0 on success, 2 on bad usage, 1 on any other
 /// error, with one line on stderr.
 int runTool(const Tool& tool, int argc, const char* const* argv);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

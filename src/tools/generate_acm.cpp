@@ -6,12 +6,12 @@
 #include <iterator>
 #include <limits>
 
+#include "collision/checkers/scene_text.h"
 #include "tools/acm_generator.h"
 #include "tools/robot_arguments.h"
-#include "tools/scene_text.h"
 #include "tools/srdf_writer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -76,11 +76,11 @@ void run(const CommandLine& arguments)
   printSummary(matrix, sampling);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 int main(int argc, char** argv)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   const Tool tool{"generate_acm", "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [options]",
                   "Finds the pairs of a robot's links that need not be checked for collision, as MoveIt's Setup\n"
                   "Assistant does, and writes them as disable_collisions of an SRDF: Adjacent (a joint joins them),\n"

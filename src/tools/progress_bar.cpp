@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
@@ -36,4 +36,4 @@ void ProgressBar::update(std::size_t done)
                total_);
   std::fflush(stderr);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

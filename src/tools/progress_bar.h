@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A bar on stderr for work that takes longer than a second; nothing where stderr is not a terminal.
 class ProgressBar
@@ -24,4 +24,4 @@ class ProgressBar
   bool drawn_ = false;
   std::chrono::steady_clock::time_point next_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -20,7 +20,7 @@
 
 namespace
 {
-using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::core;
 
 void limit(__rlimit_resource_t resource, rlim_t most)
 {

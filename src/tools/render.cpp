@@ -5,13 +5,13 @@
 #include <iostream>
 #include <sstream>
 
-#include "gpu_planning_scene/contacts.h"
+#include "collision/checkers/scene_text.h"
+#include "gpu_planning_scene/state_inspector.h"
 #include "render/renderer.h"
 #include "tools/robot_arguments.h"
 #include "tools/scene_arguments.h"
-#include "tools/scene_text.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -108,11 +108,11 @@ void run(const CommandLine& arguments)
             << "\n";
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 int main(int argc, char** argv)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   const Tool tool{"render",
                   "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
                   "              [--state NAME=VALUE,...] --out FILE.png [options]",

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 std::vector<Option> robotOptions()
 {
@@ -75,4 +75,4 @@ void printWarnings(const std::vector<std::string>& warnings)
   for (const std::string& warning : warnings)
     std::cerr << "warning: " << warning << "\n";
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

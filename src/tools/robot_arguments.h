@@ -8,7 +8,7 @@
 #include "gpu_planning_scene/robot_model.h"
 #include "tools/command_line.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// What every tool asks of a robot (--urdf, --srdf, --package, --unbounded-translation) and of a device (--device,
 /// --traversal, --max-batch, --tolerance).
@@ -22,4 +22,4 @@ BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments);
 
 /// On stderr, a line each.
 void printWarnings(const std::vector<std::string>& warnings);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include "scene/parse_number.h"
 #include "tools/robot_arguments.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 std::vector<Option> sceneOptions()
 {
@@ -70,4 +70,4 @@ PlanningScene sceneFrom(const CommandLine& arguments, std::vector<std::string>* 
     scene.objects.push_back(objectFrom(text));
   return scene;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

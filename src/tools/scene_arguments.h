@@ -6,7 +6,7 @@
 #include "gpu_planning_scene/planning_scene.h"
 #include "tools/command_line.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// --scene and --object.
 std::vector<Option> sceneOptions();
@@ -19,4 +19,4 @@ WorldObject objectFrom(const std::string& text);
 
 /// "1,2.5,-3": exactly `count` finite numbers. Throws UsageError that names the option.
 std::vector<double> numbersFrom(const std::string& option, const std::string& text, std::size_t count);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

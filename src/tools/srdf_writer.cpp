@@ -8,7 +8,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -81,4 +81,4 @@ std::string srdfWith(const GeneratedMatrix& matrix, const RobotModel& robot, con
   document.Print(&printer);
   return printer.CStr();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

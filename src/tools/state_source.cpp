@@ -3,11 +3,11 @@
 #include <limits>
 #include <random>
 
+#include "collision/checkers/scene_text.h"
 #include "model/full_states.h"
-#include "tools/scene_text.h"
 #include "tools/state_table.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -103,4 +103,4 @@ std::unique_ptr<StateSource> stateSourceFrom(const CommandLine& arguments, const
   return std::make_unique<RandomStates>(*scene.robot, static_cast<std::size_t>(count),
                                         static_cast<std::uint64_t>(seed));
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include "gpu_planning_scene/planning_scene.h"
 #include "tools/command_line.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The states that a tool checks, handed out piece by piece so that many random ones need no memory.
 class StateSource
@@ -25,4 +25,4 @@ class StateSource
 std::vector<Option> stateOptions();
 /// What those ask for. `scene` must outlive it. Throws UsageError unless exactly one of --states and --random is given.
 std::unique_ptr<StateSource> stateSourceFrom(const CommandLine& arguments, const PlanningScene& scene);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

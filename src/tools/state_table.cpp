@@ -6,7 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/parse_number.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -23,7 +23,6 @@ std::vector<std::string> splitRow(const std::string& line, const std::string& wh
   std::vector<std::string> cells(1);
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i)
-  {
     if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
       cells.back() += line[++i];
     else if (line[i] == '"')
@@ -32,7 +31,6 @@ std::vector<std::string> splitRow(const std::string& line, const std::string& wh
       cells.emplace_back();
     else
       cells.back() += line[i];
-  }
   if (quoted)
     throw Error(where + ": a quote that is not closed");
   for (std::string& cell : cells)
@@ -100,4 +98,4 @@ std::string csvCell(const std::string& text)
     cell += c == '"' ? std::string("\"\"") : std::string(1, c);
   return cell + "\"";
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

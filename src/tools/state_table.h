@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A CSV file of robot states: a header of variable names, then one state a row.
 struct StateTable
@@ -20,4 +20,4 @@ StateTable readStateTable(const std::string& path);
 
 /// A cell as CSV has it: quoted where it holds a comma, a quote or a line break.
 std::string csvCell(const std::string& text);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -14,7 +14,7 @@
 #include "support/shader_folder.h"
 #include "tools/run_program.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -44,14 +44,12 @@ std::vector<std::string> cellsOf(const std::string& line)
   std::vector<std::string> cells(1);
   bool quoted = false;
   for (const char c : line)
-  {
     if (c == '"')
       quoted = !quoted;
     else if (c == ',' && !quoted)
       cells.emplace_back();
     else
       cells.back() += c;
-  }
   return cells;
 }
 
@@ -126,9 +124,7 @@ TEST(Benchmark, TellsRightFromWrongAnswers)
     EXPECT_EQ(number(row, "node_visits_a_state") > 0.0, row.at("method") == "exact_cpu") << row.at("method");
     const bool on_gpu = row.at("method") == "ours_work_queue" || row.at("method") == "ours_breadth_first";
     if (row.at("method") != "ours_auto")
-    {
       EXPECT_EQ(row.at("root_pairs_a_state").empty(), !on_gpu) << row.at("method");
-    }
     if (on_gpu)
     {
       EXPECT_GT(number(row, "root_pairs_a_state"), 0.0) << row.at("method");
@@ -165,7 +161,7 @@ TEST(Benchmark, FailsWhereATimedAnswerIsWrong)
 {
   const TemporaryFolder folder;
   const ShaderFolder shaders;
-  shaders.replace("verdicts.glsl", "atomicOr(flags[state], found);", "");
+  shaders.replace("traversal/verdicts.glsl", "atomicOr(flags[state], found);", "");
   setenv("GPU_PLANNING_SCENE_SHADERS", shaders.path().c_str(), 1);
   for (const std::string part : {"latency", "build", "updates", "growth"})
   {
@@ -249,4 +245,4 @@ TEST(Benchmark, ListsWhatThereIsWhereANameIsWrong)
   const ProgramOutput padding = runProgram(GPS_BENCHMARK, {"--padding", "-1"});
   EXPECT_EQ(padding.exit_code, 2);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

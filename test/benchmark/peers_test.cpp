@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "benchmark/sphere_fit.h"
+#include "collision/bounds/problem_maker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "support/fcl_peer.h"
 #include "support/generated_arm.h"
 #include "support/obstacles.h"
 #include "support/test_scenes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -113,4 +114,4 @@ TEST(GeneratedArm, HasAsManyTrianglesAsAskedFor)
     EXPECT_EQ(robot->variables().size(), 6U);
   }
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

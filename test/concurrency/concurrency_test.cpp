@@ -10,7 +10,7 @@
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -48,9 +48,7 @@ void checkWhileTheSceneChanges(StateChecker& checker, const Scenes& scenes, std:
 {
   std::vector<double> states;
   for (std::size_t i = 0; i < kStates; ++i)
-  {
     states.push_back((static_cast<double>(i) + 0.5) / kStates);
-  }
   std::atomic<bool> done{false};
   std::atomic<int> wrong{0};
   std::atomic<int> answers{0};
@@ -81,9 +79,7 @@ void checkWhileTheSceneChanges(StateChecker& checker, const Scenes& scenes, std:
   }
   done = true;
   for (std::thread& thread : threads)
-  {
     thread.join();
-  }
   EXPECT_EQ(wrong, 0) << "in " << answers << " answers";
 }
 
@@ -103,4 +99,4 @@ TEST(Concurrency, AnswersOfTheGpuBelongToTheirRevision)
   checkWhileTheSceneChanges(checker, scenes, 20);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void requireOneLine(const std::string& text, bool must_say)
 {
@@ -59,4 +59,4 @@ void useRobot(const RobotModel& robot)
   robot.linkPoses(robot.defaultState().data(), poses.data());
   robot.adjacentLinks();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -11,7 +11,7 @@
 // NOLINTNEXTLINE(readability-identifier-naming): the name is libFuzzer's
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Ends the program if the text has a line break or, where it `must_say` something, is empty.
 void requireOneLine(const std::string& text, bool must_say);
@@ -29,4 +29,4 @@ std::string textOf(const std::uint8_t* data, std::size_t size);
 
 /// Asks a robot for what everything else builds on.
 void useRobot(const RobotModel& robot);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   acceptOrRefuse([&] { validateMesh(*meshFromBytes(textOf(data, size), "fuzzed.stl", 1000)); });
   return 0;
 }

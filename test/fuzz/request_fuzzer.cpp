@@ -21,7 +21,7 @@
 #include "node/to_messages.h"
 #include "scene/slider_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -137,12 +137,13 @@ class Handlers
   template <class Service, class Handler>
   static void answer(const std::uint8_t* data, std::uint32_t size, Handler handler)
   {
-    read<typename Service::Request>(data, size,
-                                    [&](const auto& request)
-                                    {
-                                      const typename Service::Response response = handler(request);
-                                      requireOneLine(response.message, !response.success);
-                                    });
+    read<typename Service::Request>(
+        data, size,
+        [&](const auto& request)
+        {
+          const typename Service::Response response = handler(request);
+          requireOneLine(response.message, !response.success);
+        });
   }
 
   /// As roscpp and then the node's endpoints do.
@@ -227,11 +228,11 @@ class Handlers
   CloudTopic clouds_;
 };
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   static const auto robot = sliderRobotOnFloor("floating");
   Handlers handlers(robot);
   while (size >= 3)

@@ -6,7 +6,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   static const auto robot = robotOf(armUrdf());
   static const TemporaryFolder folder;
   const std::string path = folder.write("fuzzed.scene", textOf(data, size));

@@ -6,7 +6,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   static const std::string urdf = R"(<robot name="test">)" + armUrdf() + "</robot>";
   acceptOrRefuse(
       [&]

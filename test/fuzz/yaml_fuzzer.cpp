@@ -6,7 +6,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   static const auto robot = robotOf(
       armUrdf(), R"(<virtual_joint name="base_joint" type="floating" parent_frame="world" child_link="base"/>)");
   static const TemporaryFolder folder;

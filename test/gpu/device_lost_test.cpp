@@ -9,7 +9,7 @@
 #include "gpu/gl_thread.h"
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -47,7 +47,9 @@ TEST(DeviceLost, IsAResetContextWhateverTheJobMadeOfIt)
   EXPECT_EQ(lossIn(thread, [&] { ++ran; }), "");
   {
     const ResetContext reset;
-    EXPECT_EQ(lossIn(thread, [&] { ++ran; }), "the GPU was reset by another program");
+    EXPECT_EQ(lossIn(
+                  thread, [&] { ++ran; }),
+              "the GPU was reset by another program");
     EXPECT_EQ(lossIn(thread, [] { throw Error("from the job"); }), "the GPU was reset by another program");
   }
   EXPECT_EQ(lossIn(thread, [&] { ++ran; }), "");
@@ -74,4 +76,4 @@ TEST(DeviceLost, IsNotWhatASceneCanCause)
   EXPECT_EQ(lossIn(thread, [] { Buffer(16); }), "");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 #include "gpu_planning_scene/device.h"
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -72,4 +72,4 @@ TEST(GlThread, FailsToStartWithoutADevice)
   EXPECT_THROW(GlThread("no such renderer"), Error);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

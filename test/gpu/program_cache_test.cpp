@@ -17,7 +17,7 @@
 #include "gpu/program_cache.h"
 #include "support/shader_folder.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -178,4 +178,4 @@ TEST_F(ProgramCacheTest, RemovesTheOldestEntriesPastItsSize)
   EXPECT_TRUE(isCached());
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -11,7 +11,7 @@
 #include "gpu_planning_scene/error.h"
 #include "support/shader_folder.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -52,7 +52,7 @@ TEST_F(ProgramTest, ThatIncludesAMissingFileNamesTheFile)
 TEST_F(ProgramTest, MayHaveMoreWorkgroupsThanOneDimensionHolds)
 {
   folder_.write("count.comp",
-                "layout(local_size_x = 1) in;\n#include \"common.glsl\"\n"
+                "layout(local_size_x = 1) in;\n#include \"common/invocation.glsl\"\n"
                 "layout(std430, binding = 0) buffer Count { uint count; uint highest; };\n"
                 "void main() { atomicAdd(count, 1u); atomicMax(highest, invocationIndex()); }\n");
   const Program program(folder_.path(), "count.comp");
@@ -95,4 +95,4 @@ TEST_F(ProgramTest, MoreTexelsThanTheDeviceHoldsAreRefused)
   EXPECT_THROW(texels.reserve(std::size_t{1} << 50), Error);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,6 +1,6 @@
 # What install.a_package_builds_against_the_installed_one runs. BUILD: the build to install; CONSUMER: the package to
-# build; EXAMPLE: another, which plans for the robot of ROBOT.urdf and ROBOT.srdf; FOLDER: where all of it goes; PREFIX: the CMAKE_INSTALL_PREFIX of BUILD; GENERATOR: CMake's, since a machine may
-# have only one; SANITIZE: whether BUILD has sanitizers, which CONSUMER then needs too.
+# build; EXAMPLE: another, which plans for the robot of ROBOT.urdf and ROBOT.srdf; PLUGIN: a third, which adds a planner; FOLDER:
+# where all of it goes; PREFIX: the CMAKE_INSTALL_PREFIX of BUILD; GENERATOR: CMake's, since a machine may have only one; SANITIZE: whether BUILD has sanitizers, which CONSUMER then needs too.
 
 # run(WHAT COMMAND...): fails, saying WHAT, with the command's output. Sets output.
 function(run what)
@@ -43,6 +43,12 @@ if(NOT output MATCHES "-1 0\\.8[^\n]*\n(.*\n)+1 0\\.8")
   message(FATAL_ERROR "the example's path is another one:\n${output}")
 endif()
 
+# The planner of another package builds.
+run("find_package does not find it for the plugin" ${CMAKE_COMMAND} -S ${PLUGIN} -B ${FOLDER}/plugin -G ${GENERATOR}
+  -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${flags} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE}
+  -DPython3_EXECUTABLE=${PYTHON_EXECUTABLE})
+run("the plugin does not build" ${CMAKE_COMMAND} --build ${FOLDER}/plugin)
+
 # The tools run from where they were installed, with nothing sourced.
 foreach(tool check_states generate_acm)
   run("${tool} does not run" ${prefix}/lib/gpu_planning_scene/${tool} --version)
@@ -58,7 +64,7 @@ foreach(file setup.bash ${share}/launch/planning_scene.launch ${share}/config/de
 endforeach()
 
 # It is the installed shaders that were compiled: one of them spoilt, the program fails and names it.
-file(WRITE ${prefix}/share/gpu_planning_scene/shaders/interface.h "#error the installed one\n")
+file(WRITE ${prefix}/share/gpu_planning_scene/shaders/shader_constants.h "#error the installed one\n")
 execute_process(COMMAND ${FOLDER}/build/with_variables RESULT_VARIABLE status ERROR_VARIABLE output OUTPUT_VARIABLE output)
 if(status EQUAL 0 OR NOT output MATCHES "the installed one")
   message(FATAL_ERROR "the installed shaders are not used: ${status}\n${output}")

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/mesh_reader.h"
-#include "model_testing.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -45,7 +45,7 @@ class AllowedRootsTest : public ::testing::Test
   AllowedRoots allowed_;
 };
 
-TEST_F(AllowedRootsTest, packagesMayBeReadFrom)
+TEST_F(AllowedRootsTest, PackagesMayBeReadFrom)
 {
   EXPECT_EQ(resolved("package://arm/meshes/link.stl"), real("arm/meshes/link.stl"));
   EXPECT_EQ(resolved("package://arm/meshes/x/../link.stl"), real("arm/meshes/link.stl"));
@@ -54,7 +54,7 @@ TEST_F(AllowedRootsTest, packagesMayBeReadFrom)
   EXPECT_EQ(resolved("package://arm/none.stl"), real("arm/none.stl")) << "whether it is there is not asked";
 }
 
-TEST_F(AllowedRootsTest, noPathLeavesAPackage)
+TEST_F(AllowedRootsTest, NoPathLeavesAPackage)
 {
   for (const char* uri :
        {"package://arm/../secret.stl", "package://arm/%2e%2e/secret.stl", "package://arm/%2E%2e%2fsecret.stl",
@@ -65,7 +65,7 @@ TEST_F(AllowedRootsTest, noPathLeavesAPackage)
     EXPECT_NE(errorFor(uri).find("leaves its package"), std::string::npos) << uri << ": " << errorFor(uri);
 }
 
-TEST_F(AllowedRootsTest, otherFilesNeedARoot)
+TEST_F(AllowedRootsTest, OtherFilesNeedARoot)
 {
   for (const std::string& prefix : {std::string(), std::string("file://")})
   {
@@ -80,7 +80,7 @@ TEST_F(AllowedRootsTest, otherFilesNeedARoot)
   EXPECT_NE(errorFor("file://" + folder_.path("free/%2e%2e/secret.stl")).find("~mesh/roots"), std::string::npos);
 }
 
-TEST_F(AllowedRootsTest, relativePathsStayInTheFolderOfTheFileThatNamesThem)
+TEST_F(AllowedRootsTest, RelativePathsStayInTheFolderOfTheFileThatNamesThem)
 {
   EXPECT_EQ(resolved("link.stl"), real("arm/meshes/link.stl"));
   EXPECT_NE(errorFor("../out.stl"), "");
@@ -89,9 +89,9 @@ TEST_F(AllowedRootsTest, relativePathsStayInTheFolderOfTheFileThatNamesThem)
   EXPECT_EQ(resolved("../../free/link.stl"), real("free/link.stl"));
 }
 
-TEST_F(AllowedRootsTest, withoutRootsAnyFileMayBeNamed)
+TEST_F(AllowedRootsTest, WithoutRootsAnyFileMayBeNamed)
 {
   EXPECT_EQ(MeshAccess().resolve("/x/a.stl", "", PackageResolver()), "/x/a.stl");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

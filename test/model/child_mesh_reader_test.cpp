@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/mesh_reader.h"
-#include "mesh_files.h"
+#include "model/mesh_files.h"
 #include "model/mesh_pipe.h"
-#include "model_testing.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -46,7 +46,7 @@ MeshLimits quick()
   return limits;
 }
 
-TEST(ChildMeshReader, givesTheMeshThatThisProcessWouldRead)
+TEST(ChildMeshReader, GivesTheMeshThatThisProcessWouldRead)
 {
   const TemporaryFolder folder;
   const std::string path = folder.write("a mesh.stl", binaryStl(sheet(30)));
@@ -59,7 +59,7 @@ TEST(ChildMeshReader, givesTheMeshThatThisProcessWouldRead)
   EXPECT_EQ(mesh->name, path);
 }
 
-TEST(ChildMeshReader, whatTheReaderSaysIsTheError)
+TEST(ChildMeshReader, WhatTheReaderSaysIsTheError)
 {
   const TemporaryFolder folder;
   const std::string path = folder.write("bad.stl", "solid of nothing");
@@ -68,14 +68,14 @@ TEST(ChildMeshReader, whatTheReaderSaysIsTheError)
   EXPECT_NE(errorOfReading(GPS_READ_MESH, folder.path("none.stl"), quick()).find("does not exist"), std::string::npos);
 }
 
-TEST(ChildMeshReader, aCrashOfTheReaderIsAnError)
+TEST(ChildMeshReader, ACrashOfTheReaderIsAnError)
 {
   EXPECT_NE(errorOfReading(GPS_FAULTY_MESH_READER, "/x/crash.stl", quick()).find("crashed (signal 11)"),
             std::string::npos);
   EXPECT_NE(errorOfReading(GPS_FAULTY_MESH_READER, "/x/exit.stl", quick()).find("exit code 42"), std::string::npos);
 }
 
-TEST(ChildMeshReader, aReaderThatHangsIsStopped)
+TEST(ChildMeshReader, AReaderThatHangsIsStopped)
 {
   MeshLimits limits = quick();
   limits.seconds = 0.2;
@@ -83,7 +83,7 @@ TEST(ChildMeshReader, aReaderThatHangsIsStopped)
     EXPECT_NE(errorOfReading(GPS_FAULTY_MESH_READER, path, limits).find("longer than 0.2"), std::string::npos) << path;
 }
 
-TEST(ChildMeshReader, endlessOutputIsCutOff)
+TEST(ChildMeshReader, EndlessOutputIsCutOff)
 {
   for (const char* path : {"/x/babble.stl", "/x/complain.stl"})
     EXPECT_NE(errorOfReading(GPS_FAULTY_MESH_READER, path, quick()).find("more than a mesh of 1000 triangles"),
@@ -91,13 +91,13 @@ TEST(ChildMeshReader, endlessOutputIsCutOff)
         << path;
 }
 
-TEST(ChildMeshReader, anAnswerThatLiesOfItsLengthIsRefused)
+TEST(ChildMeshReader, AnAnswerThatLiesOfItsLengthIsRefused)
 {
   for (const char* path : {"/x/lie.stl", "/x/short.stl", "/x/empty.stl"})
     EXPECT_NE(errorOfReading(GPS_FAULTY_MESH_READER, path, quick()), "") << path;
 }
 
-TEST(ChildMeshReader, largeFilesAndManyTrianglesAreRefused)
+TEST(ChildMeshReader, LargeFilesAndManyTrianglesAreRefused)
 {
   const TemporaryFolder folder;
   const std::string path = folder.write("sheet.stl", binaryStl(sheet(30)));  // 1800 triangles
@@ -109,7 +109,7 @@ TEST(ChildMeshReader, largeFilesAndManyTrianglesAreRefused)
   EXPECT_NE(large.find("at most 1000 are allowed (~mesh/file_size)"), std::string::npos) << large;
 }
 
-TEST(ChildMeshReader, aFileThatNeedsTooMuchMemoryIsRefused)
+TEST(ChildMeshReader, AFileThatNeedsTooMuchMemoryIsRefused)
 {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the address sanitizer takes more addresses than any limit";
@@ -122,14 +122,14 @@ TEST(ChildMeshReader, aFileThatNeedsTooMuchMemoryIsRefused)
   EXPECT_NE(error.find("needs more than 100 MiB"), std::string::npos) << error;
 }
 
-TEST(ChildMeshReader, aProgramThatIsNotThereIsNamed)
+TEST(ChildMeshReader, AProgramThatIsNotThereIsNamed)
 {
   const ReadMesh read = childMeshReader("/no/such/read_mesh", quick());
   const std::string error = errorOf([&] { read("/x/a.stl", Eigen::Vector3d::Ones()); });
   EXPECT_NE(error.find("/no/such/read_mesh"), std::string::npos) << error;
 }
 
-TEST(ChildMeshReader, robotsAreReadThroughIt)
+TEST(ChildMeshReader, RobotsAreReadThroughIt)
 {
   const TemporaryFolder folder;
   folder.write("part.stl", binaryStl(sheet(3)));
@@ -151,7 +151,7 @@ TEST(ChildMeshReader, robotsAreReadThroughIt)
   EXPECT_NE(errorOf([&] { RobotModel::fromFiles(outside, "", options); }).find("~mesh/roots"), std::string::npos);
 }
 
-TEST(MeshPipe, bytesAreNotTrusted)
+TEST(MeshPipe, BytesAreNotTrusted)
 {
   const Mesh mesh = sheet(2);
   const std::string good = meshBytes(mesh);
@@ -169,4 +169,4 @@ TEST(MeshPipe, bytesAreNotTrusted)
   EXPECT_NE(fault(meshBytes(wrong)), "") << "a vertex that is not finite";
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "model_testing.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -18,7 +18,7 @@ void expectError(const std::string& srdf, const std::string& text)
   EXPECT_NE(error(srdf).find(text), std::string::npos) << srdf << ": " << error(srdf);
 }
 
-TEST(Groups, jointsLinksChainsAndSubgroupsAddJoints)
+TEST(Groups, JointsLinksChainsAndSubgroupsAddJoints)
 {
   const auto robot = robotOf(armUrdf(), R"(
     <group name="all"><group name="arm"/><group name="gripper"/></group>
@@ -33,7 +33,7 @@ TEST(Groups, jointsLinksChainsAndSubgroupsAddJoints)
   EXPECT_EQ(robot->groups()[0].name, "all");
 }
 
-TEST(Groups, variablesAreThoseOfActiveJoints)
+TEST(Groups, VariablesAreThoseOfActiveJoints)
 {
   const auto robot = robotOf(armUrdf(), R"(
     <group name="arm"><chain base_link="base" tip_link="hand"/></group>
@@ -42,7 +42,7 @@ TEST(Groups, variablesAreThoseOfActiveJoints)
   EXPECT_EQ(robot->group("gripper").variables, (std::vector<int>{2}));
 }
 
-TEST(Groups, aGroupMovesAllLinksBelowItsActiveJoints)
+TEST(Groups, AGroupMovesAllLinksBelowItsActiveJoints)
 {
   const auto robot = robotOf(armUrdf(), R"(
     <group name="elbow"><joint name="arm_2"/></group>
@@ -54,7 +54,7 @@ TEST(Groups, aGroupMovesAllLinksBelowItsActiveJoints)
   EXPECT_TRUE(robot->group("mount").moved_links.empty());
 }
 
-TEST(Groups, aLeaderMovesTheLinksOfItsMimicsToo)
+TEST(Groups, ALeaderMovesTheLinksOfItsMimicsToo)
 {
   const auto robot = robotOf(armUrdf(), R"(
     <group name="leader"><joint name="left"/></group>
@@ -63,7 +63,7 @@ TEST(Groups, aLeaderMovesTheLinksOfItsMimicsToo)
   EXPECT_TRUE(robot->group("mimic").moved_links.empty()) << "the group does not own the leader's variable";
 }
 
-TEST(Groups, aChainBetweenTwoBranchesTakesBothUpToTheirMeetingPoint)
+TEST(Groups, AChainBetweenTwoBranchesTakesBothUpToTheirMeetingPoint)
 {
   const auto robot = robotOf(armUrdf(), R"(
     <group name="over_root"><chain base_link="head" tip_link="fore"/></group>
@@ -75,7 +75,7 @@ TEST(Groups, aChainBetweenTwoBranchesTakesBothUpToTheirMeetingPoint)
   EXPECT_EQ(jointNames(*robot, robot->group("upwards").joints), (Names{"arm_1", "arm_2", "hand_fix"}));
 }
 
-TEST(Groups, aVirtualJointCanBelongToAGroup)
+TEST(Groups, AVirtualJointCanBelongToAGroup)
 {
   const auto robot = robotOf(armUrdf(), R"(
     <virtual_joint name="v" type="planar" parent_frame="odom" child_link="base"/>
@@ -86,7 +86,7 @@ TEST(Groups, aVirtualJointCanBelongToAGroup)
   EXPECT_EQ(robot->group("base_by_link").joints, robot->group("base").joints);
 }
 
-TEST(Groups, unknownNamesAreErrorsWithTheirLine)
+TEST(Groups, UnknownNamesAreErrorsWithTheirLine)
 {
   expectError("\n<group name=\"g\">\n<joint name=\"x\"/></group>", "test.srdf:3: group 'g' names joint 'x'");
   expectError("\n<group name=\"g\"><link name=\"x\"/></group>", "test.srdf:2: group 'g' names link 'x'");
@@ -95,7 +95,7 @@ TEST(Groups, unknownNamesAreErrorsWithTheirLine)
   expectError("<group name=\"g\"><group name=\"h\"/></group>", "subgroup 'h'");
 }
 
-TEST(Groups, groupsThatContainThemselvesAreErrors)
+TEST(Groups, GroupsThatContainThemselvesAreErrors)
 {
   expectError("<group name=\"g\"><group name=\"g\"/></group>", "group 'g' contains itself");
   expectError(R"(<group name="a"><group name="b"/></group><group name="b"><group name="c"/></group>
@@ -103,7 +103,7 @@ TEST(Groups, groupsThatContainThemselvesAreErrors)
               "group 'a' contains itself");
 }
 
-TEST(Groups, aSharedSubgroupIsNoLoop)
+TEST(Groups, ASharedSubgroupIsNoLoop)
 {
   const auto robot = robotOf(armUrdf(), R"(
     <group name="top"><group name="a"/><group name="b"/></group>
@@ -112,14 +112,14 @@ TEST(Groups, aSharedSubgroupIsNoLoop)
   EXPECT_EQ(robot->group("top").variables, robot->group("c").variables);
 }
 
-TEST(Groups, missingAttributesAreErrors)
+TEST(Groups, MissingAttributesAreErrors)
 {
   expectError("<group/>", "test.srdf:1: <group> lacks the attribute 'name'");
   expectError("<group name=\"g\"><chain base_link=\"base\"/></group>", "'tip_link'");
   expectError("<group name=\"g\"><joint/></group>", "<joint> lacks the attribute 'name'");
 }
 
-TEST(Groups, oddGroupsGiveWarnings)
+TEST(Groups, OddGroupsGiveWarnings)
 {
   std::vector<std::string> warnings;
   const auto robot = robotOf(armUrdf(), R"(
@@ -133,7 +133,7 @@ TEST(Groups, oddGroupsGiveWarnings)
   EXPECT_EQ(jointNames(*robot, robot->group("g").joints), (Names{"pan"}));
 }
 
-TEST(Groups, anUnknownGroupIsAnErrorThatListsTheGroups)
+TEST(Groups, AnUnknownGroupIsAnErrorThatListsTheGroups)
 {
   const auto robot = robotOf(
       armUrdf(), "<group name=\"a\"><joint name=\"pan\"/></group><group name=\"b\"><joint name=\"left\"/></group>");
@@ -143,4 +143,4 @@ TEST(Groups, anUnknownGroupIsAnErrorThatListsTheGroups)
   EXPECT_NE(errorOf([] { robotOf(armUrdf())->group("c"); }).find("SRDF"), std::string::npos);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

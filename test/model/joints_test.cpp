@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "model_testing.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -22,13 +22,11 @@ std::vector<std::string> variableNames(const RobotModel& robot)
 {
   std::vector<std::string> names;
   for (const Variable& variable : robot.variables())
-  {
     names.push_back(variable.name);
-  }
   return names;
 }
 
-TEST(Joints, revoluteAndPrismaticJointsHaveTheirLimits)
+TEST(Joints, RevoluteAndPrismaticJointsHaveTheirLimits)
 {
   for (const char* type : {"revolute", "prismatic"})
   {
@@ -39,7 +37,7 @@ TEST(Joints, revoluteAndPrismaticJointsHaveTheirLimits)
   }
 }
 
-TEST(Joints, aRevoluteJointWithZeroRangeIsBoundToZero)
+TEST(Joints, ARevoluteJointWithZeroRangeIsBoundToZero)
 {
   const auto robot = robotOf(twoLinks() + jointXml("j", "revolute", "a", "b", R"(<limit effort="1" velocity="1"/>)"));
   EXPECT_TRUE(variable(*robot, "j").bounded);
@@ -47,7 +45,7 @@ TEST(Joints, aRevoluteJointWithZeroRangeIsBoundToZero)
   EXPECT_EQ(variable(*robot, "j").upper, 0.0);
 }
 
-TEST(Joints, aContinuousJointIsUnboundedWhateverItsLimits)
+TEST(Joints, AContinuousJointIsUnboundedWhateverItsLimits)
 {
   const auto robot = robotOf(twoLinks() + jointXml("j", "continuous", "a", "b", kLimits));
   EXPECT_FALSE(variable(*robot, "j").bounded);
@@ -55,7 +53,7 @@ TEST(Joints, aContinuousJointIsUnboundedWhateverItsLimits)
   EXPECT_EQ(variable(*robot, "j").upper, kPi);
 }
 
-TEST(Joints, planarAndFloatingJointsHaveMoveItsVariables)
+TEST(Joints, PlanarAndFloatingJointsHaveMoveItsVariables)
 {
   const auto robot =
       robotOf(boxLink("a") + boxLink("b") + boxLink("c") + jointXml("p", "planar", "a", "b", "<axis xyz=\"0 0 1\"/>") +
@@ -68,7 +66,7 @@ TEST(Joints, planarAndFloatingJointsHaveMoveItsVariables)
   EXPECT_FALSE(variable(*robot, "q/trans_x").bounded);
 }
 
-TEST(Joints, aPlanarJointWithoutAnAxisGivesAWarning)
+TEST(Joints, APlanarJointWithoutAnAxisGivesAWarning)
 {
   std::vector<std::string> warnings;
   const auto robot = robotOf(twoLinks() + jointXml("j", "planar", "a", "b"), "", &warnings);
@@ -77,7 +75,7 @@ TEST(Joints, aPlanarJointWithoutAnAxisGivesAWarning)
   EXPECT_NE(warnings[0].find("joint 'j' is planar and has no <axis>"), std::string::npos) << warnings[0];
 }
 
-TEST(Joints, theRangeOfUnboundedTranslationsCanBeSet)
+TEST(Joints, TheRangeOfUnboundedTranslationsCanBeSet)
 {
   RobotModelOptions options;
   options.unbounded_translation = 2.5;
@@ -88,7 +86,7 @@ TEST(Joints, theRangeOfUnboundedTranslationsCanBeSet)
   EXPECT_EQ(variable(*robot, "j/rot_w").upper, 1.0);
 }
 
-TEST(Joints, aJointsNumberOfVariablesFollowsItsType)
+TEST(Joints, AJointsNumberOfVariablesFollowsItsType)
 {
   EXPECT_EQ(variableCount(JointType::Fixed), 0);
   EXPECT_EQ(variableCount(JointType::Prismatic), 1);
@@ -96,15 +94,13 @@ TEST(Joints, aJointsNumberOfVariablesFollowsItsType)
   EXPECT_EQ(variableCount(JointType::Floating), 7);
 }
 
-TEST(Joints, linksAndJointsAreInMoveItsOrder)
+TEST(Joints, LinksAndJointsAreInMoveItsOrder)
 {
   // Depth first; the children of a link in the order of their joints' names.
   const auto robot = robotOf(armUrdf());
   std::vector<std::string> links;
   for (const Link& link : robot->links())
-  {
     links.push_back(link.name);
-  }
   EXPECT_EQ(links, (std::vector<std::string>{"base", "upper", "fore", "hand", "finger_left", "finger_right", "head"}));
   EXPECT_EQ(variableNames(*robot), (std::vector<std::string>{"arm_1", "arm_2", "left", "pan"}));
   EXPECT_EQ(robot->jointIndex("pan"), 5);
@@ -113,7 +109,7 @@ TEST(Joints, linksAndJointsAreInMoveItsOrder)
   EXPECT_EQ(robot->joints()[5].child_link, 6);
 }
 
-TEST(Joints, namesThatDoNotExistHaveIndexMinusOne)
+TEST(Joints, NamesThatDoNotExistHaveIndexMinusOne)
 {
   const auto robot = robotOf(armUrdf());
   EXPECT_EQ(robot->linkIndex("arm_1"), -1);
@@ -121,7 +117,7 @@ TEST(Joints, namesThatDoNotExistHaveIndexMinusOne)
   EXPECT_EQ(robot->variableIndex("right"), -1) << "a mimic joint has no variable of its own";
 }
 
-TEST(Joints, aChainOfMimicsFollowsItsFinalLeader)
+TEST(Joints, AChainOfMimicsFollowsItsFinalLeader)
 {
   const auto robot =
       robotOf(boxLink("a") + boxLink("b") + boxLink("c") + boxLink("d") + jointXml("leader", "continuous", "a", "d") +
@@ -140,7 +136,7 @@ TEST(Joints, aChainOfMimicsFollowsItsFinalLeader)
   EXPECT_EQ(first.offset, -1.5);  // 2 (3 x - 1) + 0.5
 }
 
-TEST(Joints, adjacentLinksStepOverLinksWithoutShapes)
+TEST(Joints, AdjacentLinksStepOverLinksWithoutShapes)
 {
   const std::string urdf = boxLink("a") + "<link name=\"empty\"/>" + boxLink("b") + boxLink("c") +
                            jointXml("1", "fixed", "a", "empty") + jointXml("2", "fixed", "empty", "b") +
@@ -151,14 +147,14 @@ TEST(Joints, adjacentLinksStepOverLinksWithoutShapes)
   EXPECT_EQ(robot->adjacentLinks(), (std::vector<std::pair<int, int>>{{a, b}, {a, c}}));
 }
 
-TEST(Joints, childrenOfAnEmptyRootAreNotAdjacent)
+TEST(Joints, ChildrenOfAnEmptyRootAreNotAdjacent)
 {
   const auto robot = robotOf("<link name=\"empty\"/>" + twoLinks() + jointXml("1", "fixed", "empty", "a") +
                              jointXml("2", "fixed", "empty", "b"));
   EXPECT_TRUE(robot->adjacentLinks().empty());
 }
 
-TEST(Joints, everyCollisionElementOfALinkCountsWithItsOrigin)
+TEST(Joints, EveryCollisionElementOfALinkCountsWithItsOrigin)
 {
   const auto robot = robotOf(R"(<link name="a">
     <collision><origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/><geometry><box size="1 2 3"/></geometry></collision>
@@ -174,7 +170,7 @@ TEST(Joints, everyCollisionElementOfALinkCountsWithItsOrigin)
   EXPECT_EQ(robot->triangleCount(), 0u);
 }
 
-TEST(Joints, visualsAreNoCollisionGeometryAndSayingSoIsAWarning)
+TEST(Joints, VisualsAreNoCollisionGeometryAndSayingSoIsAWarning)
 {
   std::vector<std::string> warnings;
   const auto robot =
@@ -184,7 +180,7 @@ TEST(Joints, visualsAreNoCollisionGeometryAndSayingSoIsAWarning)
   EXPECT_NE(warnings[0].find("test.urdf:1: link 'a'"), std::string::npos) << warnings[0];
 }
 
-TEST(Joints, leftoversOfXacroAreHarmless)
+TEST(Joints, LeftoversOfXacroAreHarmless)
 {
   const auto robot = RobotModel::fromXml(R"(<?xml version="1.0"?>
     <!-- made by xacro -->
@@ -195,4 +191,4 @@ TEST(Joints, leftoversOfXacroAreHarmless)
   EXPECT_EQ(robot->planningFrame(), "a");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,10 +5,10 @@
 #include <urdf_model/model.h>
 #include <urdf_parser/urdf_parser.h>
 
-#include "model_testing.h"
-#include "real_robots.h"
+#include "model/model_testing.h"
+#include "model/real_robots.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -114,28 +114,22 @@ void expectSamePoses(const std::string& urdf, const RobotModel& robot, int state
   }
 }
 
-TEST(Kinematics, agreesWithANaiveImplementationOnRealRobots)
+TEST(Kinematics, AgreesWithANaiveImplementationOnRealRobots)
 {
   const std::vector<RealRobot> robots = realRobots();
   if (robots.empty())
-  {
     GTEST_SKIP() << "no robot in " << GPS_DART_DATA_DIR << " or " << GPS_SHARED_DIR;
-  }
   for (const RealRobot& robot : robots)
-  {
     expectSamePoses(robot.urdfText(), *robot.load(), 100);
-  }
 }
 
-TEST(Kinematics, agreesWithANaiveImplementationForEveryJointType)
+TEST(Kinematics, AgreesWithANaiveImplementationForEveryJointType)
 {
   const std::string origin = R"(<origin xyz="0.1 -0.2 0.3" rpy="0.4 -0.5 0.6"/>)";
   const std::string axis = R"(<axis xyz="1 -2 0.5"/>)";
   std::string urdf;
   for (const char* link : {"l0", "l1", "l2", "l3", "l4", "l5", "l6", "l7", "l8", "l9"})
-  {
     urdf += boxLink(link);
-  }
   urdf += jointXml("floating", "floating", "l0", "l1", origin);
   urdf += jointXml("planar", "planar", "l1", "l2", origin + R"(<axis xyz="0 0 1"/>)");
   urdf += jointXml("revolute", "revolute", "l2", "l3", origin + axis + kLimits);
@@ -150,7 +144,7 @@ TEST(Kinematics, agreesWithANaiveImplementationForEveryJointType)
   expectSamePoses("<robot name=\"test\">" + urdf + "</robot>", *robotOf(urdf), 200);
 }
 
-TEST(Kinematics, originsTurnAboutFixedAxesRollFirst)
+TEST(Kinematics, OriginsTurnAboutFixedAxesRollFirst)
 {
   const auto robot = robotOf(boxLink("a") + boxLink("b") +
                              jointXml("j", "fixed", "a", "b", R"(<origin xyz="1 2 3" rpy="0.4 -0.5 0.6"/>)"));
@@ -162,7 +156,7 @@ TEST(Kinematics, originsTurnAboutFixedAxesRollFirst)
   EXPECT_TRUE(poses[1].isApprox(expected, 1e-15));
 }
 
-TEST(Kinematics, aStateIsReadWithoutScalingOfItsQuaternion)
+TEST(Kinematics, AStateIsReadWithoutScalingOfItsQuaternion)
 {
   const auto robot = robotOf(boxLink("a") + boxLink("b") + jointXml("j", "floating", "a", "b"));
   std::vector<Eigen::Isometry3d> poses(2);
@@ -178,7 +172,7 @@ TEST(Kinematics, aStateIsReadWithoutScalingOfItsQuaternion)
   EXPECT_EQ(poses[1].translation(), Eigen::Vector3d(1, 2, 3));
 }
 
-TEST(Kinematics, aPlanarJointMovesInThePlaneOfItsNormal)
+TEST(Kinematics, APlanarJointMovesInThePlaneOfItsNormal)
 {
   std::mt19937_64 generator(kSeed);
   for (const Eigen::Vector3d& normal : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, 1),
@@ -205,4 +199,4 @@ TEST(Kinematics, aPlanarJointMovesInThePlaneOfItsNormal)
   EXPECT_EQ(planarDirections(Eigen::Vector3d::UnitZ()), Eigen::Matrix3d::Identity());
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

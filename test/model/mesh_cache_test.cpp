@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/resources.h"
-#include "mesh_files.h"
-#include "model_testing.h"
+#include "model/mesh_files.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -28,12 +28,8 @@ std::vector<Corners> triangles(const Mesh& mesh)
   {
     Corners corners;
     for (int i = 0; i < 3; ++i)
-    {
       for (int k = 0; k < 3; ++k)
-      {
         corners[i][k] = std::round(mesh.vertices[triangle[i]][k] * 1e6) * 1e-6 + 0.0;
-      }
-    }
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     result.push_back(corners);
   }
@@ -44,9 +40,7 @@ std::vector<Corners> triangles(const Mesh& mesh)
 Mesh transformed(Mesh mesh, const Eigen::Affine3d& transform)
 {
   for (auto& vertex : mesh.vertices)
-  {
     vertex = transform * vertex;
-  }
   return mesh;
 }
 
@@ -59,13 +53,11 @@ double volume(const Mesh& mesh)
 {
   double sum = 0.0;
   for (const auto& [a, b, c] : mesh.triangles)
-  {
     sum += mesh.vertices[a].dot(mesh.vertices[b].cross(mesh.vertices[c])) / 6.0;
-  }
   return sum;
 }
 
-TEST(MeshCache, everyFormatGivesTheSameMesh)
+TEST(MeshCache, EveryFormatGivesTheSameMesh)
 {
   const TemporaryFolder folder;
   const std::vector<std::string> files = {
@@ -85,7 +77,7 @@ TEST(MeshCache, everyFormatGivesTheSameMesh)
   }
 }
 
-TEST(MeshCache, theUnitOfAColladaFileAppliesAndItsUpAxisDoesNot)
+TEST(MeshCache, TheUnitOfAColladaFileAppliesAndItsUpAxisDoesNot)
 {
   const TemporaryFolder folder;
   const Mesh centimetres = transformed(brick(), Eigen::Affine3d(Eigen::Scaling(100.0)));
@@ -96,7 +88,7 @@ TEST(MeshCache, theUnitOfAColladaFileAppliesAndItsUpAxisDoesNot)
   }
 }
 
-TEST(MeshCache, nodeTransformsOfAColladaFileApply)
+TEST(MeshCache, NodeTransformsOfAColladaFileApply)
 {
   const TemporaryFolder folder;
   const Mesh centimetres = transformed(brick(), Eigen::Affine3d(Eigen::Scaling(100.0)));
@@ -107,7 +99,7 @@ TEST(MeshCache, nodeTransformsOfAColladaFileApply)
   EXPECT_EQ(triangles(*load(file)), triangles(transformed(brick(), pose)));
 }
 
-TEST(MeshCache, scalesApplyPerAxisAndMirroredMeshesStillFaceOutward)
+TEST(MeshCache, ScalesApplyPerAxisAndMirroredMeshesStillFaceOutward)
 {
   const TemporaryFolder folder;
   const std::string file = folder.write("brick.stl", binaryStl(brick()));
@@ -122,7 +114,7 @@ TEST(MeshCache, scalesApplyPerAxisAndMirroredMeshesStillFaceOutward)
   EXPECT_NEAR(volume(*load(flipped)), volume(brick()), 1e-6);
 }
 
-TEST(MeshCache, degenerateAndDuplicateTrianglesAreKept)
+TEST(MeshCache, DegenerateAndDuplicateTrianglesAreKept)
 {
   Mesh mesh = brick();
   mesh.triangles.push_back({0, 1, 1});
@@ -132,12 +124,10 @@ TEST(MeshCache, degenerateAndDuplicateTrianglesAreKept)
   for (const std::string& file : {folder.write("a.stl", asciiStl(mesh)), folder.write("b.stl", binaryStl(mesh)),
                                   folder.write("c.obj", objText(mesh)), folder.write("d.ply", plyText(mesh)),
                                   folder.write("e.dae", daeText(mesh))})
-  {
     EXPECT_EQ(load(file)->triangles.size(), 15u) << file;
-  }
 }
 
-TEST(MeshCache, polygonsAreTriangulatedAndPointsAndLinesLeftOut)
+TEST(MeshCache, PolygonsAreTriangulatedAndPointsAndLinesLeftOut)
 {
   const TemporaryFolder folder;
   // An L of area 3, not convex, and a line and a point.
@@ -154,7 +144,7 @@ TEST(MeshCache, polygonsAreTriangulatedAndPointsAndLinesLeftOut)
   EXPECT_NEAR(area, 3.0, 1e-6);
 }
 
-TEST(MeshCache, aFileWithTheSameScaleIsLoadedOnce)
+TEST(MeshCache, AFileWithTheSameScaleIsLoadedOnce)
 {
   const TemporaryFolder folder;
   const std::string file = folder.write("brick.stl", binaryStl(brick()));
@@ -165,7 +155,7 @@ TEST(MeshCache, aFileWithTheSameScaleIsLoadedOnce)
   EXPECT_EQ(cache.load(file, {1, 1, 1}), mesh);
 }
 
-TEST(MeshCache, whatIsWrongWithAFileIsSaid)
+TEST(MeshCache, WhatIsWrongWithAFileIsSaid)
 {
   const TemporaryFolder folder;
   Mesh empty = brick();
@@ -199,4 +189,4 @@ TEST(MeshCache, whatIsWrongWithAFileIsSaid)
   expect_error(good, "not finite", {1.0, std::numeric_limits<double>::quiet_NaN(), 1.0});
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,9 +1,9 @@
-#include "mesh_files.h"
+#include "model/mesh_files.h"
 
 #include <cstring>
 #include <sstream>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -24,9 +24,7 @@ std::string asciiStl(const Mesh& mesh)
   {
     text << "facet normal 0 0 0\nouter loop\n";
     for (const std::uint32_t vertex : triangle)
-    {
       text << "vertex " << mesh.vertices[vertex].transpose() << "\n";
-    }
     text << "endloop\nendfacet\n";
   }
   text << "endsolid part\n";
@@ -42,12 +40,8 @@ std::string binaryStl(const Mesh& mesh, const std::string& header)
   {
     bytes.append(12, '\0');  // the normal
     for (const std::uint32_t vertex : triangle)
-    {
       for (const double coordinate : mesh.vertices[vertex])
-      {
         append(bytes, static_cast<float>(coordinate));
-      }
-    }
     bytes.append(2, '\0');
   }
   return bytes;
@@ -57,13 +51,9 @@ std::string objText(const Mesh& mesh)
 {
   std::ostringstream text;
   for (const auto& vertex : mesh.vertices)
-  {
     text << "v " << vertex.transpose() << "\n";
-  }
   for (const auto& [a, b, c] : mesh.triangles)
-  {
     text << "f " << a + 1 << " " << b + 1 << " " << c + 1 << "\n";
-  }
   return text.str();
 }
 
@@ -74,13 +64,9 @@ std::string plyText(const Mesh& mesh)
        << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << mesh.triangles.size()
        << "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const auto& vertex : mesh.vertices)
-  {
     text << vertex.transpose() << "\n";
-  }
   for (const auto& [a, b, c] : mesh.triangles)
-  {
     text << "3 " << a << " " << b << " " << c << "\n";
-  }
   return text.str();
 }
 
@@ -94,9 +80,7 @@ std::string daeText(const Mesh& mesh, const std::string& up_axis, double unit, c
 <library_geometries><geometry id="g"><mesh><source id="p"><float_array id="a" count=")"
        << 3 * mesh.vertices.size() << "\">";
   for (const auto& vertex : mesh.vertices)
-  {
     text << vertex.transpose() << " ";
-  }
   text << R"(</float_array><technique_common><accessor source="#a" stride="3" count=")" << mesh.vertices.size() << R"(">
 <param name="X" type="float"/><param name="Y" type="float"/><param name="Z" type="float"/>
 </accessor></technique_common></source>
@@ -104,13 +88,11 @@ std::string daeText(const Mesh& mesh, const std::string& up_axis, double unit, c
 <triangles count=")"
        << mesh.triangles.size() << "\"><input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>";
   for (const auto& [a, b, c] : mesh.triangles)
-  {
     text << a << " " << b << " " << c << " ";
-  }
   text << R"(</p></triangles></mesh></geometry></library_geometries>
 <library_visual_scenes><visual_scene id="s"><node id="n">)"
        << transforms << R"(<instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>)";
   return text.str();
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The texts of mesh files that hold `mesh`.
 std::string asciiStl(const Mesh& mesh);
@@ -14,4 +14,4 @@ std::string plyText(const Mesh& mesh);
 /// `transforms`: XML of the node's transforms, applied to the mesh from last to first.
 std::string daeText(const Mesh& mesh, const std::string& up_axis = "Z_UP", double unit = 1.0,
                     const std::string& transforms = "");
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,4 +1,4 @@
-#include "model_testing.h"
+#include "model/model_testing.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 const char* const kLimits = R"(<limit lower="-1" upper="2" effort="1" velocity="1"/>)";
 
@@ -14,9 +14,7 @@ TemporaryFolder::TemporaryFolder()
 {
   std::string name = (std::filesystem::temp_directory_path() / "gpu_planning_scene_test_XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr)
-  {
     throw std::runtime_error("cannot make a temporary folder");
-  }
   folder_ = name;
 }
 
@@ -72,9 +70,7 @@ std::string armUrdf()
 {
   std::string urdf;
   for (const char* link : {"base", "upper", "fore", "hand", "finger_left", "finger_right", "head"})
-  {
     urdf += boxLink(link);
-  }
   return urdf + jointXml("arm_1", "revolute", "base", "upper", kLimits) +
          jointXml("arm_2", "revolute", "upper", "fore", kLimits) + jointXml("hand_fix", "fixed", "fore", "hand") +
          jointXml("left", "prismatic", "hand", "finger_left", kLimits) +
@@ -86,9 +82,7 @@ std::vector<std::string> linkNames(const RobotModel& robot, const std::vector<in
 {
   std::vector<std::string> names;
   for (const int link : links)
-  {
     names.push_back(robot.links()[link].name);
-  }
   return names;
 }
 
@@ -96,9 +90,7 @@ std::vector<std::string> jointNames(const RobotModel& robot, const std::vector<i
 {
   std::vector<std::string> names;
   for (const int joint : joints)
-  {
     names.push_back(robot.joints()[joint].name);
-  }
   return names;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

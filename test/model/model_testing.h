@@ -7,7 +7,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A folder that is removed with everything in it at the end of the test.
 class TemporaryFolder
@@ -46,4 +46,4 @@ extern const char* const kLimits;  ///< a <limit> from -1 to 2
 std::string armUrdf();
 std::vector<std::string> linkNames(const RobotModel& robot, const std::vector<int>& links);
 std::vector<std::string> jointNames(const RobotModel& robot, const std::vector<int>& joints);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

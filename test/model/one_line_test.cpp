@@ -2,18 +2,18 @@
 
 #include "model/one_line.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
-TEST(OneLine, aCommonMessageStaysAsItIs)
+TEST(OneLine, ACommonMessageStaysAsItIs)
 {
   EXPECT_EQ(shortLine(""), "");
   for (const std::string text : {"busy", "there is no group 'legs'; there are: arm, hand ", " a  b "})
     EXPECT_EQ(shortLine(text), text);
 }
 
-TEST(OneLine, aLongNameIsToldByItsBeginningAndEndAndTheRestOfTheMessageStays)
+TEST(OneLine, ALongNameIsToldByItsBeginningAndEndAndTheRestOfTheMessageStays)
 {
   // NOLINTNEXTLINE(bugprone-string-constructor): so long on purpose
   const std::string name = "first" + std::string(20000000, 'x') + "last";
@@ -24,7 +24,7 @@ TEST(OneLine, aLongNameIsToldByItsBeginningAndEndAndTheRestOfTheMessageStays)
   EXPECT_NE(text.find("[... 19999713 bytes ...]"), std::string::npos) << text;
 }
 
-TEST(OneLine, aLongListIsToldByItsBeginningAndEnd)
+TEST(OneLine, ALongListIsToldByItsBeginningAndEnd)
 {
   std::string list;
   for (int i = 0; i < 100000; ++i)
@@ -35,7 +35,7 @@ TEST(OneLine, aLongListIsToldByItsBeginningAndEnd)
   EXPECT_NE(text.find("joint_99999, "), std::string::npos);
 }
 
-TEST(OneLine, noCharacterIsCutIntoPieces)
+TEST(OneLine, NoCharacterIsCutIntoPieces)
 {
   for (const char* start : {"", "a"})
   {
@@ -50,9 +50,9 @@ TEST(OneLine, noCharacterIsCutIntoPieces)
   }
 }
 
-TEST(OneLine, itIsOneLine)
+TEST(OneLine, ItIsOneLine)
 {
   EXPECT_EQ(shortLine("group 'a\nb\x1b'"), "group 'a b '");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

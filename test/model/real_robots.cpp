@@ -1,11 +1,11 @@
-#include "real_robots.h"
+#include "model/real_robots.h"
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -84,12 +84,8 @@ std::vector<RealRobot> realRobots()
 {
   std::vector<RealRobot> robots;
   for (const RealRobot& robot : {kr5(), wam(), drchubo(), ur5Robotiq()})
-  {
     if (robot.available())
-    {
       robots.push_back(robot);
-    }
-  }
   return robots;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// From now on the robots and problems are those of `folder`: urdf/ with the robots of Debian's dart-doc, robots/ and
 /// problems/ as in ../shared. Without it they are in $GPU_PLANNING_SCENE_DATA if set, else where the build was told.
@@ -35,12 +35,10 @@ RealRobot ur5Robotiq();
 
 /// Those that are there.
 std::vector<RealRobot> realRobots();
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 /// Skips the test where the robot is missing.
 #define SKIP_WITHOUT(robot)                         \
   if (!(robot).available())                         \
-  {                                                 \
     GTEST_SKIP() << "there is no " << (robot).urdf; \
-  }                                                 \
   static_assert(true, "")

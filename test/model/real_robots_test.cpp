@@ -1,12 +1,12 @@
-#include "real_robots.h"
+#include "model/real_robots.h"
 
 #include <set>
 
 #include <gtest/gtest.h>
 
-#include "model_testing.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -16,17 +16,13 @@ std::size_t distinctMeshes(const RobotModel& robot)
   for (const Link& link : robot.links())
   {
     for (const PlacedShape& placed : link.shapes)
-    {
       if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&placed.shape))
-      {
         meshes.insert(mesh->get());
-      }
-    }
   }
   return meshes.size();
 }
 
-TEST(RealRobots, kr5HasItsTrianglesAndJoints)
+TEST(RealRobots, Kr5HasItsTrianglesAndJoints)
 {
   SKIP_WITHOUT(kr5());
   std::vector<std::string> warnings;
@@ -39,7 +35,7 @@ TEST(RealRobots, kr5HasItsTrianglesAndJoints)
   EXPECT_TRUE(warnings.empty()) << warnings[0];
 }
 
-TEST(RealRobots, wamsLinkNamesBeginWithASlash)
+TEST(RealRobots, WamsLinkNamesBeginWithASlash)
 {
   SKIP_WITHOUT(wam());
   const auto robot = wam().load();
@@ -49,7 +45,7 @@ TEST(RealRobots, wamsLinkNamesBeginWithASlash)
   EXPECT_EQ(robot->linkIndex("wam7"), -1);
 }
 
-TEST(RealRobots, wamsPackageIsNamedWhereItIsNotKnown)
+TEST(RealRobots, WamsPackageIsNamedWhereItIsNotKnown)
 {
   SKIP_WITHOUT(wam());
   RealRobot without_package = wam();
@@ -59,7 +55,7 @@ TEST(RealRobots, wamsPackageIsNamedWhereItIsNotKnown)
   EXPECT_NE(error.find("--package herb_description=DIR"), std::string::npos) << error;
 }
 
-TEST(RealRobots, drchuboLoadsEqualMeshesOnce)
+TEST(RealRobots, DrchuboLoadsEqualMeshesOnce)
 {
   SKIP_WITHOUT(drchubo());
   const auto robot = drchubo().load();
@@ -69,7 +65,7 @@ TEST(RealRobots, drchuboLoadsEqualMeshesOnce)
   EXPECT_EQ(robot->adjacentLinks().size(), 51u);
 }
 
-TEST(RealRobots, ur5RobotiqHasItsTrianglesAndGroups)
+TEST(RealRobots, Ur5RobotiqHasItsTrianglesAndGroups)
 {
   SKIP_WITHOUT(ur5Robotiq());
   const auto robot = ur5Robotiq().load();
@@ -83,13 +79,11 @@ TEST(RealRobots, ur5RobotiqHasItsTrianglesAndGroups)
   EXPECT_EQ(arm.variables, (std::vector<int>{0, 1, 2, 3, 4, 5}));
   std::set<std::string> moved;
   for (const std::string& name : linkNames(*robot, arm.moved_links))
-  {
     moved.insert(name);
-  }
   EXPECT_EQ(moved.count("shoulder_link"), 1u);
   EXPECT_EQ(moved.count("robotiq_85_left_finger_link"), 1u) << "the gripper hangs on the arm";
   EXPECT_EQ(moved.count("base_link"), 0u);
   EXPECT_TRUE(robot->group("gripper").moved_links.empty()) << "its joints are fixed";
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

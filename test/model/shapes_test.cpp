@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/shapes.h"
-#include "model_testing.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -27,22 +27,18 @@ std::string meshError(const Mesh& mesh)
   return errorOf([&] { validateMesh(mesh); });
 }
 
-TEST(Shapes, dimensionsMustBeFiniteAndPositive)
+TEST(Shapes, DimensionsMustBeFiniteAndPositive)
 {
   EXPECT_EQ(shapeError(Box{{1, 2, 3}}), "");
   EXPECT_EQ(shapeError(Cone{1, 2}), "");
   for (const double bad : {0.0, -1.0, kNan, kInfinity})
-  {
     for (const Shape& shape :
          {Shape(Box{{1, 1, bad}}), Shape(Box{{bad, 1, 1}}), Shape(Box{{1, bad, 1}}), Shape(Sphere{bad}),
           Shape(Cylinder{bad, 1}), Shape(Cylinder{1, bad}), Shape(Cone{bad, 1}), Shape(Cone{1, bad})})
-    {
       EXPECT_NE(shapeError(shape).find("object 'table'"), std::string::npos);
-    }
-  }
 }
 
-TEST(Shapes, meshShapesMustHaveAGoodMesh)
+TEST(Shapes, MeshShapesMustHaveAGoodMesh)
 {
   EXPECT_EQ(shapeError(std::make_shared<const Mesh>(triangle())), "");
   EXPECT_NE(shapeError(std::shared_ptr<const Mesh>()), "");
@@ -50,7 +46,7 @@ TEST(Shapes, meshShapesMustHaveAGoodMesh)
   EXPECT_NE(error.find("object 'table'"), std::string::npos) << error;
 }
 
-TEST(Shapes, meshesMustHaveTrianglesOfFiniteVertices)
+TEST(Shapes, MeshesMustHaveTrianglesOfFiniteVertices)
 {
   EXPECT_EQ(meshError(triangle()), "");
 
@@ -72,7 +68,7 @@ TEST(Shapes, meshesMustHaveTrianglesOfFiniteVertices)
   EXPECT_EQ(meshError(out_of_range), "mesh 'part.stl': triangle 1 names vertex 3, but there are 3 vertices");
 }
 
-TEST(Shapes, degenerateTrianglesAreAccepted)
+TEST(Shapes, DegenerateTrianglesAreAccepted)
 {
   Mesh mesh = triangle();
   mesh.triangles.push_back({1, 1, 1});
@@ -80,4 +76,4 @@ TEST(Shapes, degenerateTrianglesAreAccepted)
   EXPECT_EQ(meshError(mesh), "");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

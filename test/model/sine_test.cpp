@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <gtest/gtest.h>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -34,9 +34,7 @@ TEST(Sine, IsRightToTheLastPlaceForSmallAndLargeAngles)
   {
     std::uniform_real_distribution<double> angle(-reach, reach);
     for (int i = 0; i < 1000; ++i)
-    {
       expectRight(angle(generator));
-    }
     expectRight(reach);
   }
 }
@@ -47,9 +45,7 @@ TEST(Sine, IsRightNextToMultiplesOfAQuarterTurn)
   {
     const double x = quadrants * 0.5 * 3.141592653589793;
     for (const double next : {x, std::nextafter(x, 1e9), std::nextafter(x, -1e9), x + 1e-8, x - 1e-8})
-    {
       expectRight(next);
-    }
   }
 }
 
@@ -62,4 +58,4 @@ TEST(Sine, BeyondItsRangeIsTheLibrarys)
   }
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "model_testing.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -14,7 +14,7 @@ std::string error(const std::string& srdf)
   return errorOf([&] { robotOf(armUrdf(), srdf); });
 }
 
-TEST(Srdf, collisionEntriesArePairsOfLinkIndices)
+TEST(Srdf, CollisionEntriesArePairsOfLinkIndices)
 {
   std::vector<std::string> warnings;
   const auto robot = robotOf(armUrdf(), R"(
@@ -36,7 +36,7 @@ TEST(Srdf, collisionEntriesArePairsOfLinkIndices)
   EXPECT_TRUE(warnings.empty()) << warnings[0];
 }
 
-TEST(Srdf, unknownLinksInCollisionEntriesAreWarnings)
+TEST(Srdf, UnknownLinksInCollisionEntriesAreWarnings)
 {
   std::vector<std::string> warnings;
   const auto robot = robotOf(armUrdf(), R"(
@@ -60,7 +60,7 @@ TEST(Srdf, unknownLinksInCollisionEntriesAreWarnings)
   }
 }
 
-TEST(Srdf, aVirtualJointMovesTheRootInThePlanningFrame)
+TEST(Srdf, AVirtualJointMovesTheRootInThePlanningFrame)
 {
   const auto robot =
       robotOf(armUrdf(), R"(<virtual_joint name="v" type="floating" parent_frame="odom" child_link="base"/>)");
@@ -77,12 +77,10 @@ TEST(Srdf, aVirtualJointMovesTheRootInThePlanningFrame)
   std::vector<Eigen::Isometry3d> poses(robot->links().size());
   robot->linkPoses(state.data(), poses.data());
   for (const Eigen::Isometry3d& pose : poses)
-  {
     EXPECT_EQ(pose.translation(), Eigen::Vector3d(0, 5, 0));
-  }
 }
 
-TEST(Srdf, aPlanarVirtualJointMovesInTheGroundPlane)
+TEST(Srdf, APlanarVirtualJointMovesInTheGroundPlane)
 {
   const auto robot =
       robotOf(armUrdf(), R"(<virtual_joint name="v" type="planar" parent_frame="odom" child_link="base"/>)");
@@ -95,7 +93,7 @@ TEST(Srdf, aPlanarVirtualJointMovesInTheGroundPlane)
   EXPECT_TRUE((poses[0] * Eigen::Vector3d(1, 0, 0.5)).isApprox(Eigen::Vector3d(1, 3, 0.5), 1e-15));
 }
 
-TEST(Srdf, aFixedVirtualJointOnlyNamesThePlanningFrame)
+TEST(Srdf, AFixedVirtualJointOnlyNamesThePlanningFrame)
 {
   const auto robot =
       robotOf(armUrdf(), R"(<virtual_joint name="v" type="fixed" parent_frame="world" child_link="base"/>)");
@@ -103,7 +101,7 @@ TEST(Srdf, aFixedVirtualJointOnlyNamesThePlanningFrame)
   EXPECT_EQ(robot->variables().size(), robotOf(armUrdf())->variables().size());
 }
 
-TEST(Srdf, virtualJointsThatDoNotFitAreIgnoredWithAWarning)
+TEST(Srdf, VirtualJointsThatDoNotFitAreIgnoredWithAWarning)
 {
   std::vector<std::string> warnings;
   const auto robot = robotOf(armUrdf(), R"(
@@ -121,7 +119,7 @@ TEST(Srdf, virtualJointsThatDoNotFitAreIgnoredWithAWarning)
   EXPECT_NE(warnings[2].find("test.srdf:5: group 'g'"), std::string::npos) << warnings[2];
 }
 
-TEST(Srdf, badVirtualJointsAreErrors)
+TEST(Srdf, BadVirtualJointsAreErrors)
 {
   EXPECT_NE(error(R"(<virtual_joint name="v" type="ball" parent_frame="odom" child_link="base"/>)").find("'ball'"),
             std::string::npos);
@@ -131,14 +129,14 @@ TEST(Srdf, badVirtualJointsAreErrors)
             std::string::npos);
 }
 
-TEST(Srdf, passiveJointsAreMarked)
+TEST(Srdf, PassiveJointsAreMarked)
 {
   const auto robot = robotOf(armUrdf(), R"(<passive_joint name="arm_2"/>)");
   EXPECT_TRUE(robot->joints()[robot->jointIndex("arm_2")].passive);
   EXPECT_FALSE(robot->joints()[robot->jointIndex("arm_1")].passive);
 }
 
-TEST(Srdf, malformedXmlIsAnErrorWithItsLine)
+TEST(Srdf, MalformedXmlIsAnErrorWithItsLine)
 {
   EXPECT_NE(error("\n<group name=\"g\">\n</grop>").find("test.srdf:"), std::string::npos);
   EXPECT_NE(error("<disable_collisions link1=\"base\"/>").find("test.srdf:1: <disable_collisions> lacks"),
@@ -148,7 +146,7 @@ TEST(Srdf, malformedXmlIsAnErrorWithItsLine)
             std::string::npos);
 }
 
-TEST(Srdf, theSrdfOfAnotherRobotGivesAWarning)
+TEST(Srdf, TheSrdfOfAnotherRobotGivesAWarning)
 {
   std::vector<std::string> warnings;
   RobotModel::fromXml("<robot name=\"r\"><link name=\"a\"/></robot>", "<robot name=\"s\"/>", {}, &warnings);
@@ -156,7 +154,7 @@ TEST(Srdf, theSrdfOfAnotherRobotGivesAWarning)
   EXPECT_NE(warnings[0].find("'s'"), std::string::npos) << warnings[0];
 }
 
-TEST(Srdf, withoutOneThereAreNoGroups)
+TEST(Srdf, WithoutOneThereAreNoGroups)
 {
   const auto robot = robotOf(armUrdf());
   EXPECT_FALSE(robot->srdfCollisions().has_srdf);
@@ -164,4 +162,4 @@ TEST(Srdf, withoutOneThereAreNoGroups)
   EXPECT_EQ(robot->planningFrame(), "base");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "model_testing.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -18,7 +18,7 @@ std::string slider(const std::string& lower, const std::string& upper)
   return boxLink("a") + boxLink("b") + jointXml("j", "prismatic", "a", "b", limits(lower, upper));
 }
 
-TEST(State, randomStatesFillTheirLimitsAndStayInside)
+TEST(State, RandomStatesFillTheirLimitsAndStayInside)
 {
   constexpr std::uint64_t kSeed = 3;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
@@ -45,7 +45,7 @@ TEST(State, randomStatesFillTheirLimitsAndStayInside)
   }
 }
 
-TEST(State, randomStatesAreTheSameWithEveryStandardLibrary)
+TEST(State, RandomStatesAreTheSameWithEveryStandardLibrary)
 {
   std::mt19937_64 generator;  // its 10,000th number is laid down by the C++ standard
   generator.discard(9999);
@@ -54,7 +54,7 @@ TEST(State, randomStatesAreTheSameWithEveryStandardLibrary)
   EXPECT_EQ(state, static_cast<double>(9981545732273789042u >> 11) / 9007199254740992.0);
 }
 
-TEST(State, theWidestLimitsDoNotOverflow)
+TEST(State, TheWidestLimitsDoNotOverflow)
 {
   std::mt19937_64 generator(1);
   const auto robot = robotOf(slider("-1.7e308", "1.7e308"));
@@ -74,7 +74,7 @@ TEST(State, theWidestLimitsDoNotOverflow)
   EXPECT_EQ(robot->defaultState()[0], 0.0);
 }
 
-TEST(State, randomRotationsAreUniform)
+TEST(State, RandomRotationsAreUniform)
 {
   constexpr std::uint64_t kSeed = 5;
   constexpr int kStates = 40000;
@@ -100,7 +100,7 @@ TEST(State, randomRotationsAreUniform)
   EXPECT_LT((fourth_powers / kStates - Eigen::Vector4d::Constant(0.125)).norm(), 0.01);
 }
 
-TEST(State, theDefaultIsZeroOrTheMiddleOfTheLimits)
+TEST(State, TheDefaultIsZeroOrTheMiddleOfTheLimits)
 {
   EXPECT_EQ(robotOf(slider("-1", "3"))->defaultState()[0], 0.0);
   EXPECT_EQ(robotOf(slider("0", "3"))->defaultState()[0], 0.0);
@@ -108,10 +108,10 @@ TEST(State, theDefaultIsZeroOrTheMiddleOfTheLimits)
   EXPECT_EQ(robotOf(slider("-3", "-1"))->defaultState()[0], -2.0);
 }
 
-TEST(State, theDefaultOfAFloatingJointIsTheUnitQuaternion)
+TEST(State, TheDefaultOfAFloatingJointIsTheUnitQuaternion)
 {
   const auto robot = robotOf(boxLink("a") + boxLink("b") + jointXml("j", "floating", "a", "b"));
   EXPECT_EQ(robot->defaultState(), (std::vector<double>{0, 0, 0, 0, 0, 0, 1}));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

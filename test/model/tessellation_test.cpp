@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -62,9 +62,7 @@ Surface cylinder(double r, double length)
             const double z = length * (uniform(g) - 0.5);
             const double part = uniform(g);
             if (part < 0.4)
-            {
               return onCircle(r, z, g);
-            }
             // Half of the samples of the caps lie near the rim, where the tessellation is farthest off.
             const double rho = part < 0.7 ? r : r * std::sqrt(uniform(g));
             return onCircle(rho, std::copysign(0.5 * length, z), g);
@@ -85,9 +83,7 @@ Surface cone(double r, double length)
           {
             const double part = uniform(g);
             if (part < 0.3)
-            {
               return onCircle(r * std::sqrt(uniform(g)), -0.5 * length, g);
-            }
             const double height = part < 0.5 ? 0.0 : part < 0.6 ? 1.0 - 1e-3 * uniform(g) : uniform(g);
             return onCircle(r * (1.0 - height), length * (height - 0.5), g);
           }};
@@ -114,9 +110,7 @@ double squaredDistance(const Eigen::Vector3d& p, const Mesh& mesh, const std::ar
   const Eigen::Vector3d n = (b - a).cross(c - a);
   const bool above = n.cross(b - a).dot(p - a) >= 0 && n.cross(c - b).dot(p - b) >= 0 && n.cross(a - c).dot(p - c) >= 0;
   if (above)
-  {
     return std::pow(n.dot(p - a), 2) / n.squaredNorm();
-  }
   return std::min({squaredSegmentDistance(p, a, b), squaredSegmentDistance(p, b, c), squaredSegmentDistance(p, c, a)});
 }
 
@@ -124,9 +118,7 @@ double distance(const Eigen::Vector3d& p, const Mesh& mesh)
 {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& triangle : mesh.triangles)
-  {
     least = std::min(least, squaredDistance(p, mesh, triangle));
-  }
   return std::sqrt(least);
 }
 
@@ -138,9 +130,7 @@ void expectClosedAndOutward(const Mesh& mesh, const std::string& name)
   for (const auto& t : mesh.triangles)
   {
     for (int i = 0; i < 3; ++i)
-    {
       ++edges[{t[i], t[(i + 1) % 3]}];
-    }
     const Eigen::Vector3d& a = mesh.vertices[t[0]];
     const Eigen::Vector3d normal = (mesh.vertices[t[1]] - a).cross(mesh.vertices[t[2]] - a);
     EXPECT_GT(normal.dot(a), 0.0) << name << ": a triangle faces inward";
@@ -154,47 +144,41 @@ void expectClosedAndOutward(const Mesh& mesh, const std::string& name)
   EXPECT_GT(volume, 0.0) << name;
 }
 
-TEST(Tessellation, aBoxIsTwelveTrianglesAndExact)
+TEST(Tessellation, ABoxIsTwelveTrianglesAndExact)
 {
   const Tessellation box = tessellate(Box{{0.2, 0.4, 0.6}});
   EXPECT_EQ(box.mesh->triangles.size(), 12u);
   EXPECT_EQ(box.mesh->vertices.size(), 8u);
   EXPECT_EQ(box.sagitta, 0.0);
   for (const Eigen::Vector3d& vertex : box.mesh->vertices)
-  {
     EXPECT_EQ(vertex.cwiseAbs(), Eigen::Vector3d(0.1, 0.2, 0.3));
-  }
   expectClosedAndOutward(*box.mesh, "box");
 }
 
-TEST(Tessellation, aMeshIsItself)
+TEST(Tessellation, AMeshIsItself)
 {
   const auto mesh = std::make_shared<const Mesh>();
   EXPECT_EQ(tessellate(mesh).mesh, mesh);
   EXPECT_EQ(tessellate(mesh).sagitta, 0.0);
 }
 
-TEST(Tessellation, curvedShapesAreClosedAndFaceOutward)
+TEST(Tessellation, CurvedShapesAreClosedAndFaceOutward)
 {
   for (const Surface& surface : surfaces())
-  {
     expectClosedAndOutward(*tessellate(surface.shape).mesh, surface.name);
-  }
 }
 
-TEST(Tessellation, verticesLieOnTheSurface)
+TEST(Tessellation, VerticesLieOnTheSurface)
 {
   for (const Surface& surface : surfaces())
   {
     const Tessellation tessellation = tessellate(surface.shape);
     for (const Eigen::Vector3d& vertex : tessellation.mesh->vertices)
-    {
       ASSERT_LE(surface.off_surface(vertex), 4e-16 * surface.size) << surface.name << " " << vertex.transpose();
-    }
   }
 }
 
-TEST(Tessellation, theSagittaMeetsTheTargetWithinTheTriangleBudget)
+TEST(Tessellation, TheSagittaMeetsTheTargetWithinTheTriangleBudget)
 {
   for (const Surface& surface : surfaces())
   {
@@ -211,7 +195,7 @@ TEST(Tessellation, theSagittaMeetsTheTargetWithinTheTriangleBudget)
   EXPECT_LE(tessellate(Cone{1e4, 1.0}).mesh->triangles.size(), kMaxTriangles);
 }
 
-TEST(Tessellation, noPointOfTheTrueSurfaceIsFartherThanTheSagitta)
+TEST(Tessellation, NoPointOfTheTrueSurfaceIsFartherThanTheSagitta)
 {
   constexpr std::uint64_t kSeed = 7;
   SCOPED_TRACE("seed " + std::to_string(kSeed));
@@ -222,13 +206,11 @@ TEST(Tessellation, noPointOfTheTrueSurfaceIsFartherThanTheSagitta)
     const int samples = static_cast<int>(1 + 3000000 / tessellation.mesh->triangles.size());
     double farthest = 0.0;
     for (int i = 0; i < std::min(samples, 2000); ++i)
-    {
       farthest = std::max(farthest, distance(surface.sample(generator), *tessellation.mesh));
-    }
     EXPECT_LE(farthest, tessellation.sagitta) << surface.name;
     // Not a bound so wide that it says nothing.
     EXPECT_GE(farthest, 0.25 * tessellation.sagitta) << surface.name;
   }
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "mesh_files.h"
-#include "model_testing.h"
+#include "model/mesh_files.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -23,7 +23,7 @@ void expectError(const std::string& urdf, const std::string& where, const std::s
 
 const std::string kTwoLinks = "<link name=\"a\"/><link name=\"b\"/>\n";
 
-TEST(UrdfErrors, malformedXmlIsNamedWithItsLine)
+TEST(UrdfErrors, MalformedXmlIsNamedWithItsLine)
 {
   expectError("\n<link name=\"a\">\n</lnk>", "test.urdf:2: malformed XML", "mismatched");
   expectError("\n\n<link name=a/>", "test.urdf:3: malformed XML", "attribute");
@@ -37,7 +37,7 @@ TEST(UrdfErrors, malformedXmlIsNamedWithItsLine)
   EXPECT_NE(whole("<robot><link name=\"a\"/></robot>"), "");
 }
 
-TEST(UrdfErrors, limitsMustBeThereAndInOrder)
+TEST(UrdfErrors, LimitsMustBeThereAndInOrder)
 {
   expectError(kTwoLinks + jointXml("j", "revolute", "a", "b"), "test.urdf:2:", "[j]");
   expectError(kTwoLinks + jointXml("j", "prismatic", "a", "b"), "test.urdf:2:", "[j]");
@@ -46,7 +46,7 @@ TEST(UrdfErrors, limitsMustBeThereAndInOrder)
       "test.urdf:2: joint 'j'", "lower limit above its upper limit");
 }
 
-TEST(UrdfErrors, numbersMustBeFinite)
+TEST(UrdfErrors, NumbersMustBeFinite)
 {
   expectError(
       kTwoLinks + jointXml("j", "revolute", "a", "b", R"(<limit lower="nan" upper="1" effort="1" velocity="1"/>)"),
@@ -62,29 +62,30 @@ TEST(UrdfErrors, numbersMustBeFinite)
       "test.urdf:1: link 'a'", "inf");
 }
 
-TEST(UrdfErrors, nothingIsPlacedFurtherThanAThousandKilometres)
+TEST(UrdfErrors, NothingIsPlacedFurtherThanAThousandKilometres)
 {
   expectError(kTwoLinks + jointXml("j", "fixed", "a", "b", "<origin xyz='0 -1.1e6 0'/>"), "test.urdf:2: joint 'j'",
               "more than 1000 km");
-  expectError("<link name=\"a\"><collision><origin xyz=\"1e39 0 0\"/><geometry><sphere radius=\"1\"/></geometry>"
-              "</collision></link>",
-              "test.urdf:1: link 'a'", "more than 1000 km");
+  expectError(
+      "<link name=\"a\"><collision><origin xyz=\"1e39 0 0\"/><geometry><sphere radius=\"1\"/></geometry>"
+      "</collision></link>",
+      "test.urdf:1: link 'a'", "more than 1000 km");
 }
 
-TEST(UrdfErrors, theAxisMustHaveALength)
+TEST(UrdfErrors, TheAxisMustHaveALength)
 {
   expectError(kTwoLinks + jointXml("j", "continuous", "a", "b", "<axis xyz=\"0 0 0\"/>"), "test.urdf:2: joint 'j'",
               "axis");
 }
 
-TEST(UrdfErrors, typesAndParentsMustBeKnown)
+TEST(UrdfErrors, TypesAndParentsMustBeKnown)
 {
   expectError(kTwoLinks + jointXml("j", "screw", "a", "b"), "test.urdf:2:", "screw");
   expectError(kTwoLinks + jointXml("j", "fixed", "a", "c"), "test.urdf:2:", "[c]");
   expectError(kTwoLinks + jointXml("j", "fix\ned", "a", "b"), "test.urdf:2:", "fix ed");
 }
 
-TEST(UrdfErrors, linksMustFormATree)
+TEST(UrdfErrors, LinksMustFormATree)
 {
   EXPECT_NE(error(kTwoLinks).find("wo root links"), std::string::npos) << error(kTwoLinks);
   expectError(kTwoLinks + jointXml("j", "fixed", "a", "b") + jointXml("k", "fixed", "b", "a"), "test.urdf:", "loop");
@@ -99,7 +100,7 @@ TEST(UrdfErrors, linksMustFormATree)
               "lacks a parent or a child");
 }
 
-TEST(UrdfErrors, mimicsMustLeadToAJointWithOneVariable)
+TEST(UrdfErrors, MimicsMustLeadToAJointWithOneVariable)
 {
   const std::string links = "<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/><link name=\"d\"/>\n";
   const auto mimic = [](const std::string& leader) { return kLimits + ("<mimic joint=\"" + leader + "\"/>"); };
@@ -124,7 +125,7 @@ TEST(UrdfErrors, mimicsMustLeadToAJointWithOneVariable)
               "test.urdf:3: joint '2'", "is not revolute");
 }
 
-TEST(UrdfErrors, theMimicOfAFixedJointIsIgnoredWithAWarning)
+TEST(UrdfErrors, TheMimicOfAFixedJointIsIgnoredWithAWarning)
 {
   std::vector<std::string> warnings;
   const auto robot = robotOf(kTwoLinks + jointXml("j", "fixed", "a", "b", "<mimic joint=\"j\"/>"), "", &warnings);
@@ -133,7 +134,7 @@ TEST(UrdfErrors, theMimicOfAFixedJointIsIgnoredWithAWarning)
   EXPECT_NE(warnings[0].find("test.urdf:2: joint 'j'"), std::string::npos) << warnings[0];
 }
 
-TEST(UrdfErrors, badShapesAreNamedWithTheirLink)
+TEST(UrdfErrors, BadShapesAreNamedWithTheirLink)
 {
   const auto link = [](const std::string& geometry)
   { return "\n<link name=\"a\">\n<collision><geometry>" + geometry + "</geometry></collision></link>"; };
@@ -145,7 +146,7 @@ TEST(UrdfErrors, badShapesAreNamedWithTheirLink)
   expectError(link("<mesh filename=\"package://p/mesh.stl\"/>"), "test.urdf:2: link 'a'", "package 'p'");
 }
 
-TEST(UrdfErrors, noCollisionElementIsLostBehindABadOne)
+TEST(UrdfErrors, NoCollisionElementIsLostBehindABadOne)
 {
   const std::string good = "<collision><geometry><sphere radius=\"1\"/></geometry></collision>";
   for (const char* bad :
@@ -157,7 +158,7 @@ TEST(UrdfErrors, noCollisionElementIsLostBehindABadOne)
   }
 }
 
-TEST(UrdfErrors, badLooksAndInertiaDoNotMatter)
+TEST(UrdfErrors, BadLooksAndInertiaDoNotMatter)
 {
   const auto robot = robotOf(R"(<material name="m"/>
     <link name="a"><inertial><mass/></inertial><visual><geometry><mesh/></geometry></visual>
@@ -166,7 +167,7 @@ TEST(UrdfErrors, badLooksAndInertiaDoNotMatter)
   EXPECT_EQ(robot->links()[0].shapes.size(), 1u);
 }
 
-TEST(UrdfErrors, urdfdomsOwnMessagesGoIntoTheErrorAlone)
+TEST(UrdfErrors, UrdfdomsOwnMessagesGoIntoTheErrorAlone)
 {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
@@ -176,7 +177,7 @@ TEST(UrdfErrors, urdfdomsOwnMessagesGoIntoTheErrorAlone)
   EXPECT_NE(message.find("does not specify limits"), std::string::npos) << message;
 }
 
-TEST(UrdfErrors, filesAreNamedWhereTheyCannotBeRead)
+TEST(UrdfErrors, FilesAreNamedWhereTheyCannotBeRead)
 {
   const TemporaryFolder folder;
   const std::string urdf = folder.write("my robot.urdf", "<robot name=\"r\"><link name=\"a\"/></robot>");
@@ -188,7 +189,7 @@ TEST(UrdfErrors, filesAreNamedWhereTheyCannotBeRead)
   EXPECT_NE(errorOf([&] { RobotModel::fromFiles(urdf, empty, {}); }).find("empty.srdf"), std::string::npos);
 }
 
-TEST(UrdfErrors, meshPathsAreRelativeToTheUrdfFile)
+TEST(UrdfErrors, MeshPathsAreRelativeToTheUrdfFile)
 {
   const TemporaryFolder folder;
   folder.write("meshes/part 1.stl", binaryStl(*tessellate(Box{{1, 1, 1}}).mesh));
@@ -200,4 +201,4 @@ TEST(UrdfErrors, meshPathsAreRelativeToTheUrdfFile)
   EXPECT_EQ(mesh->vertices[0].cwiseAbs(), Eigen::Vector3d(0.5, 1.0, 0.5));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

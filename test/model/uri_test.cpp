@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/resources.h"
-#include "model_testing.h"
+#include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -19,13 +19,13 @@ std::string errorFor(const std::string& uri)
   return errorOf([&] { resolved(uri); });
 }
 
-TEST(Uri, packagePathsLieInThePackagesFolder)
+TEST(Uri, PackagePathsLieInThePackagesFolder)
 {
   EXPECT_EQ(resolved("package://arm/meshes/link 1.stl"), "/opt/arm/meshes/link 1.stl");
   EXPECT_EQ(resolved("package://arm/./meshes//a/../link.stl"), "/opt/arm/meshes/link.stl");
 }
 
-TEST(Uri, percentEscapesAreDecodedInUris)
+TEST(Uri, PercentEscapesAreDecodedInUris)
 {
   EXPECT_EQ(resolved("package://arm/KR5%20sixx%2fR650.stl"), "/opt/arm/KR5 sixx/R650.stl");
   EXPECT_EQ(resolved("file:///a%20b.stl"), "/a b.stl");
@@ -33,14 +33,14 @@ TEST(Uri, percentEscapesAreDecodedInUris)
   EXPECT_EQ(resolved("package://arm/50%zz"), "/opt/arm/50%zz");
 }
 
-TEST(Uri, plainPathsAreTakenAsTheyAre)
+TEST(Uri, PlainPathsAreTakenAsTheyAre)
 {
   EXPECT_EQ(resolved("/a b%20c.stl"), "/a b%20c.stl");
   EXPECT_EQ(resolved("meshes/a%20b.stl"), "/robots/my robot/meshes/a%20b.stl");
   EXPECT_EQ(resolved("../meshes/a.stl"), "/robots/my robot/../meshes/a.stl");
 }
 
-TEST(Uri, fileUrisNeedAnAbsolutePath)
+TEST(Uri, FileUrisNeedAnAbsolutePath)
 {
   EXPECT_EQ(resolved("file:///robots/a.stl"), "/robots/a.stl");
   EXPECT_EQ(resolved("file://localhost/robots/a.stl"), "/robots/a.stl");
@@ -48,16 +48,14 @@ TEST(Uri, fileUrisNeedAnAbsolutePath)
   EXPECT_NE(errorFor("file://"), "");
 }
 
-TEST(Uri, packagePathsMustNotLeaveThePackage)
+TEST(Uri, PackagePathsMustNotLeaveThePackage)
 {
   for (const char* uri : {"package://arm/../secret.stl", "package://arm/meshes/../../secret.stl",
                           "package://arm/%2e%2e/secret.stl", "package://../arm/a.stl", "package://arm//etc/a.stl"})
-  {
     EXPECT_NE(errorFor(uri).find("leaves its package"), std::string::npos) << uri << ": " << errorFor(uri);
-  }
 }
 
-TEST(Uri, unknownPackagesAreNamedWithTheRemedy)
+TEST(Uri, UnknownPackagesAreNamedWithTheRemedy)
 {
   const std::string error = errorFor("package://leg/a.stl");
   EXPECT_NE(error.find("'leg'"), std::string::npos) << error;
@@ -65,14 +63,12 @@ TEST(Uri, unknownPackagesAreNamedWithTheRemedy)
   EXPECT_NE(errorOf([] { resolveUri("package://arm/a.stl", "", PackageResolver()); }), "");
 }
 
-TEST(Uri, whatCannotBeResolvedIsAnError)
+TEST(Uri, WhatCannotBeResolvedIsAnError)
 {
   for (const char* uri : {"", "package://", "package://arm", "package://arm/", "package:///a.stl",
                           "http://example.com/a.stl", "model://arm/a.stl", "package://arm/a%00.stl"})
-  {
     EXPECT_NE(errorFor(uri), "") << uri;
-  }
   EXPECT_NE(errorOf([] { resolveUri("a.stl", "", kPackages); }).find("a.stl"), std::string::npos);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

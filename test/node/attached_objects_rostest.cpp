@@ -2,7 +2,7 @@
 
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -35,7 +35,7 @@ class AttachedObjects : public RunningNode
   }
 };
 
-TEST_F(AttachedObjects, anObjectOfTheWorldIsAttachedMovesWithItsLinkAndIsPutBack)
+TEST_F(AttachedObjects, AnObjectOfTheWorldIsAttachedMovesWithItsLinkAndIsPutBack)
 {
   apply(diffWith(boxObject("box", tipPoint(), 0.02)));
   EXPECT_FALSE(isFree());
@@ -59,7 +59,7 @@ TEST_F(AttachedObjects, anObjectOfTheWorldIsAttachedMovesWithItsLinkAndIsPutBack
   EXPECT_GT((expected - tipPoint()).norm(), 0.05) << "the test moves it";
 }
 
-TEST_F(AttachedObjects, aCarriedObjectCollidesWithTheWorld)
+TEST_F(AttachedObjects, ACarriedObjectCollidesWithTheWorld)
 {
   CollisionObject stick = boxObject("stick", tipPoint(), 0.02);
   stick.primitive_poses[0] = poseAt(Eigen::Vector3d(0.0, 0.0, 20.0));
@@ -70,7 +70,7 @@ TEST_F(AttachedObjects, aCarriedObjectCollidesWithTheWorld)
   EXPECT_EQ("lamp stick", collision());
 }
 
-TEST_F(AttachedObjects, aCarriedObjectCollidesWithLinksThatMayNotTouchIt)
+TEST_F(AttachedObjects, ACarriedObjectCollidesWithLinksThatMayNotTouchIt)
 {
   const PlacedShape& placed = robot->links()[static_cast<std::size_t>(robot->linkIndex(base))].shapes.front();
   CollisionObject box = boxObject("box", linkPose(base, free_state) * placed.pose.translation(), 0.5);
@@ -80,7 +80,7 @@ TEST_F(AttachedObjects, aCarriedObjectCollidesWithLinksThatMayNotTouchIt)
   EXPECT_TRUE(isFree()) << "touch links may touch it";
 }
 
-TEST_F(AttachedObjects, aCarriedObjectHasItsLinksPadding)
+TEST_F(AttachedObjects, ACarriedObjectHasItsLinksPadding)
 {
   CollisionObject stick = boxObject("stick", tipPoint(), 0.02);
   stick.primitive_poses[0] = poseAt(Eigen::Vector3d(0.0, 0.0, 20.0));
@@ -95,7 +95,7 @@ TEST_F(AttachedObjects, aCarriedObjectHasItsLinksPadding)
   EXPECT_EQ("lamp stick", collision());
 }
 
-TEST_F(AttachedObjects, aRobotStateThatIsNoDifferenceDropsThemAsInMoveIt)
+TEST_F(AttachedObjects, ARobotStateThatIsNoDifferenceDropsThemAsInMoveIt)
 {
   apply(diffWith(attach(boxObject("box", tipPoint(), 0.02), allLinks())));
   PlanningSceneMessage change = diffScene();
@@ -109,7 +109,7 @@ TEST_F(AttachedObjects, aRobotStateThatIsNoDifferenceDropsThemAsInMoveIt)
   EXPECT_TRUE(scene().robot_state.attached_collision_objects.empty());
 }
 
-TEST_F(AttachedObjects, aRemoveWithoutANamePutsAllBack)
+TEST_F(AttachedObjects, ARemoveWithoutANamePutsAllBack)
 {
   apply(diffWith(attach(boxObject("a", tipPoint(), 0.02))));
   apply(diffWith(attach(boxObject("b", tipPoint(), 0.02))));
@@ -118,7 +118,7 @@ TEST_F(AttachedObjects, aRemoveWithoutANamePutsAllBack)
   EXPECT_EQ(2u, scene().world.collision_objects.size());
 }
 
-TEST_F(AttachedObjects, whatIsWrongIsRefusedAndChangesNothing)
+TEST_F(AttachedObjects, WhatIsWrongIsRefusedAndChangesNothing)
 {
   AttachedCollisionObject wrong = attach(boxObject("box", tipPoint(), 0.02));
   wrong.link_name = "no such link";
@@ -128,4 +128,4 @@ TEST_F(AttachedObjects, whatIsWrongIsRefusedAndChangesNothing)
   expectRefusal(diffWith(attach(objectOperation("no such object", CollisionObject::REMOVE))), "no such object");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,10 +4,10 @@
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/PointCloud2.h>
 
-#include "gpu_planning_scene/messages.h"
 #include "node/bounded_message.h"
+#include "node/messages.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -95,7 +95,7 @@ void expectTheSameAsRoscpp(const M& message)
   EXPECT_EQ(bytesOf(read), bytes);
 }
 
-TEST_F(BoundedMessage, readsWhatRoscppWrites)
+TEST_F(BoundedMessage, ReadsWhatRoscppWrites)
 {
   expectTheSameAsRoscpp(fullRequest());
   expectTheSameAsRoscpp(cloud());
@@ -107,7 +107,7 @@ TEST_F(BoundedMessage, readsWhatRoscppWrites)
   expectTheSameAsRoscpp(joints);
 }
 
-TEST_F(BoundedMessage, everyTruncatedMessageIsRefused)
+TEST_F(BoundedMessage, EveryTruncatedMessageIsRefused)
 {
   const Bytes bytes = bytesOf(fullRequest());
   for (std::size_t size = 0; size < bytes.size(); ++size)
@@ -121,7 +121,7 @@ TEST_F(BoundedMessage, everyTruncatedMessageIsRefused)
   EXPECT_NE(faultOf(longer, request), "");
 }
 
-TEST_F(BoundedMessage, lengthsThatLieTakeNoMemory)
+TEST_F(BoundedMessage, LengthsThatLieTakeNoMemory)
 {
   const Bytes bytes = bytesOf(fullRequest());
   std::size_t refused = 0;
@@ -138,7 +138,7 @@ TEST_F(BoundedMessage, lengthsThatLieTakeNoMemory)
   EXPECT_GT(refused, 100u);
 }
 
-TEST_F(BoundedMessage, theLimitIsHeldAndItsParameterNamed)
+TEST_F(BoundedMessage, TheLimitIsHeldAndItsParameterNamed)
 {
   const Bytes bytes = bytesOf(cloud());
   sensor_msgs::PointCloud2 message;
@@ -148,7 +148,7 @@ TEST_F(BoundedMessage, theLimitIsHeldAndItsParameterNamed)
   EXPECT_NE(faultOf(bytes, message).find("~limits/message_size"), std::string::npos);
 }
 
-TEST_F(BoundedMessage, roscppTakesItForTheMessage)
+TEST_F(BoundedMessage, RoscppTakesItForTheMessage)
 {
   using ros::message_traits::DataType;
   using ros::message_traits::MD5Sum;
@@ -166,7 +166,7 @@ TEST_F(BoundedMessage, roscppTakesItForTheMessage)
   EXPECT_TRUE(bounded.message.data.empty());
 }
 
-TEST_F(BoundedMessage, aServiceAnswersAFaultyRequest)
+TEST_F(BoundedMessage, AServiceAnswersAFaultyRequest)
 {
   auto handler = [](Bounded<Clear::Request>& request, Clear::Response& response)
   {
@@ -194,4 +194,4 @@ TEST_F(BoundedMessage, aServiceAnswersAFaultyRequest)
   EXPECT_FALSE(call(5).success) << "a request with bytes too many";
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -13,7 +13,7 @@
 #include "node/checker_maker.h"
 #include "scene/slider_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -26,7 +26,7 @@ class Device : public CpuChecker
   {
   }
   BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const Surroundings* around) override
+                    const JointNeighbourhood* around) override
   {
     if (*losses_ > 0)
     {
@@ -87,13 +87,13 @@ class CheckerMaker : public testing::Test
 
 constexpr std::size_t kLarge = 2000;  // states: of the lane whose checker is made with the first of them
 
-TEST_F(CheckerMaker, aDeviceThatCannotBeOpenedAtTheStartIsAnError)
+TEST_F(CheckerMaker, ADeviceThatCannotBeOpenedAtTheStartIsAnError)
 {
   openWith([](const auto&) { throw Error("no usable device"); });
   EXPECT_EQ(errorOf([&] { server(); }), "no usable device");
 }
 
-TEST_F(CheckerMaker, theCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
+TEST_F(CheckerMaker, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
 {
   EXPECT_EQ(ask(1).result.valid.size(), 1u);
   openWith([](const auto&) { throw DeviceLost("the GPU was reset"); });
@@ -102,7 +102,7 @@ TEST_F(CheckerMaker, theCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
   EXPECT_EQ(answer.device, "CPU");
 }
 
-TEST_F(CheckerMaker, aDeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
+TEST_F(CheckerMaker, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
 {
   EXPECT_EQ(ask(1).result.valid.size(), 1u);
   openWith([](const auto& repaired) { repaired.wait(); });
@@ -110,7 +110,7 @@ TEST_F(CheckerMaker, aDeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
   server().stop();
 }
 
-TEST_F(CheckerMaker, diagnosticsWarnWhileTheCpuStandsInAndTellOfADeviceThatIsNotToBeHad)
+TEST_F(CheckerMaker, DiagnosticsWarnWhileTheCpuStandsInAndTellOfADeviceThatIsNotToBeHad)
 {
   using diagnostic_msgs::DiagnosticStatus;
   resilience_.retry_seconds = 0.1;
@@ -139,7 +139,7 @@ TEST_F(CheckerMaker, diagnosticsWarnWhileTheCpuStandsInAndTellOfADeviceThatIsNot
   EXPECT_EQ(level(), DiagnosticStatus::OK);
 }
 
-TEST_F(CheckerMaker, diagnosticsAreShortWhateverIsInThem)
+TEST_F(CheckerMaker, DiagnosticsAreShortWhateverIsInThem)
 {
   ask(1);
   openWith([](const auto&) { throw Error("no device '" + std::string(100000, 'x') + "'"); });
@@ -151,4 +151,4 @@ TEST_F(CheckerMaker, diagnosticsAreShortWhateverIsInThem)
   EXPECT_NE(status.message.find("no device 'xxx"), std::string::npos) << status.message;
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

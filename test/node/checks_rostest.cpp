@@ -5,7 +5,7 @@
 
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -24,7 +24,7 @@ class Checks : public RunningNode
   }
 };
 
-TEST_F(Checks, contactsAreThoseOfTheReportedBodies)
+TEST_F(Checks, ContactsAreThoseOfTheReportedBodies)
 {
   apply(diffWith(boxObject("box", tipPoint(), 0.02)));
   CheckStates::Request request = stateRequest(free_state);
@@ -52,7 +52,7 @@ TEST_F(Checks, contactsAreThoseOfTheReportedBodies)
   EXPECT_FALSE(pairs.empty());
 }
 
-TEST_F(Checks, clearanceIsTheDistanceToTheWorldAndToItself)
+TEST_F(Checks, ClearanceIsTheDistanceToTheWorldAndToItself)
 {
   CheckStates::Request request = stateRequest(free_state);
   request.clearance = true;
@@ -69,7 +69,7 @@ TEST_F(Checks, clearanceIsTheDistanceToTheWorldAndToItself)
   EXPECT_EQ(0.0, call<CheckStates>("check_states", request).clearance_world.at(0));
 }
 
-TEST_F(Checks, aMotionIsFreeUntilItsFirstCollision)
+TEST_F(Checks, AMotionIsFreeUntilItsFirstCollision)
 {
   std::vector<double> end = free_state;
   end[0] += end[0] > 0.0 ? -0.5 : 0.5;
@@ -96,7 +96,7 @@ TEST_F(Checks, aMotionIsFreeUntilItsFirstCollision)
   EXPECT_GE(response.states_checked, 2u * 25u);
 }
 
-TEST_F(Checks, wrongMotionsAreRefused)
+TEST_F(Checks, WrongMotionsAreRefused)
 {
   auto request = motion(free_state, free_state);
   request.resolution = 0.0;
@@ -106,7 +106,7 @@ TEST_F(Checks, wrongMotionsAreRefused)
   EXPECT_FALSE(call<CheckMotions>("check_motions", request).success);
 }
 
-TEST_F(Checks, theReportTellsWhatIsModelledAndWhatWasLeftOut)
+TEST_F(Checks, TheReportTellsWhatIsModelledAndWhatWasLeftOut)
 {
   apply(diffWith(boxObject("box", tipPoint(), 0.02)));
   const auto response = call<GetReport>("get_report", GetReport::Request());
@@ -124,4 +124,4 @@ TEST_F(Checks, theReportTellsWhatIsModelledAndWhatWasLeftOut)
   EXPECT_FALSE(call<GetReport>("get_report", unknown).success);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -11,7 +11,7 @@
 
 extern char** environ;
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 ChildNode::ChildNode(const std::string& node_name, std::vector<std::string> arguments, const std::string& program)
   : name_(node_name)
@@ -73,4 +73,4 @@ int ChildNode::wait(double seconds)
   }
   return -1;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

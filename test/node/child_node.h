@@ -5,7 +5,7 @@
 
 #include <sys/types.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A planning_scene_node that a test starts by itself, with parameters of its own and the robot of the test's.
 class ChildNode
@@ -28,4 +28,4 @@ class ChildNode
   std::string name_;
   pid_t process_ = 0;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

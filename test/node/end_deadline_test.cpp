@@ -8,11 +8,11 @@
 
 #include "node/end_deadline.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
-TEST(EndDeadlineDeathTest, endsAProcessThatHangs)
+TEST(EndDeadlineDeathTest, EndsAProcessThatHangs)
 {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(
@@ -24,7 +24,7 @@ TEST(EndDeadlineDeathTest, endsAProcessThatHangs)
       testing::ExitedWithCode(EXIT_FAILURE), "");
 }
 
-TEST(EndDeadline, leavesAProcessAloneThatEndsInTime)
+TEST(EndDeadline, LeavesAProcessAloneThatEndsInTime)
 {
   {
     const EndDeadline deadline(0.2);
@@ -32,4 +32,4 @@ TEST(EndDeadline, leavesAProcessAloneThatEndsInTime)
   std::this_thread::sleep_for(std::chrono::milliseconds(400));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include "node/child_node.h"
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -17,7 +17,7 @@ class Fault : public RunningNode
 {
 };
 
-TEST_F(Fault, diagnosticsTellThatTheCpuHasTakenOver)
+TEST_F(Fault, DiagnosticsTellThatTheCpuHasTakenOver)
 {
   // Its device is lost in one of several hundred calls; the first loss is enough for the CPU.
   const ChildNode node("faulty_node", {"_device:=software", "_cpu_below:=0", "_device_losses:=1"}, GPS_FAULTY_NODE);
@@ -50,4 +50,4 @@ TEST_F(Fault, diagnosticsTellThatTheCpuHasTakenOver)
   EXPECT_EQ(0u, latest.message.find("the CPU answers for the device: ")) << latest.message;
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

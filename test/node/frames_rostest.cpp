@@ -7,7 +7,7 @@
 
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -36,7 +36,7 @@ class Frames : public RunningNode
   }
 };
 
-TEST_F(Frames, aPoseMayBeInThePlanningFrameByName)
+TEST_F(Frames, APoseMayBeInThePlanningFrameByName)
 {
   apply(diffWith(boxIn(robot->planningFrame(), tipPoint())));
   EXPECT_FALSE(isFree());
@@ -44,13 +44,13 @@ TEST_F(Frames, aPoseMayBeInThePlanningFrameByName)
   EXPECT_TRUE(isFree());
 }
 
-TEST_F(Frames, aPoseMayBeInALinksFrameAsTheRobotStands)
+TEST_F(Frames, APoseMayBeInALinksFrameAsTheRobotStands)
 {
   apply(diffWith(boxIn(tip, linkPose(tip, free_state).inverse() * tipPoint())));
   EXPECT_FALSE(isFree());
 }
 
-TEST_F(Frames, aPoseMayBeInAnObjectsFrameOrItsSubframe)
+TEST_F(Frames, APoseMayBeInAnObjectsFrameOrItsSubframe)
 {
   CollisionObject table = boxIn("", farAway(), "table");
   table.subframe_names.emplace_back("corner");
@@ -65,7 +65,7 @@ TEST_F(Frames, aPoseMayBeInAnObjectsFrameOrItsSubframe)
   expectRefusal(diffWith(boxIn("table/no_such_corner", farAway())), "no_such_corner");
 }
 
-TEST_F(Frames, aPoseMayBeInAFixedFrameOfTheScene)
+TEST_F(Frames, APoseMayBeInAFixedFrameOfTheScene)
 {
   PlanningSceneMessage change = diffScene();
   change.fixed_frame_transforms.push_back(transform("shelf", farAway()));
@@ -74,7 +74,7 @@ TEST_F(Frames, aPoseMayBeInAFixedFrameOfTheScene)
   EXPECT_FALSE(isFree());
 }
 
-TEST_F(Frames, aPoseMayBeInAFrameOfTf)
+TEST_F(Frames, APoseMayBeInAFrameOfTf)
 {
   tf2_ros::StaticTransformBroadcaster broadcaster;
   broadcaster.sendTransform(transform("camera", farAway()));
@@ -83,7 +83,7 @@ TEST_F(Frames, aPoseMayBeInAFrameOfTf)
   EXPECT_FALSE(isFree());
 }
 
-TEST_F(Frames, aFrameOfTfIsLookedUpAtItsStamp)
+TEST_F(Frames, AFrameOfTfIsLookedUpAtItsStamp)
 {
   tf2_ros::TransformBroadcaster broadcaster;
   ros::WallDuration(2.0).sleep();  // until the node listens to it
@@ -105,7 +105,7 @@ TEST_F(Frames, aFrameOfTfIsLookedUpAtItsStamp)
   EXPECT_TRUE(isFree()) << "by then it is a metre further";
 }
 
-TEST_F(Frames, aFrameThatComesWithinTheTimeoutIsWaitedFor)
+TEST_F(Frames, AFrameThatComesWithinTheTimeoutIsWaitedFor)
 {
   tf2_ros::StaticTransformBroadcaster broadcaster;
   std::thread late(
@@ -119,10 +119,10 @@ TEST_F(Frames, aFrameThatComesWithinTheTimeoutIsWaitedFor)
   EXPECT_FALSE(isFree());
 }
 
-TEST_F(Frames, aFrameThatNobodyKnowsIsAClearErrorAfterTheTimeout)
+TEST_F(Frames, AFrameThatNobodyKnowsIsAClearErrorAfterTheTimeout)
 {
   expectRefusal(diffWith(boxIn("nowhere", farAway())), "frame 'nowhere'");
   expectRefusal(diffWith(boxIn("nowhere", farAway())), "tf_timeout");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

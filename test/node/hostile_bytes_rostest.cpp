@@ -9,7 +9,7 @@
 
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -95,7 +95,7 @@ class RawClient
 
 using HostileBytes = RunningNode;
 
-TEST_F(HostileBytes, anArrayThatIsSaidToBeEndlessIsRefused)
+TEST_F(HostileBytes, AnArrayThatIsSaidToBeEndlessIsRefused)
 {
   std::string body;
   append(body, 0);            // group
@@ -105,7 +105,7 @@ TEST_F(HostileBytes, anArrayThatIsSaidToBeEndlessIsRefused)
   EXPECT_TRUE(isFree());
 }
 
-TEST_F(HostileBytes, bytesThatMeanNothingAreRefusedByEachService)
+TEST_F(HostileBytes, BytesThatMeanNothingAreRefusedByEachService)
 {
   for (const char* service : {"check_states", "check_motions", "apply_planning_scene", "get_report", "show_tree_level"})
     for (const std::size_t length : {0, 3, 100, 10000})
@@ -113,11 +113,11 @@ TEST_F(HostileBytes, bytesThatMeanNothingAreRefusedByEachService)
   EXPECT_TRUE(isFree());
 }
 
-TEST_F(HostileBytes, aClientThatGoesAwayInTheMiddleHarmsNobody)
+TEST_F(HostileBytes, AClientThatGoesAwayInTheMiddleHarmsNobody)
 {
   for (int i = 0; i < 20; ++i)
     RawClient half(name("check_states"));
   EXPECT_TRUE(isFree());
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 #include "node/child_node.h"
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -68,7 +68,7 @@ class Load : public RunningNode
   }
 };
 
-TEST_F(Load, noObjectOfManyOnATopicIsLost)
+TEST_F(Load, NoObjectOfManyOnATopicIsLost)
 {
   constexpr int kObjects = 5000;
   const ChildNode node("quick_node", {"_device:=cpu"});
@@ -79,7 +79,7 @@ TEST_F(Load, noObjectOfManyOnATopicIsLost)
   EXPECT_TRUE(becomes([&] { return objectsOf(node) == kObjects; })) << objectsOf(node) << " objects are there";
 }
 
-TEST_F(Load, objectsThatAreTooManyAreCountedAsRefused)
+TEST_F(Load, ObjectsThatAreTooManyAreCountedAsRefused)
 {
   constexpr int kObjects = 5000;
   const ChildNode node("small_node", {"_device:=cpu", "_limits/waiting_changes:=5"});
@@ -100,7 +100,7 @@ TEST_F(Load, objectsThatAreTooManyAreCountedAsRefused)
   EXPECT_GT(refused, 0);
 }
 
-TEST_F(Load, whatIsTooMuchIsToldBusyAtOnceAndTheRestIsAnswered)
+TEST_F(Load, WhatIsTooMuchIsToldBusyAtOnceAndTheRestIsAnswered)
 {
   const ChildNode node("hurried_node", {"_device:=cpu", "_limits/waiting_requests:=1", "_small_request:=1"});
   std::atomic<int> right{0}, busy{0}, other{0};
@@ -158,19 +158,19 @@ void expectAllAnswered(ChildNode& node, End end)
   EXPECT_EQ(0, node.wait(10.0)) << "its exit code";
 }
 
-TEST_F(Load, aNodeThatIsEndedAnswersAllThatItHasTaken)
+TEST_F(Load, ANodeThatIsEndedAnswersAllThatItHasTaken)
 {
   ChildNode node("ended_node", {"_device:=cpu", "_small_request:=1"});
   expectAllAnswered(node, [](const ChildNode& ended) { ended.interrupt(); });
 }
 
-TEST_F(Load, aNodeThatRosnodeKillEndsAnswersAllThatItHasTaken)
+TEST_F(Load, ANodeThatRosnodeKillEndsAnswersAllThatItHasTaken)
 {
   ChildNode node("killed_node", {"_device:=cpu", "_small_request:=1"});
   expectAllAnswered(node, [](const ChildNode& ended) { ended.askToShutDown(); });
 }
 
-TEST_F(Load, aNodeThatIsEndedAnswersRequestsThatNoThreadHasTakenYet)
+TEST_F(Load, ANodeThatIsEndedAnswersRequestsThatNoThreadHasTakenYet)
 {
   ChildNode node("waiting_node", {"_device:=cpu", "_tf_timeout:=3"});
   std::atomic<int> told{0}, asked{0};
@@ -200,7 +200,7 @@ TEST_F(Load, aNodeThatIsEndedAnswersRequestsThatNoThreadHasTakenYet)
   EXPECT_EQ(0, node.wait(10.0)) << "its exit code";
 }
 
-TEST_F(Load, aNodeEndsSoonThoughChangesWaitForFrames)
+TEST_F(Load, ANodeEndsSoonThoughChangesWaitForFrames)
 {
   ChildNode node("lost_node", {"_device:=cpu", "_tf_timeout:=2"});
   ros::NodeHandle client;
@@ -219,4 +219,4 @@ TEST_F(Load, aNodeEndsSoonThoughChangesWaitForFrames)
   EXPECT_EQ(0, node.wait(10.0)) << "its exit code";
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 #include "node/markers.h"
 #include "scene/slider_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -47,7 +47,7 @@ PlanningScene fullScene()
   return scene;
 }
 
-MarkerArray markers(const PlanningScene& scene, const std::vector<std::array<std::int32_t, 2>>& colliding = {},
+MarkerArray markers(const PlanningScene& scene, const std::vector<BodyPair>& colliding = {},
                     const std::vector<Eigen::Vector3d>& contacts = {}, const MarkerOptions& options = {})
 {
   return markersOf(scene, scene.robot->defaultState().data(), colliding, contacts, options);
@@ -60,12 +60,12 @@ bool isRed(const Marker& marker)
 
 std::size_t countOf(const MarkerArray& array, const std::string& name, int type)
 {
-  return static_cast<std::size_t>(std::count_if(array.markers.begin(), array.markers.end(),
-                                                [&](const Marker& marker)
-                                                { return marker.ns == name && marker.type == type; }));
+  return static_cast<std::size_t>(std::count_if(
+      array.markers.begin(), array.markers.end(),
+      [&](const Marker& marker) { return marker.ns == name && marker.type == type; }));
 }
 
-TEST(Markers, bodiesAreDrawnAsWhatTheyAre)
+TEST(Markers, BodiesAreDrawnAsWhatTheyAre)
 {
   const MarkerArray array = markers(fullScene());
   ASSERT_FALSE(array.markers.empty());
@@ -90,7 +90,7 @@ TEST(Markers, bodiesAreDrawnAsWhatTheyAre)
   }
 }
 
-TEST(Markers, placesAreThoseOfTheScene)
+TEST(Markers, PlacesAreThoseOfTheScene)
 {
   PlanningScene scene(sliderRobot());
   WorldObject object;
@@ -111,7 +111,7 @@ TEST(Markers, placesAreThoseOfTheScene)
   EXPECT_EQ(marker.scale.y, 2.0);
 }
 
-TEST(Markers, collidingBodiesAreRedAndContactsShown)
+TEST(Markers, CollidingBodiesAreRedAndContactsShown)
 {
   const PlanningScene scene = fullScene();
   const int cart = scene.robot->linkIndex("cart");
@@ -122,7 +122,7 @@ TEST(Markers, collidingBodiesAreRedAndContactsShown)
   EXPECT_EQ(array.markers.back().points.size(), 2u);
 }
 
-TEST(Markers, bodiesHaveTheColoursOfTheScene)
+TEST(Markers, BodiesHaveTheColoursOfTheScene)
 {
   PlanningScene scene = fullScene();
   scene.colors["ball"] = Color{0.0F, 1.0F, 0.2F, 0.4F};
@@ -134,7 +134,7 @@ TEST(Markers, bodiesHaveTheColoursOfTheScene)
   }
 }
 
-TEST(Markers, whatACarriedObjectIsGoesWithItsLink)
+TEST(Markers, WhatACarriedObjectIsGoesWithItsLink)
 {
   PlanningScene scene = fullScene();
   std::vector<double> state = scene.robot->defaultState();
@@ -151,7 +151,7 @@ TEST(Markers, whatACarriedObjectIsGoesWithItsLink)
   EXPECT_NEAR(place(), 2.25, 1e-12);
 }
 
-TEST(Markers, tooManyTrianglesBecomeBoxes)
+TEST(Markers, TooManyTrianglesBecomeBoxes)
 {
   MarkerOptions options;
   options.most_triangles = 199;
@@ -160,7 +160,7 @@ TEST(Markers, tooManyTrianglesBecomeBoxes)
   EXPECT_EQ(countOf(array, "objects", Marker::CUBE), 2u) << "the floor and the sheet's box";
 }
 
-TEST(Markers, noMoreTrianglesAreDrawnThanTheLimitWhereMeshesAreEqual)
+TEST(Markers, NoMoreTrianglesAreDrawnThanTheLimitWhereMeshesAreEqual)
 {
   PlanningScene scene = fullScene();
   const auto sheet = std::find_if(scene.objects.begin(), scene.objects.end(),
@@ -183,7 +183,7 @@ TEST(Markers, noMoreTrianglesAreDrawnThanTheLimitWhereMeshesAreEqual)
   EXPECT_GT(points, 2 * options.most_triangles);
 }
 
-TEST(Markers, aTreeLevelHasItsBoxes)
+TEST(Markers, ATreeLevelHasItsBoxes)
 {
   constexpr std::size_t kPointsOfBox = 24;
   MarkerOptions options;
@@ -203,4 +203,4 @@ TEST(Markers, aTreeLevelHasItsBoxes)
   EXPECT_GT(countOf(markers(fullScene(), {}, {}, options), "tree", Marker::LINE_LIST), 5u);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -10,7 +10,7 @@
 #include "node/to_messages.h"
 #include "scene/change_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -510,4 +510,4 @@ TEST_F(Messages, ADifferenceBetweenScenesGoesThroughItsMessage)
   expectSameScene(third, scene_, 1e-14);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

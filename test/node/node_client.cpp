@@ -5,7 +5,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "node/node_parameters.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 std::shared_ptr<const RobotModel> RunningNode::robot;
 std::vector<double> RunningNode::free_state;
@@ -201,4 +201,4 @@ Eigen::Vector3d RunningNode::tipPoint()
   const PlacedShape& placed = robot->links()[static_cast<std::size_t>(robot->linkIndex(tip))].shapes.front();
   return linkPose(tip, free_state) * placed.pose * pointOf(placed.shape);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
-#include "gpu_planning_scene/messages.h"
 #include "gpu_planning_scene/planning_scene.h"
+#include "node/messages.h"
 #include "node/persistent_call.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 geometry_msgs::Pose poseAt(const Eigen::Vector3d& position);
 geometry_msgs::Pose poseAt(const Eigen::Isometry3d& pose);
@@ -64,4 +64,4 @@ class RunningNode : public testing::Test
   static std::string tip;   ///< the last link that has shapes
   static std::string base;  ///< the first one
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

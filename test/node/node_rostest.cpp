@@ -9,14 +9,14 @@
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
-#include "gpu_planning_scene/messages.h"
+#include "node/messages.h"
 
+#include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "node/persistent_call.h"
-#include "tools/open_checker.h"
 #include "tools/run_program.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -78,7 +78,7 @@ class Node : public testing::Test
 std::shared_ptr<const RobotModel> Node::robot;
 std::shared_ptr<const PlanningScene> Node::scene;
 
-TEST_F(Node, answersFourClientsAtOnceAsTheLibraryDoes)
+TEST_F(Node, AnswersFourClientsAtOnceAsTheLibraryDoes)
 {
   BatchCheckerOptions options;
   options.device = parameter("device");
@@ -120,7 +120,7 @@ TEST_F(Node, answersFourClientsAtOnceAsTheLibraryDoes)
   EXPECT_LT(10 * valid, 9 * states) << "hardly any state collides: the comparison says little";
 }
 
-TEST_F(Node, refusesWrongRequestsAndLivesOn)
+TEST_F(Node, RefusesWrongRequestsAndLivesOn)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> states = randomStates(2, 1);
@@ -144,7 +144,7 @@ TEST_F(Node, refusesWrongRequestsAndLivesOn)
   EXPECT_EQ(2u, right.response.valid.size());
 }
 
-TEST_F(Node, takesVariablesThatARequestLeavesOutFromJointStates)
+TEST_F(Node, TakesVariablesThatARequestLeavesOutFromJointStates)
 {
   CheckStates partial;
   partial.request.joint_names = {robot->variables()[0].name};
@@ -188,7 +188,7 @@ void expectNoStart(std::vector<std::string> arguments, const std::string& reason
   EXPECT_NE(std::string::npos, lines[0].find(reason)) << lines[0];
 }
 
-TEST_F(Node, doesNotStartOnWhatItCannotUse)
+TEST_F(Node, DoesNotStartOnWhatItCannotUse)
 {
   ros::param::set("/broken_description", "<robot name=");
   ros::param::set("/number_description", 5.5);
@@ -204,7 +204,7 @@ TEST_F(Node, doesNotStartOnWhatItCannotUse)
   expectNoStart({"_packages:=5"}, "~packages");
 }
 
-TEST_F(Node, endsAtASignalWhileItWaitsForTheMaster)
+TEST_F(Node, EndsAtASignalWhileItWaitsForTheMaster)
 {
   for (const char* signal : {"--signal=INT", "--signal=TERM"})
   {
@@ -214,7 +214,7 @@ TEST_F(Node, endsAtASignalWhileItWaitsForTheMaster)
   }
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 int main(int argc, char** argv)
 {

@@ -4,13 +4,13 @@
 #include "node/node_client.h"
 #include "tools/run_program.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
 using ObjectOperations = RunningNode;
 
-TEST_F(ObjectOperations, aBoxIsAddedMovedAndRemoved)
+TEST_F(ObjectOperations, ABoxIsAddedMovedAndRemoved)
 {
   EXPECT_TRUE(isFree()) << "the state is free without objects";
   apply(diffWith(boxObject("box", tipPoint(), 0.02)));
@@ -26,7 +26,7 @@ TEST_F(ObjectOperations, aBoxIsAddedMovedAndRemoved)
   EXPECT_TRUE(isFree());
 }
 
-TEST_F(ObjectOperations, anAddReplacesTheObjectOfThatName)
+TEST_F(ObjectOperations, AnAddReplacesTheObjectOfThatName)
 {
   apply(diffWith(boxObject("box", tipPoint(), 0.02)));
   apply(diffWith(boxObject("box", farAway(), 0.02)));
@@ -34,7 +34,7 @@ TEST_F(ObjectOperations, anAddReplacesTheObjectOfThatName)
   EXPECT_EQ(1u, scene().world.collision_objects.size());
 }
 
-TEST_F(ObjectOperations, aShapeOfAnotherSizeCollides)
+TEST_F(ObjectOperations, AShapeOfAnotherSizeCollides)
 {
   const Eigen::Vector3d above = tipPoint() + Eigen::Vector3d(0.0, 0.0, 5.0);
   apply(diffWith(boxObject("box", above, 0.1)));
@@ -45,7 +45,7 @@ TEST_F(ObjectOperations, aShapeOfAnotherSizeCollides)
   EXPECT_TRUE(isFree());
 }
 
-TEST_F(ObjectOperations, anAppendAddsShapes)
+TEST_F(ObjectOperations, AnAppendAddsShapes)
 {
   apply(diffWith(boxObject("box", farAway(), 0.02)));
   EXPECT_TRUE(isFree());
@@ -57,7 +57,7 @@ TEST_F(ObjectOperations, anAppendAddsShapes)
   EXPECT_EQ(2u, scene().world.collision_objects.at(0).primitives.size());
 }
 
-TEST_F(ObjectOperations, aMoveMayPlaceTheShapesAnew)
+TEST_F(ObjectOperations, AMoveMayPlaceTheShapesAnew)
 {
   apply(diffWith(boxObject("box", farAway(), 0.02)));
   CollisionObject moved = objectOperation("box", CollisionObject::MOVE);
@@ -69,7 +69,7 @@ TEST_F(ObjectOperations, aMoveMayPlaceTheShapesAnew)
   expectRefusal(diffWith(moved), "box");
 }
 
-TEST_F(ObjectOperations, aRemoveWithoutANameRemovesAll)
+TEST_F(ObjectOperations, ARemoveWithoutANameRemovesAll)
 {
   for (const char* id : {"a", "b", "c"})
     apply(diffWith(boxObject(id, tipPoint(), 0.02)));
@@ -78,7 +78,7 @@ TEST_F(ObjectOperations, aRemoveWithoutANameRemovesAll)
   EXPECT_TRUE(scene().world.collision_objects.empty());
 }
 
-TEST_F(ObjectOperations, aMeshIsAnObstacleWhereItIsMovedTo)
+TEST_F(ObjectOperations, AMeshIsAnObstacleWhereItIsMovedTo)
 {
   CollisionObject mesh = objectOperation("mesh", CollisionObject::ADD);
   mesh.pose = poseAt(farAway());
@@ -99,7 +99,7 @@ TEST_F(ObjectOperations, aMeshIsAnObstacleWhereItIsMovedTo)
   EXPECT_FALSE(isFree());
 }
 
-TEST_F(ObjectOperations, aPlanesSolidIsTheHalfSpaceBehindIt)
+TEST_F(ObjectOperations, APlanesSolidIsTheHalfSpaceBehindIt)
 {
   CollisionObject plane = objectOperation("plane", CollisionObject::ADD);
   plane.planes.resize(1);
@@ -111,7 +111,7 @@ TEST_F(ObjectOperations, aPlanesSolidIsTheHalfSpaceBehindIt)
   EXPECT_FALSE(isFree());
 }
 
-TEST_F(ObjectOperations, tenThousandBoxesAreAddedAtOnce)
+TEST_F(ObjectOperations, TenThousandBoxesAreAddedAtOnce)
 {
   PlanningSceneMessage change = diffScene();
   for (int i = 0; i < 10000; ++i)
@@ -126,7 +126,7 @@ TEST_F(ObjectOperations, tenThousandBoxesAreAddedAtOnce)
   EXPECT_NE(std::string::npos, collision().find("box 5000"));
 }
 
-TEST_F(ObjectOperations, aMeshFileIsAddedFromTheCommandLine)
+TEST_F(ObjectOperations, AMeshFileIsAddedFromTheCommandLine)
 {
   const TemporaryFolder folder;
   const std::string file = folder.write("tetrahedron.obj",
@@ -147,7 +147,7 @@ TEST_F(ObjectOperations, aMeshFileIsAddedFromTheCommandLine)
   EXPECT_NE(std::string::npos, refused.err.find("no such frame")) << refused.err;
 }
 
-TEST_F(ObjectOperations, whatIsWrongIsRefusedAndChangesNothing)
+TEST_F(ObjectOperations, WhatIsWrongIsRefusedAndChangesNothing)
 {
   apply(diffWith(boxObject("box", farAway(), 0.02)));
   expectRefusal(diffWith(objectOperation("no such object", CollisionObject::REMOVE)), "no such object");
@@ -163,4 +163,4 @@ TEST_F(ObjectOperations, whatIsWrongIsRefusedAndChangesNothing)
   expectRefusal(half_right, "wrong");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -42,7 +42,7 @@ class Parameters : public RunningNode
   }
 };
 
-TEST_F(Parameters, paddingAndScaleOfLinksAreThoseOfRobotDescriptionPlanning)
+TEST_F(Parameters, PaddingAndScaleOfLinksAreThoseOfRobotDescriptionPlanning)
 {
   std::map<std::string, double> padding;
   std::map<std::string, double> scale;
@@ -57,7 +57,7 @@ TEST_F(Parameters, paddingAndScaleOfLinksAreThoseOfRobotDescriptionPlanning)
   EXPECT_EQ(2.0, scale["pole"]);
 }
 
-TEST_F(Parameters, objectsHaveTheirOwnDefaultPadding)
+TEST_F(Parameters, ObjectsHaveTheirOwnDefaultPadding)
 {
   apply(diffWith(wall()));
   // The cart reaches 0.1 m ahead; its padding is 0.1 m, the wall's 0.03 m.
@@ -65,7 +65,7 @@ TEST_F(Parameters, objectsHaveTheirOwnDefaultPadding)
   EXPECT_FALSE(isFreeAt(0.99 - 0.1 - 0.13 + 0.001));
 }
 
-TEST_F(Parameters, carriedObjectsHaveTheirLinksPaddingAndTheirOwn)
+TEST_F(Parameters, CarriedObjectsHaveTheirLinksPaddingAndTheirOwn)
 {
   apply(diffWith(wall()));
   AttachedCollisionObject bumper;
@@ -78,7 +78,7 @@ TEST_F(Parameters, carriedObjectsHaveTheirLinksPaddingAndTheirOwn)
   EXPECT_FALSE(isFreeAt(0.99 - 0.25 - 0.15 + 0.001));
 }
 
-TEST_F(Parameters, whatIsOverALimitIsRefusedByItsName)
+TEST_F(Parameters, WhatIsOverALimitIsRefusedByItsName)
 {
   const auto response = call<CheckStates>("check_states", stateRequest(std::vector<double>(202, 0.0)));
   EXPECT_FALSE(response.success);
@@ -105,13 +105,13 @@ TEST_F(Parameters, whatIsOverALimitIsRefusedByItsName)
   expectRefusal(diffWith(boxObject(std::string(21, 'x'), farAway(), 0.02)), "limits/name_length");
 }
 
-TEST_F(Parameters, aMessageThatIsTooLongIsRefusedAndTheNodeLivesOn)
+TEST_F(Parameters, AMessageThatIsTooLongIsRefusedAndTheNodeLivesOn)
 {
   expectRefusal(diffWith(boxObject(std::string(300000, 'x'), farAway(), 0.02)), "limits/message_size");
   EXPECT_TRUE(isFreeAt(0.0));
 }
 
-TEST_F(Parameters, aPointCloudIsAnObstacleWithoutTheRobotsOwnPoints)
+TEST_F(Parameters, APointCloudIsAnObstacleWithoutTheRobotsOwnPoints)
 {
   ros::NodeHandle node;
   ros::Publisher publisher = node.advertise<sensor_msgs::PointCloud2>("/points", 1);
@@ -161,4 +161,4 @@ TEST_F(Parameters, aPointCloudIsAnObstacleWithoutTheRobotsOwnPoints)
   EXPECT_EQ(1u, scene().world.collision_objects[0].primitives.size());
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include <ros/ros.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Calls over a connection of this thread's that stays open. ros::service::call connects anew each time, and roscpp
 /// (1.15) then loses about one of 3000 calls without an answer while others connect too: an event of a closed
@@ -19,4 +19,4 @@ bool callPersistently(const std::string& service, Service& call)
     client = ros::NodeHandle().serviceClient<Service>(service, true);
   return client.call(call);
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -11,7 +11,7 @@
 #include "gpu_planning_scene/motion_checker.h"
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -84,7 +84,7 @@ class Planning : public RunningNode
   }
 };
 
-TEST_F(Planning, findsTheWayThroughASlotByPlannersOfAnyName)
+TEST_F(Planning, FindsTheWayThroughASlotByPlannersOfAnyName)
 {
   for (const std::string name : {"", "Batch", "RRTConnectkConfigDefault", "KPIECEkConfigDefault",
                                  "gpu_planning_scene/BatchRrtConnect", "geometric::PRM", "geometric::BITstar"})
@@ -96,25 +96,25 @@ TEST_F(Planning, findsTheWayThroughASlotByPlannersOfAnyName)
   }
 }
 
-TEST_F(Planning, usesAPlannerOfAnotherPackage)
+TEST_F(Planning, UsesAPlannerOfAnotherPackage)
 {
   PlanMotion::Request wanted = request();
   wanted.planner = "Elsewhere";
   const Response response = plan(wanted);
   expectSolved(response, wanted.start, wanted.goals);
-  EXPECT_EQ(response.planner, "other_package/AnyPlanner");
+  EXPECT_EQ(response.planner, "planner_plugin/BKPIECE");
 }
 
-TEST_F(Planning, saysThatThePlannerHasFailedWhereTheRequestIsNotToBlame)
+TEST_F(Planning, SaysThatThePlannerHasFailedWhereTheRequestIsNotToBlame)
 {
   PlanMotion::Request wanted = request();
-  wanted.planner = "other_package/Broken";
+  wanted.planner = "broken_planner/Broken";
   expectStatus(wanted, Response::FAILED, "a planner that is broken");
-  wanted.planner = "other_package/AnyPlanner";
+  wanted.planner = "planner_plugin/BKPIECE";
   expectSolved(plan(wanted), wanted.start, wanted.goals);
 }
 
-TEST_F(Planning, takesTheDefaultOfTheGroupAndParametersOfTheRequest)
+TEST_F(Planning, TakesTheDefaultOfTheGroupAndParametersOfTheRequest)
 {
   PlanMotion::Request wanted = request();
   EXPECT_EQ(plan(wanted).planner, "geometric::RRTConnect");
@@ -147,7 +147,7 @@ TEST_F(Planning, takesTheDefaultOfTheGroupAndParametersOfTheRequest)
   expectStatus(wanted, Response::BAD_REQUEST, "has no parameter 'ordered_sampling'");
 }
 
-TEST_F(Planning, servesTwoClientsAtOnce)
+TEST_F(Planning, ServesTwoClientsAtOnce)
 {
   std::vector<std::thread> clients;
   std::vector<std::vector<Response>> answers(2);
@@ -165,14 +165,14 @@ TEST_F(Planning, servesTwoClientsAtOnce)
       expectSolved(response, request().start, request().goals);
 }
 
-TEST_F(Planning, goesToAnyOfSeveralGoalsAndLeavesOutThoseInCollision)
+TEST_F(Planning, GoesToAnyOfSeveralGoalsAndLeavesOutThoseInCollision)
 {
   PlanMotion::Request wanted = request();
   wanted.goals = {0.0, kTurned, 1.0, 0.0};
   expectSolved(plan(wanted), wanted.start, {1.0, 0.0});
 }
 
-TEST_F(Planning, startsAtTheCurrentStateWhereNoneIsGiven)
+TEST_F(Planning, StartsAtTheCurrentStateWhereNoneIsGiven)
 {
   PlanningSceneMessage change = diffScene();
   change.robot_state.is_diff = true;
@@ -185,7 +185,7 @@ TEST_F(Planning, startsAtTheCurrentStateWhereNoneIsGiven)
   expectSolved(plan(wanted), {-0.9, kTurned}, wanted.goals);
 }
 
-TEST_F(Planning, underTheBoundDoesNotJumpAWallOfAMillimetreAndBySamplesDoes)
+TEST_F(Planning, UnderTheBoundDoesNotJumpAWallOfAMillimetreAndBySamplesDoes)
 {
   apply(diffWith(plate("sheet", {0.5003, 0.0, 0.0}, {0.001, 2.0, 0.15})));
   PlanMotion::Request wanted = request();
@@ -201,7 +201,7 @@ TEST_F(Planning, underTheBoundDoesNotJumpAWallOfAMillimetreAndBySamplesDoes)
   EXPECT_TRUE(plan(wanted).success);
 }
 
-TEST_F(Planning, saysWhichBodiesCollideAtTheStartAndAtTheGoal)
+TEST_F(Planning, SaysWhichBodiesCollideAtTheStartAndAtTheGoal)
 {
   PlanMotion::Request wanted = request();
   wanted.start = {0.0, kTurned};
@@ -211,7 +211,7 @@ TEST_F(Planning, saysWhichBodiesCollideAtTheStartAndAtTheGoal)
   expectStatus(wanted, Response::GOAL_IN_COLLISION, "the goal is in collision: pole and ");
 }
 
-TEST_F(Planning, saysWhatIsOutOfBounds)
+TEST_F(Planning, SaysWhatIsOutOfBounds)
 {
   PlanMotion::Request wanted = request();
   wanted.start = {-2.5, 0.0};
@@ -221,7 +221,7 @@ TEST_F(Planning, saysWhatIsOutOfBounds)
   expectStatus(wanted, Response::OUT_OF_BOUNDS, "the goal is out of bounds: turn is 3.5");
 }
 
-TEST_F(Planning, tellsAnApproximateSolutionFromASolution)
+TEST_F(Planning, TellsAnApproximateSolutionFromASolution)
 {
   apply(diffWith(plate("wall", {0.6, 0.0, 0.0}, {0.1, 2.0, 0.15})));
   PlanMotion::Request wanted = request();
@@ -237,7 +237,7 @@ TEST_F(Planning, tellsAnApproximateSolutionFromASolution)
   EXPECT_NE(response.message.find("the path ends"), std::string::npos) << response.message;
 }
 
-TEST_F(Planning, refusesWhatIsNoRequest)
+TEST_F(Planning, RefusesWhatIsNoRequest)
 {
   PlanMotion::Request wanted = request();
   wanted.group = "crane";
@@ -282,7 +282,7 @@ TEST_F(Planning, refusesWhatIsNoRequest)
   expectStatus(wanted, Response::BAD_REQUEST, "the revolute step of motions is -0.1");
 }
 
-TEST_F(Planning, drawsThePath)
+TEST_F(Planning, DrawsThePath)
 {
   ros::NodeHandle node;
   std::vector<visualization_msgs::MarkerArray> drawn;
@@ -309,4 +309,4 @@ TEST_F(Planning, drawsThePath)
   EXPECT_NEAR(drawn.back().markers[1].points.back().x, 1.0, 1e-9);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
@@ -17,9 +18,8 @@
 #include "node/scene_services.h"
 #include "scene/slider_robot.h"
 #include "service/gated_checker.h"
-#include "tools/scene_text.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -78,7 +78,7 @@ class Service : public testing::Test
   CheckServices services{store, server, memory, {1000, 10}};
 };
 
-TEST_F(Service, answersEachStateInOrder)
+TEST_F(Service, AnswersEachStateInOrder)
 {
   const CheckStates::Response response = answer(request({"turn", "slide"}, {0.5, 0.0, 0.5, 1.0, 1.0, 0.5}));
   EXPECT_TRUE(response.success) << response.message;
@@ -92,7 +92,7 @@ TEST_F(Service, answersEachStateInOrder)
   EXPECT_EQ(5u, response.scene_revision);
 }
 
-TEST_F(Service, otherVariablesTakeTheCurrentState)
+TEST_F(Service, OtherVariablesTakeTheCurrentState)
 {
   expectRefusal(request({"turn"}, {0.0}), "no value for slide");
   store.updateState({{"slide", 1.0}});
@@ -133,7 +133,7 @@ class WaitingService : public Service
   CheckServices gated{store, gated_server, memory, {1000, 10}};
 };
 
-TEST_F(WaitingService, variablesThatARequestLeavesOutAreThoseOfTheRevisionThatItNames)
+TEST_F(WaitingService, VariablesThatARequestLeavesOutAreThoseOfTheRevisionThatItNames)
 {
   const CheckStates::Response response =
       answerAfterTheCartMovedTo(-0.5, [this] { return gated.checkStates(request({"turn"}, {0.5})); });
@@ -142,7 +142,7 @@ TEST_F(WaitingService, variablesThatARequestLeavesOutAreThoseOfTheRevisionThatIt
   EXPECT_EQ((std::vector<std::uint8_t>{0}), response.valid) << "the gate lets no cart left of 0 through";
 }
 
-TEST_F(WaitingService, variablesThatAMotionLeavesOutAreThoseOfTheRevisionThatItNames)
+TEST_F(WaitingService, VariablesThatAMotionLeavesOutAreThoseOfTheRevisionThatItNames)
 {
   CheckMotions::Request asked;
   asked.joint_names = {"turn"};
@@ -150,6 +150,7 @@ TEST_F(WaitingService, variablesThatAMotionLeavesOutAreThoseOfTheRevisionThatItN
   asked.ends = {0.5};
   asked.resolution = 0.1;
   asked.translation_resolution = 0.1;
+  asked.motion_rule = "samples";
   const CheckMotions::Response response = answerAfterTheCartMovedTo(-0.5, [&] { return gated.checkMotions(asked); });
   ASSERT_TRUE(response.success) << response.message;
   EXPECT_EQ(6u, response.scene_revision);
@@ -175,7 +176,7 @@ class WaitingInspections : public WaitingService
   std::vector<std::future<CheckStates::Response>> answers;
 };
 
-TEST_F(WaitingInspections, areTurnedAwayWhereTooManyWait)
+TEST_F(WaitingInspections, AreTurnedAwayWhereTooManyWait)
 {
   for (int i = 0; i < 4; ++i)
     ask();
@@ -195,7 +196,7 @@ TEST_F(WaitingInspections, areTurnedAwayWhereTooManyWait)
   EXPECT_EQ(1, busy);
 }
 
-TEST_F(WaitingInspections, areToldOfTheEndThoughACheckerHangs)
+TEST_F(WaitingInspections, AreToldOfTheEndThoughACheckerHangs)
 {
   for (int i = 0; i < 3; ++i)
     ask();
@@ -206,7 +207,7 @@ TEST_F(WaitingInspections, areToldOfTheEndThoughACheckerHangs)
   gate.open();
 }
 
-TEST_F(Service, tooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
+TEST_F(Service, TooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
 {
   CheckServerOptions options;
   options.most_states = 2;
@@ -222,7 +223,7 @@ TEST_F(Service, tooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
   EXPECT_NE(std::string::npos, bounded.checkMotions(motions).message.find("limits/request_states"));
 }
 
-TEST(RequestedStates, aMotionNeedsAllOfARotationOrNothing)
+TEST(RequestedStates, AMotionNeedsAllOfARotationOrNothing)
 {
   const auto robot = RobotModel::fromXml(R"(<robot name="boat">
       <link name="sea"/><link name="hull"/><link name="mast"/>
@@ -238,14 +239,14 @@ TEST(RequestedStates, aMotionNeedsAllOfARotationOrNothing)
   EXPECT_NE(std::string::npos, errorOf([&] { requireWholeRotations(*robot, {turn, first + 4}); }).find("'swim'"));
 }
 
-TEST_F(Service, noStatesGetNoAnswers)
+TEST_F(Service, NoStatesGetNoAnswers)
 {
   const CheckStates::Response response = answer(request({"turn", "slide"}, {}));
   EXPECT_TRUE(response.success) << response.message;
   EXPECT_TRUE(response.valid.empty());
 }
 
-TEST_F(Service, wrongRequestsAreRefusedWithTheReason)
+TEST_F(Service, WrongRequestsAreRefusedWithTheReason)
 {
   expectRefusal(request({}, {}), "joint_names is empty");
   expectRefusal(request({}, {1.0}), "joint_names is empty");
@@ -260,7 +261,7 @@ TEST_F(Service, wrongRequestsAreRefusedWithTheReason)
   expectRefusal(unknown_group, "sails");
 }
 
-TEST_F(Service, namesInAnswersAreShortAndOnOneLine)
+TEST_F(Service, NamesInAnswersAreShortAndOnOneLine)
 {
   expectRefusal(request({"turn", "sli\nde"}, {}), "no variable 'sli de'");
   CheckStates::Request unknown_group = request({"turn", "slide"}, {0.0, 0.0});
@@ -289,7 +290,7 @@ TEST_F(Service, namesInAnswersAreShortAndOnOneLine)
   EXPECT_NE(std::string::npos, refused.message.find("'bo x': unknown operation")) << refused.message;
 }
 
-TEST_F(Service, aMatrixOfARequestHasNoMoreEntriesThanTheLimit)
+TEST_F(Service, AMatrixOfARequestHasNoMoreEntriesThanTheLimit)
 {
   SceneLimits limits;
   limits.matrix_entries = 3;
@@ -304,7 +305,7 @@ TEST_F(Service, aMatrixOfARequestHasNoMoreEntriesThanTheLimit)
   EXPECT_NE(std::string::npos, message.find("limits/matrix_entries")) << message;
 }
 
-TEST_F(Service, contactsAreGivenOfCollidingStatesAlone)
+TEST_F(Service, ContactsAreGivenOfCollidingStatesAlone)
 {
   CheckStates::Request with_contacts = request({"turn", "slide"}, {0.0, 0.0, 0.0, 1.0});
   with_contacts.max_contacts = 10;
@@ -321,7 +322,7 @@ TEST_F(Service, contactsAreGivenOfCollidingStatesAlone)
   }
 }
 
-TEST_F(Service, clearanceIsGivenWhereAsked)
+TEST_F(Service, ClearanceIsGivenWhereAsked)
 {
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.5, 0.0, 1.0});
   EXPECT_TRUE(answer(asked).clearance_world.empty());
@@ -333,7 +334,7 @@ TEST_F(Service, clearanceIsGivenWhereAsked)
   EXPECT_EQ(2u, response.clearance_self.size());
 }
 
-TEST_F(Service, noMoreStatesAreInspectedThanTheLimit)
+TEST_F(Service, NoMoreStatesAreInspectedThanTheLimit)
 {
   CheckStates::Request asked = request({"turn", "slide"}, std::vector<double>(22, 0.0));
   asked.max_contacts = 1;
@@ -342,7 +343,7 @@ TEST_F(Service, noMoreStatesAreInspectedThanTheLimit)
   expectRefusal(asked, "limits/inspected_states");
 }
 
-TEST_F(Service, moreContactsThanTheLimitAreRefusedAndNotCutOff)
+TEST_F(Service, MoreContactsThanTheLimitAreRefusedAndNotCutOff)
 {
   CheckServices bounded(store, server, memory, {1000, 10, 2});
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0, 0.0, 1.0, 0.0, 1.0});
@@ -358,7 +359,7 @@ TEST_F(Service, moreContactsThanTheLimitAreRefusedAndNotCutOff)
   EXPECT_EQ(2u, bounded.checkStates(asked).contacts.size()) << "what is found counts, not what is asked for";
 }
 
-TEST_F(Service, aMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
+TEST_F(Service, AMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
 {
   CheckMotions::Request asked;
   asked.joint_names = {"slide", "turn"};
@@ -366,6 +367,7 @@ TEST_F(Service, aMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
   asked.ends = {0.5, 0.0, 1.0, 0.0};
   asked.resolution = 0.1;
   asked.translation_resolution = 0.1;
+  asked.motion_rule = "samples";
   const CheckMotions::Response response = services.checkMotions(asked);
   ASSERT_TRUE(response.success) << response.message;
   EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid);
@@ -380,7 +382,36 @@ TEST_F(Service, aMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
   EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("4 numbers in starts and 3 in ends"));
 }
 
-TEST_F(Service, aMatrixOfARequestReplacesTheScenes)
+TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)
+{
+  CheckMotions::Request asked;
+  asked.joint_names = {"slide", "turn"};
+  asked.starts = {0.0, 0.0, 0.0, 0.0};
+  asked.ends = {0.5, 0.0, 1.0, 0.0};
+  asked.resolution = 0.3;
+  asked.translation_resolution = 0.3;
+  asked.motion_rule = "samples";
+  const CheckMotions::Response sampled = services.checkMotions(asked);
+  asked.motion_rule = "bound";
+  const CheckMotions::Response proven = services.checkMotions(asked);
+  asked.motion_rule = "";
+  const CheckMotions::Response unnamed = services.checkMotions(asked);
+  for (const CheckMotions::Response& response : {sampled, proven, unnamed})
+    EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid) << response.message;
+  EXPECT_GT(proven.states_checked, sampled.states_checked);
+  EXPECT_EQ(proven.states_checked, unnamed.states_checked) << "the node's own rule is the bound";
+  asked.motion_rule = "sample";
+  EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("must be samples or bound"));
+  asked.motion_rule = "bound";
+  asked.translation_resolution = 1e-5;
+  EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("motion 0 has more than 20000 samples"));
+  asked.motion_rule = "samples";
+  asked.translation_resolution = 1e-9;
+  const std::string message = services.checkMotions(asked).message;
+  EXPECT_NE(std::string::npos, message.find("more than 1000 samples")) << message;
+}
+
+TEST_F(Service, AMatrixOfARequestReplacesTheScenes)
 {
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0});
   asked.allowed_collision_matrix.default_entry_names = {"wall"};
@@ -388,7 +419,7 @@ TEST_F(Service, aMatrixOfARequestReplacesTheScenes)
   EXPECT_EQ((std::vector<std::uint8_t>{1}), answer(asked).valid);
 }
 
-TEST_F(Service, aReportHasLinesAndNumbers)
+TEST_F(Service, AReportHasLinesAndNumbers)
 {
   const GetReport::Response response = services.report({});
   ASSERT_TRUE(response.success) << response.message;
@@ -398,7 +429,7 @@ TEST_F(Service, aReportHasLinesAndNumbers)
   EXPECT_EQ(5u, response.scene_revision);
 }
 
-TEST_F(Service, aReportHasEachNameOnOneLine)
+TEST_F(Service, AReportHasEachNameOnOneLine)
 {
   PlanningScene scene = sceneWithWall();
   scene.objects[0].id = "wa\nll";
@@ -408,7 +439,7 @@ TEST_F(Service, aReportHasEachNameOnOneLine)
     EXPECT_EQ(std::string::npos, line.find('\n')) << line;
 }
 
-TEST_F(Service, aProcessThatUsesTooMuchMemoryTakesNothingMore)
+TEST_F(Service, AProcessThatUsesTooMuchMemoryTakesNothingMore)
 {
   const MemoryGuard full(1);
   CheckServices guarded(store, server, full, {});
@@ -416,7 +447,7 @@ TEST_F(Service, aProcessThatUsesTooMuchMemoryTakesNothingMore)
             guarded.checkStates(request({"turn", "slide"}, {0.0, 0.0})).message.find("limits/memory"));
 }
 
-TEST_F(Service, aProcessThatUsesTooMuchMemoryCanStillBeEmptied)
+TEST_F(Service, AProcessThatUsesTooMuchMemoryCanStillBeEmptied)
 {
   const MemoryGuard full(1);
   SceneServices scenes(store, nullptr, full);
@@ -444,7 +475,7 @@ class FailingChecker : public StateChecker
 {
  public:
   void setScene(std::shared_ptr<const PlanningScene>) override {}
-  BatchResult check(const double*, std::size_t, const std::string&, const Surroundings*) override
+  BatchResult check(const double*, std::size_t, const std::string&, const JointNeighbourhood*) override
   {
     throw std::runtime_error("device lost");
   }
@@ -452,7 +483,7 @@ class FailingChecker : public StateChecker
   std::string deviceName() const override { return ""; }
 };
 
-TEST_F(Service, aFailureOfTheDeviceIsAnAnswer)
+TEST_F(Service, AFailureOfTheDeviceIsAnAnswer)
 {
   CheckServer failing(store, [](std::shared_ptr<const PlanningScene>) { return std::make_shared<FailingChecker>(); },
                       {});
@@ -469,7 +500,7 @@ class JointStates : public Service
   SceneServices scenes{store, nullptr, memory};
 };
 
-TEST_F(JointStates, updateWhatTheyNameOfTheRobot)
+TEST_F(JointStates, UpdateWhatTheyNameOfTheRobot)
 {
   EXPECT_EQ((std::vector<bool>{false, false}), store.snapshot().known);
   take(jointState({"wheel", "turn", "flag", "bolt"}, {9.0, 0.5, 8.0, 7.0}));
@@ -481,7 +512,7 @@ TEST_F(JointStates, updateWhatTheyNameOfTheRobot)
   EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.snapshot().state);
 }
 
-TEST_F(JointStates, aWrongMessageChangesNothing)
+TEST_F(JointStates, AWrongMessageChangesNothing)
 {
   take(jointState({"slide", "turn"}, {0.25, 0.5}));
   EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0, kNan})), Error);
@@ -491,7 +522,7 @@ TEST_F(JointStates, aWrongMessageChangesNothing)
   EXPECT_EQ(1.0, store.snapshot().state[0]);
 }
 
-TEST(PackagesParameter, isAMapOrAList)
+TEST(PackagesParameter, IsAMapOrAList)
 {
   const std::map<std::string, std::string> expected = {{"arm", "/opt/arm"}, {"hand", "/opt/hand"}};
   XmlRpc::XmlRpcValue map;
@@ -508,7 +539,7 @@ TEST(PackagesParameter, isAMapOrAList)
   EXPECT_EQ(expected, packageFolders(list_of_maps));
 }
 
-TEST(PackagesParameter, anythingElseIsRefused)
+TEST(PackagesParameter, AnythingElseIsRefused)
 {
   XmlRpc::XmlRpcValue number(5);
   EXPECT_NE(std::string::npos, errorOf([&] { packageFolders(number); }).find("~packages"));
@@ -519,4 +550,4 @@ TEST(PackagesParameter, anythingElseIsRefused)
   EXPECT_NE(std::string::npos, errorOf([&] { packageFolders(map); }).find("'arm' is not a string"));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,7 +3,7 @@
 #include "gpu_planning_scene/planning_scene.h"
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -43,7 +43,7 @@ class Settings : public RunningNode
   }
 };
 
-TEST_F(Settings, paddingKeepsObjectsAway)
+TEST_F(Settings, PaddingKeepsObjectsAway)
 {
   apply(diffWith(boxObject("box", tipPoint() + Eigen::Vector3d(0.0, 0.0, 10.0), 0.02)));
   EXPECT_TRUE(isFree());
@@ -55,7 +55,7 @@ TEST_F(Settings, paddingKeepsObjectsAway)
   expectRefusal(padding("no such link", 0.1), "no such link");
 }
 
-TEST_F(Settings, scaleMakesALinkLarger)
+TEST_F(Settings, ScaleMakesALinkLarger)
 {
   CollisionObject ceiling = objectOperation("ceiling", CollisionObject::ADD);
   ceiling.planes.resize(1);
@@ -69,7 +69,7 @@ TEST_F(Settings, scaleMakesALinkLarger)
   expectRefusal(scale(tip, 0.0), tip);
 }
 
-TEST_F(Settings, coloursComeBackAndChangeNoAnswer)
+TEST_F(Settings, ColoursComeBackAndChangeNoAnswer)
 {
   PlanningSceneMessage change = diffWith(boxObject("box", farAway(), 0.02));
   change.object_colors.resize(1);
@@ -84,7 +84,7 @@ TEST_F(Settings, coloursComeBackAndChangeNoAnswer)
   EXPECT_TRUE(isFree());
 }
 
-TEST_F(Settings, aMatrixOfTheSceneAllowsPairsUntilAFullSceneComes)
+TEST_F(Settings, AMatrixOfTheSceneAllowsPairsUntilAFullSceneComes)
 {
   apply(diffWith(boxObject("box", tipPoint(), 0.02)));
   EXPECT_FALSE(isFree());
@@ -97,7 +97,7 @@ TEST_F(Settings, aMatrixOfTheSceneAllowsPairsUntilAFullSceneComes)
   EXPECT_FALSE(isFree());
 }
 
-TEST_F(Settings, aMatrixOfARequestHoldsForItAlone)
+TEST_F(Settings, AMatrixOfARequestHoldsForItAlone)
 {
   apply(diffWith(boxObject("box", tipPoint(), 0.02)));
   CheckStates::Request request = stateRequest(free_state);
@@ -108,7 +108,7 @@ TEST_F(Settings, aMatrixOfARequestHoldsForItAlone)
   EXPECT_FALSE(isFree());
 }
 
-TEST_F(Settings, onlyTheComponentsThatAreAskedForAreTold)
+TEST_F(Settings, OnlyTheComponentsThatAreAskedForAreTold)
 {
   PlanningSceneMessage change = diffWith(boxObject("box", farAway(), 0.02));
   change.name = "kitchen";
@@ -139,7 +139,7 @@ TEST_F(Settings, onlyTheComponentsThatAreAskedForAreTold)
   EXPECT_FALSE(now.is_diff);
 }
 
-TEST_F(Settings, aSceneThatIsReadAndAppliedIsTheSame)
+TEST_F(Settings, ASceneThatIsReadAndAppliedIsTheSame)
 {
   apply(diffWith(boxObject("box", farAway(), 0.02)));
   PlanningSceneMessage change = diffScene();
@@ -158,7 +158,7 @@ TEST_F(Settings, aSceneThatIsReadAndAppliedIsTheSame)
   EXPECT_EQ(before.robot_state.attached_collision_objects.size(), after.robot_state.attached_collision_objects.size());
 }
 
-TEST_F(Settings, aClearTakesObjectsAndKeepsSettings)
+TEST_F(Settings, AClearTakesObjectsAndKeepsSettings)
 {
   apply(padding(tip, 0.02));
   apply(diffWith(boxObject("box", tipPoint(), 0.02)));
@@ -174,11 +174,11 @@ TEST_F(Settings, aClearTakesObjectsAndKeepsSettings)
   EXPECT_TRUE(isFree());
 }
 
-TEST_F(Settings, anotherRobotsSceneIsRefused)
+TEST_F(Settings, AnotherRobotsSceneIsRefused)
 {
   PlanningSceneMessage change = diffScene();
   change.robot_model_name = "another robot";
   expectRefusal(change, "another robot");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

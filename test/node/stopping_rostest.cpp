@@ -6,7 +6,7 @@
 #include "node/child_node.h"
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -24,7 +24,7 @@ class Stopping : public RunningNode
 };
 
 /// As in a simulation that is paused, or not there yet: nobody publishes /clock.
-TEST_F(Stopping, aClockThatStandsStillHoldsUpNoChangeAndNoAnswer)
+TEST_F(Stopping, AClockThatStandsStillHoldsUpNoChangeAndNoAnswer)
 {
   ros::param::set("/use_sim_time", true);
   ChildNode node("node_without_clock", {"_device:=cpu", "_tf_timeout:=0.2"});
@@ -42,7 +42,7 @@ TEST_F(Stopping, aClockThatStandsStillHoldsUpNoChangeAndNoAnswer)
   EXPECT_EQ(0, node.wait(20.0)) << "its exit code";
 }
 
-TEST_F(Stopping, aFrameThatIsWaitedForHoldsUpNoEnd)
+TEST_F(Stopping, AFrameThatIsWaitedForHoldsUpNoEnd)
 {
   ChildNode node("patient_node", {"_device:=cpu", "_tf_timeout:=1000.0"});
   std::atomic<bool> asking{false};
@@ -64,4 +64,4 @@ TEST_F(Stopping, aFrameThatIsWaitedForHoldsUpNoEnd)
   EXPECT_EQ(0, node.wait(20.0)) << "its exit code";
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

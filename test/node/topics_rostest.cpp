@@ -8,7 +8,7 @@
 
 #include "node/node_client.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -41,13 +41,13 @@ class Topics : public RunningNode
   ros::Publisher publisher_;
 };
 
-TEST_F(Topics, planningSceneTakesChanges)
+TEST_F(Topics, PlanningSceneTakesChanges)
 {
   publish(name("planning_scene"), diffWith(boxObject("box", tipPoint(), 0.02)));
   EXPECT_TRUE(becomes([] { return !isFree(); }));
 }
 
-TEST_F(Topics, collisionObjectTakesObjectsInOrder)
+TEST_F(Topics, CollisionObjectTakesObjectsInOrder)
 {
   publish(name("collision_object"), boxObject("box", farAway(), 0.02));
   for (int i = 0; i < 20; ++i)
@@ -57,7 +57,7 @@ TEST_F(Topics, collisionObjectTakesObjectsInOrder)
   EXPECT_TRUE(isFree()) << "the last but one of them is far away";
 }
 
-TEST_F(Topics, attachedCollisionObjectAttaches)
+TEST_F(Topics, AttachedCollisionObjectAttaches)
 {
   AttachedCollisionObject attached;
   attached.link_name = tip;
@@ -66,7 +66,7 @@ TEST_F(Topics, attachedCollisionObjectAttaches)
   EXPECT_TRUE(becomes([] { return scene().robot_state.attached_collision_objects.size() == 1; }));
 }
 
-TEST_F(Topics, jointStatesChangeTheStateAndNotTheRevision)
+TEST_F(Topics, JointStatesChangeTheStateAndNotTheRevision)
 {
   const std::uint64_t revision = scene().scene_revision;
   sensor_msgs::JointState message = stateMessage(free_state).joint_state;
@@ -78,7 +78,7 @@ TEST_F(Topics, jointStatesChangeTheStateAndNotTheRevision)
   EXPECT_EQ(revision, scene().scene_revision);
 }
 
-TEST_F(Topics, aWrongMessageIsCountedInDiagnosticsAndNothingElse)
+TEST_F(Topics, AWrongMessageIsCountedInDiagnosticsAndNothingElse)
 {
   std::mutex mutex;
   std::map<std::string, std::string> values;
@@ -109,17 +109,17 @@ TEST_F(Topics, aWrongMessageIsCountedInDiagnosticsAndNothingElse)
     EXPECT_EQ(1u, values.count(key)) << key;
 }
 
-TEST_F(Topics, aClientThatFollowsTheDiffsHasTheSameScene)
+TEST_F(Topics, AClientThatFollowsTheDiffsHasTheSameScene)
 {
   std::mutex mutex;
   std::vector<PlanningSceneMessage> diffs;
-  const ros::Subscriber subscriber =
-      node_.subscribe<PlanningSceneMessage>(name("monitored_planning_scene_diffs"), 100,
-                                            [&](const PlanningSceneMessage::ConstPtr& message)
-                                            {
-                                              const std::lock_guard<std::mutex> lock(mutex);
-                                              diffs.push_back(*message);
-                                            });
+  const ros::Subscriber subscriber = node_.subscribe<PlanningSceneMessage>(
+      name("monitored_planning_scene_diffs"), 100,
+      [&](const PlanningSceneMessage::ConstPtr& message)
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        diffs.push_back(*message);
+      });
   ASSERT_TRUE(becomes([&] { return subscriber.getNumPublishers() > 0; }));
   ros::WallDuration(0.5).sleep();
   const std::uint64_t first = scene().scene_revision;
@@ -181,7 +181,7 @@ TEST_F(Topics, aClientThatFollowsTheDiffsHasTheSameScene)
   EXPECT_EQ(there.allowed_collision_matrix, here.allowed_collision_matrix);
 }
 
-TEST_F(Topics, aNewcomerGetsTheWholeScene)
+TEST_F(Topics, ANewcomerGetsTheWholeScene)
 {
   apply(diffWith(boxObject("box", farAway(), 0.02)));
   std::mutex mutex;
@@ -206,7 +206,7 @@ TEST_F(Topics, aNewcomerGetsTheWholeScene)
   EXPECT_FALSE(latest.is_diff);
 }
 
-TEST_F(Topics, markersShowWhatCollidesInRedAndTheBoxesOfATreeLevel)
+TEST_F(Topics, MarkersShowWhatCollidesInRedAndTheBoxesOfATreeLevel)
 {
   std::mutex mutex;
   std::map<std::string, int> counts;  // by namespace; "red": of any
@@ -244,4 +244,4 @@ TEST_F(Topics, markersShowWhatCollidesInRedAndTheBoxesOfATreeLevel)
   EXPECT_TRUE(becomes([&] { return drawn("tree") == 0; }));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include "oracle/oracle.h"
 #include "oracle/triangle.h"
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 namespace
 {
@@ -52,8 +52,9 @@ Vector farthestCore(const Cone& cone, const Vector& d)
 
 Vector farthestCore(const Corners& triangle, const Vector& d)
 {
-  return *std::max_element(triangle.corners.begin(), triangle.corners.end(),
-                           [&](const Vector& p, const Vector& q) { return dot(d, p) < dot(d, q); });
+  return *std::max_element(
+      triangle.corners.begin(), triangle.corners.end(),
+      [&](const Vector& p, const Vector& q) { return dot(d, p) < dot(d, q); });
 }
 
 Vector farthestCore(const Convex& convex, const Vector& direction)
@@ -178,4 +179,4 @@ Vector farthestPoint(const Convex& convex, const Vector& direction)
   const Vector core = farthestCore(convex, direction);
   return radius > 0 ? core + (radius / length(direction)) * direction : core;
 }
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

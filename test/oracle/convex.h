@@ -6,7 +6,7 @@
 #include "gpu_planning_scene/shapes.h"
 #include "oracle/quad.h"
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 /// The corners of a triangle as a convex set, in the frame of what it is compared with.
 struct Corners
@@ -33,4 +33,4 @@ Bounds convexDistance(const Convex& a, const Motion& pose_a, const Convex& b, co
 
 /// The farthest point in a direction of any length but 0, of the true shape (not only the centre of a sphere).
 Vector farthestPoint(const Convex& convex, const Vector& direction);
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

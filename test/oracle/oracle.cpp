@@ -7,7 +7,7 @@
 #include "oracle/convex.h"
 #include "oracle/prepared_mesh.h"
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 struct PreparedShape::Impl
 {
@@ -96,8 +96,9 @@ class MeshPair
 bool componentInside(const PreparedMesh& outer, const PreparedMesh& inner, const Motion& inner_in_outer)
 {
   return outer.hasSolid() &&
-         std::any_of(inner.componentPoints().begin(), inner.componentPoints().end(),
-                     [&](const Eigen::Vector3d& p) { return outer.solidHolds(inner_in_outer * Vector(p)); });
+         std::any_of(
+             inner.componentPoints().begin(), inner.componentPoints().end(),
+             [&](const Eigen::Vector3d& p) { return outer.solidHolds(inner_in_outer * Vector(p)); });
 }
 
 Quad distanceOf(const PreparedMesh& a, const PreparedMesh& b, const Motion& b_in_a, const Range& range)
@@ -146,10 +147,8 @@ Quad distanceOf(const PreparedShape::Impl& shape, const HalfSpace& half_space, c
   {
     least = height(shape_in_half_space * shape.mesh->triangles()[0].corners[0]);
     for (const Triangle& triangle : shape.mesh->triangles())
-    {
       for (const Vector& corner : triangle.corners)
         least = std::min(least, height(shape_in_half_space * corner));
-    }
   }
   return std::max(Quad(0), least / length(normal));
 }
@@ -214,4 +213,4 @@ Verdict verdict(const PreparedShape& a, const Motion& pose_a, const PreparedShap
   const Quad found = distanceOf(a, pose_a, b, pose_b, range);
   return found <= range.required ? Verdict::Collides : found < range.limit ? Verdict::Either : Verdict::Free;
 }
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

@@ -6,7 +6,7 @@
 #include "gpu_planning_scene/shapes.h"
 #include "oracle/quad.h"
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 /// What the project's contract says of a pair whose true distance is d and whose required distance is v.
 enum class Verdict
@@ -45,4 +45,4 @@ double distance(const PreparedShape& a, const Motion& pose_a, const PreparedShap
 /// Looks only as closely as the answer needs.
 Verdict verdict(const PreparedShape& a, const Motion& pose_a, const PreparedShape& b, const Motion& pose_b,
                 double required_distance);
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

@@ -7,7 +7,7 @@
 
 #include "oracle/oracle.h"
 
-using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::core;
 using oracle::Motion;
 using oracle::PreparedShape;
 using oracle::Verdict;
@@ -34,10 +34,8 @@ Shape boxMesh(double size, bool inverted = false)
 {
   auto mesh = std::make_shared<Mesh>(*tessellate(Box{Eigen::Vector3d::Constant(size)}).mesh);
   for (auto& t : mesh->triangles)
-  {
     if (inverted)
       std::swap(t[0], t[1]);
-  }
   return std::shared_ptr<const Mesh>(mesh);
 }
 
@@ -123,10 +121,8 @@ TEST(Oracle, PosesBecomeRotations)
   std::mt19937_64 random(3);
   const Motion motion = randomMotion(random, 1.0);
   for (int i = 0; i < 3; ++i)
-  {
     for (int k = 0; k < 3; ++k)
       EXPECT_LT(static_cast<double>(oracle::abs(dot(motion.rows[i], motion.rows[k]) - (i == k ? 1 : 0))), 1e-33);
-  }
 }
 
 TEST(Oracle, TrianglesAtKnownDistances)

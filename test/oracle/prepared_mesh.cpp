@@ -5,7 +5,7 @@
 #include <map>
 #include <numeric>
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 namespace
 {
@@ -211,4 +211,4 @@ bool PreparedMesh::solidHolds(const Vector& point) const
   }
   return std::abs(angle) > 2.0 * kPi;  // whole turns are multiples of 4 pi
 }
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

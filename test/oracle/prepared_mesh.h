@@ -10,7 +10,7 @@
 #include "gpu_planning_scene/shapes.h"
 #include "oracle/triangle.h"
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 /// A box in a shape's frame, in doubles: it holds all that it stands for.
 struct BoundingBox
@@ -57,4 +57,4 @@ class PreparedMesh
   std::vector<std::array<Eigen::Vector3d, 3>> solid_triangles_;
   Eigen::AlignedBox3d solid_box_;
 };
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

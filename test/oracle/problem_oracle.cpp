@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 namespace
 {
@@ -119,7 +119,7 @@ struct ProblemOracle::Impl
 
   Placed robotInstance(const std::vector<Motion>& link_poses, std::size_t i) const
   {
-    const Geometry& geometry = problem->robot[i];
+    const ShapeInstance& geometry = problem->robot[i];
     return {shapes[geometry.tree].get(), link_poses[geometry.link] * robot[i], geometry.padding};
   }
 
@@ -154,10 +154,8 @@ struct ProblemOracle::Impl
       }
     }
     for (const auto& [first, second] : problem->self_pairs)
-    {
       if (visit(moved[first], moved[second], 0.0))
         return;
-    }
   }
 };
 
@@ -168,9 +166,9 @@ ProblemOracle::ProblemOracle(std::shared_ptr<const CollisionProblem> problem)
     impl->shapes.push_back(std::make_unique<PreparedShape>(shape));
   for (const WorldHalfSpace& plane : problem->half_spaces)
     impl->half_spaces.push_back(std::make_unique<PreparedShape>(HalfSpace{plane.normal, plane.offset}));
-  for (const Geometry& geometry : problem->robot)
+  for (const ShapeInstance& geometry : problem->robot)
     impl->robot.emplace_back(geometry.pose);
-  for (const Geometry& geometry : problem->world)
+  for (const ShapeInstance& geometry : problem->world)
     impl->world.emplace_back(geometry.pose);
   impl->problem = std::move(problem);
   impl_ = std::move(impl);
@@ -212,4 +210,4 @@ Verdict ProblemOracle::pairVerdict(const std::vector<Motion>& link_poses, std::s
   const Impl::Placed b = self ? impl.robotInstance(link_poses, second) : impl.worldInstance(second - impl.robot.size());
   return oracle::verdict(*a.shape, a.pose, *b.shape, b.pose, self ? 0.0 : a.padding + b.padding);
 }
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

@@ -3,11 +3,11 @@
 #include <memory>
 #include <vector>
 
-#include "collision/collision_problem.h"
+#include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/robot_model.h"
 #include "oracle/oracle.h"
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 /// Where a robot's links are, in the planning frame, from its joints in quadruple precision.
 std::vector<Motion> linkPoses(const RobotModel& robot, const double* state);
@@ -36,4 +36,4 @@ class ProblemOracle
   struct Impl;
   std::unique_ptr<const Impl> impl_;
 };
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

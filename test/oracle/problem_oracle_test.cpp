@@ -5,7 +5,7 @@
 #include "model/model_testing.h"
 #include "oracle/problem_oracle.h"
 
-using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::core;
 using oracle::Motion;
 using oracle::ProblemOracle;
 using oracle::Verdict;

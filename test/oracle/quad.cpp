@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 namespace
 {
@@ -98,4 +98,4 @@ Eigen::Isometry3d Motion::toDouble() const
   pose.translation() = translation.toDouble();
   return pose;
 }
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

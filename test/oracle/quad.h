@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 /// Quadruple precision, 113 bits: sums of doubles of like size and products of two are exact in it.
 __extension__ typedef __float128 Quad;
@@ -88,4 +88,4 @@ struct Motion
 
   Eigen::Isometry3d toDouble() const;
 };
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 namespace
 {
@@ -48,10 +48,8 @@ Quad squaredDistance(const Vector& p, const Vector& q, const Vector& r, const Ve
 bool aboveFace(const Triangle& triangle, const Vector& point)
 {
   for (int i = 0; i < 3; ++i)
-  {
     if (dot(triangle.inward[i], point - triangle.corners[i]) < 0)
       return false;
-  }
   return true;
 }
 
@@ -89,10 +87,8 @@ bool pierced(const Triangle& face, const Triangle& other, const std::array<Quad,
 Quad leastHeight(const Triangle& face, const Triangle& other, const std::array<Quad, 3>& heights, Quad best)
 {
   for (int i = 0; i < 3; ++i)
-  {
     if (abs(heights[i]) < best && aboveFace(face, other.corners[i]))
       best = abs(heights[i]);
-  }
   return best;
 }
 }  // namespace
@@ -145,4 +141,4 @@ Quad distance(const Triangle& a, const Triangle& b, Quad limit)
     best = leastHeight(b, a, a_above_b, best);
   return best;
 }
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

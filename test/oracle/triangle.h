@@ -4,7 +4,7 @@
 
 #include "oracle/quad.h"
 
-namespace gpu_planning_scene::oracle
+namespace gpu_planning_scene::core::oracle
 {
 /// A triangle with what its distances need. One without area, or thinner than 1e-25 of its longest edge, has no face:
 /// only its edges count, which is as far off as it is thin.
@@ -20,4 +20,4 @@ struct Triangle
 
 /// Their distance; 0 where they meet. From `limit` up the answer is some lower bound of at least `limit`.
 Quad distance(const Triangle& a, const Triangle& b, Quad limit);
-}  // namespace gpu_planning_scene::oracle
+}  // namespace gpu_planning_scene::core::oracle

@@ -18,7 +18,7 @@
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "planning/point_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -313,4 +313,4 @@ TEST(BatchRrtConnect, NeedsMotionsInBulk)
   EXPECT_THROW(planner.setup(), ompl::Exception);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -11,11 +11,11 @@
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
 
-#include "gpu_planning_scene/motions.h"
+#include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -415,4 +415,4 @@ TEST_F(GroupStateSpaceTest, AProjectionOntoJointsThatAreNotPlannedForIsRefused)
   EXPECT_EQ(projectedVariables(space), (Names{"bend", "push", "tilt"}));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -14,7 +14,7 @@
 #include "gpu_planning_scene/planning/path_length_objective.h"
 #include "planning/point_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -179,4 +179,4 @@ TYPED_TEST(OmplPlanners, FindAValidPath)
   EXPECT_TRUE(robot.isValid(*problem->getSolutionPath()->as<og::PathGeometric>()));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -11,7 +11,7 @@
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "planning/point_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -142,4 +142,4 @@ TEST(PathShortcutter, NeedsMotionsInBulk)
   EXPECT_THROW(PathShortcutter(robot.information()), ompl::Exception);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -19,7 +19,7 @@
 #include "model/model_testing.h"
 #include "planning/point_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -352,4 +352,4 @@ TEST(PlanMotion, RefusesWhatIsNoQuery)
   }
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 #include "gpu_planning_scene/planning/state_validity_checker.h"
 #include "model/model_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -78,4 +78,4 @@ ompl::geometric::PathGeometric PointRobot::path(const std::vector<Position>& pos
     path.append(at(position).get());
   return path;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

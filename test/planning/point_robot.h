@@ -11,7 +11,7 @@
 
 #include "gpu_planning_scene/planning/motion_validator.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A wall of the plane, from a lower to an upper corner (x, y).
 struct Wall
@@ -49,4 +49,4 @@ class PointRobot
   ompl::base::SpaceInformationPtr information_;
   std::shared_ptr<MotionValidator> validator_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -12,13 +12,14 @@
 
 #include "gpu_planning_scene/PlanMotion.h"
 #include "gpu_planning_scene/cpu_checker.h"
-#include "gpu_planning_scene/messages.h"
-#include "gpu_planning_scene/motions.h"
+#include "gpu_planning_scene/interpolation.h"
+#include "model/seconds_since.h"
+#include "node/messages.h"
 #include "node/persistent_call.h"
 #include "node/to_messages.h"
 #include "support/planning_problems.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -77,7 +78,8 @@ std::size_t collisionsOf(const PlanningProblem& problem, const PlanMotion::Respo
   {
     const std::vector<double> from = row(points[i]);
     const std::vector<double> to = row(points[i + 1]);
-    const auto parts = static_cast<std::size_t>(partsOfWay(robot, from.data(), to.data(), {kResolution, kResolution}));
+    const auto parts =
+        static_cast<std::size_t>(segmentCount(robot, from.data(), to.data(), {kResolution, kResolution}));
     for (std::size_t k = 0; k <= parts; ++k)
     {
       states.resize(states.size() + from.size());
@@ -116,7 +118,7 @@ TEST(ProblemsOverRos, AreSolvedForOneClientAndForTwoAtOnce)
   {
     const auto start = std::chrono::steady_clock::now();
     work();
-    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    seconds.push_back(secondsSince(start));
   };
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -127,7 +129,8 @@ TEST(ProblemsOverRos, AreSolvedForOneClientAndForTwoAtOnce)
       exact = std::make_unique<CpuChecker>(problem.scene);
     apply(problem);
     PlanMotion::Response responses[3];
-    timed(alone, [&] { responses[0] = plan(problem); });
+    timed(
+        alone, [&] { responses[0] = plan(problem); });
     timed(together,
           [&]
           {
@@ -147,4 +150,4 @@ TEST(ProblemsOverRos, AreSolvedForOneClientAndForTwoAtOnce)
   }
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

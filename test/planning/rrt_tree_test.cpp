@@ -11,7 +11,7 @@
 #include "planning/point_robot.h"
 #include "planning/rrt_tree.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -81,4 +81,4 @@ TEST_F(Trees, FindTheNearestOfWhatIsLeft)
   }
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -18,7 +18,7 @@
 #include "scene/slider_robot.h"
 #include "support/test_scenes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -33,7 +33,7 @@ class RecordingChecker : public StateChecker
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override { checker_.setScene(std::move(scene)); }
   BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const Surroundings* around) override
+                    const JointNeighbourhood* around) override
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     batches.push_back(count);
@@ -292,4 +292,4 @@ TEST(StateValidityChecker, SpacesOfOtherKindsAndRobotsAreRefused)
   EXPECT_EQ(refusal(std::make_shared<GroupStateSpace>(scene->robot, "drive")), "");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

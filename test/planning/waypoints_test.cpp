@@ -11,7 +11,7 @@
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/SpaceInformation.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -77,4 +77,4 @@ TEST_F(FloatingWaypoints, HaveTheMiddleOfHalfATurn)
   EXPECT_EQ(waypoints({turned(0.0, 1.0), turned(3.0, 1.0)}).size(), 2U);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -10,7 +10,7 @@
 #include "scene/slider_robot.h"
 #include "tools/run_program.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -66,7 +66,7 @@ double shareOf(const Image& image, IsColor is_color)
   return 3.0 * static_cast<double>(count) / static_cast<double>(image.rgb.size());
 }
 
-TEST(Render, bodiesThatCollideAreRedAndNoOthers)
+TEST(Render, BodiesThatCollideAreRedAndNoOthers)
 {
   const PlanningScene scene = sceneWithWall();
   const Image free = pictureOf(scene, cartAt(scene, 0.0));
@@ -78,7 +78,7 @@ TEST(Render, bodiesThatCollideAreRedAndNoOthers)
   EXPECT_GT(shareOf(hit, isRed), 0.02);
 }
 
-TEST(Render, theSameSceneGivesTheSamePicture)
+TEST(Render, TheSameSceneGivesTheSamePicture)
 {
   const PlanningScene scene = sceneWithWall();
   const std::vector<double> state = cartAt(scene, 0.5);
@@ -87,7 +87,7 @@ TEST(Render, theSameSceneGivesTheSamePicture)
   EXPECT_NE(first.rgb, pictureOf(scene, cartAt(scene, 0.4)).rgb);
 }
 
-TEST(Render, contactPointsAreYellow)
+TEST(Render, ContactPointsAreYellow)
 {
   const PlanningScene scene = sceneWithWall();
   const std::vector<double> state = cartAt(scene, 0.0);
@@ -95,7 +95,7 @@ TEST(Render, contactPointsAreYellow)
   EXPECT_GT(shareOf(pictureOf(scene, state, {Eigen::Vector3d(0.1, 0.0, 0.2)}), isYellow), 0.0);
 }
 
-TEST(Render, aHalfSpaceIsAPlaneBelowTheRobot)
+TEST(Render, AHalfSpaceIsAPlaneBelowTheRobot)
 {
   PlanningScene scene = sceneWithWall();
   const std::vector<double> state = cartAt(scene, 0.0);
@@ -107,7 +107,7 @@ TEST(Render, aHalfSpaceIsAPlaneBelowTheRobot)
   EXPECT_LT(shareOf(pictureOf(scene, state), isBackground), without - 0.03);
 }
 
-TEST(Render, whatIsNearerHidesWhatIsBehind)
+TEST(Render, WhatIsNearerHidesWhatIsBehind)
 {
   const PlanningScene scene = sceneWithWall();
   const std::vector<double> state = cartAt(scene, 0.9);
@@ -124,7 +124,7 @@ TEST(Render, whatIsNearerHidesWhatIsBehind)
   EXPECT_EQ(red_seen_from(3.0), 0.0);
 }
 
-TEST(Render, camerasAndSizesThatGiveNoPictureAreRefused)
+TEST(Render, CamerasAndSizesThatGiveNoPictureAreRefused)
 {
   const PlanningScene scene = sceneWithWall();
   const std::vector<double> state = cartAt(scene, 0.0);
@@ -147,7 +147,7 @@ TEST(Render, camerasAndSizesThatGiveNoPictureAreRefused)
             std::string::npos);
 }
 
-TEST(RenderTool, writesAPngAndNamesWhatCollides)
+TEST(RenderTool, WritesAPngAndNamesWhatCollides)
 {
   const TemporaryFolder folder;
   const std::string out = folder.path("picture.png");
@@ -184,7 +184,7 @@ TEST(RenderTool, writesAPngAndNamesWhatCollides)
     EXPECT_EQ(run(wrong).exit_code, 2) << wrong[0] << " " << wrong[1];
 }
 
-TEST(RenderTool, meshFilesBecomeObjects)
+TEST(RenderTool, MeshFilesBecomeObjects)
 {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("part.obj", "v 0 -1 -1\nv 0 1 -1\nv 0 0 1\nf 1 2 3\n");
@@ -201,4 +201,4 @@ TEST(RenderTool, meshFilesBecomeObjects)
   EXPECT_EQ(run("part=" + folder.path("none.obj")).exit_code, 1);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include "scene/change_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -143,4 +143,4 @@ TEST_F(AllowedObject, IsWarnedOfWhereEarlierEntriesAllowANewObject)
   EXPECT_TRUE(warnings_.empty()) << "the same change says what the object may touch";
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

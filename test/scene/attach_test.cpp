@@ -8,7 +8,7 @@
 #include "model/model_testing.h"
 #include "scene/slider_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -92,15 +92,26 @@ TEST(Attach, RefusesWhatItDoesNotKnowAndChangesNothing)
     EXPECT_EQ("left", scene.objects[0].id);
   };
   const double* state = kPicked.data();
-  refused("no such object", [&] { scene.attach("drum", "pole", {}, state); });
-  refused("carried by link 'cart' already", [&] { scene.attach("right", "pole", {}, state); });
-  refused("no link 'crane'", [&] { scene.attach("left", "crane", {}, state); });
-  refused("no link 'crane'", [&] { scene.attach("left", "pole", {"cart", "crane"}, state); });
-  refused("half-space", [&] { scene.attach("floor", "pole", {}, state); });
-  refused("not finite", [&] { scene.attach("left", "pole", {}, not_finite.data()); });
-  refused("no link carries", [&] { scene.detach("left", state); });
-  refused("no link carries", [&] { scene.detach("drum", state); });
+  refused(
+      "no such object", [&] { scene.attach("drum", "pole", {}, state); });
+  refused(
+      "carried by link 'cart' already", [&] { scene.attach("right", "pole", {}, state); });
+  refused(
+      "no link 'crane'", [&] { scene.attach("left", "crane", {}, state); });
+  refused(
+      "no link 'crane'",
+      [&] {
+        scene.attach("left", "pole", {"cart", "crane"}, state);
+      });
+  refused(
+      "half-space", [&] { scene.attach("floor", "pole", {}, state); });
+  refused(
+      "not finite", [&] { scene.attach("left", "pole", {}, not_finite.data()); });
+  refused(
+      "no link carries", [&] { scene.detach("left", state); });
+  refused(
+      "no link carries", [&] { scene.detach("drum", state); });
   refused("not finite", [&] { scene.detach("right", not_finite.data()); });
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include "scene/change_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -194,4 +194,4 @@ TEST_F(ChangeAttached, WhatCannotBeIsRefused)
   refused("touch link of object 'a'", touching);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

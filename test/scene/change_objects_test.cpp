@@ -2,7 +2,7 @@
 
 #include "scene/change_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -186,4 +186,4 @@ TEST_F(ChangeObjects, WhatCannotBeIsRefused)
   refused("subframe 'tip'", posed);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

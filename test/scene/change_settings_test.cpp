@@ -2,7 +2,7 @@
 
 #include "scene/change_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -130,20 +130,33 @@ TEST_F(ChangeSettings, WhatCannotBeIsRefused)
     edit(change);
     refused(fragment, change);
   };
-  refused_where("for robot 'panda'", [](SceneChange& change) { change.robot_model_name = "panda"; });
-  refused_where("no link 'crane'", [](SceneChange& change) { change.link_padding["crane"] = 0.1; });
-  refused_where("link 'cart': the padding", [](SceneChange& change) { change.link_padding["cart"] = -0.1; });
-  refused_where("link 'cart': the padding", [nan](SceneChange& change) { change.link_padding["cart"] = nan; });
-  refused_where("no link 'crane'", [](SceneChange& change) { change.link_scale["crane"] = 2.0; });
-  refused_where("link 'cart': the scale", [](SceneChange& change) { change.link_scale["cart"] = 0.0; });
-  refused_where("link 'cart': the scale", [nan](SceneChange& change) { change.link_scale["cart"] = nan; });
-  refused_where("link 'cart': scaled by", [](SceneChange& change) { change.link_scale["cart"] = 1e-323; });
-  refused_where("color of 'a'", [](SceneChange& change) { change.colors["a"] = {1.5F, 0.0F, 0.0F, 1.0F}; });
-  refused_where("color of 'a'",
-                [nan](SceneChange& change) {
-                  change.colors["a"] = {static_cast<float>(nan), 0.0F, 0.0F, 1.0F};
-                });
+  refused_where(
+      "for robot 'panda'", [](SceneChange& change) { change.robot_model_name = "panda"; });
+  refused_where(
+      "no link 'crane'", [](SceneChange& change) { change.link_padding["crane"] = 0.1; });
+  refused_where(
+      "link 'cart': the padding", [](SceneChange& change) { change.link_padding["cart"] = -0.1; });
+  refused_where(
+      "link 'cart': the padding", [nan](SceneChange& change) { change.link_padding["cart"] = nan; });
+  refused_where(
+      "no link 'crane'", [](SceneChange& change) { change.link_scale["crane"] = 2.0; });
+  refused_where(
+      "link 'cart': the scale", [](SceneChange& change) { change.link_scale["cart"] = 0.0; });
+  refused_where(
+      "link 'cart': the scale", [nan](SceneChange& change) { change.link_scale["cart"] = nan; });
+  refused_where(
+      "link 'cart': scaled by", [](SceneChange& change) { change.link_scale["cart"] = 1e-323; });
+  refused_where(
+      "color of 'a'",
+      [](SceneChange& change) {
+        change.colors["a"] = {1.5F, 0.0F, 0.0F, 1.0F};
+      });
+  refused_where(
+      "color of 'a'",
+      [nan](SceneChange& change) {
+        change.colors["a"] = {static_cast<float>(nan), 0.0F, 0.0F, 1.0F};
+      });
   refused_where("line break", [](SceneChange& change) { change.name = "a\nb"; });
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

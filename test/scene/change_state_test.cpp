@@ -2,7 +2,7 @@
 
 #include "scene/change_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -119,4 +119,4 @@ TEST_F(ChangeState, WhatCannotBeIsRefused)
   refused("1 values for 2", stateChange(true, {}));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include "scene/validate_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -34,12 +34,14 @@ const Item* find(const std::vector<Item>& items, const std::string& id, const Id
 
 const WorldObject* findObject(const PlanningScene& scene, const std::string& id)
 {
-  return find(scene.objects, id, [](const WorldObject& object) { return object.id; });
+  return find(
+      scene.objects, id, [](const WorldObject& object) { return object.id; });
 }
 
 const AttachedObject* findCarried(const PlanningScene& scene, const std::string& id)
 {
-  return find(scene.attached, id, [](const AttachedObject& attached) { return attached.object.id; });
+  return find(
+      scene.attached, id, [](const AttachedObject& attached) { return attached.object.id; });
 }
 
 void expectSamePose(const Eigen::Isometry3d& expected, const Eigen::Isometry3d& found, double tolerance)
@@ -235,7 +237,8 @@ const AttachedObject& SceneChanges::carried(const std::string& id) const
 
 bool SceneChanges::warned(const std::string& fragment) const
 {
-  return std::any_of(warnings_.begin(), warnings_.end(),
-                     [&](const std::string& warning) { return warning.find(fragment) != std::string::npos; });
+  return std::any_of(
+      warnings_.begin(), warnings_.end(),
+      [&](const std::string& warning) { return warning.find(fragment) != std::string::npos; });
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -10,7 +10,7 @@
 #include "model/model_testing.h"
 #include "scene/slider_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 Eigen::Isometry3d poseAt(double x, double y, double z, double angle_about_z = 0.0);
 
@@ -50,4 +50,4 @@ class SceneChanges : public testing::Test
   SceneLimits limits_;
   ExternalFrames frames_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

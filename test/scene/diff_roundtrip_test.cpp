@@ -4,7 +4,7 @@
 
 #include "scene/change_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -164,4 +164,4 @@ TEST_F(RandomChanges, AMoveIsNotAnAddition)
   EXPECT_TRUE(way.objects[0].shapes.empty());
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

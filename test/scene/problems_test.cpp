@@ -10,7 +10,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -59,7 +59,7 @@ std::vector<double> goalOf(const YAML::Node& request, std::vector<double> state,
   return state;
 }
 
-TEST(Problems, everyStartAndGoalIsFree)
+TEST(Problems, EveryStartAndGoalIsFree)
 {
   if (!std::filesystem::exists(kShared / "problems"))
     GTEST_SKIP() << "needs " << kShared / "problems";
@@ -94,4 +94,4 @@ TEST(Problems, everyStartAndGoalIsFree)
   }
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

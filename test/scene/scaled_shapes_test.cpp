@@ -3,7 +3,7 @@
 #include "scene/change_testing.h"
 #include "scene/validate_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -123,4 +123,4 @@ TEST(ScaledShapes, WrongFactorsAreRefusedAndChangeNothing)
   refused(factors(*robot, "cart", 1e-323), "link 'cart'");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

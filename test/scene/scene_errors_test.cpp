@@ -6,7 +6,7 @@
 #include "model/model_testing.h"
 #include "scene/slider_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -208,7 +208,7 @@ class SceneErrors : public testing::TestWithParam<WrongScene>
 {
 };
 
-TEST_P(SceneErrors, areSaidWithFileAndLine)
+TEST_P(SceneErrors, AreSaidWithFileAndLine)
 {
   const TemporaryFolder folder;
   const std::string path = folder.write("scene.yaml", GetParam().yaml);
@@ -221,7 +221,7 @@ TEST_P(SceneErrors, areSaidWithFileAndLine)
 INSTANTIATE_TEST_SUITE_P(All, SceneErrors, testing::ValuesIn(wrongScenes()),
                          [](const auto& parameter) { return parameter.param.name; });
 
-TEST(SceneErrors, aFileThatIsMissingOrEmptyIsNamed)
+TEST(SceneErrors, AFileThatIsMissingOrEmptyIsNamed)
 {
   const TemporaryFolder folder;
   for (const std::string& path : {folder.path("missing.yaml"), folder.write("empty.yaml", ""),
@@ -232,4 +232,4 @@ TEST(SceneErrors, aFileThatIsMissingOrEmptyIsNamed)
   }
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

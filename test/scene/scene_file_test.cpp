@@ -8,7 +8,7 @@
 #include "model/model_testing.h"
 #include "scene/slider_robot.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -143,7 +143,7 @@ robot_state:
   joint_state: {name: [slide, turn], position: [0.25, -1.5]}
 )";
 
-TEST_F(SceneFile, bothLayoutsMeanTheSame)
+TEST_F(SceneFile, BothLayoutsMeanTheSame)
 {
   for (const char* yaml : {kMoveIt, kCompact})
   {
@@ -177,7 +177,7 @@ TEST_F(SceneFile, bothLayoutsMeanTheSame)
   }
 }
 
-TEST_F(SceneFile, itsMatrixReplacesTheRobotsOwnWhereItHasOne)
+TEST_F(SceneFile, ItsMatrixReplacesTheRobotsOwnWhereItHasOne)
 {
   EXPECT_TRUE(load("world: {}\nname: a").allowed_collisions.allowed("cart", "pole"));
   const PlanningScene kept = load("world: {}\nallowed_collision_matrix: {entry_names: [], entry_values: []}");
@@ -190,7 +190,7 @@ TEST_F(SceneFile, itsMatrixReplacesTheRobotsOwnWhereItHasOne)
   EXPECT_TRUE(replaced.allowed_collisions.allowed("cart", "nut"));
 }
 
-TEST_F(SceneFile, objectsMayBeGivenInLinksAndFixedFrames)
+TEST_F(SceneFile, ObjectsMayBeGivenInLinksAndFixedFrames)
 {
   const std::string shape = "primitives: [{type: sphere, dimensions: [1]}]";
   const PlanningScene scene = load(R"(
@@ -215,7 +215,7 @@ world:
   EXPECT_TRUE(shapePose(scene, 3).isApprox(Eigen::Isometry3d::Identity()));
 }
 
-TEST_F(SceneFile, planningFrameIsTheVirtualJointsParent)
+TEST_F(SceneFile, PlanningFrameIsTheVirtualJointsParent)
 {
   const std::string world =
       "world: {collision_objects: [{id: a, header: {frame_id: hall}, pose: {position: [1, 0, 0]}, "
@@ -224,7 +224,7 @@ TEST_F(SceneFile, planningFrameIsTheVirtualJointsParent)
   EXPECT_NE("", errorOf([&] { load(world); }));
 }
 
-TEST_F(SceneFile, quaternionsAreNormalised)
+TEST_F(SceneFile, QuaternionsAreNormalised)
 {
   const PlanningScene scene = load(
       "world: {collision_objects: [{id: a, pose: {orientation: [0, 0, 1e200, 1e200]}, "
@@ -232,7 +232,7 @@ TEST_F(SceneFile, quaternionsAreNormalised)
   EXPECT_TRUE(shapePose(scene).isApprox(pose(0, 0, 0, M_PI_2), 1e-15));
 }
 
-TEST_F(SceneFile, aPoseOfAllZerosWasNeverSet)
+TEST_F(SceneFile, APoseOfAllZerosWasNeverSet)
 {
   const PlanningScene scene = load(
       "world: {collision_objects: [{id: a, pose: {position: {x: 0.0, y: 0.0, z: 0.0}, "
@@ -241,7 +241,7 @@ TEST_F(SceneFile, aPoseOfAllZerosWasNeverSet)
   EXPECT_TRUE(shapePose(scene).isApprox(Eigen::Isometry3d::Identity()));
 }
 
-TEST_F(SceneFile, anObjectWithoutAPoseIsWhereItsLoneShapeIsAsInMessages)
+TEST_F(SceneFile, AnObjectWithoutAPoseIsWhereItsLoneShapeIsAsInMessages)
 {
   const PlanningScene scene = load(
       "world: {collision_objects: ["
@@ -254,7 +254,7 @@ TEST_F(SceneFile, anObjectWithoutAPoseIsWhereItsLoneShapeIsAsInMessages)
   EXPECT_TRUE(scene.objects.at(1).shapes.at(1).pose.isApprox(pose(4, 5, 6, 0)));
 }
 
-TEST_F(SceneFile, whatTheFileDoesNotNameHasItsDefault)
+TEST_F(SceneFile, WhatTheFileDoesNotNameHasItsDefault)
 {
   const auto robot = sliderRobot();
   SceneDefaults defaults;
@@ -289,7 +289,7 @@ TEST_F(SceneFile, whatTheFileDoesNotNameHasItsDefault)
   EXPECT_EQ(0.01, scene.objects.at(0).padding);
 }
 
-TEST_F(SceneFile, whatTheRobotDoesNotUseOfTheStateGivesWarnings)
+TEST_F(SceneFile, WhatTheRobotDoesNotUseOfTheStateGivesWarnings)
 {
   const PlanningScene scene = load(
       "robot_state: {joint_state: {name: [slide, flag, bolt, gripper, wheel], "
@@ -301,14 +301,14 @@ TEST_F(SceneFile, whatTheRobotDoesNotUseOfTheStateGivesWarnings)
   EXPECT_TRUE(warned("default is taken: turn"));
 }
 
-TEST_F(SceneFile, withoutJointValuesThereIsNoState)
+TEST_F(SceneFile, WithoutJointValuesThereIsNoState)
 {
   EXPECT_TRUE(load("world: {}\nname: a").current_state.empty());
   EXPECT_TRUE(load("robot_state: {joint_state: {name: [], position: []}}").current_state.empty());
   EXPECT_TRUE(load("robot_state: {joint_state: {name: [gripper], position: [1]}}").current_state.empty());
 }
 
-TEST_F(SceneFile, multiDofJointsTakeTransforms)
+TEST_F(SceneFile, MultiDofJointsTakeTransforms)
 {
   const std::string yaml =
       "robot_state: {joint_state: {name: [slide, turn], position: [1, 2]}, multi_dof_joint_state: "
@@ -331,7 +331,7 @@ TEST_F(SceneFile, multiDofJointsTakeTransforms)
   EXPECT_TRUE(poses[0].isApprox(pose(3, 4, 5, M_PI_2), 1e-15));
 }
 
-TEST_F(SceneFile, paddingIsPerLink)
+TEST_F(SceneFile, PaddingIsPerLink)
 {
   const PlanningScene scene = load(R"(
 link_padding:
@@ -346,7 +346,7 @@ link_padding:
   EXPECT_TRUE(load("link_padding: [{link_name: pole, padding: 0.0}]").link_padding.empty());
 }
 
-TEST_F(SceneFile, scaleIsPerLinkAndForWhatTheLinkCarries)
+TEST_F(SceneFile, ScaleIsPerLinkAndForWhatTheLinkCarries)
 {
   const PlanningScene scene = load(R"(
 link_scale: [{link_name: pole, scale: 2.0}, {link_name: cart, scale: 1.0}, {link_name: crane, scale: 3.0}]
@@ -361,7 +361,7 @@ robot_state:
   EXPECT_TRUE(warned("no link 'crane'"));
 }
 
-TEST_F(SceneFile, namesColorsSubframesAndFixedFramesAreKept)
+TEST_F(SceneFile, NamesColorsSubframesAndFixedFramesAreKept)
 {
   const PlanningScene scene = load(R"(
 name: workshop
@@ -382,7 +382,7 @@ world:
   EXPECT_EQ(1u, scene.fixed_frames.size()) << "the planning frame is none of its own";
 }
 
-TEST_F(SceneFile, planesAreTheHalfSpacesBehindThem)
+TEST_F(SceneFile, PlanesAreTheHalfSpacesBehindThem)
 {
   // 2 z - 1 <= 0 in MoveIt's layout, x + 3 <= 0 as bare numbers, turned to y and moved.
   const PlanningScene scene = load(R"(
@@ -407,7 +407,7 @@ world:
   EXPECT_TRUE(shapes[2].pose.isApprox(pose(0, 5, 0, M_PI_2), 1e-15));
 }
 
-TEST_F(SceneFile, aLonePlaneIsAnObject)
+TEST_F(SceneFile, ALonePlaneIsAnObject)
 {
   const HalfSpace plane = std::get<HalfSpace>(
       load("world: {collision_objects: [{id: a, planes: [[3e-200, 0, 4e-200, 5e-200]]}]}").objects[0].shapes[0].shape);
@@ -415,7 +415,7 @@ TEST_F(SceneFile, aLonePlaneIsAnObject)
   EXPECT_NEAR(-1.0, plane.offset, 1e-15);
 }
 
-TEST_F(SceneFile, linksMayCarryObjects)
+TEST_F(SceneFile, LinksMayCarryObjects)
 {
   const std::string shape = "primitives: [{type: sphere, dimensions: [1]}]";
   const PlanningScene scene = load(R"(
@@ -450,7 +450,7 @@ robot_state:
   EXPECT_EQ("c", scene.bodyName(static_cast<int>(scene.robot->links().size()) + 2));
 }
 
-TEST_F(SceneFile, equalInlineMeshesAreOneMesh)
+TEST_F(SceneFile, EqualInlineMeshesAreOneMesh)
 {
   const std::string mesh = "{vertices: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], triangles: [[0, 1, 2]]}";
   const PlanningScene scene = load("world: {collision_objects: [{id: a, meshes: [" + mesh + "]}, {id: b, meshes: [" +
@@ -459,7 +459,7 @@ TEST_F(SceneFile, equalInlineMeshesAreOneMesh)
             std::get<std::shared_ptr<const Mesh>>(scene.objects[1].shapes[0].shape));
 }
 
-TEST_F(SceneFile, meshesMayBeFiles)
+TEST_F(SceneFile, MeshesMayBeFiles)
 {
   folder.write("meshes/triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   packages = packageResolver({{"parts", folder.path(".")}});
@@ -473,7 +473,7 @@ TEST_F(SceneFile, meshesMayBeFiles)
   EXPECT_EQ(2.0, scaled->vertices[scaled->triangles[0][1]].x());
 }
 
-TEST_F(SceneFile, aliasesStandForTheirValue)
+TEST_F(SceneFile, AliasesStandForTheirValue)
 {
   const PlanningScene scene = load(
       "world:\n  collision_objects:\n"
@@ -482,7 +482,7 @@ TEST_F(SceneFile, aliasesStandForTheirValue)
   EXPECT_EQ(2.0, std::get<Sphere>(scene.objects[1].shapes[0].shape).radius);
 }
 
-TEST_F(SceneFile, unknownKeysGiveWarnings)
+TEST_F(SceneFile, UnknownKeysGiveWarnings)
 {
   load("wrold: {}\nworld: {collision_objects: [{id: a, colour: red, primitives: [{type: sphere, dimensions: [1]}]}]}");
   EXPECT_TRUE(warned("scene.yaml:1: unknown key 'wrold'"));
@@ -491,4 +491,4 @@ TEST_F(SceneFile, unknownKeysGiveWarnings)
   EXPECT_TRUE(warned("for robot 'other', the robot is 'slider'"));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include "scene/change_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -25,6 +25,7 @@ TEST_F(Limits, OfObjectsCountTheWorldsAndThoseCarried)
   swap.objects = {objectChange(Operation::Remove, "a"), objectChange(Operation::Add, "c", {boxAt(0.1)})};
   apply(swap);
   SceneChange full;
+  full.state.is_diff = false;
   full.objects = {objectChange(Operation::Add, "d", {boxAt(0.1)}), objectChange(Operation::Add, "e", {boxAt(0.1)})};
   apply(full);
 }
@@ -112,4 +113,4 @@ TEST_F(Limits, OfZeroAreNone)
   change(objectChange(Operation::Add, std::string(5000, 'a'), {boxAt(0.1), triangleAt()}));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include "scene/change_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -161,4 +161,4 @@ TEST_F(SceneText, FaultsAreSaidWithTheirLine)
             errorOf([&] { loadSceneFile(folder_.path("b.scene"), sliderRobot(), {}, nullptr); }).find("cannot read"));
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -36,4 +36,4 @@ std::shared_ptr<const RobotModel> sliderRobotOnFloor(const std::string& joint_ty
               "<virtual_joint name=\"floor\" type=\"" + joint_type + "\" parent_frame=\"hall\" child_link=\"rail\"/>");
   return RobotModel::fromXml(sliderUrdf(), srdf, {});
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A robot whose collisions are known by arithmetic (slider.urdf, slider.srdf): a cart, a cube of 0.2 m, that slides
 /// along x over a rail without shapes (`slide`, metres), and a pole on it, a box of 0.1 x 0.1 x 0.4 m whose centre is
@@ -17,4 +17,4 @@ std::shared_ptr<const RobotModel> sliderRobot();
 
 /// The same robot on a planar or floating virtual joint `floor` in the frame `hall`.
 std::shared_ptr<const RobotModel> sliderRobotOnFloor(const std::string& joint_type);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

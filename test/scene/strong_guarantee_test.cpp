@@ -2,7 +2,7 @@
 
 #include "scene/change_testing.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -90,4 +90,4 @@ TEST_F(StrongGuarantee, MessagesAreShortLines)
   EXPECT_LT(message.size(), 3000u);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -10,11 +10,11 @@
 #include "service/admission.h"
 #include "service/busy.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
-TEST(Admission, noMoreThanAFewAreInsideAndAllGetIn)
+TEST(Admission, NoMoreThanAFewAreInsideAndAllGetIn)
 {
   Admission admission(2, 100);
   std::atomic<int> inside{0};
@@ -42,7 +42,7 @@ TEST(Admission, noMoreThanAFewAreInsideAndAllGetIn)
   EXPECT_LE(most, 2);
 }
 
-TEST(Admission, whoIsTooManyIsTurnedAwayAtOnceAndComesInLater)
+TEST(Admission, WhoIsTooManyIsTurnedAwayAtOnceAndComesInLater)
 {
   Admission admission(1, 0);
   {
@@ -52,7 +52,7 @@ TEST(Admission, whoIsTooManyIsTurnedAwayAtOnceAndComesInLater)
   EXPECT_NO_THROW(Admission::Pass later(admission));
 }
 
-TEST(Admission, whoWaitsIsToldOfTheEnd)
+TEST(Admission, WhoWaitsIsToldOfTheEnd)
 {
   Admission admission(1, 1);
   const Admission::Pass inside(admission);
@@ -74,4 +74,4 @@ TEST(Admission, whoWaitsIsToldOfTheEnd)
   EXPECT_THROW(Admission::Pass late(admission), Error);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -12,7 +12,7 @@
 #include "service/change_queue.h"
 #include "service/scene_store.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -105,7 +105,7 @@ void finish(ChangeQueue& queue, std::promise<void>& opened, SceneStore& store)
   queue.stop();
 }
 
-TEST_F(Queue, whatWaitsTogetherIsOneChange)
+TEST_F(Queue, WhatWaitsTogetherIsOneChange)
 {
   ChangeQueue queue(maker(), refuse(), 1000, 1000);
   closeGate(queue);
@@ -118,7 +118,7 @@ TEST_F(Queue, whatWaitsTogetherIsOneChange)
   EXPECT_TRUE(refused.empty());
 }
 
-TEST_F(Queue, aWrongChangeTakesNoOtherWithItAndIsFoundQuickly)
+TEST_F(Queue, AWrongChangeTakesNoOtherWithItAndIsFoundQuickly)
 {
   ChangeQueue queue(maker(), refuse(), 100000, 100000);
   closeGate(queue);
@@ -134,7 +134,7 @@ TEST_F(Queue, aWrongChangeTakesNoOtherWithItAndIsFoundQuickly)
   EXPECT_LT(made, 50);
 }
 
-TEST_F(Queue, theSceneIsTheSameAsOneByOne)
+TEST_F(Queue, TheSceneIsTheSameAsOneByOne)
 {
   const unsigned seed = 5;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -189,7 +189,7 @@ TEST_F(Queue, theSceneIsTheSameAsOneByOne)
   expectSameScene(*expected_scene, scene);
 }
 
-TEST_F(Queue, whatIsTooMuchIsRefused)
+TEST_F(Queue, WhatIsTooMuchIsRefused)
 {
   ChangeQueue queue(maker(), refuse(), 3, 100);
   closeGate(queue);
@@ -200,7 +200,7 @@ TEST_F(Queue, whatIsTooMuchIsRefused)
   opened.set_value();
 }
 
-TEST_F(Queue, aLargeChangeIsTakenWhereNoneWaits)
+TEST_F(Queue, ALargeChangeIsTakenWhereNoneWaits)
 {
   ChangeQueue queue(maker(), refuse(), 3, 100);
   closeGate(queue, 1000);
@@ -208,7 +208,7 @@ TEST_F(Queue, aLargeChangeIsTakenWhereNoneWaits)
   opened.set_value();
 }
 
-TEST_F(Queue, aStopRefusesWhatWaits)
+TEST_F(Queue, AStopRefusesWhatWaits)
 {
   ChangeQueue queue(maker(), refuse(), 100, 100);
   closeGate(queue);
@@ -235,4 +235,4 @@ TEST_F(Queue, aStopRefusesWhatWaits)
   EXPECT_TRUE(store.snapshot().scene->objects.empty());
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

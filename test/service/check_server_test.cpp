@@ -9,7 +9,7 @@
 #include "service/check_server.h"
 #include "service/gated_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -94,7 +94,7 @@ class Server : public testing::Test
                      options()};
 };
 
-TEST_F(Server, smallRequestsThatWaitTogetherAreOneBatchAndEachGetsItsOwnRows)
+TEST_F(Server, SmallRequestsThatWaitTogetherAreOneBatchAndEachGetsItsOwnRows)
 {
   std::future<CheckAnswer> first = blocked();
   std::vector<std::future<CheckAnswer>> waiting;
@@ -115,7 +115,7 @@ TEST_F(Server, smallRequestsThatWaitTogetherAreOneBatchAndEachGetsItsOwnRows)
   EXPECT_EQ(0u, statistics.waiting_requests + statistics.waiting_states);
 }
 
-TEST_F(Server, aBatchIsNoLargerThanItsBound)
+TEST_F(Server, ABatchIsNoLargerThanItsBound)
 {
   std::future<CheckAnswer> first = blocked();
   std::vector<std::future<CheckAnswer>> waiting;
@@ -127,7 +127,7 @@ TEST_F(Server, aBatchIsNoLargerThanItsBound)
   EXPECT_EQ((std::vector<std::size_t>{1, 3 * kSmall, kSmall}), gate.batches());
 }
 
-TEST_F(Server, requestsOfOtherGroupsOrMatricesAreBatchesOfTheirOwn)
+TEST_F(Server, RequestsOfOtherGroupsOrMatricesAreBatchesOfTheirOwn)
 {
   std::future<CheckAnswer> first = blocked();
   std::vector<std::future<CheckAnswer>> waiting;
@@ -152,7 +152,7 @@ TEST_F(Server, requestsOfOtherGroupsOrMatricesAreBatchesOfTheirOwn)
       << "the matrix of a request stays with it";
 }
 
-TEST_F(Server, equalMatricesOfTwoRequestsAreOne)
+TEST_F(Server, EqualMatricesOfTwoRequestsAreOne)
 {
   std::future<CheckAnswer> first = blocked();
   std::vector<std::future<CheckAnswer>> waiting;
@@ -170,7 +170,7 @@ TEST_F(Server, equalMatricesOfTwoRequestsAreOne)
   EXPECT_EQ((std::vector<std::size_t>{1, 4}), gate.batches());
 }
 
-TEST_F(Server, aLargeMatrixMakesALargeRequest)
+TEST_F(Server, ALargeMatrixMakesALargeRequest)
 {
   AllowedCollisionMatrix matrix;
   for (int i = 0; i < 200; ++i)
@@ -187,7 +187,7 @@ TEST_F(Server, aLargeMatrixMakesALargeRequest)
   EXPECT_EQ(1u, small.get().result.valid.size());
 }
 
-TEST_F(Server, whatARequestLeavesOutIsOfTheSameInstantAsTheScene)
+TEST_F(Server, WhatARequestLeavesOutIsOfTheSameInstantAsTheScene)
 {
   slideTo(1.0);
   std::future<CheckAnswer> first = blocked();
@@ -202,7 +202,7 @@ TEST_F(Server, whatARequestLeavesOutIsOfTheSameInstantAsTheScene)
   EXPECT_EQ((std::vector<std::size_t>{1, 3}), gate.batches()) << "they are still answered together";
 }
 
-TEST_F(Server, whatIsNeitherGivenNorKnownIsAnErrorOfItsRequestAlone)
+TEST_F(Server, WhatIsNeitherGivenNorKnownIsAnErrorOfItsRequestAlone)
 {
   std::future<CheckAnswer> first = blocked();
   std::future<CheckAnswer> wrong = server.submit(jobWithoutSlide(1));
@@ -212,7 +212,7 @@ TEST_F(Server, whatIsNeitherGivenNorKnownIsAnErrorOfItsRequestAlone)
   EXPECT_EQ((std::vector<std::uint8_t>{1}), right.get().result.valid);
 }
 
-TEST_F(Server, columnsComeInAnyOrderAndFullStatesAreKeptWhereAsked)
+TEST_F(Server, ColumnsComeInAnyOrderAndFullStatesAreKeptWhereAsked)
 {
   std::future<CheckAnswer> first = blocked();
   CheckJob swapped;
@@ -229,7 +229,7 @@ TEST_F(Server, columnsComeInAnyOrderAndFullStatesAreKeptWhereAsked)
   EXPECT_EQ((std::vector<double>{-1.0, 0.25, 1.0, 0.5}), server.submit(swapped).get().states) << "alone";
 }
 
-TEST_F(Server, aSmallRequestDoesNotWaitForALargeOne)
+TEST_F(Server, ASmallRequestDoesNotWaitForALargeOne)
 {
   std::future<CheckAnswer> large = blocked(kSmall + 1);
   std::future<CheckAnswer> small = server.submit(job(1));
@@ -241,7 +241,7 @@ TEST_F(Server, aSmallRequestDoesNotWaitForALargeOne)
   EXPECT_EQ(2u, gate.checkers()) << "each lane has a checker of its own";
 }
 
-TEST_F(Server, whatIsTooMuchIsTurnedAwayAtOnce)
+TEST_F(Server, WhatIsTooMuchIsTurnedAwayAtOnce)
 {
   std::future<CheckAnswer> first = blocked();
   std::vector<std::future<CheckAnswer>> waiting;
@@ -262,7 +262,7 @@ TEST_F(Server, whatIsTooMuchIsTurnedAwayAtOnce)
   EXPECT_EQ(1u, server.submit(job(1)).get().result.valid.size()) << "it is free again";
 }
 
-TEST_F(Server, aRequestOfTooManyStatesIsRefusedAndNotBusy)
+TEST_F(Server, ARequestOfTooManyStatesIsRefusedAndNotBusy)
 {
   try
   {
@@ -279,7 +279,7 @@ TEST_F(Server, aRequestOfTooManyStatesIsRefusedAndNotBusy)
   }
 }
 
-TEST_F(Server, onlyTheWrongRequestOfABatchGetsItsError)
+TEST_F(Server, OnlyTheWrongRequestOfABatchGetsItsError)
 {
   std::future<CheckAnswer> first = blocked();
   std::future<CheckAnswer> right = server.submit(job(1, 1.0));
@@ -292,7 +292,7 @@ TEST_F(Server, onlyTheWrongRequestOfABatchGetsItsError)
   EXPECT_EQ(1u, server.statistics().errors);
 }
 
-TEST_F(Server, anAnswerIsOfTheNewestSceneWhenItsBatchStarts)
+TEST_F(Server, AnAnswerIsOfTheNewestSceneWhenItsBatchStarts)
 {
   EXPECT_EQ(0u, server.submit(job(1)).get().result.revision);
   std::future<CheckAnswer> first = blocked();
@@ -306,7 +306,7 @@ TEST_F(Server, anAnswerIsOfTheNewestSceneWhenItsBatchStarts)
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer.result.valid);
 }
 
-TEST_F(Server, aCheckerThatRefusesASceneIsDropped)
+TEST_F(Server, ACheckerThatRefusesASceneIsDropped)
 {
   server.submit(job(1)).get();
   EXPECT_EQ(1u, gate.checkers());
@@ -318,7 +318,7 @@ TEST_F(Server, aCheckerThatRefusesASceneIsDropped)
   EXPECT_EQ(2u, gate.checkers());
 }
 
-TEST_F(Server, aReportComesWithTheSceneThatItIsOf)
+TEST_F(Server, AReportComesWithTheSceneThatItIsOf)
 {
   CheckJob asked = job(0);
   asked.report = true;
@@ -328,7 +328,7 @@ TEST_F(Server, aReportComesWithTheSceneThatItIsOf)
   EXPECT_EQ("gate", answer.device);
 }
 
-TEST_F(Server, aStopAnswersWhatRunsAndTellsTheOthers)
+TEST_F(Server, AStopAnswersWhatRunsAndTellsTheOthers)
 {
   std::future<CheckAnswer> running = blocked();
   std::future<CheckAnswer> waiting = server.submit(job(1));
@@ -340,7 +340,7 @@ TEST_F(Server, aStopAnswersWhatRunsAndTellsTheOthers)
   EXPECT_THROW(server.submit(job(1)), Error);
 }
 
-TEST_F(Server, aLargeRequestIsCheckedInSlices)
+TEST_F(Server, ALargeRequestIsCheckedInSlices)
 {
   CheckJob large = job(100);
   for (std::size_t i = 0; i < 100; i += 3)
@@ -353,7 +353,7 @@ TEST_F(Server, aLargeRequestIsCheckedInSlices)
   EXPECT_EQ((std::vector<std::size_t>{24, 24, 24, 24, 4}), gate.batches());
 }
 
-TEST_F(Server, aStopEndsALargeRequestAfterTheSliceThatRuns)
+TEST_F(Server, AStopEndsALargeRequestAfterTheSliceThatRuns)
 {
   std::future<CheckAnswer> running = blocked(100);
   std::future<CheckAnswer> waiting = server.submit(job(100));
@@ -365,7 +365,7 @@ TEST_F(Server, aStopEndsALargeRequestAfterTheSliceThatRuns)
   EXPECT_EQ(1u, gate.batches().size());
 }
 
-TEST_F(Server, everyAnswerBelongsToTheRevisionThatItNames)
+TEST_F(Server, EveryAnswerBelongsToTheRevisionThatItNames)
 {
   std::atomic<bool> done{false};
   std::atomic<int> wrong{0};
@@ -395,4 +395,4 @@ TEST_F(Server, everyAnswerBelongsToTheRevisionThatItNames)
   EXPECT_EQ(0, wrong);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 void Gate::close()
 {
@@ -49,7 +49,8 @@ void GatedChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   scene_ = std::move(scene);
 }
 
-BatchResult GatedChecker::check(const double* states, std::size_t count, const std::string& group, const Surroundings*)
+BatchResult GatedChecker::check(const double* states, std::size_t count, const std::string& group,
+                                const JointNeighbourhood*)
 {
   {
     std::unique_lock<std::mutex> lock(gate_.mutex_);
@@ -68,7 +69,7 @@ BatchResult GatedChecker::check(const double* states, std::size_t count, const s
       throw Error("13 is not a position");
     const bool free = states[i * width] >= 0.0 && scene_->revision % 2 == 0;
     result.valid.push_back(free ? 1 : 0);
-    result.colliding.push_back(free ? std::array<std::int32_t, 2>{{-1, -1}} : std::array<std::int32_t, 2>{{1, 2}});
+    result.colliding.push_back(free ? kNoPair : BodyPair{{1, 2}});
   }
   return result;
 }
@@ -81,4 +82,4 @@ SceneReport GatedChecker::report(const std::string& group)
   report.self_pairs = 7;
   return report;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -8,7 +8,7 @@
 
 #include "gpu_planning_scene/state_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// What several GatedCheckers did, and a gate that each of their checks waits at.
 class Gate
@@ -39,7 +39,7 @@ class GatedChecker : public StateChecker
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
   BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const Surroundings* around) override;
+                    const JointNeighbourhood* around) override;
   SceneReport report(const std::string& group) override;
   std::string deviceName() const override { return "gate"; }
 
@@ -47,4 +47,4 @@ class GatedChecker : public StateChecker
   Gate& gate_;
   std::shared_ptr<const PlanningScene> scene_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,11 +9,11 @@
 #include "gpu_planning_scene/error.h"
 #include "service/memory_guard.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
-TEST(MemoryGuard, whatWasFreedIsNotCountedForGood)
+TEST(MemoryGuard, WhatWasFreedIsNotCountedForGood)
 {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer keeps what is freed";
@@ -34,4 +34,4 @@ TEST(MemoryGuard, whatWasFreedIsNotCountedForGood)
   EXPECT_NO_THROW(MemoryGuard(limit).require());
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

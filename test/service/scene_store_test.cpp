@@ -10,7 +10,7 @@
 #include "scene/slider_robot.h"
 #include "service/scene_store.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -38,7 +38,7 @@ class Store : public testing::Test
   SceneStore store{PlanningScene(sliderRobot()), {}, {}};
 };
 
-TEST_F(Store, aChangeMakesANewRevisionAndLeavesOldScenesAlone)
+TEST_F(Store, AChangeMakesANewRevisionAndLeavesOldScenesAlone)
 {
   const auto before = store.snapshot().scene;
   EXPECT_EQ(1u, store.apply(boxIn(""), unknownFrame).revision);
@@ -49,7 +49,7 @@ TEST_F(Store, aChangeMakesANewRevisionAndLeavesOldScenesAlone)
   EXPECT_TRUE(store.snapshot().scene->objects.empty());
 }
 
-TEST_F(Store, clearRemovesWhatTheMatrixAllowsTheObjects)
+TEST_F(Store, ClearRemovesWhatTheMatrixAllowsTheObjects)
 {
   SceneChange change = boxIn("");
   change.matrix = store.snapshot().scene->allowed_collisions;
@@ -63,7 +63,7 @@ TEST_F(Store, clearRemovesWhatTheMatrixAllowsTheObjects)
   EXPECT_TRUE(store.snapshot().scene->allowed_collisions == AllowedCollisionMatrix::fromRobot(*sliderRobot()));
 }
 
-TEST_F(Store, whatIsWrongChangesNothing)
+TEST_F(Store, WhatIsWrongChangesNothing)
 {
   store.apply(boxIn(""), unknownFrame);
   const auto before = store.snapshot().scene;
@@ -76,7 +76,7 @@ TEST_F(Store, whatIsWrongChangesNothing)
   EXPECT_EQ(before, store.snapshot().scene);
 }
 
-TEST_F(Store, framesThatTheSceneDoesNotKnowAreAskedFor)
+TEST_F(Store, FramesThatTheSceneDoesNotKnowAreAskedFor)
 {
   std::vector<std::string> asked;
   const auto lookup = [&asked](const FrameAt& frame)
@@ -91,7 +91,7 @@ TEST_F(Store, framesThatTheSceneDoesNotKnowAreAskedFor)
   EXPECT_DOUBLE_EQ(3.0, store.snapshot().scene->objects[1].pose.translation().z());
 }
 
-TEST_F(Store, aFrameThatAnotherChangeTookAwayMeanwhileIsAskedForAgain)
+TEST_F(Store, AFrameThatAnotherChangeTookAwayMeanwhileIsAskedForAgain)
 {
   store.apply(boxIn("", "table"), unknownFrame);
   SceneChange change = boxIn("camera");
@@ -109,7 +109,7 @@ TEST_F(Store, aFrameThatAnotherChangeTookAwayMeanwhileIsAskedForAgain)
   EXPECT_EQ(2u, store.snapshot().scene->objects.size());
 }
 
-TEST_F(Store, jointStatesChangeNoRevision)
+TEST_F(Store, JointStatesChangeNoRevision)
 {
   EXPECT_FALSE(store.snapshot().allKnown());
   store.updateState({{"slide", 0.5}, {"wheel of another robot", 9.0}});
@@ -122,7 +122,7 @@ TEST_F(Store, jointStatesChangeNoRevision)
   EXPECT_EQ((std::vector<double>{0.5, 0.25}), store.snapshot().state);
 }
 
-TEST_F(Store, theStateAtAStampIsTheNearestOfTheLastSeconds)
+TEST_F(Store, TheStateAtAStampIsTheNearestOfTheLastSeconds)
 {
   constexpr std::int64_t kSecond = 1'000'000'000;
   EXPECT_EQ(store.snapshot().state, store.stateAt(5 * kSecond)) << "none has come yet";
@@ -144,7 +144,7 @@ TEST_F(Store, theStateAtAStampIsTheNearestOfTheLastSeconds)
   EXPECT_EQ(0.125, store.stateAt(5 * kSecond).at(0));
 }
 
-TEST_F(Store, framesOfLinksAreWhereTheNewestJointStatesPutThem)
+TEST_F(Store, FramesOfLinksAreWhereTheNewestJointStatesPutThem)
 {
   EXPECT_THROW(store.apply(boxIn("cart"), unknownFrame), Error) << "where the cart is, is not known yet";
   store.updateState({{"slide", 0.5}, {"turn", 0.0}});
@@ -152,7 +152,7 @@ TEST_F(Store, framesOfLinksAreWhereTheNewestJointStatesPutThem)
   EXPECT_DOUBLE_EQ(0.5, store.snapshot().scene->objects.at(0).pose.translation().x());
 }
 
-TEST_F(Store, aChangeMaySetTheStateAndJointStatesGoOnFromThere)
+TEST_F(Store, AChangeMaySetTheStateAndJointStatesGoOnFromThere)
 {
   SceneChange change;
   change.is_diff = true;
@@ -164,7 +164,7 @@ TEST_F(Store, aChangeMaySetTheStateAndJointStatesGoOnFromThere)
   EXPECT_EQ((std::vector<double>{0.75, 2.0}), store.snapshot().state);
 }
 
-TEST_F(Store, aSnapshotIsOfOneInstantWhileOthersChangeTheScene)
+TEST_F(Store, ASnapshotIsOfOneInstantWhileOthersChangeTheScene)
 {
   // The box is where the cart is not.
   const auto swap = [this](double slide)
@@ -205,7 +205,7 @@ TEST_F(Store, aSnapshotIsOfOneInstantWhileOthersChangeTheScene)
   EXPECT_EQ(0, torn);
 }
 
-TEST_F(Store, aListenerHearsEachChangeInOrder)
+TEST_F(Store, AListenerHearsEachChangeInOrder)
 {
   std::vector<std::uint64_t> heard;
   store.setListener(
@@ -221,4 +221,4 @@ TEST_F(Store, aListenerHearsEachChangeInOrder)
   EXPECT_EQ((std::vector<std::uint64_t>{1, 2}), heard);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 
-#include "collision/collision_problem.h"
+#include "collision/bounds/problem_maker.h"
+#include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "oracle/problem_oracle.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -148,4 +149,4 @@ void AnswerJudge::askOracle(const Sample& sample)
   if (verdict == (sample.valid ? oracle::Verdict::Collides : oracle::Verdict::Free))
     ++oracle_wrong;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

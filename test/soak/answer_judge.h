@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include "gpu_planning_scene/messages.h"
+#include "node/messages.h"
 #include "soak/scene_history.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Checks every answer again, on a thread of its own, with the CPU's exact checker and the scene that the answer names;
 /// and some of their states by the oracle.
@@ -61,4 +61,4 @@ class AnswerJudge
   bool finishing_ = false;
   std::thread thread_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,11 +7,11 @@
 
 #include <ros/ros.h>
 
+#include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "node/serve.h"
-#include "tools/open_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -29,7 +29,7 @@ class FaultyChecker : public StateChecker
     checker_->setScene(std::move(scene));
   }
   BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const Surroundings* around) override
+                    const JointNeighbourhood* around) override
   {
     fail();
     BatchResult result = checker_->check(states, count, group, around);
@@ -57,11 +57,11 @@ std::unique_ptr<StateChecker> openFaulty(std::shared_ptr<const PlanningScene> sc
   return std::make_unique<FaultyChecker>(openChecker(std::move(scene), options), ++seed);
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 int main(int argc, char** argv)
 {
-  using namespace gpu_planning_scene;
+  using namespace gpu_planning_scene::core;
   ros::init(argc, argv, "planning_scene", ros::init_options::NoSigintHandler);
   const auto stop = [](int) { stop_requested = 1; };
   std::signal(SIGINT, stop);

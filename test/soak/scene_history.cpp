@@ -5,7 +5,7 @@
 #include "gpu_planning_scene/error.h"
 #include "node/from_messages.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -21,9 +21,9 @@ std::shared_ptr<const PlanningScene> changed(const PlanningScene& scene, const P
 
 SceneHistory::SceneHistory(std::shared_ptr<const RobotModel> robot) : robot_(std::move(robot))
 {
-  subscriber_ =
-      node_.subscribe<PlanningSceneMessage>("/planning_scene/monitored_planning_scene_diffs", 100000,
-                                            [this](const PlanningSceneMessage::ConstPtr& message) { take(*message); });
+  subscriber_ = node_.subscribe<PlanningSceneMessage>(
+      "/planning_scene/monitored_planning_scene_diffs", 100000,
+      [this](const PlanningSceneMessage::ConstPtr& message) { take(*message); });
 }
 
 void SceneHistory::start(const PlanningSceneMessage& scene)
@@ -70,4 +70,4 @@ int SceneHistory::gaps() const
   const std::lock_guard<std::mutex> lock(mutex_);
   return gaps_;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

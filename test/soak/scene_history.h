@@ -7,10 +7,10 @@
 
 #include <ros/ros.h>
 
-#include "gpu_planning_scene/messages.h"
 #include "gpu_planning_scene/planning_scene.h"
+#include "node/messages.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The scenes that a node has had, one for each revision, made again from the differences that it publishes.
 class SceneHistory
@@ -39,4 +39,4 @@ class SceneHistory
   ros::NodeHandle node_;
   ros::Subscriber subscriber_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

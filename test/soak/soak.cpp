@@ -18,7 +18,7 @@
 
 extern char** environ;
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -224,7 +224,7 @@ class Soak : public RunningNode
   double losses = 0.0;
 };
 
-TEST_F(Soak, noAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
+TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
 {
   const double seconds = ros::param::param<double>("~seconds", 60.0);
   SceneHistory history(robot);
@@ -304,7 +304,7 @@ int runVictim()
   }
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core
 
 int main(int argc, char** argv)
 {
@@ -313,5 +313,5 @@ int main(int argc, char** argv)
   ros::init(argc, argv, "soak");
   ros::AsyncSpinner spinner(2);
   spinner.start();
-  return victim ? gpu_planning_scene::runVictim() : RUN_ALL_TESTS();
+  return victim ? gpu_planning_scene::core::runVictim() : RUN_ALL_TESTS();
 }

@@ -6,7 +6,7 @@
 #include "support/shader_folder.h"
 #include "tools/run_program.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -44,25 +44,26 @@ TEST(Stability, NoticesErrorBoundsOfZero)
 TEST(Stability, NoticesUndecidedAnswersThatAreDropped)
 {
   const ShaderFolder shaders;
-  shaders.replace("verdicts.glsl", "atomicOr(flags[state], found);", "atomicOr(flags[state], found & STATE_HIT);");
+  shaders.replace("traversal/verdicts.glsl", "atomicOr(flags[state], found);",
+                  "atomicOr(flags[state], found & STATE_HIT);");
   expectFailure(shaders, "random rigid motions");
 }
 
 TEST(Stability, NoticesThatContainmentInMeshesIsNotTested)
 {
   const ShaderFolder shaders;
-  shaders.replace("check_inside.comp", "void main()\n{\n", "void main()\n{\n  return;\n");
+  shaders.replace("traversal/containment.comp", "void main()\n{\n", "void main()\n{\n  return;\n");
   expectFailure(shaders, "in or near a closed mesh");
 }
 
 TEST(Stability, NoticesThatContainmentInPrimitivesIsNotTested)
 {
   const ShaderFolder shaders;
-  shaders.replace("check_roots.comp", "if (inside != 0u)", "if (false)");
-  shaders.replace("check_roots.comp", "if ((inside & STATE_HIT) != 0u)", "if (false)");
-  shaders.replace("oriented_nodes.glsl", "return all(lessThan(b_in_a, core_a)) || all(lessThan(a_in_b, core_b));",
-                  "return false;");
-  shaders.replace("solid_leaf.glsl", "found = STATE_HIT;", "found = 0u;");
+  shaders.replace("broad_phase/root_pairs.comp", "if (inside != 0u)", "if (false)");
+  shaders.replace("broad_phase/root_pairs.comp", "if ((inside & STATE_HIT) != 0u)", "if (false)");
+  shaders.replace("problem/oriented_nodes.glsl",
+                  "return all(lessThan(b_in_a, core_a)) || all(lessThan(a_in_b, core_b));", "return false;");
+  shaders.replace("traversal/solid_leaf.glsl", "found = STATE_HIT;", "found = 0u;");
   expectFailure(shaders, "mesh in or near a primitive");
 }
 
@@ -72,4 +73,4 @@ TEST(Stability, TellsOfAFamilyThatIsNotThere)
   EXPECT_EQ(output.exit_code, 2);
   EXPECT_NE(output.err.find("random rigid motions"), std::string::npos) << output.err;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,6 +1,6 @@
 #include "support/carrying_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 WorldObject boxInGripper(const RobotModel& robot, const double* state)
 {
@@ -48,4 +48,4 @@ TestScene carryingScene()
   made.scene = std::make_shared<const PlanningScene>(std::move(scene));
   return made;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 StateChecker& checkerOf(const std::string& name, const PlanningScene& scene)
 {
@@ -30,4 +30,4 @@ StateChecker& checkerOf(const std::string& name, const PlanningScene& scene)
   }
   return *checker;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -1,15 +1,17 @@
 #include "support/exactness.h"
+#include "model/seconds_since.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 
-#include "collision/collision_problem.h"
-#include "collision/state_rows.h"
+#include "collision/bounds/problem_maker.h"
+#include "collision/parallel_for.h"
+#include "collision/problem/collision_problem.h"
 #include "tools/progress_bar.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -31,7 +33,7 @@ std::unique_ptr<BatchChecker> batchChecker(const TestScene& scene, Traversal tra
   return std::make_unique<BatchChecker>(scene.scene, options);
 }
 
-std::array<std::int32_t, 2> sorted(std::int32_t a, std::int32_t b)
+BodyPair sorted(std::int32_t a, std::int32_t b)
 {
   return {std::min(a, b), std::max(a, b)};
 }
@@ -167,22 +169,22 @@ Exactness ExactnessCheck::compare(const std::vector<double>& states, bool cleara
   ProgressBar progress(label, count);
   for (std::size_t begin = 0; begin < count; begin += kStatesAtOnce)
   {
-    forChunks(std::min(kStatesAtOnce, count - begin), 4,
-              [&](std::size_t from, std::size_t to)
-              {
-                for (std::size_t i = begin + from; i < begin + to; ++i)
+    parallelFor(std::min(kStatesAtOnce, count - begin), 4,
+                [&](std::size_t from, std::size_t to)
                 {
-                  std::vector<BodyPair> reported;
-                  for (const BatchResult& result : results)
-                    if (!result.valid[i] &&
-                        std::find(reported.begin(), reported.end(), result.colliding[i]) == reported.end())
-                      reported.push_back(result.colliding[i]);
-                  judgements[i] = judge(&states[i * width], reported, clearances);
-                }
-              });
+                  for (std::size_t i = begin + from; i < begin + to; ++i)
+                  {
+                    std::vector<BodyPair> reported;
+                    for (const BatchResult& result : results)
+                      if (!result.valid[i] &&
+                          std::find(reported.begin(), reported.end(), result.colliding[i]) == reported.end())
+                        reported.push_back(result.colliding[i]);
+                    judgements[i] = judge(&states[i * width], reported, clearances);
+                  }
+                });
     progress.update(begin);
   }
-  exactness.oracle_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  exactness.oracle_seconds = secondsSince(start);
 
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -211,4 +213,4 @@ Exactness ExactnessCheck::compare(const std::vector<double>& states, bool cleara
   }
   return exactness;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -13,7 +13,7 @@
 #include "oracle/problem_oracle.h"
 #include "support/test_scenes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// How the checkers' answers to some states compare with the oracle's and with each other.
 struct Exactness
@@ -56,8 +56,6 @@ class ExactnessCheck
   Exactness compare(const std::vector<double>& states, bool clearances, const std::string& label);
 
  private:
-  using BodyPair = std::array<std::int32_t, 2>;
-
   struct Judgement
   {
     oracle::Verdict verdict;
@@ -77,4 +75,4 @@ class ExactnessCheck
   std::unique_ptr<BatchChecker> work_queue_;
   std::unique_ptr<BatchChecker> breadth_first_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

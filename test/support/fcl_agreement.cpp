@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <ostream>
 
-#include "collision/collision_problem.h"
+#include "collision/bounds/problem_maker.h"
+#include "collision/problem/collision_problem.h"
 #include "support/fcl_peer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
 constexpr double kMicrometre = 1e-6;
 
-std::string describe(const PlanningScene& scene, std::size_t state, const FclPeer::BodyPair& pair,
-                     const std::string& what)
+std::string describe(const PlanningScene& scene, std::size_t state, const BodyPair& pair, const std::string& what)
 {
   return "state " + std::to_string(state) + ", " + scene.bodyName(pair[0]) + " and " + scene.bodyName(pair[1]) + ": " +
          what;
@@ -34,21 +34,15 @@ void judgeFree(const PlanningScene& scene, const FclPeer& peer, std::size_t stat
 }
 
 /// Ours hits, and FCL does not hit the pair that ours names.
-void judgeHit(const PlanningScene& scene, const FclPeer& peer, std::size_t state, const FclPeer::BodyPair& pair,
+void judgeHit(const PlanningScene& scene, const FclPeer& peer, std::size_t state, const BodyPair& pair,
               FclAgreement& agreement)
 {
   if (peer.within(pair, kMicrometre))
-  {
     ++agreement.within_micrometre;
-  }
   else if (peer.oneInsideTheOther(pair))
-  {
     ++agreement.contained;
-  }
   else
-  {
     agreement.failures.push_back(describe(scene, state, pair, "called colliding, free by FCL"));
-  }
 }
 }  // namespace
 
@@ -69,17 +63,11 @@ FclAgreement compareWithFcl(const PlanningScene& scene, const std::vector<double
     agreement.free += hit ? 0 : 1;
     agreement.world_hits += hit && (*hit)[1] >= first_object && (*hit)[1] < first_attached ? 1 : 0;
     if (result.valid[i] != 0)
-    {
       hit ? judgeFree(scene, peer, i, agreement) : void(++agreement.agreed);
-    }
     else if (hit && peer.collides(result.colliding[i]))
-    {
       ++agreement.agreed;
-    }
     else
-    {
       judgeHit(scene, peer, i, result.colliding[i], agreement);
-    }
   }
   return agreement;
 }
@@ -91,9 +79,7 @@ std::ostream& operator<<(std::ostream& out, const FclAgreement& agreement)
       << " free that barely touch by FCL, " << agreement.within_micrometre << " hits within a micrometre by FCL, "
       << agreement.contained << " hits by containment, " << agreement.failures.size() << " failures";
   for (const std::string& failure : agreement.failures)
-  {
     out << "\n  " << failure;
-  }
   return out;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

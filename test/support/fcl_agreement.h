@@ -8,7 +8,7 @@
 #include "gpu_planning_scene/planning_scene.h"
 #include "gpu_planning_scene/state_checker.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A checker's answers compared with FCL's. Where the two differ, FCL is excused for what it is known to get wrong, as
 /// far as FCL itself can show it; everything else is a failure.
@@ -27,4 +27,4 @@ struct FclAgreement
 FclAgreement compareWithFcl(const PlanningScene& scene, const std::vector<double>& states, const BatchResult& result);
 
 std::ostream& operator<<(std::ostream& out, const FclAgreement& agreement);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision_object.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -63,4 +63,4 @@ const std::vector<std::uint32_t>& FclBroadPhase::near(const Eigen::AlignedBox3d&
   impl_->manager.collide(&impl_->query, &impl_->found, collect);
   return impl_->found;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

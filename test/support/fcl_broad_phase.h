@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// FCL's manager of objects in a dynamic tree of boxes, with which MoveIt finds the objects near a link. It is given
 /// boxes that are tighter than FCL's own of turned objects. Not thread-safe.
@@ -25,4 +25,4 @@ class FclBroadPhase
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

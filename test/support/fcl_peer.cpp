@@ -1,4 +1,5 @@
 #include "support/fcl_peer.h"
+#include "model/seconds_since.h"
 
 #include <algorithm>
 #include <chrono>
@@ -12,7 +13,7 @@
 #include "support/inside.h"
 #include "support/learned_order.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -27,7 +28,7 @@ void refuseUnsupported(const CollisionProblem& problem, FclTree tree)
 {
   if (!problem.half_spaces.empty())
     throw Error("the FCL peer knows no half-spaces; compare with a scene that has none");
-  const auto is_padded = [](const Geometry& geometry) { return geometry.padding > 0.0; };
+  const auto is_padded = [](const ShapeInstance& geometry) { return geometry.padding > 0.0; };
   if (tree != FclTree::Obbrss && tree != FclTree::Kios &&
       (std::any_of(problem.robot.begin(), problem.robot.end(), is_padded) ||
        std::any_of(problem.world.begin(), problem.world.end(), is_padded)))
@@ -111,7 +112,7 @@ struct FclPeer::Impl
       return false;
     const auto start = std::chrono::steady_clock::now();
     const bool result = meet(a, b, required);
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds += secondsSince(start);
     return result;
   }
 
@@ -173,20 +174,12 @@ struct FclPeer::Impl
     for (std::size_t i = 0; i < robot.size(); ++i)
     {
       for (std::size_t k = 0; k < world.size(); ++k)
-      {
         if (problem->world_pairs[i * world.size() + k] != 0 && visit(robot[i], world[k], true))
-        {
           return;
-        }
-      }
     }
     for (const auto& [first, second] : problem->self_pairs)
-    {
       if (visit(robot[first], robot[second], false))
-      {
         return;
-      }
-    }
   }
 
   /// The same for the checked pairs of geometries of two bodies.
@@ -197,9 +190,7 @@ struct FclPeer::Impl
         [&](const Placed& a, const Placed& b, bool padded)
         {
           if (BodyPair{a.body, b.body} == pair || BodyPair{b.body, a.body} == pair)
-          {
             visit(a, b, padded);
-          }
           return false;
         });
   }
@@ -213,14 +204,10 @@ FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree, 
   impl_->volumes = tree;
   const CollisionProblem& p = *impl_->problem;
   for (std::size_t i = 0; i < p.trees.size(); ++i)
-  {
     impl_->geometries.push_back(makeFclGeometry(p.shapes[i], p.trees[i], tree));
-  }
-  for (const Geometry& geometry : p.robot)
-  {
+  for (const ShapeInstance& geometry : p.robot)
     impl_->robot.push_back({geometry.body, geometry.tree, geometry.pose, {}, geometry.padding, nullptr});
-  }
-  for (const Geometry& geometry : p.world)
+  for (const ShapeInstance& geometry : p.world)
   {
     impl_->world.push_back({geometry.body, geometry.tree, geometry.pose, impl_->boundsOf(geometry.tree, geometry.pose),
                             geometry.padding, nullptr});
@@ -242,13 +229,13 @@ void FclPeer::setState(const Isometry3d* link_poses)
   for (std::size_t i = 0; i < impl_->robot.size(); ++i)
   {
     Impl::Placed& placed = impl_->robot[i];
-    const Geometry& geometry = impl_->problem->robot[i];
+    const ShapeInstance& geometry = impl_->problem->robot[i];
     placed.pose = link_poses[geometry.link] * geometry.pose;
     placed.bounds = impl_->boundsOf(placed.tree, placed.pose);
   }
 }
 
-std::optional<FclPeer::BodyPair> FclPeer::firstCollision()
+std::optional<BodyPair> FclPeer::firstCollision()
 {
   if (impl_->order)
     return impl_->firstInLearnedOrder(nullptr);
@@ -257,29 +244,25 @@ std::optional<FclPeer::BodyPair> FclPeer::firstCollision()
       [&](const Impl::Placed& a, const Impl::Placed& b, bool padded)
       {
         if (impl_->collide(a, b, padded))
-        {
           found = BodyPair{a.body, b.body};
-        }
         return found.has_value();
       });
   return found;
 }
 
-std::optional<FclPeer::BodyPair> FclPeer::firstNear(const double* margins)
+std::optional<BodyPair> FclPeer::firstNear(const double* margins)
 {
   return impl_->firstInLearnedOrder(margins);
 }
 
-std::vector<FclPeer::BodyPair> FclPeer::allCollisions() const
+std::vector<BodyPair> FclPeer::allCollisions() const
 {
   std::vector<BodyPair> found;
   impl_->visitPairs(
       [&](const Impl::Placed& a, const Impl::Placed& b, bool padded)
       {
         if (impl_->collide(a, b, padded))
-        {
           found.push_back({a.body, b.body});
-        }
         return false;
       });
   std::sort(found.begin(), found.end());
@@ -348,4 +331,4 @@ bool FclPeer::oneInsideTheOther(const BodyPair& pair) const
                       });
   return found;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

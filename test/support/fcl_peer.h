@@ -8,10 +8,10 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/collision_problem.h"
-#include "collision/fcl_models.h"
+#include "collision/contacts/fcl_models.h"
+#include "collision/problem/collision_problem.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// In which order pairs are looked at for a first collision.
 enum class FclOrder
@@ -26,8 +26,6 @@ enum class FclOrder
 class FclPeer
 {
  public:
-  using BodyPair = std::array<std::int32_t, 2>;
-
   /// Throws Error for a problem with half-spaces, and for one with padding unless the tree knows distances.
   explicit FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree = FclTree::Obbrss,
                    FclOrder order = FclOrder::Fixed);
@@ -67,4 +65,4 @@ class FclPeer
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -12,7 +12,7 @@
 #include "gpu_planning_scene/error.h"
 #include "support/obstacles.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -135,4 +135,4 @@ std::shared_ptr<const RobotModel> GeneratedArm::load() const
 {
   return RobotModel::fromFiles(folder_ + "/arm.urdf", folder_ + "/arm.srdf", {});
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

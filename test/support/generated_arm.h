@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A six-axis arm of about 1.1 m that the project makes itself, of any number of triangles: the growth of time with
 /// triangles is measured with it, and it serves where no other robot is at hand. Its URDF, SRDF and meshes (binary STL)
@@ -25,4 +25,4 @@ class GeneratedArm
  private:
   std::string folder_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

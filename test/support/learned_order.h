@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The order in which checks of a state are made, learned as CpuTraversal learns its own: those that found most
 /// collisions for their cost come first.
@@ -58,4 +58,4 @@ class LearnedOrder
   std::vector<double> cost_;  // seconds, in all
   std::uint64_t states_ = 0;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -83,4 +83,4 @@ std::vector<double> nearContactStates(const TestScene& scene, std::size_t count,
   }
   return states;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -218,4 +218,4 @@ std::vector<WorldObject> generateObstacles(const ObstacleField& field, std::uint
   }
   return objects;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

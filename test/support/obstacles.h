@@ -12,7 +12,7 @@
 #include "gpu_planning_scene/planning_scene.h"
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Where generated obstacles lie: their centres in a spherical shell, their sizes up to `size` (all in metres).
 struct ObstacleField
@@ -49,4 +49,4 @@ std::shared_ptr<const Mesh> torusMesh(double radius, double tube_radius);
 
 /// A wavy square sheet: an open mesh.
 std::shared_ptr<const Mesh> sheetMesh(double size);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

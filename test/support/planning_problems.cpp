@@ -8,7 +8,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/real_robots.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -78,4 +78,4 @@ PlanningProblem loadPlanningProblem(const std::string& name)
   }
   return problem;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

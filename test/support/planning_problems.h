@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A motion to be planned: rows of all variables of the robot.
 struct PlanningProblem
@@ -26,4 +26,4 @@ std::vector<std::string> planningProblemNames();
 
 /// Throws Error for a file that cannot be read. All problems share one robot.
 PlanningProblem loadPlanningProblem(const std::string& name);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 ShaderFolder::ShaderFolder() : ShaderFolder(GPS_SOURCE_DIR "/shaders") {}
 
@@ -27,7 +27,7 @@ ShaderFolder::~ShaderFolder()
 
 void ShaderFolder::define(const std::string& name, const std::string& value) const
 {
-  std::ifstream in(path_ + "/interface.h");
+  std::ifstream in(path_ + "/shader_constants.h");
   std::ostringstream text;
   bool found = false;
   for (std::string line; std::getline(in, line);)
@@ -37,8 +37,8 @@ void ShaderFolder::define(const std::string& name, const std::string& value) con
     text << (here ? "#define " + name + " " + value : line) << '\n';
   }
   if (!found)
-    throw std::runtime_error("interface.h has no " + name);
-  write("interface.h", text.str());
+    throw std::runtime_error("shader_constants.h has no " + name);
+  write("shader_constants.h", text.str());
 }
 
 void ShaderFolder::replace(const std::string& name, const std::string& text, const std::string& by) const
@@ -57,4 +57,4 @@ void ShaderFolder::write(const std::string& name, const std::string& text) const
 {
   std::ofstream(path_ + "/" + name) << text;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A temporary copy of shaders that a test or benchmark may change; removed at the end.
 class ShaderFolder
@@ -18,7 +18,7 @@ class ShaderFolder
 
   const std::string& path() const { return path_; }
 
-  /// Gives a constant of interface.h another value; throws std::runtime_error if it is not there.
+  /// Gives a constant of shader_constants.h another value; throws std::runtime_error if it is not there.
   void define(const std::string& name, const std::string& value) const;
   /// Replaces the one place where a file has `text`; throws std::runtime_error if there is not exactly one.
   void replace(const std::string& name, const std::string& text, const std::string& by) const;
@@ -27,4 +27,4 @@ class ShaderFolder
  private:
   std::string path_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -13,7 +13,7 @@
 #include "tools/acm_generator.h"
 #include "tools/srdf_writer.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -37,13 +37,9 @@ std::string problemFolderOf(const std::string& name)
 RealRobot robotOf(const std::string& name)
 {
   if (startsWith(name, kUr5Prefix))
-  {
     return ur5Robotiq();
-  }
   if (name == "wam")
-  {
     return wam();
-  }
   return startsWith(name, "drchubo") ? drchubo() : kr5();
 }
 
@@ -76,9 +72,7 @@ std::vector<double> goalOf(const std::string& request_file, const RobotModel& ro
 {
   std::vector<double> state = robot.defaultState();
   for (const auto& joint : YAML::LoadFile(request_file)["goal_constraints"][0]["joint_constraints"])
-  {
     state.at(robot.variableIndex(joint["joint_name"].as<std::string>())) = joint["position"].as<double>();
-  }
   return state;
 }
 
@@ -193,12 +187,8 @@ std::vector<double> TestScene::randomStates(std::size_t count, std::uint64_t see
   std::vector<double> states;
   states.reserve(count * lower.size());
   for (std::size_t i = 0; i < count; ++i)
-  {
     for (std::size_t v = 0; v < lower.size(); ++v)
-    {
       states.push_back(lower[v] + (upper[v] - lower[v]) * share(generator));
-    }
-  }
   return states;
 }
 
@@ -233,18 +223,12 @@ const std::vector<std::string>& benchmarkSceneNames()
 std::string missingFor(const std::string& name)
 {
   if (startsWith(name, kArmPrefix))
-  {
     return "";
-  }
   const RealRobot robot = robotOf(name);
   if (!robot.available())
-  {
     return robot.urdf;
-  }
   if (startsWith(name, kUr5Prefix) && !std::filesystem::exists(problemFolderOf(name)))
-  {
     return problemFolderOf(name);
-  }
   return "";
 }
 
@@ -268,4 +252,4 @@ const TestScene& testScene(const std::string& name)
   const auto known = loaded.find(name);
   return known != loaded.end() ? known->second : loaded.emplace(name, load(name)).first->second;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -8,7 +8,7 @@
 
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A real robot among obstacles, and the ranges that its random states are drawn from: such that 10 to 90 % of the
 /// states are free and at least 5 % hit the world. Tests and benchmarks share these scenes.
@@ -41,4 +41,4 @@ TestScene withPadding(const TestScene& scene, double padding);
 
 /// Loads a scene, once per process.
 const TestScene& testScene(const std::string& name);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

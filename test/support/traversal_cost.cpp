@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "collision/cpu_box_pair.h"
+#include "collision/geometry/cpu_box_pair.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -80,4 +80,4 @@ double traversalCost(const Forest& forest, const std::vector<Tessellation>& tree
   }
   return cost;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

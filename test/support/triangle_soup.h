@@ -7,7 +7,7 @@
 
 #include "gpu_planning_scene/shapes.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// So many triangles, each of three calls of `corner`.
 template <class Corner>
@@ -23,4 +23,4 @@ std::shared_ptr<Mesh> triangleSoup(std::size_t triangles, const Corner& corner)
   }
   return mesh;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

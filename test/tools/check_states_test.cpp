@@ -13,7 +13,7 @@
 #include "scene/slider_robot.h"
 #include "tools/run_program.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -76,7 +76,7 @@ class CheckStates : public testing::Test
   std::string scene;
 };
 
-TEST_F(CheckStates, answersARowForEachState)
+TEST_F(CheckStates, AnswersARowForEachState)
 {
   const std::string csv = "slide,turn\n0,0\n0.75,1\n0.85,1\n-1.1,0\n";
   const ProgramOutput output = checkCsv(csv);
@@ -90,7 +90,7 @@ TEST_F(CheckStates, answersARowForEachState)
   EXPECT_TRUE(rows[3] == "0,pole,\"lamp, red\"" || rows[3] == "0,\"lamp, red\",pole") << rows[3];
 }
 
-TEST_F(CheckStates, columnsMayComeInAnyOrderAndForm)
+TEST_F(CheckStates, ColumnsMayComeInAnyOrderAndForm)
 {
   const auto rows = linesOf(checkCsv("\xEF\xBB\xBF\"turn\" , slide\r\n 0.5,\"0\"\r\n0.5 , 1e0\r\n1,+0.5\r\n\r\n").out);
   ASSERT_EQ(3u, rows.size());
@@ -99,7 +99,7 @@ TEST_F(CheckStates, columnsMayComeInAnyOrderAndForm)
   EXPECT_EQ('1', rows[2][0]);
 }
 
-TEST_F(CheckStates, otherVariablesTakeTheScenesState)
+TEST_F(CheckStates, OtherVariablesTakeTheScenesState)
 {
   EXPECT_EQ("1,,\n", checkCsv("turn\n0.5\n").out);
   scene = folder.write("scene.yaml",
@@ -109,7 +109,7 @@ TEST_F(CheckStates, otherVariablesTakeTheScenesState)
   expectError(checkCsv("turn\n0.5\n"), 1, "states.csv:1: no value for slide");
 }
 
-TEST_F(CheckStates, aGroupRestrictsThePairs)
+TEST_F(CheckStates, AGroupRestrictsThePairs)
 {
   const std::string csv = "slide,turn\n1,0\n-1,0\n";  // the cart in the wall, the pole in the lamp
   EXPECT_EQ("0", linesOf(checkCsv(csv).out).at(0).substr(0, 1));
@@ -119,7 +119,7 @@ TEST_F(CheckStates, aGroupRestrictsThePairs)
   expectError(checkCsv(csv, {"--group", "sails"}), 1, "sails");
 }
 
-TEST_F(CheckStates, theLastLineOfTheSummaryIsAsPromised)
+TEST_F(CheckStates, TheLastLineOfTheSummaryIsAsPromised)
 {
   const ProgramOutput output = check({"--random", "3000", "--seed", "7", "--max-batch", "999"});
   EXPECT_EQ(0, output.exit_code);
@@ -140,7 +140,7 @@ TEST_F(CheckStates, theLastLineOfTheSummaryIsAsPromised)
     EXPECT_NE(std::string::npos, output.err.find(part)) << output.err;
 }
 
-TEST_F(CheckStates, randomStatesAreTheModelsAndDependOnTheSeedAlone)
+TEST_F(CheckStates, RandomStatesAreTheModelsAndDependOnTheSeedAlone)
 {
   const auto robot = RobotModel::fromFiles(urdf, srdf, {});
   std::mt19937_64 generator(7);
@@ -159,7 +159,7 @@ TEST_F(CheckStates, randomStatesAreTheModelsAndDependOnTheSeedAlone)
   EXPECT_NE(one_batch, check({"--random", "500", "--seed", "8"}).out);
 }
 
-TEST_F(CheckStates, writesToAFileWhereAsked)
+TEST_F(CheckStates, WritesToAFileWhereAsked)
 {
   const std::string path = folder.write("answers.csv", "something older\nthat is longer than the answers are\n");
   const ProgramOutput output = checkCsv("slide,turn\n0,0\n", {"--out", path});
@@ -168,7 +168,7 @@ TEST_F(CheckStates, writesToAFileWhereAsked)
   EXPECT_EQ("1,,\n", std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
-TEST_F(CheckStates, aFailureLeavesTheOutputFileAsItWas)
+TEST_F(CheckStates, AFailureLeavesTheOutputFileAsItWas)
 {
   const std::string path = folder.write("answers.csv", "kept");
   EXPECT_EQ(1, checkCsv("slide,turn\n0,x\n", {"--out", path}).exit_code);
@@ -177,14 +177,14 @@ TEST_F(CheckStates, aFailureLeavesTheOutputFileAsItWas)
   expectError(checkCsv("slide,turn\n0,0\n", {"--out", folder.path("no/such/folder.csv")}), 1, "cannot write");
 }
 
-TEST_F(CheckStates, aSceneIsNotNeeded)
+TEST_F(CheckStates, ASceneIsNotNeeded)
 {
   const ProgramOutput output = run({"--urdf", urdf, "--random", "10"});
   EXPECT_EQ(0, output.exit_code) << output.err;
   EXPECT_NE(std::string::npos, output.err.find("adjacent (no SRDF was given)")) << output.err;
 }
 
-TEST_F(CheckStates, everyDeviceAndTraversalAnswersTheSame)
+TEST_F(CheckStates, EveryDeviceAndTraversalAnswersTheSame)
 {
   const auto valid = [](const ProgramOutput& output)
   {
@@ -204,7 +204,7 @@ TEST_F(CheckStates, everyDeviceAndTraversalAnswersTheSame)
   }
 }
 
-TEST_F(CheckStates, withoutADeviceItSaysWhatToDo)
+TEST_F(CheckStates, WithoutADeviceItSaysWhatToDo)
 {
   setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null", 1);  // what EGL finds where no driver is installed
   const ProgramOutput output = check({"--random", "1", "--device", "auto"});
@@ -214,7 +214,7 @@ TEST_F(CheckStates, withoutADeviceItSaysWhatToDo)
   EXPECT_NE(std::string::npos, output.err.find("'cpu'")) << output.err;
 }
 
-TEST_F(CheckStates, saysWhatItIsAndCanDo)
+TEST_F(CheckStates, SaysWhatItIsAndCanDo)
 {
   const ProgramOutput version = run({"--version"});
   EXPECT_EQ(0, version.exit_code);
@@ -227,7 +227,7 @@ TEST_F(CheckStates, saysWhatItIsAndCanDo)
     EXPECT_NE(std::string::npos, help.out.find(option)) << option;
 }
 
-TEST_F(CheckStates, badUsageEndsWithTwo)
+TEST_F(CheckStates, BadUsageEndsWithTwo)
 {
   const std::string csv = folder.write("states.csv", "slide,turn\n0,0\n");
   expectError(run({}), 2, "--urdf is missing");
@@ -249,7 +249,7 @@ TEST_F(CheckStates, badUsageEndsWithTwo)
   expectError(run({"--version=1"}), 2, "--version takes no value");
 }
 
-TEST_F(CheckStates, badInputEndsWithOne)
+TEST_F(CheckStates, BadInputEndsWithOne)
 {
   expectError(run({"--urdf", folder.path("no.urdf"), "--random", "1"}), 1, "no.urdf");
   expectError(run({"--urdf", folder.write("bad.urdf", "<robot"), "--random", "1"}), 1, "bad.urdf");
@@ -273,4 +273,4 @@ TEST_F(CheckStates, badInputEndsWithOne)
   expectError(check({"--random", "1", "--device", "no such renderer"}), 1, "no such renderer");
 }
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

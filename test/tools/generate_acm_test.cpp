@@ -11,7 +11,7 @@
 #include "model/model_testing.h"
 #include "tools/run_program.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -70,7 +70,7 @@ class GenerateAcm : public testing::Test
   std::string out;
 };
 
-TEST_F(GenerateAcm, decidesEachPairForTheRightReason)
+TEST_F(GenerateAcm, DecidesEachPairForTheRightReason)
 {
   const ProgramOutput output = generate({"--samples", "2000", "--seed", "3"});
   ASSERT_EQ(0, output.exit_code) << output.err;
@@ -85,13 +85,13 @@ TEST_F(GenerateAcm, decidesEachPairForTheRightReason)
   EXPECT_EQ("Adjacent", reason("half-cover"));
 }
 
-TEST_F(GenerateAcm, theShareOfAlwaysCanBeSet)
+TEST_F(GenerateAcm, TheShareOfAlwaysCanBeSet)
 {
   ASSERT_EQ(0, generate({"--samples", "2000", "--always-share", "0.4"}).exit_code);
   EXPECT_EQ("Always", reasonsOf(*RobotModel::fromFiles(urdf, out, {})).at("block-half"));
 }
 
-TEST_F(GenerateAcm, theCommentSaysWhatNeverMeans)
+TEST_F(GenerateAcm, TheCommentSaysWhatNeverMeans)
 {
   ASSERT_EQ(0, generate({"--samples", "3000", "--seed", "42"}).exit_code);
   const std::string srdf = contentOf(out);
@@ -102,7 +102,7 @@ TEST_F(GenerateAcm, theCommentSaysWhatNeverMeans)
   EXPECT_EQ(srdf.find("-->"), srdf.find("--", comment)) << srdf;
 }
 
-TEST_F(GenerateAcm, theSameSeedWritesTheSameFile)
+TEST_F(GenerateAcm, TheSameSeedWritesTheSameFile)
 {
   ASSERT_EQ(0, generate({"--samples", "500", "--seed", "5"}).exit_code);
   const std::string first = contentOf(out);
@@ -111,7 +111,7 @@ TEST_F(GenerateAcm, theSameSeedWritesTheSameFile)
   EXPECT_EQ(first, runProgram(GPS_GENERATE_ACM, {"--urdf", urdf, "--samples", "500", "--seed", "5"}).out);
 }
 
-TEST_F(GenerateAcm, keepsWhatTheUserWroteInAnSrdf)
+TEST_F(GenerateAcm, KeepsWhatTheUserWroteInAnSrdf)
 {
   const std::string srdf = folder.write("users.srdf", R"(<robot name="line--up">
   <!-- my group -->
@@ -136,7 +136,7 @@ TEST_F(GenerateAcm, keepsWhatTheUserWroteInAnSrdf)
   EXPECT_EQ(once, contentOf(out));
 }
 
-TEST_F(GenerateAcm, errorsHaveTheToolsExitCodes)
+TEST_F(GenerateAcm, ErrorsHaveTheToolsExitCodes)
 {
   EXPECT_EQ(2, runProgram(GPS_GENERATE_ACM, {}).exit_code);
   EXPECT_EQ(2, generate({"--samples", "0"}).exit_code);
@@ -175,7 +175,7 @@ double shareValid(const BatchResult& result)
          static_cast<double>(result.valid.size());
 }
 
-TEST_P(GenerateAcmForRealRobots, neverPairsStayFreeAndTheRobotCanMove)
+TEST_P(GenerateAcmForRealRobots, NeverPairsStayFreeAndTheRobotCanMove)
 {
   const std::string data = GPS_DART_DATA_DIR;
   const std::string urdf = data + "/" + GetParam().urdf;
@@ -219,4 +219,4 @@ INSTANTIATE_TEST_SUITE_P(Debian, GenerateAcmForRealRobots,
                                          RealRobot{"Wam", "urdf/wam/wam.urdf", "herb_description"}),
                          [](const auto& parameter) { return parameter.param.name; });
 }  // namespace
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 namespace
 {
@@ -60,4 +60,4 @@ std::vector<std::string> linesOf(const std::string& text)
     lines.push_back(line);
   return lines;
 }
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

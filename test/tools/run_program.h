@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct ProgramOutput
 {
@@ -16,4 +16,4 @@ struct ProgramOutput
 ProgramOutput runProgram(const std::string& path, const std::vector<std::string>& arguments);
 
 std::vector<std::string> linesOf(const std::string& text);
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

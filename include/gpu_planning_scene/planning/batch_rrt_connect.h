@@ -6,7 +6,7 @@
 #include <ompl/base/Planner.h>
 #include <ompl/base/goals/GoalSampleableRegion.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 class RrtSearch;
 
@@ -37,7 +37,7 @@ class BatchRrtConnect : public ompl::base::Planner
   void setBranches(unsigned int branches);
   unsigned int getBranches() const { return branches_; }
 
-  /// Throws ompl::Exception if the space information has no gpu_planning_scene::MotionValidator.
+  /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator.
   void setup() override;
   void clear() override;
   /// Called again, it goes on with the trees that there are. The termination condition is asked between batches of
@@ -57,4 +57,4 @@ class BatchRrtConnect : public ompl::base::Planner
   unsigned int branches_ = 64;
   std::unique_ptr<RrtSearch> search_;  // what clear() forgets
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 
 #include "gpu_planning_scene/robot_model.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// The state space of a planning group of the SRDF, for OMPL: the variables of its active joints. A compound of
 ///  - one RealVectorStateSpace of all revolute and prismatic joints, its dimensions named after them, with their
@@ -58,4 +58,4 @@ class GroupStateSpace : public ompl::base::CompoundStateSpace
   std::vector<std::size_t> rotations_;  // which of the values are the x of a quaternion
   std::vector<std::size_t> projected_;  // which of the values the default projection keeps
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -14,7 +14,7 @@
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Straight motions between states of a GroupStateSpace, within its bounds: see MotionChecker for when one is valid.
 /// The start is checked as well. A state with a value that is not finite is outside of the bounds. The robot's other
@@ -49,7 +49,7 @@ class MotionValidator : public ompl::base::MotionValidator
 
  private:
   static Termination never() { return ompl::base::plannerNonTerminatingCondition(); }
-  std::vector<MotionVerdict> check(const std::vector<Motion>& motions, MotionQuestion question,
+  std::vector<MotionVerdict> check(const std::vector<Motion>& motions, MotionQuery question,
                                    const Termination& ptc) const;
   static std::vector<std::uint8_t> validOf(const std::vector<MotionVerdict>& verdicts);
 
@@ -58,4 +58,4 @@ class MotionValidator : public ompl::base::MotionValidator
   MotionChecker motions_;
   mutable std::mutex counters_;  // OMPL's, of valid and invalid motions
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/util/RandomNumbers.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 struct ShortcutterOptions
 {
@@ -27,7 +27,7 @@ struct ShortcutterOptions
 class PathShortcutter
 {
  public:
-  /// Throws ompl::Exception if the space information has no gpu_planning_scene::MotionValidator.
+  /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator.
   explicit PathShortcutter(const ompl::base::SpaceInformationPtr& information, const ShortcutterOptions& options = {});
 
   /// Whether the path became shorter. Its first and last state stay as they are; each motion that it did not have
@@ -42,4 +42,4 @@ class PathShortcutter
   ShortcutterOptions options_;
   ompl::RNG random_;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

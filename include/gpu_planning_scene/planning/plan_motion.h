@@ -13,7 +13,7 @@
 #include "gpu_planning_scene/planning/planner_factory.h"
 #include "gpu_planning_scene/planning_scene.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// A motion that is wanted. Rows are of all variables of the robot; what the group does not move stays as it is at the
 /// start.
@@ -60,4 +60,4 @@ struct PlanningResult
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,
                           const PlannerFactory& factory, const std::function<bool()>& stop = {});
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

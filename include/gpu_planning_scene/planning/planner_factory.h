@@ -2,7 +2,7 @@
 
 #include <ompl/base/Planner.h>
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Makes planners: the base class of plugins, as ompl::base::Planner has no default constructor. Thread-safe.
 class PlannerFactory
@@ -14,4 +14,4 @@ class PlannerFactory
   /// StateValidityChecker of this package, which planners may use in bulk.
   virtual ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const = 0;
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

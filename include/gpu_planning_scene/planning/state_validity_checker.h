@@ -8,11 +8,11 @@
 
 #include <ompl/base/StateValidityChecker.h>
 
-#include "gpu_planning_scene/contacts.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "gpu_planning_scene/state_checker.h"
+#include "gpu_planning_scene/state_inspector.h"
 
-namespace gpu_planning_scene
+namespace gpu_planning_scene::core
 {
 /// Whether states of a GroupStateSpace are within its bounds and free of collision in a scene. The robot's other
 /// variables are as in the scene's current state, or RobotModel::defaultState() where it has none. Thread-safe.
@@ -45,4 +45,4 @@ class StateValidityChecker : public ompl::base::StateValidityChecker
   mutable std::unique_ptr<StateInspector> inspector_;
   mutable std::atomic<std::uint64_t> states_checked_{0};
 };
-}  // namespace gpu_planning_scene
+}  // namespace gpu_planning_scene::core

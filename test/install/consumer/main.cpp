@@ -4,10 +4,11 @@
 #include <gpu_planning_scene/batch_checker.h>
 #include <gpu_planning_scene/cpu_checker.h>
 #ifdef WITH_MESSAGES
-#include <gpu_planning_scene/messages.h>
+#include <gpu_planning_scene/CheckStates.h>
+#include <gpu_planning_scene/PlanningScene.h>
 #endif
 
-using namespace gpu_planning_scene;
+using namespace gpu_planning_scene::core;
 
 int main()
 try
@@ -32,8 +33,11 @@ try
   const auto on_gpu = checker.check(angles, 5).valid;
   std::printf("%s\n", checker.deviceName().c_str());
 #ifdef WITH_MESSAGES
-  CheckStatesRequest request;
+  // Messages and library have classes of one name, in different namespaces.
+  gpu_planning_scene::CheckStatesRequest request;
   request.joint_names.push_back("swing");
+  gpu_planning_scene::PlanningScene message;
+  message.robot_model_name = scene->robot->name();
 #endif
   return on_cpu == expected && on_gpu == expected ? 0 : 1;
 }

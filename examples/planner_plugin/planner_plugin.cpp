@@ -1,0 +1,22 @@
+// A package that adds a planner to planning_scene_node: requests name it as planner_plugin/BKPIECE.
+
+#include <memory>
+
+#include <ompl/geometric/planners/kpiece/BKPIECE1.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <gpu_planning_scene/planning/planner_factory.h>
+
+namespace planner_plugin
+{
+class BkpieceFactory : public gpu_planning_scene::core::PlannerFactory
+{
+ public:
+  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
+  {
+    return std::make_shared<ompl::geometric::BKPIECE1>(information);
+  }
+};
+}  // namespace planner_plugin
+
+PLUGINLIB_EXPORT_CLASS(planner_plugin::BkpieceFactory, gpu_planning_scene::core::PlannerFactory)

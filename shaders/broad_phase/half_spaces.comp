@@ -1,0 +1,78 @@
+// One lane per (state, robot instance): whether the shape reaches into one half-space of the world. The lowest corner above
+// the plane decides, found by a walk of the shape's tree; tessellations lie within their solids.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "geometry/pose.glsl"
+#include "problem/nodes.glsl"
+#include "geometry/error_bounds.glsl"
+#include "problem/instance_lists.glsl"
+#include "traversal/verdicts.glsl"
+#include "problem/triangles.glsl"
+#include "problem/margins.glsl"
+layout(location = LOCATION_HALF_SPACE_COUNT) uniform uint half_space_count;
+layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
+layout(location = LOCATION_HALF_SPACE) uniform uint half_space;
+layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
+// Two vec4 each: the plane's normal and offset; the padding.
+layout(std430, binding = BINDING_C) readonly buffer HalfSpaces { vec4 half_spaces[]; };
+layout(std430, binding = BINDING_D) readonly buffer HalfSpacePairs { uint half_space_pairs[]; };  // bits [robot][half-space]
+
+// STATE_* bits: a corner is proven to lie at most `distance` above the plane; one may lie at most `gap` above it.
+// Normal and offset are in the tree's frame.
+uint reachesDown(uint root, vec3 normal, float offset, float error, float distance, float gap)
+{
+  uint stack[BUILD_ROUNDS + 2];
+  stack[0] = root;
+  int top = 1;
+  uint found = 0u;
+  for (uint steps = 0u; top > 0 && (found & STATE_HIT) == 0u && steps < uint(LANE_ITERATIONS) / (4u * LEAF_TRIANGLES); ++steps)
+  {
+    const TreeNode node = fetchNode(stack[--top]);
+    const float height = dot(normal, node.box.center) - offset;
+    const float extent = dot(abs(normal), node.box.extent);
+    if (height - extent > gap + error)
+      continue;
+    if (node.count == 0u)
+    {
+      stack[top] = node.first;
+      stack[top + 1] = node.first + 1u;
+      top += 2;
+      continue;
+    }
+    for (uint i = node.first; i < node.first + node.count; ++i)
+    {
+      vec3 corners[3];
+      fetchTriangle(i, corners);
+      for (int k = 0; k < 3; ++k)
+      {
+        const float above = dot(normal, corners[k]) - offset;
+        found |= above + error <= distance ? STATE_HIT : (above > gap + error && FLOATS_DECIDE != 0 ? 0u : STATE_UNDECIDED);
+      }
+    }
+  }
+  // What is left of the tree was not looked at, whoever ended the loop.
+  return top > 0 && (found & STATE_HIT) == 0u ? STATE_UNDECIDED : found;
+}
+
+void main()
+{
+  const uint i = invocationIndex();
+  if (i >= state_count * robot_count)
+    return;
+  const uint state = stateOf(i);
+  const uint robot = rowOf(i);
+  const uint bit = robot * half_space_count + half_space;
+  if ((half_space_pairs[bit >> 5u] >> (bit & 31u) & 1u) == 0u)
+    return;
+  const Instance instance = fetchInstance(robot);
+  const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
+  const vec4 plane = half_spaces[2u * half_space];
+  const float distance = instance.padding + half_spaces[2u * half_space + 1u].x + worldMargin(state, robot);
+  const float error = planeError(pose, farCorner(fetchNode(instance.root).box), plane.w);
+  const vec3 normal = plane.xyz * pose.rotation;
+  precise const float offset = plane.w - dot(plane.xyz, pose.translation);
+  const uint found = reachesDown(instance.root, normal, offset, error, distance * (1.0 - 4.0 * u), requiredGap(distance, instance.slack));
+  if (found != 0u)
+    report(state, packPair(robot, robot_count + world_count + half_space), found);
+}

@@ -1,0 +1,27 @@
+// The box around a robot instance's root, placed, and by how much all that is compared with it has to grow: rounding of the pose,
+// of the product and of the comparison, 1e-5 of all lengths that enter. What an object's own box needs, its rounding outwards
+// provides.
+#include "problem/margins.glsl"
+layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
+
+struct PlacedInstance
+{
+  Instance instance;
+  Box box;      // of the root, in the shape's frame
+  Pose pose;
+  vec3 center;  // of the box, in the planning frame
+  float way;    // how far it may move, metres
+  float margin;
+};
+
+PlacedInstance place(uint robot, uint state)
+{
+  const Instance instance = fetchInstance(robot);
+  const Box box = fetchNode(instance.root).box;
+  const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
+  const vec3 center = apply(pose, box.center);
+  const float way = worldMargin(state, robot);
+  const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent) +
+                              instance.padding + way);
+  return PlacedInstance(instance, box, pose, center, way, instance.slack + CONTRACT_BAND + error);
+}

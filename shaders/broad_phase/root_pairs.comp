@@ -1,0 +1,83 @@
+// One lane per candidate: the relative pose, the test of the root boxes, and whether one is inside the other, a solid.
+// What remains becomes a root pair and the node pair that its traversal begins with.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#define WRITES_ITEMS
+#include "traversal/root_pairs.glsl"
+#include "problem/nodes.glsl"
+#include "geometry/error_bounds.glsl"
+#include "problem/oriented_nodes.glsl"
+#include "problem/instance_lists.glsl"
+#include "common/counters.glsl"
+#include "traversal/verdicts.glsl"
+#include "broad_phase/primitive_containment.glsl"
+#include "problem/margins.glsl"
+layout(location = LOCATION_CANDIDATE_CAPACITY) uniform uint candidate_capacity;
+layout(location = LOCATION_ROOT_PAIR_CAPACITY) uniform uint root_pair_capacity;
+layout(location = LOCATION_SOLID_NODES) uniform uint solid_nodes;  // where the nodes of primitives lie, one an instance; 0: these have trees of triangles
+layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
+layout(binding = UNIT_WORLD_POSES) uniform usamplerBuffer world_poses;
+layout(binding = UNIT_CANDIDATES) uniform usamplerBuffer candidates;
+layout(std430, binding = BINDING_A) writeonly buffer RootPairs { uvec4 root_pairs[]; };
+// Node pairs that traversals begin with: of two meshes, of a mesh and a solid.
+layout(std430, binding = BINDING_B) writeonly buffer MeshEntries { uvec4 mesh_entries[]; };
+layout(std430, binding = BINDING_D) writeonly buffer SolidEntries { uvec4 solid_entries[]; };
+
+void main()
+{
+  const uint i = invocationIndex();
+  if (i >= min(counters[COUNTER_CANDIDATES], candidate_capacity))
+    return;
+  const uvec4 two = texelFetch(candidates, int(i / 2u));
+  const uvec2 candidate = i % 2u == 0u ? two.xy : two.zw;
+  const uint state = candidate.x;
+  const uint robot = pairRobot(candidate.y);
+  const uint other = pairOther(candidate.y);
+  const bool world = other >= robot_count;
+  Pose pose_a;
+  if (world)
+    pose_a = fetchPose(world_poses, other - robot_count);
+  else
+    pose_a = fetchPose(robot_poses, poseIndex(state, other));
+  const Pose pose_b = fetchPose(robot_poses, poseIndex(state, robot));
+  const Pose pose = relativePose(pose_a, pose_b);
+  const Instance a = fetchInstance(other);
+  const Instance b = fetchInstance(robot);
+  // One of the two is tested as the solid it is, and not by triangles.
+  const bool a_is_solid = solid_nodes != 0u && isPrimitive(a);
+  const bool b_is_solid = solid_nodes != 0u && !a_is_solid && isPrimitive(b);
+  const uint root_a = a_is_solid ? solid_nodes + other : a.root;
+  const uint root_b = b_is_solid ? solid_nodes + robot : b.root;
+  const Box box_a = fetchNode(root_a).box;
+  const Box box_b = fetchNode(root_b).box;
+  const vec3 far_a = farCorner(box_a);
+  const float error = positionError(pose_a, pose_b, pose, far_a, farCorner(box_b));
+  const float distance = world ? a.padding + b.padding + worldMargin(state, robot) : selfMargin(state, robot, other);
+  const float gap = requiredGap(distance, (a_is_solid ? 0.0 : a.slack) + (b_is_solid ? 0.0 : b.slack));
+  if (nodesApart(fetchOrientedNode(root_a), fetchOrientedNode(root_b), pose, boxMargin(gap, error)))
+    return;
+  // What the traversal tests against a solid, it finds inside as well.
+  uint inside = containment(b, a, pose, boxError(error)) & (a_is_solid ? STATE_HIT : ~0u);
+  inside |= containment(a, b, inversePose(pose), inverseError(error, far_a)) & (b_is_solid ? STATE_HIT : ~0u);
+  if (inside != 0u)
+    report(state, candidate.y, inside);
+  if ((inside & STATE_HIT) != 0u)
+    return;
+  const uint at = atomicAdd(counters[COUNTER_ROOT_PAIRS], 1u);
+  if (at >= root_pair_capacity)
+  {
+    atomicOr(counters[COUNTER_OVERFLOW], 1u);
+    return;
+  }
+  const mat3 rows = transpose(pose.rotation);
+  const uint texel = at * ROOT_PAIR_TEXELS;
+  for (int row = 0; row < 3; ++row)
+    root_pairs[texel + uint(row)] = floatBitsToUint(vec4(rows[row], pose.translation[row]));
+  root_pairs[texel + 3u] = uvec4(state, candidate.y, floatBitsToUint(error), floatBitsToUint(gap));
+  root_pairs[texel + 4u] = uvec4(floatBitsToUint(distance), 0u, 0u, 0u);
+  if (a_is_solid || b_is_solid)
+    solid_entries[atomicAdd(counters[COUNTER_SOLID_ENTRIES], 1u)] = uvec4(at, root_a, root_b, 0u);
+  else
+    mesh_entries[atomicAdd(counters[COUNTER_MESH_ENTRIES], 1u)] = uvec4(at, root_a, root_b, 0u);
+}

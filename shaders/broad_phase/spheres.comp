@@ -1,0 +1,18 @@
+// One lane per (state, robot instance): the sphere around its root box in the planning frame, for the broad phase among links.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "problem/instance_lists.glsl"
+#include "geometry/pose.glsl"
+#include "problem/nodes.glsl"
+#include "broad_phase/placed_instance.glsl"
+layout(std430, binding = BINDING_A) writeonly buffer Spheres { vec4 spheres[]; };  // centre and radius
+
+void main()
+{
+  const uint i = invocationIndex();
+  if (i >= state_count * robot_count)
+    return;
+  const PlacedInstance placed = place(rowOf(i), stateOf(i));
+  spheres[i] = vec4(placed.center, length(placed.box.extent) + placed.way + placed.margin);
+}

@@ -1,0 +1,51 @@
+// Broad phase against the world: one lane per (state, query), a query being for what is near one robot instance. It walks the
+// tree over world instances with the box around the instance's root box.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "problem/instance_lists.glsl"
+#include "broad_phase/candidates.glsl"
+#include "geometry/pose.glsl"
+#include "problem/nodes.glsl"
+#include "broad_phase/placed_instance.glsl"
+#include "broad_phase/queries.glsl"
+layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
+// A node: its box's centre, and which node comes next where the boxes are apart; half extents, and the instance or NO_OBJECT.
+// Where they overlap, the next node in the list comes next, so no stack is needed; past the last one the walk ends.
+layout(binding = UNIT_OBJECT_TREE) uniform usamplerBuffer object_tree;
+layout(binding = UNIT_WORLD_PAIRS) uniform usamplerBuffer world_pairs;
+
+bool isChecked(uint robot, uint world)
+{
+  const uint bit = robot * world_count + world;
+  return (texelFetch(world_pairs, int(bit >> 7u))[bit >> 5u & 3u] >> (bit & 31u) & 1u) != 0u;
+}
+
+void main()
+{
+  const uint i = invocationIndex();
+  if (i >= state_count * query_count)
+    return;
+  const uint state = stateOf(i);
+  const uint robot = fetchQuery(rowOf(i)).x;
+  const PlacedInstance placed = place(robot, state);
+  const vec3 center = placed.center;
+  const vec3 extent =
+      absolute(placed.pose.rotation) * placed.box.extent + placed.instance.padding + placed.way + placed.margin;
+
+  const uint node_count = max(2u * world_count, 1u) - 1u;
+  uint at = 0u;
+  for (uint steps = 0u; at < node_count && steps < LANE_ITERATIONS / 2u; ++steps)
+  {
+    const uvec4 head = texelFetch(object_tree, int(2u * at));
+    const uvec4 tail = texelFetch(object_tree, int(2u * at + 1u));
+    const bool apart = any(greaterThan(abs(uintBitsToFloat(head.xyz) - center), uintBitsToFloat(tail.xyz) + extent));
+    // A loop: it costs only those that take it.
+    for (bool leaf = !apart && tail.w != NO_OBJECT && isChecked(robot, tail.w); leaf; leaf = false)
+      addCandidate(state, packPair(robot, robot_count + tail.w));
+    at = apart ? head.w : at + 1u;
+  }
+  // Too many objects for one lane: what is left is not lost, the batch is split and its states become undecided.
+  if (at < node_count)
+    atomicOr(counters[COUNTER_OVERFLOW], 1u);
+}

@@ -1,0 +1,75 @@
+// Nodes with their oriented boxes (OBB), which traversals of pairs test: three texels a node, in the order of the nodes.
+#include "geometry/quaternion.glsl"
+
+struct OrientedNode
+{
+  Box box;     // in its own frame but for the centre, which is in the tree's
+  mat3 axes;   // of the box, in the tree's frame
+  uint first;  // as TreeNode has them
+  uint count;
+};
+
+layout(binding = UNIT_ORIENTED_NODES) uniform usamplerBuffer oriented_texels;
+
+OrientedNode fetchOrientedNode(uint index)
+{
+  const uvec4 a = texelFetch(oriented_texels, int(3u * index));
+  const uvec4 b = texelFetch(oriented_texels, int(3u * index + 1u));
+  const vec4 q = uintBitsToFloat(texelFetch(oriented_texels, int(3u * index + 2u)));
+  return OrientedNode(Box(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz)), rotationOf(q), a.w, b.w);
+}
+
+// How far two boxes are apart along the best of the 15 axes that can separate them (Gottschalk, Lin and Manocha 1996, "OBBTree"):
+// half edge lengths, the way from a's centre to b's and b's axes, both in a's frame. Not above 0: it proves nothing. The
+// axes that are products of edges are at most 1 long, so that a gap along them is one in metres a fortiori.
+float boxGap(vec3 ea, vec3 eb, vec3 t, mat3 r)
+{
+  const mat3 q = absolute(r);
+  const vec3 gap_a = abs(t) - (ea + q * eb);
+  const vec3 gap_b = abs(t * r) - (eb + ea * q);
+  float gap = max(max(max(gap_a.x, gap_a.y), gap_a.z), max(max(gap_b.x, gap_b.y), gap_b.z));
+  // The axis products x, y, z of a with axis j of b, three at a time.
+  for (int j = 0; j < 3; ++j)
+  {
+    const int k = (j + 1) % 3;
+    const int l = (j + 2) % 3;
+    const vec3 along = abs(t.zxy * r[j].yzx - t.yzx * r[j].zxy);
+    const vec3 reach_a = ea.yzx * q[j].zxy + ea.zxy * q[j].yzx;
+    const vec3 reach_b = eb[k] * q[l] + eb[l] * q[k];
+    const vec3 gaps = along - (reach_a + reach_b);
+    gap = max(gap, max(max(gaps.x, gaps.y), gaps.z));
+  }
+  return gap;
+}
+
+// What a test of two boxes may be off by, relative to their half edge lengths.
+float sizeError(Box a, Box b)
+{
+  return 512.0 * u * dot(a.extent + b.extent, vec3(1.0));
+}
+
+// Whether node b, whose tree is placed by `pose` in a's tree's frame, is apart from node a by more than `margin`, or nothing.
+bool nodesApart(OrientedNode a, OrientedNode b, Pose pose, float margin)
+{
+  const vec3 between = (apply(pose, b.box.center) - a.box.center) * a.axes;
+  const mat3 turned = transpose(a.axes) * (pose.rotation * b.axes);
+  return boxGap(a.box.extent, b.box.extent, between, turned) > margin + sizeError(a.box, b.box);
+}
+
+// Whether a node's box lies within the core of the other tree's solid by more than `margin`: then what it holds is inside.
+// A core that is not there has negative extents, and nothing lies within it.
+bool nodeInCore(OrientedNode a, OrientedNode b, vec3 core_a, vec3 core_b, Pose pose, float margin)
+{
+  const mat3 b_axes = pose.rotation * b.axes;
+  const mat3 a_axes = transpose(pose.rotation) * a.axes;
+  const float off = margin + sizeError(a.box, b.box);
+  const vec3 b_in_a = abs(apply(pose, b.box.center)) + absolute(b_axes) * b.box.extent + off;
+  const vec3 a_in_b = abs((a.box.center - pose.translation) * pose.rotation) + absolute(a_axes) * a.box.extent + off;
+  return all(lessThan(b_in_a, core_a)) || all(lessThan(a_in_b, core_b));
+}
+
+// Which of two overlapping nodes is taken apart: an inner node beats a leaf, of two inner nodes the larger one goes.
+bool descendsIntoA(OrientedNode a, OrientedNode b)
+{
+  return a.count == 0u && (b.count != 0u || dot(a.box.extent, a.box.extent) >= dot(b.box.extent, b.box.extent));
+}

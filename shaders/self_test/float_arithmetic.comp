@@ -1,0 +1,44 @@
+// One lane per pair of numbers: what the device makes of the operations that the error bounds rely on. Two-sum (Knuth
+// 1969) and two-product (Dekker 1971) give the rounding error of one operation exactly, but only where the compiler
+// neither reorders nor contracts what is `precise` and every operation is rounded as it should be.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+layout(location = LOCATION_CASE_COUNT) uniform uint case_count;
+layout(std430, binding = BINDING_C) readonly buffer Numbers { vec2 numbers[]; };
+// Two vec4 a case: sum and its error, product and its error; what is left of the product without contraction, the length
+// of (x, y, x), 1 if a comparison with no number holds, the dot product of (x, y, x) and (y, y, x).
+layout(std430, binding = BINDING_A) writeonly buffer Results { vec4 results[]; };
+
+void split(float x, out float high, out float low)
+{
+  precise const float scaled = 4097.0 * x;  // 2^12 + 1
+  precise const float rest = scaled - x;
+  precise const float upper = scaled - rest;
+  high = upper;
+  precise const float lower = x - upper;
+  low = lower;
+}
+
+void main()
+{
+  const uint i = invocationIndex();
+  if (i >= case_count)
+    return;
+  const float x = numbers[i].x;
+  const float y = numbers[i].y;
+  precise const float sum = x + y;
+  precise const float y_part = sum - x;
+  precise const float x_part = sum - y_part;
+  precise const float sum_error = (x - x_part) + (y - y_part);
+  precise const float product = x * y;
+  float xh, xl, yh, yl;
+  split(x, xh, xl);
+  split(y, yh, yl);
+  precise const float product_error = ((xh * yh - product) + xh * yl + xl * yh) + xl * yl;
+  precise const float left = x * y - product;
+  const float no_number = (numbers[i].x - x) / (numbers[i].y - y);
+  const bool holds = no_number > 1.0 || no_number < 1.0 || no_number == 1.0;
+  results[2u * i] = vec4(sum, sum_error, product, product_error);
+  results[2u * i + 1u] = vec4(left, length(vec3(x, y, x)), holds ? 1.0 : 0.0, dot(vec3(x, y, x), vec3(y, y, x)));
+}

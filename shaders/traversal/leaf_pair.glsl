@@ -1,0 +1,40 @@
+// One triangle of a leaf against one of another. PADDED is 1 where some pairs have a required distance: merely to hold the
+// code for them halves the speed of all others on llvmpipe.
+#include "geometry/error_bounds.glsl"
+#include "problem/triangles.glsl"
+#include "geometry/triangle_pair.glsl"
+#include "geometry/triangle_distance.glsl"
+
+void testTriangles(uint root_pair_index, RootPair root_pair, uint triangle_a, uint triangle_b)
+{
+  vec3 a[3];
+  vec3 b[3];
+  fetchTriangle(triangle_a, a);
+  fetchTriangle(triangle_b, b);
+  for (int k = 0; k < 3; ++k)
+    b[k] = apply(root_pair.pose, b[k]);
+  uint found = FLOATS_DECIDE != 0 ? trianglePair(a, b, root_pair.pose.translation, root_pair.error, root_pair.gap) : STATE_UNDECIDED;
+#if PADDED && FLOATS_DECIDE
+  // Where triangles are not known to meet, their distance may still be too small. A loop: on llvmpipe it costs only those
+  // that take it.
+  const float distance = fetchDistance(root_pair_index);
+  for (bool open = found == STATE_UNDECIDED && distance > 0.0; open; open = false)
+    found = triangleDistance(a, b, root_pair.error, distance, root_pair.gap);
+#endif
+  if (found != 0u)
+    report(root_pair.state, root_pair.pair, found);
+}
+
+// Triangle `i` of the smaller one of two leaves against the larger one.
+void testLeafRow(uvec4 pair, uint i)
+{
+  const RootPair root_pair = fetchRootPair(pair.x);
+  const uint first_a = leafFirst(pair.y);
+  const uint first_b = leafFirst(pair.z);
+  const uint count_a = leafCount(pair.y);
+  const uint count_b = leafCount(pair.z);
+  const bool a_is_smaller = count_a <= count_b;
+  const uint count = max(count_a, count_b);
+  for (uint j = 0u; j < count; ++j)
+    testTriangles(pair.x, root_pair, first_a + (a_is_smaller ? i : j), first_b + (a_is_smaller ? j : i));
+}

@@ -1,0 +1,38 @@
+// One workgroup: exclusive prefix sums of the chunks' sums, the sizes of the next level and of the leaf list, and the
+// indirect arguments for both. A list that is too short is noticed here, before anything is written.
+#include "shader_constants.h"
+layout(local_size_x = 256) in;
+#include "common/counters.glsl"
+#include "common/indirect_arguments.glsl"
+layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;
+layout(location = LOCATION_OUT_COUNTER) uniform uint out_counter;
+layout(location = LOCATION_ENTRY_CAPACITY) uniform uint entry_capacity;
+layout(location = LOCATION_LEAF_PAIR_CAPACITY) uniform uint leaf_pair_capacity;
+layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;  // of the list read
+layout(location = LOCATION_IS_LAST) uniform uint is_last;  // 1 for the deepest level that there can be
+layout(std430, binding = BINDING_B) buffer Sums { uvec2 sums[]; };
+
+#define SCAN_TYPE uvec2
+#define SCAN_VALUES sums
+#include "common/prefix_sum.glsl"
+
+void main()
+{
+  const uint entry_count = min(counters[in_counter], in_capacity);
+  const uvec2 total = scanInPlace((entry_count + LEVEL_CHUNK - 1u) / LEVEL_CHUNK);
+  if (gl_LocalInvocationID.x == 0u)
+  {
+    // The last level of all leaves nothing for a next one.
+    if (total.x > entry_capacity || total.y > leaf_pair_capacity || (is_last != 0u && total.x != 0u))
+      counters[COUNTER_OVERFLOW] = 1u;
+    const uvec2 kept = min(total, uvec2(entry_capacity, leaf_pair_capacity));
+    counters[out_counter] = kept.x;
+    counters[COUNTER_LEAF_PAIRS] = kept.y;
+    // This level's arguments serve once more, for writing the next one.
+    for (uint i = 0u; i < 3u; ++i)
+      counters[COUNTER_CHUNK_ARGUMENTS + i] = counters[COUNTER_ARGUMENTS + i];
+    const uint chunks = (kept.x + LEVEL_CHUNK - 1u) / LEVEL_CHUNK;
+    setGroups(COUNTER_ARGUMENTS, (chunks + GROUP_SIZE - 1u) / GROUP_SIZE);
+    setGroups(COUNTER_LEAF_ARGUMENTS, (kept.y + GROUP_SIZE - 1u) / GROUP_SIZE);
+  }
+}

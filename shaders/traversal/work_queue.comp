@@ -1,0 +1,171 @@
+// Traversal by work queues. Every lane takes node pairs from the entry list and walks them with a stack of its own; pairs of
+// leaves go to a list that the workgroup shares. When that list is full enough, all lanes turn to its triangles. All lanes
+// of a group meet at the same barriers: the outer loop is uniform, and a lane does at most QUEUE_STEPS steps between
+// two barriers. What does not fit a stack, or is left when the iterations run out, goes to the next entry list.
+//
+// Where a branch skips nothing (llvmpipe), every store and atomic costs each lane each time. So a step has one store: a
+// lane's memory holds node pairs from below and leaf pairs from above, and all else is done once a round.
+#include "shader_constants.h"
+layout(local_size_x = QUEUE_LANES) in;
+#include "common/invocation.glsl"
+#include "traversal/root_pairs.glsl"
+#include "problem/nodes.glsl"
+#include "geometry/error_bounds.glsl"
+#include "problem/instances.glsl"
+#include "problem/oriented_nodes.glsl"
+#if SOLIDS
+#include "traversal/solid_nodes.glsl"
+#endif
+#include "common/counters.glsl"
+#include "traversal/verdicts.glsl"
+// Room for what all lanes may add before the group turns to triangles.
+#define LEAF_QUEUE (QUEUE_FLUSH + QUEUE_LANES * QUEUE_STEPS)
+#include "traversal/leaf_queue.glsl"
+#if TOLERANT
+#include "traversal/tolerance.glsl"
+#endif
+layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;   // COUNTER_ENTRIES_* of the list read, and of the one written
+layout(location = LOCATION_OUT_COUNTER) uniform uint out_counter;
+layout(location = LOCATION_ENTRY_CAPACITY) uniform uint entry_capacity;
+layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;  // of the list read
+layout(binding = UNIT_ENTRIES) uniform usamplerBuffer entries;
+layout(std430, binding = BINDING_A) writeonly buffer Spill { uvec4 spilled[]; };
+
+// Loop iterations of one step, where the compiler does not unroll the inner loops. Should they be more, lanes end early,
+// and the count of lanes below finds it out.
+#define STEP_ITERATIONS 4u
+
+shared uint busy;
+
+// The state is undecided if the list is full: its answer is never lost.
+void spill(uint root_pair, uvec2 nodes, uint state)
+{
+  const uint at = atomicAdd(counters[out_counter], 1u);
+  if (at < entry_capacity)
+    spilled[at] = uvec4(root_pair, nodes, 0u);
+  else
+    reportUndecided(state);
+}
+
+void main()
+{
+  const uint entry_count = min(counters[in_counter], in_capacity);
+  uvec2 memory[QUEUE_STACK];
+  uint waiting = 0u;   // node pairs in memory, from below
+  uint leaves = 0u;    // leaf pairs in memory, from above
+  uvec2 nodes = uvec2(0u);
+  bool walking = false;     // whether `nodes` is a pair to be tested
+  bool exhausted = false;  // whether the entry list has nothing left
+  uint root_pair_index = 0u;
+  RootPair root_pair;
+  root_pair.state = 0u;
+#if SOLIDS
+  Instance instance_a = fetchInstance(0u);
+  Instance instance_b = instance_a;
+#endif
+  if (gl_LocalInvocationID.x == 0u)
+  {
+    leaf_pair_count = 0u;
+    busy = 0u;
+  }
+  barrier();
+
+  uint iterations = 0u;
+  bool running = true;
+  while (running)
+  {
+    if (isDecided(root_pair.state))
+    {
+      walking = false;
+      waiting = 0u;
+    }
+    if (!walking && !exhausted)
+    {
+      const uint at = atomicAdd(counters[COUNTER_NEXT_ENTRY], 1u);
+      exhausted = at >= entry_count;
+      walking = !exhausted;
+      const uvec4 entry = texelFetch(entries, int(min(at, entry_count - 1u)));
+      root_pair_index = entry.x;
+      root_pair = fetchRootPair(root_pair_index);
+      nodes = entry.yz;
+#if SOLIDS
+      instance_a = fetchInstance(pairOther(root_pair.pair));
+      instance_b = fetchInstance(pairRobot(root_pair.pair));
+#endif
+    }
+    bool inside = false;
+    for (uint step = 0u; step < QUEUE_STEPS && walking && !inside && waiting + leaves < QUEUE_STACK; ++step)
+    {
+      const OrientedNode a = fetchOrientedNode(nodes.x);
+      const OrientedNode b = fetchOrientedNode(nodes.y);
+      bool overlap = !nodesApart(a, b, root_pair.pose, boxMargin(root_pair.gap, root_pair.error));
+#if SOLIDS
+      overlap = overlap && !nodeBeyondSolid(a, b, instance_a, instance_b, root_pair);
+      inside = nodeInCore(a, b, instance_a.core, instance_b.core, root_pair.pose, boxError(root_pair.error));
+#endif
+#if TOLERANT
+      inside = inside || isCloseEnough(root_pair_index, root_pair, a, b);
+#endif
+      const bool leaf = a.count != 0u && b.count != 0u;
+      const bool into_a = descendsIntoA(a, b);
+      const uvec2 first = into_a ? uvec2(a.first, nodes.y) : uvec2(nodes.x, b.first);
+      const uvec2 second = into_a ? uvec2(a.first + 1u, nodes.y) : uvec2(nodes.x, b.first + 1u);
+      const uvec2 leaf_pair = uvec2(leafReference(a.first, a.count), leafReference(b.first, b.count));
+      // Stored in any case, kept if they overlap: a condition would be a branch for each lane.
+      memory[leaf ? QUEUE_STACK - 1u - leaves : waiting] = leaf ? leaf_pair : second;
+      leaves += overlap && leaf ? 1u : 0u;
+      waiting += overlap && !leaf ? 1u : 0u;
+      if (overlap && !leaf)
+      {
+        nodes = first;
+      }
+      else
+      {
+        walking = waiting > 0u;
+        waiting -= walking ? 1u : 0u;
+        nodes = memory[waiting];
+      }
+    }
+    if (inside)
+    {
+      report(root_pair.state, root_pair.pair, STATE_HIT);
+      walking = false;
+      waiting = 0u;
+    }
+    // A stack that is full by itself: its current pair waits for the next pass.
+    if (walking && waiting >= QUEUE_STACK)
+    {
+      spill(root_pair_index, nodes, root_pair.state);
+      --waiting;
+      nodes = memory[waiting];
+    }
+    uint at = atomicAdd(leaf_pair_count, leaves);
+    for (; leaves > 0u; --leaves)
+      leaf_pairs[at++] = uvec4(root_pair_index, memory[QUEUE_STACK - leaves], 0u);
+    if (walking || !exhausted)
+      busy = 1u;
+    barrier();
+    const uint count = leaf_pair_count;
+    const bool more = busy != 0u;
+    barrier();
+    const bool flush = count >= QUEUE_FLUSH || !more;
+    if (gl_LocalInvocationID.x == 0u)
+    {
+      busy = 0u;
+      if (flush)
+        leaf_pair_count = 0u;
+    }
+    iterations += 1u + (STEP_ITERATIONS + 2u) * QUEUE_STEPS + testLeafPairs(flush ? count : 0u);
+    running = more && iterations < LANE_ITERATIONS;
+    barrier();
+  }
+
+  // Only after too many iterations: hand on what is left.
+  testLeafPairs(leaf_pair_count);
+  if (walking)
+    spill(root_pair_index, nodes, root_pair.state);
+  for (; waiting > 0u; --waiting)
+    spill(root_pair_index, memory[waiting - 1u], root_pair.state);
+  // A device that ends lanes early is found out by this count.
+  atomicAdd(counters[COUNTER_LANES_ENDED], 1u);
+}

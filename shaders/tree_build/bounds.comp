@@ -1,0 +1,32 @@
+// One lane per primitive: bounds of the box centres of each mesh, as order-preserving integers.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "tree_build/cluster.glsl"
+layout(location = LOCATION_PRIMITIVE_COUNT) uniform uint primitive_count;
+layout(std430, binding = 0) readonly buffer Boxes { uvec4 boxes[]; };
+layout(std430, binding = 1) readonly buffer MeshOf { uint mesh_of[]; };
+layout(std430, binding = 2) buffer Bounds { uint bounds[]; };  // six a mesh: lowest ~x, ~y, ~z, highest x, y, z
+
+// Maps floats to unsigned integers of the same order (Herf 2001, "Radix Tricks").
+uint ordered(float value)
+{
+  const uint bits = floatBitsToUint(value);
+  return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+
+void main()
+{
+  const uint i = invocationIndex();
+  if (i >= primitive_count)
+    return;
+  const Cluster box = unpackCluster(boxes[2u * i], boxes[2u * i + 1u]);
+  const vec3 center = 0.5 * box.low + 0.5 * box.high;
+  const uint mesh = 6u * mesh_of[i];
+  for (uint axis = 0u; axis < 3u; ++axis)
+  {
+    // The complement turns a minimum into a maximum, so that a buffer of zeros is a good start for both.
+    atomicMax(bounds[mesh + axis], ~ordered(center[axis]));
+    atomicMax(bounds[mesh + 3u + axis], ordered(center[axis]));
+  }
+}

@@ -1,0 +1,36 @@
+// One lane per triangle: its box, rounded outward so that it holds the double-precision vertices that the floats were
+// rounded from. In: nine floats a triangle, metres in the mesh's frame. Out: two uvec4 a triangle (see cluster.glsl).
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "tree_build/cluster.glsl"
+layout(location = LOCATION_TRIANGLE_COUNT) uniform uint triangle_count;
+layout(std430, binding = 0) readonly buffer Vertices { float vertices[]; };
+layout(std430, binding = 1) writeonly buffer Boxes { uvec4 boxes[]; };
+
+vec3 vertex(uint triangle, uint corner)
+{
+  const uint at = triangle * 9u + corner * 3u;
+  return vec3(vertices[at], vertices[at + 1u], vertices[at + 2u]);
+}
+
+void main()
+{
+  const uint i = invocationIndex();
+  if (i >= triangle_count)
+    return;
+  const vec3 a = vertex(i, 0u);
+  const vec3 b = vertex(i, 1u);
+  const vec3 c = vertex(i, 2u);
+  const vec3 low = min(a, min(b, c));
+  const vec3 high = max(a, max(b, c));
+  // 2^-23 relative covers the conversion's half unit in the last place; 1e-37 covers what is flushed to zero.
+  Cluster box;
+  box.low = low - (abs(low) * 1.1920929e-7 + 1e-37);
+  box.high = high + (abs(high) * 1.1920929e-7 + 1e-37);
+  box.reference = i;
+  box.count = 1u;
+  box.opened = false;
+  boxes[2u * i] = packLow(box);
+  boxes[2u * i + 1u] = packHigh(box);
+}

@@ -1,0 +1,22 @@
+// One lane per CHUNK clusters: how many remain after the round's merges, and how many merge.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "tree_build/merge.glsl"
+layout(std430, binding = 4) writeonly buffer Sums { uvec2 sums[]; };
+
+void main()
+{
+  const uint lane = invocationIndex();
+  const uint cluster_count = rounds[round_index * ROUND_STRIDE + ROUND_CLUSTERS];
+  if (lane * CHUNK >= cluster_count)
+    return;
+  uvec2 sum = uvec2(0u);
+  const uint end = min((lane + 1u) * CHUNK, cluster_count);
+  for (uint i = lane * CHUNK; i < end; ++i)
+  {
+    const uint fate = fateOf(i);
+    sum += uvec2(fate == VANISHES ? 0u : 1u, fate == MERGES ? 1u : 0u);
+  }
+  sums[lane] = sum;
+}

@@ -1,0 +1,23 @@
+// One lane per pair that a round made; the rounds run from the last to the first, so parents come before children.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "tree_build/layout.glsl"
+layout(location = LOCATION_ROUND_INDEX) uniform uint round_index;
+layout(location = LOCATION_MESH_COUNT) uniform uint mesh_count;
+layout(std430, binding = 2) readonly buffer Rounds { uint rounds[]; };
+layout(std430, binding = 4) readonly buffer Pairs { uvec4 pairs[]; };
+
+void main()
+{
+  const uint i = invocationIndex();
+  if (i >= rounds[round_index * ROUND_STRIDE + ROUND_PAIRS])
+    return;
+  const uint pair = rounds[round_index * ROUND_STRIDE + ROUND_FIRST_PAIR] + i;
+  const uint first_pair_node = root_base + mesh_count;
+  const uint start = pair_starts[pair];
+  const Cluster left = unpackCluster(pairs[4u * pair], pairs[4u * pair + 1u]);
+  const Cluster right = unpackCluster(pairs[4u * pair + 2u], pairs[4u * pair + 3u]);
+  place(left, first_pair_node + 2u * pair, start, first_pair_node);
+  place(right, first_pair_node + 2u * pair + 1u, start + left.count, first_pair_node);
+}

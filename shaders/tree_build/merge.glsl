@@ -1,0 +1,16 @@
+// What happens to a cluster in a round: two that are each other's nearest merge at the place of the lower one.
+layout(location = LOCATION_ROUND_INDEX) uniform uint round_index;
+layout(std430, binding = 2) readonly buffer Rounds { uint rounds[]; };
+layout(std430, binding = 3) readonly buffer Nearest { uint nearest[]; };
+
+#define STAYS 0
+#define MERGES 1
+#define VANISHES 2
+
+uint fateOf(uint i)
+{
+  const uint j = nearest[i];
+  if (j == i || nearest[j] != i)
+    return STAYS;
+  return i < j ? MERGES : VANISHES;
+}

@@ -1,0 +1,49 @@
+// One lane per primitive: the Morton code of its box's centre within its mesh's bounds, 10 bits an axis
+// (Lauterbach et al. 2009, "Fast BVH Construction on GPUs").
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "tree_build/cluster.glsl"
+layout(location = LOCATION_PRIMITIVE_COUNT) uniform uint primitive_count;
+layout(std430, binding = 0) readonly buffer Boxes { uvec4 boxes[]; };
+layout(std430, binding = 1) readonly buffer MeshOf { uint mesh_of[]; };
+layout(std430, binding = 2) readonly buffer Bounds { uint bounds[]; };
+layout(std430, binding = 3) writeonly buffer Keys { uvec2 keys[]; };  // (Morton code, primitive)
+
+float unordered(uint key)
+{
+  return uintBitsToFloat((key & 0x80000000u) != 0u ? key & 0x7fffffffu : ~key);
+}
+
+// Puts two zero bits between the lowest ten bits.
+uint spread(uint x)
+{
+  x = (x | (x << 16u)) & 0x030000ffu;
+  x = (x | (x << 8u)) & 0x0300f00fu;
+  x = (x | (x << 4u)) & 0x030c30c3u;
+  x = (x | (x << 2u)) & 0x09249249u;
+  return x;
+}
+
+void main()
+{
+  const uint i = invocationIndex();
+  if (i >= primitive_count)
+    return;
+  const Cluster box = unpackCluster(boxes[2u * i], boxes[2u * i + 1u]);
+  const vec3 center = 0.5 * box.low + 0.5 * box.high;
+  const uint mesh = 6u * mesh_of[i];
+  vec3 low;
+  vec3 high;
+  for (uint axis = 0u; axis < 3u; ++axis)
+  {
+    low[axis] = unordered(~bounds[mesh + axis]);
+    high[axis] = unordered(bounds[mesh + 3u + axis]);
+  }
+  // One scale for all axes: cells are cubes, so that flat and long meshes are not cut more along their thin axes.
+  const vec3 extent = high - low;
+  const float size = max(extent.x, max(extent.y, extent.z));
+  const vec3 unit = size > 0.0 ? clamp((center - low) / size, 0.0, 1.0) : vec3(0.0);
+  const uvec3 cell = min(uvec3(unit * 1024.0), uvec3(1023u));
+  keys[i] = uvec2(spread(cell.x) | (spread(cell.y) << 1u) | (spread(cell.z) << 2u), i);
+}

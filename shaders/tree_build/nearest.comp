@@ -1,0 +1,47 @@
+// One lane per cluster: the neighbour within SEARCH_RADIUS places whose union with it has the smallest surface
+// (Meister and Bittner 2018, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction").
+// Ties go to the neighbour whose index differs in the lowest bits, so that equal boxes pair up instead of forming
+// chains. In the forced rounds neighbours pair up by parity, which bounds the depth.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "tree_build/cluster.glsl"
+layout(location = LOCATION_ROUND_INDEX) uniform uint round_index;
+layout(std430, binding = 0) readonly buffer Clusters { uvec4 clusters[]; };
+layout(std430, binding = 1) readonly buffer ClusterInfo { uvec2 cluster_info[]; };
+layout(std430, binding = 2) readonly buffer Rounds { uint rounds[]; };
+layout(std430, binding = 3) writeonly buffer Nearest { uint nearest[]; };
+
+void main()
+{
+  const uint i = invocationIndex();
+  const uint cluster_count = rounds[round_index * ROUND_STRIDE + ROUND_CLUSTERS];
+  if (i >= cluster_count)
+    return;
+  const uint mesh = cluster_info[i].x;
+  if (round_index >= NEAREST_ROUNDS)
+  {
+    const uint partner = ((i + round_index) & 1u) == 0u ? i + 1u : i - 1u;  // 0 - 1 wraps and is out of range
+    nearest[i] = partner < cluster_count && cluster_info[partner].x == mesh ? partner : i;
+    return;
+  }
+  const vec3 low = uintBitsToFloat(clusters[2u * i].xyz);
+  const vec3 high = uintBitsToFloat(clusters[2u * i + 1u].xyz);
+  const uint begin = i < SEARCH_RADIUS ? 0u : i - SEARCH_RADIUS;
+  const uint end = min(i + SEARCH_RADIUS + 1u, cluster_count);
+  uint best = i;
+  float best_area = 3.4e38;
+  for (uint j = begin; j < end; ++j)
+  {
+    const vec3 union_low = min(low, uintBitsToFloat(clusters[2u * j].xyz));
+    const vec3 union_high = max(high, uintBitsToFloat(clusters[2u * j + 1u].xyz));
+    const float area = halfArea(union_high - union_low);
+    const bool better = best == i || area < best_area || (area == best_area && (i ^ j) < (i ^ best));
+    if (j != i && cluster_info[j].x == mesh && better)
+    {
+      best = j;
+      best_area = area;
+    }
+  }
+  nearest[i] = best;
+}

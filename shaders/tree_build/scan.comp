@@ -1,0 +1,44 @@
+// One workgroup: exclusive prefix sums of a round's counts, the round's pairs, and the next round's record. When each
+// mesh is down to one cluster, the rounds that follow get zero workgroups.
+layout(local_size_x = 256) in;
+#include "common/invocation.glsl"
+layout(location = LOCATION_ROUND_INDEX) uniform uint round_index;
+layout(location = LOCATION_MESH_COUNT) uniform uint mesh_count;
+layout(std430, binding = 2) buffer Rounds { uint rounds[]; };
+layout(std430, binding = 4) buffer Sums { uvec2 sums[]; };
+
+#define SCAN_TYPE uvec2
+#define SCAN_VALUES sums
+#include "common/prefix_sum.glsl"
+
+void setGroups(uint at, uint lanes)
+{
+  const uint groups = (lanes + GROUP_SIZE - 1u) / GROUP_SIZE;
+  const uint rows = (groups + 65534u) / 65535u;
+  rounds[at] = rows == 0u ? 0u : (groups + rows - 1u) / rows;
+  rounds[at + 1u] = rows;
+  rounds[at + 2u] = 1u;
+}
+
+void main()
+{
+  const uint now = round_index * ROUND_STRIDE;
+  const uint next = now + ROUND_STRIDE;
+  const uint cluster_count = rounds[now + ROUND_CLUSTERS];
+  const bool done = cluster_count == mesh_count;
+  const uvec2 total = scanInPlace(done ? 0u : (cluster_count + CHUNK - 1u) / CHUNK);
+  if (gl_LocalInvocationID.x == 0u)
+  {
+    const uint remaining = done ? cluster_count : total.x;
+    rounds[now + ROUND_PAIRS] = total.y;
+    setGroups(now + ROUND_PAIR_GROUPS, total.y);
+    rounds[next + ROUND_CLUSTERS] = remaining;
+    rounds[next + ROUND_FIRST_PAIR] = rounds[now + ROUND_FIRST_PAIR] + total.y;
+    const uint lanes = remaining == mesh_count ? 0u : remaining;
+    setGroups(next + ROUND_CLUSTER_GROUPS, lanes);
+    setGroups(next + ROUND_CHUNK_GROUPS, (lanes + CHUNK - 1u) / CHUNK);
+    // Unchanged clusters stay where they are, so what is last written is what the last round that ran wrote.
+    if (!done && remaining == mesh_count)
+      rounds[BUILD_ROUNDS * ROUND_STRIDE + ROUND_PAIRS] = (round_index + 1u) & 1u;
+  }
+}

@@ -1,0 +1,22 @@
+// Radix sort, step 1 of 3: one lane per CHUNK keys counts their digits. The digit is of the key, or of the key's mesh.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "tree_build/sort_digit.glsl"
+layout(std430, binding = 4) writeonly buffer Counts { uint counts[]; };  // [digit][lane]
+
+void main()
+{
+  const uint lane = invocationIndex();
+  const uint lanes = (key_count + CHUNK - 1u) / CHUNK;
+  if (lane >= lanes)
+    return;
+  uint count[RADIX_SIZE];
+  for (uint d = 0u; d < RADIX_SIZE; ++d)
+    count[d] = 0u;
+  const uint end = min((lane + 1u) * CHUNK, key_count);
+  for (uint i = lane * CHUNK; i < end; ++i)
+    ++count[digitOf(keys_in[i])];
+  for (uint d = 0u; d < RADIX_SIZE; ++d)
+    counts[d * lanes + lane] = count[d];
+}

@@ -1,0 +1,12 @@
+// The digit that a pass of the radix sort looks at (least significant first; Knuth, TAOCP 3, 5.2.5).
+layout(location = LOCATION_KEY_COUNT) uniform uint key_count;
+layout(location = LOCATION_SHIFT) uniform uint shift;
+layout(location = LOCATION_BY_MESH) uniform uint by_mesh;  // 1: sort by the primitive's mesh instead of the key
+layout(std430, binding = 0) readonly buffer KeysIn { uvec2 keys_in[]; };
+layout(std430, binding = 1) readonly buffer MeshOf { uint mesh_of[]; };
+
+uint digitOf(uvec2 key)
+{
+  const uint value = by_mesh != 0u ? mesh_of[key.y] : key.x;
+  return (value >> shift) & (RADIX_SIZE - 1u);
+}

@@ -1,0 +1,14 @@
+// Radix sort, step 2 of 3: exclusive prefix sums of the counts, in place, by one workgroup.
+layout(local_size_x = 256) in;
+#include "common/invocation.glsl"
+layout(location = LOCATION_VALUE_COUNT) uniform uint value_count;
+layout(std430, binding = 4) buffer Counts { uint counts[]; };
+
+#define SCAN_TYPE uint
+#define SCAN_VALUES counts
+#include "common/prefix_sum.glsl"
+
+void main()
+{
+  scanInPlace(value_count);
+}

@@ -1,0 +1,24 @@
+// Radix sort, step 3 of 3: each lane moves its CHUNK keys, in order, so that the sort is stable.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "tree_build/sort_digit.glsl"
+layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = 5) writeonly buffer KeysOut { uvec2 keys_out[]; };
+
+void main()
+{
+  const uint lane = invocationIndex();
+  const uint lanes = (key_count + CHUNK - 1u) / CHUNK;
+  if (lane >= lanes)
+    return;
+  uint next[RADIX_SIZE];
+  for (uint d = 0u; d < RADIX_SIZE; ++d)
+    next[d] = counts[d * lanes + lane];
+  const uint end = min((lane + 1u) * CHUNK, key_count);
+  for (uint i = lane * CHUNK; i < end; ++i)
+  {
+    const uvec2 key = keys_in[i];
+    keys_out[next[digitOf(key)]++] = key;
+  }
+}

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+namespace gpu_planning_scene::core
+{
+/// Adapts how many states are checked in one batch, so that a batch takes about a wanted time: a device must not be
+/// kept busy for long, and a call can be stopped between two batches.
+class BatchSize
+{
+ public:
+  struct Limits
+  {
+    double seconds;         ///< wanted for a batch
+    std::size_t first;      ///< states of the first batch, whose time is not known
+    std::size_t least = 1;  ///< states
+    std::size_t most;       ///< states, at least 1
+  };
+
+  explicit BatchSize(const Limits& limits)
+    : limits_(limits), capacity_(limits.most), size_(std::min(limits.first, limits.most))
+  {
+  }
+
+  std::size_t size() const { return size_; }
+
+  /// Changes Limits::most.
+  void setMost(std::size_t most)
+  {
+    limits_.most = capacity_ = most;
+    size_ = std::min(size_, capacity_);
+  }
+
+  /// A batch of `count` states took `seconds`.
+  void took(std::size_t count, double seconds)
+  {
+    // Later batches may be quite unlike one that was too large.
+    if (++good_batches_ >= kBatchesToForget)
+    {
+      capacity_ = std::min(limits_.most, 2 * capacity_);
+      good_batches_ = 0;
+    }
+    const double wanted = static_cast<double>(count) * limits_.seconds / std::max(seconds, 1e-6);
+    if (wanted < static_cast<double>(size_))
+      size_ = std::min(capacity_, std::max(limits_.least, static_cast<std::size_t>(wanted)));
+    else if (count == size_ && wanted >= 2.0 * static_cast<double>(count))
+      size_ = std::min(capacity_, 2 * size_);
+  }
+
+  /// A batch of `count` states did not fit a device's lists. The next batches are likely to be like it.
+  void tooLarge(std::size_t count)
+  {
+    capacity_ = std::max<std::size_t>(1, std::min(capacity_, (count + 1) / 2));
+    size_ = std::min(size_, capacity_);
+    good_batches_ = 0;
+  }
+
+ private:
+  static constexpr int kBatchesToForget = 8;
+
+  Limits limits_;
+  std::size_t capacity_;  // less than Limits::most after a batch was too large
+  std::size_t size_;      // at most capacity_
+  int good_batches_ = 0;
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,70 @@
+#include "collision/bounds/problem_maker.h"
+
+#include <utility>
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+std::vector<bool> movedLinks(const RobotModel& robot, const std::string& group)
+{
+  std::vector<bool> moved(robot.links().size(), group.empty());
+  if (!group.empty())
+    for (const int link : robot.group(group).moved_links)
+      moved[static_cast<std::size_t>(link)] = true;
+  return moved;
+}
+}  // namespace
+
+ProblemMaker::ProblemMaker(const CheckerOptions& options) : options_(options)
+{
+  validateTolerance(options.tolerance);
+}
+
+CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::string& group, SceneReport* report)
+{
+  validator_.validate(scene);
+  SceneReport counts;
+  const std::vector<RobotBody> bodies = robotBodies(scene);
+  CheckedPairs pairs = findCheckedPairs(scene, bodies, movedLinks(*scene.robot, group), counts);
+  std::vector<VariableRange> ranges;
+  if (options_.reductions.reach)
+    ranges = reducer_.leaveOutUnreachable(scene, bodies, pairs, counts);
+  if (options_.reductions.unmoved_pairs)
+  {
+    const CheckedPairs fixed = RigidPairs::take(*scene.robot, bodies, pairs);
+    const std::size_t self = countMoved(fixed.self);
+    const std::size_t world = countMoved(fixed.world);
+    counts.self_pairs -= self;
+    counts.world_pairs -= world;
+    counts.settled_pairs = self + world;
+    counts.always_colliding = fixed_pairs_.firstCollision(scene, bodies, fixed);
+  }
+
+  CollisionProblem problem = problemOf(scene, bodies, pairs, options_.reductions.shared_trees, tessellations_);
+  problem.direct_primitives = options_.reductions.direct_primitives;
+  problem.tolerance = options_.tolerance;
+  problem.always_colliding = counts.always_colliding;
+  problem.ranges = std::move(ranges);
+  counts.trees = problem.trees.size();
+  counts.shared_trees = problem.robot.size() + problem.world.size() - problem.trees.size();
+  for (const Tessellation& tree : problem.trees)
+    counts.triangles += tree.mesh->triangles.size();
+  if (report != nullptr)
+    *report = counts;
+  return problem;
+}
+
+CheckerOptions optionsWithAllPairs()
+{
+  CheckerOptions options;
+  options.reductions.reach = false;
+  options.reductions.unmoved_pairs = false;
+  return options;
+}
+
+CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report)
+{
+  return ProblemMaker(optionsWithAllPairs()).make(scene, group, report);
+}
+}  // namespace gpu_planning_scene::core

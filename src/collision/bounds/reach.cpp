@@ -1,0 +1,317 @@
+#include "collision/bounds/reach.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/geometry/shape_bounds.h"
+#include "scene/rigid_pose.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::AlignedBox3d;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979323846;
+
+// What is measured on a robot that holds a position at its limit may be a little outside of it.
+constexpr double kLimitSlack = 1e-3;  // radians or metres
+
+// More than the exact checker's slack of 1e-9 m and what kinematics in double lose within a kilometre, 1e-11 m.
+constexpr double kMargin = 1e-6;  // metres
+
+// Beyond these a double's steps are too coarse for the margin: no bound, or the whole circle.
+constexpr double kFarthest = 1e6;        // metres
+constexpr double kLargestAngle = 100.0;  // radians
+
+// A joint's step is some dozens of operations, each of which is right to 2^-53 of the coordinates that go in.
+constexpr double kRounding = 1e-12;  // of the distance from the origin and the radius, of balls and boxes
+
+// More balls and parts make tighter bounds, and cost time when a robot is loaded.
+constexpr std::size_t kMostBalls = 48;  // in a region
+constexpr int kMostParts = 12;          // of a joint's interval, for each ball
+constexpr int kMostPieces = 6;          // along an edge of a shape's box
+// Bounds of longer chains are too wide to tell anything.
+constexpr int kMostMovingJoints = 16;
+
+Ball rounded(const Vector3d& center, double radius)
+{
+  return {center, radius + kRounding * (center.norm() + radius)};
+}
+
+Ball enclosing(const Ball* begin, const Ball* end)
+{
+  AlignedBox3d centers;
+  for (const Ball* ball = begin; ball != end; ++ball)
+    centers.extend(ball->center);
+  const Vector3d middle = centers.center();
+  double radius = 0.0;
+  for (const Ball* ball = begin; ball != end; ++ball)
+    radius = std::max(radius, (ball->center - middle).norm() + ball->radius);
+  return rounded(middle, radius);
+}
+
+/// Halves a set of balls at the median of its longer side until `most` are left, each of which holds those of its part.
+void cluster(Ball* begin, Ball* end, std::size_t most, std::vector<Ball>& result)
+{
+  const auto count = static_cast<std::size_t>(end - begin);
+  if (count <= most)
+  {
+    result.insert(result.end(), begin, end);
+    return;
+  }
+  if (most == 1)
+  {
+    result.push_back(enclosing(begin, end));
+    return;
+  }
+  AlignedBox3d centers;
+  for (const Ball* ball = begin; ball != end; ++ball)
+    centers.extend(ball->center);
+  int axis;
+  centers.sizes().maxCoeff(&axis);
+  Ball* const middle = begin + count / 2;
+  std::nth_element(begin, middle, end,
+                   [axis](const Ball& a, const Ball& b) { return a.center[axis] < b.center[axis]; });
+  cluster(begin, middle, most / 2, result);
+  cluster(middle, end, most - most / 2, result);
+}
+
+Region regionOf(std::vector<Ball> balls)
+{
+  Region region;
+  cluster(balls.data(), balls.data() + balls.size(), kMostBalls, region.balls);
+  region.all = enclosing(region.balls.data(), region.balls.data() + region.balls.size());
+  return region;
+}
+
+/// Cuts a box into pieces that are about as long as wide, and puts a ball around each.
+void cover(const AlignedBox3d& box, const Isometry3d& pose, std::vector<Ball>& balls)
+{
+  const double edge = std::max(box.sizes().minCoeff(), box.sizes().maxCoeff() / kMostPieces);
+  Eigen::Array3i pieces = Eigen::Array3i::Ones();
+  for (int i = 0; i < 3 && edge > 0.0; ++i)
+    pieces[i] = std::clamp(static_cast<int>(std::ceil(box.sizes()[i] / edge)), 1, kMostPieces);
+  const Vector3d size = box.sizes().array() / pieces.cast<double>();
+  for (int x = 0; x < pieces.x(); ++x)
+    for (int y = 0; y < pieces.y(); ++y)
+      for (int z = 0; z < pieces.z(); ++z)
+      {
+        const Vector3d center = box.min().array() + (Eigen::Array3d(x, y, z) + 0.5) * size.array();
+        const Ball piece = rounded(center, 0.5 * size.norm());
+        balls.push_back(rounded(pose * piece.center, piece.radius));
+      }
+}
+
+/// How many parts an interval that moves a ball's centre by `travel` either way is worth.
+int partsFor(double travel, double radius)
+{
+  return std::clamp(static_cast<int>(std::ceil(travel / std::max(0.5 * radius, 0.02))), 1, kMostParts);
+}
+
+/// The ball while it turns about an axis through the origin by angles, none of which is large, from `lower` to `upper`.
+/// A part of the arc of its centre, of half angle h < pi / 2 and radius rho, lies in the ball around the middle of its
+/// chord with radius rho sin h: at an angle f from the middle, the squared distance 1 - 2 cos f cos h + cos^2 h (in
+/// rho^2) is largest at the ends, where it is sin^2 h, as at the middle it is (1 - cos h)^2, no more.
+void turn(const Ball& ball, const Vector3d& axis, double lower, double upper, std::vector<Ball>& result)
+{
+  const Vector3d along = axis.dot(ball.center) * axis;
+  const Vector3d radial = ball.center - along;
+  const double arm = radial.norm();
+  const int parts = partsFor(0.5 * (upper - lower) * arm, ball.radius);
+  const double half = 0.5 * (upper - lower) / parts;
+  if (half >= 0.5 * kPi)
+  {
+    result.push_back(rounded(along, ball.radius + arm));
+    return;
+  }
+  const Vector3d sideways = axis.cross(radial);
+  for (int part = 0; part < parts; ++part)
+  {
+    const double angle = lower + (2 * part + 1) * half;
+    const Vector3d direction = std::cos(angle) * radial + std::sin(angle) * sideways;
+    result.push_back(rounded(along + std::cos(half) * direction, ball.radius + std::sin(half) * arm));
+  }
+}
+
+void slide(const Ball& ball, const Vector3d& axis, double lower, double upper, std::vector<Ball>& result)
+{
+  const int parts = partsFor(0.5 * (upper - lower), ball.radius);
+  const double half = 0.5 * (upper - lower) / parts;
+  for (int part = 0; part < parts; ++part)
+    result.push_back(rounded(ball.center + (lower + (2 * part + 1) * half) * axis, ball.radius + half));
+}
+
+// What is not a number is near everything.
+bool near(const Ball& a, const Ball& b, double distance)
+{
+  return !((a.center - b.center).norm() > a.radius + b.radius + distance + kMargin);
+}
+
+bool near(const Ball& ball, const Obstacle& obstacle, double distance)
+{
+  const double reach = ball.radius + distance + kMargin;
+  if (const auto* half_space = std::get_if<HalfSpace>(&obstacle))
+    return !(half_space->normal.dot(ball.center) - half_space->offset > reach);
+  const PlacedBox& box = std::get<PlacedBox>(obstacle);
+  const Vector3d from_box = ball.center - box.pose.translation();
+  const double most = reach + box.radius + box.rounding;
+  if (from_box.squaredNorm() > most * most)
+    return false;
+  const Vector3d center = box.pose.linear().transpose() * from_box;
+  return !((center.cwiseAbs() - box.half).cwiseMax(0.0).norm() > reach + box.rounding);
+}
+
+/// Whether the numbers of a region are small enough for its margins; not where one is not a number.
+bool isBound(const Region& region)
+{
+  return region.all.center.norm() + region.all.radius <= kFarthest;
+}
+}  // namespace
+
+PlacedBox::PlacedBox(const Isometry3d& pose_of_center, const Vector3d& half_lengths)
+  : pose(pose_of_center),
+    half(half_lengths),
+    radius(half_lengths.norm()),
+    rounding(kRounding * (pose_of_center.translation().norm() + radius))
+{
+}
+
+std::vector<VariableRange> limitRanges(const RobotModel& robot)
+{
+  std::vector<VariableRange> ranges;
+  for (const Link& link : robot.links())
+  {
+    if (link.parent_joint < 0)
+      continue;
+    const Joint& joint = robot.joints()[static_cast<std::size_t>(link.parent_joint)];
+    if (joint.type != JointType::Revolute && joint.type != JointType::Prismatic)
+      continue;
+    const Variable& variable = robot.variables()[static_cast<std::size_t>(joint.first_variable)];
+    if (variable.bounded)
+      ranges.push_back({joint.first_variable, variable.lower - kLimitSlack, variable.upper + kLimitSlack});
+  }
+  return ranges;
+}
+
+Reach::Reach(const RobotModel& robot) : ranges_(limitRanges(robot))
+{
+  for (const Variable& variable : robot.variables())
+    intervals_.push_back(variable.bounded
+                             ? std::make_optional(Interval{variable.lower - kLimitSlack, variable.upper + kLimitSlack})
+                             : std::nullopt);
+  for (const Link& link : robot.links())
+  {
+    const Joint joint = link.parent_joint < 0 ? Joint() : robot.joints()[static_cast<std::size_t>(link.parent_joint)];
+    depths_.push_back(depth(joint.parent_link) + 1);
+    parent_joints_.push_back(joint);
+  }
+}
+
+int Reach::parent(int link) const
+{
+  return parent_joints_[static_cast<std::size_t>(link)].parent_link;
+}
+
+/// A continuous joint turns all the way round, whatever limits there are; one that mimics another has the other's. A
+/// circle whose ends differ from pi by rounding is closed: balls are larger by more than that.
+std::optional<Reach::Interval> Reach::positions(const Joint& joint) const
+{
+  const Interval circle = {-kPi, kPi};
+  const bool turns = joint.type != JointType::Prismatic;
+  if (joint.type == JointType::Continuous)
+    return circle;
+  const std::optional<Interval>& variable = intervals_[static_cast<std::size_t>(joint.first_variable)];
+  if (!variable)
+    return turns ? std::make_optional(circle) : std::nullopt;
+  const double ends[2] = {joint.multiplier * variable->lower + joint.offset,
+                          joint.multiplier * variable->upper + joint.offset};
+  const double largest = turns ? kLargestAngle : kFarthest;
+  if (!(std::abs(ends[0]) <= largest && std::abs(ends[1]) <= largest))
+    return turns ? std::make_optional(circle) : std::nullopt;
+  const Interval interval = {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+  return turns && interval.upper - interval.lower >= 2.0 * kPi ? circle : interval;
+}
+
+/// From the frame of the joint's child to that of its parent. No value: no bound.
+std::optional<Region> Reach::swept(const Region& region, const Joint& joint) const
+{
+  if (joint.type == JointType::Planar || joint.type == JointType::Floating)
+    return std::nullopt;
+  std::vector<Ball> balls;
+  if (joint.type == JointType::Fixed)
+    balls = region.balls;
+  else
+  {
+    const std::optional<Interval> interval = positions(joint);
+    if (!interval)
+      return std::nullopt;
+    const auto move = joint.type == JointType::Prismatic ? slide : turn;
+    for (const Ball& ball : region.balls)
+      move(ball, joint.axis, interval->lower, interval->upper, balls);
+  }
+  for (Ball& ball : balls)
+    ball = rounded(joint.origin * ball.center, ball.radius);
+  return regionOf(std::move(balls));
+}
+
+SweptBody Reach::sweep(const std::vector<PlacedShape>& shapes, const Isometry3d& pose, int link) const
+{
+  std::vector<Ball> balls;
+  for (const PlacedShape& placed : shapes)
+    cover(boundsOf(placed.shape), rigidProduct(pose, placed.pose), balls);
+  SweptBody body{link, {regionOf(std::move(balls))}};
+  if (!isBound(body.above.front()))
+    body.above.clear();
+  int moving_joints = 0;
+  for (int at = link; at >= 0 && !body.above.empty(); at = parent(at))
+  {
+    const Joint& joint = parent_joints_[static_cast<std::size_t>(at)];
+    moving_joints += joint.type == JointType::Fixed ? 0 : 1;
+    std::optional<Region> above = moving_joints > kMostMovingJoints ? std::nullopt : swept(body.above.back(), joint);
+    if (!above || !isBound(*above))
+      break;
+    body.above.push_back(std::move(*above));
+  }
+  return body;
+}
+
+const Region* Reach::inPlanningFrame(const SweptBody& body) const
+{
+  const auto above = static_cast<std::size_t>(depth(body.link)) + 1;
+  return above < body.above.size() ? &body.above[above] : nullptr;
+}
+
+/// In the frame of the last link above both; no variable moves both of them against it but a mimic's, which only makes
+/// the bounds wider than they need be.
+bool Reach::mayMeet(const SweptBody& a, const SweptBody& b, double distance) const
+{
+  int link_a = a.link;
+  int link_b = b.link;
+  while (link_a != link_b)
+    (depth(link_a) >= depth(link_b) ? link_a : link_b) = parent(depth(link_a) >= depth(link_b) ? link_a : link_b);
+  const auto above_a = static_cast<std::size_t>(depth(a.link) - depth(link_a));
+  const auto above_b = static_cast<std::size_t>(depth(b.link) - depth(link_b));
+  if (above_a >= a.above.size() || above_b >= b.above.size())
+    return true;
+  const Region& region_a = a.above[above_a];
+  const Region& region_b = b.above[above_b];
+  if (!near(region_a.all, region_b.all, distance))
+    return false;
+  for (const Ball& ball_a : region_a.balls)
+    if (near(ball_a, region_b.all, distance))
+      for (const Ball& ball_b : region_b.balls)
+        if (near(ball_a, ball_b, distance))
+          return true;
+  return false;
+}
+
+bool mayMeet(const Region& region, const Obstacle& obstacle, double distance)
+{
+  return near(region.all, obstacle, distance) && std::any_of(
+                                                     region.balls.begin(), region.balls.end(),
+                                                     [&](const Ball& ball) { return near(ball, obstacle, distance); });
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace gpu_planning_scene::core
+{
+/// Whether two bodies may come near each other, as far as that was asked.
+enum class Near : std::uint8_t
+{
+  Unknown,
+  Never,
+  Perhaps
+};
+
+/// What is known of each pair of a row's and a column's body.
+class ReachabilityCache
+{
+ public:
+  /// Keeps what is known of the rows and columns that were there before and still are.
+  void resize(std::size_t rows, std::size_t columns)
+  {
+    if (columns != columns_)
+    {
+      std::vector<Near> wider(rows * columns, Near::Unknown);
+      for (std::size_t row = 0; row < std::min(rows, rows_); ++row)
+        std::copy_n(cells_.begin() + offset(row, columns_), std::min(columns, columns_),
+                    wider.begin() + offset(row, columns));
+      cells_ = std::move(wider);
+    }
+    cells_.resize(rows * columns, Near::Unknown);
+    rows_ = rows;
+    columns_ = columns;
+  }
+
+  void clear() { std::fill(cells_.begin(), cells_.end(), Near::Unknown); }
+  void forgetRow(std::size_t row) { std::fill_n(cells_.begin() + offset(row, columns_), columns_, Near::Unknown); }
+  void forgetColumn(std::size_t column)
+  {
+    for (std::size_t row = 0; row < rows_; ++row)
+      cells_[row * columns_ + column] = Near::Unknown;
+  }
+
+  /// What `ask` says, which is asked once.
+  template <class Ask>
+  bool perhaps(std::size_t row, std::size_t column, const Ask& ask)
+  {
+    Near& cell = cells_[row * columns_ + column];
+    if (cell == Near::Unknown)
+      cell = ask() ? Near::Perhaps : Near::Never;
+    return cell == Near::Perhaps;
+  }
+
+ private:
+  static std::ptrdiff_t offset(std::size_t row, std::size_t columns)
+  {
+    return static_cast<std::ptrdiff_t>(row * columns);
+  }
+
+  std::vector<Near> cells_;
+  std::size_t rows_ = 0;
+  std::size_t columns_ = 0;
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,105 @@
+#include "collision/bounds/rigid_pairs.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// The uppermost link that this one is fixed to; -1: the planning frame.
+int anchorOf(const RobotModel& robot, int link)
+{
+  for (;;)
+  {
+    const int joint = robot.links()[static_cast<std::size_t>(link)].parent_joint;
+    if (joint < 0)
+      return -1;
+    if (robot.joints()[static_cast<std::size_t>(joint)].type != JointType::Fixed)
+      return link;
+    link = robot.joints()[static_cast<std::size_t>(joint)].parent_link;
+    if (link < 0)
+      return -1;
+  }
+}
+
+/// Of each link in the frame of its anchor. Two links of one anchor are as far from each other as in any state, without
+/// the rounding of where the anchor is.
+std::vector<Eigen::Isometry3d> posesInAnchors(const RobotModel& robot)
+{
+  std::vector<Eigen::Isometry3d> poses;
+  for (const Link& link : robot.links())
+  {
+    const Joint* joint = link.parent_joint < 0 ? nullptr : &robot.joints()[static_cast<std::size_t>(link.parent_joint)];
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    if (joint != nullptr && joint->type == JointType::Fixed)
+      pose =
+          joint->parent_link < 0 ? joint->origin : poses[static_cast<std::size_t>(joint->parent_link)] * joint->origin;
+    poses.push_back(pose);
+  }
+  return poses;
+}
+}  // namespace
+
+CheckedPairs RigidPairs::take(const RobotModel& robot, const std::vector<RobotBody>& bodies, CheckedPairs& pairs)
+{
+  std::vector<int> anchors;
+  for (const RobotBody& body : bodies)
+    anchors.push_back(anchorOf(robot, body.link));
+  CheckedPairs fixed;
+  takePairs(
+      pairs.self, fixed.self, [&](const CheckedPair& pair) { return anchors[pair.body] == anchors[pair.other]; });
+  takePairs(pairs.world, fixed.world, [&](const CheckedPair& pair) { return anchors[pair.body] == -1; });
+  return fixed;
+}
+
+std::unique_ptr<const CpuTraversal> RigidPairs::traversalOf(const PlanningScene& scene,
+                                                            const std::vector<RobotBody>& bodies,
+                                                            const CheckedPairs& pairs, ForestCache& forest)
+{
+  return forest.traversalOf(
+      std::make_shared<const CollisionProblem>(problemOf(scene, bodies, pairs, true, tessellations_)));
+}
+
+/// The relative pose of such a pair is the same in all states, but for rounding: the contract leaves open what becomes
+/// of a distance that this could move across the required one, as it is within the checker's slack.
+std::optional<BodyPair> RigidPairs::firstCollision(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
+                                                   CheckedPairs fixed)
+{
+  if (robot_ != scene.robot)
+  {
+    links_collide_.clear();
+    robot_ = scene.robot;
+  }
+  const auto of_links = [&](const CheckedPair& pair)
+  { return !bodies[pair.body].attached && !bodies[pair.other].attached; };
+  const auto names = [&](const CheckedPair& pair) { return BodyPair{bodies[pair.body].body, bodies[pair.other].body}; };
+  const auto not_moved = [](const CheckedPair& pair) { return !pair.moved; };
+  std::vector<CheckedPair> left_out;
+  takePairs(fixed.self, left_out, not_moved);
+  takePairs(fixed.world, left_out, not_moved);
+  std::vector<CheckedPair> links;
+  takePairs(fixed.self, links, of_links);
+
+  CheckedPairs unknown;
+  std::copy_if(links.begin(), links.end(), std::back_inserter(unknown.self),
+               [&](const CheckedPair& pair) { return links_collide_.count(names(pair)) == 0; });
+  const std::vector<Eigen::Isometry3d> poses = posesInAnchors(*scene.robot);
+  if (!unknown.self.empty())
+  {
+    ForestCache forest;
+    CpuTraversal::Scratch scratch;
+    const std::vector<BodyPair> found =
+        traversalOf(scene, bodies, unknown, forest)->allCollisions(poses.data(), scratch);
+    for (const CheckedPair& pair : unknown.self)
+      links_collide_[names(pair)] = std::find(found.begin(), found.end(), names(pair)) != found.end();
+  }
+  for (const CheckedPair& pair : links)
+    if (links_collide_[names(pair)])
+      return names(pair);
+  if (fixed.self.empty() && fixed.world.empty())
+    return std::nullopt;
+  CpuTraversal::Scratch scratch;
+  return traversalOf(scene, bodies, fixed, forest_)->firstCollision(poses.data(), scratch);
+}
+}  // namespace gpu_planning_scene::core

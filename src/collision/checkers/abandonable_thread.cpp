@@ -1,0 +1,91 @@
+#include "collision/checkers/abandonable_thread.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+namespace gpu_planning_scene::core
+{
+struct AbandonableThread::Queue
+{
+  void serve()
+  {
+    std::unique_lock<std::mutex> lock(mutex);
+    while (true)
+    {
+      wake.wait(lock, [this] { return stopping || job; });
+      if (!job)
+        return;
+      std::function<void()> taken = std::exchange(job, nullptr);
+      lock.unlock();
+      std::exception_ptr thrown;
+      try
+      {
+        taken();
+      }
+      catch (...)
+      {
+        thrown = std::current_exception();
+      }
+      taken = nullptr;  // what it holds ends here, on this thread, before the next job
+      lock.lock();
+      error = std::move(thrown);  // the caller's alone
+      done = true;
+      ended.notify_one();
+    }
+  }
+
+  std::mutex mutex;  // of all below but the thread
+  std::condition_variable wake;
+  std::condition_variable ended;
+  std::function<void()> job;  // that waits; each is waited for, so there is never a second one
+  bool done = false;          // the last job
+  std::exception_ptr error;   // that it threw
+  bool stopping = false;
+  std::thread thread;
+};
+
+AbandonableThread::AbandonableThread() : queue_(std::make_shared<Queue>())
+{
+  queue_->thread = std::thread([queue = queue_] { queue->serve(); });
+}
+
+AbandonableThread::~AbandonableThread()
+{
+  if (givenUp())
+    return;
+  {
+    const std::lock_guard<std::mutex> lock(queue_->mutex);
+    queue_->stopping = true;
+  }
+  queue_->wake.notify_one();
+  queue_->thread.join();
+}
+
+bool AbandonableThread::run(std::function<void()> job, double seconds)
+{
+  if (givenUp())
+    throw std::logic_error("a job for a thread that was given up");
+  std::unique_lock<std::mutex> lock(queue_->mutex);
+  queue_->job = std::move(job);
+  queue_->done = false;
+  queue_->wake.notify_one();
+  if (!queue_->ended.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return queue_->done; }))
+  {
+    queue_->stopping = true;  // should the job end after all
+    lock.unlock();
+    queue_->thread.detach();
+    queue_.reset();
+    return false;
+  }
+  const std::exception_ptr error = std::exchange(queue_->error, nullptr);
+  lock.unlock();
+  if (error)
+    std::rethrow_exception(error);
+  return true;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,259 @@
+#include "gpu_planning_scene/batch_checker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "collision/checkers/break_even.h"
+#include "collision/checkers/cpu_scene.h"
+#include "collision/gpu/gpu_checker.h"
+#include "collision/problem/state_validation.h"
+#include "model/seconds_since.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+// Scenes that change often must not spend their time on measuring: a group's threshold is kept from scene to scene
+// until this many times the time that measuring it took has passed.
+constexpr double kMeasuringPause = 50.0;
+
+// A sample of fewer of the caller's states would not tell what they are like.
+constexpr std::size_t kEnough = 256;
+
+}  // namespace
+
+struct BatchChecker::Impl
+{
+  /// From how many states on a group's batches go to the GPU.
+  struct Threshold
+  {
+    std::size_t states;
+    std::weak_ptr<const PlanningScene> scene;  // for which it was measured
+    Clock::time_point keep_until;
+    bool by_own_states;  // measured with states of the caller's, not with random ones
+  };
+
+  explicit Impl(const BatchCheckerOptions& options)
+    : fixed_threshold(options.cpu_below), on_cpu(options), engine(options, on_cpu.trees())
+  {
+  }
+
+  std::size_t width() const { return on_cpu.scene()->robot->variables().size(); }
+  void checkOnGpu(const double* states, std::size_t count, const std::string& group, BatchResult& result,
+                  const Margins* margins = nullptr);
+  void check(const double* states, std::size_t count, const std::string& group, BatchResult& result);
+  void checkAround(const double* states, std::size_t count, const std::string& group, const Margins& margins,
+                   BatchResult& result);
+  std::size_t threshold(const std::string& group, const double* states, std::size_t count);
+  std::size_t measure(const std::string& group, const double* states, std::size_t count);
+
+  std::mutex mutex;
+  std::optional<std::size_t> fixed_threshold;
+  CpuScene on_cpu;
+  GpuChecker engine;
+  GpuWork work;                               // of the last batch
+  std::optional<std::string> selected_group;  // whose pairs the engine has now
+  std::map<std::string, Threshold> thresholds;
+};
+
+/// States that the group's problem holds for.
+void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, const std::string& group,
+                                    BatchResult& result, const Margins* margins)
+{
+  if (selected_group != group)
+  {
+    const auto& problem = on_cpu.problem(group);
+    selected_group.reset();  // for as long as it is not known which pairs the engine has
+    engine.selectPairs(problem);
+    selected_group = group;
+  }
+  engine.check(states, count, result, margins);
+  work = engine.lastWork();
+}
+
+/// Splits off the states that the group's problem does not hold for, which only the CPU can answer.
+void BatchChecker::Impl::check(const double* states, std::size_t count, const std::string& group, BatchResult& result)
+{
+  const CollisionProblem& problem = *on_cpu.problem(group);
+  if (count == 0 || problem.always_colliding)
+    return on_cpu.check(states, count, group, result);
+  if (count < threshold(group, states, count))
+    return on_cpu.check(states, count, group, result);
+  std::vector<std::size_t> rows[2];  // for the GPU, for the CPU
+  for (std::size_t i = 0; i < count; ++i)
+    rows[holdsFor(problem, states + i * width()) ? 0 : 1].push_back(i);
+  if (rows[1].empty())
+    return checkOnGpu(states, count, group, result);
+  result.valid.resize(count);
+  result.colliding.resize(count);
+  for (const auto& part : rows)
+  {
+    std::vector<double> values;
+    for (const std::size_t row : part)
+      values.insert(values.end(), states + row * width(), states + (row + 1) * width());
+    BatchResult answers;
+    if (&part == rows)
+      checkOnGpu(values.data(), part.size(), group, answers);
+    else
+      on_cpu.check(values.data(), part.size(), group, answers);
+    result.undecided_states += answers.undecided_states;
+    result.undecided_seconds += answers.undecided_seconds;
+    for (std::size_t i = 0; i < part.size(); ++i)
+    {
+      result.valid[part[i]] = answers.valid[i];
+      result.colliding[part[i]] = answers.colliding[i];
+    }
+  }
+}
+
+/// States outside the joints' limits have no bounds and are not free, whatever is found of them.
+void BatchChecker::Impl::checkAround(const double* states, std::size_t count, const std::string& group,
+                                     const Margins& margins, BatchResult& result)
+{
+  if (count < threshold(group, states, count) || on_cpu.problem(group)->always_colliding)
+    return on_cpu.check(states, count, group, result, &margins);
+  checkOnGpu(states, count, group, result, &margins);
+  for (std::size_t i = 0; i < count; ++i)
+    if (margins.within[i] == 0)
+    {
+      result.valid[i] = 0;
+      result.colliding[i] = {-1, -1};
+    }
+}
+
+std::size_t BatchChecker::Impl::threshold(const std::string& group, const double* states, std::size_t count)
+{
+  if (fixed_threshold)
+    return *fixed_threshold;
+  const auto known = thresholds.find(group);
+  const Clock::time_point start = Clock::now();
+  const bool enough = count >= kEnough;
+  if (known != thresholds.end() && (known->second.by_own_states || !enough) &&
+      (known->second.scene.lock() == on_cpu.scene() || start < known->second.keep_until))
+    return known->second.states;
+  const std::size_t measured = measure(group, states, count);
+  const auto pause = std::chrono::duration_cast<Clock::duration>(kMeasuringPause * (Clock::now() - start));
+  thresholds.insert_or_assign(group, Threshold{measured, on_cpu.scene(), Clock::now() + pause, enough});
+  return measured;
+}
+
+/// With the caller's own states, over and over, if there are enough to tell what they are like; else with random ones.
+std::size_t BatchChecker::Impl::measure(const std::string& group, const double* states, std::size_t count)
+{
+  const RobotModel& robot = *on_cpu.scene()->robot;
+  const CollisionProblem& problem = *on_cpu.problem(group);
+  std::vector<double> sample(kMostTimed * width());
+  std::mt19937_64 generator;
+  for (std::size_t i = 0; i < kMostTimed; ++i)
+  {
+    double* row = &sample[i * width()];
+    const double* own = states + (count == 0 ? 0 : i % count) * width();
+    if (count >= kEnough && holdsFor(problem, own))
+      std::copy(own, own + width(), row);
+    else
+      robot.randomState(generator, row);
+  }
+  const auto timed = [&](auto&& check)
+  {
+    return [&, check](std::size_t size)
+    {
+      BatchResult answers;
+      const Clock::time_point start = Clock::now();
+      check(sample.data(), size, answers);
+      return secondsSince(start);
+    };
+  };
+  return breakEven(timed([&](const double* rows, std::size_t size, BatchResult& answers)
+                         { on_cpu.check(rows, size, group, answers); }),
+                   timed([&](const double* rows, std::size_t size, BatchResult& answers)
+                         { checkOnGpu(rows, size, group, answers); }));
+}
+
+BatchChecker::BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
+  : impl_(std::make_unique<Impl>(options))
+{
+  BatchChecker::setScene(std::move(scene));
+}
+
+BatchChecker::~BatchChecker() = default;
+
+void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  const std::shared_ptr<const PlanningScene> previous = impl_->on_cpu.scene();
+  impl_->on_cpu.setScene(std::move(scene));
+  try
+  {
+    impl_->engine.setProblem(impl_->on_cpu.problem(""), impl_->on_cpu.scene()->robot);
+  }
+  catch (...)
+  {
+    if (previous)
+      impl_->on_cpu.setScene(previous);
+    impl_->selected_group.reset();
+    throw;
+  }
+  impl_->selected_group = "";
+  if (previous && previous->robot != impl_->on_cpu.scene()->robot)
+    impl_->thresholds.clear();  // its groups may be called alike
+}
+
+BatchResult BatchChecker::check(const double* states, std::size_t count, const std::string& group,
+                                const JointNeighbourhood* around)
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  const PlanningScene& scene = *impl_->on_cpu.scene();
+  const bool decided = impl_->on_cpu.problem(group)->always_colliding.has_value();
+  validateStates(*scene.robot, states, count);
+  if (count != 0 && !decided)
+  {
+    const std::size_t on_gpu =
+        impl_->threshold(group, states, count);  // measured now, if it must be: no part of the check
+    if (around && count >= on_gpu)
+      impl_->engine.prepareMargins();
+  }
+  impl_->work = {};
+  BatchResult result;
+  result.revision = scene.revision;
+  const Clock::time_point start = Clock::now();
+  if (around)
+    impl_->checkAround(states, count, group, impl_->on_cpu.margins(*around, states, count, group), result);
+  else
+    impl_->check(states, count, group, result);
+  result.seconds = secondsSince(start);
+  return result;
+}
+
+SceneReport BatchChecker::report(const std::string& group)
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  SceneReport report = impl_->on_cpu.report(group);
+  if (!report.always_colliding)
+    report.cpu_below = impl_->threshold(group, nullptr, 0);
+  return report;
+}
+
+GpuWork BatchChecker::lastWork() const
+{
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  return impl_->work;
+}
+
+std::string BatchChecker::deviceWarning() const
+{
+  return impl_->engine.floatFault();
+}
+
+std::string BatchChecker::deviceName() const
+{
+  return impl_->engine.device().renderer;
+}
+}  // namespace gpu_planning_scene::core

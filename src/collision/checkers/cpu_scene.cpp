@@ -1,0 +1,115 @@
+#include "collision/checkers/cpu_scene.h"
+#include "collision/parallel_for.h"
+#include "collision/problem/state_validation.h"
+
+#include <utility>
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::size_t kStatesPerChunk = 16;
+
+// So many are sooner checked than threads started; and what is learned from them is kept.
+constexpr std::size_t kFewStates = 128;
+}  // namespace
+
+CpuScene::CpuScene(const CheckerOptions& options) : options_(options), maker_(options) {}
+
+void CpuScene::setScene(std::shared_ptr<const PlanningScene> scene)
+{
+  requireRobot(scene);
+  Group whole;
+  whole.problem = std::make_shared<const CollisionProblem>(maker_.make(*scene, "", &whole.report));
+  scene_ = std::move(scene);
+  groups_.clear();
+  whole.scratch.poses.resize(scene_->robot->links().size());
+  groups_.emplace("", std::move(whole));
+}
+
+CpuScene::Group& CpuScene::groupOf(const std::string& group)
+{
+  const auto known = groups_.find(group);
+  if (known != groups_.end())
+    return known->second;
+  Group made;
+  made.problem = std::make_shared<const CollisionProblem>(maker_.make(*scene_, group, &made.report));
+  made.scratch.poses.resize(scene_->robot->links().size());
+  return groups_.emplace(group, std::move(made)).first->second;
+}
+
+void CpuScene::prepare(Group& group)
+{
+  if (!group.within)
+    group.within = forest_->traversalOf(group.problem);
+}
+
+void CpuScene::prepareOutside(const std::string& name, Group& group)
+{
+  CheckerOptions options = options_;
+  options.reductions.reach = false;
+  const auto problem = std::make_shared<const CollisionProblem>(ProblemMaker(options).make(*scene_, name, nullptr));
+  group.outside = forest_outside_.traversalOf(problem);
+}
+
+void CpuScene::checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins,
+                        Scratch& scratch, BatchResult& result) const
+{
+  if (margins && margins->within[row] == 0)
+  {
+    result.valid[row] = 0;
+    return;
+  }
+  scene_->robot->linkPoses(state, scratch.poses.data());
+  const Eigen::Isometry3d* const poses = scratch.poses.data();
+  const auto pair = margins ? group.within->firstCollision(poses, scratch.near, margins->of(row))
+                    : holdsFor(*group.problem, state) ? group.within->firstCollision(poses, scratch.within)
+                                                      : group.outside->firstCollision(poses, scratch.outside);
+  if (pair)
+  {
+    result.valid[row] = 0;
+    result.colliding[row] = *pair;
+  }
+}
+
+Margins CpuScene::margins(const JointNeighbourhood& around, const double* states, std::size_t count,
+                          const std::string& name)
+{
+  validateNeighbourhood(*scene_->robot, around, count);
+  Group& group = groupOf(name);
+  if (!group.displacements)
+    group.displacements = std::make_unique<const DisplacementBounds>(*scene_->robot, *group.problem);
+  return group.displacements->margins(around, states, count);
+}
+
+void CpuScene::check(const double* states, std::size_t count, const std::string& name, BatchResult& result,
+                     const Margins* margins)
+{
+  Group& group = groupOf(name);
+  if (group.problem->always_colliding)
+  {
+    result.valid.assign(count, 0);
+    result.colliding.assign(count, *group.problem->always_colliding);
+    return;
+  }
+  result.valid.assign(count, 1);
+  result.colliding.assign(count, {-1, -1});
+  prepare(group);
+  const std::size_t width = scene_->robot->variables().size();
+  for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)
+    if (!holdsFor(*group.problem, states + i * width))
+      prepareOutside(name, group);
+  if (count <= kFewStates)
+  {
+    for (std::size_t i = 0; i < count; ++i)
+      checkRow(states + i * width, i, group, margins, group.scratch, result);
+    return;
+  }
+  parallelFor(count, kStatesPerChunk,
+              [&, scratch = group.scratch](std::size_t begin, std::size_t end) mutable
+              {
+                for (std::size_t i = begin; i < end; ++i)
+                  checkRow(states + i * width, i, group, margins, scratch, result);
+              });
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,25 @@
+#include "collision/checkers/open_checker.h"
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/device.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::core
+{
+std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
+                                          const BatchCheckerOptions& options)
+{
+  if (options.device == "cpu")
+    return std::make_unique<CpuChecker>(std::move(scene));
+  try
+  {
+    return std::make_unique<BatchChecker>(std::move(scene), options);
+  }
+  catch (const Error& error)
+  {
+    if (!listDevices().empty())
+      throw;
+    throw Error(std::string(error.what()) + "; or choose the device 'cpu', which needs none");
+  }
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,184 @@
+#include "gpu_planning_scene/point_cloud.h"
+#include "collision/geometry/shape_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "collision/bounds/problem_maker.h"
+#include "collision/exact/forest_cache.h"
+#include "collision/geometry/primitive_solid.h"
+#include "collision/problem/state_validation.h"
+#include "gpu_planning_scene/error.h"
+#include "scene/rigid_pose.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::AlignedBox3d;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// A voxel's three indices, of 21 bits each, make a key of 63 bits.
+constexpr int kBits = 21;
+constexpr std::int64_t kMostIndex = (std::int64_t{1} << (kBits - 1)) - 1;
+
+// Culling keeps a little more than rounding could lose.
+constexpr double kMargin = 1e-6;  // metres
+
+std::uint64_t keyOf(const Vector3d& index)
+{
+  std::uint64_t key = 0;
+  for (const int axis : {2, 1, 0})
+    key = key << kBits | static_cast<std::uint64_t>(static_cast<std::int64_t>(index[axis]) + kMostIndex);
+  return key;
+}
+
+Vector3d centerOfVoxel(std::uint64_t key, double size)
+{
+  Vector3d center;
+  for (const int axis : {0, 1, 2})
+  {
+    const auto index =
+        static_cast<std::int64_t>(key >> (axis * kBits) & ((std::uint64_t{1} << kBits) - 1)) - kMostIndex;
+    center[axis] = (static_cast<double>(index) + 0.5) * size;
+  }
+  return center;
+}
+
+AlignedBox3d boundsAt(const AlignedBox3d& local, const Isometry3d& pose, double margin)
+{
+  const Vector3d center = pose * local.center();
+  const Vector3d half = (0.5 * (pose.linear().cwiseAbs() * local.sizes())).array() + margin;
+  return {center - half, center + half};
+}
+
+void refuseOption(bool fits, double value, const char* what)
+{
+  if (!std::isfinite(value) || !fits)
+    throw Error(std::string("point clouds: ") + what + " is " + std::to_string(value) +
+                "; it must be a finite number of metres" + (value == 0.0 ? " above 0" : ", not negative"));
+}
+}  // namespace
+
+struct PointCloudFilter::Impl
+{
+  std::vector<std::uint64_t> voxelsOf(const std::vector<Eigen::Vector3f>& points, const Isometry3d& sensor) const;
+  void removeRobot(const PlanningScene& scene, const double* state, std::vector<PlacedShape>& cubes);
+  std::vector<std::size_t> cubesNear(const PlanningScene& scene, const std::vector<Isometry3d>& link_poses,
+                                     const std::vector<PlacedShape>& cubes) const;
+
+  PointCloudOptions options;
+  ProblemMaker maker{optionsWithAllPairs()};  // these two keep the robot's trees from cloud to cloud
+  ForestCache trees;
+};
+
+/// Ascending, each once.
+std::vector<std::uint64_t> PointCloudFilter::Impl::voxelsOf(const std::vector<Eigen::Vector3f>& points,
+                                                            const Isometry3d& sensor) const
+{
+  std::vector<std::uint64_t> keys;
+  keys.reserve(points.size());
+  for (const Eigen::Vector3f& point : points)
+  {
+    const Vector3d local = point.cast<double>();
+    if (!local.allFinite() || local.norm() > options.most_distance)
+      continue;
+    const Vector3d index = ((sensor * local) / options.voxel).array().floor();
+    if (index.cwiseAbs().maxCoeff() > static_cast<double>(kMostIndex))
+      throw Error("a point of the cloud is more than " + std::to_string(kMostIndex) +
+                  " voxels from the planning frame's origin; use larger voxels or a nearer planning frame");
+    keys.push_back(keyOf(index));
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  return keys;
+}
+
+/// Those whose boxes are within the padding of the box of some shape of the robot.
+std::vector<std::size_t> PointCloudFilter::Impl::cubesNear(const PlanningScene& scene,
+                                                           const std::vector<Isometry3d>& link_poses,
+                                                           const std::vector<PlacedShape>& cubes) const
+{
+  const double margin = 0.5 * options.voxel + options.robot_padding + kMargin;
+  std::vector<AlignedBox3d> boxes;
+  for (const RobotBody& body : robotBodies(scene))
+    for (const PlacedShape& placed : *body.shapes)
+      boxes.push_back(boundsAt(boundsOf(placed.shape),
+                               link_poses[static_cast<std::size_t>(body.link)] * rigidProduct(body.pose, placed.pose),
+                               margin));
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < cubes.size(); ++i)
+  {
+    const Vector3d center = cubes[i].pose.translation();
+    if (std::any_of(boxes.begin(), boxes.end(), [&](const AlignedBox3d& box) { return box.contains(center); }))
+      near.push_back(i);
+  }
+  return near;
+}
+
+void PointCloudFilter::Impl::removeRobot(const PlanningScene& scene, const double* state,
+                                         std::vector<PlacedShape>& cubes)
+{
+  std::vector<Isometry3d> link_poses(scene.robot->links().size());
+  scene.robot->linkPoses(state, link_poses.data());
+  const std::vector<std::size_t> near = cubesNear(scene, link_poses, cubes);
+  if (near.empty())
+    return;
+  // The robot and what it carries, with the padding that is asked for, among the cubes alone.
+  PlanningScene among(scene.robot);
+  among.allowed_collisions = {};
+  among.link_padding.assign(link_poses.size(), options.robot_padding);
+  among.attached = scene.attached;
+  for (AttachedObject& carried : among.attached)
+    carried.padding = 0.0;
+  among.objects.push_back({"cloud", Isometry3d::Identity(), {}, 0.0});
+  for (const AttachedObject& carried : among.attached)  // it must not be called as any of these
+    among.objects[0].id += carried.object.id;
+  for (const std::size_t cube : near)
+    among.objects[0].shapes.push_back(cubes[cube]);
+  auto problem = maker.make(among, "", nullptr);
+  problem.self_pairs.clear();
+  const std::size_t robots = problem.robot.size();
+  const auto traversal = trees.traversalOf(std::make_shared<const CollisionProblem>(std::move(problem)));
+  CpuTraversal::Scratch scratch;
+  std::vector<bool> is_robot(cubes.size(), false);
+  for (const auto& pair : traversal->collidingInstances(link_poses.data(), scratch))
+    is_robot[near[pair[1] - robots]] = true;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cubes.size(); ++i)
+    if (!is_robot[i])
+      cubes[kept++] = cubes[i];
+  cubes.resize(kept);
+}
+
+PointCloudFilter::PointCloudFilter(const PointCloudOptions& options) : impl_(std::make_unique<Impl>())
+{
+  refuseOption(options.voxel > 0.0, options.voxel, "the voxel size");
+  refuseOption(options.robot_padding >= 0.0, options.robot_padding, "the robot's padding");
+  refuseOption(options.most_distance > 0.0, options.most_distance, "the range");
+  impl_->options = options;
+}
+
+PointCloudFilter::~PointCloudFilter() = default;
+
+WorldObject PointCloudFilter::objectOf(const std::string& id, const std::vector<Eigen::Vector3f>& points,
+                                       const Isometry3d& sensor, const PlanningScene& scene, const double* state)
+{
+  validateStates(*scene.robot, state, 1);
+  const std::vector<std::uint64_t> voxels = impl_->voxelsOf(points, rigid(sensor, "the sensor's pose"));
+  if (voxels.size() > impl_->options.most_voxels)
+    throw Error("the cloud fills " + std::to_string(voxels.size()) + " voxels, there may be at most " +
+                std::to_string(impl_->options.most_voxels) + "; use larger voxels or a shorter range");
+  WorldObject object;
+  object.id = id;
+  object.shapes.reserve(voxels.size());
+  const Shape cube = Box{Vector3d::Constant(impl_->options.voxel)};
+  for (const std::uint64_t voxel : voxels)
+    object.shapes.push_back({cube, Isometry3d(Eigen::Translation3d(centerOfVoxel(voxel, impl_->options.voxel)))});
+  impl_->removeRobot(scene, state, object.shapes);
+  return object;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,95 @@
+#include "collision/checkers/scene_text.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "model/one_line.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+std::string matrixText(MatrixSource source)
+{
+  switch (source)
+  {
+    case MatrixSource::Srdf:
+      return "the SRDF allows";
+    case MatrixSource::SceneFile:
+      return "the scene's allowed-collision matrix allows";
+    case MatrixSource::AdjacentLinks:
+      break;
+  }
+  return "are adjacent (no SRDF was given)";
+}
+std::string batchesText(std::size_t cpu_below)
+{
+  return cpu_below == std::numeric_limits<std::size_t>::max() ? "batches of any size"
+                                                              : "batches of fewer than " + counted(cpu_below, "state");
+}
+}  // namespace
+
+std::string counted(std::size_t count, const std::string& noun)
+{
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::vector<std::string> describeScene(const PlanningScene& scene, const SceneReport& report, const std::string& device)
+{
+  const RobotModel& robot = *scene.robot;
+  std::vector<std::string> lines;
+  lines.push_back("device: " + device);
+  lines.push_back("robot: " + robot.name() + ", " + counted(robot.links().size(), "link") + ", " +
+                  counted(robot.variables().size(), "variable") + ", planning frame " + robot.planningFrame());
+  lines.push_back("scene: " + counted(scene.objects.size(), "object") +
+                  (scene.attached.empty() ? std::string() : ", " + counted(scene.attached.size(), "carried object")));
+  lines.push_back(
+      "triangles: " + std::to_string(robot.triangleCount()) + " of the robot, " + std::to_string(report.triangles) +
+      " in " + counted(report.trees, "tree") + " with the scene's" +
+      (report.shared_trees ? ", " + counted(report.shared_trees, "more shape") + " equal to one of them" : ""));
+  lines.push_back("checked pairs: " + std::to_string(report.self_pairs) + " of links, " +
+                  std::to_string(report.world_pairs) + " of a link and an object");
+  lines.push_back("left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") + " that " +
+                  matrixText(scene.matrix_source) + ", " + counted(report.links_without_shapes, "link") +
+                  " without collision shapes" +
+                  (report.touch_pairs
+                       ? ", " + counted(report.touch_pairs, "pair") + " of a carried object and what it may touch"
+                       : std::string()) +
+                  (report.unmoved_pairs ? ", " + counted(report.unmoved_pairs, "pair") + " that the group does not move"
+                                        : std::string()));
+  if (report.unreachable_self_pairs + report.unreachable_world_pairs != 0)
+    lines.push_back("out of reach: " + counted(report.unreachable_self_pairs, "pair") + " of links, " +
+                    counted(report.unreachable_world_pairs, "pair") + " of a link and an object" +
+                    (report.unreachable_objects ? ", and with them " + counted(report.unreachable_objects, "object")
+                                                : std::string()));
+  if (report.settled_pairs != 0)
+    lines.push_back("decided once, as no joint moves them: " + counted(report.settled_pairs, "pair"));
+  if (report.always_colliding)
+    lines.push_back("in collision in every state: " + scene.bodyName((*report.always_colliding)[0]) + " - " +
+                    scene.bodyName((*report.always_colliding)[1]));
+  if (report.cpu_below && *report.cpu_below != 0)
+    lines.push_back("on the CPU, which is faster there: " + batchesText(*report.cpu_below));
+  std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
+  return lines;
+}
+
+void PairCounts::add(const BatchResult& result)
+{
+  for (std::size_t i = 0; i < result.valid.size(); ++i)
+    if (!result.valid[i])
+      ++counts_[std::minmax(result.colliding[i][0], result.colliding[i][1])];
+}
+
+std::vector<std::string> PairCounts::commonest(const PlanningScene& scene, std::size_t limit) const
+{
+  std::vector<std::pair<std::size_t, std::pair<int, int>>> sorted;
+  for (const auto& [pair, count] : counts_)
+    sorted.push_back({count, pair});
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < std::min(limit, sorted.size()); ++i)
+    lines.push_back(scene.bodyName(sorted[i].second.first) + " - " + scene.bodyName(sorted[i].second.second) + ": " +
+                    counted(sorted[i].first, "state"));
+  return lines;
+}
+}  // namespace gpu_planning_scene::core

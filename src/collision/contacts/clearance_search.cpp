@@ -1,0 +1,204 @@
+#include "collision/contacts/clearance_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "collision/exact/cpu_shape_pair.h"
+#include "collision/exact/cpu_traversal.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::AlignedBox3d;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// Bounds on distances are this much wider than rounding makes them wrong.
+constexpr double kMargin = 1e-9;  // metres
+
+struct Nearest
+{
+  double clearance = std::numeric_limits<double>::infinity();
+  BodyPair bodies = kNoPair;
+
+  /// Takes a pair whose clearance is between two bounds into account. `collides(x)`: whether it is at most x. Most
+  /// pairs cost one look at their bounds, or one test.
+  template <class Collides>
+  void consider(double lower, double upper, std::int32_t a, std::int32_t b, const Collides& collides)
+  {
+    if (std::max(0.0, lower) >= clearance)
+      return;
+    if (std::isfinite(clearance))
+    {
+      if (!collides(clearance))
+        return;
+      upper = clearance;
+    }
+    clearance = collides(0.0) ? 0.0 : leastFor(std::max(0.0, lower), std::max(0.0, upper), collides);
+    bodies = {std::min(a, b), std::max(a, b)};
+  }
+};
+
+/// Bounds on the distance of what two boxes hold.
+double leastDistance(const AlignedBox3d& a, const AlignedBox3d& b)
+{
+  return a.exteriorDistance(b) - kMargin;
+}
+
+double mostDistance(const AlignedBox3d& a, const AlignedBox3d& b)
+{
+  return (a.max() - b.min()).cwiseAbs().cwiseMax((b.max() - a.min()).cwiseAbs()).norm() + kMargin;
+}
+
+/// Of one state.
+class Search
+{
+ public:
+  Search(const CollisionProblem& problem, std::shared_ptr<const CpuForest> forest, const ObjectTree& objects,
+         const std::vector<AlignedBox3d>& world_bounds, const Isometry3d* link_poses)
+    : problem_(problem), pair_(forest, problem.tolerance), objects_(objects), world_bounds_(world_bounds)
+  {
+    for (const ShapeInstance& geometry : problem.robot)
+    {
+      poses_.push_back(link_poses[geometry.link] * geometry.pose);
+      bounds_.push_back(boundsOf(forest->tree(geometry.tree), poses_.back()));
+    }
+  }
+
+  Nearest self()
+  {
+    struct Candidate
+    {
+      double lower;
+      std::array<std::uint32_t, 2> pair;
+    };
+    std::vector<Candidate> candidates;
+    for (const auto& pair : problem_.self_pairs)
+      candidates.push_back({leastDistance(bounds_[pair[0]], bounds_[pair[1]]), pair});
+    std::sort(candidates.begin(), candidates.end(),
+              [](const Candidate& a, const Candidate& b) { return a.lower < b.lower; });
+    Nearest nearest;
+    for (const auto& [lower, pair] : candidates)
+    {
+      const auto [i, j] = pair;
+      const ShapeInstance& a = problem_.robot[i];
+      const ShapeInstance& b = problem_.robot[j];
+      nearest.consider(lower, mostDistance(bounds_[i], bounds_[j]), a.body, b.body,
+                       [&, i = i, j = j](double distance)
+                       { return pair_.collide(a.tree, poses_[i], b.tree, poses_[j], distance, scratch_); });
+    }
+    return nearest;
+  }
+
+  Nearest world()
+  {
+    Nearest nearest;
+    for (std::uint32_t i = 0; i < problem_.robot.size(); ++i)
+    {
+      considerObjects(i, nearest);
+      for (std::uint32_t k = 0; k < problem_.half_spaces.size(); ++k)
+        if (problem_.half_space_pairs[i * problem_.half_spaces.size() + k] != 0)
+          considerHalfSpace(i, problem_.half_spaces[k], nearest);
+    }
+    return nearest;
+  }
+
+ private:
+  /// Nodes of the tree over objects, the nearer child first, as far as they are nearer than the best so far. The tree's
+  /// boxes and the robot's are both grown by their padding: how far such boxes are apart is no more than what is beyond
+  /// the required distance, as boxes grow by no less than balls of the padding's radius.
+  void considerObjects(std::uint32_t instance, Nearest& nearest)
+  {
+    if (objects_.nodes().empty())
+      return;
+    const double padding = problem_.robot[instance].padding;
+    const AlignedBox3d grown(bounds_[instance].min().array() - padding, bounds_[instance].max().array() + padding);
+    const auto lower = [&](std::uint32_t node) { return leastDistance(grown, boundsOf(objects_.nodes()[node])); };
+    stack_.assign(1, {lower(0), 0u});
+    while (!stack_.empty())
+    {
+      const auto [bound, index] = stack_.back();
+      stack_.pop_back();
+      if (bound >= nearest.clearance)
+        continue;
+      const Node& node = objects_.nodes()[index];
+      if (node.count != 0)
+      {
+        considerObject(instance, objects_.order()[node.first], nearest);
+        continue;
+      }
+      Entry near{lower(node.first), node.first};
+      Entry far{lower(node.first + 1), node.first + 1};
+      if (far.lower < near.lower)
+        std::swap(near, far);
+      stack_.push_back(far);
+      stack_.push_back(near);
+    }
+  }
+
+  void considerObject(std::uint32_t instance, std::uint32_t object, Nearest& nearest)
+  {
+    if (problem_.world_pairs[instance * problem_.world.size() + object] == 0)
+      return;
+    const ShapeInstance& a = problem_.robot[instance];
+    const ShapeInstance& b = problem_.world[object];
+    const double required = a.padding + b.padding;
+    nearest.consider(leastDistance(bounds_[instance], world_bounds_[object]) - required,
+                     mostDistance(bounds_[instance], world_bounds_[object]) - required, a.body, b.body,
+                     [&](double distance) {
+                       return pair_.collide(a.tree, poses_[instance], b.tree, b.pose, required + distance, scratch_);
+                     });
+  }
+
+  void considerHalfSpace(std::uint32_t instance, const WorldHalfSpace& half_space, Nearest& nearest)
+  {
+    const ShapeInstance& a = problem_.robot[instance];
+    const double required = a.padding + half_space.padding;
+    const double center = half_space.normal.dot(bounds_[instance].center()) - half_space.offset - required;
+    const double reach = 0.5 * half_space.normal.cwiseAbs().dot(bounds_[instance].sizes()) + kMargin;
+    nearest.consider(center - reach, center + reach, a.body, half_space.body,
+                     [&](double distance)
+                     {
+                       return pair_.collide(a.tree, poses_[instance], {half_space.normal, half_space.offset},
+                                            required + distance, scratch_);
+                     });
+  }
+
+  struct Entry
+  {
+    double lower;
+    std::uint32_t node;
+  };
+
+  const CollisionProblem& problem_;
+  CpuShapePair pair_;
+  const ObjectTree& objects_;
+  const std::vector<AlignedBox3d>& world_bounds_;
+  std::vector<Isometry3d> poses_;  // of the robot's instances, in the planning frame
+  std::vector<AlignedBox3d> bounds_;
+  std::vector<Entry> stack_;
+  CpuShapePair::Scratch scratch_;
+};
+}  // namespace
+
+ClearanceSearch::ClearanceSearch(std::shared_ptr<const CollisionProblem> problem,
+                                 std::shared_ptr<const CpuForest> forest, std::shared_ptr<const ObjectTree> objects)
+  : problem_(std::move(problem)), forest_(std::move(forest)), objects_(std::move(objects))
+{
+  world_bounds_.reserve(problem_->world.size());
+  for (const ShapeInstance& geometry : problem_->world)
+    world_bounds_.push_back(boundsOf(forest_->tree(geometry.tree), geometry.pose));
+}
+
+Clearance ClearanceSearch::find(const Isometry3d* link_poses) const
+{
+  Search search(*problem_, forest_, *objects_, world_bounds_, link_poses);
+  const Nearest world = search.world();
+  const Nearest self = search.self();
+  return {world.clearance, self.clearance, world.bodies, self.bodies};
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,165 @@
+#include "collision/contacts/fcl_contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <optional>
+
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
+
+#include "collision/contacts/clearance_search.h"
+#include "collision/geometry/primitive_solid.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::AlignedBox3d;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr std::size_t kMostOfPair = 256;
+
+// How far from a box a point on its border may be.
+constexpr double kBoxMargin = 1e-6;  // metres
+
+// FCL's nearest points are believed where their distance is right to this.
+constexpr double kNearEnough = 1e-4;  // metres
+
+bool isUnit(const Vector3d& vector)
+{
+  return std::abs(vector.norm() - 1.0) < 1e-6;
+}
+
+/// What FCL finds where surfaces cross. It gives up on some pairs with an exception; then it has found nothing.
+/// Of triangles that lie in one plane, or are larger than what overlaps, it names points outside of both shapes, and
+/// depths of triangles. Points must be in both shapes' boxes. A way along an axis that takes the boxes apart takes the
+/// shapes apart: deeper contacts than the shortest one are told where there are no others, and as that deep.
+std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, const AlignedBox3d& box_a,
+                                      const AlignedBox3d& box_b, double required)
+{
+  const AlignedBox3d overlap = box_a.intersection(box_b);
+  fcl::CollisionResultd result;
+  try
+  {
+    fcl::collide(a.model.get(), a.pose, b.model.get(), b.pose, fcl::CollisionRequestd(kMostOfPair, true), result);
+  }
+  catch (const std::exception&)
+  {
+    return {};
+  }
+  const AlignedBox3d grown(overlap.min().array() - kBoxMargin, overlap.max().array() + kBoxMargin);
+  const Vector3d ways = (box_a.max() - box_b.min()).cwiseMin(box_b.max() - box_a.min());
+  const double deepest = std::max(0.0, ways.minCoeff());
+  std::vector<ShapeContact> contacts;
+  std::vector<ShapeContact> too_deep;
+  for (std::size_t i = 0; i < result.numContacts(); ++i)
+  {
+    const fcl::Contactd& contact = result.getContact(i);
+    if (!contact.pos.allFinite() || !grown.contains(contact.pos) || !isUnit(contact.normal) ||
+        !std::isfinite(contact.penetration_depth))
+      continue;
+    // FCL exchanges a solid and a tree, and says so.
+    const Vector3d normal = contact.o1 == a.model.get() ? contact.normal : Vector3d(-contact.normal);
+    const double depth = std::abs(contact.penetration_depth);
+    (depth <= deepest + kBoxMargin ? contacts : too_deep)
+        .push_back({contact.pos, normal, required + std::min(depth, deepest)});
+  }
+  return contacts.empty() ? too_deep : contacts;
+}
+
+/// A point of each shape, as near to each other as any, if their distance by FCL is within kNearEnough of `distance`.
+std::optional<std::array<Vector3d, 2>> fclNearestPoints(const FclShape& a, const FclShape& b, double distance)
+{
+  fcl::DistanceResultd result;
+  try
+  {
+    fcl::distance(a.model.get(), a.pose, b.model.get(), b.pose, fcl::DistanceRequestd(true), result);
+  }
+  catch (const std::exception&)
+  {
+    return std::nullopt;
+  }
+  const bool exchanged = result.o1 != a.model.get();
+  const Vector3d& p = result.nearest_points[exchanged ? 1 : 0];
+  const Vector3d& q = result.nearest_points[exchanged ? 0 : 1];
+  if (!p.allFinite() || !q.allFinite() || std::abs((q - p).norm() - distance) > kNearEnough)
+    return std::nullopt;
+  return std::array<Vector3d, 2>{p, q};
+}
+
+/// From the centre of one shape to that of the other; any direction where they are the same.
+Vector3d directionBetween(const AlignedBox3d& a, const AlignedBox3d& b)
+{
+  const Vector3d way = b.center() - a.center();
+  return way.norm() > 1e-9 ? Vector3d(way.normalized()) : Vector3d::UnitZ();
+}
+
+/// Of shapes apart, within the required distance.
+ShapeContact contactApart(const FclShape& a, const FclShape& b, const AlignedBox3d& box_a, const AlignedBox3d& box_b,
+                          double distance, double required)
+{
+  const auto nearest = fclNearestPoints(a, b, distance);
+  if (!nearest)
+    return {0.5 * (box_a.center() + box_b.center()), directionBetween(box_a, box_b), required - distance};
+  const Vector3d way = (*nearest)[1] - (*nearest)[0];
+  return {0.5 * ((*nearest)[0] + (*nearest)[1]),
+          way.norm() > 1e-9 ? Vector3d(way.normalized()) : directionBetween(box_a, box_b), required - distance};
+}
+
+/// Of shapes that touch, or of which one is inside the other.
+ShapeContact contactWithin(const FclShape& a, const FclShape& b, const AlignedBox3d& box_a, const AlignedBox3d& box_b,
+                           double required, const CpuShapePair& exact, CpuShapePair::Scratch& scratch)
+{
+  const Vector3d direction = directionBetween(box_a, box_b);
+  const auto moved = [&](double way)
+  {
+    FclShape shape = b;
+    shape.pose.pretranslate(way * direction);
+    return shape;
+  };
+  const auto apart = [&](double way) { return !exact.collide(a.tree, a.pose, b.tree, moved(way).pose, 0.0, scratch); };
+  // Moved so far, the balls around their boxes are apart.
+  const double depth = leastFor(0.0, box_a.diagonal().norm() + box_b.diagonal().norm(), apart);
+  Vector3d point = box_a.intersection(box_b).center();  // of the inner one's box
+  if (depth < kNearEnough)
+    if (const auto nearest = fclNearestPoints(a, moved(depth + kNearEnough), kNearEnough))
+      point = (*nearest)[0];
+  return {point, direction, required + depth};
+}
+}  // namespace
+
+std::vector<ShapeContact> contactsOf(const FclShape& a, const FclShape& b, double required, const CpuForest& forest,
+                                     const CpuShapePair& exact, CpuShapePair::Scratch& scratch)
+{
+  const auto collides = [&](double distance)
+  { return exact.collide(a.tree, a.pose, b.tree, b.pose, distance, scratch); };
+  const AlignedBox3d box_a = boundsOf(forest.tree(a.tree), a.pose);
+  const AlignedBox3d box_b = boundsOf(forest.tree(b.tree), b.pose);
+  if (required > 0.0 && !collides(0.0))
+    return {contactApart(a, b, box_a, box_b, leastFor(0.0, required, collides), required)};
+  std::vector<ShapeContact> contacts = fclContacts(a, b, box_a, box_b, required);
+  if (contacts.empty())
+    contacts.push_back(contactWithin(a, b, box_a, box_b, required, exact, scratch));
+  return contacts;
+}
+
+ShapeContact contactOf(const Isometry3d& pose, const Shape& shape, const WorldHalfSpace& half_space, double required)
+{
+  const Vector3d down = pose.linear().transpose() * -half_space.normal;
+  Vector3d lowest = Vector3d::Zero();
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
+  {
+    const std::vector<Vector3d>& vertices = (*mesh)->vertices;
+    lowest = *std::max_element(vertices.begin(), vertices.end(),
+                               [&down](const Vector3d& a, const Vector3d& b) { return down.dot(a) < down.dot(b); });
+  }
+  else
+    lowest = farthestOfSolid(shape, down);
+  const Vector3d point = pose * lowest;
+  return {point, -half_space.normal, half_space.offset + required - half_space.normal.dot(point)};
+}
+}  // namespace gpu_planning_scene::core

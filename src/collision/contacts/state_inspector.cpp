@@ -1,0 +1,235 @@
+#include "gpu_planning_scene/state_inspector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "collision/bounds/problem_maker.h"
+#include "collision/contacts/clearance_search.h"
+#include "collision/contacts/fcl_contacts.h"
+#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/forest_cache.h"
+#include "collision/problem/state_validation.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+// Of points of a pair that are nearer than this, the deepest is told.
+constexpr double kSamePoint = 1e-6;  // metres
+
+/// What is made of shapes, for all scenes that have them.
+struct Models
+{
+  FclGeometry modelOf(const CollisionProblem& problem, std::uint32_t tree)
+  {
+    FclGeometry& model = fcl[problem.trees[tree].mesh];
+    if (!model)
+      model = makeFclSolid(problem.shapes[tree], problem.trees[tree]);
+    return model;
+  }
+
+  void forgetUnused()
+  {
+    for (auto entry = fcl.begin(); entry != fcl.end();)
+      entry = entry->first.expired() ? fcl.erase(entry) : std::next(entry);
+  }
+
+  std::mutex mutex;  // of all below
+  ProblemMaker maker{optionsWithAllPairs()};
+  ForestCache forests;
+  std::map<std::weak_ptr<const Mesh>, FclGeometry, std::owner_less<>> fcl;  // by tessellation: equal shapes share one
+};
+
+/// What is asked about for a group.
+struct Inspected
+{
+  std::shared_ptr<const CollisionProblem> problem;
+  std::shared_ptr<const CpuForest> forest;
+  std::unique_ptr<const CpuTraversal> traversal;
+  std::unique_ptr<const ClearanceSearch> clearance;
+};
+
+/// Tells which points are nearer to another one than kSamePoint. Those that may be are in the same cell of a grid or in
+/// one beside it.
+class NearPoints
+{
+ public:
+  /// Whether it was added: not where another one is near.
+  bool add(const Eigen::Vector3d& point)
+  {
+    const Cell center = {{cellOf(point.x()), cellOf(point.y()), cellOf(point.z())}};
+    for (int i = 0; i < 27; ++i)
+    {
+      const auto found = cells_.find({{center[0] + i % 3 - 1, center[1] + i / 3 % 3 - 1, center[2] + i / 9 - 1}});
+      if (found == cells_.end())
+        continue;
+      for (const Eigen::Vector3d& other : found->second)
+        if ((other - point).norm() < kSamePoint)
+          return false;
+    }
+    cells_[center].push_back(point);
+    return true;
+  }
+
+ private:
+  using Cell = std::array<std::int64_t, 3>;
+
+  /// Beyond a bound, where doubles are further apart than that, all are in one cell.
+  static std::int64_t cellOf(double coordinate)
+  {
+    constexpr double kFarthest = 1e18;
+    return static_cast<std::int64_t>(std::clamp(std::floor(coordinate / kSamePoint), -kFarthest, kFarthest));
+  }
+
+  std::map<Cell, std::vector<Eigen::Vector3d>> cells_;
+};
+
+/// The deepest of those at the same place, at most `most`, deepest first.
+std::vector<Contact> deepest(std::vector<Contact> contacts, std::size_t most)
+{
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const Contact& a, const Contact& b) { return a.depth > b.depth; });
+  NearPoints points;
+  std::vector<Contact> kept;
+  for (const Contact& contact : contacts)
+  {
+    if (kept.size() == most)
+      break;
+    if (points.add(contact.point))
+      kept.push_back(contact);
+  }
+  return kept;
+}
+}  // namespace
+
+struct StateInspector::Impl
+{
+  Impl(std::shared_ptr<const PlanningScene> the_scene, std::shared_ptr<Models> the_models)
+    : scene(std::move(the_scene)), models(std::move(the_models))
+  {
+  }
+
+  const Inspected& inspected(const std::string& group);
+  std::vector<Eigen::Isometry3d> linkPoses(const double* state) const;
+  void addContacts(const Inspected& group, const CpuTraversal::InstancePair& pair, const CpuTraversal::Scratch& placed,
+                   CpuShapePair::Scratch& scratch, std::map<BodyPair, std::vector<Contact>>& contacts);
+
+  const std::shared_ptr<const PlanningScene> scene;
+  const std::shared_ptr<Models> models;
+  std::map<std::string, Inspected> groups;  // under the models' mutex; never removed
+};
+
+const Inspected& StateInspector::Impl::inspected(const std::string& group)
+{
+  const std::lock_guard<std::mutex> lock(models->mutex);
+  const auto known = groups.find(group);
+  if (known != groups.end())
+    return known->second;
+  Inspected made;
+  made.problem = std::make_shared<const CollisionProblem>(models->maker.make(*scene, group, nullptr));
+  made.traversal = models->forests.traversalOf(made.problem);
+  made.forest = models->forests.forest();
+  made.clearance = std::make_unique<const ClearanceSearch>(made.problem, made.forest, models->forests.objects());
+  return groups.emplace(group, std::move(made)).first->second;
+}
+
+std::vector<Eigen::Isometry3d> StateInspector::Impl::linkPoses(const double* state) const
+{
+  validateStates(*scene->robot, state, 1);
+  std::vector<Eigen::Isometry3d> poses(scene->robot->links().size());
+  scene->robot->linkPoses(state, poses.data());
+  return poses;
+}
+
+void StateInspector::Impl::addContacts(const Inspected& group, const CpuTraversal::InstancePair& pair,
+                                       const CpuTraversal::Scratch& placed, CpuShapePair::Scratch& scratch,
+                                       std::map<BodyPair, std::vector<Contact>>& contacts)
+{
+  const CollisionProblem& problem = *group.problem;
+  const ShapeInstance& a = problem.robot[pair[0]];
+  const Eigen::Isometry3d& pose = placed.poses[pair[0]];
+  const std::size_t robots = problem.robot.size();
+  std::vector<ShapeContact> found;
+  if (pair[1] >= robots + problem.world.size())
+  {
+    const WorldHalfSpace& b = problem.half_spaces[pair[1] - robots - problem.world.size()];
+    found.push_back(contactOf(pose, group.forest->tree(a.tree).shape, b, a.padding + b.padding));
+  }
+  else
+  {
+    const bool self = pair[1] < robots;
+    const ShapeInstance& b = self ? problem.robot[pair[1]] : problem.world[pair[1] - robots];
+    FclShape shape_a{a.tree, pose, nullptr};
+    FclShape shape_b{b.tree, self ? placed.poses[pair[1]] : b.pose, nullptr};
+    {
+      const std::lock_guard<std::mutex> lock(models->mutex);
+      shape_a.model = models->modelOf(problem, a.tree);
+      shape_b.model = models->modelOf(problem, b.tree);
+    }
+    found = contactsOf(shape_a, shape_b, self ? 0.0 : a.padding + b.padding, *group.forest, CpuShapePair(group.forest),
+                       scratch);
+  }
+  const std::int32_t first = a.body;
+  const std::int32_t second = bodyOf(problem, pair[1]);
+  for (const ShapeContact& contact : found)
+  {
+    const bool swapped = second < first;
+    const BodyPair bodies = swapped ? BodyPair{second, first} : BodyPair{first, second};
+    contacts[bodies].push_back(
+        {bodies, contact.point, swapped ? Eigen::Vector3d(-contact.normal) : contact.normal, contact.depth});
+  }
+}
+
+StateInspector::StateInspector(std::shared_ptr<const PlanningScene> scene, const StateInspector* previous)
+{
+  requireRobot(scene);
+  impl_ = std::make_unique<Impl>(std::move(scene), previous ? previous->impl_->models : std::make_shared<Models>());
+  impl_->inspected("");
+  const std::lock_guard<std::mutex> lock(impl_->models->mutex);
+  impl_->models->forgetUnused();
+}
+
+StateInspector::~StateInspector() = default;
+
+const std::shared_ptr<const PlanningScene>& StateInspector::scene() const
+{
+  return impl_->scene;
+}
+
+std::vector<Contact> StateInspector::contacts(const double* state, const std::string& group, std::size_t most,
+                                              std::size_t most_per_pair) const
+{
+  const Inspected& inspected = impl_->inspected(group);
+  const std::vector<Eigen::Isometry3d> poses = impl_->linkPoses(state);
+  if (most == 0)
+    return {};
+  CpuTraversal::Scratch placed;
+  CpuShapePair::Scratch scratch;
+  std::map<BodyPair, std::vector<Contact>> by_pair;
+  for (const auto& pair : inspected.traversal->collidingInstances(poses.data(), placed))
+    impl_->addContacts(inspected, pair, placed, scratch, by_pair);
+  std::vector<Contact> firsts;
+  std::vector<Contact> others;
+  for (const auto& [bodies, contacts] : by_pair)
+  {
+    const std::vector<Contact> kept = deepest(contacts, most_per_pair == 0 ? most : std::min(most, most_per_pair));
+    firsts.push_back(kept.front());
+    others.insert(others.end(), kept.begin() + 1, kept.end());
+  }
+  const auto deeper = [](const Contact& a, const Contact& b) { return a.depth > b.depth; };
+  std::stable_sort(firsts.begin(), firsts.end(), deeper);
+  std::stable_sort(others.begin(), others.end(), deeper);
+  firsts.insert(firsts.end(), others.begin(), others.end());
+  firsts.resize(std::min(firsts.size(), most));
+  return firsts;
+}
+
+Clearance StateInspector::clearance(const double* state, const std::string& group) const
+{
+  const Inspected& inspected = impl_->inspected(group);
+  return inspected.clearance->find(impl_->linkPoses(state).data());
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,222 @@
+#include "collision/exact/cpu_shape_pair.h"
+
+#include "collision/exact/winding_number.h"
+#include "collision/geometry/cpu_box_pair.h"
+#include "collision/geometry/primitive_solid.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::AlignedBox3d;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// Boxes are grown by this much, so that neither rounding in the box tests nor kSlack loses a pair.
+constexpr double kBoxMargin = 1e-9;  // metres
+
+// How far within the tolerance nodes have to be to be called a collision: more than rounding moves them.
+constexpr double kToleranceMargin = 1e-9;  // metres
+
+// Two solids take about as long as this many nodes.
+constexpr std::uint64_t kStepsOfSolids = 20;
+
+/// Loses nothing where both are far from the origin of the frame that they are given in.
+Isometry3d relativePose(const Isometry3d& a, const Isometry3d& b)
+{
+  Isometry3d b_in_a;
+  b_in_a.linear().noalias() = a.linear().transpose() * b.linear();
+  b_in_a.translation().noalias() = a.linear().transpose() * (b.translation() - a.translation());
+  b_in_a.makeAffine();
+  return b_in_a;
+}
+
+bool leavesMeet(const CpuTree& tree_a, const CpuNode& a, const CpuTree& tree_b, const CpuNode& b,
+                const Isometry3d& b_in_a, double required)
+{
+  for (std::uint32_t j = b.first; j < b.first + b.count; ++j)
+  {
+    const Triangle& t = tree_b.triangles[j];
+    const Triangle triangle_b = {b_in_a * t[0], b_in_a * t[1], b_in_a * t[2]};
+    for (std::uint32_t i = a.first; i < a.first + a.count; ++i)
+      if (trianglesWithin(tree_a.triangles[i], triangle_b, required))
+        return true;
+  }
+  return false;
+}
+
+/// Whether a component of one mesh lies inside the solid of the other, where no surfaces meet: then any point of it
+/// tells.
+bool holdsComponent(const CpuTree& outer, const CpuTree& inner, const Isometry3d& inner_in_outer,
+                    std::vector<std::uint32_t>& stack)
+{
+  const AlignedBox3d& bounds = outer.solid_bounds;
+  if (bounds.isEmpty())
+    return false;
+  const double diagonal = bounds.diagonal().norm() + kBoxMargin;
+  for (const Component& component : inner.parts.components)
+  {
+    // A side of its box is a distance of two of its points along an axis, so nothing with a longer one fits in.
+    const Vector3d point = inner_in_outer * component.point;
+    if (bounds.contains(point) && component.bounds.sizes().maxCoeff() <= diagonal && isInsideSolid(outer, point, stack))
+      return true;
+  }
+  return false;
+}
+}  // namespace
+
+AlignedBox3d boundsOf(const CpuTree& tree, const Isometry3d& pose)
+{
+  const Vector3d center = pose * tree.center;
+  const Vector3d half = (pose.linear().cwiseAbs() * tree.half).array() + kBoxMargin;
+  return {center - half, center + half};
+}
+
+bool CpuShapePair::collide(std::uint32_t a, const Isometry3d& pose_a, std::uint32_t b, const Isometry3d& pose_b,
+                           double required, Scratch& scratch) const
+{
+  const CpuTree& tree_a = forest_->tree(a);
+  const CpuTree& tree_b = forest_->tree(b);
+  const Isometry3d b_in_a = relativePose(pose_a, pose_b);
+  if (!overlap(tree_a.box, placed(tree_b.box, b_in_a), required + kBoxMargin))
+    return false;
+  if (tree_a.mesh && tree_b.mesh)
+  {
+    return surfacesMeet(tree_a, tree_b, b_in_a, required, scratch) ||
+           holdsComponent(tree_a, tree_b, b_in_a, scratch.nodes) ||
+           holdsComponent(tree_b, tree_a, b_in_a.inverse(), scratch.nodes);
+  }
+  if (!tree_a.mesh && !tree_b.mesh)
+  {
+    scratch.steps += kStepsOfSolids;
+    return solidsWithin(tree_a.shape, tree_b.shape, b_in_a, required);
+  }
+  // A triangle inside the primitive meets it as well; the primitive inside the mesh is left.
+  const Isometry3d a_in_b = b_in_a.inverse();
+  return tree_a.mesh ? surfaceMeetsSolid(tree_a, tree_b, a_in_b, required, scratch) ||
+                           isInsideSolid(tree_a, b_in_a.translation(), scratch.nodes)
+                     : surfaceMeetsSolid(tree_b, tree_a, b_in_a, required, scratch) ||
+                           isInsideSolid(tree_b, a_in_b.translation(), scratch.nodes);
+}
+
+bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, const Isometry3d& mesh_in_solid,
+                                     double required, Scratch& scratch) const
+{
+  const Shape& shape = solid.shape;
+  const bool box = std::holds_alternative<Box>(shape);
+  const double margin = required + kBoxMargin;
+  const Vector3d grown = solid.half.array() + margin;
+  const double near_enough = required + tolerance_ - kToleranceMargin;
+
+  scratch.nodes.assign(1, 0);
+  while (!scratch.nodes.empty())
+  {
+    const CpuNode& node = mesh.nodes[scratch.nodes.back()];
+    scratch.nodes.pop_back();
+    ++scratch.steps;
+    const OrientedBox around = placed(node.box, mesh_in_solid);
+    if (!BoxPairTest(around.axes).overlap(grown, around.half, around.center))
+      continue;
+    if (!box || required > 0.0 || tolerance_ > 0.0)
+    {
+      const double distance = distanceToSolid(shape, around.center);
+      const double radius = around.half.norm();
+      if (distance > radius + margin)
+        continue;
+      // A node holds a triangle, all of which is within its radius of its centre.
+      if (tolerance_ > 0.0 && distance + radius <= near_enough)
+        return true;
+    }
+    if (!node.isLeaf())
+    {
+      scratch.nodes.push_back(node.first);
+      scratch.nodes.push_back(node.first + 1);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      const Triangle& t = mesh.triangles[i];
+      if (triangleWithinSolid({mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]}, shape, required))
+        return true;
+    }
+  }
+  return false;
+}
+
+/// Simultaneous traversal of nodes whose boxes overlap, as the roots' do: of each two the larger is opened.
+/// With a tolerance it ends at two nodes whose centres are so close that no point of one is further from a point of the
+/// other than the required distance and the tolerance: each node holds a triangle, all of which is within the node's
+/// radius (half the diagonal of its box) of the box's centre. Nodes without required distance that overlap, with
+/// diagonals that add up to no more than the tolerance, are such: their centres are no further apart than the sum of
+/// the radii, which is half the tolerance. For a required distance v the overlap of boxes grown by v would prove less,
+/// as their corners reach as far as v times the root of 3.
+bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, double required,
+                                Scratch& scratch) const
+{
+  const Isometry3d a_in_b = b_in_a.inverse();
+  const double growth = required + kBoxMargin;
+  const double near_enough = required + tolerance_ - kToleranceMargin;
+  scratch.node_pairs.assign(1, {0, 0});
+  while (!scratch.node_pairs.empty())
+  {
+    const auto [index_a, index_b] = scratch.node_pairs.back();
+    scratch.node_pairs.pop_back();
+    const CpuNode& node_a = a.nodes[index_a];
+    const CpuNode& node_b = b.nodes[index_b];
+    if (node_a.isLeaf() && node_b.isLeaf())
+    {
+      if (leavesMeet(a, node_a, b, node_b, b_in_a, required))
+        return true;
+      continue;
+    }
+    const bool open_a =
+        node_b.isLeaf() || (!node_a.isLeaf() && node_a.box.half.squaredNorm() >= node_b.box.half.squaredNorm());
+    const OrientedBox other = open_a ? placed(node_b.box, b_in_a) : placed(node_a.box, a_in_b);
+    const std::uint32_t first = open_a ? node_a.first : node_b.first;
+    for (const std::uint32_t child : {first, first + 1})
+    {
+      const OrientedBox& box = (open_a ? a : b).nodes[child].box;
+      ++scratch.steps;
+      if (!overlap(box, other, growth))
+        continue;
+      if (tolerance_ > 0.0 && (box.center - other.center).norm() + box.half.norm() + other.half.norm() <= near_enough)
+        return true;
+      scratch.node_pairs.push_back({open_a ? child : index_a, open_a ? index_b : child});
+    }
+  }
+  return false;
+}
+
+bool CpuShapePair::collide(std::uint32_t number, const Isometry3d& pose, const PlacedHalfSpace& half_space,
+                           double required, Scratch& scratch) const
+{
+  const CpuTree& tree = forest_->tree(number);
+  const Vector3d normal = pose.linear().transpose() * half_space.normal;  // in the shape's frame
+  const double most = half_space.offset - half_space.normal.dot(pose.translation()) + required + kSlack;
+  if (!tree.mesh)
+    return -reachAlong(tree.shape, -normal) <= most;
+  scratch.nodes.assign(1, 0);
+  while (!scratch.nodes.empty())
+  {
+    const CpuNode& node = tree.nodes[scratch.nodes.back()];
+    scratch.nodes.pop_back();
+    ++scratch.steps;
+    const double reach = (node.box.axes.transpose() * normal).cwiseAbs().dot(node.box.half);
+    if (normal.dot(node.box.center) - reach > most + kBoxMargin)
+      continue;
+    if (!node.isLeaf())
+    {
+      scratch.nodes.push_back(node.first);
+      scratch.nodes.push_back(node.first + 1);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      for (const Vector3d& vertex : tree.triangles[i])
+        if (normal.dot(vertex) <= most)
+          return true;
+    }
+  }
+  return false;
+}
+}  // namespace gpu_planning_scene::core

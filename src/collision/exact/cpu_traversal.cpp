@@ -1,0 +1,246 @@
+#include "collision/exact/cpu_traversal.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::AlignedBox3d;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr std::uint64_t kStatesPerOrder = 512;
+
+AlignedBox3d grown(const AlignedBox3d& box, double margin)
+{
+  return {box.min().array() - margin, box.max().array() + margin};
+}
+
+}  // namespace
+
+std::int32_t bodyOf(const CollisionProblem& problem, std::size_t instance)
+{
+  if (instance < problem.robot.size())
+    return problem.robot[instance].body;
+  instance -= problem.robot.size();
+  return instance < problem.world.size() ? problem.world[instance].body
+                                         : problem.half_spaces[instance - problem.world.size()].body;
+}
+
+std::vector<AlignedBox3d> worldBounds(const CollisionProblem& problem, const CpuForest& forest)
+{
+  std::vector<AlignedBox3d> bounds;
+  bounds.reserve(problem.world.size());
+  for (const ShapeInstance& object : problem.world)
+    bounds.push_back(grown(boundsOf(forest.tree(object.tree), object.pose), object.padding));
+  return bounds;
+}
+
+CpuTraversal::CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const Forest> forest)
+  : CpuTraversal(problem, std::make_shared<const CpuForest>(*problem, *forest))
+{
+}
+
+CpuTraversal::CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest,
+                           std::shared_ptr<const ObjectTree> objects)
+  : problem_(std::move(problem)),
+    forest_(std::move(forest)),
+    pair_(forest_, problem_->tolerance),
+    objects_(objects ? std::move(objects)
+                     : std::make_shared<const ObjectTree>(worldBounds(*problem_, *forest_), ObjectTree()))
+{
+}
+
+void CpuTraversal::findNearObjects(const AlignedBox3d& bounds, Scratch& scratch) const
+{
+  scratch.near_objects.clear();
+  if (objects_->nodes().empty())
+    return;
+  const Vector3d center = bounds.center();
+  const Vector3d half = 0.5 * bounds.sizes();
+  std::vector<std::uint32_t>& stack = scratch.pair.nodes;
+  stack.assign(1, 0u);
+  while (!stack.empty())
+  {
+    const Node& node = objects_->nodes()[stack.back()];
+    stack.pop_back();
+    if (((centerOf(node) - center).cwiseAbs().array() > (halfOf(node) + half).array()).any())
+      continue;
+    if (node.count == 0)
+    {
+      stack.push_back(node.first);
+      stack.push_back(node.first + 1);
+      continue;
+    }
+    const std::uint32_t object = objects_->order()[node.first];
+    if (objects_->box(object).intersects(bounds))
+      scratch.near_objects.push_back(object);
+  }
+}
+
+BodyPair CpuTraversal::bodiesOf(const InstancePair& pair) const
+{
+  const std::int32_t first = bodyOf(*problem_, pair[0]);
+  const std::int32_t second = bodyOf(*problem_, pair[1]);
+  return {std::min(first, second), std::max(first, second)};
+}
+
+void CpuTraversal::startState(Scratch& scratch) const
+{
+  const std::size_t checks = problem_->robot.size() + problem_->self_pairs.size();
+  if (scratch.order.size() != checks)
+  {
+    scratch.order.resize(checks);
+    std::iota(scratch.order.begin(), scratch.order.end(), 0u);
+    scratch.hits.assign(checks, 0.0);
+    scratch.cost.assign(checks, 1.0);
+    scratch.states = 0;
+  }
+  scratch.poses.resize(problem_->robot.size());
+  scratch.bounds.resize(problem_->robot.size());
+  scratch.placed.assign(problem_->robot.size(), 0);
+}
+
+void CpuTraversal::place(std::uint32_t instance, const Isometry3d* link_poses, Scratch& scratch) const
+{
+  if (scratch.placed[instance] == 0)
+  {
+    const ShapeInstance& geometry = problem_->robot[instance];
+    scratch.poses[instance] = link_poses[geometry.link] * geometry.pose;
+    scratch.bounds[instance] = boundsOf(forest_->tree(geometry.tree), scratch.poses[instance]);
+    scratch.placed[instance] = 1;
+  }
+}
+
+template <class Visit>
+bool CpuTraversal::checkWorld(std::uint32_t instance, double margin, Scratch& scratch, const Visit& visit) const
+{
+  const ShapeInstance& robot = problem_->robot[instance];
+  const auto& half_spaces = problem_->half_spaces;
+  const auto robots = static_cast<std::uint32_t>(problem_->robot.size());
+  const auto objects = static_cast<std::uint32_t>(problem_->world.size());
+  const double padding = robot.padding + margin;
+  findNearObjects(grown(scratch.bounds[instance], padding), scratch);
+  for (const std::uint32_t object : scratch.near_objects)
+  {
+    const ShapeInstance& other = problem_->world[object];
+    if (problem_->world_pairs[instance * problem_->world.size() + object] != 0 &&
+        pair_.collide(robot.tree, scratch.poses[instance], other.tree, other.pose, padding + other.padding,
+                      scratch.pair) &&
+        visit({instance, robots + object}))
+      return true;
+  }
+  for (std::uint32_t k = 0; k < half_spaces.size(); ++k)
+  {
+    const WorldHalfSpace& other = half_spaces[k];
+    if (problem_->half_space_pairs[instance * half_spaces.size() + k] != 0 &&
+        pair_.collide(robot.tree, scratch.poses[instance], {other.normal, other.offset}, padding + other.padding,
+                      scratch.pair) &&
+        visit({instance, robots + objects + k}))
+      return true;
+  }
+  return false;
+}
+
+template <class Visit>
+bool CpuTraversal::check(std::uint32_t number, const Isometry3d* link_poses, double margin, Scratch& scratch,
+                         const Visit& visit) const
+{
+  const auto& robot = problem_->robot;
+  if (number < robot.size())
+  {
+    place(number, link_poses, scratch);
+    return checkWorld(number, margin, scratch, visit);
+  }
+  const auto [first, second] = problem_->self_pairs[number - robot.size()];
+  place(first, link_poses, scratch);
+  place(second, link_poses, scratch);
+  return grown(scratch.bounds[first], margin).intersects(scratch.bounds[second]) &&
+         pair_.collide(robot[first].tree, scratch.poses[first], robot[second].tree, scratch.poses[second], margin,
+                       scratch.pair) &&
+         visit({first, second});
+}
+
+/// To find a collision at the least expected cost, checks go by hits per cost. Sorted after 1, 2, 4, ... states, then
+/// every kStatesPerOrder.
+void CpuTraversal::learnOrder(Scratch& scratch)
+{
+  const std::uint64_t states = ++scratch.states;
+  if (states % kStatesPerOrder != 0 && (states > kStatesPerOrder || (states & (states - 1)) != 0))
+    return;
+  std::sort(scratch.order.begin(), scratch.order.end(),
+            [&scratch](std::uint32_t a, std::uint32_t b)
+            {
+              const double gain_a = scratch.hits[a] / scratch.cost[a];
+              const double gain_b = scratch.hits[b] / scratch.cost[b];
+              return gain_a != gain_b ? gain_a > gain_b : a < b;
+            });
+}
+
+std::optional<BodyPair> CpuTraversal::firstCollision(const Isometry3d* link_poses, Scratch& scratch,
+                                                     const double* margins) const
+{
+  std::optional<BodyPair> found = problem_->always_colliding;
+  if (found)
+    return found;
+  startState(scratch);
+  for (std::size_t k = 0; k < scratch.order.size(); ++k)
+  {
+    const std::uint32_t number = scratch.order[k];
+    const auto visit = [this, &found](const InstancePair& pair)
+    {
+      found = bodiesOf(pair);
+      return true;
+    };
+    const std::uint64_t before = scratch.pair.steps;
+    const bool hit = check(number, link_poses, margins ? margins[number] : 0.0, scratch, visit);
+    scratch.cost[number] += static_cast<double>(scratch.pair.steps - before) + 1.0;
+    scratch.hits[number] += hit ? 1.0 : 0.0;
+    if (hit)
+      break;
+  }
+  learnOrder(scratch);
+  return found;
+}
+
+std::vector<BodyPair> CpuTraversal::allCollisions(const Isometry3d* link_poses, Scratch& scratch) const
+{
+  std::vector<BodyPair> found;
+  if (problem_->always_colliding)
+    found.push_back(*problem_->always_colliding);
+  startState(scratch);
+  for (const std::uint32_t number : scratch.order)
+  {
+    const auto visit = [this, &found](const InstancePair& pair)
+    {
+      found.push_back(bodiesOf(pair));
+      return false;
+    };
+    check(number, link_poses, 0.0, scratch, visit);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::vector<CpuTraversal::InstancePair> CpuTraversal::collidingInstances(const Isometry3d* link_poses,
+                                                                         Scratch& scratch) const
+{
+  std::vector<InstancePair> found;
+  startState(scratch);
+  for (const std::uint32_t number : scratch.order)
+  {
+    const auto visit = [&found](const InstancePair& pair)
+    {
+      found.push_back(pair);
+      return false;
+    };
+    check(number, link_poses, 0.0, scratch, visit);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+
+#include "collision/exact/cpu_forest.h"
+#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/object_tree.h"
+#include "collision/problem/collision_problem.h"
+
+namespace gpu_planning_scene::core
+{
+/// Trees on the CPU, kept for the next problem: only those of new shapes are built, and the tree over objects is
+/// refitted.
+class ForestCache
+{
+ public:
+  std::unique_ptr<const CpuTraversal> traversalOf(std::shared_ptr<const CollisionProblem> problem);
+
+  /// What the last traversal walks; null before the first.
+  const std::shared_ptr<const CpuForest>& forest() const { return forest_; }
+  const std::shared_ptr<const ObjectTree>& objects() const { return objects_; }
+
+ private:
+  std::shared_ptr<const CpuForest> forest_;
+  std::shared_ptr<const ObjectTree> objects_;
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,48 @@
+#include "collision/exact/object_tree.h"
+
+#include <utility>
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// Past this growth of the nodes' areas a new tree pays.
+constexpr double kMostGrowth = 1.2;
+
+double areaOf(const std::vector<Node>& nodes)
+{
+  double area = 0.0;
+  for (const Node& node : nodes)
+  {
+    const double x = node.half[0];
+    const double y = node.half[1];
+    const double z = node.half[2];
+    area += x * y + y * z + z * x;
+  }
+  return area;
+}
+}  // namespace
+
+ObjectTree::ObjectTree(std::vector<Eigen::AlignedBox3d> boxes, const ObjectTree& previous) : boxes_(std::move(boxes))
+{
+  if (boxes_.size() == previous.boxes_.size())
+  {
+    tree_ = previous.tree_;
+    area_when_built_ = previous.area_when_built_;
+    refit();
+    if (areaOf(tree_.nodes) <= kMostGrowth * area_when_built_)
+      return;
+  }
+  tree_ = buildBinnedSah(boxes_, 1);
+  area_when_built_ = areaOf(tree_.nodes);
+}
+
+/// Children come after their parents.
+void ObjectTree::refit()
+{
+  for (auto node = tree_.nodes.rbegin(); node != tree_.nodes.rend(); ++node)
+    setBox(node->count > 0 ? boxes_[tree_.order[node->first]]
+                           : boundsOf(tree_.nodes[node->first]).merged(boundsOf(tree_.nodes[node->first + 1])),
+           *node);
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,145 @@
+#include "collision/exact/winding_number.h"
+
+#include <array>
+#include <optional>
+#include <stdexcept>
+
+#include "collision/geometry/exact_orientation.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector3d;
+
+/// Far above the rounding of the box test, for coordinates of up to kilometres.
+constexpr double kBoxMargin = 1e-9;  // metres
+
+/// Whether a segment and a box overlap, by their separating axes; never misses an overlap.
+class SegmentBoxTest
+{
+ public:
+  SegmentBoxTest(const Vector3d& start, const Vector3d& end) : center_(0.5 * (start + end)), half_(0.5 * (end - start))
+  {
+  }
+
+  bool overlap(const OrientedBox& box) const
+  {
+    const Vector3d grown = box.half.array() + kBoxMargin;
+    const Vector3d between = box.axes.transpose() * (center_ - box.center);
+    const Vector3d half = box.axes.transpose() * half_;
+    const Vector3d abs_half = half.cwiseAbs();
+    if ((between.cwiseAbs().array() > (grown + abs_half).array()).any())
+      return false;
+    const Vector3d across = between.cross(half).cwiseAbs();
+    for (int i = 0; i < 3; ++i)
+    {
+      const int j = (i + 1) % 3;
+      const int k = (i + 2) % 3;
+      if (across[i] > grown[j] * abs_half[k] + grown[k] * abs_half[j])
+        return false;
+    }
+    return true;
+  }
+
+ private:
+  Vector3d center_;
+  Vector3d half_;
+};
+
+/// +1 or -1 where the segment passes through the inside of the triangle, by the side that it comes from; 0 where it
+/// does not meet it. Nothing where the two meet in any other way.
+std::optional<int> crossing(const Vector3d& start, const Vector3d& end, const Triangle& t)
+{
+  const std::array<int, 3> turns = {exactOrientation(start, end, t[0], t[1]), exactOrientation(start, end, t[1], t[2]),
+                                    exactOrientation(start, end, t[2], t[0])};
+  bool left = false;
+  bool right = false;
+  for (const int turn : turns)
+  {
+    left = left || turn > 0;
+    right = right || turn < 0;
+  }
+  if (left && right)
+    return 0;  // the line passes outside
+  const int start_side = exactOrientation(t[0], t[1], t[2], start);
+  const int end_side = exactOrientation(t[0], t[1], t[2], end);
+  if (start_side * end_side > 0)
+    return 0;
+  if (turns[0] == 0 || turns[1] == 0 || turns[2] == 0 || start_side * end_side == 0)
+    return {};
+  return start_side;
+}
+
+/// The sum of the crossings of closed components; nothing if one of them is degenerate.
+std::optional<int> sumOfCrossings(const CpuTree& tree, const Vector3d& start, const Vector3d& end,
+                                  std::vector<std::uint32_t>& stack)
+{
+  const SegmentBoxTest test(start, end);
+  int sum = 0;
+  stack.assign(1, 0);
+  while (!stack.empty())
+  {
+    const CpuNode& node = tree.nodes[stack.back()];
+    stack.pop_back();
+    if (!test.overlap(node.box))
+      continue;
+    if (!node.isLeaf())
+    {
+      stack.push_back(node.first);
+      stack.push_back(node.first + 1);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+    {
+      if (tree.bounds_solid[i] == 0)
+        continue;
+      const std::optional<int> found = crossing(start, end, tree.triangles[i]);
+      if (!found)
+        return {};
+      sum += *found;
+    }
+  }
+  return sum;
+}
+
+/// A point outside the bounds, not far beyond the face that is nearest to `point`. Later attempts take other
+/// directions.
+Vector3d pointOutside(const Eigen::AlignedBox3d& bounds, const Vector3d& point, int attempt)
+{
+  int axis;
+  const double above = (bounds.max() - point).minCoeff(&axis);
+  int axis_below;
+  const double below = (point - bounds.min()).minCoeff(&axis_below);
+  const double size = bounds.sizes().maxCoeff();
+  Vector3d end = point;
+  // Multiples of irrational numbers, less their whole part, never repeat.
+  const auto slant = [attempt, size](double irrational)
+  {
+    const double multiple = (attempt + 1) * irrational;
+    return 0.2 * size * (multiple - static_cast<double>(static_cast<int>(multiple)) - 0.5);
+  };
+  const double beyond = 0.1 * size + 1e-3;
+  const int chosen = above < below ? axis : axis_below;
+  end[(chosen + 1) % 3] += slant(0.6180339887498949);
+  end[(chosen + 2) % 3] += slant(0.4142135623730951);
+  end[chosen] = above < below ? bounds.max()[chosen] + beyond : bounds.min()[chosen] - beyond;
+  return end;
+}
+}  // namespace
+
+bool isInsideSolid(const CpuTree& tree, const Vector3d& point, std::vector<std::uint32_t>& stack)
+{
+  const Eigen::AlignedBox3d& bounds = tree.solid_bounds;
+  if (!bounds.contains(point))
+    return false;
+  constexpr int kMaxAttempts = 1000;
+  for (int attempt = 0; attempt < kMaxAttempts; ++attempt)
+  {
+    const std::optional<int> sum = sumOfCrossings(tree, point, pointOutside(bounds, point, attempt), stack);
+    if (sum)
+      return *sum != 0;
+  }
+  throw std::logic_error("the winding number of a mesh was asked for at a point of its surface");
+}
+}  // namespace gpu_planning_scene::core

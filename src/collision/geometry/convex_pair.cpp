@@ -1,0 +1,186 @@
+// Two methods: the algorithm of Gilbert, Johnson and Keerthi in double, which ends with a proof for nearly all pairs,
+// and a search for a separating direction that always ends, for pairs whose distance is within rounding of the required
+// one: there the direction between the nearest points is mostly rounding.
+#include "collision/geometry/convex_pair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "collision/geometry/simplex.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector3d;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+constexpr int kMaxIterations = 48;
+/// How exactly the search determines the greatest gap.
+constexpr double kGapAccuracy = 1e-13;  // metres
+
+/// The Minkowski difference a - b: its distance from the origin is that of the two sets.
+class Difference
+{
+ public:
+  Difference(const Convex& a, const Convex& b)
+    : a_(a), b_(b), center_(a.center() - b.center()), radius_(a.radius() + b.radius())
+  {
+    size_ = radius_ + a.center().norm() + b.center().norm();
+  }
+
+  Vector3d nearestAlong(const Vector3d& direction) const { return a_.farthest(-direction) - b_.farthest(direction); }
+
+  const Vector3d& center() const { return center_; }
+  double radius() const { return radius_; }
+
+  /// Bounds the rounding of a point of the difference, and of its projection on a unit vector.
+  double rounding() const { return 32.0 * kEpsilon * size_; }
+
+ private:
+  const Convex& a_;
+  const Convex& b_;
+  Vector3d center_;
+  double radius_;
+  double size_;
+};
+
+enum class Verdict
+{
+  Within,
+  Apart,
+  Undecided
+};
+
+/// `nearest` becomes the nearest point of the difference that was found. Both verdicts are certain: there is a point of
+/// the difference that near, or a plane that holds it off.
+Verdict decideByDescent(const Difference& difference, double distance, const Vector3d& guess, Vector3d& nearest)
+{
+  const double rounding = difference.rounding();
+  nearest = difference.nearestAlong(guess);
+  if (guess.dot(nearest) > (distance + rounding) * guess.norm())
+    return Verdict::Apart;
+  Simplex simplex(nearest);
+  for (int i = 0; i < kMaxIterations; ++i)
+  {
+    nearest = simplex.nearest();
+    const double length = nearest.norm();
+    if (length + rounding <= distance)
+      return Verdict::Within;
+    const Vector3d point = difference.nearestAlong(nearest);
+    const double gap = nearest.dot(point);
+    if (gap > (distance + rounding) * length)
+      return Verdict::Apart;
+    if (simplex.full() || length * length - gap <= rounding * length)
+      break;
+    simplex.add(point);
+  }
+  return Verdict::Undecided;
+}
+
+/// BroadPhaseQueries directions n = m + alpha u + beta v, with alpha and beta in [-reach, reach], for one along which
+/// the difference is farther than `distance` from the origin. F(n) = min n . x - distance |n|, over the x of the
+/// difference, is concave, so that nested golden-section searches find its maximum.
+class DirectionSearch
+{
+ public:
+  DirectionSearch(const Difference& difference, double distance) : difference_(difference), distance_(distance) {}
+
+  bool separates(const Vector3d& m, const Vector3d& u, const Vector3d& v, double reach)
+  {
+    // F changes by no more than the sizes for each unit of alpha or beta.
+    const double step = std::max(kGapAccuracy / (difference_.radius() + difference_.center().norm() + distance_),
+                                 16.0 * kEpsilon * reach);
+    const auto along_v = [&](double alpha)
+    { return maximum([&](double beta) { return excess(m + alpha * u + beta * v); }, reach, step); };
+    return maximum(along_v, reach, step) > 0.0;
+  }
+
+ private:
+  double excess(const Vector3d& n) const { return n.dot(difference_.nearestAlong(n)) - distance_ * n.norm(); }
+
+  /// Of a concave function on [-reach, reach]; ends early with a value that is certainly above 0.
+  template <class Function>
+  double maximum(const Function& function, double reach, double step) const
+  {
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    double low = -reach;
+    double high = reach;
+    double left = high - golden * (high - low);
+    double right = low + golden * (high - low);
+    double at_left = function(left);
+    double at_right = function(right);
+    const double enough = 2.0 * difference_.rounding();
+    while (high - low > step && at_left <= enough && at_right <= enough)
+    {
+      if (at_left >= at_right)
+      {
+        high = right;
+        right = left;
+        at_right = at_left;
+        left = high - golden * (high - low);
+        at_left = function(left);
+      }
+      else
+      {
+        low = left;
+        left = right;
+        at_left = at_right;
+        right = low + golden * (high - low);
+        at_right = function(right);
+      }
+    }
+    return std::max(at_left, at_right);
+  }
+
+  const Difference& difference_;
+  double distance_;
+};
+
+/// `near` is a point of the difference, farther from the origin than `distance` but for rounding: along a direction n
+/// that separates, n . near > distance |n|.
+bool isSeparable(const Difference& difference, double distance, const Vector3d& near)
+{
+  DirectionSearch search(difference, distance);
+  const double length = near.norm();
+  const Vector3d m = near / length;
+  const Vector3d u = m.unitOrthogonal();
+  const Vector3d v = m.cross(u);
+  // With |m| = 1: |n| < length / distance. Rounding of `near` is given some room.
+  const double ratio = (length + difference.rounding()) / distance;
+  const double all = 1.01 * std::sqrt(std::max(0.0, ratio * ratio - 1.0)) + 4.0 * difference.rounding() / length;
+  constexpr double kWide = 8.0;
+  constexpr double kNarrow = 0.01;
+  if (all <= kWide)
+    return search.separates(m, u, v, all);
+  // The direction of `near` is most likely right: then little needs to be searched. Otherwise all directions are, on
+  // the faces of a cube, less those along which the centre is not on the positive side.
+  if (search.separates(m, u, v, kNarrow))
+    return true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const double sign : {-1.0, 1.0})
+    {
+      const double most = difference.center().lpNorm<1>() -
+                          (sign * difference.center()[axis] < 0.0 ? 2.0 * std::abs(difference.center()[axis]) : 0.0);
+      if (most > 0.0 && search.separates(sign * Vector3d::Unit(axis), Vector3d::Unit((axis + 1) % 3),
+                                         Vector3d::Unit((axis + 2) % 3), 1.0))
+        return true;
+    }
+  }
+  return false;
+}
+}  // namespace
+
+bool convexWithin(const Convex& a, const Convex& b, double distance, const Vector3d& from_b)
+{
+  const Difference difference(a, b);
+  if (difference.center().norm() > difference.radius() + distance + difference.rounding())
+    return false;
+  Vector3d nearest;
+  const Verdict verdict = decideByDescent(difference, distance, from_b, nearest);
+  return verdict == Verdict::Undecided ? !isSeparable(difference, distance, nearest) : verdict == Verdict::Within;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,229 @@
+#include "collision/geometry/primitive_solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "collision/geometry/convex_pair.h"
+#include "collision/geometry/precise_distance.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+template <class... Functions>
+struct Overloaded : Functions...
+{
+  using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
+/// From the nearest point of a cylinder or a cone, whose radius is linear in z, to a point; 0 inside. In the half plane
+/// of distance from the axis and z.
+Vector3d fromFrustum(double bottom_radius, double top_radius, double half_length, const Vector3d& point)
+{
+  const Vector2d p(point.head<2>().norm(), point.z());
+  const double radius = bottom_radius + (top_radius - bottom_radius) * (p.y() + half_length) / (2.0 * half_length);
+  if (std::abs(p.y()) <= half_length && p.x() <= radius)
+    return Vector3d::Zero();
+  Vector2d best = Vector2d::Constant(std::numeric_limits<double>::infinity());
+  const auto offer_segment = [&p, &best](const Vector2d& start, const Vector2d& end)
+  {
+    const Vector2d step = end - start;
+    const double length = step.squaredNorm();
+    const double t = length > 0.0 ? std::clamp((p - start).dot(step) / length, 0.0, 1.0) : 0.0;
+    const Vector2d offset = p - (start + t * step);
+    best = offset.squaredNorm() < best.squaredNorm() ? offset : best;
+  };
+  const Vector2d bottom(bottom_radius, -half_length);
+  const Vector2d top(top_radius, half_length);
+  offer_segment(bottom, top);
+  offer_segment(Vector2d(0.0, -half_length), bottom);
+  offer_segment(Vector2d(0.0, half_length), top);
+  const Vector2d outward = p.x() > 0.0 ? Vector2d(point.head<2>() / p.x()) : Vector2d::UnitX();
+  return {best.x() * outward.x(), best.x() * outward.y(), best.y()};
+}
+
+/// From the nearest point of a solid, not a sphere, to a point; 0 inside.
+Vector3d fromSolid(const Shape& solid, const Vector3d& point)
+{
+  return std::visit(
+      Overloaded{[&](const Box& box) -> Vector3d
+                 { return point - point.cwiseMin(0.5 * box.size).cwiseMax(-0.5 * box.size); },
+                 [&](const Cylinder& c) { return fromFrustum(c.radius, c.radius, 0.5 * c.length, point); },
+                 [&](const Cone& c) { return fromFrustum(c.radius, 0.0, 0.5 * c.length, point); },
+                 [](const auto& /*no primitive*/) -> Vector3d
+                 { return Vector3d::Constant(std::numeric_limits<double>::infinity()); }},
+      solid);
+}
+
+/// The point of a disk around the z axis that is farthest in a direction.
+Vector3d farthestOfDisk(double radius, double z, const Vector3d& direction)
+{
+  const double across = direction.head<2>().norm();
+  const double scale = across > 0.0 ? radius / across : 0.0;
+  return {scale * direction.x(), scale * direction.y(), z};
+}
+
+class ConvexTriangle final : public Convex
+{
+ public:
+  explicit ConvexTriangle(const Triangle& triangle)
+    : triangle_(triangle), center_((triangle[0] + triangle[1] + triangle[2]) / 3.0)
+  {
+    radius_ = std::sqrt(std::max({(triangle[0] - center_).squaredNorm(), (triangle[1] - center_).squaredNorm(),
+                                  (triangle[2] - center_).squaredNorm()}));
+  }
+
+  Vector3d farthest(const Vector3d& direction) const override
+  {
+    const double first = direction.dot(triangle_[0]);
+    const double second = direction.dot(triangle_[1]);
+    const double third = direction.dot(triangle_[2]);
+    return first >= second ? triangle_[first >= third ? 0 : 2] : triangle_[second >= third ? 1 : 2];
+  }
+  Vector3d center() const override { return center_; }
+  double radius() const override { return radius_; }
+
+ private:
+  const Triangle& triangle_;
+  Vector3d center_;
+  double radius_;
+};
+
+class ConvexSolid final : public Convex
+{
+ public:
+  explicit ConvexSolid(const Shape& solid) : solid_(solid), radius_(halfExtents(solid).norm()) {}
+
+  Vector3d farthest(const Vector3d& direction) const override { return farthestOfSolid(solid_, direction); }
+  Vector3d center() const override { return Vector3d::Zero(); }
+  double radius() const override { return radius_; }
+
+ private:
+  const Shape& solid_;
+  double radius_;
+};
+
+class PlacedConvexSolid final : public Convex
+{
+ public:
+  PlacedConvexSolid(const Shape& solid, const Eigen::Isometry3d& pose)
+    : solid_(solid), pose_(pose), radius_(halfExtents(solid).norm())
+  {
+  }
+
+  Vector3d farthest(const Vector3d& direction) const override
+  {
+    return pose_ * farthestOfSolid(solid_, pose_.linear().transpose() * direction);
+  }
+  Vector3d center() const override { return pose_.translation(); }
+  double radius() const override { return radius_; }
+
+ private:
+  const Shape& solid_;
+  const Eigen::Isometry3d& pose_;
+  double radius_;
+};
+
+/// Whether the point is at most `distance` from the triangle.
+bool triangleWithinPoint(const Triangle& triangle, const Vector3d& point, double distance)
+{
+  const double found = (nearestPoint(triangle, point) - point).norm();
+  double size = point.lpNorm<Eigen::Infinity>();
+  for (const Vector3d& vertex : triangle)
+    size = std::max({size, vertex.lpNorm<Eigen::Infinity>(), (vertex - point).lpNorm<Eigen::Infinity>()});
+  const double rounding = 16.0 * kEpsilon * size;
+  if (found + rounding <= distance)
+    return true;  // it is that of a point of the triangle
+  if (found - rounding * (1.0 + size / distance) > distance)
+    return false;  // see nearestPoint: its error is least where it matters least
+  return preciseDistance(triangle, point) <= distance;
+}
+}  // namespace
+
+bool isMesh(const Shape& shape)
+{
+  return std::holds_alternative<std::shared_ptr<const Mesh>>(shape);
+}
+
+Vector3d halfExtents(const Shape& solid)
+{
+  return std::visit(Overloaded{[](const Box& box) -> Vector3d { return 0.5 * box.size; },
+                               [](const Sphere& sphere) -> Vector3d { return Vector3d::Constant(sphere.radius); },
+                               [](const Cylinder& c) { return Vector3d(c.radius, c.radius, 0.5 * c.length); },
+                               [](const Cone& c) { return Vector3d(c.radius, c.radius, 0.5 * c.length); },
+                               [](const auto& /*no primitive*/) { return Vector3d(0.0, 0.0, 0.0); }},
+                    solid);
+}
+
+double distanceToSolid(const Shape& solid, const Vector3d& point)
+{
+  if (const Sphere* sphere = std::get_if<Sphere>(&solid))
+    return std::max(0.0, point.norm() - sphere->radius);
+  return fromSolid(solid, point).norm();
+}
+
+Vector3d farthestOfSolid(const Shape& solid, const Vector3d& direction)
+{
+  return std::visit(
+      Overloaded{[&](const Box& box) -> Vector3d
+                 {
+                   const Vector3d half = 0.5 * box.size;
+                   return {std::copysign(half.x(), direction.x()), std::copysign(half.y(), direction.y()),
+                           std::copysign(half.z(), direction.z())};
+                 },
+                 [&](const Cylinder& c)
+                 { return farthestOfDisk(c.radius, std::copysign(0.5 * c.length, direction.z()), direction); },
+                 [&](const Cone& c)
+                 {
+                   const Vector3d base = farthestOfDisk(c.radius, -0.5 * c.length, direction);
+                   const Vector3d apex(0.0, 0.0, 0.5 * c.length);
+                   return direction.dot(apex - base) > 0.0 ? apex : base;
+                 },
+                 [&](const Sphere& sphere) -> Vector3d
+                 {
+                   const double length = direction.norm();
+                   return length > 0.0 ? Vector3d(sphere.radius / length * direction) : Vector3d::Zero();
+                 },
+                 [](const auto& /*no primitive*/) -> Vector3d { return Vector3d::Zero(); }},
+      solid);
+}
+
+double reachAlong(const Shape& solid, const Vector3d& direction)
+{
+  return direction.dot(farthestOfSolid(solid, direction));
+}
+
+bool triangleWithinSolid(const Triangle& triangle, const Shape& solid, double required)
+{
+  const double distance = required + kSlack;
+  if (const Sphere* sphere = std::get_if<Sphere>(&solid))
+    return triangleWithinPoint(triangle, Vector3d::Zero(), sphere->radius + distance);
+  const Triangle sorted = sortedTriangle(triangle);
+  const ConvexTriangle convex(sorted);
+  const Vector3d to_center = fromSolid(solid, convex.center());
+  const double from_center = to_center.norm();
+  if (from_center <= required)
+    return true;
+  return from_center <= convex.radius() + 2.0 * distance &&
+         convexWithin(convex, ConvexSolid(solid), distance, to_center);
+}
+
+bool solidsWithin(const Shape& a, const Shape& b, const Eigen::Isometry3d& b_in_a, double required)
+{
+  const double distance = required + kSlack;
+  if (const Sphere* sphere = std::get_if<Sphere>(&b))
+    return distanceToSolid(a, b_in_a.translation()) <= sphere->radius + distance;
+  if (const Sphere* sphere = std::get_if<Sphere>(&a))
+    return distanceToSolid(b, b_in_a.inverse().translation()) <= sphere->radius + distance;
+  return convexWithin(ConvexSolid(a), PlacedConvexSolid(b, b_in_a), distance, -b_in_a.translation());
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,299 @@
+#include "collision/geometry/triangle_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collision/geometry/exact_orientation.h"
+#include "collision/geometry/precise_distance.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector3d;
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+// A square that is smaller has lost digits, or will, to underflow; then nothing is certain.
+constexpr double kUnderflow = 1e-280;
+
+double sizeOf(const Vector3d& v)
+{
+  return v.lpNorm<Eigen::Infinity>();
+}
+
+/// A bound on the rounding error of the volume u x v . w of three differences of coordinates, by their largest
+/// components: six products of three factors, each with less than eight roundings.
+double volumeError(double u_size, double v_size, double w_size)
+{
+  return 6.0 * 8.0 * kEpsilon * u_size * v_size * w_size + std::numeric_limits<double>::min();
+}
+
+/// 0 where rounding may have changed the sign.
+int clearSign(double value, double error)
+{
+  return value > error ? 1 : value < -error ? -1 : 0;
+}
+
+/// The vertices of two triangles from one of them, and how much room rounding needs.
+class PairProjections
+{
+ public:
+  PairProjections(const Triangle& p, const Triangle& q)
+    : vertices_{p[0] - q[0], p[1] - q[0], p[2] - q[0], q[1] - q[0], q[2] - q[0]}
+  {
+    double size = 0.0;
+    for (const Vector3d& vertex : vertices_)
+      size = std::max(size, sizeOf(vertex));
+    // Each coordinate difference and each of the three products and two sums of a projection rounds by epsilon / 2 of
+    // no more than sqrt(3) size times the axis.
+    error_ = 8.0 * kEpsilon * size;
+  }
+
+  double size() const { return error_ / (8.0 * kEpsilon); }
+
+  /// Whether the projections on an axis of any length are certainly farther apart than `distance`: then the triangles
+  /// are. No matter where the axis comes from.
+  bool apartAlong(const Vector3d& axis, double distance) const
+  {
+    const double p0 = axis.dot(vertices_[0]);
+    const double p1 = axis.dot(vertices_[1]);
+    const double p2 = axis.dot(vertices_[2]);
+    const double q1 = axis.dot(vertices_[3]);
+    const double q2 = axis.dot(vertices_[4]);
+    const double gap =
+        std::max(std::min({p0, p1, p2}) - std::max({0.0, q1, q2}), std::min({0.0, q1, q2}) - std::max({p0, p1, p2}));
+    const double squared = axis.squaredNorm();
+    return squared > kUnderflow && gap > (distance + error_) * std::sqrt(squared);
+  }
+
+ private:
+  std::array<Vector3d, 5> vertices_;
+  double error_;
+};
+
+enum class Verdict
+{
+  Hit,
+  Apart,
+  Undecided
+};
+
+/// Decides what is clear: apart if an axis separates the triangles by more than `distance`; a hit by the signs of
+/// volumes: those of one triangle and a vertex of the other (sides of planes) and those of two edges (how the line of
+/// an edge passes the edges of the other triangle, as in Pluecker coordinates; see e.g. Devillers and Guigue, "Faster
+/// Triangle-Triangle Intersection Tests", 2002).
+Verdict decideBySigns(const Triangle& p, const Triangle& q, const PairProjections& projections, double distance)
+{
+  Triangle edge_p;
+  Triangle edge_q;
+  std::array<double, 3> edge_p_size;
+  std::array<double, 3> edge_q_size;
+  for (int i = 0; i < 3; ++i)
+  {
+    edge_p[i] = p[(i + 1) % 3] - p[i];
+    edge_q[i] = q[(i + 1) % 3] - q[i];
+    edge_p_size[i] = sizeOf(edge_p[i]);
+    edge_q_size[i] = sizeOf(edge_q[i]);
+  }
+
+  // On which side of the plane of `triangle` the vertices of `other` are; returns whether they are all on one, clearly
+  // apart.
+  const auto find_sides = [distance](const Triangle& triangle, const Triangle& edge,
+                                     const std::array<double, 3>& edge_size, const Triangle& other,
+                                     std::array<int, 3>& sides)
+  {
+    const Vector3d normal = edge[0].cross(edge[1]);
+    // The second term bounds the error of the normal: little of a sliver's normal may be left.
+    const double squared = normal.squaredNorm();
+    const double tolerance = squared > kUnderflow
+                                 ? distance * (std::sqrt(squared) + 16.0 * kEpsilon * edge_size[0] * edge_size[1])
+                                 : std::numeric_limits<double>::infinity();
+    int apart = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      const Vector3d between = other[i] - triangle[1];
+      const double volume = normal.dot(between);
+      const double error = volumeError(edge_size[0], edge_size[1], sizeOf(between));
+      sides[i] = clearSign(volume, error);
+      apart += clearSign(volume, error + tolerance);
+    }
+    return std::abs(apart) == 3;
+  };
+  std::array<int, 3> side_of_p;  // of the vertices of q
+  std::array<int, 3> side_of_q;  // of the vertices of p
+  if (find_sides(p, edge_p, edge_p_size, q, side_of_p) || find_sides(q, edge_q, edge_q_size, p, side_of_q))
+    return Verdict::Apart;
+
+  std::array<std::array<int, 3>, 3> turn;  // [i][j]: how edge i of p passes edge j of q
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      const Vector3d axis = edge_p[i].cross(edge_q[j]);
+      const Vector3d between = q[j] - p[i];
+      const double error = volumeError(edge_p_size[i], edge_q_size[j], sizeOf(between));
+      turn[i][j] = clearSign(axis.dot(between), error);
+      if (turn[i][j] != 0 && projections.apartAlong(axis, distance))
+        return Verdict::Apart;
+    }
+  }
+  for (int i = 0; i < 3; ++i)
+  {
+    if (side_of_q[i] * side_of_q[(i + 1) % 3] < 0 && turn[i][0] != 0 && turn[i][0] == turn[i][1] &&
+        turn[i][0] == turn[i][2])
+      return Verdict::Hit;
+    if (side_of_p[i] * side_of_p[(i + 1) % 3] < 0 && turn[0][i] != 0 && turn[0][i] == turn[1][i] &&
+        turn[0][i] == turn[2][i])
+      return Verdict::Hit;
+  }
+  return Verdict::Undecided;
+}
+
+/// Two points, one of each shape, and the vector from the one to the other.
+struct Nearest
+{
+  double squared_distance = std::numeric_limits<double>::infinity();
+  Vector3d between = Vector3d::Zero();
+
+  void offer(const Vector3d& candidate)
+  {
+    const double squared = candidate.squaredNorm();
+    if (squared < squared_distance)
+    {
+      squared_distance = squared;
+      between = candidate;
+    }
+  }
+};
+
+/// The nearest points inside both segments, if there are such.
+void offerNearestOfSegments(const Vector3d& p0, const Vector3d& p1, const Vector3d& q0, const Vector3d& q1,
+                            Nearest& nearest)
+{
+  const Vector3d u = p1 - p0;
+  const Vector3d v = q1 - q0;
+  const Vector3d w = p0 - q0;
+  const Vector3d n = u.cross(v);
+  const double nn = n.squaredNorm();
+  const double s = v.cross(w).dot(n);
+  const double t = u.cross(w).dot(n);
+  if (nn > 0.0 && s >= 0.0 && s <= nn && t >= 0.0 && t <= nn)
+    nearest.offer(w + (s / nn) * u - (t / nn) * v);
+}
+
+/// Of two triangles of which no edge of one passes through the inside of the other. Whatever rounding does to the
+/// choice of the points, they are points of the triangles: their distance is an upper bound.
+Nearest nearestOfOutlines(const Triangle& a, const Triangle& b)
+{
+  Nearest nearest;
+  for (int i = 0; i < 3; ++i)
+  {
+    nearest.offer(nearestPoint(a, b[i]) - b[i]);
+    nearest.offer(a[i] - nearestPoint(b, a[i]));
+    for (int j = 0; j < 3; ++j)
+      offerNearestOfSegments(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3], nearest);
+  }
+  return nearest;
+}
+
+/// Whether the segment passes through the inside of the triangle, from one side to the other, by exact signs.
+bool segmentPierces(const Vector3d& start, const Vector3d& end, const Triangle& triangle)
+{
+  if (exactOrientation(triangle[0], triangle[1], triangle[2], start) *
+          exactOrientation(triangle[0], triangle[1], triangle[2], end) >=
+      0)
+    return false;
+  const int turn = exactOrientation(start, end, triangle[0], triangle[1]);
+  return turn != 0 && turn == exactOrientation(start, end, triangle[1], triangle[2]) &&
+         turn == exactOrientation(start, end, triangle[2], triangle[0]);
+}
+
+bool edgePierces(const Triangle& a, const Triangle& b)
+{
+  for (int i = 0; i < 3; ++i)
+    if (segmentPierces(a[i], a[(i + 1) % 3], b) || segmentPierces(b[i], b[(i + 1) % 3], a))
+      return true;
+  return false;
+}
+
+double largestCoordinate(const Triangle& a, const Triangle& b)
+{
+  double size = 0.0;
+  for (int i = 0; i < 3; ++i)
+    size = std::max({size, sizeOf(a[i]), sizeOf(b[i])});
+  return size;
+}
+
+bool lexicographicallyLess(const Vector3d& a, const Vector3d& b)
+{
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+}  // namespace
+
+Vector3d nearestPoint(const Triangle& triangle, const Vector3d& point)
+{
+  const Vector3d& a = triangle[0];
+  Vector3d best = a;
+  double best_distance = (a - point).squaredNorm();
+  const auto offer = [&](const Vector3d& candidate)
+  {
+    const double distance = (candidate - point).squaredNorm();
+    if (distance < best_distance)
+    {
+      best_distance = distance;
+      best = candidate;
+    }
+  };
+  const Vector3d ab = triangle[1] - a;
+  const Vector3d ac = triangle[2] - a;
+  const Vector3d n = ab.cross(ac);
+  const double nn = n.squaredNorm();
+  if (nn > 0.0)
+  {
+    const Vector3d ap = point - a;
+    const double v = ap.cross(ac).dot(n);
+    const double w = ab.cross(ap).dot(n);
+    if (v >= 0.0 && w >= 0.0 && v + w <= nn)
+      offer(a + (v / nn) * ab + (w / nn) * ac);
+  }
+  // Also where the foot of the perpendicular seems to be inside: of a sliver's plane only rounding may be left.
+  for (int i = 0; i < 3; ++i)
+  {
+    const Vector3d edge = triangle[(i + 1) % 3] - triangle[i];
+    const double length = edge.squaredNorm();
+    const double t = length > 0.0 ? std::clamp((point - triangle[i]).dot(edge) / length, 0.0, 1.0) : 0.0;
+    offer(triangle[i] + t * edge);
+  }
+  return best;
+}
+
+Triangle sortedTriangle(const Triangle& triangle)
+{
+  Triangle sorted = triangle;
+  std::sort(sorted.begin(), sorted.end(), lexicographicallyLess);
+  return sorted;
+}
+
+bool precedes(const Triangle& a, const Triangle& b)
+{
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), lexicographicallyLess);
+}
+
+bool trianglesWithin(const Triangle& a, const Triangle& b, double required)
+{
+  // What is decided before the last line is certain, so it cannot depend on the order of vertices and triangles.
+  const double threshold = required + kSlack;
+  const PairProjections projections(a, b);
+  const Verdict verdict = decideBySigns(a, b, projections, threshold);
+  if (verdict != Verdict::Undecided)
+    return verdict == Verdict::Hit;
+  const Nearest nearest = nearestOfOutlines(a, b);
+  const double distance = std::sqrt(nearest.squared_distance);
+  if (distance + 16.0 * kEpsilon * (largestCoordinate(a, b) + projections.size()) <= threshold)
+    return true;
+  if (projections.apartAlong(nearest.between, threshold))
+    return false;
+  return edgePierces(a, b) || preciseDistance(a, b) <= threshold;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,211 @@
+#include "collision/gpu/gpu_checker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "collision/parallel_for.h"
+#include "gpu/float_arithmetic.h"
+#include "gpu/gl_check.h"
+#include "gpu_planning_scene/error.h"
+#include "model/seconds_since.h"
+#include "shader_constants.h"
+
+namespace gpu_planning_scene::core
+{
+GpuChecker::GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees)
+  : shader_folder_(options.shader_folder.empty() ? shaderFolder() : options.shader_folder),
+    gl_(options.device),
+    trees_(trees ? std::move(trees) : std::make_shared<ForestCache>())
+{
+  if (options.max_batch == 0)
+    throw Error("max_batch is 0; it must be at least 1");
+  try
+  {
+    gl_.run(
+        [&]
+        {
+          pairs_ = std::make_unique<GpuPairChecker>(shader_folder_, options.traversal, options.max_batch);
+          double_fault_ = findDoubleFault(shader_folder_);
+        });
+  }
+  catch (...)
+  {
+    release();
+    throw;
+  }
+}
+
+GpuChecker::~GpuChecker()
+{
+  release();
+}
+
+void GpuChecker::release()
+{
+  try
+  {
+    gl_.run(
+        [this]
+        {
+          kinematics_.reset();
+          pairs_.reset();
+        });
+  }
+  catch (const DeviceLost&)  // said of a lost context after every job: there is nothing to be released from it
+  {
+  }
+}
+
+void GpuChecker::setProblem(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const RobotModel> robot)
+{
+  try
+  {
+    gl_.run([&] { apply(*problem, robot); });
+  }
+  catch (...)
+  {
+    restore();
+    throw;
+  }
+  usable_ = true;
+  problem_ = std::move(problem);
+  robot_ = std::move(robot);
+  on_cpu_.reset();
+}
+
+/// Goes back to the problem before one that did not fit.
+void GpuChecker::restore()
+{
+  usable_ = false;
+  if (!problem_)
+    return;
+  try
+  {
+    gl_.run([this] { apply(*problem_, robot_); });
+    usable_ = true;
+  }
+  catch (const Error& error)
+  {
+    throw DeviceLost(std::string("the GPU has lost its scene: ") + error.what());
+  }
+}
+
+void GpuChecker::apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot)
+{
+  pairs_->setProblem(problem);
+  // Compiling takes a time that grows with the square of the links.
+  constexpr std::size_t kMostLinks = 120;
+  if (!robot || !double_fault_.empty() || robot->links().size() > kMostLinks)
+  {
+    kinematics_.reset();
+    return;
+  }
+  if (!kinematics_ || kinematics_->robot() != robot)
+    kinematics_ = std::make_unique<GpuKinematics>(shader_folder_, robot);
+  kinematics_->setInstances(problem);
+}
+
+void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
+{
+  refuseHalfBuilt();
+  gl_.run([&] { pairs_->selectPairs(*problem); });
+  problem_ = std::move(problem);
+  on_cpu_.reset();
+}
+
+void GpuChecker::prepareMargins()
+{
+  refuseHalfBuilt();
+  gl_.run([&] { pairs_->prepareMargins(); });
+}
+
+void GpuChecker::refuseHalfBuilt() const
+{
+  if (!usable_)
+    throw DeviceLost("the GPU failed while its scene was changed, so it has none");
+}
+
+void GpuChecker::check(const double* states, std::size_t count, BatchResult& result, const Margins* margins)
+{
+  const RobotModel& robot = *robot_;
+  const std::size_t width = robot.variables().size();
+  const LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* poses)
+  { robot.linkPoses(states + row * width, poses); };
+  bool on_gpu = kinematics_ != nullptr;
+  for (std::size_t i = 0; on_gpu && i < count; ++i)
+    on_gpu = kinematics_->canPlace(states + i * width);
+  const std::size_t links = robot.links().size();
+  if (on_gpu)
+  {
+    kinematics_->setStates(states);
+    return check(*kinematics_, count, links, link_poses, margins, result);
+  }
+  UploadedPoses poses(*problem_, links, link_poses);
+  check(poses, count, links, link_poses, margins, result);
+}
+
+void GpuChecker::checkPoses(std::size_t count, std::size_t link_count, const LinkPoses& link_poses, BatchResult& result)
+{
+  UploadedPoses poses(*problem_, link_count, link_poses);
+  check(poses, count, link_count, link_poses, nullptr, result);
+}
+
+void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
+                       const Margins* margins, BatchResult& result)
+{
+  const std::vector<ShapeInstance>& robot = problem_->robot;
+  result.valid.assign(count, 1);
+  result.colliding.assign(count, {-1, -1});
+  refuseHalfBuilt();
+  Verdicts verdicts;
+  try
+  {
+    gl_.run([&] { pairs_->check(source, count, verdicts, margins); });
+  }
+  catch (const OutOfDeviceMemory& error)  // OpenGL leaves everything undefined then, and states are not at fault
+  {
+    throw DeviceLost(error.what());
+  }
+  std::vector<std::size_t> undecided;
+  for (std::size_t i = 0; i < count; ++i)
+    if (verdicts.flags[i] & STATE_HIT)
+    {
+      const auto [a, b] = GpuPairChecker::pairOf(verdicts.hits[i]);
+      result.valid[i] = 0;
+      // Ascending: what is carried comes after the objects that it hits.
+      const std::int32_t first = robot[a].body;
+      const std::int32_t second = bodyOf(*problem_, b);
+      result.colliding[i] = {std::min(first, second), std::max(first, second)};
+    }
+    else if (verdicts.flags[i] & STATE_UNDECIDED)
+      undecided.push_back(i);
+  result.undecided_states = undecided.size();
+  const auto start = std::chrono::steady_clock::now();
+  if (!undecided.empty())
+    settleOnCpu(undecided, link_count, link_poses, margins, result);
+  result.undecided_seconds = secondsSince(start);
+}
+
+void GpuChecker::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,
+                             const Margins* margins, BatchResult& result)
+{
+  if (!on_cpu_)
+    on_cpu_ = trees_->traversalOf(problem_);
+  parallelFor(rows.size(), 1,
+              [&, scratch = CpuTraversal::Scratch(), links = std::vector<Eigen::Isometry3d>(link_count)](
+                  std::size_t from, std::size_t to) mutable
+              {
+                for (std::size_t i = from; i < to; ++i)
+                {
+                  link_poses(rows[i], links.data());
+                  const double* const row = margins ? margins->of(rows[i]) : nullptr;
+                  if (const auto pair = on_cpu_->firstCollision(links.data(), scratch, row))
+                  {
+                    result.valid[rows[i]] = 0;
+                    result.colliding[rows[i]] = *pair;
+                  }
+                }
+              });
+}
+}  // namespace gpu_planning_scene::core

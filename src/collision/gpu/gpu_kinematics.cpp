@@ -1,0 +1,107 @@
+#include "collision/gpu/gpu_kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "collision/gpu/kinematics_shader.h"
+#include "shader_constants.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr double kLargestAngle = 1048576.0;  // 2^20, see shaders/problem/kinematics.glsl
+
+using Texel = std::array<std::uint32_t, 4>;
+
+Texel twoDoubles(double first, double second)
+{
+  const std::array<double, 2> values = {first, second};
+  Texel texel;
+  std::memcpy(texel.data(), values.data(), sizeof(texel));
+  return texel;
+}
+
+/// Of each variable, the largest amount that gives no angle beyond the sine's range.
+std::vector<double> largestValues(const RobotModel& robot)
+{
+  std::vector<double> largest(robot.variables().size(), std::numeric_limits<double>::max());
+  for (const Joint& joint : robot.joints())
+  {
+    if (joint.first_variable < 0)
+      continue;
+    const bool turns = joint.type == JointType::Revolute || joint.type == JointType::Continuous;
+    const bool planar = joint.type == JointType::Planar;
+    if (!turns && !planar)
+      continue;
+    double& least = largest[static_cast<std::size_t>(joint.first_variable) + (planar ? 2U : 0U)];
+    const double multiplier = planar ? 1.0 : std::max(std::abs(joint.multiplier), 1e-300);
+    const double offset = planar ? 0.0 : std::abs(joint.offset);
+    least = std::min(least, (kLargestAngle - offset) / multiplier * (1.0 - 1e-9));
+  }
+  return largest;
+}
+}  // namespace
+
+GpuKinematics::GpuKinematics(const std::string& shader_folder, std::shared_ptr<const RobotModel> robot)
+  : robot_(std::move(robot)),
+    program_(Program::fromText(shader_folder, "kinematics of " + robot_->name(), kinematicsShader(*robot_))),
+    largest_(largestValues(*robot_))
+{
+}
+
+void GpuKinematics::setInstances(const CollisionProblem& problem)
+{
+  const std::size_t link_count = robot_->links().size();
+  std::vector<std::vector<std::uint32_t>> of_link(link_count);
+  for (std::size_t i = 0; i < problem.robot.size(); ++i)
+    of_link[static_cast<std::size_t>(problem.robot[i].link)].push_back(static_cast<std::uint32_t>(i));
+
+  std::vector<Texel> texels = {twoDoubles(problem.origin.x(), problem.origin.y()), twoDoubles(problem.origin.z(), 0.0)};
+  const auto first_record = static_cast<std::uint32_t>(texels.size() + link_count);
+  std::uint32_t record = 0;
+  for (const auto& instances : of_link)
+  {
+    const auto end = record + static_cast<std::uint32_t>(instances.size());
+    texels.push_back({record, end, first_record, 0});
+    record = end;
+  }
+  for (const auto& instances : of_link)
+    for (const std::uint32_t instance : instances)
+    {
+      const Eigen::Isometry3d& pose = problem.robot[instance].pose;
+      for (int row = 0; row < 3; ++row)
+      {
+        texels.push_back(twoDoubles(pose(row, 0), pose(row, 1)));
+        texels.push_back(twoDoubles(pose(row, 2), pose(row, 3)));
+      }
+      texels.push_back({instance, 0, 0, 0});
+    }
+  link_shapes_.reserve(texels.size() * sizeof(Texel));
+  link_shapes_.buffer().write(texels);
+}
+
+bool GpuKinematics::canPlace(const double* state) const
+{
+  for (std::size_t i = 0; i < largest_.size(); ++i)
+    if (!(std::abs(state[i]) <= largest_[i]))
+      return false;
+  return true;
+}
+
+void GpuKinematics::write(std::size_t begin, std::size_t count, TexelBuffer& poses)
+{
+  const std::size_t width = largest_.size();
+  TexelBuffer& upload = uploads_[next_upload_];
+  next_upload_ = 1 - next_upload_;
+  upload.reserve((count * width + 1) * sizeof(double));
+  upload.buffer().write(states_ + begin * width, count * width * sizeof(double));
+  upload.bindTexture(UNIT_STATES);
+  link_shapes_.bindTexture(UNIT_LINK_SHAPES);
+  poses.buffer().bindStorage(BINDING_A);
+  program_.set(LOCATION_STATE_COUNT, static_cast<std::uint32_t>(count));
+  program_.dispatch(groupsFor(count));
+}
+}  // namespace gpu_planning_scene::core

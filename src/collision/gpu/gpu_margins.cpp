@@ -1,0 +1,64 @@
+#include "collision/gpu/gpu_margins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "shader_constants.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// The bits of the next float that is no less.
+std::uint32_t roundedUp(double value)
+{
+  auto rounded = static_cast<float>(value);
+  if (static_cast<double>(rounded) < value)
+    rounded = std::nextafter(rounded, std::numeric_limits<float>::infinity());
+  std::uint32_t bits;
+  std::memcpy(&bits, &rounded, sizeof(bits));
+  return bits;
+}
+}  // namespace
+
+void GpuMargins::setPairs(const CollisionProblem& problem)
+{
+  robots_ = problem.robot.size();
+  self_pairs_ = problem.self_pairs;
+  numbers_.clear();
+}
+
+std::size_t GpuMargins::mostStates() const
+{
+  const std::size_t words = TexelBuffer::mostBytes() / sizeof(std::uint32_t);
+  const std::size_t numbers = robots_ * robots_;
+  return words < numbers ? 0 : (words - numbers) / (1 + robots_ + self_pairs_.size());
+}
+
+void GpuMargins::write(const Margins& margins, std::size_t begin, std::size_t count)
+{
+  if (numbers_.empty())
+  {
+    numbers_.resize(robots_ * robots_);
+    auto number = static_cast<std::uint32_t>(robots_);
+    for (const auto& [a, b] : self_pairs_)
+      numbers_[a * robots_ + b] = numbers_[b * robots_ + a] = number++;
+  }
+  // Only the rows of margins from the first to the last that a state of the part refers to.
+  const auto rows = margins.rows.begin() + static_cast<std::ptrdiff_t>(begin);
+  const auto [first, last] = std::minmax_element(rows, rows + static_cast<std::ptrdiff_t>(count));
+  std::vector<std::uint32_t> words = numbers_;
+  words.reserve(words.size() + count + (*last - *first + std::size_t{1}) * margins.width);
+  for (std::size_t i = begin; i < begin + count; ++i)
+    words.push_back(margins.rows[i] - *first);
+  for (std::size_t i = *first * margins.width; i < (*last + std::size_t{1}) * margins.width; ++i)
+    words.push_back(roundedUp(margins.values[i]));
+  TexelBuffer& upload = uploads_[next_upload_];
+  next_upload_ = 1 - next_upload_;
+  upload.reserve((words.size() + 3) / 4 * TexelBuffer::kTexelBytes);
+  upload.buffer().write(words);
+  upload.bindTexture(UNIT_MARGINS);
+}
+}  // namespace gpu_planning_scene::core

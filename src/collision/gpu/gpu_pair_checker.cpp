@@ -1,0 +1,349 @@
+#include "collision/gpu/gpu_pair_checker.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "collision/gpu/part_limits.h"
+#include "gpu/float_arithmetic.h"
+#include "gpu/gl_check.h"
+#include "shader_constants.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// States of a batch that are enough to learn from.
+constexpr std::size_t kMostCounted = 16384;
+
+/// Some devices end work that takes seconds, and other users of the device wait meanwhile.
+constexpr double kPartSeconds = 0.05;
+constexpr std::size_t kFirstPart = 2048;
+
+/// Where a part's flags and hits lie behind its counters.
+struct AnswerOffsets
+{
+  explicit AnswerOffsets(std::size_t count)
+    : words((count * sizeof(std::uint32_t) + Buffer::kStorageAlignment - 1) / Buffer::kStorageAlignment *
+            Buffer::kStorageAlignment),
+      hits(flags + words),
+      end(hits + words)
+  {
+  }
+  std::size_t words;
+  std::size_t flags = Buffer::kStorageAlignment;
+  std::size_t hits;
+  std::size_t end;
+};
+static_assert(COUNTER_WORDS * sizeof(std::uint32_t) <= Buffer::kStorageAlignment, "they lie before the flags");
+
+/// Room that is enough for most batches: what a state leaves behind on average, and some for batches of few states.
+ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
+{
+  const auto per_state = [&](std::uint32_t chosen, std::size_t count)
+  { return chosen ? chosen : static_cast<std::uint32_t>(std::min<std::size_t>(max_states * count + 65536, 1U << 25)); };
+  capacities.candidates = per_state(capacities.candidates, 96);
+  capacities.root_pairs = per_state(capacities.root_pairs, 24);
+  capacities.node_pairs = per_state(capacities.node_pairs, 128);
+  capacities.leaf_pairs = per_state(capacities.leaf_pairs, 64);
+  return capacities;
+}
+}  // namespace
+
+GpuPairChecker::Programs::Programs(const std::string& folder, const std::string& definitions)
+  : spheres(folder, "broad_phase/spheres.comp", definitions),
+    world(folder, "broad_phase/world_pairs.comp", definitions),
+    self(folder, "broad_phase/self_pairs.comp", definitions),
+    roots(folder, "broad_phase/root_pairs.comp", definitions),
+    half_spaces(folder, "broad_phase/half_spaces.comp", definitions)
+{
+}
+
+GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, std::size_t max_states,
+                               const ListCapacities& capacities)
+  : float_fault_(findFloatFault(folder)),
+    definitions_(float_fault_.empty() ? "" : "#define FLOATS_DECIDE 0\n"),
+    scene_(folder),
+    max_states_(std::max<std::size_t>(1, max_states)),
+    plain_parts_({kPartSeconds, kFirstPart, 1, max_states_}),
+    parts_with_margins_({kPartSeconds, kFirstPart, 1, max_states_}),
+    lists_(withDefaults(capacities, max_states_)),
+    traversal_(makeTraversal(traversal, folder, definitions_, lists_.capacity)),
+    arguments_(folder),
+    folder_(folder),
+    plain_(folder, definitions_),
+    inside_program_(folder, "traversal/containment.comp", definitions_),
+    done_program_(folder, "common/batch_done.comp")
+{
+}
+
+std::pair<std::uint32_t, std::uint32_t> GpuPairChecker::pairOf(std::uint32_t hit)
+{
+  return {hit >> PAIR_OTHER_BITS, hit & ((1U << PAIR_OTHER_BITS) - 1)};
+}
+
+void GpuPairChecker::setProblem(const CollisionProblem& problem)
+{
+  scene_.setProblem(problem);
+  order_.setPairs(problem);
+  margins_.setPairs(problem);
+  prepare();
+}
+
+void GpuPairChecker::selectPairs(const CollisionProblem& problem)
+{
+  scene_.selectPairs(problem);
+  order_.setPairs(problem);
+  margins_.setPairs(problem);
+  prepare();
+}
+
+/// What would otherwise be done within a batch: programs are compiled.
+void GpuPairChecker::prepare()
+{
+  writeQueries();
+  const std::size_t room = mostStatesOfPart(TexelBuffer::mostBytes(), scene_.robotCount(),
+                                            std::max(queries_.world.size(), queries_.self.size()));
+  plain_parts_.setMost(std::min(max_states_, room));
+  parts_with_margins_.setMost(std::max<std::size_t>(1, std::min({max_states_, room, margins_.mostStates()})));
+  traversal_->prepare(task(false, scene_.isPadded()));
+  if (scene_.solidNodes() != 0)
+    traversal_->prepare(task(true, scene_.isPadded()));
+}
+
+void GpuPairChecker::prepareMargins()
+{
+  if (!with_margins_)
+    with_margins_.emplace(folder_, definitions_ + "#define MARGINS 1\n");
+  for (const bool solids : {false, true})
+    if (!solids || scene_.solidNodes() != 0)
+      traversal_->prepare(task(solids, true));
+}
+
+void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins)
+{
+  verdicts.flags.assign(count, 0);
+  verdicts.hits.assign(count, 0);
+  work_ = {};
+  if (scene_.robotCount() == 0)
+    return;
+  const Batch batch{source, margins, margins ? parts_with_margins_ : plain_parts_};
+  if (margins)
+    prepareMargins();
+  programs_ = margins ? &*with_margins_ : &plain_;
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last = Clock::now();
+  Part* running = nullptr;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; running || begin < count; ++i)
+  {
+    Part* next = nullptr;
+    if (begin < count)
+    {
+      next = &parts_[i % 2];
+      next->begin = begin;
+      next->count = std::min(batch.parts.size(), count - begin);
+      begin += next->count;
+      start(batch, *next);
+    }
+    if (running)
+    {
+      const std::size_t states = running->count;
+      finish(batch, *running, verdicts);
+      const Clock::time_point now = Clock::now();
+      batch.parts.took(states, std::chrono::duration<double>(now - last).count());
+      last = now;
+    }
+    running = next;
+  }
+  learnOrder(verdicts);
+}
+
+void GpuPairChecker::learnOrder(const Verdicts& verdicts)
+{
+  const std::size_t stride = 1 + verdicts.flags.size() / kMostCounted;
+  for (std::size_t i = 0; i < verdicts.flags.size(); i += stride)
+    if (verdicts.flags[i] & STATE_HIT)
+    {
+      const auto [robot, other] = pairOf(verdicts.hits[i]);
+      order_.count(robot, other);
+    }
+  if (order_.endBatch(verdicts.flags.size()))
+    writeQueries();
+}
+
+void GpuPairChecker::writeQueries()
+{
+  queries_ = order_.queries();
+  for (const auto& [records, buffer] :
+       {std::pair(&queries_.world, &world_queries_), std::pair(&queries_.self, &self_queries_)})
+  {
+    buffer->reserve(records->size() * sizeof(BroadPhaseQueries::Record));
+    buffer->buffer().write(*records);
+  }
+}
+
+void GpuPairChecker::finish(const Batch& batch, Part& part, Verdicts& verdicts)
+{
+  if (fetch(part, verdicts))
+    return;
+  const std::size_t begin = part.begin;
+  const std::size_t count = part.count;
+  if (count == 1)
+  {
+    verdicts.flags[begin] = STATE_UNDECIDED;
+    return;
+  }
+  batch.parts.tooLarge(count);
+  for (const auto& [first, states] : {std::pair(begin, count / 2), std::pair(begin + count / 2, count - count / 2)})
+  {
+    part.begin = first;
+    part.count = states;
+    start(batch, part);
+    finish(batch, part, verdicts);
+  }
+}
+
+bool GpuPairChecker::fetch(Part& part, Verdicts& verdicts)
+{
+  const AnswerOffsets offsets(part.count);
+  const std::uint32_t* words = part.fetched.wait();
+  if (words[COUNTER_OVERFLOW] != 0 || words[COUNTER_DONE] != part.serial)
+    return false;
+  work_.states += part.count;
+  work_.candidates += words[COUNTER_CANDIDATES];
+  work_.root_pairs += words[COUNTER_ROOT_PAIRS];
+  std::copy_n(words + offsets.flags / sizeof(std::uint32_t), part.count,
+              verdicts.flags.begin() + static_cast<std::ptrdiff_t>(part.begin));
+  std::copy_n(words + offsets.hits / sizeof(std::uint32_t), part.count,
+              verdicts.hits.begin() + static_cast<std::ptrdiff_t>(part.begin));
+  return true;
+}
+
+/// All of a part's work, without waiting for any of it.
+void GpuPairChecker::start(const Batch& batch, Part& part)
+{
+  const AnswerOffsets offsets(part.count);
+  part.answers.reserve(offsets.end);
+  part.answers.clear(offsets.flags, offsets.words);
+  lists_.counters.clear();
+  poses_.reserve(part.count * scene_.robotCount() * 12 * sizeof(float));
+  batch.poses.write(part.begin, part.count, poses_);
+  if (batch.margins)
+  {
+    margins_.write(*batch.margins, part.begin, part.count);
+    for (const Program* program : {&programs_->spheres, &programs_->world, &programs_->roots, &programs_->half_spaces})
+      program->set(LOCATION_MARGIN_COUNT, static_cast<std::uint32_t>(batch.margins->width));
+  }
+
+  scene_.bind();
+  poses_.bindTexture(UNIT_ROBOT_POSES);
+  lists_.root_pairs.bindTexture(UNIT_ROOT_PAIRS);
+  lists_.candidates.bindTexture(UNIT_CANDIDATES);
+  lists_.counters.bindStorage(BINDING_COUNTERS);
+  part.answers.bindStorage(BINDING_FLAGS, offsets.flags, offsets.words);
+  part.answers.bindStorage(BINDING_HITS, offsets.hits, offsets.words);
+
+  const auto states = static_cast<std::uint32_t>(part.count);
+  testHalfSpaces(states);
+  findCandidates(states);
+  testRoots();
+  traverse(scene_.isPadded() || batch.margins);
+  testContainment();
+  part.serial = ++serial_;
+  done_program_.set(LOCATION_SERIAL, part.serial);
+  done_program_.dispatch(1);
+  part.answers.copyFrom(lists_.counters, COUNTER_WORDS * sizeof(std::uint32_t));
+  part.fetched.begin(part.answers, offsets.end);
+  checkGl("a batch");
+}
+
+void GpuPairChecker::testHalfSpaces(std::uint32_t states)
+{
+  if (scene_.halfSpaceCount() == 0)
+    return;
+  programs_->half_spaces.set(LOCATION_STATE_COUNT, states);
+  programs_->half_spaces.set(LOCATION_ROBOT_COUNT, scene_.robotCount());
+  programs_->half_spaces.set(LOCATION_HALF_SPACE_COUNT, scene_.halfSpaceCount());
+  programs_->half_spaces.set(LOCATION_WORLD_COUNT, scene_.worldCount());
+  scene_.halfSpaces().bindStorage(BINDING_C);
+  scene_.halfSpacePairs().bindStorage(BINDING_D);
+  // One at a time: what one lane may do is limited.
+  for (std::uint32_t half_space = 0; half_space < scene_.halfSpaceCount(); ++half_space)
+  {
+    programs_->half_spaces.set(LOCATION_HALF_SPACE, half_space);
+    programs_->half_spaces.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
+  }
+}
+
+/// BroadPhaseQueries that found most before come first, whether in the world or among links.
+void GpuPairChecker::findCandidates(std::uint32_t states)
+{
+  for (const Program* program : {&programs_->spheres, &programs_->world, &programs_->self, &programs_->roots})
+  {
+    program->set(LOCATION_STATE_COUNT, states);
+    program->set(LOCATION_ROBOT_COUNT, scene_.robotCount());
+  }
+  spheres_.reserve(std::size_t{states} * scene_.robotCount() * TexelBuffer::kTexelBytes);
+  if (!queries_.self.empty())
+  {
+    spheres_.buffer().bindStorage(BINDING_A);
+    programs_->spheres.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
+  }
+  spheres_.bindTexture(UNIT_SPHERES);
+  lists_.candidates.buffer().bindStorage(BINDING_B);
+  programs_->world.set(LOCATION_WORLD_COUNT, scene_.worldCount());
+  const auto query = [&](const Program& program, const TexelBuffer& list, std::size_t begin, std::size_t end)
+  {
+    if (begin == end)
+      return;
+    list.bindTexture(UNIT_QUERIES);
+    program.set(LOCATION_CANDIDATE_CAPACITY, lists_.capacity.candidates);
+    program.set(LOCATION_FIRST_QUERY, static_cast<std::uint32_t>(begin));
+    program.set(LOCATION_QUERY_COUNT, static_cast<std::uint32_t>(end - begin));
+    program.dispatch(groupsFor(states * (end - begin)));
+  };
+  query(programs_->self, self_queries_, 0, queries_.hot_self);
+  query(programs_->world, world_queries_, 0, queries_.hot_world);
+  query(programs_->self, self_queries_, queries_.hot_self, queries_.self.size());
+  query(programs_->world, world_queries_, queries_.hot_world, queries_.world.size());
+}
+
+void GpuPairChecker::testRoots()
+{
+  arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, COUNTER_SCRATCH);
+  programs_->roots.set(LOCATION_CANDIDATE_CAPACITY, lists_.capacity.candidates);
+  programs_->roots.set(LOCATION_ROOT_PAIR_CAPACITY, lists_.capacity.root_pairs);
+  programs_->roots.set(LOCATION_SOLID_NODES, scene_.solidNodes());
+  scene_.components().bindStorage(BINDING_C);
+  lists_.root_pairs.buffer().bindStorage(BINDING_A);
+  lists_.mesh_entries.buffer().bindStorage(BINDING_B);
+  lists_.solid_entries.buffer().bindStorage(BINDING_D);
+  programs_->roots.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
+}
+
+TraversalTask GpuPairChecker::task(bool solids, bool padded) const
+{
+  return {solids, padded, scene_.tolerance(), scene_.depthBound()};
+}
+
+/// Solids first: what is found there costs less.
+void GpuPairChecker::traverse(bool padded)
+{
+  if (scene_.solidNodes() != 0)
+    traversal_->start(lists_, task(true, padded));
+  traversal_->start(lists_, task(false, padded));
+}
+
+/// Of meshes in meshes and of primitives in meshes; what primitives contain, testRoots has seen.
+void GpuPairChecker::testContainment()
+{
+  if (!scene_.hasMeshSolids())
+    return;
+  arguments_.prepare(COUNTER_ROOT_PAIRS, lists_.capacity.root_pairs, GROUP_SIZE, COUNTER_SCRATCH);
+  inside_program_.set(LOCATION_ROOT_PAIR_CAPACITY, lists_.capacity.root_pairs);
+  scene_.components().bindStorage(BINDING_C);
+  scene_.leafOrder().bindStorage(BINDING_A);
+  scene_.solidTriangles().bindStorage(BINDING_B);
+  inside_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
+}
+}  // namespace gpu_planning_scene::core

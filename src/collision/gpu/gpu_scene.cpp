@@ -1,0 +1,264 @@
+#include "collision/gpu/gpu_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "collision/geometry/primitive_solid.h"
+#include "gpu_planning_scene/error.h"
+#include "shader_constants.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// The box of an instance's true surface, grown by its padding and a little more than rounding loses.
+Eigen::AlignedBox3d placedBounds(const Eigen::AlignedBox3d& triangles, double sagitta, const Eigen::Isometry3d& pose,
+                                 double padding)
+{
+  const Eigen::Vector3d center = pose * triangles.center();
+  const Eigen::Vector3d half =
+      pose.linear().cwiseAbs() * (triangles.sizes() / 2.0 + Eigen::Vector3d::Constant(sagitta));
+  const Eigen::Vector3d grown = half + Eigen::Vector3d::Constant(padding) + 1e-12 * (center.cwiseAbs() + half);
+  return {center - grown, center + grown};
+}
+
+/// An instance as shaders/problem/instances.glsl reads it.
+struct InstanceRecord
+{
+  std::uint32_t root;
+  float slack;
+  std::uint32_t first_component;
+  std::uint32_t component_count;
+  std::array<float, 3> core;
+  std::uint32_t kind;
+  std::array<float, 3> size;
+  float padding;
+};
+static_assert(sizeof(InstanceRecord) == 48, "three uvec4");
+
+/// Fills in what the shaders know of a solid. Its core is a box around the origin that lies within it: what lies in the
+/// box is inside without any look at the surface.
+void describeSolid(const Shape& shape, InstanceRecord& record)
+{
+  constexpr double kRounding = 1.0 - 1e-6;
+  Eigen::Vector3d core = Eigen::Vector3d::Constant(-1.0);
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  record.kind = SOLID_NONE;
+  if (const auto* box = std::get_if<Box>(&shape))
+  {
+    record.kind = SOLID_BOX;
+    core = size = box->size / 2.0;
+  }
+  else if (const auto* sphere = std::get_if<Sphere>(&shape))
+  {
+    record.kind = SOLID_SPHERE;
+    size.setConstant(sphere->radius);
+    core = size / std::sqrt(3.0);
+  }
+  else if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+  {
+    record.kind = SOLID_CYLINDER;
+    size = {cylinder->radius, cylinder->radius, cylinder->length / 2.0};
+    core = {cylinder->radius / std::sqrt(2.0), cylinder->radius / std::sqrt(2.0), cylinder->length / 2.0};
+  }
+  else if (const auto* cone = std::get_if<Cone>(&shape))
+  {
+    record.kind = SOLID_CONE;
+    size = {cone->radius, cone->radius, cone->length / 2.0};
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    record.core[axis] = static_cast<float>(kRounding * core[static_cast<Eigen::Index>(axis)]);
+    record.size[axis] = static_cast<float>(size[static_cast<Eigen::Index>(axis)]);
+  }
+}
+
+/// A bit for each flag, 32 to a word, in whole texels.
+std::vector<std::uint32_t> packedBits(const std::vector<std::uint8_t>& flags)
+{
+  std::vector<std::uint32_t> bits((flags.size() / 128 + 1) * 4, 0);
+  for (std::size_t i = 0; i < flags.size(); ++i)
+    if (flags[i])
+      bits[i / 32] |= 1U << (i % 32);
+  return bits;
+}
+
+template <class T>
+void write(const std::vector<T>& data, TexelBuffer& buffer)
+{
+  buffer.reserve(data.size() * sizeof(T));
+  buffer.buffer().write(data);
+}
+
+/// A node of the tree over objects as shaders/broad_phase/world_pairs.comp walks it.
+struct ObjectNode
+{
+  std::array<float, 3> center;
+  std::uint32_t next;  // where the walk goes on if the boxes are apart
+  std::array<float, 3> half;
+  std::uint32_t object;
+};
+static_assert(sizeof(ObjectNode) == 32, "two texels");
+
+/// Adds a subtree in the order of a walk, the first child after its parent. Boxes with what rounding in the tests of
+/// boxes needs (as in shaders/tree_build/layout.glsl). The depth of a tree is bounded, see buildBinnedSah.
+void appendSubtree(const ObjectTree& tree, std::uint32_t root, std::vector<ObjectNode>& walk)
+{
+  const Node& node = tree.nodes()[root];
+  ObjectNode made{node.center, 0, node.half, node.count == 0 ? NO_OBJECT : tree.order()[node.first]};
+  for (float& half : made.half)
+    half = half * (1.0F + 4.0F * std::numeric_limits<float>::epsilon()) + 1e-37F;
+  const std::size_t place = walk.size();
+  walk.push_back(made);
+  if (node.count == 0)
+  {
+    appendSubtree(tree, node.first, walk);
+    appendSubtree(tree, node.first + 1, walk);
+  }
+  walk[place].next = static_cast<std::uint32_t>(walk.size());
+}
+}  // namespace
+
+void writePoseRows(const Eigen::Isometry3d& pose, float* rows)
+{
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      rows[4 * row + column] = static_cast<float>(pose(row, column));
+}
+
+void GpuScene::setProblem(const CollisionProblem& problem)
+{
+  if (problem.robot.size() > MAX_ROBOT_INSTANCES ||
+      problem.robot.size() + problem.world.size() + problem.half_spaces.size() > MAX_INSTANCES)
+    throw Error(std::to_string(problem.robot.size()) + " shapes of the robot and " +
+                std::to_string(problem.world.size()) + " of the world are more than " +
+                std::to_string(MAX_ROBOT_INSTANCES) + " and " + std::to_string(MAX_INSTANCES) + "; merge meshes");
+  robot_count_ = static_cast<std::uint32_t>(problem.robot.size());
+  world_count_ = static_cast<std::uint32_t>(problem.world.size());
+  trees_.setShapes(problem.trees);
+  tree_count_ = problem.trees.size();
+  writeWorld(problem);
+  tolerance_ = static_cast<float>(problem.tolerance);
+  writeInstances(problem);
+  writeSolids(problem);
+  writeHalfSpaces(problem);
+  selectPairs(problem);
+}
+
+void GpuScene::writeInstances(const CollisionProblem& problem)
+{
+  padded_ = false;
+  has_mesh_solids_ = false;
+  std::vector<InstanceRecord> instances;
+  for (const std::vector<ShapeInstance>* geometries : {&problem.robot, &problem.world})
+    for (const ShapeInstance& geometry : *geometries)
+    {
+      const double sagitta = problem.trees[geometry.tree].sagitta;
+      InstanceRecord record{};
+      const GpuTrees::Tree& tree = trees_.tree(geometry.tree);
+      record.root = tree.root;
+      record.slack = sagitta > 0.0 ? std::nextafter(static_cast<float>(sagitta), 1.0F) : 0.0F;
+      record.first_component = tree.first_component;
+      record.component_count = tree.component_count;
+      record.padding = static_cast<float>(geometry.padding);
+      padded_ = padded_ || geometry.padding > 0.0;
+      describeSolid(problem.shapes[geometry.tree], record);
+      if (tree.has_solid && isMesh(problem.shapes[geometry.tree]))
+      {
+        record.kind = SOLID_MESH;
+        has_mesh_solids_ = true;
+      }
+      instances.push_back(record);
+    }
+  write(instances, instances_);
+}
+
+/// A primitive's node: a leaf that holds it whole.
+void GpuScene::writeSolids(const CollisionProblem& problem)
+{
+  solid_nodes_ = 0;
+  if (!problem.direct_primitives)
+    return;
+  std::vector<Node> nodes;
+  for (const std::vector<ShapeInstance>* geometries : {&problem.robot, &problem.world})
+    for (const ShapeInstance& geometry : *geometries)
+    {
+      const Shape& shape = problem.shapes[geometry.tree];
+      Node node{};
+      if (!isMesh(shape))
+      {
+        setBox({-halfExtents(shape), halfExtents(shape)}, node);
+        node.first = SOLID_LEAF | static_cast<std::uint32_t>(nodes.size());
+        node.count = 1;
+      }
+      nodes.push_back(node);
+    }
+  solid_nodes_ = trees_.placeNodes(nodes);
+}
+
+void GpuScene::writeHalfSpaces(const CollisionProblem& problem)
+{
+  half_space_count_ = static_cast<std::uint32_t>(problem.half_spaces.size());
+  std::vector<std::array<float, 4>> records;
+  for (const WorldHalfSpace& half_space : problem.half_spaces)
+  {
+    const Eigen::Vector3f normal = half_space.normal.cast<float>();
+    const auto offset = static_cast<float>(half_space.offset - half_space.normal.dot(problem.origin));
+    records.push_back({normal.x(), normal.y(), normal.z(), offset});
+    records.push_back({static_cast<float>(half_space.padding), 0.0F, 0.0F, 0.0F});
+  }
+  half_spaces_.reserve(records.size() * sizeof(std::array<float, 4>));
+  half_spaces_.write(records);
+}
+
+void GpuScene::writeWorld(const CollisionProblem& problem)
+{
+  std::vector<Eigen::AlignedBox3d> bounds;
+  std::vector<float> poses(12 * problem.world.size());
+  for (std::size_t i = 0; i < problem.world.size(); ++i)
+  {
+    const ShapeInstance& object = problem.world[i];
+    const Eigen::Isometry3d pose = Eigen::Translation3d(-problem.origin) * object.pose;
+    bounds.push_back(
+        placedBounds(trees_.tree(object.tree).bounds, problem.trees[object.tree].sagitta, pose, object.padding));
+    writePoseRows(pose, &poses[12 * i]);
+  }
+  object_tree_ = ObjectTree(std::move(bounds), object_tree_);
+  write(poses, world_poses_);
+
+  std::vector<ObjectNode> walk;
+  if (world_count_ > 0)
+    appendSubtree(object_tree_, 0, walk);
+  write(walk, object_nodes_);
+}
+
+void GpuScene::selectPairs(const CollisionProblem& problem)
+{
+  write(packedBits(problem.world_pairs), world_pairs_);
+  const std::vector<std::uint32_t> half_space_bits = packedBits(problem.half_space_pairs);
+  half_space_pairs_.reserve(half_space_bits.size() * sizeof(std::uint32_t));
+  half_space_pairs_.write(half_space_bits);
+}
+
+void GpuScene::bind() const
+{
+  trees_.nodes().bindTexture(UNIT_NODES);
+  trees_.orientedNodes().bindTexture(UNIT_ORIENTED_NODES);
+  trees_.triangles().bindTexture(UNIT_TRIANGLES);
+  world_poses_.bindTexture(UNIT_WORLD_POSES);
+  instances_.bindTexture(UNIT_INSTANCES);
+  object_nodes_.bindTexture(UNIT_OBJECT_TREE);
+  world_pairs_.bindTexture(UNIT_WORLD_PAIRS);
+}
+
+Forest GpuScene::readForest() const
+{
+  std::vector<std::size_t> numbers(tree_count_);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return trees_.readForest(numbers);
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,76 @@
+#include "collision/gpu/traversal/breadth_first.h"
+
+#include <array>
+
+#include "shader_constants.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::size_t offsetOf(std::size_t counter)
+{
+  return counter * sizeof(std::uint32_t);
+}
+}  // namespace
+
+BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definitions, const ListCapacities& capacities)
+  : arguments_(folder),
+    scan_(folder, "traversal/level_scan.comp"),
+    expand_(folder, "traversal/level_expand.comp", definitions),
+    overlap_(folder, "traversal/level_overlap.comp", definitions, TaskPrograms::Needs::NoPadding),
+    triangles_(folder, "traversal/level_triangles.comp", definitions, TaskPrograms::Needs::NoTolerance),
+    masks_(std::size_t{capacities.node_pairs} * 4),
+    sums_((std::size_t{capacities.node_pairs} / LEVEL_CHUNK + 1) * 8)
+{
+  leaf_pairs_.reserve(std::size_t{capacities.leaf_pairs} * TexelBuffer::kTexelBytes);
+}
+
+void BreadthFirst::prepare(const TraversalTask& task)
+{
+  overlap_.forTask(task);
+  triangles_.forTask(task);
+}
+
+void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
+{
+  const Program& overlap = overlap_.forTask(task);
+  const Program& triangles = triangles_.forTask(task);
+  const std::array<const Program*, 3> level_programs = {&overlap, &scan_, &expand_};
+  if (task.tolerance > 0.0F)
+    overlap.setFloat(LOCATION_TOLERANCE, task.tolerance);
+  const std::uint32_t capacity = lists.capacity.node_pairs;
+  const auto chunk_lanes = std::uint32_t{LEVEL_CHUNK} * GROUP_SIZE;
+  std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
+  arguments_.prepare(in_counter, lists.capacity.root_pairs, chunk_lanes, COUNTER_ENTRIES_ODD);
+  for (const Program* program : level_programs)
+  {
+    program->set(LOCATION_ENTRY_CAPACITY, capacity);
+    program->set(LOCATION_LEAF_PAIR_CAPACITY, lists.capacity.leaf_pairs);
+  }
+  leaf_pairs_.bindTexture(UNIT_LEAF_PAIRS);
+  // The list shrinks to nothing as soon as all pairs have come to an end; the dispatches that follow are empty.
+  for (std::uint32_t level = 0; level < task.levels; ++level)
+  {
+    const std::uint32_t out_counter = level % 2 == 0 ? COUNTER_ENTRIES_ODD : COUNTER_ENTRIES_EVEN;
+    for (const Program* program : level_programs)
+    {
+      program->set(LOCATION_IN_COUNTER, in_counter);
+      program->set(LOCATION_OUT_COUNTER, out_counter);
+      program->set(LOCATION_IN_CAPACITY, level == 0 ? lists.capacity.root_pairs : capacity);
+    }
+    const TexelBuffer& entries = task.solids ? lists.solid_entries : lists.mesh_entries;
+    (level == 0 ? entries : lists.node_pairs[level % 2]).bindTexture(UNIT_ENTRIES);
+    scan_.set(LOCATION_IS_LAST, level + 1 == task.levels ? 1U : 0U);
+    masks_.bindStorage(BINDING_A);
+    sums_.bindStorage(BINDING_B);
+    overlap.dispatchIndirect(lists.counters, offsetOf(COUNTER_ARGUMENTS));
+    scan_.dispatch(1);
+    lists.node_pairs[1 - level % 2].buffer().bindStorage(BINDING_C);
+    leaf_pairs_.buffer().bindStorage(BINDING_D);
+    expand_.dispatchIndirect(lists.counters, offsetOf(COUNTER_CHUNK_ARGUMENTS));
+    triangles.dispatchIndirect(lists.counters, offsetOf(COUNTER_LEAF_ARGUMENTS));
+    in_counter = out_counter;
+  }
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,266 @@
+#include "collision/gpu/tree_build/gpu_forest.h"
+
+#include <cmath>
+
+#include "gpu/gl_check.h"
+#include "gpu_planning_scene/error.h"
+#include "shader_constants.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::size_t kUint = sizeof(std::uint32_t);
+
+/// So that no lane of the prefix sums comes near the 65535 iterations after which llvmpipe ends it.
+constexpr std::size_t kMostPrimitives = std::size_t{1} << 23;
+
+std::size_t divideUp(std::size_t value, std::size_t by)
+{
+  return (value + by - 1) / by;
+}
+
+std::vector<float> floatVertices(const std::vector<const Mesh*>& meshes)
+{
+  std::size_t count = 0;
+  for (const Mesh* mesh : meshes)
+    count += mesh->triangles.size();
+  std::vector<float> vertices;
+  vertices.reserve(9 * count);
+  for (const Mesh* mesh : meshes)
+    for (const auto& triangle : mesh->triangles)
+      for (const std::uint32_t corner : triangle)
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const double value = mesh->vertices[corner][axis];
+          if (!(std::abs(value) < 1e9))  // products of four lengths, as in the bounds of errors, must be floats too
+            throw Error("mesh " + mesh->name + ": coordinate " + std::to_string(value) +
+                        " m is out of range; check the mesh's unit and scale");
+          vertices.push_back(static_cast<float>(value));
+        }
+  return vertices;
+}
+}  // namespace
+
+GpuForestBuilder::GpuForestBuilder(const std::string& folder)
+  : boxes_program_(folder, "tree_build/boxes.comp"),
+    bounds_program_(folder, "tree_build/bounds.comp"),
+    morton_program_(folder, "tree_build/morton.comp"),
+    sort_count_program_(folder, "tree_build/sort_count.comp"),
+    sort_scan_program_(folder, "tree_build/sort_scan.comp"),
+    sort_scatter_program_(folder, "tree_build/sort_scatter.comp"),
+    gather_program_(folder, "tree_build/gather.comp"),
+    nearest_program_(folder, "tree_build/nearest.comp"),
+    count_program_(folder, "tree_build/count.comp"),
+    scan_program_(folder, "tree_build/scan.comp"),
+    write_program_(folder, "tree_build/write.comp"),
+    layout_roots_program_(folder, "tree_build/layout_roots.comp"),
+    layout_pairs_program_(folder, "tree_build/layout_pairs.comp"),
+    triangles_program_(folder, "tree_build/gather_triangles.comp")
+{
+}
+
+void GpuForestBuilder::buildTriangles(const std::vector<const Mesh*>& meshes, ForestRegion& region, TexelBuffer& nodes,
+                                      Buffer& leaf_order, TexelBuffer& triangles)
+{
+  const std::vector<float> vertices = floatVertices(meshes);
+  const std::size_t count = vertices.size() / 9;
+  std::vector<std::uint32_t> first;
+  std::uint32_t next = 0;
+  for (const Mesh* mesh : meshes)
+  {
+    first.push_back(next);
+    next += static_cast<std::uint32_t>(mesh->triangles.size());
+  }
+  vertices_.reserve(vertices.size() * sizeof(float));
+  vertices_.write(vertices);
+  boxes_.reserve(count * 32);
+  vertices_.bindStorage(0);
+  boxes_.bindStorage(1);
+  boxes_program_.set(LOCATION_TRIANGLE_COUNT, static_cast<std::uint32_t>(count));
+  boxes_program_.dispatch(groupsFor(count));
+
+  build(count, first, LEAF_TRIANGLES, region, nodes, leaf_order);
+
+  triangles.reserve((region.first_primitive + count) * 48);
+  vertices_.bindStorage(0);
+  leaf_order.bindStorage(1);
+  triangles.buffer().bindStorage(2);
+  triangles_program_.set(LOCATION_FIRST_TRIANGLE, region.first_primitive);
+  triangles_program_.set(LOCATION_TRIANGLE_COUNT, region.primitive_count);
+  triangles_program_.dispatch(groupsFor(count));
+  checkGl("building trees");
+}
+
+void GpuForestBuilder::build(std::size_t count, const std::vector<std::uint32_t>& first, std::uint32_t leaf_size,
+                             ForestRegion& region, TexelBuffer& nodes, Buffer& leaf_order)
+{
+  const std::size_t mesh_count = first.size();
+  if (count > kMostPrimitives)
+    throw Error(std::to_string(count) + " triangles are more than " + std::to_string(kMostPrimitives) +
+                "; use coarser meshes");
+  region.primitive_count = static_cast<std::uint32_t>(count);
+  region.node_count = static_cast<std::uint32_t>(2 * count - mesh_count);
+  nodes.reserve((std::size_t{region.first_node} + region.node_count) * sizeof(Node));
+  leaf_order.reserve((std::size_t{region.first_primitive} + count) * kUint);
+
+  std::vector<std::uint32_t> mesh_of(count);
+  std::vector<std::uint32_t> shifted_first(mesh_count);
+  for (std::size_t mesh = 0; mesh < mesh_count; ++mesh)
+  {
+    const std::size_t end = mesh + 1 < mesh_count ? first[mesh + 1] : count;
+    std::fill(mesh_of.begin() + first[mesh], mesh_of.begin() + static_cast<std::ptrdiff_t>(end),
+              static_cast<std::uint32_t>(mesh));
+    shifted_first[mesh] = first[mesh] + region.first_primitive;
+  }
+  mesh_of_.reserve(count * kUint);
+  mesh_of_.write(mesh_of);
+  first_primitive_.reserve(mesh_count * kUint);
+  first_primitive_.write(shifted_first);
+
+  sortByMorton(count, mesh_count);
+  region.depth = mergeClusters(count, mesh_count);
+  layOut(mesh_count, leaf_size, region, nodes, leaf_order);
+}
+
+void GpuForestBuilder::sortByMorton(std::size_t count, std::size_t mesh_count)
+{
+  const auto n = static_cast<std::uint32_t>(count);
+  bounds_.reserve(mesh_count * 6 * kUint);
+  bounds_.clear();
+  for (Buffer& keys : keys_)
+    keys.reserve(count * 2 * kUint);
+  const std::size_t lanes = divideUp(count, CHUNK);
+  counts_.reserve(lanes * RADIX_SIZE * kUint);
+
+  boxes_.bindStorage(0);
+  mesh_of_.bindStorage(1);
+  bounds_.bindStorage(2);
+  keys_[0].bindStorage(3);
+  bounds_program_.set(LOCATION_PRIMITIVE_COUNT, n);
+  bounds_program_.dispatch(groupsFor(count));
+  morton_program_.set(LOCATION_PRIMITIVE_COUNT, n);
+  morton_program_.dispatch(groupsFor(count));
+
+  const auto pass = [&](std::uint32_t shift, std::uint32_t by_mesh)
+  {
+    keys_[0].bindStorage(0);
+    mesh_of_.bindStorage(1);
+    counts_.bindStorage(4);
+    keys_[1].bindStorage(5);
+    for (const Program* program : {&sort_count_program_, &sort_scatter_program_})
+    {
+      program->set(LOCATION_KEY_COUNT, n);
+      program->set(LOCATION_SHIFT, shift);
+      program->set(LOCATION_BY_MESH, by_mesh);
+    }
+    sort_scan_program_.set(LOCATION_VALUE_COUNT, static_cast<std::uint32_t>(lanes * RADIX_SIZE));
+    sort_count_program_.dispatch(groupsFor(lanes));
+    sort_scan_program_.dispatch(1);
+    sort_scatter_program_.dispatch(groupsFor(lanes));
+    std::swap(keys_[0], keys_[1]);
+  };
+  for (std::uint32_t shift = 0; shift < MORTON_BITS; shift += RADIX_BITS)
+    pass(shift, 0);
+  for (std::uint32_t shift = 0; shift < 32 && ((mesh_count - 1) >> shift) != 0; shift += RADIX_BITS)
+    pass(shift, 1);
+}
+
+std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mesh_count)
+{
+  for (int i = 0; i < 2; ++i)
+  {
+    clusters_[i].reserve(count * 32);
+    cluster_info_[i].reserve(count * 2 * kUint);
+  }
+  nearest_.reserve(count * kUint);
+  sums_.reserve(divideUp(count, CHUNK) * 2 * kUint);
+  pairs_.reserve((count - mesh_count) * 64);
+
+  keys_[0].bindStorage(0);
+  mesh_of_.bindStorage(1);
+  boxes_.bindStorage(2);
+  clusters_[0].bindStorage(3);
+  cluster_info_[0].bindStorage(4);
+  gather_program_.set(LOCATION_PRIMITIVE_COUNT, static_cast<std::uint32_t>(count));
+  gather_program_.dispatch(groupsFor(count));
+
+  // One record more than there are rounds: what the last one leaves, and where the final clusters lie.
+  rounds_.reserve(kUint * (BUILD_ROUNDS + 1) * ROUND_STRIDE);
+  rounds_.clear();
+  const std::size_t lanes = count == mesh_count ? 0 : count;
+  std::vector<std::uint32_t> first(ROUND_STRIDE, 0);
+  const auto set_groups = [&](std::size_t at, std::size_t lane_count)
+  {
+    const std::size_t groups = groupsFor(lane_count);
+    const std::size_t rows = divideUp(groups, 65535);
+    first[at] = static_cast<std::uint32_t>(rows == 0 ? 0 : divideUp(groups, rows));
+    first[at + 1] = static_cast<std::uint32_t>(rows);
+    first[at + 2] = 1;
+  };
+  set_groups(ROUND_CLUSTER_GROUPS, lanes);
+  set_groups(ROUND_CHUNK_GROUPS, divideUp(lanes, CHUNK));
+  first[ROUND_CLUSTERS] = static_cast<std::uint32_t>(count);
+  rounds_.write(first);
+  if (lanes == 0)
+    return 0;
+
+  scan_program_.set(LOCATION_MESH_COUNT, static_cast<std::uint32_t>(mesh_count));
+  rounds_.bindStorage(2);
+  nearest_.bindStorage(3);
+  sums_.bindStorage(4);
+  pairs_.bindStorage(7);
+  for (std::uint32_t round = 0; round < BUILD_ROUNDS; ++round)
+  {
+    const std::size_t record = kUint * round * ROUND_STRIDE;
+    clusters_[round & 1].bindStorage(0);
+    cluster_info_[round & 1].bindStorage(1);
+    clusters_[~round & 1].bindStorage(5);
+    cluster_info_[~round & 1].bindStorage(6);
+    for (const Program* program : {&nearest_program_, &count_program_, &scan_program_, &write_program_})
+      program->set(LOCATION_ROUND_INDEX, round);
+    nearest_program_.dispatchIndirect(rounds_, record + ROUND_CLUSTER_GROUPS * kUint);
+    count_program_.dispatchIndirect(rounds_, record + ROUND_CHUNK_GROUPS * kUint);
+    scan_program_.dispatch(1);
+    write_program_.dispatchIndirect(rounds_, record + ROUND_CHUNK_GROUPS * kUint);
+  }
+  std::vector<std::uint32_t> rounds(std::size_t{BUILD_ROUNDS + 1} * ROUND_STRIDE);
+  rounds_.read(rounds.data(), rounds.size() * kUint);
+  const std::uint32_t remaining = rounds[BUILD_ROUNDS * ROUND_STRIDE + ROUND_CLUSTERS];
+  if (remaining != mesh_count)
+    throw Error("the GPU left " + std::to_string(remaining) + " subtrees instead of " + std::to_string(mesh_count) +
+                " trees; its compute shaders do not work as OpenGL promises, choose another device");
+  std::uint32_t merging = 0;
+  while (merging < BUILD_ROUNDS && rounds[merging * ROUND_STRIDE + ROUND_PAIRS] > 0)
+    ++merging;
+  return merging;
+}
+
+void GpuForestBuilder::layOut(std::size_t mesh_count, std::uint32_t leaf_size, const ForestRegion& region,
+                              const TexelBuffer& nodes, const Buffer& leaf_order)
+{
+  pair_starts_.reserve((region.primitive_count - mesh_count) * kUint);
+  clusters_[0].bindStorage(0);
+  clusters_[1].bindStorage(1);
+  rounds_.bindStorage(2);
+  first_primitive_.bindStorage(3);
+  pair_starts_.bindStorage(5);
+  nodes.buffer().bindStorage(6);
+  leaf_order.bindStorage(7);
+  for (const Program* program : {&layout_roots_program_, &layout_pairs_program_})
+  {
+    program->set(LOCATION_ROOT_BASE, region.first_node);
+    program->set(LOCATION_LEAF_SIZE, leaf_size);
+    program->set(LOCATION_PRIMITIVE_BASE, region.first_primitive);
+  }
+  layout_roots_program_.set(LOCATION_MESH_COUNT, static_cast<std::uint32_t>(mesh_count));
+  layout_roots_program_.dispatch(groupsFor(mesh_count));
+  pairs_.bindStorage(4);
+  layout_pairs_program_.set(LOCATION_MESH_COUNT, static_cast<std::uint32_t>(mesh_count));
+  for (std::uint32_t round = BUILD_ROUNDS; round-- > 0;)
+  {
+    layout_pairs_program_.set(LOCATION_ROUND_INDEX, round);
+    layout_pairs_program_.dispatchIndirect(rounds_, (round * ROUND_STRIDE + ROUND_PAIR_GROUPS) * kUint);
+  }
+}
+}  // namespace gpu_planning_scene::core

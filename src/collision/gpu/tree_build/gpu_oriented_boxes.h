@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "collision/gpu/tree_build/gpu_forest.h"
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+
+namespace gpu_planning_scene::core
+{
+/// A node with its oriented box as it lies in GPU memory (shaders/problem/oriented_nodes.glsl). In the mesh's frame,
+/// metres.
+struct OrientedNode
+{
+  std::array<float, 3> center;
+  std::uint32_t first;  ///< as Node has it
+  std::array<float, 3> half;
+  std::uint32_t count;               ///< likewise
+  std::array<float, 4> orientation;  ///< quaternion x, y, z, w: of the box in the mesh's frame
+};
+static_assert(sizeof(OrientedNode) == 48, "three RGBA32UI texels");
+
+/// Fits an oriented box to every node of trees on the GPU, by its triangles: see shaders/tree_build/fit.glsl. Used on
+/// the context's thread.
+class GpuOrientedBoxes
+{
+ public:
+  explicit GpuOrientedBoxes(const std::string& shader_folder);
+
+  /// Writes the oriented nodes of a region, in the places of its nodes, growing the buffer as needed.
+  void fit(const ForestRegion& region, const TexelBuffer& nodes, const TexelBuffer& triangles, TexelBuffer& oriented);
+
+ private:
+  Program fit_program_, fit_large_program_;
+  Buffer large_nodes_, large_count_;
+};
+}  // namespace gpu_planning_scene::core

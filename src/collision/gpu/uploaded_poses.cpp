@@ -1,0 +1,37 @@
+#include "collision/gpu/uploaded_poses.h"
+
+#include <vector>
+
+#include "collision/gpu/gpu_scene.h"
+#include "collision/parallel_for.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// Large enough that threads do not meet often, small enough that they end together.
+constexpr std::size_t kStatesPerChunk = 256;
+}  // namespace
+
+/// Kinematics in double, each pose brought near the origin and rounded once.
+void UploadedPoses::write(std::size_t begin, std::size_t count, TexelBuffer& poses)
+{
+  const std::vector<ShapeInstance>& instances = problem_.robot;
+  std::vector<float> rows(count * instances.size() * 12);
+  parallelFor(count, kStatesPerChunk,
+              [&, links = std::vector<Eigen::Isometry3d>(link_count_)](std::size_t from, std::size_t to) mutable
+              {
+                for (std::size_t i = from; i < to; ++i)
+                {
+                  link_poses_(begin + i, links.data());
+                  for (std::size_t k = 0; k < instances.size(); ++k)
+                  {
+                    Eigen::Isometry3d pose = links[static_cast<std::size_t>(instances[k].link)] * instances[k].pose;
+                    pose.translation() -= problem_.origin;
+                    writePoseRows(pose, &rows[(k * count + i) * 12]);
+                  }
+                }
+              });
+  poses.buffer().write(rows);
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Geometry>
+
+#include "collision/gpu/pose_source.h"
+#include "collision/problem/collision_problem.h"
+
+namespace gpu_planning_scene::core
+{
+/// Poses that the CPU finds, on all cores, and the GPU gets: of two meshes, and where a device's double precision is
+/// not to be trusted.
+class UploadedPoses : public PoseSource
+{
+ public:
+  /// Writes the poses of all links (of bodies that CollisionProblem::robot names) in state `row`. Called from several
+  /// threads.
+  using LinkPoses = std::function<void(std::size_t row, Eigen::Isometry3d* link_poses)>;
+
+  UploadedPoses(const CollisionProblem& problem, std::size_t link_count, const LinkPoses& link_poses)
+    : problem_(problem), link_count_(link_count), link_poses_(link_poses)
+  {
+  }
+  void write(std::size_t begin, std::size_t count, TexelBuffer& poses) override;
+
+ private:
+  const CollisionProblem& problem_;
+  std::size_t link_count_;
+  const LinkPoses& link_poses_;
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,186 @@
+#include "gpu_planning_scene/interpolation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr double kTurn = 2.0 * EIGEN_PI;
+
+/// What of a state a joint's variables are: how it is interpolated and how far it moves.
+enum class Part
+{
+  Length,
+  Angle,         // bounded: the way that does not cross the limits
+  WrappedAngle,  // the shorter way round
+  Rotation       // a quaternion, x first
+};
+
+/// Calls visit(part, first variable, number of variables) for what an active joint's variables are made of.
+template <class Visit>
+void forParts(const RobotModel& robot, const Joint& joint, const Visit& visit)
+{
+  const int first = joint.first_variable;
+  switch (joint.type)
+  {
+    case JointType::Revolute:
+      visit(Part::Angle, first, 1);
+      break;
+    case JointType::Continuous:
+      visit(hasNoPeriod(robot, joint) ? Part::Angle : Part::WrappedAngle, first, 1);
+      break;
+    case JointType::Prismatic:
+      visit(Part::Length, first, 1);
+      break;
+    case JointType::Planar:
+      visit(Part::Length, first, 2);
+      visit(Part::WrappedAngle, first + 2, 1);
+      break;
+    case JointType::Floating:
+      visit(Part::Length, first, 3);
+      visit(Part::Rotation, first + 3, 4);
+      break;
+    case JointType::Fixed:
+      break;
+  }
+}
+
+/// The same for all active joints.
+template <class Visit>
+void forParts(const RobotModel& robot, const Visit& visit)
+{
+  for (const Joint& joint : robot.joints())
+    if (!joint.mimic && joint.first_variable >= 0)
+      forParts(robot, joint, visit);
+}
+
+/// As forward kinematics reads it: any length above 0, and no rotation for 0.
+Eigen::Quaterniond rotationOf(const double* variables)
+{
+  Eigen::Vector4d coefficients = Eigen::Map<const Eigen::Vector4d>(variables);
+  const double largest = coefficients.cwiseAbs().maxCoeff();
+  if (largest == 0.0)
+    return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::Vector4d(coefficients / largest)).normalized();
+}
+
+/// How far a part moves, in radians or metres: the largest of its variables.
+double travelOf(Part part, const double* from, const double* to, int count)
+{
+  switch (part)
+  {
+    case Part::WrappedAngle:
+      return std::abs(shortestAngularDistance(*from, *to));
+    case Part::Rotation:
+      return 0.5 * rotationOf(from).angularDistance(rotationOf(to));
+    default:
+      return (Eigen::Map<const Eigen::VectorXd>(to, count) - Eigen::Map<const Eigen::VectorXd>(from, count))
+          .cwiseAbs()
+          .maxCoeff();
+  }
+}
+
+void refuseStep(double step, const char* name, const char* unit)
+{
+  if (!std::isfinite(step) || step <= 0.0)
+    throw Error(std::string("the ") + name + " step of motions is " + std::to_string(step) +
+                "; it must be a finite number of " + unit + " above 0");
+}
+
+}  // namespace
+
+double shortestAngularDistance(double from, double to)
+{
+  return std::remainder(std::remainder(to, kTurn) - std::remainder(from, kTurn), kTurn);
+}
+
+bool hasNoPeriod(const RobotModel& robot, const Joint& joint)
+{
+  return std::any_of(
+      robot.joints().begin(), robot.joints().end(),
+      [&joint](const Joint& other)
+      {
+        return other.mimic && other.first_variable == joint.first_variable &&
+               (other.type == JointType::Prismatic || other.multiplier != std::round(other.multiplier));
+      });
+}
+
+void validateSteps(const MotionSteps& steps)
+{
+  refuseStep(steps.revolute, "revolute", "radians");
+  refuseStep(steps.prismatic, "prismatic", "metres");
+}
+
+/// A joint that mimics another one has its variable, and moves as that one does.
+std::vector<JointTravel> jointTravel(const RobotModel& robot, const double* from, const double* to)
+{
+  std::vector<JointTravel> travel(robot.joints().size());
+  const auto follow = [&](const Joint& leader, double amount)
+  {
+    for (std::size_t i = 0; i < travel.size(); ++i)
+      if (const Joint& joint = robot.joints()[i]; joint.mimic && joint.first_variable == leader.first_variable)
+        (joint.type == JointType::Prismatic ? travel[i].length : travel[i].angle) = std::abs(joint.multiplier) * amount;
+  };
+  for (std::size_t i = 0; i < travel.size(); ++i)
+  {
+    const Joint& joint = robot.joints()[i];
+    if (joint.mimic || joint.first_variable < 0)
+      continue;
+    forParts(robot, joint,
+             [&](Part part, int first, int count)
+             {
+               const double* const start = from + first;
+               const double* const end = to + first;
+               if (part == Part::Rotation)
+                 travel[i].angle = rotationOf(start).angularDistance(rotationOf(end));
+               else if (part == Part::Length)
+                 travel[i].length =
+                     (Eigen::Map<const Eigen::VectorXd>(end, count) - Eigen::Map<const Eigen::VectorXd>(start, count))
+                         .norm();
+               else
+                 travel[i].angle = travelOf(part, start, end, count);
+             });
+    follow(joint, joint.type == JointType::Prismatic ? travel[i].length : travel[i].angle);
+  }
+  return travel;
+}
+
+double segmentCount(const RobotModel& robot, const double* from, const double* to, const MotionSteps& steps)
+{
+  double most = 1.0;
+  forParts(robot,
+           [&](Part part, int first, int count)
+           {
+             const double step = part == Part::Length ? steps.prismatic : steps.revolute;
+             most = std::max(most, std::ceil(travelOf(part, from + first, to + first, count) / step));
+           });
+  return most;
+}
+
+void interpolate(const RobotModel& robot, const double* from, const double* to, double fraction, double* state)
+{
+  if (fraction == 0.0 || fraction == 1.0)
+  {
+    std::copy_n(fraction == 0.0 ? from : to, robot.variables().size(), state);
+    return;
+  }
+  forParts(robot,
+           [&](Part part, int first, int count)
+           {
+             if (part == Part::Rotation)
+             {
+               Eigen::Map<Eigen::Vector4d>(state + first) =
+                   rotationOf(from + first).slerp(fraction, rotationOf(to + first)).coeffs();
+               return;
+             }
+             for (int i = first; i < first + count; ++i)
+               state[i] = part == Part::WrappedAngle ? from[i] + fraction * shortestAngularDistance(from[i], to[i])
+                                                     : (1.0 - fraction) * from[i] + fraction * to[i];
+           });
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,204 @@
+#include "collision/motion/motion_batch.h"
+
+#include <utility>
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+// A call can be stopped between two batches of states.
+constexpr BatchSize::Limits kBatch{0.05, 2048, 64, 65536};
+
+// The first samples of a motion that are asked about: its ends and its middle; each time later so many times as many.
+constexpr std::size_t kFirstSamples = 3;
+constexpr std::size_t kGrowth = 4;
+
+// A sample that cannot be proven to be free for less than this around it is as good as a collision.
+constexpr double kLeastWay = 1e-7;  // radians and metres
+
+/// 0 and n, then the middles of what is between two of those before, all parts of a level before the next.
+std::vector<std::size_t> bisectionOrder(std::size_t n)
+{
+  std::vector<std::size_t> order = {n, 0};
+  std::vector<std::pair<std::size_t, std::size_t>> parts = {{0, n}};
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const auto [begin, end] = parts[i];
+    if (end - begin < 2)
+      continue;
+    const std::size_t middle = begin + (end - begin) / 2;
+    order.push_back(middle);
+    parts.emplace_back(begin, middle);
+    parts.emplace_back(middle, end);
+  }
+  return order;
+}
+}  // namespace
+
+MotionBatch::MotionBatch(StateChecker& checker, const RobotModel& robot, const std::string& group,
+                         const MotionCheckerOptions& options, MotionQuery question, const std::function<bool()>& stop)
+  : checker_(checker),
+    robot_(robot),
+    limits_(limitRanges(robot)),
+    group_(group),
+    options_(options),
+    last_valid_(question == MotionQuery::LastValid),
+    stop_(stop),
+    batch_size_(kBatch)
+{
+}
+
+void MotionBatch::add(const double* from, const double* to)
+{
+  const double parts = segmentCount(robot_, from, to, options_.steps);
+  const bool is_too_long = parts >= static_cast<double>(options_.most_samples);
+  Motion motion{from, to, is_too_long ? 1 : static_cast<std::size_t>(parts), {}, {}};
+  if (is_too_long)
+    motion.reject();
+  motion.order = bisectionOrder(motion.parts);
+  if (options_.rule == MotionRule::Bound)
+    motion.travel = jointTravel(robot_, from, to);
+  for (const JointTravel& joint : motion.travel)
+    motion.longest_travel = std::max({motion.longest_travel, joint.length, joint.angle});
+  // Beyond the limits displacements have no bounds.
+  if (options_.rule == MotionRule::Bound && !(withinRanges(limits_, from) && withinRanges(limits_, to)))
+    motion.reject();
+  motions_.push_back(std::move(motion));
+}
+
+template <class Visit>
+void MotionBatch::ask(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit)
+{
+  const std::size_t width = robot_.variables().size();
+  std::vector<double> states;
+  std::size_t count = 0;
+  for (std::size_t begin = 0; begin < intervals.size(); begin += count)
+  {
+    count = std::min(batch_size_.size(), intervals.size() - begin);
+    stopped_ = stopped_ || (stop_ && stop_());
+    if (stopped_)
+    {
+      for (std::size_t i = 0; i < count; ++i)
+        visit(intervals[begin + i], false, {-1, -1});
+      continue;
+    }
+    states.resize(count * width);
+    JointNeighbourhood around;
+    std::size_t last_motion = motions_.size();
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const Interval& interval = intervals[begin + i];
+      Motion& motion = motions_[interval.motion];
+      interpolate(robot_, motion.from, motion.to, interval.middle, states.data() + i * width);
+      ++motion.samples;
+      if (!with_margins)
+        continue;
+      if (interval.motion != last_motion)  // the intervals of a motion follow one another and are equally wide
+        for (const JointTravel& joint : motion.travel)
+          around.travel.push_back({joint.length * interval.half, joint.angle * interval.half});
+      last_motion = interval.motion;
+      around.rows.push_back(static_cast<std::uint32_t>(around.travel.size() / motion.travel.size() - 1));
+    }
+    states_checked_ += count;
+    const BatchResult result = checker_.check(states.data(), count, group_, with_margins ? &around : nullptr);
+    for (std::size_t i = 0; i < count; ++i)
+      visit(intervals[begin + i], result.valid[i] != 0, result.colliding[i]);
+    batch_size_.took(count, result.seconds);
+  }
+}
+
+void MotionBatch::checkSamples()
+{
+  std::size_t largest = 0;
+  for (const Motion& motion : motions_)
+    largest = std::max(largest, motion.order.size());
+  std::size_t end = last_valid_ ? largest : kFirstSamples;
+  for (std::size_t begin = 0; begin < largest; begin = end, end *= kGrowth)
+  {
+    std::vector<Interval> intervals;
+    for (std::size_t i = 0; i < motions_.size(); ++i)
+    {
+      const Motion& motion = motions_[i];
+      for (std::size_t k = begin; motion.valid && k < std::min(end, motion.order.size()); ++k)
+        intervals.push_back({i, motion.fraction(motion.order[k]), 1.0 / static_cast<double>(motion.parts)});
+    }
+    ask(intervals, false,
+        [this](const Interval& interval, bool free, const BodyPair& colliding)
+        {
+          if (!free)
+            fail(interval, colliding);
+        });
+  }
+}
+
+std::vector<MotionBatch::Interval> MotionBatch::firstIntervals() const
+{
+  std::vector<Interval> intervals;
+  for (std::size_t i = 0; i < motions_.size(); ++i)
+  {
+    const Motion& motion = motions_[i];
+    for (std::size_t k = 0; k <= motion.parts; ++k)
+    {
+      const Interval interval{i, motion.fraction(k), 0.5 / static_cast<double>(motion.parts)};
+      if (isWanted(interval))
+        intervals.push_back(interval);
+    }
+  }
+  return intervals;
+}
+
+/// Of those that are still wanted; where that is too small, or too many samples were taken, the motion is given up.
+std::vector<MotionBatch::Interval> MotionBatch::halves(const std::vector<Interval>& intervals)
+{
+  for (const Interval& interval : intervals)
+    if (const Motion& motion = motions_[interval.motion];
+        motion.samples >= options_.most_samples || motion.longest_travel * interval.half < kLeastWay)
+      fail(interval, {-1, -1});
+  std::vector<Interval> result;
+  for (const Interval& interval : intervals)
+    if (isWanted(interval))
+      for (const double side : {-0.5, 0.5})
+      {
+        const Interval half{interval.motion, interval.middle + side * interval.half, 0.5 * interval.half};
+        // What the first and the last sample stand for is half outside.
+        if (half.middle > 0.0 && half.middle < 1.0)
+          result.push_back(half);
+      }
+  return result;
+}
+
+void MotionBatch::prove()
+{
+  std::vector<Interval> open = firstIntervals();
+  for (bool are_free = true; !open.empty(); are_free = false)
+  {
+    std::vector<Interval> near;
+    ask(open, true,
+        [&near](const Interval& interval, bool free, const BodyPair&)
+        {
+          if (!free)
+            near.push_back(interval);
+        });
+    if (!are_free)
+      ask(near, false,
+          [this](const Interval& interval, bool free, const BodyPair& colliding)
+          {
+            if (!free)
+              fail(interval, colliding);
+          });
+    open = halves(near);
+  }
+}
+
+std::vector<MotionVerdict> MotionBatch::verdicts() const
+{
+  std::vector<MotionVerdict> verdicts;
+  verdicts.reserve(motions_.size());
+  for (const Motion& motion : motions_)
+    if (motion.valid)
+      verdicts.push_back({true, 1.0, 1.0, {-1, -1}});
+    else
+      verdicts.push_back({false, last_valid_ ? motion.limit : 0.0, motion.first_invalid, motion.colliding});
+  return verdicts;
+}
+}  // namespace gpu_planning_scene::core

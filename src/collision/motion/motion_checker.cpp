@@ -1,0 +1,45 @@
+#include "gpu_planning_scene/motion_checker.h"
+
+#include <utility>
+
+#include "collision/motion/motion_batch.h"
+#include "collision/problem/state_validation.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::core
+{
+MotionRule motionRuleFromName(const std::string& name)
+{
+  if (name == "samples")
+    return MotionRule::Samples;
+  if (name == "bound")
+    return MotionRule::Bound;
+  throw Error("the motion rule is '" + name + "'; it must be samples or bound");
+}
+
+MotionChecker::MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_ptr<const RobotModel> robot,
+                             std::string group, const MotionCheckerOptions& options)
+  : checker_(std::move(checker)), robot_(std::move(robot)), group_(std::move(group)), options_(options)
+{
+  validateSteps(options_.steps);
+}
+
+std::vector<MotionVerdict> MotionChecker::check(const double* starts, const double* ends, std::size_t count,
+                                                MotionQuery question, const std::function<bool()>& stop) const
+{
+  validateStates(*robot_, starts, count);
+  validateStates(*robot_, ends, count);
+  MotionCheckerOptions options = options_;
+  if (question == MotionQuery::Samples)
+    options.rule = MotionRule::Samples;
+  const std::size_t width = robot_->variables().size();
+  MotionBatch batch(*checker_, *robot_, group_, options, question, stop);
+  for (std::size_t i = 0; i < count; ++i)
+    batch.add(starts + i * width, ends + i * width);
+  batch.checkSamples();
+  if (options.rule == MotionRule::Bound && !robot_->joints().empty())
+    batch.prove();
+  states_checked_ += batch.statesChecked();
+  return batch.verdicts();
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace gpu_planning_scene::core
+{
+/// Calls `work(begin, end)` for chunks of [0, count) on all cores; the calling thread is one of them. Each thread works
+/// with its own copy of `work`, so that what it captures by value may serve as scratch. `work` must not throw. Where
+/// the system refuses threads, those that there are do all.
+template <class Work>
+void parallelFor(std::size_t count, std::size_t per_chunk, const Work& work)
+{
+  const std::size_t chunks = (count + per_chunk - 1) / per_chunk;
+  std::atomic<std::size_t> next{0};
+  const auto run = [&]
+  {
+    Work own = work;
+    for (std::size_t chunk = next++; chunk < chunks; chunk = next++)
+      own(chunk * per_chunk, std::min(count, (chunk + 1) * per_chunk));
+  };
+  // Asking takes longer than checking a state.
+  static const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::thread> helpers;
+  try
+  {
+    for (std::size_t i = 1; i < std::min(cores, chunks); ++i)
+      helpers.emplace_back(run);
+  }
+  catch (const std::exception&)  // no thread or no memory for one; destroying those that run would end the process
+  {
+  }
+  run();
+  for (std::thread& helper : helpers)
+    helper.join();
+}
+}  // namespace gpu_planning_scene::core

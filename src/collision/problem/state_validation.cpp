@@ -1,0 +1,58 @@
+#include "collision/problem/state_validation.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// With as many digits as tell 1e39 from 1e6.
+std::string text(double value)
+{
+  std::array<char, 32> digits;
+  std::snprintf(digits.data(), digits.size(), "%.9g", value);
+  return digits.data();
+}
+}  // namespace
+
+void requireRobot(const std::shared_ptr<const PlanningScene>& scene)
+{
+  if (!scene || !scene->robot)
+    throw Error("there is no planning scene, or it has no robot");
+}
+
+void validateNeighbourhood(const RobotModel& robot, const JointNeighbourhood& around, std::size_t count)
+{
+  const std::size_t joints = robot.joints().size();
+  const std::size_t rows = joints == 0 ? 0 : around.travel.size() / joints;
+  if (around.rows.size() != count || rows * joints != around.travel.size())
+    throw Error("what is around " + std::to_string(count) + " states of " + std::to_string(joints) +
+                " joints is given for " + std::to_string(around.rows.size()) + " states and by " +
+                std::to_string(around.travel.size()) + " ways");
+  for (std::size_t i = 0; i < count; ++i)
+    if (around.rows[i] >= rows)
+      throw Error("what is around state " + std::to_string(i) + " is row " + std::to_string(around.rows[i]) + " of " +
+                  std::to_string(rows));
+  for (const JointTravel& way : around.travel)
+    if (!(way.length >= 0.0 && way.angle >= 0.0 && std::isfinite(way.length) && std::isfinite(way.angle)))
+      throw Error("a joint's way around a state is " + std::to_string(way.length) + " m and " +
+                  std::to_string(way.angle) + " rad; both must be finite and at least 0");
+}
+
+void validateStates(const RobotModel& robot, const double* states, std::size_t count)
+{
+  const auto& variables = robot.variables();
+  for (std::size_t row = 0; row < count; ++row, states += variables.size())
+    for (std::size_t i = 0; i < variables.size(); ++i)
+      if (!(std::abs(states[i]) <= variables[i].largest))
+        throw Error("state " + std::to_string(row) + ": the value of variable '" + variables[i].name + "' is " +
+                    (std::isfinite(states[i]) ? text(states[i]) + "; it must be within " + text(variables[i].largest) +
+                                                    ", as no joint can be moved by more than 1000 km"
+                                              : "not a finite number"));
+}
+}  // namespace gpu_planning_scene::core

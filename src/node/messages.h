@@ -1,0 +1,23 @@
+#pragma once
+// All messages and services of this package, which ROS puts into the namespace gpu_planning_scene. Inside
+// gpu_planning_scene::core their names can be used as they are, but for two that the library uses for classes of its
+// own.
+
+#include <gpu_planning_scene/AllowedCollisionMatrix.h>
+#include <gpu_planning_scene/ApplyPlanningScene.h>
+#include <gpu_planning_scene/CheckMotions.h>
+#include <gpu_planning_scene/CheckStates.h>
+#include <gpu_planning_scene/Clear.h>
+#include <gpu_planning_scene/ContactInformation.h>
+#include <gpu_planning_scene/GetPlanningScene.h>
+#include <gpu_planning_scene/GetReport.h>
+#include <gpu_planning_scene/PlanMotion.h>
+#include <gpu_planning_scene/PlanningScene.h>
+#include <gpu_planning_scene/PlanningSceneComponents.h>
+#include <gpu_planning_scene/ShowTreeLevel.h>
+
+namespace gpu_planning_scene::core
+{
+using AllowedCollisionMatrixMessage = gpu_planning_scene::AllowedCollisionMatrix;
+using PlanningSceneMessage = gpu_planning_scene::PlanningScene;
+}  // namespace gpu_planning_scene::core

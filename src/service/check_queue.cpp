@@ -1,0 +1,355 @@
+#include "service/check_queue.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "model/seconds_since.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+// A stop waits no longer than for one batch of states.
+constexpr double kBatchSeconds = 0.5;
+constexpr std::size_t kLeastBatch = 16;  // states
+constexpr std::size_t kFirstBatch = 1024;
+
+std::exception_ptr shuttingDown()
+{
+  return std::make_exception_ptr(Error("shutting down: the request was not answered"));
+}
+
+bool isEqual(const std::shared_ptr<const AllowedCollisionMatrix>& a,
+             const std::shared_ptr<const AllowedCollisionMatrix>& b)
+{
+  return a == b || (a && b && *a == *b);
+}
+
+/// Whether the rows are full states as they are.
+bool isFull(const CheckJob& job, std::size_t width)
+{
+  if (job.columns.empty())
+    return true;
+  for (std::size_t i = 0; i < job.columns.size(); ++i)
+    if (job.columns[i] != static_cast<int>(i))
+      return false;
+  return job.columns.size() == width;
+}
+
+/// Rows of all variables. Throws Error where a variable is neither given nor known.
+std::vector<double> filled(const CheckJob& job, const Snapshot& now)
+{
+  const RobotModel& robot = *now.scene->robot;
+  if (isFull(job, robot.variables().size()))
+    return job.states;
+  return fullStates(robot, job.columns, job.states.data(), job.states.size() / job.columns.size(), now.partialState());
+}
+
+/// Adds the answer for some states to that for those before them.
+void append(const BatchResult& part, BatchResult& all)
+{
+  all.valid.insert(all.valid.end(), part.valid.begin(), part.valid.end());
+  all.colliding.insert(all.colliding.end(), part.colliding.begin(), part.colliding.end());
+  all.revision = part.revision;
+  all.seconds += part.seconds;
+  all.undecided_states += part.undecided_states;
+  all.undecided_seconds += part.undecided_seconds;
+}
+
+/// The rows of one request in the answer for several, `width` values each.
+CheckAnswer part(const CheckAnswer& whole, std::size_t first, std::size_t count, bool keep_states, std::size_t width)
+{
+  const auto begin = static_cast<std::ptrdiff_t>(first);
+  const auto end = static_cast<std::ptrdiff_t>(first + count);
+  CheckAnswer answer;
+  answer.scene = whole.scene;
+  answer.device = whole.device;
+  answer.result.revision = whole.result.revision;
+  answer.result.seconds = whole.result.seconds;
+  answer.result.valid.assign(whole.result.valid.begin() + begin, whole.result.valid.begin() + end);
+  answer.result.colliding.assign(whole.result.colliding.begin() + begin, whole.result.colliding.begin() + end);
+  if (keep_states)
+    answer.states.assign(whole.states.begin() + begin * static_cast<std::ptrdiff_t>(width),
+                         whole.states.begin() + end * static_cast<std::ptrdiff_t>(width));
+  return answer;
+}
+}  // namespace
+
+CheckQueue::CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_checker,
+                       const CheckServerOptions& options, std::size_t largest_batch)
+  : store_(store),
+    make_checker_(std::move(make_checker)),
+    options_(options),
+    largest_batch_(largest_batch),
+    width_(store.snapshot().scene->robot->variables().size()),
+    batch_size_({kBatchSeconds, kFirstBatch, kLeastBatch, options.largest_batch}),
+    thread_()
+{
+}
+
+CheckQueue::~CheckQueue()
+{
+  stop();
+}
+
+void CheckQueue::open()
+{
+  takeScene(nullptr);
+}
+
+std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (stopping_)
+    std::rethrow_exception(shuttingDown());
+  if (waiting_.size() >= options_.most_waiting_requests ||
+      (!waiting_.empty() && waiting_states_ + count > options_.most_waiting_states))
+  {
+    ++statistics_.busy;
+    throw Busy("busy: " + std::to_string(waiting_.size()) + " requests with " + std::to_string(waiting_states_) +
+               " states are waiting; ask again later");
+  }
+  Request request;
+  request.job = std::move(job);
+  request.count = count;
+  std::future<CheckAnswer> answer = request.answer.get_future();
+  waiting_states_ += count;
+  waiting_.push_back(std::move(request));
+  if (!thread_.joinable())
+    thread_ = std::thread([this] { run(); });
+  wake_.notify_one();
+  return answer;
+}
+
+void CheckQueue::stop()
+{
+  std::thread thread;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+    thread.swap(thread_);
+    for (Request& request : waiting_)
+      request.answer.set_exception(shuttingDown());
+    waiting_.clear();
+    waiting_states_ = 0;
+  }
+  wake_.notify_one();
+  if (thread.joinable())
+    thread.join();
+}
+
+CheckStatistics CheckQueue::statistics() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  CheckStatistics statistics = statistics_;
+  statistics.waiting_requests = waiting_.size();
+  statistics.waiting_states = waiting_states_;
+  return statistics;
+}
+
+void CheckQueue::run()
+{
+  for (Batch batch = nextBatch(); !batch.empty(); batch = nextBatch())
+    answer(batch);
+}
+
+/// The request that waits longest, and those that can be answered with it. None: the lane stops.
+CheckQueue::Batch CheckQueue::nextBatch()
+{
+  std::unique_lock<std::mutex> lock(mutex_);
+  wake_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+  Batch batch;
+  if (stopping_)
+    return batch;
+  batch.push_back(std::move(waiting_.front()));
+  waiting_.pop_front();
+  std::size_t states = batch.front().count;
+  Batch others;
+  for (Request& request : waiting_)
+  {
+    const CheckJob& first = batch.front().job;
+    const bool joins = !first.report && !request.job.report && !first.motions && !request.job.motions &&
+                       states + request.count <= largest_batch_ && request.job.group == first.group &&
+                       isEqual(request.job.matrix, first.matrix);
+    states += joins ? request.count : 0;
+    (joins ? batch : others).push_back(std::move(request));
+  }
+  waiting_ = std::move(others);
+  waiting_states_ -= states;
+  return batch;
+}
+
+/// Where several are refused together, each is asked alone: only those that are wrong get an error.
+void CheckQueue::answer(Batch& batch)
+{
+  try
+  {
+    std::size_t count = 0;
+    for (const Request& request : batch)
+      count += request.count;
+    CheckAnswer whole;
+    try
+    {
+      whole = check(batch, count);
+    }
+    catch (...)
+    {
+      if (batch.size() == 1)
+        throw;
+      for (Request& request : batch)
+      {
+        Batch alone;
+        alone.push_back(std::move(request));
+        answer(alone);
+      }
+      return;
+    }
+    countAnswered(whole, batch.size());
+    if (batch.size() == 1)
+    {
+      batch.front().answer.set_value(std::move(whole));
+      return;
+    }
+    std::size_t first = 0;
+    for (Request& request : batch)
+    {
+      request.answer.set_value(part(whole, first, request.count, request.job.keep_states, width_));
+      first += request.count;
+    }
+  }
+  catch (...)
+  {
+    for (Request& request : batch)
+      fail(request, std::current_exception());
+  }
+}
+
+CheckAnswer CheckQueue::check(Batch& batch, std::size_t count)
+{
+  const CheckJob& job = batch.front().job;
+  const Snapshot now = takeScene(job.matrix.get());
+  std::vector<double> states = statesOf(batch, now);
+  CheckAnswer answer;
+  answer.scene = now.scene;
+  if (job.motions)
+    checkMotions(job, states, answer);
+  else
+  {
+    answer.result = checkStates(states, count, job.group);
+    answer.states_checked = count;
+  }
+  if (job.report)
+    answer.report = checker_->report(job.group);
+  if (std::any_of(batch.begin(), batch.end(), [](const Request& request) { return request.job.keep_states; }))
+    answer.states = std::move(states);
+  answer.device = checker_->deviceName();
+  return answer;
+}
+
+/// Full rows of all requests. Of several the jobs stay as they are, as they may be asked alone after all.
+std::vector<double> CheckQueue::statesOf(Batch& batch, const Snapshot& now) const
+{
+  CheckJob& first = batch.front().job;
+  if (batch.size() == 1)
+    return isFull(first, width_) ? std::move(first.states) : filled(first, now);
+  std::vector<double> states;
+  for (const Request& request : batch)
+  {
+    const std::vector<double> rows = filled(request.job, now);
+    states.insert(states.end(), rows.begin(), rows.end());
+  }
+  return states;
+}
+
+BatchResult CheckQueue::checkStates(const std::vector<double>& states, std::size_t count, const std::string& group)
+{
+  BatchResult all;
+  std::size_t from = 0;
+  do  // once at least: the group is looked at in any case
+  {
+    if (from != 0 && isStopping())
+      std::rethrow_exception(shuttingDown());
+    const std::size_t rows = std::min(count - from, batch_size_.size());
+    const BatchResult part = checker_->check(states.data() + from * width_, rows, group);
+    batch_size_.took(rows, part.seconds);
+    append(part, all);
+    from += rows;
+  } while (from < count);
+  return all;
+}
+
+void CheckQueue::checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer)
+{
+  const auto start = std::chrono::steady_clock::now();
+  const MotionChecker checker(checker_, answer.scene->robot, job.group, *job.motions);
+  const std::size_t count = width_ == 0 ? 0 : states.size() / width_ / 2;
+  if (count == 0)
+    checker_->check(nullptr, 0, job.group);  // the group is looked at in any case
+  answer.motions = checker.check(states.data(), states.data() + count * width_, count, MotionQuery::LastValid,
+                                 [this] { return isStopping(); });
+  if (isStopping())
+    std::rethrow_exception(shuttingDown());
+  answer.states_checked = checker.statesChecked();
+  answer.result.revision = answer.scene->revision;
+  answer.result.seconds = secondsSince(start);
+}
+
+bool CheckQueue::isStopping() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return stopping_;
+}
+
+Snapshot CheckQueue::takeScene(const AllowedCollisionMatrix* matrix)
+{
+  Snapshot now = store_.snapshot();
+  if (matrix != nullptr)
+  {
+    auto other = std::make_shared<PlanningScene>(*now.scene);
+    other->allowed_collisions = *matrix;
+    other->matrix_source = MatrixSource::SceneFile;
+    now.scene = std::move(other);
+  }
+  if (now.scene == checked_)
+    return now;
+  try
+  {
+    if (checker_)
+      checker_->setScene(now.scene);
+    else
+      checker_ = make_checker_(now.scene);
+    checked_ = now.scene;
+  }
+  catch (...)
+  {
+    checker_.reset();
+    checked_.reset();
+    throw;
+  }
+  return now;
+}
+
+void CheckQueue::countAnswered(const CheckAnswer& answer, std::size_t requests)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  statistics_.requests += requests;
+  statistics_.batches += 1;
+  statistics_.states += answer.states_checked;
+  statistics_.undecided += answer.result.undecided_states;
+}
+
+/// A promise that has its value already keeps it.
+void CheckQueue::fail(Request& request, std::exception_ptr error)
+{
+  try
+  {
+    request.answer.set_exception(std::move(error));
+  }
+  catch (const std::future_error&)
+  {
+    return;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++statistics_.errors;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,156 @@
+// What an arm can move to from a state is not free around it, and what it cannot is.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/interpolation.h"
+#include "model/model_testing.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr char kTurns[] = "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/>";
+constexpr char kSlides[] = "<axis xyz='0 1 0'/><limit lower='-0.02' upper='0.02' effort='1' velocity='1'/>";
+constexpr double kWay = 0.01;   // radians or metres
+constexpr double kBall = 0.01;  // metres: the radius of the ball at the tip
+
+std::string ballLink(const std::string& name, double radius)
+{
+  return "<link name='" + name + "'><collision><geometry><sphere radius='" + std::to_string(radius) +
+         "'/></geometry></collision></link>";
+}
+
+/// Two links of half a metre along x that turn about z, a slide along y, and a ball at its end, 1 m from the first
+/// joint. `finger`: one that turns four times as far as the first joint, a quarter of a metre before it.
+std::shared_ptr<const RobotModel> arm(bool finger = false)
+{
+  std::string urdf = "<link name='base'/><link name='upper'/><link name='fore'/>" + ballLink("tip", kBall) +
+                     jointXml("shoulder", "revolute", "base", "upper", kTurns) +
+                     jointXml("elbow", "revolute", "upper", "fore", std::string("<origin xyz='0.5 0 0'/>") + kTurns) +
+                     jointXml("slide", "prismatic", "fore", "tip", std::string("<origin xyz='0.5 0 0'/>") + kSlides);
+  if (finger)
+    urdf += ballLink("knuckle", 0.001) + ballLink("fingertip", kBall) +
+            jointXml("bend", "revolute", "tip", "knuckle",
+                     "<origin xyz='0 0.2 0'/><axis xyz='0 0 1'/><limit lower='-4' upper='4' effort='1' velocity='1'/>"
+                     "<mimic joint='shoulder' multiplier='-4'/>") +
+            jointXml("nail", "fixed", "knuckle", "fingertip", "<origin xyz='0.25 0 0'/>");
+  return robotOf(urdf);
+}
+
+class Displacement : public testing::Test
+{
+ protected:
+  /// A ball in the world, `gap` away in y from where the ball at `at` ends.
+  static std::shared_ptr<PlanningScene> sceneWith(const std::shared_ptr<const RobotModel>& robot,
+                                                  const Eigen::Vector3d& at, double gap)
+  {
+    auto scene = std::make_shared<PlanningScene>(robot);
+    WorldObject ball;
+    ball.id = "ball";
+    ball.pose = Eigen::Translation3d(at + Eigen::Vector3d(0.0, kBall + gap + 0.1, 0.0));
+    ball.shapes = {{Sphere{0.1}}};
+    scene->objects = {ball};
+    return scene;
+  }
+
+  static JointNeighbourhood allWays(const RobotModel& robot)
+  {
+    JointNeighbourhood around;
+    for (const Joint& joint : robot.joints())
+      around.travel.push_back(joint.type == JointType::Prismatic  ? JointTravel{kWay, 0.0}
+                              : joint.type == JointType::Revolute ? JointTravel{0.0, kWay}
+                                                                  : JointTravel{});
+    around.rows = {0};
+    return around;
+  }
+
+  static bool isFreeAround(const std::shared_ptr<PlanningScene>& scene, const JointNeighbourhood& around)
+  {
+    const std::vector<double> state = scene->robot->defaultState();
+    return CpuChecker(scene).check(state.data(), 1, "", &around).valid[0] != 0;
+  }
+};
+
+TEST_F(Displacement, OfAStretchedArmIsTheSumOfWhatItsJointsMoveTheTip)
+{
+  const auto robot = arm();
+  const JointNeighbourhood around = allWays(*robot);
+  const double reached = kWay * (1.0 + 0.5 + 1.0);  // shoulder, elbow, slide
+  const Eigen::Vector3d tip(1.0, 0.0, 0.0);
+  EXPECT_FALSE(isFreeAround(sceneWith(robot, tip, 0.99 * reached), around));
+  EXPECT_TRUE(isFreeAround(sceneWith(robot, tip, 1.05 * reached), around));
+  // Where the elbow stands still, its part is not counted.
+  JointNeighbourhood stiff = around;
+  stiff.travel[1] = {};
+  EXPECT_TRUE(isFreeAround(sceneWith(robot, tip, 0.99 * reached), stiff));
+  EXPECT_FALSE(isFreeAround(sceneWith(robot, tip, 0.99 * kWay * 2.0), stiff));
+}
+
+TEST_F(Displacement, CountsWhatAJointMakesOfItsLeadersWay)
+{
+  const auto robot = arm(true);
+  std::vector<double> from = robot->defaultState();
+  std::vector<double> to = from;
+  to[0] += kWay;
+  const JointNeighbourhood around{jointTravel(*robot, from.data(), to.data()), {0}};
+  const Eigen::Vector3d fingertip(1.25, 0.2, 0.0);
+  const double reached = kWay * (fingertip.norm() + 4.0 * 0.25);
+  EXPECT_FALSE(isFreeAround(sceneWith(robot, fingertip, 0.95 * reached), around));
+  EXPECT_TRUE(isFreeAround(sceneWith(robot, fingertip, 1.2 * reached), around));
+}
+
+TEST_F(Displacement, OfTwoLinksIsThatOfOneAgainstTheOther)
+{
+  // The fingertip and the tip go round the shoulder together; only the bend, which stands still here, parts them.
+  const auto robot = arm(true);
+  JointNeighbourhood around = allWays(*robot);
+  auto scene = std::make_shared<PlanningScene>(robot);
+  const std::vector<double> state = robot->defaultState();
+  CpuChecker checker(scene);
+  around.travel[static_cast<std::size_t>(robot->jointIndex("shoulder"))].angle = 1.0;
+  around.travel[static_cast<std::size_t>(robot->jointIndex("bend"))].angle = 0.0;
+  EXPECT_EQ(checker.check(state.data(), 1, "", &around).valid[0], 1);
+  // Their surfaces are 0.32 - 0.02 m apart; the fingertip goes round the bend at 0.25 m.
+  around.travel[static_cast<std::size_t>(robot->jointIndex("bend"))].angle = 1.0;
+  EXPECT_EQ(checker.check(state.data(), 1, "", &around).valid[0], 1);
+  around.travel[static_cast<std::size_t>(robot->jointIndex("bend"))].angle = 1.3;
+  EXPECT_EQ(checker.check(state.data(), 1, "", &around).valid[0], 0);
+}
+
+TEST_F(Displacement, HasNoBoundOutsideOfTheLimits)
+{
+  const auto robot = arm();
+  const auto scene = sceneWith(robot, {5.0, 5.0, 5.0}, 1.0);
+  const JointNeighbourhood around = allWays(*robot);
+  std::vector<double> state = robot->defaultState();
+  CpuChecker checker(scene);
+  EXPECT_EQ(checker.check(state.data(), 1, "", &around).valid[0], 1);
+  state[1] = 1.1;
+  EXPECT_EQ(checker.check(state.data(), 1, "", &around).valid[0], 0);
+  EXPECT_EQ(checker.check(state.data(), 1).valid[0], 1);
+}
+
+TEST_F(Displacement, RefusesWaysThatDoNotFit)
+{
+  const auto robot = arm();
+  const auto scene = sceneWith(robot, {5.0, 5.0, 5.0}, 1.0);
+  JointNeighbourhood around = allWays(*robot);
+  around.rows = {1};
+  EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }), "what is around state 0 is row 1 of 1");
+  around.rows = {0, 0};
+  EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }),
+            "what is around 1 states of 3 joints is given for 2 states and by 3 ways");
+  around = allWays(*robot);
+  around.travel.pop_back();
+  EXPECT_NE(errorOf([&] { isFreeAround(scene, around); }), "");
+  around = allWays(*robot);
+  around.travel[0].angle = -1.0;
+  EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }),
+            "a joint's way around a state is 0.000000 m and -1.000000 rad; both must be finite and at least 0");
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core

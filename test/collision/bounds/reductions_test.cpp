@@ -1,0 +1,356 @@
+// What is left out of a problem changes no answer: not within the joints' limits, not outside of them, not for groups.
+#include <iostream>
+#include <random>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "collision/bounds/problem_maker.h"
+#include "collision/checkers/scene_text.h"
+#include "collision/exact/binned_sah.h"
+#include "collision/exact/cpu_traversal.h"
+#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "model/model_testing.h"
+#include "support/carrying_scene.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::uint64_t kSeed = 11;
+
+struct Setting
+{
+  std::string name;
+  Reductions reductions;
+};
+
+Reductions only(bool reach, bool unmoved_pairs, bool shared_trees, bool direct_primitives)
+{
+  Reductions reductions;
+  reductions.reach = reach;
+  reductions.unmoved_pairs = unmoved_pairs;
+  reductions.shared_trees = shared_trees;
+  reductions.direct_primitives = direct_primitives;
+  return reductions;
+}
+
+const Setting kNone = {"none", only(false, false, false, false)};
+const Setting kAll = {"all", only(true, true, true, true)};
+const Setting kDirect = {"direct primitives", only(false, false, false, true)};
+const std::vector<Setting> kEach = {{"reach", only(true, false, false, false)},
+                                    {"unmoved pairs", only(false, true, false, false)},
+                                    {"shared trees", only(false, false, true, false)},
+                                    kAll};
+
+CheckerOptions with(const Reductions& reductions)
+{
+  CheckerOptions options;
+  options.reductions = reductions;
+  return options;
+}
+
+/// Two of three within the limits, some of them at limits; the others outside, by up to a turn or a metre.
+std::vector<double> statesInAndOut(const RobotModel& robot, std::size_t count)
+{
+  std::mt19937_64 generator(kSeed);
+  const std::size_t width = robot.variables().size();
+  std::vector<double> states(count * width);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    robot.randomState(generator, &states[i * width]);
+    for (std::size_t v = 0; v < width; ++v)
+    {
+      const Variable& variable = robot.variables()[v];
+      if (variable.bounded && generator() % 4 == 0)
+        states[i * width + v] = variable.upper;
+      if (i % 3 == 0 && generator() % 2 == 0)
+        states[i * width + v] += std::uniform_real_distribution<double>(-3.0, 3.0)(generator);
+    }
+  }
+  return states;
+}
+
+/// A scene of `testScene`; "carrying": see carryingScene().
+const TestScene& sceneCalled(const std::string& name)
+{
+  if (name != "carrying")
+    return testScene(name);
+  static const TestScene carrying = carryingScene();
+  return carrying;
+}
+
+class ReductionsIn : public testing::TestWithParam<const char*>
+{
+ protected:
+  void SetUp() override
+  {
+    const std::string name = GetParam();
+    if (const std::string missing = missingFor(name == "carrying" ? "ur5_table_pick" : name); !missing.empty())
+      GTEST_SKIP() << "there is no " << missing;
+    scene_ = sceneCalled(name).scene;
+    groups_ = {""};
+    for (const Group& group : scene_->robot->groups())
+      groups_.push_back(group.name);
+    std::cout << "seed " << kSeed << std::endl;
+  }
+
+  std::shared_ptr<const PlanningScene> scene_;
+  std::vector<std::string> groups_;
+};
+
+TEST_P(ReductionsIn, ChangeNoAnswerOfTheCpu)
+{
+  constexpr std::size_t kStates = 120;
+  const std::vector<double> states = statesInAndOut(*scene_->robot, kStates);
+  CpuChecker whole(scene_, with(kNone.reductions));
+  for (const Setting& setting : kEach)
+  {
+    CpuChecker reduced(scene_, with(setting.reductions));
+    for (const std::string& group : groups_)
+      EXPECT_EQ(reduced.check(states.data(), kStates, group).valid, whole.check(states.data(), kStates, group).valid)
+          << setting.name << ", group '" << group << "', seed " << kSeed;
+  }
+}
+
+TEST_P(ReductionsIn, ChangeNoAnswerOfTheGpu)
+{
+  constexpr std::size_t kStates = 120;
+  const std::vector<double> states = statesInAndOut(*scene_->robot, kStates);
+  CpuChecker whole(scene_, with(kNone.reductions));
+  for (const Setting& setting : {kNone, kDirect, kAll})
+  {
+    BatchCheckerOptions options;
+    options.cpu_below = 0;
+    options.reductions = setting.reductions;
+    BatchChecker reduced(scene_, options);
+    for (const std::string& group : groups_)
+      EXPECT_EQ(reduced.check(states.data(), kStates, group).valid, whole.check(states.data(), kStates, group).valid)
+          << setting.name << ", group '" << group << "', seed " << kSeed;
+  }
+}
+
+/// Bodies that `problem` compares.
+std::set<BodyPair> bodyPairs(const CollisionProblem& problem)
+{
+  std::set<BodyPair> pairs;
+  for (const auto& [a, b] : problem.self_pairs)
+    pairs.insert({problem.robot[a].body, problem.robot[b].body});
+  for (std::size_t i = 0; i < problem.robot.size(); ++i)
+    for (std::size_t k = 0; k < problem.world.size(); ++k)
+      if (problem.world_pairs[i * problem.world.size() + k])
+        pairs.insert({problem.robot[i].body, problem.world[k].body});
+  for (std::size_t i = 0; i < problem.robot.size(); ++i)
+    for (std::size_t k = 0; k < problem.half_spaces.size(); ++k)
+      if (problem.half_space_pairs[i * problem.half_spaces.size() + k])
+        pairs.insert({problem.robot[i].body, problem.half_spaces[k].body});
+  return pairs;
+}
+
+/// The problem with only those pairs that are not in `pairs`.
+CollisionProblem withoutPairs(CollisionProblem problem, const std::set<BodyPair>& pairs)
+{
+  std::vector<std::array<std::uint32_t, 2>> self_pairs;
+  for (const auto& [a, b] : problem.self_pairs)
+    if (pairs.count({problem.robot[a].body, problem.robot[b].body}) == 0)
+      self_pairs.push_back({a, b});
+  problem.self_pairs = self_pairs;
+  for (std::size_t i = 0; i < problem.robot.size(); ++i)
+  {
+    for (std::size_t k = 0; k < problem.world.size(); ++k)
+      if (pairs.count({problem.robot[i].body, problem.world[k].body}) != 0)
+        problem.world_pairs[i * problem.world.size() + k] = 0;
+    for (std::size_t k = 0; k < problem.half_spaces.size(); ++k)
+      if (pairs.count({problem.robot[i].body, problem.half_spaces[k].body}) != 0)
+        problem.half_space_pairs[i * problem.half_spaces.size() + k] = 0;
+  }
+  return problem;
+}
+
+class BoundsIn : public ReductionsIn
+{
+};
+
+TEST_P(BoundsIn, LeaveOutOnlyWhatCannotMeetWithinTheLimits)
+{
+  SceneReport report;
+  const CollisionProblem reduced = ProblemMaker(with(only(true, false, true, false))).make(*scene_, "", &report);
+  for (const std::string& line : describeScene(*scene_, report, "none"))
+    std::cout << line << std::endl;
+  const CollisionProblem whole = makeProblem(*scene_, "", nullptr);
+  const auto left_out = std::make_shared<const CollisionProblem>(withoutPairs(whole, bodyPairs(reduced)));
+  EXPECT_EQ(bodyPairs(*left_out).size(), report.unreachable_self_pairs + report.unreachable_world_pairs);
+  const CpuTraversal traversal(left_out, std::make_shared<const Forest>(buildBinnedSah(left_out->trees)));
+  CpuTraversal::Scratch scratch;
+  const RobotModel& robot = *scene_->robot;
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  std::vector<double> state(robot.variables().size());
+  std::mt19937_64 generator(kSeed);
+  for (int i = 0; i < 2000; ++i)
+  {
+    robot.randomState(generator, state.data());
+    robot.linkPoses(state.data(), poses.data());
+    const auto pair = traversal.firstCollision(poses.data(), scratch);
+    ASSERT_FALSE(pair) << scene_->bodyName((*pair)[0]) << " - " << scene_->bodyName((*pair)[1]) << ", seed " << kSeed;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, ReductionsIn, testing::Values("kr5", "kr5_crowded", "ur5_cage", "carrying"));
+INSTANTIATE_TEST_SUITE_P(Scenes, BoundsIn,
+                         testing::Values("kr5", "kr5_crowded", "wam", "drchubo", "ur5_cage", "carrying"));
+
+/// base (fixed in the world, with a fixed mast) -swing-> arm; a box around the mast's top, one in the arm's way, one
+/// far away, one that only the base is near to.
+class SmallScene : public testing::Test
+{
+ protected:
+  void SetUp() override
+  {
+    const auto link = [](const std::string& name, const std::string& origin, const std::string& size)
+    {
+      return "<link name='" + name + "'><collision><origin xyz='" + origin + "'/><geometry><box size='" + size +
+             "'/></geometry></collision></link>";
+    };
+    scene_ = std::make_shared<PlanningScene>(
+        robotOf(link("base", "0 0 0", "0.2 0.2 0.2") + link("mast", "0 0 0.5", "0.05 0.05 1") +
+                    link("arm", "0.35 0 0", "0.4 0.05 0.05") +
+                    jointXml("weld", "fixed", "base", "mast", "<origin xyz='0 0.3 0'/>") +
+                    jointXml("swing", "revolute", "base", "arm",
+                             "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/>"),
+                "<group name='arm'><joint name='swing'/></group>"));
+    addBox("way", {0.45, 0.0, 0.0});
+    addBox("far", {5.0, 0.0, 0.0});
+    addBox("behind", {-0.45, 0.0, 0.0});  // the arm would have to turn by more than a right angle
+  }
+
+  void addBox(const std::string& id, const Eigen::Vector3d& at)
+  {
+    scene_->objects.push_back({id, Eigen::Isometry3d(Eigen::Translation3d(at)), {{Box{{0.1, 0.1, 0.1}}}}});
+  }
+
+  SceneReport reportOf(const Reductions& reductions, const std::string& group = "") const
+  {
+    SceneReport report;
+    ProblemMaker(with(reductions)).make(*scene_, group, &report);
+    return report;
+  }
+
+  std::shared_ptr<PlanningScene> scene_;
+};
+
+TEST_F(SmallScene, ReportsWhatIsLeftOutAndWhy)
+{
+  const SceneReport whole = reportOf(kNone.reductions);
+  EXPECT_EQ(whole.self_pairs, 3U);
+  EXPECT_EQ(whole.world_pairs, 9U);
+  EXPECT_EQ(whole.shared_trees, 0U);
+  EXPECT_EQ(whole.trees, 6U);
+  EXPECT_EQ(reportOf(only(false, false, true, false)).trees, 4U);
+  EXPECT_EQ(reportOf(only(false, false, true, false)).shared_trees, 2U);
+
+  const SceneReport reach = reportOf(only(true, false, true, false));
+  EXPECT_EQ(reach.unreachable_objects, 2U);
+  EXPECT_EQ(reach.self_pairs + reach.unreachable_self_pairs, whole.self_pairs);
+  EXPECT_EQ(reach.world_pairs + reach.unreachable_world_pairs, whole.world_pairs);
+  EXPECT_EQ(reach.world_pairs, 1U);  // the arm and what is in its way
+
+  const SceneReport settled = reportOf(only(false, true, true, false));
+  EXPECT_EQ(settled.settled_pairs, 1U + 6U);
+  EXPECT_EQ(settled.self_pairs, 2U);
+  EXPECT_EQ(settled.world_pairs, 3U);
+  EXPECT_FALSE(settled.always_colliding);
+}
+
+TEST_F(SmallScene, AnswersStatesOutsideTheLimitsWithAllPairs)
+{
+  const std::vector<double> states = {0.0, 3.1, -0.9, -3.1};  // into the way, behind, neither, behind
+  const std::vector<std::uint8_t> expected = {0, 0, 1, 0};
+  CpuChecker on_cpu(scene_);
+  EXPECT_EQ(on_cpu.report().unreachable_objects, 2U);
+  EXPECT_EQ(on_cpu.check(states.data(), 4).valid, expected);
+  for (const std::size_t cpu_below : {0, 1000})
+  {
+    BatchCheckerOptions options;
+    options.cpu_below = cpu_below;
+    const BatchResult result = BatchChecker(scene_, options).check(states.data(), 4);
+    EXPECT_EQ(result.valid, expected);
+    EXPECT_EQ(scene_->bodyName(result.colliding[3][1]), "behind");
+  }
+}
+
+TEST_F(SmallScene, CollidesInEveryStateWhereAFixedPairDoes)
+{
+  addBox("on_mast", {0.0, 0.3, 1.0});
+  const std::vector<double> states = {0.9, -0.9, 3.1};
+  CpuChecker on_cpu(scene_);
+  BatchCheckerOptions options;
+  options.cpu_below = 0;
+  BatchChecker on_gpu(scene_, options);
+  for (StateChecker* checker : {static_cast<StateChecker*>(&on_cpu), static_cast<StateChecker*>(&on_gpu)})
+  {
+    const SceneReport report = checker->report();
+    ASSERT_TRUE(report.always_colliding);
+    const BatchResult result = checker->check(states.data(), 3);
+    EXPECT_EQ(result.valid, std::vector<std::uint8_t>(3, 0));
+    EXPECT_EQ(scene_->bodyName(result.colliding[0][0]), "mast");
+    EXPECT_EQ(scene_->bodyName(result.colliding[0][1]), "on_mast");
+    // The group does not move the mast.
+    EXPECT_FALSE(checker->report("arm").always_colliding);
+    EXPECT_EQ(checker->check(states.data(), 2, "arm").valid, std::vector<std::uint8_t>(2, 1));
+  }
+  scene_->allowed_collisions.setEntry("mast", "on_mast", true);
+  on_gpu.setScene(scene_);
+  EXPECT_EQ(on_gpu.check(states.data(), 2).valid, std::vector<std::uint8_t>(2, 1));
+}
+
+TEST_F(SmallScene, AsksForFixedLinksOnlyWhereTheGroupMovesThem)
+{
+  const auto link = [](const std::string& name, const std::string& at)
+  {
+    return "<link name='" + name + "'><collision><origin xyz='" + at +
+           "'/><geometry><box size='1 1 1'/></geometry></collision></link>";
+  };
+  const auto scene = std::make_shared<const PlanningScene>(
+      robotOf(link("base", "0 0 0") + link("shelf", "0.5 0 0") + link("arm", "5 0 0") +
+                  jointXml("weld", "fixed", "base", "shelf") +
+                  jointXml("swing", "continuous", "base", "arm", "<axis xyz='0 0 1'/>"),
+              "<group name='arm'><joint name='swing'/></group>"));
+  const double state = 0.0;
+  CpuChecker checker(scene);
+  EXPECT_EQ(checker.check(&state, 1).valid, std::vector<std::uint8_t>{0});
+  EXPECT_EQ(checker.check(&state, 1, "arm").valid, std::vector<std::uint8_t>{1});
+  EXPECT_EQ(checker.check(&state, 1).valid, std::vector<std::uint8_t>{0});
+}
+
+TEST_F(SmallScene, CountsPaddingWhenItLeavesOutPairs)
+{
+  scene_->objects[1].pose.translation().x() = 0.7;  // 0.1 m beyond the arm
+  EXPECT_EQ(reportOf(kAll.reductions).unreachable_objects, 2U);
+  scene_->objects[1].padding = 0.06;
+  scene_->link_padding.assign(3, 0.05);
+  EXPECT_EQ(reportOf(kAll.reductions).unreachable_objects, 1U);
+  const double state = 0.0;
+  scene_->objects.erase(scene_->objects.begin());
+  EXPECT_EQ(CpuChecker(scene_).check(&state, 1).valid, std::vector<std::uint8_t>{0});
+}
+
+TEST_F(SmallScene, CountsPaddingThatGrowsBetweenScenes)
+{
+  scene_->objects = {scene_->objects[1]};
+  scene_->objects[0].pose.translation().x() = 0.7;  // 0.1 m beyond the arm
+  CpuChecker checker(scene_);
+  const auto is_free = [&](double of_links, double of_object)
+  {
+    scene_->link_padding.assign(3, of_links);
+    scene_->objects[0].padding = of_object;
+    checker.setScene(std::make_shared<const PlanningScene>(*scene_));
+    const double state = 0.0;
+    return checker.check(&state, 1).valid[0] == 1;
+  };
+  EXPECT_TRUE(is_free(0.0, 0.0));
+  EXPECT_FALSE(is_free(0.11, 0.0));
+  EXPECT_TRUE(is_free(0.0, 0.0));
+  EXPECT_FALSE(is_free(0.0, 0.11));
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core

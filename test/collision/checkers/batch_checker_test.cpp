@@ -1,0 +1,231 @@
+// The batch checker's answers do not depend on how the states come to it, and what is wrong changes nothing.
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "support/test_scenes.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::uint64_t kSeed = 29;
+
+BatchCheckerOptions with(Traversal traversal, std::size_t max_batch = 16384)
+{
+  BatchCheckerOptions options;
+  options.traversal = traversal;
+  options.max_batch = max_batch;
+  options.cpu_below = 0;
+  return options;
+}
+
+class Invariance : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(Invariance, ValidIsTheSameForTraversalsBatchSizesAndOrders)
+{
+  if (const std::string missing = missingFor(GetParam()); !missing.empty())
+    GTEST_SKIP() << "there is no " << missing;
+  const TestScene& scene = testScene(GetParam());
+  // All batch sizes see the same states; small batches see fewer of them, to save time.
+  constexpr std::size_t kStates = 16384;
+  const std::vector<double> states = scene.randomStates(kStates, kSeed);
+  const std::size_t width = scene.scene->robot->variables().size();
+  BatchChecker reference(scene.scene, with(Traversal::WorkQueue));
+  const std::vector<std::uint8_t> valid = reference.check(states.data(), kStates).valid;
+  for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
+    for (const std::size_t batch : {1, 7, 64, 1024, 16384})
+    {
+      const std::size_t count = std::min<std::size_t>(kStates, batch * 64);
+      BatchChecker checker(scene.scene, with(traversal, batch));
+      const BatchResult result = checker.check(states.data(), count);
+      EXPECT_TRUE(std::equal(result.valid.begin(), result.valid.end(), valid.begin()))
+          << "batches of " << batch << ", seed " << kSeed;
+      for (std::size_t i = 0; i < count; ++i)
+        ASSERT_EQ(result.colliding[i][0] < 0, result.valid[i] == 1);
+    }
+  std::vector<std::size_t> order(kStates);
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937_64(kSeed));
+  std::vector<double> shuffled;
+  for (const std::size_t row : order)
+    shuffled.insert(shuffled.end(), &states[row * width], &states[row * width] + width);
+  const BatchResult result = reference.check(shuffled.data(), kStates);
+  for (std::size_t i = 0; i < kStates; ++i)
+    ASSERT_EQ(result.valid[i], valid[order[i]]) << "state " << order[i] << ", seed " << kSeed;
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, Invariance, testing::Values("kr5", "ur5_bookshelf_tall"),
+                         [](const auto& parameter) { return parameter.param; });
+
+class BatchCheckerTest : public testing::Test
+{
+ protected:
+  void SetUp() override
+  {
+    // An arm of two links over a table: no files needed.
+    const std::string urdf = R"(<robot name="arm">
+      <link name="base"><collision><geometry><box size="0.2 0.2 0.1"/></geometry></collision></link>
+      <link name="upper"><collision><origin xyz="0.3 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
+      <link name="lower"><collision><origin xyz="0.2 0 0"/><geometry><cylinder radius="0.02" length="0.3"/></geometry></collision></link>
+      <joint name="shoulder" type="revolute"><parent link="base"/><child link="upper"/><origin xyz="0 0 0.2"/><axis xyz="0 1 0"/>
+        <limit lower="-3" upper="3" effort="1" velocity="1"/></joint>
+      <joint name="elbow" type="continuous"><parent link="upper"/><child link="lower"/><origin xyz="0.6 0 0"/><axis xyz="0 0 1"/></joint>
+    </robot>)";
+    const std::string srdf = R"(<robot name="arm"><group name="wrist"><joint name="elbow"/></group>
+      <disable_collisions link1="base" link2="upper" reason="Adjacent"/>
+      <disable_collisions link1="upper" link2="lower" reason="Adjacent"/></robot>)";
+    auto made = std::make_shared<PlanningScene>(RobotModel::fromXml(urdf, srdf, {}));
+    made->objects.push_back(
+        {"post", Eigen::Isometry3d(Eigen::Translation3d(0.67, 0.2, 0.2)), {{Box{{0.1, 0.1, 0.1}}}}});
+    made->revision = 41;
+    scene_ = made;
+  }
+
+  std::shared_ptr<const PlanningScene> scene_;
+  std::vector<double> touching_ = {0.0, 1.2};  // the lower arm swings into the post
+  std::vector<double> free_ = {0.0, -1.2};
+};
+
+TEST_F(BatchCheckerTest, NamesTheBodiesThatCollideAndTheRevision)
+{
+  BatchChecker checker(scene_, with(Traversal::WorkQueue));
+  const BatchResult hit = checker.check(touching_.data(), 1);
+  ASSERT_EQ(hit.valid, std::vector<std::uint8_t>{0});
+  EXPECT_EQ(scene_->bodyName(hit.colliding[0][0]), "lower");
+  EXPECT_EQ(scene_->bodyName(hit.colliding[0][1]), "post");
+  EXPECT_EQ(hit.revision, 41U);
+  EXPECT_EQ(checker.check(free_.data(), 1).valid, std::vector<std::uint8_t>{1});
+}
+
+TEST_F(BatchCheckerTest, ChecksNoStatesAtAll)
+{
+  BatchChecker checker(scene_, with(Traversal::WorkQueue));
+  EXPECT_TRUE(checker.check(nullptr, 0).valid.empty());
+}
+
+/// In the state that touches, a link's root box meets the post's; states at once count one by one, however they are
+/// cut.
+TEST_F(BatchCheckerTest, CountsWhatTheGpuLookedAt)
+{
+  BatchChecker checker(scene_, with(Traversal::WorkQueue, 2));
+  checker.check(touching_.data(), 1);
+  const GpuWork one = checker.lastWork();
+  EXPECT_EQ(one.states, 1U);
+  EXPECT_GE(one.root_pairs, 1U);
+  EXPECT_GE(one.candidates, one.root_pairs);
+  std::vector<double> five;
+  for (int i = 0; i < 5; ++i)
+    five.insert(five.end(), touching_.begin(), touching_.end());
+  checker.check(five.data(), 5);
+  EXPECT_EQ(checker.lastWork().states, 5U);
+  EXPECT_EQ(checker.lastWork().candidates, 5 * one.candidates);
+  checker.check(nullptr, 0);
+  EXPECT_EQ(checker.lastWork().states, 0U);
+
+  BatchCheckerOptions on_cpu = with(Traversal::WorkQueue);
+  on_cpu.cpu_below = 100;
+  BatchChecker on_cpu_only(scene_, on_cpu);
+  on_cpu_only.check(touching_.data(), 1);
+  EXPECT_EQ(on_cpu_only.lastWork().states, 0U);
+}
+
+TEST_F(BatchCheckerTest, RefusesValuesThatAreNotFiniteAndUnknownGroups)
+{
+  BatchChecker checker(scene_, with(Traversal::WorkQueue));
+  for (const double wrong : {std::nan(""), HUGE_VAL, -HUGE_VAL})
+  {
+    const std::vector<double> state = {0.0, wrong};
+    EXPECT_THROW(checker.check(state.data(), 1), Error);
+  }
+  EXPECT_THROW(checker.check(free_.data(), 1, "no such group"), Error);
+  EXPECT_EQ(checker.check(touching_.data(), 1).valid, std::vector<std::uint8_t>{0});
+}
+
+TEST_F(BatchCheckerTest, RestrictsAGroupToPairsWithALinkThatItMoves)
+{
+  // The upper arm stands in the table: only the whole robot collides, the wrist's links do not.
+  auto made = std::make_shared<PlanningScene>(*scene_);
+  made->objects = {{"table", Eigen::Isometry3d(Eigen::Translation3d(0.3, 0.0, 0.2)), {{Box{{0.1, 0.1, 0.1}}}}}};
+  for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
+  {
+    BatchChecker checker(made, with(traversal));
+    EXPECT_EQ(checker.check(free_.data(), 1).valid, std::vector<std::uint8_t>{0});
+    EXPECT_EQ(checker.check(free_.data(), 1, "wrist").valid, std::vector<std::uint8_t>{1});
+    EXPECT_EQ(checker.check(free_.data(), 1).valid, std::vector<std::uint8_t>{0});
+    EXPECT_LT(checker.report("wrist").world_pairs, checker.report().world_pairs);
+  }
+}
+
+TEST_F(BatchCheckerTest, TakesAnotherSceneAndKeepsTheOldOneWhenItCannot)
+{
+  BatchChecker checker(scene_, with(Traversal::WorkQueue));
+  auto moved = std::make_shared<PlanningScene>(*scene_);
+  moved->objects[0].pose = Eigen::Isometry3d(Eigen::Translation3d(0.67, -0.2, 0.2));
+  moved->revision = 42;
+  checker.setScene(moved);
+  EXPECT_EQ(checker.check(touching_.data(), 1).valid, std::vector<std::uint8_t>{1});
+  EXPECT_EQ(checker.check(free_.data(), 1).revision, 42U);
+
+  auto too_far = std::make_shared<Mesh>();
+  too_far->name = "too_far";
+  too_far->vertices = {{0, 0, 0}, {1e30, 0, 0}, {0, 1, 0}};
+  too_far->triangles = {{0, 1, 2}};
+  auto broken = std::make_shared<PlanningScene>(*moved);
+  broken->objects.push_back({"far", Eigen::Isometry3d::Identity(), {{std::shared_ptr<const Mesh>(too_far)}}});
+  broken->revision = 43;
+  EXPECT_THROW(checker.setScene(broken), Error);
+  const BatchResult after = checker.check(free_.data(), 1);
+  EXPECT_EQ(after.valid, std::vector<std::uint8_t>{0});
+  EXPECT_EQ(after.revision, 42U);
+}
+
+TEST_F(BatchCheckerTest, RefusesASceneThatIsNotThere)
+{
+  BatchChecker checker(scene_, with(Traversal::WorkQueue));
+  EXPECT_THROW(checker.setScene(nullptr), Error);
+  EXPECT_EQ(checker.check(free_.data(), 1).revision, 41U);
+}
+
+TEST_F(BatchCheckerTest, SceneWithoutObjectsIsCheckedAgainstTheRobotAlone)
+{
+  auto empty = std::make_shared<PlanningScene>(*scene_);
+  empty->objects.clear();
+  BatchChecker checker(empty, with(Traversal::BreadthFirst));
+  EXPECT_EQ(checker.check(touching_.data(), 1).valid, std::vector<std::uint8_t>{1});
+}
+
+TEST_F(BatchCheckerTest, AgreesWithTheCpuAtALatticeOfStates)
+{
+  std::vector<double> states;
+  for (double shoulder = -3.0; shoulder <= 3.0; shoulder += 0.1)
+    for (double elbow = -3.1; elbow <= 3.1; elbow += 0.1)
+      states.insert(states.end(), {shoulder, elbow});
+  const std::size_t count = states.size() / 2;
+  const std::vector<std::uint8_t> expected = CpuChecker(scene_).check(states.data(), count).valid;
+  EXPECT_GT(std::count(expected.begin(), expected.end(), 0), 50);
+  for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
+    EXPECT_EQ(BatchChecker(scene_, with(traversal)).check(states.data(), count).valid, expected);
+}
+
+TEST_F(BatchCheckerTest, RefusesOptionsThatMakeNoSense)
+{
+  EXPECT_THROW(BatchChecker(scene_, with(Traversal::WorkQueue, 0)), Error);
+  BatchCheckerOptions options;
+  options.device = "no such device";
+  EXPECT_THROW(BatchChecker(scene_, options), Error);
+  options = {};
+  options.shader_folder = "/no/such/folder";
+  EXPECT_THROW(BatchChecker(scene_, options), Error);
+  EXPECT_THROW(traversalFromName("depth_first"), Error);
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core

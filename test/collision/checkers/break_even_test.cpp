@@ -1,0 +1,92 @@
+// From which batch size on the slower starter is the faster one.
+#include "collision/checkers/break_even.h"
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "model/model_testing.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// Says that it took a constant time and a time for each item; `spent` counts what it said.
+TimedWork work(double fixed, double per_item, double* spent = nullptr)
+{
+  return [=](std::size_t size)
+  {
+    const double seconds = fixed + per_item * static_cast<double>(size);
+    if (spent)
+      *spent += seconds;
+    return seconds;
+  };
+}
+
+TEST(BreakEven, IsWhereOneIsClearlyFaster)
+{
+  EXPECT_NEAR(static_cast<double>(breakEven(work(2e-6, 4e-6), work(202e-6, 2e-6))), 150.0, 2.0);  // 240 + 2.4 n = 4 n
+  EXPECT_NEAR(static_cast<double>(breakEven(work(0.0, 10e-6), work(1e-3, 0.0))), 120.0, 1.0);
+  EXPECT_EQ(breakEven(work(1e-6, 10e-6), work(1e-6, 9e-6)), kNoBatch);
+}
+
+TEST(BreakEven, IsNoneWhereOneIsFasterAlways)
+{
+  EXPECT_EQ(breakEven(work(1e-6, 1e-6), work(1e-3, 2e-6)), kNoBatch);
+  EXPECT_EQ(breakEven(work(1e-6, 3e-6), work(1e-6, 2e-6)), 0U);
+}
+
+TEST(BreakEven, IsBelievedBeyondWhatWasTimedOnlyOfMuchSmallerCosts)
+{
+  EXPECT_NEAR(static_cast<double>(breakEven(work(1e-6, 1e-6), work(2e-3, 0.1e-6))), 2726.0,
+              30.0);  // 2400 + .12 n = 1 + n
+  EXPECT_EQ(breakEven(work(1e-6, 1e-6), work(2e-3, 0.7e-6)), kNoBatch);
+}
+
+TEST(BreakEven, LooksAtLargerBatchesWhereSmallOnesAreAlike)
+{
+  // Faster at first, as lanes are idle, but not later.
+  const TimedWork lanes = [](std::size_t size)
+  { return 1e-6 + (size <= 64 ? 0.0 : 4e-6 * static_cast<double>(size - 64)); };
+  EXPECT_EQ(breakEven(work(2e-6, 2e-6), lanes), kNoBatch);
+}
+
+TEST(BreakEven, DoesNotBelieveOneDisturbedRun)
+{
+  // The usual way is the faster one, but its first run at each size met with something.
+  std::size_t last = 0;
+  const TimedWork disturbed = [last](std::size_t size) mutable
+  {
+    const bool first = size != last;
+    last = size;
+    return (first ? 50e-3 : 0.0) + 2e-6 * static_cast<double>(size);
+  };
+  EXPECT_EQ(breakEven(disturbed, work(10e-3, 4e-6)), kNoBatch);
+}
+
+TEST(BreakEven, TakesLittleTime)
+{
+  double spent = 0.0;
+  breakEven(work(2e-6, 5e-6, &spent), work(3e-3, 10e-6, &spent));
+  EXPECT_LT(spent, 0.05);
+}
+
+TEST(BreakEven, IsMeasuredForASceneAndChangesNoAnswer)
+{
+  auto scene = std::make_shared<PlanningScene>(
+      robotOf(boxLink("a") + boxLink("b") +
+              jointXml("slide", "prismatic", "a", "b", std::string("<axis xyz='1 0 0'/>") + kLimits)));
+  scene->allowed_collisions = AllowedCollisionMatrix();
+  std::vector<double> states;
+  constexpr std::size_t kStates = 10000;
+  for (std::size_t i = 0; i < kStates; ++i)
+    states.push_back(-1.0 + 0.0003 * static_cast<double>(i));
+  BatchChecker checker(scene, BatchCheckerOptions());
+  ASSERT_TRUE(checker.report().cpu_below);
+  const std::vector<std::uint8_t> expected = CpuChecker(scene).check(states.data(), kStates).valid;
+  EXPECT_EQ(checker.check(states.data(), kStates).valid, expected);
+  for (std::size_t i = 0; i < kStates; i += 999)
+    EXPECT_EQ(checker.check(&states[i], 1).valid[0], expected[i]);
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,86 @@
+// A slice of what bench/exactness.cpp runs in full: no wrong answer by the contract on real robots, in random states
+// and close to contact, and one and the same verdict from every checker, traversal and batch size.
+
+#include <iostream>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "support/carrying_scene.h"
+#include "support/exactness.h"
+#include "support/near_contact.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::uint64_t kSeed = 20261121;
+
+struct Slice
+{
+  const char* name;
+  const char* scene;
+  std::size_t random_states;
+  std::size_t near_states;
+};
+
+void PrintTo(const Slice& slice, std::ostream* out)
+{
+  *out << slice.name;
+}
+
+class Exact : public testing::TestWithParam<Slice>
+{
+ public:
+  void SetUp() override
+  {
+    if (const std::string missing = missingFor(GetParam().scene); !missing.empty())
+      GTEST_SKIP() << "there is no " << missing;
+    scene_ = std::string(GetParam().name) == "carrying" ? carryingScene() : testScene(GetParam().scene);
+  }
+
+  void expectNothingWrong(const Exactness& exactness)
+  {
+    std::cout << GetParam().name << ", seed " << kSeed << ": " << exactness.states << " states, " << exactness.valid
+              << " free, " << exactness.either << " left open by the contract, "
+              << exactness.work_queue.states + exactness.breadth_first.states << " undecided by floats" << std::endl;
+    EXPECT_EQ(0u, exactness.false_free);
+    EXPECT_EQ(0u, exactness.false_collision);
+    EXPECT_EQ(0u, exactness.false_pair);
+    EXPECT_EQ(0u, exactness.unlike);
+    for (const std::string& failure : exactness.failures)
+      ADD_FAILURE() << failure;
+    // Else little was compared.
+    EXPECT_GE(exactness.valid, exactness.states / 20);
+    EXPECT_LE(exactness.valid, exactness.states * 19 / 20);
+  }
+
+  TestScene scene_;
+};
+
+TEST_P(Exact, InRandomStates)
+{
+  ExactnessCheck check(scene_);
+  expectNothingWrong(check.compare(scene_.randomStates(GetParam().random_states, kSeed), false, GetParam().name));
+}
+
+TEST_P(Exact, CloseToContact)
+{
+  ExactnessCheck check(scene_);
+  const auto states = nearContactStates(scene_, GetParam().near_states, kSeed);
+  const Exactness exactness = check.compare(states, true, GetParam().name);
+  expectNothingWrong(exactness);
+  // One half was stepped back from contact, most of it by more than the contract leaves open, none by far.
+  const auto& clearances = exactness.clearances;
+  EXPECT_GE(std::accumulate(clearances.begin() + 1, clearances.end(), std::size_t{0}), GetParam().near_states / 4);
+  EXPECT_EQ(0u, clearances.back());
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, Exact,
+                         testing::Values(Slice{"kr5", "kr5", 400, 100},
+                                         Slice{"ur5_robotiq", "ur5_table_pick", 200, 100},
+                                         Slice{"wam", "wam", 200, 100}, Slice{"drchubo", "drchubo", 50, 10},
+                                         Slice{"carrying", "ur5_table_pick", 30, 20}),
+                         [](const auto& parameter) { return std::string(parameter.param.name); });
+}  // namespace
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,152 @@
+// With a tolerance, what collides is still found, and nothing is called colliding that is further apart than that.
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/bounds/problem_maker.h"
+#include "collision/parallel_for.h"
+#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/mesh_pair_checker.h"
+#include "oracle/problem_oracle.h"
+#include "support/carrying_scene.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::uint64_t kSeed = 23;
+constexpr std::size_t kStates = 800;
+constexpr std::size_t kMostMeasured = 5;  // by the oracle, which takes its time
+
+/// "cpu", "breadth_first" or "work_queue".
+std::unique_ptr<StateChecker> checkerWith(double tolerance, const std::string& method,
+                                          const std::shared_ptr<const PlanningScene>& scene)
+{
+  BatchCheckerOptions options;
+  options.tolerance = tolerance;
+  if (method == "cpu")
+    return std::make_unique<CpuChecker>(scene, options);
+  options.traversal = traversalFromName(method);
+  options.cpu_below = 0;
+  return std::make_unique<BatchChecker>(scene, options);
+}
+
+const auto kMethods = testing::Values("cpu", "breadth_first", "work_queue");
+
+class ToleranceIn : public testing::TestWithParam<std::tuple<const char*, const char*>>
+{
+};
+
+TEST_P(ToleranceIn, FindsAllCollisionsAndAddsOnlyWhatIsWithinIt)
+{
+  const std::string name = std::get<0>(GetParam());
+  const std::string method = std::get<1>(GetParam());
+  if (const std::string missing = missingFor(name == "carrying" ? "ur5_table_pick" : name); !missing.empty())
+    GTEST_SKIP() << "there is no " << missing;
+  const TestScene scene = name == "carrying" ? carryingScene() : testScene(name);
+  const RobotModel& robot = *scene.scene->robot;
+  const std::vector<double> states = scene.randomStates(kStates, kSeed);
+  const oracle::ProblemOracle oracle(std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr)));
+  const std::vector<std::uint8_t> exact = CpuChecker(scene.scene).check(states.data(), kStates).valid;
+  std::vector<std::uint8_t> before = exact;
+  std::size_t added = 0;
+  for (const double tolerance : {0.001, 0.01, 0.05})
+  {
+    const std::vector<std::uint8_t> valid =
+        checkerWith(tolerance, method, scene.scene)->check(states.data(), kStates).valid;
+    std::vector<std::size_t> measured;
+    for (std::size_t i = 0; i < kStates; ++i)
+    {
+      EXPECT_LE(valid[i], before[i]) << "state " << i << " is free at " << tolerance << ", not at less, seed " << kSeed;
+      if (exact[i] && !valid[i] && measured.size() < kMostMeasured)
+        measured.push_back(i);
+    }
+    std::vector<double> clearances(measured.size());
+    parallelFor(measured.size(), 1,
+                [&](std::size_t begin, std::size_t)
+                {
+                  const double* state = &states[measured[begin] * robot.variables().size()];
+                  clearances[begin] = oracle.clearance(oracle::linkPoses(robot, state), 2.0 * tolerance);
+                });
+    for (std::size_t i = 0; i < measured.size(); ++i)
+      EXPECT_LE(clearances[i], tolerance) << "state " << measured[i] << ", seed " << kSeed;
+    added += measured.size();
+    before = valid;
+  }
+  std::cout << "seed " << kSeed << ": " << added << " states called colliding that are free" << std::endl;
+  EXPECT_GT(added, 0U);
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, ToleranceIn,
+                         testing::Combine(testing::Values("kr5", "ur5_cage", "carrying"), kMethods));
+
+class ToleranceBy : public testing::TestWithParam<const char*>
+{
+};
+INSTANTIATE_TEST_SUITE_P(Methods, ToleranceBy, kMethods);
+
+/// Ball meshes: one in the world, one that floats about it, at all gaps from touching to more than is near enough, from
+/// all sides, turned anyhow.
+TEST_P(ToleranceBy, CountsOnTopOfPaddingForMeshesFromAllSides)
+{
+  constexpr double kRadius = 0.2;
+  auto scene = std::make_shared<PlanningScene>(
+      RobotModel::fromXml("<robot name='r'><link name='root'/><link name='l'/><joint name='j' type='floating'>"
+                          "<parent link='root'/><child link='l'/></joint></robot>",
+                          "", {}));
+  const std::shared_ptr<const Mesh> ball = tessellate(Sphere{kRadius}).mesh;
+  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+  scene->objects = {{"moving", identity, {{ball}}}, {"ball", identity, {{ball}}, 0.03}};
+  scene->attach("moving", "l", {}, scene->robot->defaultState().data());
+  std::mt19937_64 generator(kSeed);
+  std::uniform_real_distribution<double> gaps(0.0, 0.2);
+  constexpr std::size_t kPoses = 4000;
+  std::vector<double> states;
+  std::vector<double> gap;
+  for (std::size_t i = 0; i < kPoses; ++i)
+  {
+    std::normal_distribution<double> normal;
+    Eigen::Vector3d side(normal(generator), normal(generator), normal(generator));
+    gap.push_back(gaps(generator));
+    side *= (2.0 * kRadius + gap.back()) / side.norm();
+    states.insert(states.end(), side.begin(), side.end());
+    for (int k = 0; k < 4; ++k)
+      states.push_back(normal(generator));
+  }
+  for (const double tolerance : {0.0, 0.005, 0.05})
+  {
+    const std::vector<std::uint8_t> valid =
+        checkerWith(tolerance, GetParam(), scene)->check(states.data(), kPoses).valid;
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < kPoses; ++i)
+    {
+      // The meshes lie within the balls, by up to 0.1 mm each.
+      EXPECT_TRUE(gap[i] > 0.0297 || valid[i] == 0) << gap[i] << ", seed " << kSeed;
+      if (valid[i] == 0)
+        farthest = std::max(farthest, gap[i]);
+    }
+    EXPECT_LE(farthest, 0.03 + tolerance) << "seed " << kSeed;
+    std::cout << "tolerance " << tolerance << ": farthest " << farthest << std::endl;
+  }
+}
+
+TEST(Tolerance, IsRefusedIfNegativeOrNotFinite)
+{
+  const auto robot = RobotModel::fromXml(
+      "<robot name='r'><link name='l'><collision><geometry><sphere radius='1'/></geometry></collision></link></robot>",
+      "", {});
+  const auto scene = std::make_shared<const PlanningScene>(robot);
+  for (const double tolerance : {-1e-9, -HUGE_VAL, HUGE_VAL, std::nan("")})
+  {
+    BatchCheckerOptions options;
+    options.tolerance = tolerance;
+    EXPECT_THROW(CpuChecker(scene, options), Error);
+    EXPECT_THROW(BatchChecker(scene, options), Error);
+    EXPECT_THROW(MeshPairChecker(Sphere{1.0}, Sphere{1.0}, options), Error);
+  }
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core

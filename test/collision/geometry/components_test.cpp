@@ -1,0 +1,101 @@
+// Connected components of meshes, and what they are for: shapes that lie inside solids.
+
+#include <gtest/gtest.h>
+
+#include "collision/geometry/components.h"
+#include "gpu_planning_scene/mesh_pair_checker.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// Adds a mesh moved by `offset`; vertices are not shared.
+void append(Mesh& mesh, const Mesh& other, const Eigen::Vector3d& offset)
+{
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Eigen::Vector3d& vertex : other.vertices)
+    mesh.vertices.push_back(vertex + offset);
+  for (const auto& t : other.triangles)
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+}
+
+/// Two small balls, the second one 0.3 m from the first.
+std::shared_ptr<const Mesh> twoBalls()
+{
+  auto mesh = std::make_shared<Mesh>();
+  const auto ball = tessellate(Sphere{0.01}).mesh;
+  append(*mesh, *ball, Eigen::Vector3d::Zero());
+  append(*mesh, *ball, {0.3, 0.0, 0.0});
+  return mesh;
+}
+
+TEST(Components, AreOnePerPartWhateverVerticesAreShared)
+{
+  // Every triangle with vertices of its own, as in an STL file.
+  const auto balls = twoBalls();
+  Mesh soup;
+  for (const auto& triangle : balls->triangles)
+  {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
+    for (const std::uint32_t corner : triangle)
+      soup.vertices.push_back(balls->vertices[corner]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  for (const Mesh* mesh : {balls.get(), static_cast<const Mesh*>(&soup)})
+  {
+    const auto parts = findComponents(*mesh).components;
+    ASSERT_EQ(parts.size(), 2U);
+    EXPECT_NEAR((parts[0].point - parts[1].point).norm(), 0.3, 0.021);
+    EXPECT_TRUE(parts[0].closed && parts[1].closed);
+    EXPECT_NEAR((parts[1].bounds.center() - parts[0].bounds.center()).norm(), 0.3, 1e-3);
+  }
+}
+
+/// What findComponents says of the first component of a box after a change to its mesh.
+template <class Change>
+bool closedAfter(const Change& change)
+{
+  Mesh mesh = *tessellate(Box{{1.0, 1.0, 1.0}}).mesh;
+  change(mesh);
+  return findComponents(mesh).components.at(0).closed;
+}
+
+TEST(Components, AreClosedIfEachEdgeHasTwoTrianglesOfOppositeDirection)
+{
+  EXPECT_TRUE(closedAfter([](Mesh&) {}));
+  EXPECT_TRUE(closedAfter(
+      [](Mesh& inverted)
+      {
+        for (auto& t : inverted.triangles)
+          std::swap(t[0], t[1]);
+      }));
+  EXPECT_FALSE(closedAfter([](Mesh& cracked) { cracked.triangles.pop_back(); }));
+  EXPECT_FALSE(closedAfter([](Mesh& flipped) { std::swap(flipped.triangles[3][0], flipped.triangles[3][1]); }));
+  EXPECT_FALSE(closedAfter([](Mesh& doubled) { doubled.triangles.push_back(doubled.triangles[5]); }));
+  // A triangle that names a place twice bounds nothing.
+  EXPECT_TRUE(closedAfter([](Mesh& needle) { needle.triangles.push_back({0, 1, 1}); }));
+}
+
+class Containment : public testing::TestWithParam<std::tuple<Traversal, Shape>>
+{
+};
+
+TEST_P(Containment, OfOneComponentIsACollision)
+{
+  BatchCheckerOptions options;
+  options.traversal = std::get<0>(GetParam());
+  const Shape& solid = std::get<1>(GetParam());
+  const auto at = [](double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)); };
+  // The first ball inside, the second one inside, none, in both orders of the shapes.
+  EXPECT_EQ(MeshPairChecker(solid, twoBalls(), options).collide({at(0.02), at(-0.28), at(0.4), at(-0.15)}),
+            (std::vector<std::uint8_t>{1, 1, 0, 0}));
+  EXPECT_EQ(MeshPairChecker(twoBalls(), solid, options).collide({at(-0.02), at(0.28), at(-0.4), at(0.15)}),
+            (std::vector<std::uint8_t>{1, 1, 0, 0}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Solids, Containment,
+                         testing::Combine(testing::Values(Traversal::BreadthFirst, Traversal::WorkQueue),
+                                          testing::Values(Shape(Box{{0.1, 0.1, 0.1}}), Shape(Sphere{0.06}),
+                                                          Shape(Cylinder{0.06, 0.1}), Shape(Cone{0.12, 0.2}))));
+}  // namespace
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,184 @@
+// What does not fit - lists, stacks, granted iterations - costs time, never an answer. Two meshes are enough to show
+// it.
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/exact/cpu_traversal.h"
+#include "collision/gpu/gpu_checker.h"
+#include "collision/gpu/gpu_pair_checker.h"
+#include "collision/gpu/uploaded_poses.h"
+#include "gpu/egl_context.h"
+#include "shader_constants.h"
+#include "support/shader_folder.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::size_t kStates = 300;
+constexpr std::uint64_t kSeed = 23;
+
+/// A wavy closed surface: its inside is hollow, so that answers depend on triangles.
+std::shared_ptr<const Mesh> wavySphere()
+{
+  auto mesh = std::make_shared<Mesh>(*tessellate(Sphere{0.05}).mesh);
+  for (Eigen::Vector3d& vertex : mesh->vertices)
+    vertex *= 1.0 + 0.2 * std::sin(120.0 * vertex.x()) * std::sin(90.0 * vertex.z());
+  return mesh;
+}
+
+std::shared_ptr<const CollisionProblem> problem()
+{
+  auto made = std::make_shared<CollisionProblem>();
+  const auto mesh = wavySphere();
+  made->shapes = {mesh};
+  made->trees = {tessellate(mesh)};
+  made->robot = {{0, 0, 0, Eigen::Isometry3d::Identity()}};
+  for (int i = 0; i < 3; ++i)
+    made->world.push_back({0, 1 + i, -1, Eigen::Isometry3d(Eigen::Translation3d(0.11 * i, 0.0, 0.0))});
+  made->world_pairs = {1, 1, 1};
+  return made;
+}
+
+class BatchLimits : public testing::TestWithParam<Traversal>
+{
+ protected:
+  void SetUp() override
+  {
+    std::mt19937_64 generator(kSeed);
+    std::uniform_real_distribution<double> uniform(-0.13, 0.13);
+    for (std::size_t i = 0; i < kStates; ++i)
+      poses_.emplace_back(Eigen::Translation3d(uniform(generator), uniform(generator), uniform(generator)));
+  }
+
+  /// The float part alone, with lists of a given length.
+  Verdicts verdictsWith(const ListCapacities& capacities)
+  {
+    EglContext context("auto");
+    GpuPairChecker checker(folder_.path(), GetParam(), kStates, capacities);
+    checker.setProblem(*problem_);
+    const UploadedPoses::LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses_[row]; };
+    UploadedPoses poses(*problem_, 1, link_poses);
+    Verdicts verdicts;
+    checker.check(poses, kStates, verdicts);
+    return verdicts;
+  }
+
+  /// All of it, with the shaders of folder_.
+  BatchResult resultWithChangedShaders()
+  {
+    BatchCheckerOptions options;
+    options.traversal = GetParam();
+    options.shader_folder = folder_.path();
+    GpuChecker engine(options);
+    engine.setProblem(problem_);
+    BatchResult result;
+    engine.checkPoses(
+        kStates, 1, [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses_[row]; }, result);
+    return result;
+  }
+
+  std::vector<std::uint8_t> validOnCpu()
+  {
+    BatchCheckerOptions options;
+    EglContext context("auto");
+    GpuScene scene(shaderFolder());
+    scene.setProblem(*problem_);
+    const CpuTraversal traversal(problem_, std::make_shared<const Forest>(scene.readForest()));
+    CpuTraversal::Scratch scratch;
+    std::vector<std::uint8_t> valid;
+    for (const Eigen::Isometry3d& pose : poses_)
+      valid.push_back(traversal.firstCollision(&pose, scratch) ? 0 : 1);
+    return valid;
+  }
+
+  ShaderFolder folder_;
+  std::shared_ptr<const CollisionProblem> problem_ = problem();
+  std::vector<Eigen::Isometry3d> poses_;
+};
+
+TEST_P(BatchLimits, ListsThatOverflowSplitTheBatch)
+{
+  const Verdicts roomy = verdictsWith({});
+  // Room for what one state needs, not for what all do.
+  ListCapacities tight;
+  tight.candidates = 16;
+  tight.root_pairs = 16;
+  tight.node_pairs = 40000;
+  tight.leaf_pairs = 40000;
+  const Verdicts split = verdictsWith(tight);
+  std::size_t hits = 0;
+  for (std::size_t i = 0; i < kStates; ++i)
+  {
+    // Whether a state that is hit was also undecided somewhere depends on the order.
+    EXPECT_EQ(split.flags[i] & STATE_HIT, roomy.flags[i] & STATE_HIT) << "state " << i;
+    EXPECT_EQ(split.flags[i] == 0, roomy.flags[i] == 0) << "state " << i;
+    hits += roomy.flags[i] & STATE_HIT;
+  }
+  EXPECT_GT(hits, kStates / 10);
+  EXPECT_LT(hits, kStates * 9 / 10);
+}
+
+TEST_P(BatchLimits, AStateThatOverflowsAloneIsUndecided)
+{
+  ListCapacities none;
+  none.candidates = 1;
+  none.root_pairs = 1;
+  none.node_pairs = 1;
+  none.leaf_pairs = 1;
+  const Verdicts roomy = verdictsWith({});
+  const Verdicts verdicts = verdictsWith(none);
+  std::size_t undecided = 0;
+  for (std::size_t i = 0; i < kStates; ++i)
+  {
+    const bool hit = (verdicts.flags[i] & STATE_HIT) != 0;
+    EXPECT_TRUE(!hit || (roomy.flags[i] & STATE_HIT) != 0) << "state " << i;
+    EXPECT_TRUE(verdicts.flags[i] != 0 || roomy.flags[i] == 0) << "state " << i;
+    undecided += !hit && verdicts.flags[i] != 0 ? 1 : 0;
+  }
+  EXPECT_GT(undecided, 0U);
+}
+
+TEST_P(BatchLimits, StacksThatAreTooShortSpill)
+{
+  folder_.define("QUEUE_STACK", "2");
+  EXPECT_EQ(resultWithChangedShaders().valid, validOnCpu());
+}
+
+TEST_P(BatchLimits, WorkThatIsLeftWhenTheIterationsRunOutIsHandedOn)
+{
+  folder_.define("LANE_ITERATIONS", "100");
+  folder_.define("QUEUE_MAX_GROUPS", "1");
+  EXPECT_EQ(resultWithChangedShaders().valid, validOnCpu());
+}
+
+TEST_P(BatchLimits, AWalkThroughTheWorldThatTakesTooLongIsUndecided)
+{
+  folder_.define("LANE_ITERATIONS", "2");
+  const BatchResult result = resultWithChangedShaders();
+  EXPECT_EQ(result.valid, validOnCpu());
+  EXPECT_GT(result.undecided_states, 0U);
+}
+
+TEST_P(BatchLimits, LanesThatTheDeviceEndsEarlyAreNoticed)
+{
+  // Ends every lane before it has done anything, without a word, as llvmpipe does after too many iterations.
+  std::string text = readShader(folder_.path(), "traversal/work_queue.comp");
+  const std::string begin = "void main()\n{\n";
+  const auto at = text.rfind(begin);
+  ASSERT_NE(at, std::string::npos);
+  text.insert(at + begin.size(), "  if (gl_NumWorkGroups.x > 0u) return;\n");
+  folder_.write("traversal/work_queue.comp", text);
+  const BatchResult result = resultWithChangedShaders();
+  EXPECT_EQ(result.valid, validOnCpu());
+  if (GetParam() == Traversal::WorkQueue)
+    EXPECT_GT(result.undecided_states, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Traversals, BatchLimits, testing::Values(Traversal::BreadthFirst, Traversal::WorkQueue),
+                         [](const auto& parameter)
+                         { return parameter.param == Traversal::WorkQueue ? "WorkQueue" : "BreadthFirst"; });
+}  // namespace
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,260 @@
+// The contract on the GPU, by both traversals: what each required distance, half-space and solid means. The poses keep
+// clear of the thresholds by more than float32 can blur, so that the GPU itself has to answer.
+
+#include <gtest/gtest.h>
+
+#include "collision/gpu/gpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "support/shader_folder.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Isometry3d at(double x, double y = 0.0, double z = 0.0)
+{
+  return Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+/// Adds a shape to a mesh, moved and perhaps inside out.
+void append(Mesh& mesh, const Shape& shape, const Isometry3d& pose, bool inverted = false)
+{
+  const auto part = tessellate(shape).mesh;
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Vector3d& vertex : part->vertices)
+    mesh.vertices.push_back(pose * vertex);
+  for (auto t : part->triangles)
+  {
+    if (inverted)
+      std::swap(t[0], t[1]);
+    mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+}
+
+std::shared_ptr<const Mesh> meshOf(const Shape& shape, bool inverted = false)
+{
+  auto mesh = std::make_shared<Mesh>();
+  append(*mesh, shape, Isometry3d::Identity(), inverted);
+  return mesh;
+}
+
+class GpuContract : public testing::TestWithParam<Traversal>
+{
+ protected:
+  BatchCheckerOptions options() const
+  {
+    BatchCheckerOptions options;
+    options.traversal = GetParam();
+    return options;
+  }
+
+  /// A robot of one link with one shape, and the world.
+  static CollisionProblem problemOf(const Shape& moving)
+  {
+    CollisionProblem problem;
+    problem.shapes = {moving};
+    problem.trees = {tessellate(moving)};
+    problem.robot = {{0, 0, 0, Isometry3d::Identity()}};
+    return problem;
+  }
+  static void addObject(CollisionProblem& problem, const Shape& shape, const Isometry3d& pose, double padding = 0.0)
+  {
+    problem.shapes.push_back(shape);
+    problem.trees.push_back(tessellate(shape));
+    const auto number = static_cast<std::uint32_t>(problem.world.size() + 1);
+    problem.world.push_back({number, static_cast<std::int32_t>(number), -1, pose, padding});
+    problem.world_pairs.push_back(1);
+  }
+
+  BatchResult check(const CollisionProblem& problem, const std::vector<Isometry3d>& poses)
+  {
+    GpuChecker engine(options());
+    engine.setProblem(std::make_shared<const CollisionProblem>(problem));
+    BatchResult result;
+    engine.checkPoses(
+        poses.size(), 1, [&](std::size_t row, Isometry3d* pose) { *pose = poses[row]; }, result);
+    return result;
+  }
+  /// 1 where the moving shape is free at a pose; nothing may be left to the CPU.
+  std::vector<int> freeAt(const CollisionProblem& problem, const std::vector<Isometry3d>& poses)
+  {
+    const BatchResult result = check(problem, poses);
+    EXPECT_EQ(result.undecided_states, 0U);
+    return {result.valid.begin(), result.valid.end()};
+  }
+};
+
+TEST_P(GpuContract, PaddingIsATrueDistanceOfBothBodies)
+{
+  CollisionProblem problem = problemOf(Box{{0.2, 0.2, 0.2}});
+  problem.robot[0].padding = 0.03;
+  addObject(problem, Box{{0.2, 0.2, 0.2}}, at(1.0), 0.02);
+  // Face to face the distance is along x, corner to corner it is not what moved faces would make of it.
+  const double diagonal = 0.2 + 0.05 / std::sqrt(3.0);
+  const auto beside = [](double offset) { return at(1.0 - offset, -offset, -offset); };
+  EXPECT_EQ(freeAt(problem, {at(0.7499), at(0.7501), at(1.2501), at(1.2499), beside(diagonal - 1e-4),
+                             beside(diagonal + 1e-4), at(1.01)}),
+            (std::vector<int>{1, 0, 1, 0, 0, 1, 0}));
+}
+
+TEST_P(GpuContract, PaddingDoesNotCountBetweenLinks)
+{
+  CollisionProblem problem = problemOf(Box{{0.2, 0.2, 0.2}});
+  problem.robot[0].padding = 0.05;
+  problem.robot.push_back({0, 1, 1, at(0.0), 0.05});
+  problem.self_pairs = {{0, 1}};
+  GpuChecker engine(options());
+  engine.setProblem(std::make_shared<const CollisionProblem>(problem));
+  BatchResult result;
+  engine.checkPoses(
+      2, 2,
+      [](std::size_t row, Isometry3d* poses)
+      {
+        poses[0] = at(0.0);
+        poses[1] = at(row == 0 ? 0.2001 : 0.1999);
+      },
+      result);
+  EXPECT_EQ(result.valid, (std::vector<std::uint8_t>{1, 0}));
+}
+
+TEST_P(GpuContract, AHalfSpaceHoldsAllBelowItsPlane)
+{
+  CollisionProblem problem = problemOf(Sphere{0.1});
+  problem.robot[0].padding = 0.01;
+  const Vector3d normal = Vector3d(1.0, 2.0, 2.0) / 3.0;
+  problem.half_spaces = {{1, normal, 0.5, 0.02}, {2, Vector3d::UnitZ(), 100.0}};
+  problem.half_space_pairs = {1, 0};
+  problem.origin = {0.3, -0.2, 0.1};
+  const auto height = [&](double above) { return Isometry3d(Eigen::Translation3d((0.5 + above) * normal)); };
+  EXPECT_EQ(freeAt(problem, {height(0.1303), height(0.1297), height(0.0), height(-5.0)}),
+            (std::vector<int>{1, 0, 0, 0}));
+  EXPECT_EQ(check(problem, {height(0.0)}).colliding[0], (BodyPair{0, 1}));
+}
+
+TEST_P(GpuContract, NoneOfManyHalfSpacesIsForgotten)
+{
+  // A sheet just above most of the planes: each makes its walk as long as it gets, and a device may limit all of a
+  // lane's walks together.
+  auto sheet = std::make_shared<Mesh>();
+  constexpr int kCells = 50;
+  for (int i = 0; i <= kCells; ++i)
+    for (int j = 0; j <= kCells; ++j)
+      sheet->vertices.emplace_back(0.02 * i - 0.5, 0.02 * j - 0.5, -(0.02 * i - 0.5) - (0.02 * j - 0.5));
+  for (std::uint32_t i = 0; i < kCells; ++i)
+    for (std::uint32_t j = 0; j < kCells; ++j)
+    {
+      const std::uint32_t corner = i * (kCells + 1) + j;
+      sheet->triangles.push_back({corner, corner + kCells + 1, corner + 1});
+      sheet->triangles.push_back({corner + 1, corner + kCells + 1, corner + kCells + 2});
+    }
+  CollisionProblem problem = problemOf(Shape(std::shared_ptr<const Mesh>(sheet)));
+  const Vector3d parallel = Vector3d::Ones().normalized();
+  for (std::int32_t k = 0; k < 40; ++k)
+    problem.half_spaces.push_back({k + 1, parallel, -1e-4});
+  problem.half_spaces.push_back({41, Vector3d::UnitZ(), 0.0});
+  problem.half_space_pairs.assign(problem.half_spaces.size(), 1);
+  EXPECT_EQ(check(problem, {at(0.0)}).valid, (std::vector<std::uint8_t>{0}));
+}
+
+TEST_P(GpuContract, WhatIsInsideAClosedMeshCollidesWhicheverWayItFaces)
+{
+  for (const bool inverted : {false, true})
+    for (const Shape& inner : {Shape(Box{{0.05, 0.06, 0.07}}), Shape(meshOf(Box{{0.05, 0.06, 0.07}})),
+                               Shape(Sphere{0.03}), Shape(meshOf(Sphere{0.03}))})
+    {
+      CollisionProblem problem = problemOf(inner);
+      addObject(problem, meshOf(Box{{0.4, 0.4, 0.4}}, inverted), at(0.5, 0.011, 0.013));
+      EXPECT_EQ(freeAt(problem, {at(0.5), at(0.41), at(0.9), at(0.5, 0.0, 0.35)}), (std::vector<int>{0, 0, 1, 1}));
+      // The other way round: the shell moves.
+      CollisionProblem swapped = problemOf(meshOf(Box{{0.4, 0.4, 0.4}}, inverted));
+      addObject(swapped, inner, at(0.5, 0.011, 0.013));
+      EXPECT_EQ(freeAt(swapped, {at(0.5), at(0.41), at(0.9)}), (std::vector<int>{0, 0, 1}));
+    }
+}
+
+TEST_P(GpuContract, ACavityIsFreeAndAnOpenMeshHoldsNothing)
+{
+  auto hollow = std::make_shared<Mesh>();
+  append(*hollow, Box{{0.6, 0.6, 0.6}}, at(0.0));
+  append(*hollow, Box{{0.4, 0.4, 0.4}}, at(0.0), true);
+  auto open = std::make_shared<Mesh>(*meshOf(Box{{0.6, 0.6, 0.6}}));
+  open->triangles.pop_back();
+  auto beside_a_closed_one = std::make_shared<Mesh>(*open);
+  append(*beside_a_closed_one, Box{{0.1, 0.1, 0.1}}, at(2.0, 0.01, 0.01));
+  for (const auto& [shell, expected] :
+       {std::pair(hollow, std::vector<int>{1, 0, 1}), std::pair(open, std::vector<int>{1, 1, 1}),
+        std::pair(beside_a_closed_one, std::vector<int>{1, 1, 1})})
+  {
+    CollisionProblem problem = problemOf(meshOf(Sphere{0.02}));
+    addObject(problem, Shape(std::shared_ptr<const Mesh>(shell)), at(0.0));
+    EXPECT_EQ(freeAt(problem, {at(0.011, 0.012, 0.013), at(0.251, 0.012, 0.013), at(0.011, -0.012, -0.013)}), expected);
+  }
+}
+
+std::shared_ptr<const Mesh> triangleMesh(const Vector3d& a, const Vector3d& b, const Vector3d& c)
+{
+  auto mesh = std::make_shared<Mesh>();
+  mesh->vertices = {a, b, c};
+  mesh->triangles = {{0, 1, 2}};
+  return mesh;
+}
+
+/// Axes so short that the squares of their entries underflow have a length of 0 in floats; the required distance counts
+/// along them too.
+TEST_P(GpuContract, AxesTooShortForFloatsProveNothing)
+{
+  for (const double width : {1e-18, 1e-20, 1e-23, 1e-26, 1e-28})
+  {
+    const auto nearly_along_x = triangleMesh({-0.1, 0.0, 0.0}, {0.1, width, 0.0}, {0.0, 0.1, 0.0});
+    for (const Shape& solid : {Shape(Box{{0.1, 0.1, 0.1}}), Shape(Cylinder{0.05, 0.1}), Shape(Sphere{0.05})})
+    {
+      CollisionProblem problem = problemOf(nearly_along_x);
+      addObject(problem, solid, at(0.0), 0.08);
+      EXPECT_EQ(check(problem, {at(0.0, 0.0, 0.1)}).valid[0], 0) << width;
+      problem = problemOf(solid);
+      addObject(problem, nearly_along_x, at(0.0, 0.0, 0.1), 0.08);
+      EXPECT_EQ(check(problem, {at(0.0)}).valid[0], 0) << width;
+    }
+    CollisionProblem problem = problemOf(triangleMesh({-0.1, -0.1, 0.0}, {0.1, -0.1, 0.0}, {0.0, 0.1, 0.0}));
+    addObject(problem, triangleMesh({0.0, 0.0, 0.0}, {1e-8, 0.0, 0.0}, {0.0, width * 1e8, 0.0}), at(0.0), 0.15);
+    EXPECT_EQ(check(problem, {at(0.0, 0.0, 0.1)}).valid[0], 0) << width;
+  }
+}
+
+TEST_P(GpuContract, TheOriginChangesNoAnswerFarFromTheWorlds)
+{
+  CollisionProblem problem = problemOf(meshOf(Box{{0.2, 0.2, 0.2}}));
+  addObject(problem, meshOf(Box{{0.2, 0.2, 0.2}}), at(1e5 + 0.5, 2e5, 0.0));
+  problem.origin = {1e5, 2e5, 0.0};
+  EXPECT_EQ(freeAt(problem, {at(1e5 + 0.2999, 2e5), at(1e5 + 0.3001, 2e5 + 0.01, 0.02)}), (std::vector<int>{1, 0}));
+}
+
+TEST_P(GpuContract, ADeviceWithOtherArithmeticIsReportedAndAnswersAreRightAllTheSame)
+{
+  ShaderFolder folder;
+  folder.replace("self_test/float_arithmetic.comp", "4097.0 * x", "1.0 * x");
+  BatchCheckerOptions other = options();
+  other.shader_folder = folder.path();
+  GpuChecker engine(other);
+  EXPECT_NE(engine.floatFault().find("two-product"), std::string::npos) << engine.floatFault();
+  CollisionProblem problem = problemOf(meshOf(Sphere{0.1}));
+  addObject(problem, meshOf(Box{{0.2, 0.2, 0.2}}), at(0.5));
+  engine.setProblem(std::make_shared<const CollisionProblem>(problem));
+  BatchResult result;
+  engine.checkPoses(
+      3, 1, [](std::size_t row, Isometry3d* pose) { *pose = at(row == 0   ? 0.1
+                                                               : row == 1 ? 0.29
+                                                                          : 0.35); }, result);
+  EXPECT_EQ(result.valid, (std::vector<std::uint8_t>{1, 1, 0}));
+  EXPECT_GE(result.undecided_states, 1U);  // the last one at least
+  EXPECT_EQ(GpuChecker(options()).floatFault(), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Traversals, GpuContract, testing::Values(Traversal::BreadthFirst, Traversal::WorkQueue),
+                         [](const auto& tested)
+                         { return tested.param == Traversal::BreadthFirst ? "BreadthFirst" : "WorkQueue"; });
+}  // namespace
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,307 @@
+// Motions are refused where they collide, also between samples where the bound is asked for, and as far as they are
+// called free they are.
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/motion_checker.h"
+#include "model/model_testing.h"
+#include "support/test_scenes.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr char kLimit[] = "<limit lower='-2' upper='2' effort='1' velocity='1'/>";
+
+/// A small box that moves along x and y.
+std::shared_ptr<const RobotModel> pointRobot()
+{
+  return robotOf(
+      "<link name='base'/><link name='rail'/><link name='tip'><collision><geometry><box size='0.02 0.02 0.02'/>"
+      "</geometry></collision></link>" +
+      jointXml("x", "prismatic", "base", "rail", std::string("<axis xyz='1 0 0'/>") + kLimit) +
+      jointXml("y", "prismatic", "rail", "tip", std::string("<axis xyz='0 1 0'/>") + kLimit));
+}
+
+WorldObject wall(double x, double thickness, double y, double width)
+{
+  WorldObject object;
+  object.id = "wall at " + std::to_string(x);
+  object.pose = Eigen::Translation3d(x, y, 0.0);
+  object.shapes = {{Box{{thickness, width, 1.0}}}};
+  return object;
+}
+
+class PointMotions : public testing::Test
+{
+ protected:
+  MotionChecker checker(MotionRule rule, double step, std::size_t most_samples = 20000) const
+  {
+    MotionCheckerOptions options;
+    options.rule = rule;
+    options.steps = {step, step};
+    options.most_samples = most_samples;
+    return {std::make_shared<CpuChecker>(scene_), scene_->robot, "", options};
+  }
+
+  static MotionVerdict verdict(const MotionChecker& checker, const std::vector<double>& from,
+                               const std::vector<double>& to, bool last_valid = false)
+  {
+    return checker.check(from.data(), to.data(), 1, last_valid ? MotionQuery::LastValid : MotionQuery::Valid).front();
+  }
+
+  std::shared_ptr<PlanningScene> scene_ = std::make_shared<PlanningScene>(pointRobot());
+};
+
+TEST_F(PointMotions, DoNotJumpAWallOfAMillimetreWhereTheBoundIsAskedForAndDoWhereSamplesAre)
+{
+  scene_->objects = {wall(0.512, 0.001, 0.0, 1.0)};
+  for (const double step : {0.05, 0.2, 2.0})
+  {
+    EXPECT_TRUE(verdict(checker(MotionRule::Samples, step), {0.0, 0.0}, {1.0, 0.0}).valid) << step;
+    const MotionVerdict bound = verdict(checker(MotionRule::Bound, step), {0.0, 0.0}, {1.0, 0.0}, true);
+    EXPECT_FALSE(bound.valid) << step;
+    EXPECT_LE(bound.last_valid, 0.5015) << step;
+    EXPECT_EQ(bound.colliding, (BodyPair{2, 3})) << step;
+  }
+}
+
+TEST_F(PointMotions, PassThroughAGapOfAMicrometreOnEachSide)
+{
+  scene_->objects = {wall(0.5, 0.1, 0.510001, 1.0), wall(0.5, 0.1, -0.510001, 1.0)};
+  for (WorldObject& object : scene_->objects)
+    object.id += std::to_string(object.pose.translation().y());
+  EXPECT_TRUE(verdict(checker(MotionRule::Bound, 0.05, 2000000), {0.0, 0.0}, {1.0, 0.0}).valid);
+}
+
+TEST_F(PointMotions, AreRefusedWhereTheirSamplesDoNotProveThem)
+{
+  scene_->objects = {wall(0.5, 0.1, 0.510001, 1.0)};
+  const MotionVerdict given_up = verdict(checker(MotionRule::Bound, 0.05, 300), {0.0, 0.0}, {1.0, 0.0}, true);
+  EXPECT_FALSE(given_up.valid);
+  EXPECT_EQ(given_up.colliding, (BodyPair{-1, -1}));
+  EXPECT_GT(given_up.last_valid, 0.3);
+  EXPECT_LT(given_up.last_valid, 0.5);
+  // Nearer than any sample can tell from touching.
+  scene_->objects = {wall(0.5, 0.1, 0.51 + 2e-9, 1.0)};
+  EXPECT_FALSE(verdict(checker(MotionRule::Bound, 0.05, 2000000), {0.0, 0.0}, {1.0, 0.0}).valid);
+}
+
+TEST_F(PointMotions, EndTheirLastValidPartBeforeTheFirstCollision)
+{
+  scene_->objects = {wall(0.8, 0.1, 0.0, 1.0), wall(0.4, 0.1, 0.0, 1.0)};
+  for (const MotionRule rule : {MotionRule::Samples, MotionRule::Bound})
+  {
+    const MotionVerdict found = verdict(checker(rule, 0.02), {0.0, 0.0}, {1.0, 0.0}, true);
+    EXPECT_FALSE(found.valid);
+    EXPECT_LT(found.last_valid, 0.34);
+    EXPECT_GT(found.last_valid, 0.28);
+    EXPECT_EQ(verdict(checker(rule, 0.02), {0.0, 0.0}, {0.3, 0.1}, true).last_valid, 1.0);
+    EXPECT_EQ(verdict(checker(rule, 0.02), {0.4, 0.0}, {0.0, 0.0}, true).last_valid, 0.0);
+    EXPECT_FALSE(verdict(checker(rule, 0.02), {0.4, 0.0}, {0.0, 0.0}).valid);
+    EXPECT_FALSE(verdict(checker(rule, 0.02), {0.0, 0.0}, {0.4, 0.0}).valid);
+    EXPECT_TRUE(verdict(checker(rule, 0.02), {0.0, 0.0}, {0.0, 0.0}).valid);
+  }
+}
+
+/// Collides at the values of the first variable that a test names.
+class ScriptedChecker : public StateChecker
+{
+ public:
+  void setScene(std::shared_ptr<const PlanningScene> /*scene*/) override {}
+  BatchResult check(const double* states, std::size_t count, const std::string& /*group*/,
+                    const JointNeighbourhood* /*around*/) override
+  {
+    BatchResult result;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      const bool hits =
+          std::any_of(hits_.begin(), hits_.end(), [&](double hit) { return std::abs(states[2 * i] - hit) < 1e-6; });
+      result.valid.push_back(hits ? 0 : 1);
+      result.colliding.push_back(hits ? BodyPair{2, static_cast<std::int32_t>(i)} : kNoPair);
+    }
+    return result;
+  }
+  SceneReport report(const std::string& /*group*/) override { return {}; }
+  std::string deviceName() const override { return "scripted"; }
+
+  std::vector<double> hits_;
+};
+
+TEST_F(PointMotions, AreJudgedByTheFirstSampleThatCollides)
+{
+  const auto scripted = std::make_shared<ScriptedChecker>();
+  MotionCheckerOptions options;
+  options.rule = MotionRule::Samples;
+  options.steps = {1.0, 0.25000001};
+  const MotionChecker checker(scripted, scene_->robot, "", options);
+  const std::vector<double> starts = {0.0, 0.0, 0.0, 1.0};  // two motions of five samples
+  const std::vector<double> ends = {0.0, 1.0, 1.0, 1.0};
+  for (unsigned hits = 0; hits < 32; ++hits)  // brute force over the samples that collide
+  {
+    scripted->hits_.clear();
+    for (unsigned i = 0; i < 5; ++i)
+      if ((hits >> i & 1u) != 0)
+        scripted->hits_.push_back(0.25 * i);
+    unsigned first = 0;
+    while (first < 5 && (hits >> first & 1u) == 0)
+      ++first;
+    const MotionVerdict verdict = checker.check(starts.data(), ends.data(), 2, MotionQuery::LastValid).at(1);
+    EXPECT_EQ(verdict.valid, first == 5) << hits;
+    EXPECT_EQ(verdict.last_valid, first == 5 ? 1.0 : first == 0 ? 0.0 : (first - 1) / 4.0) << hits;
+    EXPECT_EQ(verdict.first_invalid, first == 5 ? 1.0 : first / 4.0) << hits;
+    EXPECT_EQ(verdict.colliding == kNoPair, first == 5) << hits;
+  }
+}
+
+TEST_F(PointMotions, AreRefusedWhereStepsCutThemIntoTooManySamples)
+{
+  for (const MotionRule rule : {MotionRule::Samples, MotionRule::Bound})
+  {
+    const MotionVerdict found = verdict(checker(rule, 0.001, 500), {0.0, 0.0}, {1.0, 0.0}, true);
+    EXPECT_FALSE(found.valid);
+    EXPECT_EQ(found.last_valid, 0.0);
+    EXPECT_TRUE(verdict(checker(rule, 0.001, 500), {0.0, 0.0}, {0.2, 0.0}).valid);
+  }
+}
+
+TEST_F(PointMotions, AreNotValidWhereTheCallIsStoppedBeforeTheyAreDecided)
+{
+  scene_->objects = {wall(0.5, 0.1, 0.5101, 1.0)};
+  const std::vector<double> starts = {0.0, 0.0, 0.0, 0.6};
+  const std::vector<double> ends = {1.0, 0.0, 1.0, 0.6};  // the second one collides
+  const MotionChecker checking = checker(MotionRule::Bound, 0.05);
+  for (const MotionQuery question : {MotionQuery::Valid, MotionQuery::LastValid})
+  {
+    int asked = 0;
+    const auto check = [&](int batches)
+    {
+      asked = 0;
+      return checking.check(starts.data(), ends.data(), 2, question, [&] { return asked++ == batches; });
+    };
+    EXPECT_TRUE(check(-1)[0].valid);
+    const int needed = asked;
+    EXPECT_GT(needed, 4);
+    EXPECT_TRUE(check(needed)[0].valid);
+    for (int batches = 0; batches < needed; ++batches)
+    {
+      const std::vector<MotionVerdict> verdicts = check(batches);
+      EXPECT_FALSE(verdicts[0].valid) << batches;
+      EXPECT_LT(verdicts[0].last_valid, 1.0) << batches;
+      EXPECT_FALSE(verdicts[1].valid) << batches;
+      EXPECT_LE(asked, batches + 1) << "asked again after it was stopped";
+    }
+  }
+}
+
+TEST_F(PointMotions, RefuseStepsThatAreNone)
+{
+  EXPECT_NE(errorOf([&] { checker(MotionRule::Bound, 0.0); }), "");
+  EXPECT_NE(errorOf([&] { verdict(checker(MotionRule::Bound, 0.1), {0.0, NAN}, {1.0, 0.0}); }), "");
+  EXPECT_EQ(motionRuleFromName("bound"), MotionRule::Bound);
+  EXPECT_EQ(motionRuleFromName("samples"), MotionRule::Samples);
+  EXPECT_EQ(errorOf([] { motionRuleFromName("exact"); }), "the motion rule is 'exact'; it must be samples or bound");
+}
+
+/// An arm of 1 m on a wheel that goes with a crank: the wheel goes round by the crank's way, not by the shorter one.
+TEST(MotionsOfFollowers, AreNotFreeWhereAFollowerSweepsThroughAWall)
+{
+  const auto robot = robotOf(
+      "<link name='base'/><link name='crank'/><link name='wheel'><collision><origin xyz='0.5 0 0'/><geometry>"
+      "<box size='1 0.02 0.02'/></geometry></collision></link>" +
+      jointXml("turn", "revolute", "base", "crank",
+               "<axis xyz='0 0 1'/><limit lower='-4' upper='4' effort='1' velocity='1'/>") +
+      jointXml("follow", "continuous", "base", "wheel", "<axis xyz='0 0 1'/><mimic joint='turn' multiplier='1'/>"));
+  auto scene = std::make_shared<PlanningScene>(robot);
+  scene->objects = {wall(0.9, 0.02, 0.0005, 0.001)};
+  const auto cpu = std::make_shared<CpuChecker>(scene);
+  MotionCheckerOptions options;
+  options.steps = {0.31, 0.31};  // 0 is not among its samples
+  const MotionChecker checker(cpu, robot, "", options);
+  const double from = -3.0;
+  const double to = 3.05;
+  const MotionVerdict found = checker.check(&from, &to, 1, MotionQuery::LastValid).front();
+  EXPECT_FALSE(found.valid);
+  EXPECT_GT(found.last_valid, 0.4);
+  EXPECT_LT(found.last_valid, 0.5);
+}
+
+TEST(MotionsOfFollowers, OfARobotWithoutJointsAreItsState)
+{
+  const auto robot =
+      robotOf("<link name='base'><collision><geometry><box size='1 1 1'/></geometry></collision></link>");
+  auto scene = std::make_shared<PlanningScene>(robot);
+  EXPECT_TRUE(MotionChecker(std::make_shared<CpuChecker>(scene), robot, "").check(nullptr, nullptr, 1).front().valid);
+}
+
+class RealMotions : public testing::TestWithParam<std::string>
+{
+};
+
+TEST_P(RealMotions, ThatAreProvenAreFreeAtTenTimesTheResolutionAndAsFarAsTheirLastValidPart)
+{
+  if (!missingFor(GetParam()).empty())
+    GTEST_SKIP() << missingFor(GetParam()) << " is missing";
+  const std::uint64_t seed = std::random_device()();
+  const TestScene& test = testScene(GetParam());
+  const RobotModel& robot = *test.scene->robot;
+  const std::size_t width = robot.variables().size();
+  const auto cpu = std::make_shared<CpuChecker>(test.scene);
+  const std::vector<double> random = test.randomStates(400, seed);
+  const std::vector<std::uint8_t> free = cpu->check(random.data(), 400).valid;
+  std::vector<double> starts;
+  std::vector<double> ends;
+  for (std::size_t i = 0; i + 1 < 400; ++i)
+    if (free[i] != 0)
+    {
+      starts.insert(starts.end(), &random[i * width], &random[(i + 1) * width]);
+      std::vector<double> end(width);
+      interpolate(robot, &random[i * width], &random[(i + 1) * width], 0.2, end.data());
+      ends.insert(ends.end(), end.begin(), end.end());
+    }
+  const std::size_t count = starts.size() / width;
+  MotionCheckerOptions options;
+  const MotionChecker checker(cpu, test.scene->robot, "", options);
+  const std::vector<MotionVerdict> verdicts = checker.check(starts.data(), ends.data(), count, MotionQuery::LastValid);
+  const std::vector<MotionVerdict> without = checker.check(starts.data(), ends.data(), count);
+  BatchCheckerOptions all_on_gpu;
+  all_on_gpu.cpu_below = 0;
+  const auto gpu = std::make_shared<BatchChecker>(test.scene, all_on_gpu);
+  const std::vector<MotionVerdict> on_gpu =
+      MotionChecker(gpu, test.scene->robot, "", options).check(starts.data(), ends.data(), count);
+  std::size_t valid = 0;
+  std::vector<double> states;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    EXPECT_EQ(without[i].valid, verdicts[i].valid) << "seed " << seed;
+    EXPECT_EQ(on_gpu[i].valid, verdicts[i].valid) << "seed " << seed << ", on the GPU";
+    valid += verdicts[i].valid ? 1 : 0;
+    const double* const from = &starts[i * width];
+    const double* const to = &ends[i * width];
+    const double last = verdicts[i].last_valid;
+    const auto parts = static_cast<std::size_t>(std::ceil(10.0 * last * segmentCount(robot, from, to, options.steps)));
+    for (std::size_t k = 0; k <= parts && last > 0.0; ++k)
+    {
+      states.resize(states.size() + width);
+      interpolate(robot, from, to, last * static_cast<double>(k) / static_cast<double>(parts),
+                  &states[states.size() - width]);
+    }
+  }
+  const std::vector<std::uint8_t> again = cpu->check(states.data(), states.size() / width).valid;
+  EXPECT_EQ(std::count(again.begin(), again.end(), 0), 0) << "seed " << seed;
+  EXPECT_GT(valid, 0U);
+  EXPECT_LT(valid, count);
+  std::cout << "seed " << seed << ": " << valid << " of " << count << " motions valid, " << again.size()
+            << " states checked again" << std::endl;
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, RealMotions, testing::Values("kr5", "wam", "ur5_cage", "ur5_bookshelf_thin"));
+}  // namespace
+}  // namespace gpu_planning_scene::core

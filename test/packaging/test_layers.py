@@ -1,0 +1,78 @@
+"""Includes point one way through the folders of src/, as docs/architecture.md draws it, and give the path from src/."""
+import re
+import unittest
+
+from repository import ROOT
+
+# Each folder may include itself and those that it names here, and what these may include.
+LAYERS = {
+    "gpu": [],
+    "model": [],
+    "scene": ["model"],
+    "collision/geometry": ["model"],
+    "collision/problem": ["collision/geometry", "collision", "scene"],
+    "collision/exact": ["collision/problem"],
+    "collision/bounds": ["collision/exact"],
+    "collision/gpu": ["collision/bounds", "gpu"],
+    "collision/contacts": ["collision/bounds"],
+    "collision/motion": ["collision/bounds"],
+    "collision/checkers": ["collision/gpu", "collision/contacts", "collision/motion"],
+    "collision": [],  # what all rooms share
+    "planning": ["collision/checkers"],
+    "service": ["collision/checkers"],
+    "render": ["collision/checkers"],
+    "tools": ["collision/checkers", "render"],
+    "plugins": ["planning"],
+    "node": ["planning", "service", "tools", "render"],
+}
+
+
+def folder_of(path):
+    """The longest folder of LAYERS that holds a path below src/."""
+    parts = path.split("/")[:-1]
+    while parts and "/".join(parts) not in LAYERS:
+        parts.pop()
+    return "/".join(parts)
+
+
+def allowed(folder):
+    """All that a folder may include."""
+    found = {folder}
+    for below in LAYERS[folder]:
+        found |= allowed(below)
+    return found
+
+
+class Layers(unittest.TestCase):
+    def test_includes_point_one_way(self):
+        wrong = []
+        for path in sorted((ROOT / "src").rglob("*")):
+            if path.suffix not in (".h", ".cpp"):
+                continue
+            place = str(path.relative_to(ROOT / "src"))
+            for include in re.findall(r'(?m)^#include "([^"]+)"', path.read_text()):
+                if include.startswith("gpu_planning_scene/") or include == "shader_constants.h":
+                    continue
+                if folder_of(include) not in allowed(folder_of(place)):
+                    wrong.append(f"{place} includes {include}")
+        self.assertEqual([], wrong)
+
+    def test_every_folder_of_src_has_its_place(self):
+        folders = {folder_of(str(path.relative_to(ROOT / "src"))) for path in (ROOT / "src").rglob("*.cpp")}
+        self.assertLessEqual(folders, set(LAYERS))
+        self.assertNotIn("", folders)
+
+    def test_only_the_node_and_the_plugins_know_ros(self):
+        wrong = []
+        for path in sorted([*(ROOT / "src").rglob("*.h"), *(ROOT / "src").rglob("*.cpp"),
+                            *(ROOT / "include").rglob("*.h")]):
+            place = str(path.relative_to(ROOT))
+            if place.startswith(("src/node/", "src/plugins/")):
+                continue
+            for include in re.findall(r"#include [<\"](ros/|tf2|\w+_msgs/|pluginlib/)", path.read_text()):
+                wrong.append(f"{place} includes {include}")
+        self.assertEqual([], wrong)
+
+
+if __name__ == "__main__":
+    unittest.main()
