@@ -4,13 +4,14 @@
 #include <map>
 #include <stdexcept>
 
+#include "model/math_constants.h"
+
 #include "gpu_planning_scene/shapes.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kTargetSagitta = 100e-6;  // metres
 constexpr int kMaxTriangles = 1 << 15;
 

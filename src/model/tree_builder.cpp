@@ -8,13 +8,12 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/collision_shapes.h"
+#include "model/math_constants.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kPi = 3.14159265358979323846;
-
 class TreeBuilder
 {
  public:

@@ -26,7 +26,7 @@ bool takesMemory(const SceneChange& change)
 }
 
 /// Of messages on topics: nobody waits for an answer.
-void warn(const std::vector<std::string>& warnings)
+void warnThrottled(const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)
     ROS_WARN_STREAM_THROTTLE(1.0, shortLine(warning));
@@ -79,7 +79,7 @@ SceneChange SceneServices::changeOf(const PlanningSceneMessage& message) const
 {
   std::vector<std::string> warnings;
   SceneChange change = changeFrom(message, *store_.snapshot().scene->robot, store_.limits(), &warnings);
-  warn(warnings);
+  warnThrottled(warnings);
   return change;
 }
 
@@ -101,7 +101,7 @@ SceneChange SceneServices::changeOf(const AttachedCollisionObject& message) cons
 
 void SceneServices::make(const SceneChange& change, const SceneStore::Lookup& lookup)
 {
-  warn(apply(change, lookup).warnings);
+  warnThrottled(apply(change, lookup).warnings);
 }
 
 void SceneServices::take(const sensor_msgs::JointState& message)

@@ -14,6 +14,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
+#include "model/math_constants.h"
 
 namespace gpu_planning_scene::core
 {
@@ -21,7 +22,6 @@ namespace
 {
 namespace ob = ompl::base;
 
-constexpr double kPi = EIGEN_PI;  // which is a long double
 
 // Radians or metres. OMPL's setup() refuses a space without extent, and a dimension without one makes the measure of
 // the whole space 0, from which planners compute radii.

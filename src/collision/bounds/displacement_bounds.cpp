@@ -10,7 +10,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 // More than forward kinematics and distances in double lose within a kilometre.
-constexpr double kRounding = 1e-8;  // metres
+constexpr double kDisplacementRounding = 1e-8;  // metres
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
@@ -109,7 +109,7 @@ void DisplacementBounds::margins(const JointTravel* travel, double* margins) con
       if (joint.angle != 0.0)
         sum += terms_[k].angle * joint.angle;
     }
-    margins[i] = sum == 0.0 ? 0.0 : std::min(kLargestLength, sum * (1.0 + 1e-9) + kRounding);
+    margins[i] = sum == 0.0 ? 0.0 : std::min(kLargestLength, sum * (1.0 + 1e-9) + kDisplacementRounding);
   }
 }
 }  // namespace gpu_planning_scene::core

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "collision/geometry/shape_bounds.h"
+#include "model/math_constants.h"
 #include "scene/rigid_pose.h"
 
 namespace gpu_planning_scene::core
@@ -14,20 +15,18 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
-
 // What is measured on a robot that holds a position at its limit may be a little outside of it.
 constexpr double kLimitSlack = 1e-3;  // radians or metres
 
 // More than the exact checker's slack of 1e-9 m and what kinematics in double lose within a kilometre, 1e-11 m.
-constexpr double kMargin = 1e-6;  // metres
+constexpr double kReachMargin = 1e-6;  // metres
 
 // Beyond these a double's steps are too coarse for the margin: no bound, or the whole circle.
 constexpr double kFarthest = 1e6;        // metres
 constexpr double kLargestAngle = 100.0;  // radians
 
 // A joint's step is some dozens of operations, each of which is right to 2^-53 of the coordinates that go in.
-constexpr double kRounding = 1e-12;  // of the distance from the origin and the radius, of balls and boxes
+constexpr double kReachRounding = 1e-12;  // of the distance from the origin and the radius, of balls and boxes
 
 // More balls and parts make tighter bounds, and cost time when a robot is loaded.
 constexpr std::size_t kMostBalls = 48;  // in a region
@@ -38,7 +37,7 @@ constexpr int kMostMovingJoints = 16;
 
 Ball rounded(const Vector3d& center, double radius)
 {
-  return {center, radius + kRounding * (center.norm() + radius)};
+  return {center, radius + kReachRounding * (center.norm() + radius)};
 }
 
 Ball enclosing(const Ball* begin, const Ball* end)
@@ -147,12 +146,12 @@ void slide(const Ball& ball, const Vector3d& axis, double lower, double upper, s
 // What is not a number is near everything.
 bool near(const Ball& a, const Ball& b, double distance)
 {
-  return !((a.center - b.center).norm() > a.radius + b.radius + distance + kMargin);
+  return !((a.center - b.center).norm() > a.radius + b.radius + distance + kReachMargin);
 }
 
 bool near(const Ball& ball, const Obstacle& obstacle, double distance)
 {
-  const double reach = ball.radius + distance + kMargin;
+  const double reach = ball.radius + distance + kReachMargin;
   if (const auto* half_space = std::get_if<HalfSpace>(&obstacle))
     return !(half_space->normal.dot(ball.center) - half_space->offset > reach);
   const PlacedBox& box = std::get<PlacedBox>(obstacle);
@@ -175,7 +174,7 @@ PlacedBox::PlacedBox(const Isometry3d& pose_of_center, const Vector3d& half_leng
   : pose(pose_of_center),
     half(half_lengths),
     radius(half_lengths.norm()),
-    rounding(kRounding * (pose_of_center.translation().norm() + radius))
+    rounding(kReachRounding * (pose_of_center.translation().norm() + radius))
 {
 }
 

@@ -26,7 +26,7 @@ constexpr int kBits = 21;
 constexpr std::int64_t kMostIndex = (std::int64_t{1} << (kBits - 1)) - 1;
 
 // Culling keeps a little more than rounding could lose.
-constexpr double kMargin = 1e-6;  // metres
+constexpr double kCubeMargin = 1e-6;  // metres
 
 std::uint64_t keyOf(const Vector3d& index)
 {
@@ -102,7 +102,7 @@ std::vector<std::size_t> PointCloudFilter::Impl::cubesNear(const PlanningScene& 
                                                            const std::vector<Isometry3d>& link_poses,
                                                            const std::vector<PlacedShape>& cubes) const
 {
-  const double margin = 0.5 * options.voxel + options.robot_padding + kMargin;
+  const double margin = 0.5 * options.voxel + options.robot_padding + kCubeMargin;
   std::vector<AlignedBox3d> boxes;
   for (const RobotBody& body : robotBodies(scene))
     for (const PlacedShape& placed : *body.shapes)

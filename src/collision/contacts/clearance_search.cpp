@@ -18,7 +18,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 // Bounds on distances are this much wider than rounding makes them wrong.
-constexpr double kMargin = 1e-9;  // metres
+constexpr double kDistanceMargin = 1e-9;  // metres
 
 struct Nearest
 {
@@ -46,12 +46,12 @@ struct Nearest
 /// Bounds on the distance of what two boxes hold.
 double leastDistance(const AlignedBox3d& a, const AlignedBox3d& b)
 {
-  return a.exteriorDistance(b) - kMargin;
+  return a.exteriorDistance(b) - kDistanceMargin;
 }
 
 double mostDistance(const AlignedBox3d& a, const AlignedBox3d& b)
 {
-  return (a.max() - b.min()).cwiseAbs().cwiseMax((b.max() - a.min()).cwiseAbs()).norm() + kMargin;
+  return (a.max() - b.min()).cwiseAbs().cwiseMax((b.max() - a.min()).cwiseAbs()).norm() + kDistanceMargin;
 }
 
 /// Of one state.
@@ -159,7 +159,7 @@ class Search
     const ShapeInstance& a = problem_.robot[instance];
     const double required = a.padding + half_space.padding;
     const double center = half_space.normal.dot(bounds_[instance].center()) - half_space.offset - required;
-    const double reach = 0.5 * half_space.normal.cwiseAbs().dot(bounds_[instance].sizes()) + kMargin;
+    const double reach = 0.5 * half_space.normal.cwiseAbs().dot(bounds_[instance].sizes()) + kDistanceMargin;
     nearest.consider(center - reach, center + reach, a.body, half_space.body,
                      [&](double distance)
                      {

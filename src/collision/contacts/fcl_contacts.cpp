@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kMostOfPair = 256;
 
 // How far from a box a point on its border may be.
-constexpr double kBoxMargin = 1e-6;  // metres
+constexpr double kContactMargin = 1e-6;  // metres
 
 // FCL's nearest points are believed where their distance is right to this.
 constexpr double kNearEnough = 1e-4;  // metres
@@ -51,7 +51,7 @@ std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, cons
   {
     return {};
   }
-  const AlignedBox3d grown(overlap.min().array() - kBoxMargin, overlap.max().array() + kBoxMargin);
+  const AlignedBox3d grown(overlap.min().array() - kContactMargin, overlap.max().array() + kContactMargin);
   const Vector3d ways = (box_a.max() - box_b.min()).cwiseMin(box_b.max() - box_a.min());
   const double deepest = std::max(0.0, ways.minCoeff());
   std::vector<ShapeContact> contacts;
@@ -65,7 +65,7 @@ std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, cons
     // FCL exchanges a solid and a tree, and says so.
     const Vector3d normal = contact.o1 == a.model.get() ? contact.normal : Vector3d(-contact.normal);
     const double depth = std::abs(contact.penetration_depth);
-    (depth <= deepest + kBoxMargin ? contacts : too_deep)
+    (depth <= deepest + kContactMargin ? contacts : too_deep)
         .push_back({contact.pos, normal, required + std::min(depth, deepest)});
   }
   return contacts.empty() ? too_deep : contacts;

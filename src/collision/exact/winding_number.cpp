@@ -13,7 +13,7 @@ namespace
 using Eigen::Vector3d;
 
 /// Far above the rounding of the box test, for coordinates of up to kilometres.
-constexpr double kBoxMargin = 1e-9;  // metres
+constexpr double kRayMargin = 1e-9;  // metres
 
 /// Whether a segment and a box overlap, by their separating axes; never misses an overlap.
 class SegmentBoxTest
@@ -25,7 +25,7 @@ class SegmentBoxTest
 
   bool overlap(const OrientedBox& box) const
   {
-    const Vector3d grown = box.half.array() + kBoxMargin;
+    const Vector3d grown = box.half.array() + kRayMargin;
     const Vector3d between = box.axes.transpose() * (center_ - box.center);
     const Vector3d half = box.axes.transpose() * half_;
     const Vector3d abs_half = half.cwiseAbs();

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "collision/geometry/simplex.h"
+#include "model/math_constants.h"
 
 namespace gpu_planning_scene::core
 {
@@ -16,7 +17,6 @@ namespace
 {
 using Eigen::Vector3d;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr int kMaxIterations = 48;
 /// How exactly the search determines the greatest gap.
 constexpr double kGapAccuracy = 1e-13;  // metres
@@ -47,7 +47,7 @@ class Difference
   double size_;
 };
 
-enum class Verdict
+enum class ConvexVerdict
 {
   Within,
   Apart,
@@ -56,28 +56,28 @@ enum class Verdict
 
 /// `nearest` becomes the nearest point of the difference that was found. Both verdicts are certain: there is a point of
 /// the difference that near, or a plane that holds it off.
-Verdict decideByDescent(const Difference& difference, double distance, const Vector3d& guess, Vector3d& nearest)
+ConvexVerdict decideByDescent(const Difference& difference, double distance, const Vector3d& guess, Vector3d& nearest)
 {
   const double rounding = difference.rounding();
   nearest = difference.nearestAlong(guess);
   if (guess.dot(nearest) > (distance + rounding) * guess.norm())
-    return Verdict::Apart;
+    return ConvexVerdict::Apart;
   Simplex simplex(nearest);
   for (int i = 0; i < kMaxIterations; ++i)
   {
     nearest = simplex.nearest();
     const double length = nearest.norm();
     if (length + rounding <= distance)
-      return Verdict::Within;
+      return ConvexVerdict::Within;
     const Vector3d point = difference.nearestAlong(nearest);
     const double gap = nearest.dot(point);
     if (gap > (distance + rounding) * length)
-      return Verdict::Apart;
+      return ConvexVerdict::Apart;
     if (simplex.full() || length * length - gap <= rounding * length)
       break;
     simplex.add(point);
   }
-  return Verdict::Undecided;
+  return ConvexVerdict::Undecided;
 }
 
 /// BroadPhaseQueries directions n = m + alpha u + beta v, with alpha and beta in [-reach, reach], for one along which
@@ -180,7 +180,8 @@ bool convexWithin(const Convex& a, const Convex& b, double distance, const Vecto
   if (difference.center().norm() > difference.radius() + distance + difference.rounding())
     return false;
   Vector3d nearest;
-  const Verdict verdict = decideByDescent(difference, distance, from_b, nearest);
-  return verdict == Verdict::Undecided ? !isSeparable(difference, distance, nearest) : verdict == Verdict::Within;
+  const ConvexVerdict verdict = decideByDescent(difference, distance, from_b, nearest);
+  return verdict == ConvexVerdict::Undecided ? !isSeparable(difference, distance, nearest)
+                                             : verdict == ConvexVerdict::Within;
 }
 }  // namespace gpu_planning_scene::core

@@ -17,7 +17,7 @@ constexpr double kSliver = 1e-9;
 
 // Coordinates along axes that are orthonormal to rounding, the centre's, and those of a point from there: each step's
 // rounding is at most a few units of the last place of the farthest corner; 32 are several times their sum.
-constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
+constexpr double kBoxRounding = 32.0 * std::numeric_limits<double>::epsilon();
 
 /// Right-handed axes: z of unit length, and a direction, not along z, made normal to it.
 Matrix3d axesFrom(const Vector3d& direction, const Vector3d& z)
@@ -84,7 +84,7 @@ OrientedBox boxAlong(const Matrix3d& axes, const Triangle* triangles, std::size_
       lower = lower.cwiseMin(along);
       upper = upper.cwiseMax(along);
     }
-  const double rounding = kRounding * lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).norm();
+  const double rounding = kBoxRounding * lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).norm();
   return {axes, axes * (0.5 * (lower + upper)), 0.5 * (upper - lower) + Vector3d::Constant(rounding)};
 }
 

@@ -7,6 +7,7 @@
 
 #include "collision/geometry/convex_pair.h"
 #include "collision/geometry/precise_distance.h"
+#include "model/math_constants.h"
 
 namespace gpu_planning_scene::core
 {
@@ -14,8 +15,6 @@ namespace
 {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 template <class... Functions>
 struct Overloaded : Functions...

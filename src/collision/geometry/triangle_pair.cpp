@@ -6,6 +6,7 @@
 
 #include "collision/geometry/exact_orientation.h"
 #include "collision/geometry/precise_distance.h"
+#include "model/math_constants.h"
 
 namespace gpu_planning_scene::core
 {
@@ -13,7 +14,6 @@ namespace
 {
 using Eigen::Vector3d;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // A square that is smaller has lost digits, or will, to underflow; then nothing is certain.
 constexpr double kUnderflow = 1e-280;
 
@@ -72,7 +72,7 @@ class PairProjections
   double error_;
 };
 
-enum class Verdict
+enum class TriangleVerdict
 {
   Hit,
   Apart,
@@ -83,7 +83,7 @@ enum class Verdict
 /// volumes: those of one triangle and a vertex of the other (sides of planes) and those of two edges (how the line of
 /// an edge passes the edges of the other triangle, as in Pluecker coordinates; see e.g. Devillers and Guigue, "Faster
 /// Triangle-Triangle Intersection Tests", 2002).
-Verdict decideBySigns(const Triangle& p, const Triangle& q, const PairProjections& projections, double distance)
+TriangleVerdict decideBySigns(const Triangle& p, const Triangle& q, const PairProjections& projections, double distance)
 {
   Triangle edge_p;
   Triangle edge_q;
@@ -123,7 +123,7 @@ Verdict decideBySigns(const Triangle& p, const Triangle& q, const PairProjection
   std::array<int, 3> side_of_p;  // of the vertices of q
   std::array<int, 3> side_of_q;  // of the vertices of p
   if (find_sides(p, edge_p, edge_p_size, q, side_of_p) || find_sides(q, edge_q, edge_q_size, p, side_of_q))
-    return Verdict::Apart;
+    return TriangleVerdict::Apart;
 
   std::array<std::array<int, 3>, 3> turn;  // [i][j]: how edge i of p passes edge j of q
   for (int i = 0; i < 3; ++i)
@@ -135,19 +135,19 @@ Verdict decideBySigns(const Triangle& p, const Triangle& q, const PairProjection
       const double error = volumeError(edge_p_size[i], edge_q_size[j], sizeOf(between));
       turn[i][j] = clearSign(axis.dot(between), error);
       if (turn[i][j] != 0 && projections.apartAlong(axis, distance))
-        return Verdict::Apart;
+        return TriangleVerdict::Apart;
     }
   }
   for (int i = 0; i < 3; ++i)
   {
     if (side_of_q[i] * side_of_q[(i + 1) % 3] < 0 && turn[i][0] != 0 && turn[i][0] == turn[i][1] &&
         turn[i][0] == turn[i][2])
-      return Verdict::Hit;
+      return TriangleVerdict::Hit;
     if (side_of_p[i] * side_of_p[(i + 1) % 3] < 0 && turn[0][i] != 0 && turn[0][i] == turn[1][i] &&
         turn[0][i] == turn[2][i])
-      return Verdict::Hit;
+      return TriangleVerdict::Hit;
   }
-  return Verdict::Undecided;
+  return TriangleVerdict::Undecided;
 }
 
 /// Two points, one of each shape, and the vector from the one to the other.
@@ -285,9 +285,9 @@ bool trianglesWithin(const Triangle& a, const Triangle& b, double required)
   // What is decided before the last line is certain, so it cannot depend on the order of vertices and triangles.
   const double threshold = required + kSlack;
   const PairProjections projections(a, b);
-  const Verdict verdict = decideBySigns(a, b, projections, threshold);
-  if (verdict != Verdict::Undecided)
-    return verdict == Verdict::Hit;
+  const TriangleVerdict verdict = decideBySigns(a, b, projections, threshold);
+  if (verdict != TriangleVerdict::Undecided)
+    return verdict == TriangleVerdict::Hit;
   const Nearest nearest = nearestOfOutlines(a, b);
   const double distance = std::sqrt(nearest.squared_distance);
   if (distance + 16.0 * kEpsilon * (largestCoordinate(a, b) + projections.size()) <= threshold)
