@@ -1,21 +1,50 @@
 #!/usr/bin/python3
-"""Prints 'N passed, N failed, N skipped' for a JUnit file of ctest; what is given after it is added to the failed."""
+"""Prints 'N passed, N failed, N skipped' for a JUnit file of ctest.
+
+usage: count_tests.py JUNIT_FILE REPORTS MORE_FAILED
+
+REPORTS is the folder of GoogleTest's reports: each is named after a test of ctest, a suite, and its cases count in the place
+of the suite. MORE_FAILED is added to the number of failed tests.
+"""
+import pathlib
 import sys
 import xml.etree.ElementTree
 
+OUTCOMES = ("passed", "failed", "skipped")
 
-def main(path, more_failed):
-    count = {"passed": 0, "failed": int(more_failed), "skipped": 0}
-    for case in xml.etree.ElementTree.parse(path).getroot().iter("testcase"):
-        skipped = case.find("skipped")
-        if case.get("status") == "run":
-            count["passed"] += 1
-        elif case.get("status") == "disabled" or (
-            skipped is not None and skipped.get("message", "").startswith("SKIP_")
-        ):
-            count["skipped"] += 1
+
+def of_suite(report, suite_passed):
+    """Outcomes of the cases. A suite may fail although each case passed: it crashed, or has leaked."""
+    outcomes = []
+    for case in xml.etree.ElementTree.parse(report).getroot().iter("testcase"):
+        if case.get("status") == "notrun":
+            continue  # disabled
+        if case.find("failure") is not None:
+            outcomes.append("failed")
         else:
-            count["failed"] += 1
+            outcomes.append("skipped" if case.get("result") == "skipped" else "passed")
+    if not suite_passed and "failed" not in outcomes:
+        outcomes.append("failed")
+    return outcomes
+
+
+def of_test(case):
+    """Outcome of a test of ctest."""
+    skipped = case.find("skipped")
+    if case.get("status") == "run":
+        return "passed"
+    if case.get("status") == "disabled" or (skipped is not None and skipped.get("message", "").startswith("SKIP_")):
+        return "skipped"
+    return "failed"
+
+
+def main(junit, reports, more_failed):
+    count = dict.fromkeys(OUTCOMES, 0)
+    count["failed"] += int(more_failed)
+    for case in xml.etree.ElementTree.parse(junit).getroot().iter("testcase"):
+        report = pathlib.Path(reports) / (case.get("name").replace("/", ".") + ".xml")
+        for outcome in of_suite(report, of_test(case) == "passed") if report.exists() else [of_test(case)]:
+            count[outcome] += 1
     print(", ".join(f"{number} {outcome}" for outcome, number in count.items()))
 
 

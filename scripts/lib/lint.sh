@@ -23,8 +23,9 @@ git_here()
   git -C "$repository" -c safe.directory='*' "$@" 2> /dev/null
 }
 
-# files_to_lint: our .cpp files that changed, committed or not, and those that include a header of ours that did; all of
-# them where the changes are unknown.
+# files_to_lint: the .cpp files that changed, committed or not, and for each changed header one file that includes it: the
+# .cpp of the same name, or else the first. clang-tidy reports the findings of a header through any file that includes it.
+# Prints all files where git cannot tell the changes.
 files_to_lint()
 {
   local base changed header
@@ -38,23 +39,37 @@ files_to_lint()
   {
     grep '\.cpp$' <<< "$changed" || true
     grep '\.h$' <<< "$changed" | while read -r header; do
-      grep --recursive --files-with-matches --include='*.cpp' "#include \".*${header##*/}\"" src test bench || true
+      includer_of "$header"
     done
   } | sort --unique
 }
 
-# lint BUILD_FOLDER: prints findings; fails if there are any.
+# includer_of HEADER: a .cpp file that includes it.
+includer_of()
+{
+  local name=${1##*/} includers
+  includers="$(grep --recursive --files-with-matches --include='*.cpp' "#include \".*\b$name\"" src test bench | sort)"
+  grep "/${name%.h}\.cpp$" <<< "$includers" | head -1 | grep . || head -1 <<< "$includers"
+}
+
+# lint: prints the findings of clang-tidy in the changed files; fails if there are any. clang-tidy needs the command that
+# compiles each file alone, and a unity build has none: a build folder is configured for it, where only messages are made.
 lint()
 {
-  local list="$temporary/lint" file
-  files_to_lint | while read -r file; do
-    # Not what is compiled elsewhere only, such as the package of test/install.
-    if grep --quiet --fixed-strings "\"$repository/$file\"" "$1/compile_commands.json"; then
-      echo "$repository/$file"
-    fi
-  done > "$list"
+  local list="$temporary/lint" folder="$build/lint" target=gpu_planning_scene_generate_messages_cpp
+  files_to_lint > "$list.changed"
+  if [[ -s "$list.changed" ]]; then
+    configure_and_build "$folder" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+    # The commands lack files that another build compiles, such as those of test/install.
+    sed "s|^|$repository/|" "$list.changed" |
+      while read -r file; do
+        ! grep --quiet --fixed-strings "\"$file\"" "$folder/compile_commands.json" || echo "$file"
+      done > "$list"
+  else
+    : > "$list"
+  fi
   say "clang-tidy on $(wc -l < "$list") changed files"
   [[ ! -s "$list" ]] ||
     run xargs --arg-file="$list" --delimiter='\n' --max-args=1 --max-procs="$(nproc)" \
-      clang-tidy -p "$1" --quiet 2> "$temporary/clang-tidy.log"
+      clang-tidy -p "$folder" --quiet 2> "$temporary/clang-tidy.log"
 }

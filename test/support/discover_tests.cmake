@@ -1,0 +1,30 @@
+# What gps_add_test runs after it has linked a GoogleTest program. Writes FILE, which ctest reads: one CTest test per suite,
+# since each process starts anew, loads robots and compiles shaders; or one per case where the environment has GPS_EACH_CASE.
+# PROGRAM: the path of the program; RESULTS: the folder of the suites' XML reports; PROPERTIES: of all tests of the program.
+execute_process(COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 ${PROGRAM} --gtest_list_tests
+  RESULT_VARIABLE status OUTPUT_VARIABLE listing ERROR_VARIABLE error TIMEOUT 60)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${PROGRAM} does not list its tests: ${status}\n${error}")
+endif()
+
+set(suites "")
+set(cases "")
+string(REGEX REPLACE "[;[]" "_" listing "${listing}")
+string(REPLACE "\n" ";" listing "${listing}")
+# add(VARIABLE NAME ARGUMENTS...): a test of the program.
+function(add variable name)
+  list(JOIN ARGN "]==] [==[" arguments)
+  set(${variable} "${${variable}}add_test([==[${name}]==] [==[${PROGRAM}]==] [==[${arguments}]==])\n\
+set_tests_properties([==[${name}]==] PROPERTIES ${PROPERTIES})\n" PARENT_SCOPE)
+endfunction()
+foreach(line IN LISTS listing)
+  string(REGEX REPLACE " *#.*" "" line "${line}")
+  if(line MATCHES "^  (.+)$")
+    add(cases "${suite}.${CMAKE_MATCH_1}" "--gtest_filter=${suite}.${CMAKE_MATCH_1}")
+  elseif(line MATCHES "^(.+)[.]$")
+    set(suite "${CMAKE_MATCH_1}")
+    string(REPLACE "/" "." report "${suite}")
+    add(suites "${suite}" "--gtest_filter=${suite}.*" "--gtest_output=xml:${RESULTS}/${report}.xml")
+  endif()
+endforeach()
+file(WRITE ${FILE} "if(DEFINED ENV{GPS_EACH_CASE})\n${cases}else()\n${suites}endif()\n")
