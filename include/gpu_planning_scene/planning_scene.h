@@ -19,11 +19,10 @@ namespace gpu_planning_scene::core
 struct WorldObject
 {
   std::string id;
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in the planning frame
-  std::vector<PlacedShape> shapes;                         ///< in the object's frame
-  double padding = 0.0;                                    ///< metres, at least 0: see PlanningScene::link_padding
-  std::map<std::string, Eigen::Isometry3d> subframes =
-      {};  ///< named poses in the object's frame: see PlanningScene::frame()
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();   ///< in the planning frame
+  std::vector<PlacedShape> shapes;                          ///< in the object's frame
+  double padding = 0.0;                                     ///< metres, at least 0: see PlanningScene::link_padding
+  std::map<std::string, Eigen::Isometry3d> subframes = {};  ///< named poses in the object's frame: see frame()
 };
 
 /// An object that a link carries. It moves with the link and has the link's padding and scale. It is checked against
@@ -95,8 +94,8 @@ struct PlanningScene
   std::map<std::string, Eigen::Isometry3d> fixed_frames = {};  ///< poses in the planning frame, by name
   std::map<std::string, Color> colors = {};                    ///< by object or link; they do not affect any check
   std::uint64_t revision = 0;
-  /// Name of the body with this index.
 
+  /// Name of the body with this index.
   const std::string& bodyName(int body) const;
 
   /// Attaches a world object to `link`. The object stays where it is in `state` (one value per variable). Throws Error

@@ -48,7 +48,6 @@ int variableCount(JointType type);
 /// normal z they are x, y and z, as in MoveIt, which supports no other normal.
 Eigen::Matrix3d planarDirections(const Eigen::Vector3d& normal);
 
-/// A joint of the robot. Its frame moves relative to the parent link by the values of its variables.
 struct Joint
 {
   std::string name;
