@@ -46,9 +46,8 @@ struct ObjectChange
   /// frame. A new object with a single shape then takes the pose of this shape, and the shape moves to the object's
   /// origin. An object that gets more shapes (Append) stays where it is.
   std::optional<Eigen::Isometry3d> pose;
-  std::vector<PlacedShape> shapes;  ///< in the object's frame: primitives, then meshes, then half-spaces
-  std::vector<Eigen::Isometry3d>
-      shape_poses;  ///< only for Move: none, or one per shape of the object, in the order above
+  std::vector<PlacedShape> shapes;             ///< in the object's frame: primitives, then meshes, then half-spaces
+  std::vector<Eigen::Isometry3d> shape_poses;  ///< only for Move: none, or one per shape of the object, in that order
   std::map<std::string, Eigen::Isometry3d> subframes;  ///< in the object's frame
   /// Only for Remove. True: the allowed collision matrix keeps the object's entries, for an object that comes and goes,
   /// for example a point cloud. False, as in MoveIt: the entries are removed with the object.
