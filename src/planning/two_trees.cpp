@@ -7,10 +7,11 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// So that a round ends in time, whatever the range is.
+// Keeps a round short, whatever the range is.
 constexpr std::size_t kMostPieces = 64;
 
-// From root to root much is gained if the whole way is free, and there are few such ways.
+// A free straight line between two roots is a great gain, and there are few such lines, so they get many segments at
+// once.
 constexpr std::size_t kPiecesBetweenRoots = 32;
 
 TwoTrees::Side otherThan(TwoTrees::Side side)
@@ -54,7 +55,7 @@ ompl::base::State* TwoTrees::scratch()
   return scratch_[scratch_used_++];
 }
 
-/// The next pieces of a way.
+/// The next motions towards the target of a way.
 TwoTrees::Attempt TwoTrees::pieces(Way way, double range)
 {
   if (!way.from)
@@ -88,7 +89,8 @@ TwoTrees::Attempt TwoTrees::randomBranch(Side side, double range)
   return {{side, &from, nullptr, 1}, {state}};
 }
 
-/// Adds the valid first part of an attempt; returns the last vertex of it.
+/// Adds the valid first motions of an attempt to the tree. Returns the last vertex; `done` gets the number of valid
+/// motions.
 const RrtTree::Vertex& TwoTrees::advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done)
 {
   const Vertex* tip = attempt.way.from;
@@ -108,7 +110,7 @@ std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, 
   for (std::size_t i = 0; i < branches; ++i)
     attempts.push_back(randomBranch(turn_, range));
 
-  // In the direction in which the path will have them.
+  // The motions get the direction that they will have in the path.
   std::vector<MotionValidator::Motion> motions;
   for (const Attempt& attempt : attempts)
   {
@@ -120,7 +122,7 @@ std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, 
     }
   }
   const std::vector<std::uint8_t> valid = validator.validateSamples(motions, ptc);
-  if (ptc)  // what was not looked at counts as invalid
+  if (ptc)  // motions without a verdict are reported as invalid
     return {};
   turn_ = otherThan(turn_);
   ways_.clear();
