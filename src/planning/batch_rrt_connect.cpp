@@ -7,6 +7,10 @@
 #include "planning/bulk_validator.h"
 #include "planning/rrt_search.h"
 
+// RRT-Connect that checks motions in batches: OMPL's interface, the inputs and the time. RrtSearch and TwoTrees grow
+// the trees.
+// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
+
 namespace gpu_planning_scene::core
 {
 namespace

@@ -6,6 +6,9 @@
 #include <limits>
 #include <utility>
 
+// The trees grow by motions whose samples are free. Only the motions of a path that is found are proven. If a motion of
+// the path fails, it leaves its tree and the search goes on.
+
 namespace gpu_planning_scene::core
 {
 namespace
