@@ -114,8 +114,7 @@ int childCount(const tinyxml2::XMLElement& parent, const char* tag)
 // Each link is the child of at most one joint, and no link is its own ancestor. urdfdom does not check this.
 void requireTree(const XmlText& xml)
 {
-  std::map<std::string, std::pair<std::string, const tinyxml2::XMLElement*>>
-      parents;  // the parent link of each link, and the joint between them
+  std::map<std::string, std::pair<std::string, const tinyxml2::XMLElement*>> parents;  // with the joint to the parent
   for (const auto* joint = xml.root().FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint"))
   {

@@ -22,9 +22,9 @@ struct PlanningQuery
   std::string group;
   std::vector<double> start;
   std::vector<std::vector<double>> goals;  ///< rows; the motion may end at any of them
-  /// Seconds for checking the start and the goals and for planning; planners can take slightly longer. Simplification
-  /// and the last check of the path can each take the time that planning leaves of this, but at least a tenth of it and
-  /// 0.1 s.
+  /// Seconds for planning, with the check of the start and the goals; planners can take slightly longer. Simplification
+  /// and the last check of the path can each take the time that planning leaves, but at least a tenth of the whole and
+  /// at least 0.1 s.
   double seconds = 5.0;
   bool simplify = true;
   MotionCheckerOptions motions;
