@@ -24,15 +24,15 @@ class AllowedCollisionMatrix
   /// The matrix of the SRDF. Without an SRDF, the matrix allows adjacent links (RobotModel::adjacentLinks) to touch.
   static AllowedCollisionMatrix fromRobot(const RobotModel& robot);
 
-  /// Sets the entry of a pair, whatever the order of the two names.
+  /// Sets the entry of a pair. The order of the two names does not matter.
   void setEntry(const std::string& body_1, const std::string& body_2, bool allowed);
   void setDefault(const std::string& body, bool allowed);
   /// Removes all entries of a body and its default.
   void removeEntry(const std::string& body);
   bool allowed(const std::string& body_1, const std::string& body_2) const;
 
-  std::vector<std::string> bodies() const;             ///< of the bodies with an entry or a default, sorted by name
-  std::vector<std::string> bodiesWithEntries() const;  ///< of the bodies with an entry, sorted by name
+  std::vector<std::string> bodies() const;             ///< all with an entry or a default, sorted by name
+  std::vector<std::string> bodiesWithEntries() const;  ///< all with an entry, sorted by name
   /// The default of a body; no value: it has none.
   std::optional<bool> defaultOf(const std::string& body) const;
   /// The bodies that an entry allows to touch `body`, sorted by name. Defaults do not count.

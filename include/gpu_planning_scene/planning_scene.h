@@ -29,7 +29,7 @@ struct WorldObject
 /// the world, against all links except its own and its touch links, and against the objects that other links carry.
 struct AttachedObject
 {
-  WorldObject object;  ///< its pose is in the link's frame; its own padding counts only after detach()
+  WorldObject object;  ///< its pose is in the link's frame; its own padding counts only in the world
   int link = -1;
   std::vector<int> touch_links = {};  ///< link indices; the link that carries it need not be listed
   double padding = 0.0;               ///< metres, at least 0, added to the link's padding

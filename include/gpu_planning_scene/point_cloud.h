@@ -33,7 +33,8 @@ class PointCloudFilter
   /// value per variable. Points that are not finite are left out, because sensors mark missing measurements with them.
   /// Cubes within `robot_padding` of the robot of `scene` in `state`, or of its attached objects, are left out too. The
   /// exact checker decides this; the paddings of the links do not count. The object has no shapes if no cube is left.
-  /// Throws Error if the state or the pose is not finite, or if the cloud has too many cubes.
+  /// Throws Error if `state` or `sensor` is not valid, if the cloud fills more than `most_voxels` voxels, or if a point
+  /// is too far from the origin of the planning frame for the size of the voxels.
   WorldObject objectOf(const std::string& id, const std::vector<Eigen::Vector3f>& points,
                        const Eigen::Isometry3d& sensor, const PlanningScene& scene, const double* state);
 

@@ -54,7 +54,7 @@ struct BatchResult
   std::vector<std::uint8_t> valid;   ///< one per state: 1 free, 0 in collision
   std::vector<BodyPair> colliding;   ///< one per state: a colliding pair; kNoPair if the state is valid
   std::uint64_t revision = 0;        ///< revision of the checked scene
-  double seconds = 0.0;              ///< wall time of the check, without compiling shaders and building trees
+  double seconds = 0.0;              ///< wall time of the check, usually without compiling shaders and building trees
   std::size_t undecided_states = 0;  ///< number of states that the CPU decided
   double undecided_seconds = 0.0;    ///< part of `seconds` for deciding them
 };
@@ -98,7 +98,7 @@ class StateChecker
   /// With `around`, valid[i] is 1 only if the whole neighbourhood of state i is proven free: the distance of each pair
   /// exceeds its required distance by more than its bodies can move relative to each other. If valid[i] is 0, the state
   /// itself may be free, and the reported pair may only be near. A state outside the joint limits gets 0. Only joints
-  /// that the group moves may have travel. Throws Error if the rows or the travel do not fit the states.
+  /// that the group moves may have travel (not checked). Throws Error if the rows or the travel do not fit the states.
   virtual BatchResult check(const double* states, std::size_t count, const std::string& group = "",
                             const JointNeighbourhood* around = nullptr) = 0;
 

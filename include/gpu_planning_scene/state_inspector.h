@@ -52,10 +52,11 @@ class StateInspector
   /// for each pair (0: no limit per pair). The deepest contact of each pair comes first, then the others by depth.
   /// `state`: one value per variable. Throws Error for an unknown group, or a value that is not finite or beyond
   /// Variable::largest.
-  /// Points, normals and depths come from FCL. A pair has a single contact if FCL finds no crossing surfaces. If the
-  /// bodies touch, or are within the required distance, it is at FCL's nearest points. If one body is inside the other,
-  /// it is at the inner body, and its depth is the distance by which that body must move to come free, away from the
-  /// centre of the other body.
+  /// Points, normals and depths come from FCL, except for half-spaces: their single contact is the deepest point of the
+  /// other shape. A pair also has a single contact if FCL finds no crossing surfaces. If the bodies touch, or are
+  /// within the required distance, this contact is at FCL's nearest points. If one body is inside the other, it is at
+  /// the inner body. Its depth is then the distance by which the inner body must move, away from the centre of the
+  /// other body, to come free.
   std::vector<Contact> contacts(const double* state, const std::string& group, std::size_t most,
                                 std::size_t most_per_pair) const;
 

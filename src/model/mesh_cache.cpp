@@ -19,7 +19,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 // Gives equal positions (0 equals -0) the same index, because most formats repeat a vertex for each of its triangles.
-// It is an open-addressing hash table, because files have millions of vertices.
+// The hash table has open addressing, because files have millions of vertices.
 class VertexWelder
 {
  public:
@@ -175,7 +175,7 @@ std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vecto
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   // Assimp would invent triangles to show the nodes of a file without a mesh.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  // No step that removes or merges anything: degenerate triangles stay, and VertexWelder is much faster than Assimp's.
+  // Assimp must not remove or merge anything: degenerate triangles stay, and VertexWelder merges vertices much faster.
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr)
   {

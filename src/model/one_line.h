@@ -9,6 +9,6 @@ namespace gpu_planning_scene::core
 std::string onOneLine(std::string text);
 
 /// Makes one line of at most about 2000 bytes, with words of about 300, for a person to read: a name can be as long as
-/// its request. The middle of a longer text is replaced by the number of its bytes.
+/// its request. In a longer text, the number of omitted bytes replaces the middle.
 std::string shortLine(const std::string& text);
 }  // namespace gpu_planning_scene::core

@@ -77,9 +77,8 @@ std::uint32_t addVertex(Mesh& mesh, const Eigen::Vector3d& vertex)
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }
 
-// Consider a regular polygon with n sides, inscribed in a circle of radius r. The middle of a side is r cos(pi / n)
-// from the centre. So no point of the disk is farther from the polygon than r (1 - cos(pi / n)) = 2 r sin^2(pi / (2
-// n)).
+// In a regular polygon with n sides, inscribed in a circle of radius r, the middle of a side is r cos(pi / n) from the
+// centre. So no point of the disk is farther from the polygon than r (1 - cos(pi/n)) = 2 r sin^2(pi/(2n)).
 double ringSagitta(double radius, int sides)
 {
   const double half_angle_sine = std::sin(kPi / (2.0 * sides));
@@ -231,8 +230,7 @@ Tessellation tessellateSphere(const Sphere& sphere)
   for (;; ++frequency)
   {
     const Geodesic unit(frequency);
-    // The slack also covers the rounding of the plane's distance: the plane's normal comes from edges as short as 1 /
-    // 40.
+    // The slack also covers the rounding of the plane's distance: the normal comes from edges as short as 1/40.
     const double sagitta = sphere.radius * unitSagitta(unit) + 64.0 * roundingSlack(sphere.radius);
     if (sagitta <= kTargetSagitta || frequency >= max_frequency)
     {

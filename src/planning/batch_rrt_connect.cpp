@@ -21,7 +21,8 @@ namespace ob = ompl::base;
 // find a solution with far fewer states; there are more of them, but checks in bulk make up for that.
 constexpr double kRangeOfExtent = 0.04;
 
-// Goal states that are taken at first. More follow as the goal tree grows, as in OMPL's RRTConnect.
+// Number of goal states taken at first, and at most in one round. More follow as the goal tree grows, as in OMPL's
+// RRTConnect.
 constexpr std::size_t kFirstGoals = 8;
 
 // Extra time after the end of planning, to prove a path: a fraction of the time so far, within two bounds (seconds).

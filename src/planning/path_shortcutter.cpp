@@ -8,7 +8,7 @@
 #include "planning/bulk_validator.h"
 #include "planning/direct_runs.h"
 
-// A round draws shortcuts between points of the path, checks them in one call, and takes valid ones that do not
+// A round draws shortcuts between points of the path, checks them in one call, and takes valid shortcuts that do not
 // overlap.
 // R. Geraerts, M. H. Overmars: Creating high-quality paths for motion planning. IJRR 26(8), 2007.
 
@@ -22,7 +22,7 @@ using ompl::geometric::PathGeometric;
 // A shortcut that gains less than this fraction of the path's length is not checked.
 constexpr double kLeastGain = 1e-4;
 
-// Draws for each shortcut to check: near the end, most drawn shortcuts gain nothing.
+// Number of draws for each shortcut to check. Near the end, most drawn shortcuts gain nothing.
 constexpr std::size_t kDraws = 8;
 
 /// A point of a path: a vertex or a point on an edge.
@@ -95,7 +95,8 @@ class CuttablePath
   std::vector<ob::State*> made_;
 };
 
-/// Draws a vertex in half of the cases. Then a shortcut can remove a whole detour, and leaves no remainder of an edge.
+/// Draws a vertex in half of the cases. A shortcut between vertices removes a whole detour and leaves no part of an
+/// edge.
 Point drawPoint(const CuttablePath& path, ompl::RNG& random)
 {
   if (random.uniformBool())

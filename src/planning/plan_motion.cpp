@@ -38,7 +38,7 @@ void refuseRow(const RobotModel& robot, const std::vector<double>& row, const st
       throw Error(what + ": " + robot.variables()[i].name + " is " + std::to_string(row[i]) + "; it must be finite");
 }
 
-/// The resolution of doubles is too coarse for angles of many turns.
+/// Refuses angles of very many turns, because doubles resolve them too coarsely.
 void refuseManyTurns(const RobotModel& robot, const std::vector<double>& start)
 {
   constexpr double kMost = 1e6;  // radians; doubles resolve 1e-10 there
@@ -134,7 +134,7 @@ std::string Plan::faultOf(const og::PathGeometric* path, const ob::Goal* goals) 
   return "";
 }
 
-/// Plans, within the time since the begin of the call.
+/// Plans. The time of the query counts from the beginning of the call.
 void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedState<>>& goal_states)
 {
   const auto goals = std::make_shared<ob::GoalStates>(information_);
@@ -160,7 +160,8 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
   const auto path = std::dynamic_pointer_cast<og::PathGeometric>(definition->getSolutionPath());
   if (const std::string wrong = faultOf(path.get(), exact ? goals.get() : nullptr); !wrong.empty())
   {
-    // OMPL's RRTConnect sometimes answers with another path when there is no time for a solution.
+    // If the time is too short for a solution, OMPL's RRTConnect sometimes returns a path that does not begin at the
+    // start.
     result_.status = PlanningStatus::NoSolution;
     result_.message += (exact ? "" : "; ") + planner->getName() + " has answered " + wrong;
     return;

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-// The trees grow by motions whose samples are free. Only the motions of a path that is found are proven. If a motion of
-// the path fails, it leaves its tree and the search goes on.
+// The trees grow by motions whose samples are free. The search proves only the motions of a path that it has found. If
+// a motion of the path fails, it is removed from its tree, and the search goes on.
 
 namespace gpu_planning_scene::core
 {

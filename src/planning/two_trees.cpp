@@ -11,11 +11,11 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// Keeps a round short, whatever the range is.
+// Keeps a round short for every range.
 constexpr std::size_t kMostPieces = 64;
 
-// A free straight line between two roots is a great gain, and there are few such lines, so they get many segments at
-// once.
+// Between two roots, a free straight line saves the most work. There are few of these lines, so each gets many segments
+// at once.
 constexpr std::size_t kPiecesBetweenRoots = 32;
 
 TwoTrees::Side otherThan(TwoTrees::Side side)

@@ -42,11 +42,11 @@ class TwoTrees
   /// Adds a root. In the next round, the other tree grows towards it on a straight line.
   void addRoot(Side side, const ompl::base::State* state);
 
-  /// Grows the trees by one round; the samples of all its motions are checked in one call. The trees take turns: one of
-  /// them grows `branches` motions towards random states. Both trees continue their attempts to reach a vertex of the
-  /// other tree. Each vertex of a new random branch becomes such a target of the other tree, from the next round on.
-  /// `range`: the longest motion, above 0. Returns the meetings of the trees. If `ptc` ends the round, the trees stay
-  /// as they were.
+  /// Grows the trees by one round; the samples of all its motions are checked in one call. The trees take turns: one
+  /// tree grows `branches` motions towards random states. Both trees also grow towards their targets, which are
+  /// vertices of the other tree. Each vertex of a new random branch becomes a target of the other tree, from the next
+  /// round on. `range`: the longest motion, above 0. Returns the meetings of the trees. If `ptc` ends the round, the
+  /// trees stay as they were, and there are no meetings.
   std::vector<Meeting> grow(const MotionValidator& validator, std::size_t branches, double range,
                             const ompl::base::PlannerTerminationCondition& ptc);
 
