@@ -30,7 +30,7 @@ std::string meshReaderBesideThisProgram();
 /// Folders from which mesh files may be read, in addition to packages and the base folder of relative paths.
 struct AllowedRoots
 {
-  std::vector<std::string> roots;  ///< [~mesh/roots]
+  std::vector<std::string> roots;  ///< [~mesh/roots]; may be empty
 };
 
 /// Works like resolveUri, and refuses files outside the allowed folders. Symbolic links are followed first.

@@ -128,7 +128,7 @@ struct PlanningScene
 /// Object poses are in `planningFrame()`; header.frame_id can name this frame, a link, or a frame of
 /// fixed_frame_transforms. `meshes`: how to read the mesh files of the scene. `defaults`: padding and scale of the
 /// bodies that the file does not name. `warnings` (may be null) receives a line for each joint that the robot lacks and
-/// for each entry that is not modelled. Throws Error with file and line.
+/// for each entry that is not modelled. Throws Error with file and line; nothing of a faulty file is kept.
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings = nullptr,
                             const MeshAccess& meshes = {}, const SceneDefaults& defaults = {});
