@@ -9,57 +9,64 @@
 
 namespace gpu_planning_scene::core
 {
-/// Which pairs of bodies may touch, by name (links and objects). As in MoveIt: an entry for the pair decides; without
-/// one the default entries of the two bodies do (both present: allowed only if both allow; one present: that one);
-/// without either the pair is checked.
+/// The allowed collision matrix: tells by name which pairs of bodies (links and objects) may touch. The rules are
+/// MoveIt's:
+/// 1. An entry for the pair decides.
+/// 2. Without an entry, the defaults of the two bodies decide. If both bodies have a default, both must allow the pair.
+/// If one body has a default, this default decides.
+/// 3. A pair without an entry and without a default is checked.
+/// Concurrent calls of const functions are safe; the caller synchronises changes.
 class AllowedCollisionMatrix
 {
   struct Body;
 
  public:
-  /// The SRDF's matrix; without an SRDF the adjacent links are allowed.
+  /// The matrix of the SRDF. Without an SRDF, the matrix allows adjacent links (RobotModel::adjacentLinks) to touch.
   static AllowedCollisionMatrix fromRobot(const RobotModel& robot);
 
+  /// Sets the entry of a pair. The order of the two names does not matter.
   void setEntry(const std::string& body_1, const std::string& body_2, bool allowed);
   void setDefault(const std::string& body, bool allowed);
-  /// Removes all entries of a body and its default, as if the matrix had never named it.
+  /// Removes all entries of a body and its default.
   void removeEntry(const std::string& body);
   bool allowed(const std::string& body_1, const std::string& body_2) const;
 
-  std::vector<std::string> bodies() const;             ///< that it has an entry or a default of, in alphabetical order
-  std::vector<std::string> bodiesWithEntries() const;  ///< likewise
+  std::vector<std::string> bodies() const;             ///< all with an entry or a default, sorted by name
+  std::vector<std::string> bodiesWithEntries() const;  ///< all with an entry, sorted by name
+  /// The default of a body; no value: it has none.
   std::optional<bool> defaultOf(const std::string& body) const;
-  /// The bodies that an entry allows to touch `body`, in alphabetical order. Defaults do not count.
+  /// The bodies that an entry allows to touch `body`, sorted by name. Defaults do not count.
   std::vector<std::string> allowedPartners(const std::string& body) const;
-  /// Whether it has the same entries and defaults.
+  /// True if both matrices have the same entries and defaults.
   bool operator==(const AllowedCollisionMatrix& other) const { return bodies_ == other.bodies_; }
 
-  /// What the matrix knows of a body: for looking at many pairs of a body without looking for its name each time.
-  /// Valid as long as the matrix and the name are there and unchanged.
+  /// The entries and the default of one body. A row saves the search for the name when a caller looks up many pairs of
+  /// a body. It is valid while the matrix and the name string exist unchanged.
   class Row
   {
    public:
     bool allowed(const Row& other) const;
-    /// Whether the matrix has the body. It says the same of all that it has not; a row made by `Row()` is one of those.
+    /// False if the matrix has no entry and no default of the body. All these bodies get the same answers, and so does
+    /// a row made by `Row()`.
     bool known() const { return body_ != nullptr; }
 
    private:
     friend class AllowedCollisionMatrix;
     const std::string* name_ = nullptr;
-    const Body* body_ = nullptr;  // null: nothing
+    const Body* body_ = nullptr;  // null: the matrix does not have the body
   };
   Row row(const std::string& body) const;
-  Row row(const std::string&& body) const = delete;  // the name would be gone
+  Row row(const std::string&& body) const = delete;  // a row keeps a pointer to the name
 
  private:
   struct Body
   {
-    std::map<std::string, bool> entries;  // by the other body; each pair is with both
+    std::map<std::string, bool> entries;  // by the name of the other body; both bodies store the entry of a pair
     std::optional<bool> by_default;
     bool operator==(const Body& other) const { return entries == other.entries && by_default == other.by_default; }
   };
 
-  /// Removes the entry for `other` from those of `body`, and `body` where it was its last.
+  /// Removes the entry for `other` from `body`. A body without any entry or default is removed too.
   void removeHalfOfEntry(const std::string& body, const std::string& other);
 
   std::map<std::string, Body> bodies_;

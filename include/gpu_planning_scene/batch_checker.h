@@ -8,12 +8,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// Checks states on the GPU: forward kinematics, root tests, tree traversal, triangle tests; undecided states go to a
-/// double-precision traversal of the same trees on the CPU. Owns a GL context and the thread that it is current on.
+/// Checks states on the GPU: forward kinematics, root tests, tree traversal, triangle tests. The exact checker, a
+/// traversal of the same trees in double precision on the CPU, decides the undecided states. A BatchChecker owns a GL
+/// context and the thread on which the context is current. Thread-safe: calls are served one after the other.
+///
+/// A. Gress, G. Zachmann: Object-Space Interference Detection on Programmable Graphics Hardware (2003).
 class BatchChecker : public StateChecker
 {
  public:
-  /// Throws Error: no usable EGL device (lists what was tried), a shader that does not compile (with its log).
+  /// Throws Error if no EGL device can be used (the message lists the devices that were tried), if a shader does not
+  /// compile (the message has its log), or if the scene or an option is not valid.
   BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options);
   ~BatchChecker() override;
 
@@ -23,7 +27,7 @@ class BatchChecker : public StateChecker
   SceneReport report(const std::string& group = "") override;
   std::string deviceName() const override;
   std::string deviceWarning() const override;
-  /// Of the last call of `check`. The GPU counts these in any case: to know them costs nothing.
+  /// The work of the last call of `check`. The GPU counts it in any case, so this call costs nothing.
   GpuWork lastWork() const;
 
  private:

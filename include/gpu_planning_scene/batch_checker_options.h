@@ -11,28 +11,30 @@ namespace gpu_planning_scene::core
 enum class Traversal
 {
   BreadthFirst,  ///< packed work lists, level by level (Gress and Zachmann 2003)
-  WorkQueue      ///< a node stack per lane and a leaf queue per workgroup
+  WorkQueue      ///< a node stack per invocation and a leaf queue per work group
 };
 
-/// "breadth_first" or "work_queue"; throws Error otherwise.
+/// Reads "breadth_first" or "work_queue". Throws Error for any other name.
 Traversal traversalFromName(const std::string& name);
 
 struct BatchCheckerOptions : CheckerOptions
 {
-  /// "auto" (the first hardware device, else software), "software", an index, or part of a renderer's name.
+  /// "auto" (the first hardware device, or software if there is none), "software", an index (Device::index), or a part
+  /// of a renderer's name.
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
-  std::size_t max_batch = 16384;  ///< states that go to the GPU at once; larger requests are split
-  /// Batches of fewer states go to the CPU; 0: never. Unset: measured for each scene, whichever is faster.
+  std::size_t max_batch = 16384;  ///< largest number of states sent to the GPU at once; larger requests are split
+  /// The CPU checks batches of fewer states; 0: the GPU checks batches of every size. Unset: the checker measures, for
+  /// each group, from which batch size on the GPU is faster.
   std::optional<std::size_t> cpu_below;
-  std::string shader_folder;  ///< empty: where they were installed, or the source tree's (see shaderFolder())
+  std::string shader_folder;  ///< empty: the installed shaders, or those of the source tree (see shaderFolder())
 };
 
-/// What the GPU looked at, over all states.
+/// The work of the GPU for one batch, summed over its states.
 struct GpuWork
 {
-  std::size_t states = 0;      ///< that went to it
-  std::size_t candidates = 0;  ///< pairs of instances, by state, whose spheres or outer boxes overlap
-  std::size_t root_pairs = 0;  ///< of them, those whose root boxes overlap: these are traversed
+  std::size_t states = 0;      ///< checked by the GPU
+  std::size_t candidates = 0;  ///< pairs of instances, counted per state, whose spheres or outer boxes overlap
+  std::size_t root_pairs = 0;  ///< candidates whose root boxes overlap too: these are traversed
 };
 }  // namespace gpu_planning_scene::core

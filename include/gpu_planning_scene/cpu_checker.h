@@ -6,10 +6,12 @@
 
 namespace gpu_planning_scene::core
 {
-/// Double-precision traversal of bounding volume trees on all cores, without any GL device.
+/// Checks states on the CPU, without a GL device: traverses bounding volume trees in double precision, on all cores.
+/// Thread-safe: calls are served one after the other.
 class CpuChecker : public StateChecker
 {
  public:
+  /// Throws Error if the scene or an option is not valid.
   explicit CpuChecker(std::shared_ptr<const PlanningScene> scene, const CheckerOptions& options = {});
   ~CpuChecker() override;
 

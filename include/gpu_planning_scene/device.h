@@ -5,15 +5,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// An EGL device that can be asked for an OpenGL 4.5 context without a window.
+/// An EGL device that supports an OpenGL 4.5 context without a window.
 struct Device
 {
-  int index = -1;         ///< what `--device INDEX` takes
+  int index = -1;         ///< the value for `--device INDEX`
   std::string renderer;   ///< GL_RENDERER
   std::string version;    ///< GL_VERSION
-  bool software = false;  ///< llvmpipe and its like
+  bool software = false;  ///< true for llvmpipe and other software renderers
 };
 
-/// Every usable device, in EGL's order. Creates and destroys a context on each.
+/// Lists all usable devices, in EGL's order. To test a device, the function creates and destroys a context on it.
+/// Throws Error if the EGL or OpenGL library is missing.
 std::vector<Device> listDevices();
 }  // namespace gpu_planning_scene::core

@@ -5,16 +5,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// A wrong input or a device that cannot be used. `what()` is one line: what is wrong, where, and what to do.
-/// Whoever throws it has changed nothing.
+/// A wrong input, or a device that cannot be used. `what()` is one line: the fault, its place, and the remedy. A call
+/// that throws an Error has changed nothing.
 class Error : public std::runtime_error
 {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 
-/// The device, or its context, is gone or failed in a way that no input causes. Whoever throws it can do nothing more:
-/// what uses the device has to be made anew.
+/// The device or its context is lost, or it failed in a way that no input causes. The object that threw this error is
+/// no longer usable: create a new one.
 class DeviceLost : public Error
 {
  public:

@@ -7,34 +7,36 @@
 
 namespace gpu_planning_scene::core
 {
-/// The largest step of any variable between two states of a motion, above 0.
+/// Largest change of any variable between two neighbouring samples of a motion. Both values must be above 0.
 struct MotionSteps
 {
-  double revolute = 0.0;   ///< radians: angles, and quaternions by half the angle that they turn through
+  double revolute = 0.0;   ///< radians: for angles, and for half the rotation angle of quaternions
   double prismatic = 0.0;  ///< metres
 };
 
-/// Throws Error for a step that is not a finite number above 0.
+/// Throws Error if a step is not a finite number above 0.
 void validateSteps(const MotionSteps& steps);
 
-/// How far each joint of the robot moves on the straight way from one state to another; a mimic joint by what it makes
-/// of its leader's. Fixed joints do not.
+/// Displacement of each joint of the robot along the straight motion between two states, one entry per joint. A mimic
+/// joint moves by its leader's displacement times the magnitude of its multiplier. Fixed joints have 0.
 std::vector<JointTravel> jointTravel(const RobotModel& robot, const double* from, const double* to);
 
-/// Into how many equal parts, at least 1, such a way is cut, so that no variable moves more than its step in one; as a
-/// double, as there may be more than an integer holds.
+/// Number of equal segments of the straight motion, at least 1: the smallest number at which no variable changes by
+/// more than its step within a segment. It is a double because it can exceed the range of integers.
 double segmentCount(const RobotModel& robot, const double* from, const double* to, const MotionSteps& steps);
 
-/// Whether a whole turn of a continuous joint makes another state of it: where a joint mimics it by a multiplier that
-/// is no whole number, or is a prismatic one.
+/// True if a whole turn of a continuous joint leads to another robot state. This is the case if a revolute or
+/// continuous joint mimics it with a multiplier that is not a whole number, or if a prismatic joint mimics it.
 bool hasNoPeriod(const RobotModel& robot, const Joint& joint);
 
-/// The shorter way from one angle to another, from -half a turn to half a turn. Finite for all finite angles.
+/// The signed rotation, in radians, from one angle to another in the shorter direction: -pi to pi. It is finite for all
+/// finite angles.
 double shortestAngularDistance(double from, double to);
 
-/// The state at `fraction` (0 to 1) of the straight way from one state to another: angles of continuous and planar
-/// joints the shorter way round, quaternions by slerp. At 0 and 1 it is `from` and `to` themselves, bit by bit, so an
-/// angle beyond half a turn jumps there by whole turns, which is the same place. A joint that hasNoPeriod
-/// goes straight from value to value.
+/// Writes the state at `fraction` (0 to 1) of the straight motion from one state to another. Angles of continuous and
+/// planar joints turn in the shorter direction, quaternions are interpolated by slerp, and all other variables
+/// linearly. A continuous joint that has no period (hasNoPeriod) is interpolated linearly too. At 0 and 1 the result
+/// equals `from` or `to` bit by bit. So an angle that differs by more than half a turn between `from` and `to` jumps by
+/// whole turns at 1, which is the same place.
 void interpolate(const RobotModel& robot, const double* from, const double* to, double fraction, double* state);
 }  // namespace gpu_planning_scene::core

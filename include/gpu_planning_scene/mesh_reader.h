@@ -9,7 +9,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// What one mesh file may cost. The node's parameters in brackets.
+/// Limits for reading one mesh file, with the parameters of the node in brackets.
 struct MeshLimits
 {
   double seconds = 20.0;              ///< [~mesh/seconds] of wall time, and of processor time
@@ -18,33 +18,34 @@ struct MeshLimits
   std::size_t triangles = 5000000;    ///< [~limits/triangles_of_mesh]
 };
 
-/// Reads each file in a process of its own: `program` is the installed read_mesh. Whatever becomes of that process, the
-/// caller gets a mesh or an Error that names the file: "the reader crashed (signal 11)", "takes longer than 20 s",
-/// "needs more than 2048 MiB". Thread-safe.
+/// Returns a function that reads each file in a process of its own. `program`: the installed read_mesh. If that process
+/// fails, the function throws an Error that names the file: "the reader crashed (signal 11)", "takes longer than 20 s",
+/// "needs more than 2048 MiB". The function is thread-safe. childMeshReader throws Error if limits.seconds is not above
+/// 0 and below 1e6.
 ReadMesh childMeshReader(std::string program, const MeshLimits& limits);
 
-/// read_mesh in the folder of the program that runs, where they are installed together.
+/// Path of read_mesh in the folder of the running program: both are installed there.
 std::string meshReaderBesideThisProgram();
 
-/// The folders that mesh files may be read from besides packages.
+/// Folders from which mesh files may be read, in addition to packages and the base folder of relative paths.
 struct AllowedRoots
 {
-  std::vector<std::string> roots;  ///< [~mesh/roots]; none: packages alone
+  std::vector<std::string> roots;  ///< [~mesh/roots]; may be empty
 };
 
-/// resolveUri, and refuses what lies elsewhere, links followed: package://NAME/... must be in the package's folder,
-/// file:// and absolute paths in one of the roots, relative paths in `base_folder` or a root. Throws Error that names
-/// the URI and what is allowed.
+/// Works like resolveUri, and refuses files outside the allowed folders. Symbolic links are followed first.
+/// package://NAME/... must be in the folder of the package, file:// and absolute paths in one of the roots, relative
+/// paths in `base_folder` or in one of the roots. Throws Error that names the URI and the allowed folders.
 std::string resolveAllowed(const std::string& uri, const std::string& base_folder, const PackageResolver& packages,
                            const AllowedRoots& allowed);
 
-/// Who reads mesh files, and from where. As it stands: this process, from anywhere.
+/// How mesh files are read, and from which folders. The default reads any file, in this process.
 struct MeshAccess
 {
-  ReadMesh read;                      ///< empty: in this process
+  ReadMesh read;                      ///< empty: this process reads the file
   std::optional<AllowedRoots> roots;  ///< no value: any file
 
-  /// resolveAllowed, or resolveUri where there are no roots.
+  /// Calls resolveAllowed if there are roots, else resolveUri.
   std::string resolve(const std::string& uri, const std::string& base_folder, const PackageResolver& packages) const;
 };
 }  // namespace gpu_planning_scene::core

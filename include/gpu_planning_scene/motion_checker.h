@@ -14,65 +14,71 @@
 
 namespace gpu_planning_scene::core
 {
-/// When a straight motion between two states is accepted.
+/// The rule by which a straight motion between two states is valid.
 enum class MotionRule
 {
-  Samples,  ///< its samples are free: as in MoveIt and OMPL, a thin obstacle between two samples is jumped
-  Bound     ///< and each is free by more than any point of the robot can move up to half way to the next sample
+  /// All samples are free, as in MoveIt and OMPL. A thin obstacle between two samples is missed.
+  Samples,
+  /// Also, each sample has more clearance than any point of the robot can move up to half way to the next sample.
+  Bound
 };
 
-/// "samples" or "bound"; throws Error otherwise.
+/// Reads "samples" or "bound". Throws Error for any other name.
 MotionRule motionRuleFromName(const std::string& name);
 
 struct MotionCheckerOptions
 {
   MotionRule rule = MotionRule::Bound;
-  MotionSteps steps{0.02, 0.02};  ///< between samples, before any subdivision
-  /// Of a motion: one that the steps cut into more is not accepted; Bound: nor what is not proven when so many checks
-  /// of states were made for it, those of its samples included.
+  MotionSteps steps{0.02, 0.02};  ///< largest steps between samples, before any subdivision
+  /// Limit for each motion. A motion that has more samples than this is rejected. Under MotionRule::Bound, a motion is
+  /// also rejected if this many checks of states, its samples included, do not prove it free.
   std::size_t most_samples = 20000;
 };
 
 struct MotionVerdict
 {
   bool valid = false;
-  /// Fraction (0 to 1) of the last free sample before the first collision; with MotionRule::Bound, up to which the
-  /// motion is proven, at most that. 0 where the start collides; 1 where the motion is valid.
+  /// Fraction of the motion (0 to 1) at the last free sample before the first collision. Under MotionRule::Bound: the
+  /// fraction up to which the motion is proven free, which is at most that sample's. 0 if the start collides; 1 if the
+  /// motion is valid.
   double last_valid = 0.0;
-  /// Fraction of the sample where `last_valid` ends: it collides, or the motion is not proven free around it. 1 where
-  /// the motion is valid.
+  /// Fraction of the sample where the valid part ends: the sample collides, or the motion is not proven free around it.
+  /// 1 if the motion is valid.
   double first_invalid = 0.0;
-  /// The pair that collides there; no pair where the motion is merely not proven free.
+  /// The colliding pair at `first_invalid`; kNoPair if the motion is valid or only not proven free.
   BodyPair colliding = kNoPair;
 };
 
 enum class MotionQuery
 {
-  Valid,      ///< is it valid? A motion is given up at any of its collisions, and its verdict's last_valid is 0
-  LastValid,  ///< up to where?
-  Samples     ///< is it under MotionRule::Samples, whatever the rule is? What is not, is not under any rule
+  Valid,      ///< is the motion valid? Any collision ends its check, and the last_valid of an invalid motion is 0
+  LastValid,  ///< up to which fraction is the motion valid?
+  Samples     ///< is it valid under MotionRule::Samples? A motion with a colliding sample is invalid under both rules
 };
 
-/// Checks straight motions in bulk. The samples of all motions are checked batch by batch: ends and middles, the other
-/// samples of what is left, then, for MotionRule::Bound, all again with margins, with twice the samples where that does
-/// not do (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths", with a batch for each level).
-/// Thread-safe.
+/// Checks straight motions in bulk. The samples of all motions are checked batch by batch: first the ends and middles,
+/// then the remaining samples of the motions that are still valid. MotionRule::Bound then checks all samples again,
+/// with margins. It subdivides a motion where a sample does not have its margin. Thread-safe.
+///
+/// F. Schwarzer, M. Saha, J.-C. Latombe: Exact collision checking of robot paths (2002). Here, each level of
+/// subdivision is one batch.
 class MotionChecker
 {
  public:
-  /// `group`: as for StateChecker::check. Throws Error for a step that is not a positive number.
+  /// `group`: as for StateChecker::check. Throws Error if a step is not a finite number above 0.
   MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_ptr<const RobotModel> robot, std::string group,
                 const MotionCheckerOptions& options = {});
 
-  /// `starts`, `ends`: `count` rows of all variables. `stop` is asked before each batch of states, which takes some
-  /// 0.05 s; where it says so, motions that are not decided yet are not valid. Throws Error as the checker does.
+  /// `starts`, `ends`: row-major, `count` rows with one value per variable. `stop` is called before each batch of
+  /// states; a batch takes about 0.05 s. After `stop` has returned true, motions without a verdict are reported as
+  /// invalid. Throws Error as StateChecker::check does.
   std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
                                    MotionQuery question = MotionQuery::Valid,
                                    const std::function<bool()>& stop = {}) const;
 
   MotionRule rule() const { return options_.rule; }
 
-  /// States that were checked so far, with and without margins.
+  /// Number of states checked so far, with and without margins.
   std::uint64_t statesChecked() const { return states_checked_; }
 
  private:

@@ -15,6 +15,7 @@
 
 namespace gpu_planning_scene::core
 {
+/// An object of the world.
 struct WorldObject
 {
   std::string id;
@@ -24,18 +25,19 @@ struct WorldObject
   std::map<std::string, Eigen::Isometry3d> subframes = {};  ///< named poses in the object's frame: see frame()
 };
 
-/// An object that a link carries. It moves with the link, collides with the world, padded and scaled as its link is,
-/// with links other than its own and its touch links, and with what other links carry.
+/// An object that a link carries. It moves with the link and has the link's padding and scale. It is checked against
+/// the world, against all links except its own and its touch links, and against the objects that other links carry.
 struct AttachedObject
 {
-  WorldObject object;  ///< its pose is in the link's frame; its own padding counts where it is in the world
+  WorldObject object;  ///< its pose is in the link's frame; its own padding counts only in the world
   int link = -1;
-  std::vector<int> touch_links = {};  ///< link indices; its own link need not be among them
-  double padding = 0.0;               ///< metres, at least 0, added to its link's
-  /// The object's shapes with its link's scale, see PlanningScene::scaleCarried; null: as they are in `object`.
+  std::vector<int> touch_links = {};  ///< link indices; the link that carries it need not be listed
+  double padding = 0.0;               ///< metres, at least 0, added to the link's padding
+  /// The object's shapes at the scale of its link, see PlanningScene::scaleCarried; null: the shapes of `object`,
+  /// unscaled.
   std::shared_ptr<const std::vector<PlacedShape>> scaled_shapes = nullptr;
 
-  /// What collides, in the object's frame.
+  /// The shapes that are checked, in the object's frame.
   const std::vector<PlacedShape>& shapes() const { return scaled_shapes ? *scaled_shapes : object.shapes; }
 };
 
@@ -51,76 +53,82 @@ inline bool operator==(const Color& a, const Color& b)
   return a.r == b.r && a.g == b.g && a.b == b.b && a.a == b.a;
 }
 
-/// Where a scene's allowed-collision matrix comes from.
+/// Source of the allowed collision matrix of a scene.
 enum class MatrixSource
 {
   Srdf,
   AdjacentLinks,  ///< there is no SRDF
-  SceneFile       ///< or a message
+  SceneFile       ///< from a scene file or a message
 };
 
-/// What a scene starts with, and what new objects get.
+/// Initial values of a scene, and paddings of new objects.
 struct SceneDefaults
 {
-  std::vector<double> link_padding;  ///< metres, one per link, or none: all 0
-  std::vector<double> link_scale;    ///< one per link, or none: all 1
-  double object_padding = 0.0;       ///< metres
+  std::vector<double> link_padding;  ///< metres, one per link; empty: all 0
+  std::vector<double> link_scale;    ///< one per link; empty: all 1
+  double object_padding = 0.0;       ///< metres, of each new world object
   double attached_padding = 0.0;     ///< metres: see AttachedObject::padding
 };
 
-/// A robot, the objects around it, which pairs may touch, and the current state. A value: checkers take it as an
-/// immutable snapshot (`std::shared_ptr<const PlanningScene>`).
-/// A *body* is a link, an object or an attached object; body indices count the links first, then the objects, then the
-/// attached objects.
+/// A robot, the objects around it, the allowed collision matrix, and the current state. It is a value: checkers and
+/// threads share it as an immutable snapshot (`std::shared_ptr<const PlanningScene>`).
+/// A *body* is a link, a world object or an attached object. Body indices count the links first, then the world
+/// objects, then the attached objects.
 struct PlanningScene
 {
+  /// Throws Error if a link scale of `defaults` is not valid.
   explicit PlanningScene(std::shared_ptr<const RobotModel> robot_model, const SceneDefaults& defaults = {});
 
   std::string name = {};
-  std::shared_ptr<const RobotModel> robot;  ///< scaled: see setLinkScale
+  std::shared_ptr<const RobotModel> robot;  ///< with scaled links: see setLinkScale
   std::vector<WorldObject> objects;
   std::vector<AttachedObject> attached;
-  /// Metres, at least 0, one per link; empty: all 0. A link and an object collide where their distance is at most the
-  /// sum of their paddings; what a link carries has its link's and its own. Pairs of links are not padded.
+  /// Metres, at least 0, one per link; empty: all 0. A link and a world object collide if their distance is at most the
+  /// sum of their paddings. The padding of an attached object is its own plus that of its link. Pairs of links and
+  /// attached objects have no padding.
   std::vector<double> link_padding;
   AllowedCollisionMatrix allowed_collisions;
   MatrixSource matrix_source;  ///< for reports
-  /// One value per variable of the robot, empty until one was set or received.
+  /// One value per variable of the robot; empty until a state is set or received.
   std::vector<double> current_state;
   std::map<std::string, Eigen::Isometry3d> fixed_frames = {};  ///< poses in the planning frame, by name
-  std::map<std::string, Color> colors = {};                    ///< by object or link; they change no answer
+  std::map<std::string, Color> colors = {};                    ///< by object or link; they do not affect any check
   std::uint64_t revision = 0;
 
+  /// Name of the body with this index.
   const std::string& bodyName(int body) const;
 
-  /// Makes a world object one that `link` carries, where it is in `state` (one value per variable). Throws Error and
-  /// changes nothing: unknown object or link, an object with a half-space.
+  /// Attaches a world object to `link`. The object stays where it is in `state` (one value per variable). Throws Error
+  /// and changes nothing if the object or a link is unknown, if the object has a half-space, or if the link's pose in
+  /// `state` is unknown or not finite.
   void attach(const std::string& object, const std::string& link, const std::vector<std::string>& touch_links,
               const double* state);
-  /// Puts an attached object back into the world, where it is in `state`. Throws Error and changes nothing: it is
-  /// unknown.
+  /// Returns an attached object to the world, at its place in `state`. Throws Error and changes nothing if no link
+  /// carries the object, or if the link's pose in `state` is unknown or not finite.
   void detach(const std::string& object, const double* state);
 
-  /// Scales the shapes of links, and with them those of what they carry: see RobotModel::scaled, which replaces
-  /// `robot`. Throws Error and changes nothing.
+  /// Scales the shapes of the links and of the objects that they carry. `factors`: one per link; empty: all 1. Replaces
+  /// `robot` by RobotModel::scaled. Throws Error as that function does, and then changes nothing.
   void setLinkScale(const std::vector<double>& factors);
-  /// Gives a carried object the scale of its link. Needed before one that was not made by attach() is added.
+  /// Scales the shapes of an attached object as its link is scaled. Call it for an AttachedObject that attach() did not
+  /// make, before you add it to `attached`. Throws Error if a scaled shape is not valid.
   void scaleCarried(AttachedObject& carried) const;
 
-  /// The pose in the planning frame of the frame of that name: the planning frame's (or none), a link's, an object's or
-  /// attached object's, a subframe's (OBJECT/SUBFRAME) or a fixed frame's, in this order; a leading slash may be there
-  /// or not. No value: the scene has no such frame. Throws Error where a link's pose is needed and `state` is null or
-  /// not finite.
+  /// Pose of a frame in the planning frame. The name is looked up in this order: the planning frame (also as an empty
+  /// name), links, objects and attached objects, subframes (OBJECT/SUBFRAME), fixed frames. A leading slash is
+  /// optional. No value: the scene has no frame of this name. Throws Error if the pose of a link is needed and `state`
+  /// is null or not finite.
   std::optional<Eigen::Isometry3d> frame(const std::string& frame_name, const double* state) const;
 };
 
-/// A scene file. One whose name ends in .scene has the layout of RViz's MotionPlanning plugin: objects, their colours
-/// and subframes. All others are YAML in MoveIt's PlanningScene field names: the layout of MoveIt's own YAML (poses
-/// with x, y, z, w keys; entry_values with `enabled`) and the compact one (arrays, `type: box`, bare rows). Everything
-/// is checked before anything is kept. Throws Error with file and line. Joints that the robot lacks, and what is not
-/// modelled, give warnings. Object poses are in `planningFrame()`; a header.frame_id may name it, a link, or a frame of
-/// fixed_frame_transforms. `meshes`: who reads the mesh files that it names. `defaults`: padding and scale of what the
-/// file does not name.
+/// Loads a scene file. A file whose name ends in .scene has the text format of RViz's MotionPlanning plugin: objects,
+/// their colours and subframes. Every other file is YAML with the field names of MoveIt's PlanningScene, in MoveIt's
+/// own layout (poses with x, y, z, w keys; entry_values with `enabled`) or in a compact layout (arrays, `type: box`,
+/// bare rows).
+/// Object poses are in `planningFrame()`; header.frame_id can name this frame, a link, or a frame of
+/// fixed_frame_transforms. `meshes`: how to read the mesh files of the scene. `defaults`: padding and scale of the
+/// bodies that the file does not name. `warnings` (may be null) receives a line for each joint that the robot lacks and
+/// for each entry that is not modelled. Throws Error with file and line; nothing of a faulty file is kept.
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings = nullptr,
                             const MeshAccess& meshes = {}, const SceneDefaults& defaults = {});

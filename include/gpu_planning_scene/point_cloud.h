@@ -13,26 +13,28 @@ namespace gpu_planning_scene::core
 {
 struct PointCloudOptions
 {
-  double voxel = 0.05;                ///< metres: the edge of a cube
-  double robot_padding = 0.03;        ///< metres: cubes no further than this from the robot are its own
+  double voxel = 0.05;                ///< metres: edge length of a cube
+  double robot_padding = 0.03;        ///< metres: cubes up to this distance from the robot are left out as its own
   double most_distance = 10.0;        ///< metres: points further from the sensor are left out
-  std::size_t most_voxels = 200'000;  ///< more are refused
+  std::size_t most_voxels = 200'000;  ///< a cloud with more is refused
 };
 
-/// Turns clouds of points into one world object: a cube for each voxel of the planning frame's grid that has a point in
-/// it. A cube holds its points, so what is free of the object is free of every point; what is nearer to a point than
-/// the diagonal of a voxel may be called colliding. One caller at a time.
+/// Turns point clouds into one world object. The space around the planning frame's origin is divided into voxels; the
+/// object has a cube for each voxel that contains a point. So a body that is free of the object is free of every point.
+/// A body nearer to a point than the diagonal of a voxel may be reported as colliding. Not thread-safe.
 class PointCloudFilter
 {
  public:
-  /// Throws Error for an option that is not finite, negative, or without a meaning as 0.
+  /// Throws Error if an option is negative or not finite, or if `voxel` or `most_distance` is 0.
   explicit PointCloudFilter(const PointCloudOptions& options);
   ~PointCloudFilter();
 
-  /// `points`: in the sensor's frame, which is at `sensor` in the planning frame. Those that are not finite, as sensors
-  /// mark what they did not see, are left out. So are cubes at the robot of `scene`, and at what it carries, in
-  /// `state`: by the exact test, no further than the padding for it; the links' own padding does not count. No shapes:
-  /// no cubes are left. Throws Error: a state or pose that is not finite, more cubes than there may be.
+  /// `points`: metres, in the sensor's frame. `sensor`: the pose of that frame in the planning frame. `state`: one
+  /// value per variable. Points that are not finite are left out, because sensors mark missing measurements with them.
+  /// Cubes within `robot_padding` of the robot of `scene` in `state`, or of its attached objects, are left out too. The
+  /// exact checker decides this; the paddings of the links do not count. The object has no shapes if no cube is left.
+  /// Throws Error if `state` or `sensor` is not valid, if the cloud fills more than `most_voxels` voxels, or if a point
+  /// is too far from the origin of the planning frame for the size of the voxels.
   WorldObject objectOf(const std::string& id, const std::vector<Eigen::Vector3f>& points,
                        const Eigen::Isometry3d& sensor, const PlanningScene& scene, const double* state);
 

@@ -13,31 +13,31 @@
 
 namespace gpu_planning_scene::core
 {
-/// Maps a ROS package name to its folder; returns an empty string where it does not know the package.
-/// The libraries know no ROS: the node passes ros::package::getPath, the tools what --package said.
+/// Maps the name of a ROS package to its folder, or to an empty string if the package is unknown. The libraries do not
+/// use ROS: the node passes ros::package::getPath, the tools pass the values of --package.
 using PackageResolver = std::function<std::string(const std::string& package)>;
 
 /// A resolver for NAME -> DIR pairs.
 PackageResolver packageResolver(std::map<std::string, std::string> folders);
 
-/// Turns a mesh URI into a file path: package://NAME/PATH, file:///PATH, an absolute path, or a path relative to
-/// `base_folder` (the folder of the URDF; may be empty, then relative paths are an error). %20-style escapes are
-/// decoded in URIs. Throws Error that names the URI; does not look whether the file is there.
+/// Turns a mesh URI into a file path. `uri`: package://NAME/PATH, file:///PATH, an absolute path, or a path relative to
+/// `base_folder`. `base_folder`: the folder of the URDF; if it is empty, relative paths are refused. Escapes such as
+/// %20 are decoded in URIs. Throws Error that names the URI. The function does not check that the file exists.
 std::string resolveUri(const std::string& uri, const std::string& base_folder, const PackageResolver& packages);
 
-/// Reads a mesh file, scaled per axis; throws Error.
+/// Reads a mesh file and scales it per axis. Throws Error.
 using ReadMesh = std::function<std::shared_ptr<const Mesh>(const std::string& path, const Eigen::Vector3d& scale)>;
 
-/// Loads meshes from STL, DAE, OBJ and PLY files and keeps what it loaded: a file with the same scale is read once.
-/// The unit of a DAE is applied and its up-axis is not, as in RViz. Not thread-safe.
+/// Loads and keeps meshes from STL, DAE, OBJ and PLY files. It reads a file once per scale. As in RViz, it applies the
+/// unit of a DAE file, but not its up-axis. Not thread-safe.
 class MeshCache
 {
  public:
-  /// `read`: who reads the files; empty: this process.
+  /// `read`: reads the files; empty: this process reads them.
   explicit MeshCache(ReadMesh read = {});
 
-  /// The mesh of a file, scaled per axis; negative scales mirror. Throws Error: missing or unreadable file, no
-  /// triangles, non-finite vertices.
+  /// The mesh of a file, scaled per axis; a negative scale mirrors it. Throws Error if the file is missing or cannot be
+  /// read, if it has no triangles or a vertex that is not finite, or if a scale is 0 or not finite.
   std::shared_ptr<const Mesh> load(const std::string& path, const Eigen::Vector3d& scale);
 
  private:

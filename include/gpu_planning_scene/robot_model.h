@@ -17,17 +17,17 @@
 
 namespace gpu_planning_scene::core
 {
-/// One number of a robot state: radians, metres, or a quaternion's component.
-/// Named as in MoveIt: the joint's name where the joint has one variable; JOINT/x, /y, /theta for a planar joint;
-/// JOINT/trans_x, _y, _z and JOINT/rot_x, _y, _z, _w for a floating one.
+/// One number of a robot state: radians, metres, or a component of a quaternion. The names are MoveIt's. A joint with
+/// one variable gives it its own name. A planar joint has JOINT/x, /y, /theta; a floating joint has JOINT/trans_x, _y,
+/// _z and JOINT/rot_x, _y, _z, _w.
 struct Variable
 {
   std::string name;
-  bool bounded = false;  ///< has limits in the URDF
-  double lower = 0.0;    ///< the limits, or the range for random states of an unbounded variable
+  bool bounded = false;  ///< the URDF gives limits
+  double lower = 0.0;    ///< limits, or the range of random states of an unbounded variable
   double upper = 0.0;    ///< (see RobotModelOptions)
-  /// The largest magnitude that a state may have here: for translations, what moves no joint by more than
-  /// kLargestLength; for angles and quaternions any finite number.
+  /// The largest magnitude that a state may have here. For translations, it keeps the displacement of every joint
+  /// within kLargestLength; for angles and quaternions, it is the largest finite number.
   double largest = std::numeric_limits<double>::max();
 };
 
@@ -41,26 +41,26 @@ enum class JointType
   Floating
 };
 
-/// How many variables a joint of that type has (one that is not a mimic).
+/// Number of variables of a joint of this type. (Mimic joints have no variable of their own.)
 int variableCount(JointType type);
 
-/// The directions in which a planar joint's x and y move and its normal, as columns (right-handed). Where the normal is
-/// z they are x, y and z, as in MoveIt, which knows no other normal.
+/// The directions of a planar joint's x and y, and its normal, as the columns of a right-handed rotation. For the
+/// normal z they are x, y and z, as in MoveIt, which supports no other normal.
 Eigen::Matrix3d planarDirections(const Eigen::Vector3d& normal);
 
 struct Joint
 {
   std::string name;
   JointType type = JointType::Fixed;
-  int parent_link = -1;  ///< -1: the joint is the SRDF's virtual joint, its parent the planning frame
+  int parent_link = -1;  ///< -1: the SRDF's virtual joint, whose parent is the planning frame
   int child_link = -1;
-  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  ///< the joint's frame in the parent link's
+  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  ///< the joint's frame in the frame of the parent link
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();           ///< unit length; the normal of a planar joint
-  int first_variable = -1;                                   ///< -1 for fixed joints; a mimic joint has its leader's
-  double multiplier = 1.0;                                   ///< position = multiplier * variable + offset
+  int first_variable = -1;  ///< -1 for fixed joints; a mimic joint has the variable of its leader
+  double multiplier = 1.0;  ///< of mimic joints: position = multiplier * variable + offset
   double offset = 0.0;
   bool mimic = false;
-  bool passive = false;  ///< named by the SRDF's passive_joint
+  bool passive = false;  ///< listed as a passive_joint of the SRDF
 };
 
 struct Link
@@ -70,15 +70,16 @@ struct Link
   std::vector<PlacedShape> shapes;  ///< the collision elements, in the link's frame
 };
 
-/// A planning group of the SRDF, resolved.
+/// A planning group of the SRDF, with its subgroups and chains resolved.
 struct Group
 {
   std::string name;
-  std::vector<int> joints;       ///< in the order of RobotModel::joints, fixed and mimic ones included
-  std::vector<int> variables;    ///< those that its active joints own, ascending
-  std::vector<int> moved_links;  ///< every link that those variables move, ascending (MoveIt: updated links)
+  std::vector<int> joints;       ///< in the order of RobotModel::joints, with fixed and mimic joints
+  std::vector<int> variables;    ///< variables of its active joints, ascending
+  std::vector<int> moved_links;  ///< links that these variables move, ascending (MoveIt: updated links)
 };
 
+/// A pair of links that the SRDF names.
 struct LinkPair
 {
   int first;   ///< lower link index
@@ -86,7 +87,7 @@ struct LinkPair
   std::string reason;
 };
 
-/// What the SRDF says of collisions; interpreted by AllowedCollisionMatrix.
+/// The collision entries of the SRDF. AllowedCollisionMatrix::fromRobot interprets them.
 struct SrdfCollisions
 {
   bool has_srdf = false;
@@ -97,37 +98,37 @@ struct SrdfCollisions
 
 struct RobotModelOptions
 {
-  PackageResolver packages;                              ///< may be empty where no URI needs it
-  MeshAccess meshes;                                     ///< who reads mesh files, and from where
-  std::string urdf_folder;                               ///< what relative mesh paths are relative to; may be empty
-  std::string urdf_name = "robot_description";           ///< for messages: the file or parameter
+  PackageResolver packages;                              ///< may be empty if no URI names a package
+  MeshAccess meshes;                                     ///< how to read mesh files, and from which folders
+  std::string urdf_folder;                               ///< base folder of relative mesh paths; may be empty
+  std::string urdf_name = "robot_description";           ///< for messages: name of the file or parameter
   std::string srdf_name = "robot_description_semantic";  ///< for messages
-  /// Random states of unbounded variables are drawn from these: angles (continuous, planar theta) from [-pi, pi],
-  /// translations of planar and floating joints from [-unbounded_translation, +unbounded_translation], quaternions
-  /// uniformly over rotations.
+  /// Ranges of random states for unbounded variables: angles (continuous joints, planar theta) in [-pi, pi],
+  /// translations of planar and floating joints in [-unbounded_translation, +unbounded_translation] (metres).
+  /// Quaternions are uniform over the rotations.
   double unbounded_translation = 1.0;
 };
 
 class Kinematics;
 
-/// A robot: the kinematic tree of a URDF with its collision shapes, and what its SRDF adds. Immutable, thread-safe.
-/// A *state* is a row of `variables().size()` doubles.
+/// A robot: the kinematic tree of a URDF with its collision shapes, and the content of its SRDF. Immutable and
+/// thread-safe. A *state* is a row of `variables().size()` doubles.
 class RobotModel : public std::enable_shared_from_this<RobotModel>
 {
  public:
   /// `urdf` and `srdf` are XML texts; an empty `srdf` means that there is none. `warnings` (may be null) receives a
-  /// line for each thing that is odd but harmless (an SRDF entry that names an unknown link, say). Throws Error with
-  /// name and line for malformed XML, missing meshes, unknown links or joints in groups.
+  /// line for each harmless fault, for example an SRDF entry with an unknown link. Throws Error with name and line for
+  /// malformed XML, missing meshes, and unknown links or joints in groups.
   static std::shared_ptr<const RobotModel> fromXml(const std::string& urdf, const std::string& srdf,
                                                    const RobotModelOptions& options,
                                                    std::vector<std::string>* warnings = nullptr);
-  /// The same from files; `srdf_path` may be empty. Sets urdf_folder, urdf_name and srdf_name.
+  /// Reads the two files and calls fromXml; `srdf_path` may be empty. Sets urdf_folder, urdf_name and srdf_name.
   static std::shared_ptr<const RobotModel> fromFiles(const std::string& urdf_path, const std::string& srdf_path,
                                                      RobotModelOptions options,
                                                      std::vector<std::string>* warnings = nullptr);
 
   const std::string& name() const { return name_; }
-  /// The frame that link poses are given in: the virtual joint's parent frame, or the root link's name.
+  /// The frame of the link poses: the parent frame of the virtual joint, or, without one, the root link's name.
   const std::string& planningFrame() const { return planning_frame_; }
   const std::vector<Link>& links() const { return links_; }     ///< parents before children; [0] is the root link
   const std::vector<Joint>& joints() const { return joints_; }  ///< parents before children
@@ -138,29 +139,33 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   int linkIndex(const std::string& name) const;       ///< -1 if there is none
   int jointIndex(const std::string& name) const;      ///< -1 if there is none
   int variableIndex(const std::string& name) const;   ///< -1 if there is none
-  const Group& group(const std::string& name) const;  ///< throws Error that lists the groups there are
+  const Group& group(const std::string& name) const;  ///< throws Error that lists the groups if it is unknown
 
-  /// Links that a joint joins directly (no shapes in between: links without collision shapes are stepped over, so
-  /// that two bodies joined by an empty link count as adjacent). Pairs of links with shapes, sorted.
+  /// Pairs of links with shapes that a joint joins, sorted. Links without shapes are skipped: two links joined by an
+  /// empty link are adjacent.
   std::vector<std::pair<int, int>> adjacentLinks() const;
 
-  /// Forward kinematics: the pose of every link in the planning frame. `state` has variables().size() values, `poses`
-  /// room for links().size(). A quaternion of a floating joint is normalised; one of zero length means no rotation.
+  /// Forward kinematics: writes the pose of every link in the planning frame. `state`: variables().size() values.
+  /// `poses`: room for links().size(). The quaternion of a floating joint is normalised; a quaternion of zero length
+  /// means no rotation.
   void linkPoses(const double* state, Eigen::Isometry3d* poses) const;
 
-  /// A random state: variables uniform between lower and upper, floating rotations uniform over SO(3).
+  /// Writes a random state: variables are uniform between lower and upper, rotations of floating joints uniform over
+  /// SO(3).
   void randomState(std::mt19937_64& generator, double* state) const;
 
-  /// All variables 0, or the middle of their limits where 0 is outside; floating joints the unit quaternion.
+  /// A state with all variables 0, or in the middle of their limits if 0 is outside. Floating joints have the identity
+  /// rotation.
   std::vector<double> defaultState() const;
 
-  std::size_t triangleCount() const;  ///< of all meshes of all links, boxes and curved shapes not counted
+  std::size_t triangleCount() const;  ///< in the meshes of all links, without boxes and curved shapes
 
-  /// The robot as it was loaded, but with each link's shapes scaled about their own origins, and meshes, as in MoveIt,
-  /// about the mean of their vertices. `factors`: one per link; empty: all 1. What a factor of 1 leaves as it was is
-  /// shared. Throws Error for a wrong number of factors, or one that is not finite and above 0.
+  /// The robot as it was loaded, with the shapes of each link scaled about their own origins. Meshes are scaled about
+  /// the mean of their vertices, as in MoveIt. `factors`: one per link; empty: all 1. Links with a factor of 1 share
+  /// their shapes with the loaded robot. Throws Error if the number of factors is wrong, if a factor is not finite or
+  /// not above 0, or if a scaled shape is not valid.
   std::shared_ptr<const RobotModel> scaled(const std::vector<double>& factors) const;
-  /// The factors that it was scaled with; empty: all 1.
+  /// The scale factors of this robot, one per link; empty: all 1.
   const std::vector<double>& linkScale() const { return link_scale_; }
 
  private:
@@ -176,7 +181,7 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   std::unordered_map<std::string, int> joint_indices_;
   std::unordered_map<std::string, int> variable_indices_;
   std::shared_ptr<const Kinematics> kinematics_;
-  std::shared_ptr<const RobotModel> as_loaded_;  // null: this one
+  std::shared_ptr<const RobotModel> as_loaded_;  // null: this robot is as it was loaded
   std::vector<double> link_scale_;
 };
 }  // namespace gpu_planning_scene::core

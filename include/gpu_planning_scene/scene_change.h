@@ -14,18 +14,18 @@
 
 namespace gpu_planning_scene::core
 {
-// What MoveIt's messages ask for, without ROS. Names and meanings are those of moveit_msgs, but that a change is made
-// wholly or not at all (MoveIt makes the parts that it can).
+// Changes of a scene, as MoveIt's messages describe them, but without ROS. The names and meanings are those of
+// moveit_msgs, with one difference: a change is made as a whole or not at all. (MoveIt makes the parts that it can.)
 
 enum class Operation
 {
-  Add,     ///< or replace
-  Remove,  ///< without an id: all
-  Append,  ///< shapes, subframes and touch links; where there is no such object as Add
-  Move     ///< of objects of the world
+  Add,     ///< adds an object, or replaces the object of that id
+  Remove,  ///< removes an object; without an id, removes all
+  Append,  ///< adds shapes, subframes and touch links; works as Add if there is no such object
+  Move     ///< gives new poses to an object of the world
 };
 
-/// The name of a frame, and when it is asked for: nanoseconds, 0 for the latest.
+/// The name of a frame and a time in nanoseconds; 0: the latest.
 struct FrameAt
 {
   std::string name;
@@ -36,25 +36,28 @@ inline bool operator<(const FrameAt& a, const FrameAt& b)
   return std::tie(a.name, a.stamp) < std::tie(b.name, b.stamp);
 }
 
+/// A change of one object.
 struct ObjectChange
 {
   Operation operation = Operation::Add;
   std::string id;
   FrameAt frame;  ///< see PlanningScene::frame
-  /// Of the object, in `frame`; no value: it was not set. An object that is added is then where the frame is, or, if it
-  /// has one shape alone, where that is, and the shape at its origin; one that is appended to stays where it is.
+  /// Pose of the object in `frame`; no value: not set. Without a pose, a new object is placed at the origin of the
+  /// frame. A new object with a single shape then takes the pose of this shape, and the shape moves to the object's
+  /// origin. An object that gets more shapes (Append) stays where it is.
   std::optional<Eigen::Isometry3d> pose;
   std::vector<PlacedShape> shapes;             ///< in the object's frame: primitives, then meshes, then half-spaces
-  std::vector<Eigen::Isometry3d> shape_poses;  ///< Move alone: none, or one per shape of the object, in that order
+  std::vector<Eigen::Isometry3d> shape_poses;  ///< only for Move: none, or one per shape of the object, in that order
   std::map<std::string, Eigen::Isometry3d> subframes;  ///< in the object's frame
-  /// Remove alone. True: the allowed-collision matrix keeps the object's entries, for an object that comes and goes,
-  /// such as a point cloud. False, as in MoveIt: the entries are removed with the object.
+  /// Only for Remove. True: the allowed collision matrix keeps the object's entries, for an object that comes and goes,
+  /// for example a point cloud. False, as in MoveIt: the entries are removed with the object.
   bool keeps_allowed_collisions = false;
 };
 
-/// What a link carries. Add without shapes takes the world's object of that id, where it is; with shapes it replaces
-/// objects of that id, wherever they are. Remove puts it back into the world, where it is; without an id all that the
-/// link carries, and without a link all that is carried.
+/// A change of the objects that links carry. Add without shapes attaches the world object of that id, which stays where
+/// it is. Add with shapes replaces the object of that id, in the world or on a link. Remove returns the object to the
+/// world where it is; without an id, it returns all objects of the link; without an id and a link, all attached
+/// objects.
 struct AttachedChange
 {
   ObjectChange object;
@@ -62,69 +65,72 @@ struct AttachedChange
   std::vector<std::string> touch_links;
 };
 
+/// A change of the robot state and of the attached objects.
 struct StateChange
 {
-  std::map<std::string, double> variables;  ///< by name
+  std::map<std::string, double> variables;  ///< by name of the variable
   std::vector<AttachedChange> attached;     ///< in order, after the variables are set
-  /// True: objects that links carry stay. False: `attached` replaces them, in a full scene always, in a difference
-  /// where `variables` are given. Objects that are replaced by none are gone, with a warning and without their entries
-  /// in the allowed-collision matrix.
+  /// True: links keep the objects that they carry. False: `attached`, which must use Add only, replaces them; in a diff
+  /// only if `variables` are given. A replaced object that `attached` does not name is removed with a warning, and so
+  /// are its entries in the allowed collision matrix.
   bool is_diff = true;
 };
 
-/// Parts are applied in the order in which they stand here. In a difference, what is empty stays as it is; in a full
-/// scene it goes back to what a new scene has, but for the state's variables.
+/// A full scene or a diff. The parts are applied in the order of the members, except that a full scene empties the
+/// world before it applies the state. In a diff, an empty part changes nothing. In a full scene, an empty part takes
+/// the value of a new scene; only the state keeps its variables.
 struct SceneChange
 {
   bool is_diff = false;
   std::string name;
-  std::string robot_model_name;                           ///< empty, or the robot's; another's is an error
-  std::map<std::string, Eigen::Isometry3d> fixed_frames;  ///< in the planning frame; replace all
+  std::string robot_model_name;                           ///< empty, or the robot's name; any other name is an error
+  std::map<std::string, Eigen::Isometry3d> fixed_frames;  ///< in the planning frame; they replace all fixed frames
   StateChange state;
-  std::optional<AllowedCollisionMatrix> matrix;  ///< replaces all; full scene without: the robot's own
-  std::map<std::string, double> link_padding;    ///< by link
+  std::optional<AllowedCollisionMatrix> matrix;  ///< replaces the matrix; a full scene without it gets the robot's own
+  std::map<std::string, double> link_padding;    ///< metres, by link
   std::map<std::string, double> link_scale;
   std::map<std::string, Color> colors;
-  std::vector<ObjectChange> objects;  ///< in order
+  std::vector<ObjectChange> objects;  ///< applied in this order
 };
 
-/// What a change may lead to; 0: no bound.
+/// Limits of a scene after a change; 0: no limit.
 struct SceneLimits
 {
-  std::size_t objects = 100000;      ///< of the world, and carried
-  std::size_t shapes = 400000;       ///< of those
-  std::size_t triangles = 20000000;  ///< of distinct meshes, the robot's too
+  std::size_t objects = 100000;      ///< in the world and attached
+  std::size_t shapes = 400000;       ///< of these objects
+  std::size_t triangles = 20000000;  ///< of distinct meshes, those of the robot included
   std::size_t triangles_of_mesh = 5000000;
-  std::size_t frames = 100000;     ///< fixed ones and subframes
-  std::size_t colors = 200000;     ///< of bodies, also of those that are not there yet
+  std::size_t frames = 100000;     ///< fixed frames and subframes
+  std::size_t colors = 200000;     ///< of bodies, also of bodies that do not exist yet
   std::size_t name_length = 1024;  ///< bytes of each name
   std::size_t matrix_entries = 4000000;
 };
 
-/// Poses in the planning frame of frames that the scene does not know, looked up beforehand by the caller.
+/// Poses, in the planning frame, of frames that the scene does not know. The caller looks them up before the change.
 using ExternalFrames = std::map<FrameAt, Eigen::Isometry3d>;
 
-/// The frames that `change` names and that neither the scene nor earlier parts of the change know.
+/// The frames of `change` that neither the scene nor an earlier part of the change knows.
 std::vector<FrameAt> externalFrames(const PlanningScene& scene, const SceneChange& change);
 
+/// The result of a change.
 struct Change
 {
   PlanningScene scene;        ///< its current_state is `state`
-  std::vector<double> state;  ///< one value per variable; empty where not all are known yet
+  std::vector<double> state;  ///< one value per variable; empty while some values are unknown
   std::vector<std::string> warnings;
 };
 
-/// The scene that the change leads to; the revision stays. `state`: the robot's, empty where not all of it is known
-/// yet. `scene` is valid (validateScene), and so is what comes out. Throws Error that names the object or link and says
-/// what to do.
+/// Makes a change and returns the new scene, with the old revision. `state`: the robot's state, empty while some values
+/// are unknown. If `scene` is valid (validateScene), the result is valid too. Throws Error that names the object or
+/// link and the remedy. Thread-safe.
 Change applyChange(const PlanningScene& scene, const std::vector<double>& state, const SceneChange& change,
                    const SceneDefaults& defaults, const SceneLimits& limits, const ExternalFrames& frames);
 
-/// The full scene that leads to this one from any other of the robot.
+/// The full scene that turns any other scene of the robot into `scene`.
 SceneChange fullSceneOf(const PlanningScene& scene);
 
-/// What leads from one scene of a robot to another: applyChange(from, diffOf(from, to)) gives `to`, but for the order
-/// of objects and for paddings of objects, which a change cannot name. It is a full scene where no difference leads
-/// there.
+/// The change from one scene of a robot to another: applyChange(from, diffOf(from, to)) gives `to`, except for the
+/// order of the objects, and for their paddings, which a change cannot name. The result is a full scene if no diff
+/// leads to `to`.
 SceneChange diffOf(const PlanningScene& from, const PlanningScene& to);
 }  // namespace gpu_planning_scene::core

@@ -11,25 +11,25 @@
 
 namespace gpu_planning_scene::core
 {
-/// Metres: no coordinate, size or padding may be larger. Far beyond it, squares overflow, and doubles have no
-/// micrometres.
+/// Largest allowed coordinate, size or padding, in metres. Far beyond it, squares overflow and doubles no longer
+/// resolve micrometres.
 constexpr double kLargestLength = 1e6;
 
-/// A triangle mesh in metres, in its own frame. No demand is made on topology: open, cracked, duplicate and zero-area
-/// triangles are surfaces like any other. Vertices are finite and indices in range (the loaders and
-/// `validateMesh` see to it). Immutable once shared.
+/// A triangle mesh in metres, in its own frame. Any topology is allowed: open, cracked, duplicate and zero-area
+/// triangles are surfaces like all others. Vertices are finite and indices in range; the loaders and `validateMesh`
+/// ensure this. Immutable once shared.
 struct Mesh
 {
-  std::string name;  ///< where it came from, for messages: a file, or the object that carried it
+  std::string name;  ///< origin of the mesh, for messages: a file, or the object that has it
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Throws Error if the mesh has no triangle, a coordinate that is not finite or above kLargestLength, or an index out
+/// Throws Error if the mesh has no triangle, a coordinate that is not finite or beyond kLargestLength, or an index out
 /// of range.
 void validateMesh(const Mesh& mesh);
 
-/// Solids in their own frame, centred at its origin, in metres (as shape_msgs/SolidPrimitive has them).
+/// Solids in their own frame, centred at its origin, in metres (as in shape_msgs/SolidPrimitive).
 struct Box
 {
   Eigen::Vector3d size;  ///< full edge lengths along x, y, z
@@ -49,36 +49,37 @@ struct Cone
   double length;  ///< along z; the apex is at z = +length / 2
 };
 
-/// All points x with normal . x <= offset (as fcl::Halfspace has them); `normal` has unit length. Only world objects
-/// can have one.
+/// All points x with normal . x <= offset (as in fcl::Halfspace); `normal` has unit length. Only world objects can have
+/// half-spaces.
 struct HalfSpace
 {
   Eigen::Vector3d normal;
   double offset;  ///< metres
 };
 
-/// Meshes are shared: two shapes with the same pointer are instances of one tree.
+/// The shape of a body. Meshes are shared: shapes with the same pointer are instances of one tree.
 using Shape = std::variant<Box, Sphere, Cylinder, Cone, std::shared_ptr<const Mesh>, HalfSpace>;
 
-/// Throws Error if a dimension is not finite and positive, or a normal not of unit length; `where` names the shape in
-/// the message.
+/// Throws Error if a dimension is not finite, not positive or above kLargestLength, if a normal does not have unit
+/// length, or if a mesh is not valid. `where` names the shape in the message.
 void validateShape(const Shape& shape, const std::string& where);
 
-/// A shape with its pose in the frame of the body (link or object) that it belongs to.
+/// A shape and its pose in the frame of its body (link or object).
 struct PlacedShape
 {
   Shape shape;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
 };
 
-/// A surface that lies inside the shape's solid, and how far the true surface may be outside of it.
+/// The surface of a shape as triangles inside its solid, and the largest distance from the true surface to the
+/// triangles.
 struct Tessellation
 {
-  std::shared_ptr<const Mesh> mesh;  ///< inscribed: its vertices lie on the true surface
-  double sagitta = 0.0;              ///< metres; 0 for boxes and meshes, which are represented exactly
+  std::shared_ptr<const Mesh> mesh;  ///< inscribed: all vertices are on the true surface
+  double sagitta = 0.0;              ///< metres; 0 for boxes and meshes, which are exact
 };
 
-/// The surface of a shape as triangles. Curved shapes are cut so finely that the sagitta is at most 100 micrometres,
-/// or as finely as 2^15 triangles go. Throws std::logic_error for a half-space, which has no finite surface.
+/// Makes triangles of the surface of a shape. The sagitta of curved shapes is at most 100 micrometres, unless that
+/// takes more than 2^15 triangles. Throws std::logic_error for a half-space, which has no finite surface.
 Tessellation tessellate(const Shape& shape);
 }  // namespace gpu_planning_scene::core

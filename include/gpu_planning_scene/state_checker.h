@@ -12,103 +12,104 @@
 
 namespace gpu_planning_scene::core
 {
-/// Two body indices (see PlanningScene), ascending.
+/// Two body indices (see PlanningScene), in ascending order.
 using BodyPair = std::array<std::int32_t, 2>;
 constexpr BodyPair kNoPair = {-1, -1};
 
-/// What is left out of a scene because it can change no answer. Each can be switched off, which costs time alone.
+/// Reductions leave out parts of a scene that cannot change any answer. Switching one off costs only time.
 struct Reductions
 {
-  bool reach = true;              ///< pairs that bounds on reach, from the joints' limits, prove can never meet
-  bool unmoved_pairs = true;      ///< pairs that no joint moves against each other are decided once per scene
-  bool shared_trees = true;       ///< equal meshes and equal primitives share one tree
-  bool direct_primitives = true;  ///< the GPU tests primitives as the solids they are, not as triangles
+  bool reach = true;              ///< pairs that can never meet, as proven by bounds on reach from the joint limits
+  bool unmoved_pairs = true;      ///< pairs that no joint moves relative to each other are decided once per scene
+  bool shared_trees = true;       ///< equal meshes and equal primitives share a tree
+  bool direct_primitives = true;  ///< the GPU tests primitives as solids, not as triangles
 };
 
 struct CheckerOptions
 {
-  /// Metres, at least 0. Above 0, traversal ends at two nodes that overlap and whose diagonals add up to no more than
-  /// this, and calls it a collision: never a false "free"; a false "collision" only of bodies that are no further apart
-  /// than their required distance and this. 0: exact.
+  /// Metres, at least 0; 0: exact. Above 0, the traversal stops at two overlapping nodes if the sum of their diagonals
+  /// is at most this value, and reports a collision. A collision is never reported as free. A pair may be reported as
+  /// colliding if its distance is at most its required distance plus this value.
   double tolerance = 0.0;
   Reductions reductions;
 };
 
-/// How far a joint moves.
+/// Displacement of a joint between two states.
 struct JointTravel
 {
-  double length = 0.0;  ///< metres: of prismatic joints, and the straight way of planar and floating ones
-  double angle = 0.0;   ///< radians, likewise
+  double length = 0.0;  ///< metres: translation (prismatic, planar and floating joints)
+  double angle = 0.0;   ///< radians: rotation (revolute, continuous, planar and floating joints)
 };
 
-/// What is to be free around the states of a batch: all states within the joints' limits in which no joint is further
-/// from where it is in the state than its way.
+/// Neighbourhoods of the states of a batch. The neighbourhood of a state has all states within the joint limits in
+/// which every joint stays within its travel of its value in the state.
 struct JointNeighbourhood
 {
-  std::vector<JointTravel> travel;  ///< rows of one per joint of the robot, at least 0; a mimic joint's is its own
-  std::vector<std::uint32_t> rows;  ///< one per state: which of those is its
+  std::vector<JointTravel> travel;  ///< rows, at least 0: one entry per joint of the robot, mimic joints included
+  std::vector<std::uint32_t> rows;  ///< one per state: the row of `travel` for the state
 };
 
 struct BatchResult
 {
   std::vector<std::uint8_t> valid;   ///< one per state: 1 free, 0 in collision
-  std::vector<BodyPair> colliding;   ///< body indices of a colliding pair, {-1, -1} where valid
-  std::uint64_t revision = 0;        ///< of the scene that was checked
-  double seconds = 0.0;              ///< wall time of the check, without compiling and building
-  std::size_t undecided_states = 0;  ///< how many the CPU had to settle
-  double undecided_seconds = 0.0;    ///< of `seconds`, what it took to settle them
+  std::vector<BodyPair> colliding;   ///< one per state: a colliding pair; kNoPair if the state is valid
+  std::uint64_t revision = 0;        ///< revision of the checked scene
+  double seconds = 0.0;              ///< wall time of the check, usually without compiling shaders and building trees
+  std::size_t undecided_states = 0;  ///< number of states that the CPU decided
+  double undecided_seconds = 0.0;    ///< part of `seconds` for deciding them
 };
 
-/// What of the scene is checked, and what is left out and why.
+/// The pairs of a scene that are checked, and the pairs that are left out, by reason.
 struct SceneReport
 {
-  std::size_t self_pairs = 0;          ///< checked pairs of links and what they carry
-  std::size_t world_pairs = 0;         ///< checked pairs of a link, or what one carries, and an object
-  std::size_t allowed_self_pairs = 0;  ///< left out: the allowed-collision matrix excludes them
+  std::size_t self_pairs = 0;          ///< checked: two links, a link and an attached object, or two attached objects
+  std::size_t world_pairs = 0;         ///< checked: a world object and a link or attached object
+  std::size_t allowed_self_pairs = 0;  ///< left out: the allowed collision matrix allows them
   std::size_t allowed_world_pairs = 0;
-  std::size_t touch_pairs = 0;              ///< left out: what a link carries, with it, its touch links, its other load
-  std::size_t unmoved_pairs = 0;            ///< left out: the group moves neither body
-  std::size_t links_without_shapes = 0;     ///< left out: nothing to collide with
-  std::size_t unreachable_self_pairs = 0;   ///< left out: within the joints' limits the two never come near
-  std::size_t unreachable_world_pairs = 0;  ///< likewise
-  std::size_t unreachable_objects = 0;      ///< left out: no link comes near them
-  std::size_t settled_pairs = 0;            ///< left out: decided once, as no joint moves one against the other
-  /// One of those that collides, so that every state does: body indices.
+  std::size_t touch_pairs = 0;    ///< left out: an attached object with its link, its touch links, or its link's load
+  std::size_t unmoved_pairs = 0;  ///< left out: the group does not move either body
+  std::size_t links_without_shapes = 0;     ///< left out: they cannot collide
+  std::size_t unreachable_self_pairs = 0;   ///< left out: within the joint limits the bodies never meet
+  std::size_t unreachable_world_pairs = 0;  ///< left out: within the joint limits the bodies never meet
+  std::size_t unreachable_objects = 0;      ///< left out: no link or attached object reaches them
+  std::size_t settled_pairs = 0;  ///< left out: decided once, because no joint moves one body relative to the other
+  /// A settled pair that collides, so that every state collides: body indices.
   std::optional<BodyPair> always_colliding;
-  std::size_t triangles = 0;     ///< in the trees
-  std::size_t trees = 0;         ///< of distinct shapes
-  std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal one
-  /// Batches of fewer states go to the CPU (the largest number: all); no value: there is no choice.
+  std::size_t triangles = 0;     ///< in all trees
+  std::size_t trees = 0;         ///< one per distinct shape
+  std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal shape
+  /// The CPU checks batches of fewer states (the largest number: all batches). No value: the checker has no choice.
   std::optional<std::size_t> cpu_below;
 };
 
-/// Answers for many robot states at once which are free of collision. Implementations: BatchChecker (GPU) and
+/// Tells for many robot states at once which of them are free of collision. Implementations: BatchChecker (GPU) and
 /// CpuChecker. Thread-safe: calls are served one after the other.
 class StateChecker
 {
  public:
   virtual ~StateChecker() = default;
 
-  /// Replaces the scene. Throws Error and keeps the old one if it cannot be used.
+  /// Replaces the scene. Throws Error and keeps the old scene if the new one is not valid.
   virtual void setScene(std::shared_ptr<const PlanningScene> scene) = 0;
 
-  /// `states`: row-major, `count` rows of robot->variables().size() finite values. `group`: empty for all checked
-  /// pairs, or a planning group: then only pairs with a link that the group moves. Throws Error for an unknown group or
-  /// a value that is not finite.
-  /// With `around`, valid[i] is 1 only where all that is around state i is free too, by proof: each pair is further
-  /// apart than its required distance and the most that its bodies can move against each other on those ways. Where it
-  /// is 0 the state itself may be free, and the pair reported may be merely near. The ways must be of joints that the
-  /// group moves. A state outside the joints' limits is 0. Throws Error for rows or ways that do not fit the states.
+  /// `states`: row-major, `count` rows of robot->variables().size() values. `group`: a planning group, for the pairs
+  /// with a link that the group moves; empty: all pairs. Throws Error for an unknown group, or a value that is not
+  /// finite or beyond Variable::largest.
+  /// With `around`, valid[i] is 1 only if the whole neighbourhood of state i is proven free: the distance of each pair
+  /// exceeds its required distance by more than its bodies can move relative to each other. If valid[i] is 0, the state
+  /// itself may be free, and the reported pair may only be near. A state outside the joint limits gets 0. Only joints
+  /// that the group moves may have travel (not checked). Throws Error if the rows or the travel do not fit the states.
   virtual BatchResult check(const double* states, std::size_t count, const std::string& group = "",
                             const JointNeighbourhood* around = nullptr) = 0;
 
+  /// Pairs that are checked for a group and pairs that are left out. Throws Error for an unknown group.
   virtual SceneReport report(const std::string& group = "") = 0;
 
-  /// What it runs on: GL_RENDERER, or "CPU".
+  /// The name of the device: GL_RENDERER, or "CPU".
   virtual std::string deviceName() const = 0;
 
-  /// One line if the device's float32 arithmetic is not as the error bounds assume, so that the CPU decides every pair
-  /// that comes near; else empty. Answers are right all the same.
+  /// One line if the device's float32 arithmetic breaks an assumption of the error bounds; else empty. On such a
+  /// device, the CPU decides every pair that comes near. The answers stay right.
   virtual std::string deviceWarning() const { return {}; }
 };
 }  // namespace gpu_planning_scene::core

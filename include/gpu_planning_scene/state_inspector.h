@@ -14,46 +14,54 @@
 
 namespace gpu_planning_scene::core
 {
+/// A contact point of two colliding bodies.
 struct Contact
 {
   BodyPair bodies;         ///< body indices, ascending
-  Eigen::Vector3d point;   ///< in the planning frame
-  Eigen::Vector3d normal;  ///< unit, from the first body to the second
-  double depth = 0.0;      ///< metres; of padded pairs it counts the required distance as well
+  Eigen::Vector3d point;   ///< metres, in the planning frame
+  Eigen::Vector3d normal;  ///< unit length, in the planning frame, from the first body to the second
+  double depth = 0.0;      ///< penetration in metres; for padded pairs it includes the required distance
 };
 
-/// How far a state is from a collision.
+/// Clearance of a state, in metres beyond the required distance.
 struct Clearance
 {
-  /// Metres beyond the required distance, to the objects of the world and of the robot and what it carries to itself:
-  /// less than the true value by at most 1e-6. 0 in collision; infinity where no pair is checked.
+  /// `world`: between the robot (with its attached objects) and the world objects. `self`: within the robot (with its
+  /// attached objects). A lower bound, at most 1e-6 m below the true value. 0 in collision; infinity if no pair is
+  /// checked.
   double world = std::numeric_limits<double>::infinity();
   double self = std::numeric_limits<double>::infinity();
   BodyPair nearest_world = kNoPair;  ///< body indices, ascending
   BodyPair nearest_self = kNoPair;
 };
 
-/// Looks closely at single states of one scene, on the calling thread: for the few states that somebody asks about.
-/// Thread-safe.
+/// Computes contacts and clearances of single states of one scene. It works on the calling thread and is meant for few
+/// states. Thread-safe.
 class StateInspector
 {
  public:
-  /// Trees, those of FCL too, are kept from scene to scene through `previous`, which may be destroyed afterwards.
-  /// Throws Error for a scene that cannot be used.
+  /// `previous`: an inspector of an earlier scene, whose trees (FCL's too) are reused; it may be destroyed afterwards.
+  /// Throws Error if the scene is not valid.
   explicit StateInspector(std::shared_ptr<const PlanningScene> scene, const StateInspector* previous = nullptr);
   ~StateInspector();
 
+  /// The scene of this inspector.
   const std::shared_ptr<const PlanningScene>& scene() const;
 
-  /// Contacts of the pairs that collide by the exact checker: at most `most`, and at most `most_per_pair` of a pair (0:
-  /// no bound). The deepest of each pair come first, then the rest by depth. Points, normals and depths are FCL's.
-  /// Where FCL sees no surfaces cross there is one contact: of bodies that touch or are within the required distance at
-  /// FCL's nearest points, of one body inside another at the inner one, as deep as it has to be moved, away from the
-  /// other's centre, to come free. Throws Error for an unknown group or a value that is not finite.
+  /// Contacts of the colliding pairs, which the exact checker determines: at most `most`, and at most `most_per_pair`
+  /// for each pair (0: no limit per pair). The deepest contact of each pair comes first, then the others by depth.
+  /// `state`: one value per variable. Throws Error for an unknown group, or a value that is not finite or beyond
+  /// Variable::largest.
+  /// Points, normals and depths come from FCL, except for half-spaces: their single contact is the deepest point of the
+  /// other shape. A pair also has a single contact if FCL finds no crossing surfaces. If the bodies touch, or are
+  /// within the required distance, this contact is at FCL's nearest points. If one body is inside the other, it is at
+  /// the inner body. Its depth is then the distance by which the inner body must move, away from the centre of the
+  /// other body, to come free.
   std::vector<Contact> contacts(const double* state, const std::string& group, std::size_t most,
                                 std::size_t most_per_pair) const;
 
-  /// By bisection with the exact checker's test of pairs, not by FCL's distances. Throws Error as above.
+  /// Clearance by bisection with the exact checker's test of pairs, without FCL's distances. Throws Error as contacts()
+  /// does.
   Clearance clearance(const double* state, const std::string& group) const;
 
  private:

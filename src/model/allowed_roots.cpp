@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 const std::string kPackage = "package://";
 
-/// The path with all links followed, as far as it exists.
+/// The path with all symbolic links followed, as far as it exists.
 fs::path followed(const fs::path& path, const std::string& uri)
 {
   std::error_code error;
@@ -21,14 +21,14 @@ fs::path followed(const fs::path& path, const std::string& uri)
   return result;
 }
 
-/// Part by part, so that /meshes_2 is not in /meshes.
+/// True if a path is below a folder. It compares whole names, so that /meshes_2 is not in /meshes.
 bool liesIn(const fs::path& path, const fs::path& folder)
 {
   auto part = path.begin();
   for (const fs::path& expected : folder)
   {
     if (expected.empty())
-      continue;  // what follows a trailing slash
+      continue;  // a trailing slash makes an empty last name
     if (part == path.end() || *part != expected)
       return false;
     ++part;
@@ -44,7 +44,7 @@ std::string listOf(const std::vector<std::string>& roots)
   return text.empty() ? "there are none" : text;
 }
 
-/// The folder of the package that a URI names, without what resolveUri has checked already.
+/// The folder of the package that a URI names. resolveUri has checked the URI already.
 std::string packageFolder(const std::string& uri, const PackageResolver& packages)
 {
   const std::string probe = resolveUri(uri.substr(0, uri.find('/', kPackage.size())) + "/x", "", packages);

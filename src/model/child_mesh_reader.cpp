@@ -27,7 +27,7 @@ namespace
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMostErrorBytes = 4096;
 
-/// Shortest text that gives the same number back.
+/// A text from which the same number is read back.
 std::string exact(double value)
 {
   char text[32];
@@ -70,8 +70,8 @@ class Pipe
   std::array<int, 2> ends_{{-1, -1}};
 };
 
-/// A process that has `out` and `err` as its standard output and error and no other file of ours. Killed, if it still
-/// runs, and reaped at the end.
+/// A child process with `out` and `err` as its standard output and error. It inherits no other file. The destructor
+/// kills the process if it still runs, and reaps it.
 class Child
 {
  public:
@@ -117,12 +117,12 @@ class Child
       ::kill(id_, SIGKILL);
   }
 
-  /// Whether it has ended by then; waits no longer.
+  /// Waits for the end of the process, at most until `end`. Returns true if it has ended.
   bool endsBy(Clock::time_point end) const
   {
     for (;; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
     {
-      siginfo_t ended{};  // its status is left for wait()
+      siginfo_t ended{};  // wait() still needs its status
       if (waitid(P_PID, static_cast<id_t>(id_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == id_)
         return true;
       if (Clock::now() >= end)
@@ -130,7 +130,7 @@ class Child
     }
   }
 
-  /// The status of waitpid.
+  /// Waits for the process and returns the status of waitpid.
   int wait()
   {
     int status = 0;
@@ -153,7 +153,7 @@ struct Answer
   bool too_long = false;
 };
 
-/// What the child writes, until it closes both ends, is late, or writes more than it may.
+/// Reads the output of the child until it closes both pipes, the time is over, or it writes more than allowed.
 Answer readAnswer(const Pipe& out, const Pipe& err, Clock::time_point end, std::size_t most)
 {
   Answer answer;
@@ -208,7 +208,7 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
   err.closeWriteEnd();
   Answer answer = readAnswer(out, err, end, mostMeshBytes(limits.triangles));
   if (!answer.late && !answer.too_long)
-    answer.late = !child.endsBy(end);  // it may live on without its pipes
+    answer.late = !child.endsBy(end);  // the child may close its pipes and run on
   if (answer.late || answer.too_long)
     child.kill();
   const int status = child.wait();

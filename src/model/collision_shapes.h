@@ -17,9 +17,12 @@ class Pose;
 
 namespace gpu_planning_scene::core
 {
+/// The pose as an isometry, with its quaternion normalised. Throws Error that begins with `where` if the translation is
+/// not finite or beyond kLargestLength.
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose, const std::string& where);
 
-/// The collision elements of a link, in its frame. `where` is the link's place in the URDF.
+/// The shapes of a link's collision elements, with poses in the link's frame. `where`: place of the link in the URDF,
+/// for messages. Throws Error.
 std::vector<PlacedShape> collisionShapes(const urdf::Link& link, const std::string& where,
                                          const RobotModelOptions& options, MeshCache& meshes);
 }  // namespace gpu_planning_scene::core

@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A hash of a point, and of all that `hash` was made of before. Equal points have equal hashes, -0 and 0 included.
+/// Combines `hash` with the hash of a point. Equal points have equal hashes, also if one has 0 and the other -0.
 inline std::size_t hashOf(const Eigen::Vector3d& point, std::size_t hash = 0)
 {
   for (int i = 0; i < 3; ++i)
@@ -19,7 +19,7 @@ inline std::size_t hashOf(const Eigen::Vector3d& point, std::size_t hash = 0)
   return hash;
 }
 
-/// For unordered containers of points.
+/// Hash function for unordered containers of points.
 struct CoordinateHash
 {
   std::size_t operator()(const Eigen::Vector3d& point) const { return hashOf(point); }

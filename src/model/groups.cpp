@@ -99,7 +99,7 @@ class GroupResolver
       joints.insert(robot_.links()[link].parent_joint);
   }
 
-  // A link and its ancestors, the root last.
+  // The link and its ancestors, up to the root.
   std::vector<int> pathToRoot(int link) const
   {
     std::vector<int> path;
@@ -112,8 +112,9 @@ class GroupResolver
     return path;
   }
 
-  // The parent joints of the links from the tip up to, but without, the base. Where the base is no ancestor of the tip,
-  // both ends up to the link where they meet; MoveIt includes that link's parent joint then, and so does this.
+  // Adds the parent joints of the links from the tip up to the base, without the base's own. If the base is not an
+  // ancestor of the tip, it adds both branches up to the link where they meet. As in MoveIt, this link's parent joint
+  // is then added too.
   void addChain(const SrdfChain& chain, const std::string& group, std::set<int>& joints) const
   {
     const std::vector<int> from_base = pathToRoot(linkIndex(chain.base_link, chain.where, group));
@@ -148,7 +149,7 @@ class GroupResolver
       for (int i = 0; i < variableCount(joint.type); ++i)
         group.variables.push_back(joint.first_variable + i);
     }
-    // Mimic joints carry their leader's variable, so they move with it. Parents come before children.
+    // A mimic joint has its leader's variable, so it moves with its leader. Parents come before children.
     std::vector<bool> moved(robot_.links().size(), false);
     for (std::size_t link = 0; link < moved.size(); ++link)
     {

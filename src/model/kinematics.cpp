@@ -2,6 +2,8 @@
 
 #include "model/sine.h"
 
+// Forward kinematics with precomputed constants for each joint: see Kinematics::Step. Rotations use Rodrigues' formula.
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -13,7 +15,7 @@ Eigen::Matrix3d crossProductMatrix(const Eigen::Vector3d& a)
   return matrix;
 }
 
-// Motion in the plane whose directions and normal are the columns of `directions`.
+// The motion of a planar joint. The columns of `directions` are the two directions and the normal of the plane.
 Eigen::Matrix4d planarMotion(const Eigen::Matrix3d& directions, const double* variables)
 {
   Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
@@ -30,7 +32,8 @@ Eigen::Matrix4d floatingMotion(const double* variables)
 {
   Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
   motion.topRightCorner<3, 1>() = Eigen::Map<const Eigen::Vector3d>(variables);
-  // Divided by the largest first: squares of numbers near the ends of the range of doubles would not do.
+  // Divides by the largest coefficient first, so that squares of very large or very small numbers neither overflow nor
+  // vanish.
   Eigen::Vector4d coefficients = Eigen::Map<const Eigen::Vector4d>(variables + 3);
   const double largest = coefficients.cwiseAbs().maxCoeff();
   if (largest > 0.0)
@@ -45,8 +48,8 @@ Eigen::Matrix4d floatingMotion(const double* variables)
 
 Eigen::Matrix3d planarDirections(const Eigen::Vector3d& normal)
 {
-  // x is the coordinate direction after that which the normal is nearest to, brought into the plane: for a normal along
-  // x, y, z these are (y, z), (z, x), (x, y).
+  // The coordinate axis nearest to the normal is skipped; x is the axis after it, projected into the plane. For a
+  // normal along x, y or z, (x, y) of the joint are (y, z), (z, x) or (x, y).
   int nearest;
   normal.cwiseAbs().maxCoeff(&nearest);
   const Eigen::Vector3d next = Eigen::Vector3d::Unit((nearest + 1) % 3);
@@ -121,7 +124,7 @@ void Kinematics::linkPoses(const double* state, Eigen::Isometry3d* poses) const
   {
     const Step& step = steps_[i];
     const Eigen::Matrix4d relative = relativePose(step, state);
-    // Products of 4x4 matrices are vectorised; their last rows come out as exactly 0 0 0 1.
+    // Eigen vectorises products of 4x4 matrices. The last row stays exactly 0 0 0 1.
     if (step.parent < 0)
       poses[i].matrix() = relative;
     else

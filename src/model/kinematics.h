@@ -8,21 +8,23 @@
 
 namespace gpu_planning_scene::core
 {
-/// Forward kinematics, laid out flat for speed: one step per link, parents first.
+/// Forward kinematics: one precomputed step per link, parents first, in a flat array for speed. Immutable and
+/// thread-safe.
 class Kinematics
 {
  public:
   Kinematics(const std::vector<Link>& links, const std::vector<Joint>& joints);
 
+  /// Writes the pose of each link in the planning frame: see RobotModel::linkPoses.
   void linkPoses(const double* state, Eigen::Isometry3d* poses) const;
 
  private:
-  /// Where a link is relative to its parent link, as a function of its joint's position q. With the joint's origin O,
-  /// its axis a, and Rodrigues' formula R = a a^T + cos q (I - a a^T) + sin q [a]x:
+  /// Pose of a link relative to its parent link, as a function of the joint's position q (radians or metres). O is the
+  /// origin of the joint, a its axis; rotations use Rodrigues' formula R = a a^T + cos q (I - a a^T) + sin q [a]x.
   ///   revolute, continuous: constant + cos q first + sin q second  (O a a^T, O (I - a a^T), O [a]x)
   ///   prismatic:            constant + q first                     (O, and O a as a translation)
   ///   fixed:                constant                               (O)
-  ///   planar, floating:     constant times what the variables say  (O; `first` holds the planar directions)
+  ///   planar, floating:     constant times the joint's motion      (O; `first` holds the planar directions)
   struct Step
   {
     Eigen::Matrix4d constant = Eigen::Matrix4d::Identity();

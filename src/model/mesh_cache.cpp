@@ -18,8 +18,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// Gives equal positions (bit for bit, but for the sign of zero) the same index: most formats repeat a vertex for each
-// of its triangles. An open-addressing table, as files have millions of vertices.
+// Gives equal positions (0 equals -0) the same index, because most formats repeat a vertex for each of its triangles.
+// The hash table has open addressing, because files have millions of vertices.
 class VertexWelder
 {
  public:
@@ -40,7 +40,7 @@ class VertexWelder
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffffu;
 
-  // Where the vertex is, or the empty slot where it belongs.
+  // Finds the slot of the vertex, or the empty slot for it.
   std::size_t find(const Eigen::Vector3d& vertex, const std::vector<Eigen::Vector3d>& vertices) const
   {
     const std::size_t mask = slots_.size() - 1;
@@ -67,7 +67,7 @@ Eigen::Matrix<double, 3, 4> toEigen(const aiMatrix4x4& m)
   return result;
 }
 
-// Collects the triangles of a scene graph, each node's transform applied.
+// Collects the triangles of a scene graph and applies the transforms of the nodes.
 class SceneFlattener
 {
  public:
@@ -94,7 +94,7 @@ class SceneFlattener
 
   void addMesh(const aiMesh& part, const Eigen::Affine3d& pose)
   {
-    const bool mirrored = pose.linear().determinant() < 0.0;  // its triangles would be inside out
+    const bool mirrored = pose.linear().determinant() < 0.0;  // a mirrored triangle would be inside out
     for (unsigned i = 0; i < part.mNumFaces; ++i)
     {
       const aiFace& face = part.mFaces[i];
@@ -140,7 +140,7 @@ std::string lowerCaseExtension(const std::string& path)
   return extension;
 }
 
-// Assimp makes text of what was thrown; this is no fault of the file.
+// Assimp turns exceptions into text. Out of memory is not a fault of the file, so it is thrown again.
 void throwIfOutOfMemory(const std::exception_ptr& thrown)
 {
   try
@@ -169,13 +169,13 @@ std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vecto
     throw Error("mesh file '" + path + "': its scale has a component that is zero or not finite");
 
   Assimp::Importer importer;
-  // For a Collada file Assimp puts two things on the root node: the scale that the file's unit asks for, and a rotation
-  // from the file's up-axis to y. RViz and geometric_shapes (MoveIt) take the coordinates as they are, whatever the
-  // up-axis, as ROS frames have z up; RViz applies the unit. So the rotation is switched off and the scale kept.
+  // For a Collada file, Assimp puts the scale of the file's unit and a rotation from its up-axis to y on the root node.
+  // ROS frames have z up, so RViz and geometric_shapes (MoveIt) ignore the up-axis, while RViz applies the unit. So the
+  // rotation is switched off and the scale is kept.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  // A file without a mesh has no triangles: Assimp would make some up to show its nodes.
+  // Assimp would invent triangles to show the nodes of a file without a mesh.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  // No step that removes or merges anything: degenerate triangles stay, and welding is done above, much faster.
+  // Assimp must not remove or merge anything: degenerate triangles stay, and VertexWelder merges vertices much faster.
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr)
   {

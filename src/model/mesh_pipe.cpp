@@ -47,7 +47,7 @@ std::shared_ptr<const Mesh> meshFromBytes(const std::string& bytes, const std::s
   if (triangles > most_triangles)
     throw Error(file + "it has " + std::to_string(triangles) + " triangles; at most " + std::to_string(most_triangles) +
                 " are allowed");
-  // The counts are bounded first, so that their product cannot wrap.
+  // The counts are limited first, so that bytesOf() cannot overflow.
   if (vertices > 3 * triangles || bytes.size() != bytesOf(vertices, triangles))
     throw Error(file + "the reader's answer cannot be understood");
   auto mesh = std::make_shared<Mesh>();

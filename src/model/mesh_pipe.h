@@ -8,14 +8,15 @@
 
 namespace gpu_planning_scene::core
 {
-/// A mesh as the bytes that read_mesh sends: the counts of vertices and triangles (64 bits each), the vertices (3
-/// doubles each), the triangles (3 indices of 32 bits each), as the machine has them: both ends run on it.
+/// Serialises a mesh for the pipe from read_mesh: number of vertices and of triangles (64 bits each), vertices (3
+/// doubles each), triangles (3 indices of 32 bits each). The byte order is the machine's, because both ends run on one
+/// machine.
 std::string meshBytes(const Mesh& mesh);
 
-/// How many bytes a mesh of at most that many triangles can have.
+/// Largest number of bytes of a mesh with at most this many triangles.
 std::size_t mostMeshBytes(std::size_t triangles);
 
-/// The mesh in those bytes, which are not trusted: throws Error that names `path`.
+/// Reads a mesh from these bytes, which are not trusted. Throws Error that names `path`.
 std::shared_ptr<const Mesh> meshFromBytes(const std::string& bytes, const std::string& path,
                                           std::size_t most_triangles);
 }  // namespace gpu_planning_scene::core

@@ -11,13 +11,13 @@ namespace
 constexpr std::size_t kLongestWord = 300;
 constexpr std::size_t kLongestText = 2000;
 
-/// Within a character of UTF-8.
+/// True for a byte that continues a UTF-8 character.
 bool continues(char byte)
 {
   return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
 
-/// Leaves out the middle: an error's reason often stands at its end.
+/// Shortens a text by its middle, because the reason of an error is often at its end.
 std::string withoutMiddle(std::string_view text, std::size_t most)
 {
   if (text.size() <= most)

@@ -16,7 +16,7 @@ bool startsWith(const std::string& text, const std::string& prefix)
   return text.compare(0, prefix.size(), prefix) == 0;
 }
 
-// A percent sign that no two hexadecimal digits follow stands for itself, as in libcurl, which ROS reads URIs with.
+// A percent sign without two hexadecimal digits after it stands for itself, as in libcurl, which ROS uses to read URIs.
 std::string decodePercents(const std::string& text, const std::string& uri)
 {
   std::string decoded;
@@ -38,7 +38,7 @@ std::string decodePercents(const std::string& text, const std::string& uri)
   return decoded;
 }
 
-/// The name is what stands before the first slash as written, as in ROS; so a decoded name has no slash of its own.
+/// The package name ends at the first slash of the URI, as in ROS. So a decoded name must not contain a slash.
 std::string resolvePackageUri(const std::string& uri, const PackageResolver& packages)
 {
   const std::string rest = uri.substr(std::string("package://").size());

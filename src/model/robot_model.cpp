@@ -16,13 +16,13 @@ int find(const std::unordered_map<std::string, int>& indices, const std::string&
   return found == indices.end() ? -1 : found->second;
 }
 
-// From [0, 1), the same with every standard library.
+// Uniform in [0, 1), with the same numbers from every standard library.
 double uniform(std::mt19937_64& generator)
 {
   return static_cast<double>(generator() >> 11) * 0x1.0p-53;
 }
 
-// Uniform over the rotations: points of the unit ball in four dimensions, by rejection, brought to its surface.
+// Uniform over the rotations: draws points in the four-dimensional unit ball by rejection and normalises them.
 void randomQuaternion(std::mt19937_64& generator, double* coefficients)
 {
   Eigen::Map<Eigen::Vector4d> quaternion(coefficients);
@@ -83,7 +83,7 @@ const Group& RobotModel::group(const std::string& name) const
 std::vector<std::pair<int, int>> RobotModel::adjacentLinks() const
 {
   std::vector<std::pair<int, int>> pairs;
-  std::vector<int> nearest(links_.size());  // the link itself, or its nearest ancestor, with shapes; -1: none
+  std::vector<int> nearest(links_.size());  // the link itself, or its nearest ancestor, that has shapes; -1: none
   for (std::size_t i = 0; i < links_.size(); ++i)
   {
     const int link = static_cast<int>(i);
@@ -108,7 +108,7 @@ void RobotModel::randomState(std::mt19937_64& generator, double* state) const
   {
     const Variable& variable = variables_[i];
     const double u = uniform(generator);
-    // Limits may be so wide that their difference overflows; rounding may leave them by one step.
+    // This form cannot overflow, even for wide limits. The clamp removes rounding errors.
     state[i] = std::clamp((1.0 - u) * variable.lower + u * variable.upper, variable.lower, variable.upper);
   }
   for (const Joint& joint : joints_)

@@ -16,7 +16,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Puts a RobotModel together from its two texts.
+/// Builds a RobotModel from a URDF and an SRDF.
 class RobotModelBuilder
 {
  public:

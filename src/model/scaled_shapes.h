@@ -9,12 +9,12 @@
 
 namespace gpu_planning_scene::core
 {
-/// Scales shapes about their own origins, and meshes, as MoveIt does, about the mean of their vertices. Instances of
-/// one mesh that are scaled alike stay instances of one mesh.
+/// Scales shapes about their own origins, and meshes about the mean of their vertices, as MoveIt does. Instances of a
+/// mesh that have the same factor share one scaled mesh. Not thread-safe.
 class ShapeScaler
 {
  public:
-  /// Throws Error for a half-space, and where a dimension becomes infinite or 0.
+  /// Throws Error for a half-space, and if a scaled dimension is not valid (validateShape).
   std::vector<PlacedShape> scaled(const std::vector<PlacedShape>& shapes, double factor);
 
  private:

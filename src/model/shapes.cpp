@@ -66,7 +66,7 @@ void validateMesh(const Mesh& mesh)
     throw Error(name + " has no triangles");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
   {
-    // Written so that what is not a number fails.
+    // In this form, NaN fails too.
     if (!(mesh.vertices[i].array().abs() <= kLargestLength).all())
       throw Error(name + ": vertex " + std::to_string(i) + " is not finite or further than 1000 km away");
   }

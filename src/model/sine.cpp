@@ -1,8 +1,9 @@
-// Argument reduction with pi / 2 in three parts, after Cody and Waite, "Software Manual for the Elementary Functions"
-// (1980), then Taylor series.
 #include "model/sine.h"
 
 #include <cmath>
+
+// The argument is reduced with pi / 2 in three parts, after W. J. Cody, W. Waite: Software Manual for the Elementary
+// Functions (1980). Taylor series then give the sine and the cosine.
 
 namespace gpu_planning_scene::core
 {
@@ -10,15 +11,14 @@ namespace
 {
 constexpr double kLargest = 1048576.0;  // 2^20
 
-// pi / 2 = kPart1 + kPart2 + kPart3 + about 1e-36. The first two have 32 bits or fewer: their products with the number
-// of quadrants, which has at most 20, are exact.
+// pi / 2 = kPart1 + kPart2 + kPart3 + about 1e-36. kPart1 and kPart2 have at most 32 bits, the number of quadrants at
+// most 20, so their products are exact.
 constexpr double kPart1 = 0x1.921fb544p+0;
 constexpr double kPart2 = 0x1.0b4611a6p-34;
 constexpr double kPart3 = 0x1.3198a2e037073p-69;
 constexpr double kQuadrantsPerRadian = 0x1.45f306dc9c883p-1;  // 2 / pi
 
-// The first term that is left out is below 1e-19 of the result on [-pi / 4, pi / 4].
-// `tail` is what x + tail is more than x.
+// Sine of x + tail. The first omitted term of the series is below 1e-19 of the result on [-pi / 4, pi / 4].
 double sineNearZero(double x, double tail)
 {
   const double z = x * x;
@@ -44,7 +44,7 @@ double cosineNearZero(double x, double tail)
   sum = sum * z + 1.0 / 40320.0;
   sum = sum * z - 1.0 / 720.0;
   sum = sum * z + 1.0 / 24.0;
-  // 1 - z / 2 with what its rounding loses.
+  // 1 - z / 2, with the rounding error of that difference added.
   const double half = 0.5 * z;
   const double start = 1.0 - half;
   return start + (((1.0 - start) - half) + (z * z * sum - x * tail));
@@ -56,12 +56,12 @@ SineCosine sineCosine(double x)
   if (!(std::abs(x) <= kLargest))
     return {std::sin(x), std::cos(x)};
   const double quadrants = std::nearbyint(x * kQuadrantsPerRadian);
-  // The first difference is exact: both are multiples of the last place of kPart1 * quadrants or of x, and near.
+  // This difference is exact: both numbers are multiples of the last place of one of them, and they are close.
   const double first = x - quadrants * kPart1;
   const double second = quadrants * kPart2;
   const double third = quadrants * kPart3;
   const double rough = first - second;
-  const double lost = (first - rough) - second;  // exact where |first| >= |second|, else off by 1e-20 at most
+  const double lost = (first - rough) - second;  // exact if |first| >= |second|, else wrong by at most 1e-20
   const double reduced = rough + (lost - third);
   const double tail = (rough - reduced) + (lost - third);
   const double sine = sineNearZero(reduced, tail);

@@ -8,8 +8,8 @@ struct SineCosine
   double cosine;
 };
 
-/// Both to within 0.8 units in the last place (1e-20 next to multiples of pi / 2), by additions and multiplications
-/// alone: the same bits on every machine and with every C library. Beyond |x| = 2^20 the C library's, which may differ
-/// between machines.
+/// Sine and cosine of an angle in radians, within 0.8 units in the last place (1e-20 near multiples of pi / 2). They
+/// use only additions and multiplications, so all machines and C libraries give the same bits. For |x| > 2^20 the
+/// result is the C library's, which can differ between machines.
 SineCosine sineCosine(double x);
 }  // namespace gpu_planning_scene::core

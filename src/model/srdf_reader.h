@@ -5,7 +5,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A name and where it stands ("FILE:LINE").
+/// A name and its place in the file ("FILE:LINE").
 struct SrdfName
 {
   std::string name;
@@ -46,7 +46,7 @@ struct SrdfPair
   std::string where;
 };
 
-/// What a SRDF says, by name: nothing is looked up in the robot yet.
+/// The content of an SRDF, by name: the names are not looked up in the robot yet.
 struct Srdf
 {
   std::string robot_name;
@@ -59,6 +59,7 @@ struct Srdf
   std::vector<SrdfName> disabled_by_default;
 };
 
-/// Throws Error with `name` and line: malformed XML, a missing attribute, an unknown type of virtual joint.
+/// Reads an SRDF. Throws Error with `name` and line for malformed XML, a missing attribute, or an unknown type of
+/// virtual joint.
 Srdf readSrdf(const std::string& text, const std::string& name);
 }  // namespace gpu_planning_scene::core

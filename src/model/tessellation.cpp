@@ -8,6 +8,10 @@
 
 #include "gpu_planning_scene/shapes.h"
 
+// Triangles for solids: boxes exactly, cylinders and cones by inscribed regular polygons, spheres by a subdivided
+// icosahedron. All vertices are on the true surface. The sagitta is the largest distance from the true surface to the
+// triangles.
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -15,7 +19,7 @@ namespace
 constexpr double kTargetSagitta = 100e-6;  // metres
 constexpr int kMaxTriangles = 1 << 15;
 
-// What a vertex may be off by from the true surface: a few roundings of numbers of the shape's size.
+// Upper bound of a vertex's distance from the true surface: a few rounding errors of numbers of the shape's size.
 double roundingSlack(double size)
 {
   return 16.0 * std::numeric_limits<double>::epsilon() * size;
@@ -41,7 +45,8 @@ Tessellation tessellateBox(const Box& box)
   return {mesh, 0.0};
 }
 
-// The corners of a regular polygon with `sides` sides, inscribed in a circle. Returns the index of the first.
+// Adds the corners of a regular polygon with `sides` sides, inscribed in a circle. Returns the index of the first
+// corner.
 std::uint32_t addRing(Mesh& mesh, double radius, double z, int sides)
 {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -53,8 +58,8 @@ std::uint32_t addRing(Mesh& mesh, double radius, double z, int sides)
   return first;
 }
 
-// Triangles from every side of a ring to one vertex; seen from outside they run anticlockwise if `upwards`, the
-// direction from the ring to the vertex's side, is +z.
+// Adds triangles from each side of a ring to one vertex. Seen from outside, they run anticlockwise. `upwards`: the
+// outside is on the +z side of the fan.
 void addFan(Mesh& mesh, std::uint32_t ring, std::uint32_t vertex, int sides, bool upwards)
 {
   for (int i = 0; i < sides; ++i)
@@ -72,8 +77,8 @@ std::uint32_t addVertex(Mesh& mesh, const Eigen::Vector3d& vertex)
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
 }
 
-// A regular polygon with n sides inscribed in a circle of radius r: a side's middle is r cos(pi / n) from the centre,
-// so no point of the circle or its disk is farther from the polygon than r (1 - cos(pi / n)) = 2 r sin^2(pi / (2 n)).
+// In a regular polygon with n sides, inscribed in a circle of radius r, the middle of a side is r cos(pi / n) from the
+// centre. So no point of the disk is farther from the polygon than r (1 - cos(pi/n)) = 2 r sin^2(pi/(2n)).
 double ringSagitta(double radius, int sides)
 {
   const double half_angle_sine = std::sin(kPi / (2.0 * sides));
@@ -89,8 +94,8 @@ int ringSides(double radius, int max_sides)
   return sides;
 }
 
-// Every horizontal slice of the solid is the same disk, every slice of the tessellation the same inscribed polygon, so
-// the polygon's sagitta holds for the side and for both caps.
+// Each horizontal slice of the solid is the same disk, and each slice of the tessellation the same inscribed polygon.
+// So the polygon's sagitta holds for the side and for both caps.
 Tessellation tessellateCylinder(const Cylinder& cylinder)
 {
   auto mesh = emptyMesh("cylinder");
@@ -109,8 +114,9 @@ Tessellation tessellateCylinder(const Cylinder& cylinder)
   return {mesh, ringSagitta(cylinder.radius, sides)};
 }
 
-// At height z the solid's slice is a disk of some radius rho <= r and the tessellation's the inscribed polygon of the
-// same rho, so within a slice no point is farther than rho (1 - cos(pi / n)): largest at the base's rim, 0 at the apex.
+// At height z, the slice of the solid is a disk of radius rho <= r, and the slice of the tessellation the inscribed
+// polygon of that radius. So no point of the slice is farther than rho (1 - cos(pi / n)): the rim of the base has the
+// largest value, the apex has 0.
 Tessellation tessellateCone(const Cone& cone)
 {
   auto mesh = emptyMesh("cone");
@@ -122,10 +128,10 @@ Tessellation tessellateCone(const Cone& cone)
   return {mesh, ringSagitta(cone.radius, sides)};
 }
 
-// An icosahedron's faces, each divided into `frequency`^2 triangles, projected to the unit sphere.
+// The faces of an icosahedron, each divided into `frequency`^2 triangles and projected to the unit sphere.
 class Geodesic
 {
-  using Weights = std::array<std::pair<int, int>, 3>;  // corner of the icosahedron, weight
+  using Weights = std::array<std::pair<int, int>, 3>;  // corner of the icosahedron and its weight
 
  public:
   explicit Geodesic(int frequency) : frequency_(frequency)
@@ -166,7 +172,8 @@ class Geodesic
     }
   }
 
-  // Vertices on the icosahedron's edges belong to several faces: they are known by their weights at the 12 corners.
+  // Vertices on the edges of the icosahedron belong to several faces. The weights of its 12 corners identify such a
+  // vertex.
   std::uint32_t vertex(const std::array<Eigen::Vector3d, 12>& corners, const std::array<int, 3>& face, int row,
                        int column)
   {
@@ -199,8 +206,9 @@ class Geodesic
   std::map<Weights, std::uint32_t> on_edges_;
 };
 
-// A ray from the centre meets the sphere at distance 1 and, before that, a triangle at a distance no less than that of
-// the triangle's plane. So no point of the sphere is farther from the tessellation than 1 - (the least plane distance).
+// A ray from the centre meets the sphere at distance 1. Before that it meets a triangle, at least at the distance of
+// the triangle's plane. So no point of the sphere is farther from the tessellation than 1 - (least distance of a
+// plane).
 double unitSagitta(const Geodesic& sphere)
 {
   double least = 1.0;
@@ -216,13 +224,13 @@ double unitSagitta(const Geodesic& sphere)
 Tessellation tessellateSphere(const Sphere& sphere)
 {
   const int max_frequency = static_cast<int>(std::sqrt(kMaxTriangles / 20.0));
-  // The widest triangle has a circumradius of about 0.764 / frequency, so the sagitta is about 0.292 r / frequency^2.
+  // The widest triangle has a circumradius of about 0.764 / frequency. So the sagitta is about 0.292 r / frequency^2.
   const double estimate = std::ceil(std::sqrt(0.292 * sphere.radius / kTargetSagitta));
   int frequency = static_cast<int>(std::clamp<double>(estimate, 1.0, max_frequency));
   for (;; ++frequency)
   {
     const Geodesic unit(frequency);
-    // The slack covers the rounding of the plane distance as well: its normal comes from edges as short as 1 / 40.
+    // The slack also covers the rounding of the plane's distance: the normal comes from edges as short as 1/40.
     const double sagitta = sphere.radius * unitSagitta(unit) + 64.0 * roundingSlack(sphere.radius);
     if (sagitta <= kTargetSagitta || frequency >= max_frequency)
     {

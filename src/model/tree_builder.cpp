@@ -162,7 +162,7 @@ class TreeBuilder
     }
     else
     {
-      // urdfdom has refused revolute and prismatic joints without limits.
+      // urdfdom refuses revolute and prismatic joints without limits.
       if (limits->lower > limits->upper)
       {
         throw Error(whereJoint(joint.name) + " has a lower limit above its upper limit (" +
@@ -172,7 +172,7 @@ class TreeBuilder
     }
   }
 
-  // A joint may mimic one that mimics another: position = m2 (m1 x + o1) + o2, x the final leader's variable.
+  // Resolves chains of mimic joints: position = m2 (m1 x + o1) + o2, where x is the variable of the last leader.
   void resolveMimics()
   {
     std::map<std::string, const Joint*> joints;
@@ -201,6 +201,7 @@ class TreeBuilder
     }
   }
 
+  // Bounds translations so that no joint, also no mimic joint, moves by more than kLargestLength.
   void limitTranslations()
   {
     for (const Joint& joint : tree_.joints)

@@ -9,8 +9,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// The kinematic tree of a robot, its links and joints depth first, siblings in the order of their joints' names: the
-/// order that MoveIt has.
+/// The kinematic tree of a robot. Links and joints are in depth-first order, siblings in the order of their joints'
+/// names, as in MoveIt.
 struct RobotTree
 {
   std::vector<Link> links;
@@ -18,7 +18,7 @@ struct RobotTree
   std::vector<Variable> variables;
 };
 
-/// `virtual_joint` (null where there is none) moves the root link. Loads the meshes. Throws Error.
+/// Builds the tree and loads the meshes. `virtual_joint` moves the root link; null if there is none. Throws Error.
 RobotTree buildTree(const UrdfText& urdf, const SrdfVirtualJoint* virtual_joint, const RobotModelOptions& options,
                     std::vector<std::string>& warnings);
 }  // namespace gpu_planning_scene::core

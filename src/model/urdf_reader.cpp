@@ -15,7 +15,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// urdfdom says what is wrong only through console_bridge's one log handler: this takes its place for a while.
+// Collects urdfdom's messages. urdfdom reports errors only to the one log handler of console_bridge, so this object
+// replaces that handler while it exists.
 class LogCapture : public console_bridge::OutputHandler
 {
  public:
@@ -51,7 +52,7 @@ class LogCapture : public console_bridge::OutputHandler
   console_bridge::LogLevel level_;
 };
 
-// urdfdom names elements as [name] in its messages: the line of the first joint or link that the text has.
+// The place of the first joint or link that a message names: urdfdom writes names as [name].
 std::string whereOf(const std::vector<std::string>& messages, const XmlText& xml)
 {
   for (const std::string& message : messages)
@@ -84,7 +85,8 @@ void removeChildren(tinyxml2::XMLElement& parent, const char* tag)
     parent.DeleteChild(child);
 }
 
-// What urdfdom need not see: where it dislikes a link's inertia or looks, it drops the link's collision elements too.
+// Removes the parts that are not used. If urdfdom dislikes a link's inertia or visuals, it also drops the link's
+// collision elements.
 std::string withoutLooksAndInertia(const std::string& text)
 {
   tinyxml2::XMLDocument document;
@@ -109,10 +111,10 @@ int childCount(const tinyxml2::XMLElement& parent, const char* tag)
   return count;
 }
 
-// Each link is the child of at most one joint, and no link is its own ancestor. urdfdom does not look.
+// Each link is the child of at most one joint, and no link is its own ancestor. urdfdom does not check this.
 void requireTree(const XmlText& xml)
 {
-  std::map<std::string, std::pair<std::string, const tinyxml2::XMLElement*>> parents;  // with the joint to each
+  std::map<std::string, std::pair<std::string, const tinyxml2::XMLElement*>> parents;  // with the joint to the parent
   for (const auto* joint = xml.root().FirstChildElement("joint"); joint != nullptr;
        joint = joint->NextSiblingElement("joint"))
   {
@@ -141,7 +143,7 @@ void requireTree(const XmlText& xml)
   }
 }
 
-// urdfdom goes on without the collision elements that it cannot read: a robot that passes through walls.
+// urdfdom skips collision elements that it cannot read. The robot would then pass through obstacles.
 void requireAllCollisionElements(const XmlText& xml, const urdf::ModelInterface& model,
                                  const std::vector<std::string>& errors)
 {

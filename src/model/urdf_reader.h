@@ -13,13 +13,14 @@ class ModelInterface;
 
 namespace gpu_planning_scene::core
 {
-/// A URDF as urdfdom reads it, without its visuals and inertias, and with the text's lines for messages.
+/// A URDF as urdfdom reads it, without visuals and inertias. `xml` finds the lines of elements for messages.
 struct UrdfText
 {
+  /// `text`: the URDF. `name`: its file or parameter, for messages. Throws Error with name and line.
   UrdfText(const std::string& text, const std::string& name);
 
   XmlText xml;
   std::shared_ptr<const urdf::ModelInterface> model;
-  std::vector<std::string> warnings;  ///< what urdfdom said although it took the text
+  std::vector<std::string> warnings;  ///< urdfdom's messages about a text that it accepted
 };
 }  // namespace gpu_planning_scene::core

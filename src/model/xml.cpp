@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// XML_ERROR_MISMATCHED_ELEMENT -> "mismatched element"
+// Turns XML_ERROR_MISMATCHED_ELEMENT into "mismatched element".
 std::string readable(std::string error_name)
 {
   const std::string prefix = "XML_ERROR_";

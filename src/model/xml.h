@@ -11,21 +11,21 @@ class XMLElement;
 
 namespace gpu_planning_scene::core
 {
-/// A parsed XML text that can say, for messages, where an element stands.
+/// A parsed XML text that can tell the line of an element, for messages.
 class XmlText
 {
  public:
-  /// `name`: the file or parameter that the text came from. Throws Error with name and line if the text is malformed or
-  /// its root element is not `root`.
+  /// `name`: the file or parameter of the text. Throws Error with name and line if the text is malformed or its root
+  /// element is not `root`.
   XmlText(const std::string& text, const std::string& name, const std::string& root);
 
   const std::string& name() const { return name_; }
   const tinyxml2::XMLElement& root() const { return *root_; }
-  /// "NAME:LINE".
+  /// Place of an element, as "NAME:LINE".
   std::string where(const tinyxml2::XMLElement& element) const;
-  /// The same for the first <tag name="value"> below the root; NAME alone if there is none.
+  /// Place of the first element <tag name="value"> below the root; NAME alone if there is none.
   std::string where(const std::string& tag, const std::string& value) const;
-  /// Whether that element has a child <child_tag>.
+  /// True if that element has a child <child_tag>.
   bool hasChild(const std::string& tag, const std::string& value, const char* child_tag) const;
   /// The value of an attribute; throws Error if the element lacks it.
   std::string attribute(const tinyxml2::XMLElement& element, const char* attribute) const;

@@ -7,20 +7,25 @@
 #include "planning/bulk_validator.h"
 #include "planning/rrt_search.h"
 
+// RRT-Connect that checks motions in batches: OMPL's interface, the inputs and the time. RrtSearch and TwoTrees grow
+// the trees.
+// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
+
 namespace gpu_planning_scene::core
 {
 namespace
 {
 namespace ob = ompl::base;
 
-// The chosen range, as a part of the largest distance in the space. OMPL's RRTConnect takes a fifth of it; short
-// motions need far fewer states for a solution amid obstacles, and motions in bulk make up for their number.
+// The chosen range, as a fraction of the space's extent. OMPL's RRTConnect uses a fifth. Amid obstacles, short motions
+// find a solution with far fewer states; there are more of them, but checks in bulk make up for that.
 constexpr double kRangeOfExtent = 0.04;
 
-// Goal states that are taken at once. More of them follow as the goal tree grows, as in OMPL's RRTConnect.
+// Number of goal states taken at first, and at most in one round. More follow as the goal tree grows, as in OMPL's
+// RRTConnect.
 constexpr std::size_t kFirstGoals = 8;
 
-// What the time was too short to prove is proven once it is over: for a part of it, but within these bounds (seconds).
+// Extra time after the end of planning, to prove a path: a fraction of the time so far, within two bounds (seconds).
 constexpr double kProofOfTime = 0.1;
 constexpr double kLeastProof = 0.1;
 constexpr double kMostProof = 1.0;
@@ -64,7 +69,7 @@ void BatchRrtConnect::clear()
   search_.reset();
 }
 
-/// Null if there is none, or no time. Waits for goals that arrive late, but not where all of them are known.
+/// Returns null if there is no goal state, or no time. Waits for goals that arrive late, unless all goals are known.
 const ob::State* BatchRrtConnect::firstGoal(const ob::GoalSampleableRegion& goal,
                                             const ob::PlannerTerminationCondition& ptc)
 {
@@ -76,7 +81,7 @@ const ob::State* BatchRrtConnect::firstGoal(const ob::GoalSampleableRegion& goal
   return nullptr;
 }
 
-/// EXACT_SOLUTION here means that there are states to begin with.
+/// Adds the first start and goal states to the trees. EXACT_SOLUTION means here that both trees have states.
 ob::PlannerStatus BatchRrtConnect::takeInputs(const ob::GoalSampleableRegion& goal,
                                               const ob::PlannerTerminationCondition& ptc)
 {
@@ -91,7 +96,7 @@ ob::PlannerStatus BatchRrtConnect::takeInputs(const ob::GoalSampleableRegion& go
     return ob::PlannerStatus::INVALID_GOAL;
   const ob::State* state = firstGoal(goal, ptc);
   if (!state)
-    // Where goals arrive late, there may have been none yet.
+    // A goal region that fills late may have had no state yet.
     return goal.couldSample() && pis_.getSampledGoalsCount() == 0 ? ob::PlannerStatus::TIMEOUT
                                                                   : ob::PlannerStatus::INVALID_GOAL;
   trees.addRoot(TwoTrees::Goal, state);

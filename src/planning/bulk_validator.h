@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// What checks motions in bulk. Throws ompl::Exception in the name of `user` if the space information has another
-/// motion validator.
+/// The motion validator of the space information. Throws ompl::Exception in the name of `user` if it is not a
+/// MotionValidator of this package, which checks motions in bulk.
 const MotionValidator& bulkValidatorOf(const ompl::base::SpaceInformation& information, const std::string& user);
 }  // namespace gpu_planning_scene::core

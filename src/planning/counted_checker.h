@@ -10,7 +10,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Passes on what it is asked, and adds up states and time.
+/// Forwards all calls to another checker, and counts the checked states and the time. Thread-safe if that checker is.
 class CountedChecker : public StateChecker
 {
  public:

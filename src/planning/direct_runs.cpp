@@ -11,10 +11,11 @@ using ompl::geometric::PathGeometric;
 
 namespace
 {
-/// Runs of several motions that are no longer than one would be: the first and the last vertex of each.
+/// Finds runs of several motions that are no longer than one motion would be. Returns the first and last vertex of
+/// each.
 std::vector<std::pair<std::size_t, std::size_t>> directRuns(const PathGeometric& path)
 {
-  // Of the length of a run: more than rounding lengthens it by, less than anybody would miss.
+  // Tolerance, as a fraction of the run's length: larger than rounding errors, and too small to matter.
   constexpr double kDirect = 1e-9;
   const auto distance = [&](std::size_t from, std::size_t to)
   {

@@ -7,8 +7,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// One motion instead of several that are no longer together, where it is found valid before `ptc`: planners cut long
-/// motions into pieces.
+/// Replaces runs of several motions by one motion of the same length, if it is found valid before `ptc` holds. So it
+/// joins the segments into which planners cut long motions.
 void joinDirectRuns(ompl::geometric::PathGeometric& path, const MotionValidator& validator,
                     const ompl::base::PlannerTerminationCondition& ptc);
 }  // namespace gpu_planning_scene::core

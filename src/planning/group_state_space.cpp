@@ -22,16 +22,15 @@ namespace
 {
 namespace ob = ompl::base;
 
-
-// Radians or metres. OMPL's setup() refuses a space without extent, and a dimension without one makes the measure of
-// the whole space 0, from which planners compute radii.
+// Radians or metres. OMPL's setup() refuses a space without extent. A single dimension without extent makes the measure
+// of the whole space 0, and planners compute radii from this measure.
 constexpr double kLeastRange = 1e-9;
 
-// The joints' own distances are added up as they are: a radian or a metre counts the same in each joint, as within
-// RealVectorStateSpace. Which joint moves more of the robot differs from group to group, and with the state.
+// The distances of the joints are added without weights: a radian or a metre counts the same in each joint, as within
+// RealVectorStateSpace. Better weights would differ between groups and states.
 constexpr double kWeight = 1.0;
 
-// KPIECE and its kin keep a grid of the projections, whose cells stay empty with more dimensions.
+// KPIECE and similar planners keep a grid of projections. With more dimensions, its cells would stay empty.
 constexpr std::size_t kMostDefaultJoints = 3;
 
 double rangeOf(const Variable& variable)
@@ -51,7 +50,8 @@ bool isPlannedFor(const RobotModel& robot, const Joint& joint)
   return !hasLimits(joint) || rangeOf(robot.variables()[joint.first_variable]) >= kLeastRange;
 }
 
-/// How many of a joint's variables, the first, are lengths, or its only position.
+/// Number of a joint's leading variables that are its position: the translations of planar and floating joints, and the
+/// only variable of other joints.
 int translationCount(JointType type)
 {
   switch (type)
@@ -82,7 +82,7 @@ ob::RealVectorBounds translationBounds(const RobotModel& robot, const Joint& joi
   return bounds;
 }
 
-/// Of a joint that has no limits. Its values are in the order of the joint's variables.
+/// The space of a joint without limits. Its values are in the order of the joint's variables.
 ob::StateSpacePtr spaceOf(const RobotModel& robot, const Joint& joint)
 {
   if (joint.type == JointType::Planar)
@@ -100,14 +100,14 @@ ob::StateSpacePtr spaceOf(const RobotModel& robot, const Joint& joint)
   return std::make_shared<ob::SO2StateSpace>();
 }
 
-/// To [-pi, pi).
+/// Wraps an angle to [-pi, pi).
 double wrapped(double angle)
 {
   const double rest = std::remainder(angle, 2.0 * kPi);
   return rest == kPi ? -kPi : rest;
 }
 
-/// As forward kinematics reads it: any length above 0, and no rotation for 0.
+/// Normalises a quaternion as forward kinematics does; zero length becomes the identity.
 void makeUnit(double* quaternion)
 {
   Eigen::Map<Eigen::Vector4d> coefficients(quaternion);
@@ -118,8 +118,8 @@ void makeUnit(double* quaternion)
     coefficients = Eigen::Vector4d(coefficients / largest).normalized();
 }
 
-/// The joints that are planned for, in the order of their values: those with limits, continuous, planar, floating.
-/// Throws Error if there is none.
+/// The joints to plan for, in the order of their values: joints with limits, continuous, planar, floating. Throws Error
+/// if there is none.
 std::vector<const Joint*> jointsByType(const RobotModel& robot, const Group& group)
 {
   std::vector<const Joint*> joints;
@@ -152,7 +152,7 @@ std::vector<const Joint*> jointsByType(const RobotModel& robot, const Group& gro
   return joints;
 }
 
-/// The joints of the default projection: see GroupStateSpace::projectOnto. `joints`: as jointsByType() gives them.
+/// The joints of the default projection: see GroupStateSpace::projectOnto. `joints`: from jointsByType().
 std::vector<std::string> defaultProjection(const std::vector<const Joint*>& joints)
 {
   std::vector<std::string> names;
@@ -170,7 +170,7 @@ std::vector<std::string> defaultProjection(const std::vector<const Joint*>& join
   return {(*std::min_element(joints.begin(), joints.end(), earlier))->name};
 }
 
-/// Some of a state's values, as they are.
+/// A projection onto some values of a state.
 class ValueProjection : public ob::ProjectionEvaluator
 {
  public:
@@ -206,7 +206,7 @@ GroupStateSpace::GroupStateSpace(std::shared_ptr<const RobotModel> robot, const 
 {
   setName(group);
   const auto limits = std::make_shared<ob::RealVectorStateSpace>(0);
-  limits->setName(group + "/joints");  // no joint's name, so that subspaces can be told apart by theirs
+  limits->setName(group + "/joints");  // different from every joint's name, so that the subspaces have distinct names
   const std::vector<const Joint*> joints = jointsByType(*robot_, *group_);
   for (const Joint* joint : joints)
     if (hasLimits(*joint))
@@ -280,7 +280,7 @@ std::vector<std::size_t> GroupStateSpace::projectedValues(const std::vector<std:
 void GroupStateSpace::projectOnto(const std::vector<std::string>& joints)
 {
   projected_ = projectedValues(joints);
-  // setup() would keep an earlier one whose cell sizes a user has set.
+  // setup() would keep an earlier projection if a user had set its cell sizes.
   registerProjections();
 }
 

@@ -16,7 +16,7 @@ MotionValidator::MotionValidator(const ompl::base::SpaceInformationPtr& informat
 {
 }
 
-/// Those that leave the bounds are not looked at.
+/// Motions that leave the bounds are not checked.
 std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& motions, MotionQuery question,
                                                   const Termination& ptc) const
 {

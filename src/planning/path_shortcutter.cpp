@@ -8,6 +8,10 @@
 #include "planning/bulk_validator.h"
 #include "planning/direct_runs.h"
 
+// A round draws shortcuts between points of the path, checks them in one call, and takes valid shortcuts that do not
+// overlap.
+// R. Geraerts, M. H. Overmars: Creating high-quality paths for motion planning. IJRR 26(8), 2007.
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -15,18 +19,18 @@ namespace
 namespace ob = ompl::base;
 using ompl::geometric::PathGeometric;
 
-// A shortcut that gains less, as a part of the path's length, is not worth a check.
+// A shortcut that gains less than this fraction of the path's length is not checked.
 constexpr double kLeastGain = 1e-4;
 
-// Shortcuts that are drawn for each one that is to be checked: near the end, most gain nothing.
+// Number of draws for each shortcut to check. Near the end, most drawn shortcuts gain nothing.
 constexpr std::size_t kDraws = 8;
 
-/// A point of a path.
+/// A point of a path: a vertex or a point on an edge.
 struct Point
 {
-  double along = 0.0;      // the path's length up to it
-  std::size_t before = 0;  // vertices before it
-  std::size_t after = 0;   // the first vertex after it
+  double along = 0.0;      // length of the path up to the point
+  std::size_t before = 0;  // number of vertices before it
+  std::size_t after = 0;   // index of the first vertex after it
   const ob::State* state = nullptr;
 
   bool isVertex() const { return before != after; }
@@ -39,7 +43,7 @@ struct Shortcut
   double gain = 0.0;
 };
 
-/// The path of a round, and the points that are drawn on it.
+/// The path at the start of a round, and the points drawn on it.
 class CuttablePath
 {
  public:
@@ -63,7 +67,7 @@ class CuttablePath
   const ob::State* state(std::size_t vertex) const { return path_.getState(static_cast<unsigned int>(vertex)); }
   Point vertex(std::size_t i) const { return {along_[i], i, i + 1, state(i)}; }
 
-  /// Null state for now: see place().
+  /// The point on an edge at a length along the path. Its state is null until place() creates it.
   Point pointAt(double along) const
   {
     const auto next = std::upper_bound(along_.begin() + 1, along_.end() - 1, along);
@@ -71,7 +75,7 @@ class CuttablePath
     return {along, after, after, nullptr};
   }
 
-  /// Makes the state of a point on an edge.
+  /// Creates the state of a point on an edge.
   void place(Point& point)
   {
     if (point.state)
@@ -87,11 +91,12 @@ class CuttablePath
  private:
   const ob::SpaceInformationPtr& information_;
   const PathGeometric& path_;
-  std::vector<double> along_;  // of each vertex
+  std::vector<double> along_;  // of each vertex: length of the path up to it
   std::vector<ob::State*> made_;
 };
 
-/// A vertex as often as not, so that detours go as a whole, and no part of an edge is left where none is needed.
+/// Draws a vertex in half of the cases. A shortcut between vertices removes a whole detour and leaves no part of an
+/// edge.
 Point drawPoint(const CuttablePath& path, ompl::RNG& random)
 {
   if (random.uniformBool())
@@ -99,7 +104,7 @@ Point drawPoint(const CuttablePath& path, ompl::RNG& random)
   return path.pointAt(random.uniformReal(0.0, path.length()));
 }
 
-/// Of the valid shortcuts those to take, in the order of the path.
+/// Selects the valid shortcuts to take. Returns them in the order of the path.
 std::vector<Shortcut> bestOf(std::vector<Shortcut> candidates, const std::vector<std::uint8_t>& valid)
 {
   std::vector<Shortcut> order;
@@ -118,7 +123,7 @@ std::vector<Shortcut> bestOf(std::vector<Shortcut> candidates, const std::vector
   return taken;
 }
 
-/// The path with the shortcuts, and which of its motions are mere parts of old ones.
+/// The path with the shortcuts. `parts`: its motions that are mere parts of motions of the old path.
 struct CutPath
 {
   PathGeometric path;
@@ -127,7 +132,7 @@ struct CutPath
   CutPath(const ob::SpaceInformationPtr& information, const CuttablePath& old, const std::vector<Shortcut>& shortcuts)
     : path(information)
   {
-    std::size_t next = 0;  // vertex of the old path
+    std::size_t next = 0;  // index of a vertex of the old path
     for (const Shortcut& shortcut : shortcuts)
     {
       while (next < shortcut.begin.before)
@@ -175,7 +180,7 @@ bool PathShortcutter::shorten(PathGeometric& path, const ob::PlannerTerminationC
   return shorter;
 }
 
-/// Returns what was gained, as a part of the path's length.
+/// Runs one round. Returns the gain as a fraction of the path's length.
 double PathShortcutter::shortenOnce(PathGeometric& path, bool first, const ob::PlannerTerminationCondition& ptc)
 {
   if (path.getStateCount() < 3)

@@ -38,10 +38,10 @@ void refuseRow(const RobotModel& robot, const std::vector<double>& row, const st
       throw Error(what + ": " + robot.variables()[i].name + " is " + std::to_string(row[i]) + "; it must be finite");
 }
 
-/// Doubles tell angles of many turns apart only coarsely.
+/// Refuses angles of very many turns, because doubles resolve them too coarsely.
 void refuseManyTurns(const RobotModel& robot, const std::vector<double>& start)
 {
-  constexpr double kMost = 1e6;  // radians; to within 1e-10
+  constexpr double kMost = 1e6;  // radians; doubles resolve 1e-10 there
   for (const Joint& joint : robot.joints())
   {
     const int angle = joint.mimic ? -1 : wrappedAngle(joint);
@@ -59,12 +59,12 @@ void refuse(const PlanningScene& scene, const PlanningQuery& query)
     throw Error("there is no goal; give at least one");
   for (std::size_t i = 0; i < query.goals.size(); ++i)
     refuseRow(*scene.robot, query.goals[i], "goal " + std::to_string(i));
-  constexpr double kMostSeconds = 1e9;  // OMPL's clock counts nanoseconds, as integers
+  constexpr double kMostSeconds = 1e9;  // OMPL's clock counts nanoseconds in integers
   if (!(query.seconds > 0.0 && query.seconds <= kMostSeconds))
     throw Error("the planning time is " + std::to_string(query.seconds) + " s; it must be above 0 and at most 1e9");
 }
 
-/// One query on its way.
+/// The work on one query.
 class Plan
 {
  public:
@@ -90,7 +90,8 @@ class Plan
   PlanningResult run(const PlannerFactory& factory);
 
  private:
-  /// The scene with the joints that are not planned for as they are at the start.
+  /// A copy of the scene whose current state is the start, so that the joints not planned for keep their values of the
+  /// start.
   static std::shared_ptr<const PlanningScene> withStart(const PlanningScene& scene, const PlanningQuery& query)
   {
     auto copy = std::make_shared<PlanningScene>(scene);
@@ -120,8 +121,8 @@ class Plan
   PlanningResult result_;
 };
 
-/// What is wrong with a planner's path, in words; empty if it goes from the start, to one of the goals where these are
-/// given.
+/// The fault of a planner's path, in words. Empty if the path begins at the start and, if `goals` is given, ends at one
+/// of the goals.
 std::string Plan::faultOf(const og::PathGeometric* path, const ob::Goal* goals) const
 {
   if (!path || path->getStateCount() == 0)
@@ -133,7 +134,7 @@ std::string Plan::faultOf(const og::PathGeometric* path, const ob::Goal* goals) 
   return "";
 }
 
-/// Planning, from the start of the call on.
+/// Plans. The time of the query counts from the beginning of the call.
 void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedState<>>& goal_states)
 {
   const auto goals = std::make_shared<ob::GoalStates>(information_);
@@ -159,7 +160,8 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
   const auto path = std::dynamic_pointer_cast<og::PathGeometric>(definition->getSolutionPath());
   if (const std::string wrong = faultOf(path.get(), exact ? goals.get() : nullptr); !wrong.empty())
   {
-    // Seen of OMPL's RRTConnect, now and then, where there was no time for a solution.
+    // If the time is too short for a solution, OMPL's RRTConnect sometimes returns a path that does not begin at the
+    // start.
     result_.status = PlanningStatus::NoSolution;
     result_.message += (exact ? "" : "; ") + planner->getName() + " has answered " + wrong;
     return;
@@ -172,10 +174,10 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
   finish(*path, planner->getName());
 }
 
-/// Simplification, and a last look at the path as it is answered: not every planner asks about all of its motions.
+/// Simplifies the path, then checks the result once more, because not every planner checks all motions of its path.
 void Plan::finish(og::PathGeometric& path, const std::string& planner)
 {
-  constexpr double kPart = 0.1;   // of the time for planning
+  constexpr double kPart = 0.1;   // of the planning time
   constexpr double kLeast = 0.1;  // seconds
   const Clock::time_point start = Clock::now();
   const double left = std::max({kLeast, kPart * query_.seconds, query_.seconds - result_.planning_seconds});

@@ -26,7 +26,7 @@ void setParameters(ompl::base::Planner& planner, const std::map<std::string, std
     {
       taken = planner.params().setParam(name, value);
     }
-    catch (const std::exception&)  // OMPL's, of a value that is no number
+    catch (const std::exception&)  // OMPL throws if the value is not a number
     {
     }
     if (!taken)

@@ -10,14 +10,14 @@ namespace
 {
 namespace ob = ompl::base;
 
-/// What is wrong with the start or a goal: a status and a message. None: it is free.
+/// A fault of the start or of a goal. An empty message means no fault.
 struct Fault
 {
   PlanningStatus status = PlanningStatus::Solved;
   std::string message;
 };
 
-/// Whether a variable has a range in a GroupStateSpace: it has limits, or is a translation.
+/// True if a variable has a range in a GroupStateSpace: it has limits, or it is a translation.
 bool hasRange(const RobotModel& robot, int variable)
 {
   if (robot.variables()[static_cast<std::size_t>(variable)].bounded)
@@ -45,7 +45,7 @@ Fault outOfBounds(const RobotModel& robot, const GroupStateSpace& space, const d
   return {};
 }
 
-/// Where a joint is beyond its limits, also one that is not planned for, no motion can be proven.
+/// A joint beyond its limits makes every proof of a motion impossible, even if it is not planned for.
 Fault outsideOfProof(const RobotModel& robot, const double* row)
 {
   for (const VariableRange& range : limitRanges(robot))
@@ -56,7 +56,7 @@ Fault outsideOfProof(const RobotModel& robot, const double* row)
   return {};
 }
 
-/// The start's row, then each goal's, with what is not planned for as it is at the start.
+/// The row of the start, then the rows of the goals. Variables that are not planned for have their values of the start.
 std::vector<double> rowsOf(const PlanningQuery& query, const GroupStateSpace& space)
 {
   std::vector<double> rows = query.start;

@@ -11,16 +11,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// What a query can be planned between.
+/// The states that a query starts from and ends at, after their check.
 struct PlanningEnds
 {
-  PlanningStatus status = PlanningStatus::Solved;  ///< else what is wrong with the start, or with all goals
-  std::string message;                             ///< which says so
-  std::vector<ompl::base::ScopedState<>> goals;    ///< those that are within bounds and free of collision
+  PlanningStatus status = PlanningStatus::Solved;  ///< else the fault of the start or of the first goal
+  std::string message;                             ///< describes the fault
+  std::vector<ompl::base::ScopedState<>> goals;    ///< the goals that are within bounds and free of collision
 };
 
-/// Looks at the start and all goals, in one batch. `checker` has `scene`. The query's rows are of the robot's
-/// variables.
+/// Checks the start and all goals in one batch. `checker` holds `scene` already. The rows of the query have one value
+/// per variable of the robot.
 PlanningEnds findEnds(const PlanningScene& scene, StateChecker& checker, const ompl::base::StateSpacePtr& space,
                       const PlanningQuery& query);
 }  // namespace gpu_planning_scene::core

@@ -6,6 +6,9 @@
 #include <limits>
 #include <utility>
 
+// The trees grow by motions whose samples are free. The search proves only the motions of a path that it has found. If
+// a motion of the path fails, it is removed from its tree, and the search goes on.
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -13,12 +16,12 @@ namespace
 namespace ob = ompl::base;
 using ompl::geometric::PathGeometric;
 
-// A round has a random branch for so many vertices. Branches of one round know nothing of each other; while the trees
-// are small, many would be wasted.
+// Vertices per random branch of a round. The branches of a round do not know of each other, so many would be wasted
+// while the trees are small.
 constexpr std::size_t kVerticesPerBranch = 8;
 constexpr std::size_t kLeastBranches = 2;
 
-/// From the root to the vertex.
+/// The vertices from the root to `vertex`.
 std::vector<const RrtTree::Vertex*> wayTo(const RrtTree::Vertex* vertex)
 {
   std::vector<const RrtTree::Vertex*> way;
@@ -48,7 +51,8 @@ void RrtSearch::addCandidate(const ob::GoalSampleableRegion& goal, const TwoTree
     candidates_.push_back({meeting, pathOf(information_, meeting)});
 }
 
-/// Finds those that are in the goal region, which may be more than the goal tree's states.
+/// Finds the new vertices of the start tree that are in the goal region. The region can be larger than the states of
+/// the goal tree.
 void RrtSearch::lookAtNewVertices(const ob::GoalSampleableRegion& goal)
 {
   const auto& vertices = trees_.tree(TwoTrees::Start).vertices();
@@ -76,15 +80,15 @@ const RrtTree::Vertex* RrtSearch::closest() const
   return closest;
 }
 
-/// Whether all motions of the path through a meeting are valid by the validator's own rule. Those that are not are
-/// taken out of the trees.
+/// True if all motions of the path through a meeting are valid by the validator's own rule. Invalid motions are removed
+/// from the trees.
 bool RrtSearch::isProven(const MotionValidator& validator, const TwoTrees::Meeting& meeting,
                          const ob::PlannerTerminationCondition& ptc)
 {
   if (validator.rule() == MotionRule::Samples)
     return true;
   std::vector<MotionValidator::Motion> motions;
-  std::vector<std::pair<TwoTrees::Side, const Vertex*>> ends;  // of the motions within the trees
+  std::vector<std::pair<TwoTrees::Side, const Vertex*>> ends;  // the later vertex of each motion within a tree
   for (const Vertex* vertex = meeting.start; vertex->parent; vertex = vertex->parent)
   {
     motions.emplace_back(vertex->parent->state, vertex->state);
@@ -98,9 +102,9 @@ bool RrtSearch::isProven(const MotionValidator& validator, const TwoTrees::Meeti
   if (meeting.goal)
     motions.emplace_back(meeting.start->state, meeting.goal->state);
   const std::vector<std::uint8_t> valid = validator.validateMotions(motions, ptc);
-  if (ptc)  // what was not looked at counts as invalid
+  if (ptc)  // motions without a verdict are reported as invalid
     return std::find(valid.begin(), valid.end(), 0) == valid.end();
-  std::array<std::vector<const Vertex*>, 2> invalid;  // by the tree
+  std::array<std::vector<const Vertex*>, 2> invalid;  // by tree
   for (std::size_t i = 0; i < ends.size(); ++i)
     if (valid[i] == 0)
       invalid[ends[i].first].push_back(ends[i].second);
@@ -137,7 +141,7 @@ RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::
 {
   const std::size_t size = trees_.tree(TwoTrees::Start).size() + trees_.tree(TwoTrees::Goal).size();
   const std::size_t branches = std::min(most_branches, std::max(kLeastBranches, size / kVerticesPerBranch));
-  // At first nothing but the straight ways.
+  // The first round has no random branches: it tries the straight motions between the roots.
   for (const TwoTrees::Meeting& meeting : trees_.grow(validator, is_first_round_ ? 0 : branches, range, ptc))
     addCandidate(goal, meeting);
   is_first_round_ = false;

@@ -13,8 +13,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// The search of BatchRrtConnect: two trees that grow by motions whose samples are free, and the paths through where
-/// they meet, whose motions are proven by the validator's own rule. Not thread-safe.
+/// The search of BatchRrtConnect. Two trees grow by motions whose samples are free. If they meet, there is a path
+/// through the meeting; its motions are proven by the validator's own rule. Not thread-safe.
 class RrtSearch
 {
  public:
@@ -24,15 +24,16 @@ class RrtSearch
 
   TwoTrees& trees() { return trees_; }
 
-  /// A round of the trees. Returns a solution, if there is one.
+  /// Grows the trees by one round. Returns a solution, or null.
   Path runRound(const MotionValidator& validator, const ompl::base::GoalSampleableRegion& goal,
                 std::size_t most_branches, double range, const ompl::base::PlannerTerminationCondition& ptc);
 
-  /// The first path through where the trees have met so far, shortest first, that is proven before `ptc`; null if there
-  /// is none. The motions that are found invalid are taken out of the trees; what there was no time for is kept.
+  /// Proves the paths through the meetings found so far, shortest first. Returns the first path that is proven before
+  /// `ptc` holds, or null. Invalid motions are removed from the trees. Motions without a verdict stay.
   Path provenPath(const MotionValidator& validator, const ompl::base::PlannerTerminationCondition& ptc);
 
-  /// The way to the vertex that is closest to the goal, as far as it is proven before `ptc`; null if that is nothing.
+  /// The path to the vertex that is closest to the goal, up to its first motion that is not proven before `ptc` holds;
+  /// null if no motion is proven.
   Path approximatePath(const MotionValidator& validator, const ompl::base::PlannerTerminationCondition& ptc) const;
 
   void addTo(ompl::base::PlannerData& data) const;
@@ -40,7 +41,7 @@ class RrtSearch
  private:
   using Vertex = RrtTree::Vertex;
 
-  /// A meeting that is not looked at yet, and the path through it.
+  /// A meeting that is not checked yet, and the path through it.
   struct Candidate
   {
     TwoTrees::Meeting meeting;
@@ -57,8 +58,8 @@ class RrtSearch
   TwoTrees trees_;
   bool is_first_round_ = true;
   std::vector<Candidate> candidates_;
-  /// Of the last solution. Its goal vertex is null where its start vertex is in the goal region.
+  /// Meeting of the last solution. Its goal vertex is null if its start vertex is in the goal region.
   TwoTrees::Meeting meeting_{nullptr, nullptr};
-  std::vector<double> distances_;  // to the goal, of the start tree's vertices
+  std::vector<double> distances_;  // from the vertices of the start tree to the goal
 };
 }  // namespace gpu_planning_scene::core

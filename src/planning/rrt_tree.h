@@ -10,7 +10,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A tree of states that grows from a root, or several, with the search for the nearest of them.
+/// A tree of states that grows from one or several roots, with a search for the nearest state. Not thread-safe.
 class RrtTree
 {
  public:
@@ -23,27 +23,29 @@ class RrtTree
     const Vertex& root() const;
   };
 
-  /// Empty. Distances are those of the planner's space.
+  /// Makes an empty tree. Distances are those of the planner's space.
   explicit RrtTree(const ompl::base::Planner& planner);
   ~RrtTree();
   RrtTree(const RrtTree&) = delete;
   RrtTree& operator=(const RrtTree&) = delete;
 
-  /// Takes a copy of the state. The vertex lives as long as the tree.
+  /// Adds a copy of the state. The vertex exists as long as the tree.
   const Vertex& add(const ompl::base::State* state, const Vertex* parent);
-  /// From now on these vertices, which are no roots, and all that has grown from them are never the nearest.
+  /// Removes these vertices, which must not be roots, and everything that grew from them: nearest() no longer returns
+  /// them.
   void remove(const std::vector<const Vertex*>& vertices);
-  /// The tree must not be empty.
+  /// The vertex nearest to the state. The tree must not be empty.
   const Vertex& nearest(const ompl::base::State* state);
-  /// Parents before children, removed ones too.
+  /// All vertices, removed ones included; parents come before children.
   const std::vector<std::unique_ptr<Vertex>>& vertices() const { return vertices_; }
   std::size_t size() const { return vertices_.size(); }
 
  private:
   ompl::base::SpaceInformationPtr information_;
   std::vector<std::unique_ptr<Vertex>> vertices_;
-  /// OMPL's removes a vertex only by building itself anew, now and then, so removed ones stay until that is due.
+  /// OMPL's search sometimes rebuilds itself when a vertex is removed. So removed vertices stay in it until the next
+  /// search, which rebuilds it once.
   std::unique_ptr<ompl::NearestNeighbors<const Vertex*>> nearest_;
-  bool is_stale_ = false;  // it has removed vertices
+  bool is_stale_ = false;  // nearest_ still has removed vertices
 };
 }  // namespace gpu_planning_scene::core

@@ -31,7 +31,7 @@ std::vector<std::uint8_t> StateValidityChecker::validateStates(
     const std::vector<const ompl::base::State*>& states) const
 {
   std::vector<std::uint8_t> valid(states.size(), 0);
-  std::vector<std::size_t> within;  // the states within bounds, and their rows
+  std::vector<std::size_t> within;  // indices of the states within bounds
   std::vector<double> rows;
   rows.reserve(states.size() * reference_.size());
   for (std::size_t i = 0; i < states.size(); ++i)

@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+// A round collects the next motions of all attempts and of the random branches. It checks their samples in one call and
+// adds the valid motions to the trees.
+// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
+
 namespace gpu_planning_scene::core
 {
 namespace
 {
-// So that a round ends in time, whatever the range is.
+// Keeps a round short for every range.
 constexpr std::size_t kMostPieces = 64;
 
-// From root to root much is gained if the whole way is free, and there are few such ways.
+// Between two roots, a free straight line saves the most work. There are few of these lines, so each gets many segments
+// at once.
 constexpr std::size_t kPiecesBetweenRoots = 32;
 
 TwoTrees::Side otherThan(TwoTrees::Side side)
@@ -54,7 +59,7 @@ ompl::base::State* TwoTrees::scratch()
   return scratch_[scratch_used_++];
 }
 
-/// The next pieces of a way.
+/// The next motions towards the target of a way.
 TwoTrees::Attempt TwoTrees::pieces(Way way, double range)
 {
   if (!way.from)
@@ -88,7 +93,8 @@ TwoTrees::Attempt TwoTrees::randomBranch(Side side, double range)
   return {{side, &from, nullptr, 1}, {state}};
 }
 
-/// Adds the valid first part of an attempt; returns the last vertex of it.
+/// Adds the valid first motions of an attempt to the tree. Returns the last vertex; `done` gets the number of valid
+/// motions.
 const RrtTree::Vertex& TwoTrees::advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done)
 {
   const Vertex* tip = attempt.way.from;
@@ -108,7 +114,7 @@ std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, 
   for (std::size_t i = 0; i < branches; ++i)
     attempts.push_back(randomBranch(turn_, range));
 
-  // In the direction in which the path will have them.
+  // The motions get the direction that they will have in the path.
   std::vector<MotionValidator::Motion> motions;
   for (const Attempt& attempt : attempts)
   {
@@ -120,7 +126,7 @@ std::vector<TwoTrees::Meeting> TwoTrees::grow(const MotionValidator& validator, 
     }
   }
   const std::vector<std::uint8_t> valid = validator.validateSamples(motions, ptc);
-  if (ptc)  // what was not looked at counts as invalid
+  if (ptc)  // motions without a verdict are reported as invalid
     return {};
   turn_ = otherThan(turn_);
   ways_.clear();

@@ -11,7 +11,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// A tree from the start states and one from the goal states that grow towards each other, many branches at a time.
+/// Two trees, from the start states and from the goal states, that grow towards each other, many branches at a time.
+/// Not thread-safe. The idea of RRT-Connect: J. J. Kuffner, S. M. LaValle, ICRA 2000.
 class TwoTrees
 {
  public:
@@ -21,7 +22,7 @@ class TwoTrees
     Goal
   };
 
-  /// Where the trees meet: the samples of the straight motion between the two vertices are free.
+  /// A place where the trees meet: the samples of the straight motion between the two vertices are free.
   struct Meeting
   {
     const RrtTree::Vertex* start;
@@ -35,35 +36,36 @@ class TwoTrees
 
   const RrtTree& tree(Side side) const { return trees_[side]; }
 
-  /// Where the straight motions from vertices' parents to them are not valid after all: see RrtTree::remove.
+  /// Removes vertices, because the motions from their parents to them are not valid after all: see RrtTree::remove.
   void remove(Side side, const std::vector<const RrtTree::Vertex*>& vertices);
 
-  /// The other tree tries the straight way to it in the next round.
+  /// Adds a root. In the next round, the other tree grows towards it on a straight line.
   void addRoot(Side side, const ompl::base::State* state);
 
-  /// A round, whose motions' samples are checked in one call. The tree whose turn it is grows `branches` motions
-  /// towards random states. Both go on with the straight ways that they are on; each vertex of a new branch becomes the
-  /// end of such a way of the other tree, from the next round on. `range`: the longest motion, above 0. Returns where
-  /// they meet. Where `ptc` ends the round, nothing comes of it.
+  /// Grows the trees by one round; the samples of all its motions are checked in one call. The trees take turns: one
+  /// tree grows `branches` motions towards random states. Both trees also grow towards their targets, which are
+  /// vertices of the other tree. Each vertex of a new random branch becomes a target of the other tree, from the next
+  /// round on. `range`: the longest motion, above 0. Returns the meetings of the trees. If `ptc` ends the round, the
+  /// trees stay as they were, and there are no meetings.
   std::vector<Meeting> grow(const MotionValidator& validator, std::size_t branches, double range,
                             const ompl::base::PlannerTerminationCondition& ptc);
 
  private:
   using Vertex = RrtTree::Vertex;
 
-  /// A straight way of a tree to a vertex of the other.
+  /// A straight line from a tree to a vertex of the other tree.
   struct Way
   {
     Side side;
-    const Vertex* from;  // null: the tree's nearest vertex, when it sets out
+    const Vertex* from;  // null: the vertex of the tree that is nearest to `to` when growth begins
     const Vertex* to;
-    std::size_t most_pieces;  // to check at once; twice as many each time
+    std::size_t most_pieces;  // segments to check at once; the number doubles each time
   };
 
-  /// Motions that follow one another, to be checked.
+  /// Consecutive motions to check.
   struct Attempt
   {
-    Way way;  // to nowhere where it is a random branch
+    Way way;  // its `to` is null for a random branch
     std::vector<const ompl::base::State*> states;
   };
 
@@ -77,7 +79,7 @@ class TwoTrees
   std::array<RrtTree, 2> trees_;
   Side turn_ = Start;
   std::vector<Way> ways_;
-  std::vector<ompl::base::State*> scratch_;  // of a round
+  std::vector<ompl::base::State*> scratch_;  // states of a round
   std::size_t scratch_used_ = 0;
 };
 }  // namespace gpu_planning_scene::core

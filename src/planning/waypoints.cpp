@@ -15,7 +15,7 @@ using Row = std::vector<double>;
 
 bool isHalfATurn(const RobotModel& robot, const Row& from, const Row& to)
 {
-  constexpr double kNearly = 1e-6;  // radians: more than anybody's rounding
+  constexpr double kNearly = 1e-6;  // radians: larger than rounding errors
   const std::vector<JointTravel> travel = jointTravel(robot, from.data(), to.data());
   for (std::size_t i = 0; i < travel.size(); ++i)
   {
@@ -27,10 +27,11 @@ bool isHalfATurn(const RobotModel& robot, const Row& from, const Row& to)
   return false;
 }
 
-/// Continues the values of `from` to those of `row`, which is reached from `last`, the same place as `from`.
+/// Changes the angles and quaternions of `row` so that they continue from `from`. `last` is the same place as `from`,
+/// with the values that the path has there.
 void unwind(const RobotModel& robot, const Row& from, const Row& last, Row& row)
 {
-  constexpr int kRotation = 3;  // of a floating joint's variables: the first one after the position
+  constexpr int kRotation = 3;  // index of the quaternion within a floating joint's variables
   const Row reached = row;
   for (const Joint& joint : robot.joints())
   {

@@ -8,13 +8,13 @@
 
 namespace gpu_planning_scene::core
 {
-/// The variable of a joint that is an angle without limits; -1 where it has none.
+/// Index of the joint's variable that is an angle without limits (continuous and planar joints); -1 if there is none.
 int wrappedAngle(const Joint& joint);
 
-/// A path as rows of all variables, `start` first, whose other variables all have. Values go the way that the motions
-/// were checked on, also for those who follow them number by number: angles go on from `start` without jumps by whole
-/// turns, quaternions do not change their sign. Of a motion of half a turn the middle is a waypoint as well, as either
-/// way round would be the shorter one.
+/// Turns a path into rows of all variables. `start`: the first row; all rows have its values of the other variables.
+/// The values change in the direction in which the motions were checked, also for a reader that interpolates them as
+/// plain numbers: angles continue from `start` without jumps by whole turns, and quaternions do not change their sign.
+/// A motion of half a turn gets a waypoint at its middle, because both directions would be equally short.
 std::vector<std::vector<double>> waypointsOf(const ompl::geometric::PathGeometric& path, const GroupStateSpace& space,
                                              const std::vector<double>& start);
 }  // namespace gpu_planning_scene::core

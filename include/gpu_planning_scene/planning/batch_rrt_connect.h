@@ -10,39 +10,42 @@ namespace gpu_planning_scene::core
 {
 class RrtSearch;
 
-/// RRT-Connect for a MotionValidator, which checks many motions in little more time than one: a tree from the start
-/// states and one from the goal states grow in rounds, and the motions of a round are checked in one call.
-///  - At first, the straight ways between start and goal states.
-///  - Then the trees take turns: one grows by motions towards many random states. In the next round, the other tree
-///    heads for each of the vertices that this gave, in pieces no longer than the range, as far as they are valid,
-///    while it grows random branches of its own.
-/// Where the trees meet in several places at once, the shortest path is the solution. The trees grow by motions whose
-/// samples are free; where the validator asks for more (MotionRule::Bound), the motions of a path are proven once there
-/// is one, and what is not proven is taken out of the trees, with all that has grown from it.
+/// RRT-Connect for a MotionValidator, which checks many motions in little more time than one motion. Two trees, from
+/// the start states and from the goal states, grow in rounds. All motions of a round are checked in one call.
+///   - The first round checks the straight motions between start and goal states.
+///   - Then the trees take turns: one tree grows motions towards many random states. In the next round, the other tree
+///     grows towards each of the new vertices, in segments no longer than the range and as far as they are valid. At
+///     the same time it grows random branches of its own.
+/// If the trees meet in several places at once, the shortest path is the solution.
+/// The trees grow by motions whose samples are free. If the validator's rule is MotionRule::Bound, the motions of a
+/// path are proven when the path is found. A motion that is not proven is removed from its tree, with everything that
+/// grew from it. Not thread-safe.
 ///
 /// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
-/// On growing many branches of a tree at once, there by threads: J. Ichnowski, R. Alterovitz: Parallel sampling-based
-/// motion planning with superlinear speedup. IROS 2012.
+/// Many branches at once, there with threads: J. Ichnowski, R. Alterovitz: Parallel sampling-based motion planning with
+/// superlinear speedup. IROS 2012.
 class BatchRrtConnect : public ompl::base::Planner
 {
  public:
   explicit BatchRrtConnect(const ompl::base::SpaceInformationPtr& information);
   ~BatchRrtConnect() override;
 
-  /// The longest motion that is added to a tree; 0 or less: setup() chooses one, 4 % of the space's extent.
+  /// The longest motion that is added to a tree, in the distance of the space. With 0 or less, setup() chooses 4 % of
+  /// the extent of the space.
   void setRange(double range);
   double getRange() const { return range_; }
 
-  /// How many random branches a round has at most, at least 1. While the trees are small it has fewer.
+  /// The largest number of random branches in a round, at least 1. While the trees are small, a round has fewer.
   void setBranches(unsigned int branches);
   unsigned int getBranches() const { return branches_; }
 
   /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator.
   void setup() override;
   void clear() override;
-  /// Called again, it goes on with the trees that there are. The termination condition is asked between batches of
-  /// states. Once it holds, there is some time more, whatever it says, to prove a solution that there was no time for:
-  /// a tenth of what was spent, from 0.1 s to 1 s; and if there is none, as much to prove the way to what is closest.
+  /// Grows the trees until there is a solution or `ptc` holds; a second call continues with the same trees. `ptc` is
+  /// tested between batches of states. When it holds, the planner takes more time to prove a solution that it has found
+  /// but not proven: a tenth of the time so far, but at least 0.1 s and at most 1 s. If no solution is proven, it takes
+  /// as much again to prove the path to the vertex that is closest to the goal.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
@@ -55,6 +58,6 @@ class BatchRrtConnect : public ompl::base::Planner
 
   double range_ = 0.0;
   unsigned int branches_ = 64;
-  std::unique_ptr<RrtSearch> search_;  // what clear() forgets
+  std::unique_ptr<RrtSearch> search_;  // everything that clear() deletes
 };
 }  // namespace gpu_planning_scene::core

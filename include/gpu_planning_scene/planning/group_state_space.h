@@ -11,40 +11,45 @@
 
 namespace gpu_planning_scene::core
 {
-/// The state space of a planning group of the SRDF, for OMPL: the variables of its active joints. A compound of
-///  - one RealVectorStateSpace of all revolute and prismatic joints, its dimensions named after them, with their
-///  limits,
-///  - an SO2StateSpace for each continuous joint,
-///  - an SE2StateSpace for each planar joint and an SE3StateSpace for each floating one, whose translations are bounded
-///    by Variable::lower and upper,
-/// in this order, each named after its joint. Mimic joints follow their leaders; passive joints, and those whose limits
-/// leave them no room, are not planned for.
+/// The state space of a planning group of the SRDF, for OMPL. Its values are variables of the group's active joints, in
+/// radians and metres. It is a compound of these spaces, in this order:
+///   - one RealVectorStateSpace for all revolute and prismatic joints, with their limits; each dimension is named
+///     after its joint,
+///   - an SO2StateSpace for each continuous joint,
+///   - an SE2StateSpace for each planar joint, with its translations bounded by Variable::lower and upper,
+///   - an SE3StateSpace for each floating joint, with the same bounds.
+/// The SO2, SE2 and SE3 spaces have the names of their joints. The space has no values for mimic joints, which follow
+/// their leaders, for passive joints, and for joints whose limits leave no range. Const functions are thread-safe after
+/// setup().
 class GroupStateSpace : public ompl::base::CompoundStateSpace
 {
  public:
-  /// Its name is the group's. Throws Error for an unknown group, for one without a joint to plan for, for a planar or
-  /// floating joint of it whose translations have no room, and for a continuous one that hasNoPeriod.
+  /// The space has the name of the group. Throws Error if the group is unknown or has no joint to plan for, if a planar
+  /// or floating joint has no range for its translations, or if a continuous joint has no period (hasNoPeriod).
   GroupStateSpace(std::shared_ptr<const RobotModel> robot, const std::string& group);
 
   const std::shared_ptr<const RobotModel>& robot() const { return robot_; }
   const Group& group() const { return *group_; }
-  /// The robot's variables that are planned for: one per value of a state, in the order of getValueLocations().
+  /// Indices of the robot's variables in this space: one per value of a state, in the order of getValueLocations().
   const std::vector<int>& variables() const { return variables_; }
 
-  /// Writes a state into a row of all variables of the robot; the others stay as they are.
+  /// Writes the values of a state into a row of all variables of the robot. Other variables of the row keep their
+  /// values.
   void copyToRow(const ompl::base::State* state, double* row) const;
-  /// The other way round. Angles of continuous and planar joints are brought to [-pi, pi), quaternions to unit length;
-  /// one of zero length means no rotation.
+  /// Sets a state from a row of all variables. Angles of continuous and planar joints are wrapped to [-pi, pi),
+  /// quaternions are normalised; a quaternion of zero length becomes the identity.
   void copyFromRow(const double* row, ompl::base::State* state) const;
 
-  /// The default projection becomes that onto these joints: their positions, of planar and floating ones the
-  /// translations. Without this it is that onto the first of the joints with limits, at most three, as those near the
-  /// root move the most; where there are none, onto the first planar or floating joint, else the first continuous one.
-  /// Throws Error and changes nothing for no joint, and for one that is not in the space. To be followed by setup().
+  /// Makes the values of these joints the default projection: positions of joints with one variable, translations of
+  /// planar and floating joints. Without this call, the projection has the first joints with limits, at most three,
+  /// because joints near the root move the most. If there are none, it has the first planar or floating joint, else the
+  /// first continuous joint. Throws Error and changes nothing if `joints` is empty or names a joint that is not in the
+  /// space. Call setup() afterwards.
   void projectOnto(const std::vector<std::string>& joints);
   void registerProjections() override;
 
-  /// As the compound's, but within bounds: OMPL's SO2StateSpace may give an angle of pi, which is out of its own.
+  /// Interpolates as the compound space does, but keeps the result within the bounds: OMPL's SO2StateSpace can return
+  /// an angle of pi, which is outside of its own bounds.
   void interpolate(const ompl::base::State* from, const ompl::base::State* to, double t,
                    ompl::base::State* state) const override;
 
@@ -54,8 +59,8 @@ class GroupStateSpace : public ompl::base::CompoundStateSpace
   std::shared_ptr<const RobotModel> robot_;
   const Group* group_;
   std::vector<int> variables_;
-  std::vector<std::size_t> angles_;     // which of the values are in an SO2StateSpace
-  std::vector<std::size_t> rotations_;  // which of the values are the x of a quaternion
-  std::vector<std::size_t> projected_;  // which of the values the default projection keeps
+  std::vector<std::size_t> angles_;     // indices of the values in an SO2StateSpace
+  std::vector<std::size_t> rotations_;  // indices of the values that are the x of a quaternion
+  std::vector<std::size_t> projected_;  // indices of the values in the default projection
 };
 }  // namespace gpu_planning_scene::core

@@ -16,35 +16,39 @@
 
 namespace gpu_planning_scene::core
 {
-/// Straight motions between states of a GroupStateSpace, within its bounds: see MotionChecker for when one is valid.
-/// The start is checked as well. A state with a value that is not finite is outside of the bounds. The robot's other
-/// variables are as for StateValidityChecker. Thread-safe.
+/// Validates straight motions between states of a GroupStateSpace. A motion is valid if its states are within the
+/// bounds of the space and the MotionChecker finds it valid. The start is checked too. A state with a value that is not
+/// finite is outside of the bounds. The robot's other variables have the values described at StateValidityChecker.
+/// Thread-safe.
 class MotionValidator : public ompl::base::MotionValidator
 {
  public:
   using Motion = std::pair<const ompl::base::State*, const ompl::base::State*>;
   using Termination = ompl::base::PlannerTerminationCondition;
 
-  /// `checker` has `scene`. Throws Error if the space of `information` is no GroupStateSpace of the scene's robot.
+  /// `checker` holds `scene` already. Throws Error if the space of `information` is not a GroupStateSpace of the robot
+  /// of `scene`.
   MotionValidator(const ompl::base::SpaceInformationPtr& information, std::shared_ptr<const PlanningScene> scene,
                   std::shared_ptr<StateChecker> checker, const MotionCheckerOptions& options = {});
 
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
-  /// `last_valid`, which stays as it is where the motion is valid: the last free sample before the first collision, or
-  /// what MotionVerdict::last_valid is, and its fraction; the start and 0 where that collides. The state may be null.
+  /// If the motion is invalid, `last_valid` gets the state and the fraction of MotionVerdict::last_valid; if the start
+  /// collides, these are the start and 0. If the motion is valid, `last_valid` stays unchanged. The state pointer may
+  /// be null.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
                    std::pair<ompl::base::State*, double>& last_valid) const override;
 
-  /// In bulk: 1 for each motion that is valid, else 0. Motions that are not decided when `ptc` says so are not valid.
+  /// In bulk: one byte per motion, 1 if it is valid, else 0. When `ptc` holds, all motions without a verdict get 0.
   std::vector<std::uint8_t> validateMotions(const std::vector<Motion>& motions, const Termination& ptc = never()) const;
-  /// In bulk: 1 for each motion whose samples are free. For planners that have only the motions of a solution proven:
-  /// see MotionRule.
+  /// In bulk: one byte per motion, 1 if all its samples are free, else 0. This is for planners that prove only the
+  /// motions of a solution: see MotionRule.
   std::vector<std::uint8_t> validateSamples(const std::vector<Motion>& motions, const Termination& ptc = never()) const;
   MotionRule rule() const { return motions_.rule(); }
-  /// Whether all motions of the path are valid, in one batch; of one state, whether it is.
+  /// Checks all motions of the path in one batch: true if all are valid. A path with one state is valid if the state
+  /// is; an empty path is not valid.
   bool validatePath(const ompl::geometric::PathGeometric& path, const Termination& ptc = never()) const;
 
-  /// States that were checked so far.
+  /// Number of states checked so far.
   std::uint64_t statesChecked() const { return motions_.statesChecked(); }
 
  private:
@@ -54,8 +58,8 @@ class MotionValidator : public ompl::base::MotionValidator
   static std::vector<std::uint8_t> validOf(const std::vector<MotionVerdict>& verdicts);
 
   std::shared_ptr<const GroupStateSpace> space_;
-  std::vector<double> reference_;  // a row of all variables
+  std::vector<double> reference_;  // one value per variable of the robot
   MotionChecker motions_;
-  mutable std::mutex counters_;  // OMPL's, of valid and invalid motions
+  mutable std::mutex counters_;  // for OMPL's counters of valid and invalid motions
 };
 }  // namespace gpu_planning_scene::core

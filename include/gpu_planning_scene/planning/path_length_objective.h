@@ -4,9 +4,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// The length of a path, for planners such as BITstar that sample where a better one may be: OMPL's own objective does
-/// so in a few state spaces only and throws in all others, a GroupStateSpace among them. Here samples that cannot be
-/// better are rejected, in any space.
+/// The length of a path, as an objective for informed planners such as BITstar, which sample only states that can
+/// improve the path. OMPL's own objective throws in most state spaces, also in a GroupStateSpace. This objective works
+/// in every space: its sampler rejects samples that cannot improve the path.
 class PathLengthObjective : public ompl::base::PathLengthOptimizationObjective
 {
  public:

@@ -9,29 +9,30 @@
 
 namespace gpu_planning_scene::core
 {
+/// Options of PathShortcutter.
 struct ShortcutterOptions
 {
-  std::size_t candidates = 16;   ///< shortcuts that are checked at once
-  std::size_t most_rounds = 64;  ///< of so many candidates
-  std::size_t idle_rounds = 2;   ///< the end, after so many rounds in a row that gain too little
-  double least_gain = 1e-2;      ///< of a round, as a part of the path's length
+  std::size_t candidates = 16;   ///< shortcuts that are checked in one call (a round)
+  std::size_t most_rounds = 64;  ///< the shortcutter stops after this many rounds
+  std::size_t idle_rounds = 2;   ///< it also stops after this many rounds in a row that gain less than least_gain
+  double least_gain = 1e-2;      ///< least gain of a round, as a fraction of the path's length
 };
 
-/// Shortens paths for a MotionValidator, which checks many motions in little more time than one. At first, one motion
-/// takes the place of several that are as long together. Then, in each round, shortcuts between two points of the path
-/// are drawn and checked in one call; of the valid ones those are taken, largest gain first, that do not overlap one
-/// taken before. Points are vertices as well as points on edges.
+/// Shortens paths with a MotionValidator, which checks many motions in little more time than one motion. First, one
+/// motion replaces several motions of the same total length. Then each round draws shortcuts between two points of the
+/// path, which are vertices or points on edges, and checks them in one call. It takes the valid shortcuts in the
+/// order of their gain, largest first, and skips a shortcut that overlaps one already taken. Not thread-safe.
 ///
-/// R. Geraerts, M. H. Overmars: Creating high-quality paths for motion planning. IJRR 26(8), 2007, has such shortcuts
-/// one at a time.
+/// R. Geraerts, M. H. Overmars: Creating high-quality paths for motion planning. IJRR 26(8), 2007. Their method checks
+/// one shortcut at a time.
 class PathShortcutter
 {
  public:
   /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator.
   explicit PathShortcutter(const ompl::base::SpaceInformationPtr& information, const ShortcutterOptions& options = {});
 
-  /// Whether the path became shorter. Its first and last state stay as they are; each motion that it did not have
-  /// before was found valid, also where it is a part of an old one. `ptc` is asked between batches of states.
+  /// Returns true if the path became shorter. The first and the last state stay the same. Every new motion of the path
+  /// was found valid, also a new motion that is a part of an old one. `ptc` is tested between batches of states.
   bool shorten(ompl::geometric::PathGeometric& path, const ompl::base::PlannerTerminationCondition& ptc);
 
  private:

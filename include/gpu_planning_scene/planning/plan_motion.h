@@ -15,48 +15,51 @@
 
 namespace gpu_planning_scene::core
 {
-/// A motion that is wanted. Rows are of all variables of the robot; what the group does not move stays as it is at the
-/// start.
+/// A request for a motion. Each row has one value per variable of the robot, in radians and metres. Variables that the
+/// group does not move keep their values of the start.
 struct PlanningQuery
 {
   std::string group;
   std::vector<double> start;
-  std::vector<std::vector<double>> goals;  ///< any of them
-  /// For planning, with a look at the start and the goals; planners take a little more. Simplification, and then a last
-  /// look at the path, each have what is left, and at least a tenth and 0.1 s.
+  std::vector<std::vector<double>> goals;  ///< rows; the motion may end at any of them
+  /// Seconds for planning, with the check of the start and the goals; planners can take slightly longer. Simplification
+  /// and the last check of the path can each take the time that planning leaves, but at least a tenth of the whole and
+  /// at least 0.1 s.
   double seconds = 5.0;
   bool simplify = true;
   MotionCheckerOptions motions;
   std::map<std::string, std::string> parameters = {};  ///< of the planner, by OMPL's names
-  std::vector<std::string> projection = {};            ///< joints that planners with projections look at; none: default
+  std::vector<std::string> projection = {};            ///< joints of the planner's projection; empty: the default
 };
 
 enum class PlanningStatus
 {
   Solved,
-  Approximate,  ///< there was no time for more: the path ends as near to a goal as was found
-  NoSolution,   ///< nor was anything found that comes nearer, or it is not valid by the motion rule
+  Approximate,  ///< no solution within the time; the path ends as near to a goal as was found
+  NoSolution,   ///< no solution, no path that comes nearer to a goal, or a path that is not valid by the rule
   StartInCollision,
-  GoalsInCollision,  ///< the first of the goals, of which none is both free and within bounds
-  OutOfBounds        ///< the start, or the first of the goals, of which none is both free and within bounds
+  GoalsInCollision,  ///< no goal is good (free and within bounds), and the first collides
+  OutOfBounds        ///< the start is out of bounds; or no goal is good, and the first is out of bounds
 };
 
 struct PlanningResult
 {
   PlanningStatus status = PlanningStatus::NoSolution;
-  std::string message;                         ///< what is wrong, in one line; empty where it is solved
-  std::vector<std::vector<double>> waypoints;  ///< rows of all variables; none unless solved or approximate
-  double planning_seconds = 0.0;               ///< with the look at the start and the goals, and the proof of the path
+  std::string message;                         ///< the fault, in one line; empty if the status is Solved
+  std::vector<std::vector<double>> waypoints;  ///< rows of all variables; none unless Solved or Approximate
+  double planning_seconds = 0.0;  ///< with the check of the start and the goals, and the last check of the path
   double simplification_seconds = 0.0;
-  double checking_seconds = 0.0;  ///< of both
+  double checking_seconds = 0.0;  ///< part of the two times above that the checker took
   std::uint64_t states_checked = 0;
-  std::uint64_t revision = 0;  ///< of the scene
+  std::uint64_t revision = 0;  ///< of the checked scene
 };
 
-/// Plans with the planner that `factory` makes. `checker` has `scene`. `stop`: asked now and then whether to end early;
-/// a planner may then take its time to end. Throws Error: an unknown group, parameter or joint of the projection, a row
-/// of the wrong length or with a value that is not finite, an angle of the start beyond 1e6 rad, no goal, times that
-/// are not above 0 or beyond 1e9 s. Throws what the planner throws. Thread-safe with a checker for each call.
+/// Plans a motion with the planner that `factory` creates. `checker` holds `scene` already. `stop` is called from time
+/// to time; when it returns true, planning ends early, as soon as the planner reacts. Thread-safe if each call has a
+/// checker of its own.
+/// Throws Error for an unknown group, parameter or projection joint; for a row with a wrong length or a value that is
+/// not finite; for an angle of the start beyond 1e6 rad (continuous and planar joints); without a goal; and for a time
+/// that is not above 0 and at most 1e9 s. Exceptions of the planner pass through.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,
                           const PlannerFactory& factory, const std::function<bool()>& stop = {});

@@ -4,14 +4,15 @@
 
 namespace gpu_planning_scene::core
 {
-/// Makes planners: the base class of plugins, as ompl::base::Planner has no default constructor. Thread-safe.
+/// Creates planners. It is the base class of planner plugins, because pluginlib needs a default constructor and
+/// ompl::base::Planner has none. Thread-safe.
 class PlannerFactory
 {
  public:
   virtual ~PlannerFactory() = default;
 
-  /// A planner with its own defaults. The space information has a GroupStateSpace, a MotionValidator and a
-  /// StateValidityChecker of this package, which planners may use in bulk.
+  /// Creates a planner with its own default parameters. The space information has the GroupStateSpace, MotionValidator
+  /// and StateValidityChecker of this package; a planner may use their functions in bulk.
   virtual ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const = 0;
 };
 }  // namespace gpu_planning_scene::core

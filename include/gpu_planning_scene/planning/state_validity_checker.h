@@ -14,33 +14,35 @@
 
 namespace gpu_planning_scene::core
 {
-/// Whether states of a GroupStateSpace are within its bounds and free of collision in a scene. The robot's other
-/// variables are as in the scene's current state, or RobotModel::defaultState() where it has none. Thread-safe.
+/// A state of a GroupStateSpace is valid if it is within the bounds of the space and free of collision in the scene.
+/// The robot's other variables have the values of the scene's current state, or of RobotModel::defaultState() if the
+/// scene has none. Thread-safe.
 class StateValidityChecker : public ompl::base::StateValidityChecker
 {
  public:
-  /// `checker` has `scene`. Throws Error if the space of `information` is no GroupStateSpace of the scene's robot.
+  /// `checker` holds `scene` already. Throws Error if the space of `information` is not a GroupStateSpace of the robot
+  /// of `scene`.
   StateValidityChecker(const ompl::base::SpaceInformationPtr& information, std::shared_ptr<const PlanningScene> scene,
                        std::shared_ptr<StateChecker> checker);
 
   bool isValid(const ompl::base::State* state) const override;
   using ompl::base::StateValidityChecker::isValid;
-  /// Metres beyond the required distance to the nearest of the world and of the robot itself: see StateInspector.
-  /// Bounds do not count. Throws Error for a value that is not finite.
+  /// The smaller of the clearances to the world and of the robot to itself, in metres beyond the required distance: see
+  /// StateInspector. The bounds of the space do not count. Throws Error for a value that is not finite.
   double clearance(const ompl::base::State* state) const override;
   using ompl::base::StateValidityChecker::clearance;
 
-  /// In bulk: 1 for each state that is valid, else 0.
+  /// In bulk: one byte per state, 1 if it is valid, else 0.
   std::vector<std::uint8_t> validateStates(const std::vector<const ompl::base::State*>& states) const;
 
-  /// States that were checked so far; those out of bounds never are.
+  /// Number of states checked so far. States out of bounds are not checked and do not count.
   std::uint64_t statesChecked() const { return states_checked_; }
 
  private:
   std::shared_ptr<const GroupStateSpace> space_;
   std::shared_ptr<const PlanningScene> scene_;
   std::shared_ptr<StateChecker> checker_;
-  std::vector<double> reference_;  // a row of all variables
+  std::vector<double> reference_;  // one value per variable of the robot
   mutable std::once_flag inspector_made_;
   mutable std::unique_ptr<StateInspector> inspector_;
   mutable std::atomic<std::uint64_t> states_checked_{0};
