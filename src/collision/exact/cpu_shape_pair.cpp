@@ -6,7 +6,7 @@
 
 // Meshes are decided by a simultaneous traversal of two trees of oriented boxes (Gottschalk, Lin and Manocha,
 // "OBBTree", 1996), with exact tests at the leaves. If the surfaces do not meet, winding numbers tell whether one shape
-// is inside the other (Jacobson et al. 2013).
+// is inside the other.
 namespace gpu_planning_scene::core
 {
 namespace

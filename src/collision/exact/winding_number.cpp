@@ -17,8 +17,7 @@ using Eigen::Vector3d;
 /// Far above the rounding error of the box test, for coordinates of up to kilometres.
 constexpr double kRayMargin = 1e-9;  // metres
 
-/// Whether a segment and an oriented box overlap, by their separating axes (Gottschalk, Lin and Manocha 1996; Ericson
-/// 2005). Never misses an overlap.
+/// Whether a segment and an oriented box overlap, by their separating axes (Ericson 2005). Never misses an overlap.
 class SegmentBoxTest
 {
  public:

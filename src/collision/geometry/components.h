@@ -20,7 +20,7 @@ struct Component
 /// The connected components of a mesh. Vertices at equal places count as one vertex. Triangles that share a vertex are
 /// connected. A triangle that names the same place twice connects its vertices, but it bounds nothing. A component is
 /// closed if each edge of its other triangles belongs to exactly two of them, in opposite directions. The closed
-/// components together bound a solid: all points with a winding number that is not 0 (Jacobson et al. 2013).
+/// components together bound a solid: all points with a winding number that is not 0.
 struct MeshComponents
 {
   std::vector<Component> components;

@@ -6,7 +6,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// One, as a rule: what follows is for what the stacks or the granted iterations were too short for.
+/// Usually one pass suffices. The others take the node pairs for which the stacks or the allowed iterations did not
+/// suffice.
 constexpr std::uint32_t kPasses = 3;
 }  // namespace
 

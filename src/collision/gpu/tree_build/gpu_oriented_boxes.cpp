@@ -9,7 +9,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Dispatches of so many nodes, and of so many of up to FIT_MOST_TRIANGLES each, take less than 50 ms on llvmpipe.
+/// A dispatch over this many nodes takes less than 50 ms on llvmpipe. The second limit is for large nodes of up to
+/// FIT_MOST_TRIANGLES triangles.
 constexpr std::uint32_t kNodesAtOnce = 65536;
 constexpr std::uint32_t kLargeNodesAtOnce = 64;
 }  // namespace
