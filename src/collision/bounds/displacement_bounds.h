@@ -13,11 +13,10 @@ namespace gpu_planning_scene::core
 /// The distances that the pairs of a problem need in addition to their required distance, for each state of a batch.
 struct Margins
 {
-  std::size_t width = 0;            ///< columns of a row: DisplacementBounds::count()
-  std::vector<double> values;       ///< rows, metres
-  std::vector<std::uint32_t> rows;  ///< one per state: index of the state's row
-  std::vector<std::uint8_t>
-      within;  ///< one per state: 0 if the state is outside the joints' limits, where the margins are not valid
+  std::size_t width = 0;             ///< columns of a row: DisplacementBounds::count()
+  std::vector<double> values;        ///< rows, metres
+  std::vector<std::uint32_t> rows;   ///< one per state: index of the state's row
+  std::vector<std::uint8_t> within;  ///< one per state: 0 if it is outside the joints' limits, without bounds
 
   const double* of(std::size_t state) const { return values.data() + rows[state] * width; }
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+// Two links are fixed to each other if the same link is their anchor. The exact checker decides each pair once, with
+// the link poses in the frames of the anchors.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -11,7 +11,7 @@ class AbandonableThread
 {
  public:
   AbandonableThread();
-  /// Waits for the thread to end, unless the thread was given up.
+  /// Waits until the thread has finished its jobs, unless it was given up.
   ~AbandonableThread();
   AbandonableThread(const AbandonableThread&) = delete;
   AbandonableThread& operator=(const AbandonableThread&) = delete;

@@ -22,8 +22,8 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-// A measured threshold is kept, also for new scenes, for this many times the duration of its measurement. So frequent
-// scene changes do not cause frequent measurements.
+// A new scene keeps the measured threshold until this many times the duration of the measurement has passed. So
+// frequent scene changes do not cause frequent measurements.
 constexpr double kMeasuringPause = 50.0;
 
 // Fewer states of the caller are not representative.

@@ -66,7 +66,7 @@ std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, cons
     if (!contact.pos.allFinite() || !grown.contains(contact.pos) || !isUnit(contact.normal) ||
         !std::isfinite(contact.penetration_depth))
       continue;
-    // FCL may exchange a primitive and a tree; contact.o1 tells.
+    // FCL may exchange a primitive and a tree; contact.o1 tells which shape is first.
     const Vector3d normal = contact.o1 == a.model.get() ? contact.normal : Vector3d(-contact.normal);
     const double depth = std::abs(contact.penetration_depth);
     (depth <= deepest + kContactMargin ? contacts : too_deep)

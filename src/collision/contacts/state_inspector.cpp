@@ -13,6 +13,8 @@
 #include "collision/exact/forest_cache.h"
 #include "collision/problem/state_validation.h"
 
+// The exact checker finds the colliding pairs of instances. FCL gives their contacts, of which the deepest ones per
+// pair of bodies are kept.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -148,16 +148,17 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
   return false;
 }
 
-/// Simultaneous traversal of two trees. The boxes of each pair of nodes overlap; the root boxes do so before the call.
+/// Simultaneous traversal of two trees. The boxes of each pair of nodes overlap; the caller has tested the root boxes.
 /// The larger node of a pair is opened.
 ///
 /// With a tolerance, the traversal stops at two nodes that are close enough to count as a collision. Each node has a
-/// triangle, and all points of the triangle are within the node's radius (half the diagonal of its box) of the box's
-/// centre. So two triangles are at most as far apart as the centres plus both radii; this sum must be at most the
-/// required distance plus the tolerance. Example: two nodes overlap, the required distance is 0, and their diagonals
-/// add up to at most the tolerance. The radii then add up to at most half of it, and the distance of the centres is at
-/// most the sum of the radii. For a required distance v > 0, the overlap of boxes that are grown by v proves less,
-/// because their corners reach v times the square root of 3.
+/// triangle, and all points of this triangle are within the node's radius (half the diagonal of its box) of the box's
+/// centre. So the distance of the two triangles is at most the distance of the centres plus both radii. The traversal
+/// stops if this sum is at most the required distance plus the tolerance.
+///
+/// Example: the required distance is 0, two nodes overlap, and their diagonals add up to at most the tolerance. Then
+/// the radii add up to at most half of the tolerance, and so does the distance of the centres. For a required distance
+/// v > 0, the overlap of boxes grown by v would prove less, because their corners reach v times the square root of 3.
 bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, double required,
                                 Scratch& scratch) const
 {

@@ -63,9 +63,9 @@ class CpuTraversal
   std::vector<InstancePair> collidingInstances(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
 
  private:
-  /// A check tests one robot instance against the world, or one self pair. Numbers below the number of robot instances
-  /// mean the former; the self pairs follow. Calls visit(instance pair) for each collision until it returns true.
-  /// Returns whether visit returned true.
+  /// A check tests one robot instance against the world, or one self pair. The first numbers are the robot instances;
+  /// the self pairs follow. Calls visit(instance pair) for each collision until it returns true. Returns whether visit
+  /// returned true.
   template <class Visit>
   bool check(std::uint32_t number, const Eigen::Isometry3d* link_poses, double margin, Scratch& scratch,
              const Visit& visit) const;

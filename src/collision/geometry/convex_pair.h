@@ -4,7 +4,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A convex set that is described by its support function.
+/// A convex set that is described by its support function, as for the algorithm of Gilbert, Johnson and Keerthi (1988).
 class Convex
 {
  public:

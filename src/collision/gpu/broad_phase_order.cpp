@@ -4,6 +4,8 @@
 
 #include "shader_constants.h"
 
+// Counts the reported collisions per query and sorts the queries by these counts. A new order is due when the number of
+// states has doubled, and at least every kMostStatesPerOrder states.
 namespace gpu_planning_scene::core
 {
 namespace

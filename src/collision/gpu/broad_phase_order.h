@@ -28,9 +28,9 @@ struct RankedQuery
   std::uint64_t hits;
 };
 
-/// Learns the order of the broad phase's queries from the hits of earlier batches. Queries with the most hits run
-/// first, and their states need no further queries. The order affects only which of several colliding pairs is
-/// reported.
+/// Learns the order of the broad phase's queries from the hits of earlier batches. The queries with the most hits run
+/// first; a state that collides there needs no further queries. The order affects only which of several colliding pairs
+/// is reported.
 class BroadPhaseOrder
 {
  public:

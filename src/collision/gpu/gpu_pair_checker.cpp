@@ -9,7 +9,7 @@
 #include "shader_constants.h"
 
 // Queues all dispatches of a part without waiting: kinematics, half-spaces, broad phase, root boxes, traversal and
-// containment. A counter tells at the end whether a list has overflowed; the part is then split and repeated.
+// containment. If a list overflows, the device sets a counter, and the part is split and repeated.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -3,8 +3,8 @@
 #include <utility>
 
 // Samples are checked in bisection order, so that collisions are found early. Under the rule Bound, a sample proves a
-// segment free if each pair's distance exceeds its joint displacement bound; other segments are halved (adaptive
-// bisection of Schwarzer, Saha, Latombe 2002 and 2005).
+// segment free if the distance of each pair exceeds its required distance by more than its joint displacement bound.
+// Other segments are halved (adaptive bisection of Schwarzer, Saha, Latombe 2002 and 2005).
 namespace gpu_planning_scene::core
 {
 namespace

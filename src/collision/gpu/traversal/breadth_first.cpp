@@ -4,6 +4,8 @@
 
 #include "shader_constants.h"
 
+// Four dispatches per level: test the child pairs, sum the counts, write the next level's list and the leaf pairs, test
+// the triangles of the leaf pairs (Gress and Zachmann 2003).
 namespace gpu_planning_scene::core
 {
 namespace

@@ -2,6 +2,8 @@
 
 #include "shader_constants.h"
 
+// Runs a fixed number of passes without waiting. Before each pass a small dispatch computes the size of the pass on the
+// device; the last one sets the overflow counter if node pairs remain.
 namespace gpu_planning_scene::core
 {
 namespace

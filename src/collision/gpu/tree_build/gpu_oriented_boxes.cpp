@@ -5,6 +5,8 @@
 #include "gpu/gl_check.h"
 #include "shader_constants.h"
 
+// One invocation fits the box of a small node. Nodes with many triangles are listed, and a work group fits each of
+// them. Nodes of more than FIT_MOST_TRIANGLES triangles keep their axis-aligned box.
 namespace gpu_planning_scene::core
 {
 namespace
