@@ -5,15 +5,15 @@
 
 namespace gpu_planning_scene::core
 {
-/// Adapts how many states are checked in one batch, so that a batch takes about a wanted time: a device must not be
-/// kept busy for long, and a call can be stopped between two batches.
+/// Adapts the number of states in a batch, so that a batch takes about a given time. Short batches keep the device
+/// available to others, and a call can be stopped between two batches.
 class BatchSize
 {
  public:
   struct Limits
   {
-    double seconds;         ///< wanted for a batch
-    std::size_t first;      ///< states of the first batch, whose time is not known
+    double seconds;         ///< wanted duration of a batch
+    std::size_t first;      ///< states of the first batch; its duration is not known before
     std::size_t least = 1;  ///< states
     std::size_t most;       ///< states, at least 1
   };
@@ -32,10 +32,10 @@ class BatchSize
     size_ = std::min(size_, capacity_);
   }
 
-  /// A batch of `count` states took `seconds`.
+  /// Reports that a batch of `count` states took `seconds`.
   void took(std::size_t count, double seconds)
   {
-    // Later batches may be quite unlike one that was too large.
+    // A batch that was too large says little about much later batches: the limit that it set is raised again.
     if (++good_batches_ >= kBatchesToForget)
     {
       capacity_ = std::min(limits_.most, 2 * capacity_);
@@ -48,7 +48,8 @@ class BatchSize
       size_ = std::min(capacity_, 2 * size_);
   }
 
-  /// A batch of `count` states did not fit a device's lists. The next batches are likely to be like it.
+  /// Reports that a batch of `count` states did not fit into the device's lists. The next batches are probably similar,
+  /// so they get at most half as many states.
   void tooLarge(std::size_t count)
   {
     capacity_ = std::max<std::size_t>(1, std::min(capacity_, (count + 1) / 2));
@@ -60,7 +61,7 @@ class BatchSize
   static constexpr int kBatchesToForget = 8;
 
   Limits limits_;
-  std::size_t capacity_;  // less than Limits::most after a batch was too large
+  std::size_t capacity_;  // smaller than Limits::most for some time after a batch was too large
   std::size_t size_;      // at most capacity_
   int good_batches_ = 0;
 };

@@ -9,9 +9,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// Calls `work(begin, end)` for chunks of [0, count) on all cores; the calling thread is one of them. Each thread works
-/// with its own copy of `work`, so that what it captures by value may serve as scratch. `work` must not throw. Where
-/// the system refuses threads, those that there are do all.
+/// Calls `work(begin, end)` for chunks of [0, count) on all cores; the calling thread takes part. Each thread has its
+/// own copy of `work`, so values that `work` captures by copy may serve as scratch memory. `work` must not throw. If
+/// the system refuses to start more threads, the threads that have started do all the work.
 template <class Work>
 void parallelFor(std::size_t count, std::size_t per_chunk, const Work& work)
 {
@@ -23,7 +23,7 @@ void parallelFor(std::size_t count, std::size_t per_chunk, const Work& work)
     for (std::size_t chunk = next++; chunk < chunks; chunk = next++)
       own(chunk * per_chunk, std::min(count, (chunk + 1) * per_chunk));
   };
-  // Asking takes longer than checking a state.
+  // Cached, because asking the system takes longer than checking a state.
   static const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::thread> helpers;
   try
@@ -31,8 +31,9 @@ void parallelFor(std::size_t count, std::size_t per_chunk, const Work& work)
     for (std::size_t i = 1; i < std::min(cores, chunks); ++i)
       helpers.emplace_back(run);
   }
-  catch (const std::exception&)  // no thread or no memory for one; destroying those that run would end the process
+  catch (const std::exception&)
   {
+    // No thread, or no memory for one. The started threads go on: destroying a running std::thread ends the process.
   }
   run();
   for (std::thread& helper : helpers)

@@ -5,22 +5,24 @@
 
 #include "collision/bounds/reach.h"
 
+// Each robot instance gets one term for each joint between its link and the root; a self pair gets the terms of the
+// joints that move only one of the two (Schwarzer, Saha, Latombe 2002).
 namespace gpu_planning_scene::core
 {
 namespace
 {
-// More than forward kinematics and distances in double lose within a kilometre.
+// Exceeds the rounding of forward kinematics and distances in double within a kilometre.
 constexpr double kDisplacementRounding = 1e-8;  // metres
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// How far a region, in the frame of a joint's child link, is from the joint's axis at most.
+/// The largest distance of a region from the joint's axis. The region is in the frame of the joint's child link.
 double armOf(const Joint& joint, const Region& region)
 {
   double arm = 0.0;
   for (const Ball& ball : region.balls)
   {
-    // A floating joint turns about any axis through the origin.
+    // A floating joint may turn about any axis through the origin.
     const Eigen::Vector3d across =
         joint.type == JointType::Floating ? ball.center : ball.center - joint.axis.dot(ball.center) * joint.axis;
     arm = std::max(arm, across.norm() + ball.radius);
@@ -33,7 +35,7 @@ DisplacementBounds::DisplacementBounds(const RobotModel& robot, const CollisionP
   : joints_(robot.joints().size()), variables_(robot.variables().size()), ranges_(limitRanges(robot))
 {
   const Reach reach(robot);
-  // Terms of each instance by link, from its own up to the root.
+  // The terms of each instance, from its own link up to the root.
   struct Step
   {
     int link;
@@ -66,7 +68,7 @@ DisplacementBounds::DisplacementBounds(const RobotModel& robot, const CollisionP
     for (const Step& step : chain)
     {
       if (std::any_of(other.begin(), other.end(), [&](const Step& theirs) { return theirs.link == step.link; }))
-        break;  // what is above moves both
+        break;  // joints further up move both instances
       if (step.term.length != 0.0)
         terms_.push_back(step.term);
     }

@@ -10,35 +10,34 @@
 
 namespace gpu_planning_scene::core
 {
-/// By how much more than their required distance the pairs of a problem are to be apart, for each state of a batch.
+/// The distances that the pairs of a problem need in addition to their required distance, for each state of a batch.
 struct Margins
 {
-  std::size_t width = 0;            ///< of a row: as DisplacementBounds::count()
-  std::vector<double> values;       ///< rows, metres
-  std::vector<std::uint32_t> rows;  ///< one per state: which of those is its
-  std::vector<std::uint8_t>
-      within;  ///< one per state: 0 where it is outside the joints' limits, so that they are no bounds
+  std::size_t width = 0;             ///< columns of a row: DisplacementBounds::count()
+  std::vector<double> values;        ///< rows, metres
+  std::vector<std::uint32_t> rows;   ///< one per state: index of the state's row
+  std::vector<std::uint8_t> within;  ///< one per state: 0 if it is outside the joints' limits, without bounds
 
   const double* of(std::size_t state) const { return values.data() + rows[state] * width; }
 };
 
-/// How far points of a robot can move while its joints move by no more than given ways, within their limits. Bounds
-/// that hold: the sum over joints of the way times the largest distance from the joint's axis to which the joints
-/// beyond it can take the body (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"); the
-/// distances come from Reach. Immutable.
+/// Upper bounds of the displacement of a robot's points while each joint moves by at most a given travel within its
+/// limits. The bound is a sum over the joints: the joint's travel times the largest distance from the joint's axis that
+/// the body can have (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"). Reach provides these
+/// distances. Immutable.
 class DisplacementBounds
 {
  public:
-  /// Of the problem's robot instances and self pairs.
+  /// Prepares the bounds of the problem's robot instances and self pairs.
   DisplacementBounds(const RobotModel& robot, const CollisionProblem& problem);
 
-  /// How many margins there are: one for each robot instance, then one for each self pair.
+  /// The number of margins: one for each robot instance, then one for each self pair.
   std::size_t count() const { return first_.size() - 1; }
 
-  /// For `count` rows of the robot's variables. In metres: the largest displacement of a point of each robot instance
-  /// in the planning frame, and of each self pair that of the points of one against the other. With what rounding
-  /// loses; kLargestLength where there is no bound. 0 where nothing moves. `around` fits: see
-  /// validateNeighbourhood.
+  /// The margins of `count` states (rows of the robot's variables), in metres. For a robot instance: the largest
+  /// displacement of its points in the planning frame. For a self pair: the largest displacement of the points of one
+  /// instance relative to the other. The margins include rounding. A margin is kLargestLength if there is no bound, and
+  /// 0 if nothing moves. `around` must be valid, see validateNeighbourhood.
   Margins margins(const JointNeighbourhood& around, const double* states, std::size_t count) const;
 
  private:
@@ -47,14 +46,14 @@ class DisplacementBounds
   struct Term
   {
     int joint;
-    double length;  // metres per metre
-    double angle;   // metres per radian
+    double length;  // metres of displacement per metre of joint travel
+    double angle;   // metres of displacement per radian of joint travel
   };
 
   std::size_t joints_;
   std::size_t variables_;
   std::vector<VariableRange> ranges_;
   std::vector<Term> terms_;
-  std::vector<std::size_t> first_;  // term of each margin, and the number of terms
+  std::vector<std::size_t> first_;  // index of the first term of each margin; the last entry is the number of terms
 };
 }  // namespace gpu_planning_scene::core

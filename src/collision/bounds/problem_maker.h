@@ -9,15 +9,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// Makes problems of scenes, one after the other, without what the reductions leave out. What it learns of a robot and
-/// its meshes is kept for the next scene.
+/// Makes the collision problems of consecutive scenes, without the pairs that the reductions leave out. Results about a
+/// robot and its meshes are kept for the next scene.
 class ProblemMaker
 {
  public:
-  /// Throws Error for a negative tolerance, or one that is not finite.
+  /// Throws Error if the tolerance is negative or not finite.
   explicit ProblemMaker(const CheckerOptions& options);
 
-  /// As makeProblem. Where Reductions::reach left pairs out, the problem holds for states within its ranges only.
+  /// Like makeProblem, but with the reductions. If Reductions::reach has left pairs out, the problem is valid only for
+  /// states within its ranges.
   CollisionProblem make(const PlanningScene& scene, const std::string& group, SceneReport* report);
 
  private:
@@ -28,12 +29,12 @@ class ProblemMaker
   RigidPairs fixed_pairs_;
 };
 
-/// Options under which no pair is left out of a problem.
+/// Checker options that leave no pair out of a problem.
 CheckerOptions optionsWithAllPairs();
 
-/// What of `scene` is checked for `group` (empty: all): the pairs that the allowed-collision matrix does not allow and,
-/// for a group, that have a link which the group moves. Throws Error for an unknown group, two objects of
-/// one name, or an object whose shapes or poses are not valid. `report` may be null. Nothing else is left out: see
-/// ProblemMaker.
+/// The collision problem of `scene` for `group` (empty: all joints). It contains each pair that the allowed collision
+/// matrix does not allow; for a group, the group must move a link of the pair. No further pair is left out, see
+/// ProblemMaker. `report` may be null. Throws Error for an unknown group, for two objects with the same name, and for
+/// an object with invalid shapes or poses.
 CollisionProblem makeProblem(const PlanningScene& scene, const std::string& group, SceneReport* report);
 }  // namespace gpu_planning_scene::core

@@ -7,6 +7,8 @@
 #include "model/math_constants.h"
 #include "scene/rigid_pose.h"
 
+// Covers each shape with balls, and sweeps the balls through the joints from the link up to the planning frame. After
+// each joint, neighbouring balls are merged until kMostBalls remain.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -15,24 +17,25 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// What is measured on a robot that holds a position at its limit may be a little outside of it.
+// A robot that holds a joint at its limit may report a position slightly outside of it.
 constexpr double kLimitSlack = 1e-3;  // radians or metres
 
-// More than the exact checker's slack of 1e-9 m and what kinematics in double lose within a kilometre, 1e-11 m.
+// Exceeds the exact checker's slack of 1e-9 m plus the rounding of kinematics in double within a kilometre, 1e-11 m.
 constexpr double kReachMargin = 1e-6;  // metres
 
-// Beyond these a double's steps are too coarse for the margin: no bound, or the whole circle.
+// Beyond these values the resolution of a double is too coarse for the margin. The region then counts as unbounded, or
+// the joint as turning the full circle.
 constexpr double kFarthest = 1e6;        // metres
 constexpr double kLargestAngle = 100.0;  // radians
 
-// A joint's step is some dozens of operations, each of which is right to 2^-53 of the coordinates that go in.
-constexpr double kReachRounding = 1e-12;  // of the distance from the origin and the radius, of balls and boxes
+// Sweeping through a joint takes some dozens of operations. Each has a rounding error of 2^-53 times the coordinates.
+constexpr double kReachRounding = 1e-12;  // relative to the distance from the origin plus the radius
 
-// More balls and parts make tighter bounds, and cost time when a robot is loaded.
-constexpr std::size_t kMostBalls = 48;  // in a region
-constexpr int kMostParts = 12;          // of a joint's interval, for each ball
-constexpr int kMostPieces = 6;          // along an edge of a shape's box
-// Bounds of longer chains are too wide to tell anything.
+// More balls and parts give tighter bounds, but loading a robot takes longer.
+constexpr std::size_t kMostBalls = 48;  // balls in a region
+constexpr int kMostParts = 12;          // parts of a joint's interval, for each ball
+constexpr int kMostPieces = 6;          // pieces along an edge of a shape's bounding box
+// The bounds of longer chains are too wide to exclude a pair.
 constexpr int kMostMovingJoints = 16;
 
 Ball rounded(const Vector3d& center, double radius)
@@ -52,7 +55,8 @@ Ball enclosing(const Ball* begin, const Ball* end)
   return rounded(middle, radius);
 }
 
-/// Halves a set of balls at the median of its longer side until `most` are left, each of which holds those of its part.
+/// Splits a set of balls at the median of its longest side, recursively, into at most `most` parts. Adds a ball for
+/// each part that contains the part's balls.
 void cluster(Ball* begin, Ball* end, std::size_t most, std::vector<Ball>& result)
 {
   const auto count = static_cast<std::size_t>(end - begin);
@@ -86,7 +90,7 @@ Region regionOf(std::vector<Ball> balls)
   return region;
 }
 
-/// Cuts a box into pieces that are about as long as wide, and puts a ball around each.
+/// Cuts a box into pieces that are roughly cubes, and adds a ball around each piece.
 void cover(const AlignedBox3d& box, const Isometry3d& pose, std::vector<Ball>& balls)
 {
   const double edge = std::max(box.sizes().minCoeff(), box.sizes().maxCoeff() / kMostPieces);
@@ -104,16 +108,17 @@ void cover(const AlignedBox3d& box, const Isometry3d& pose, std::vector<Ball>& b
       }
 }
 
-/// How many parts an interval that moves a ball's centre by `travel` either way is worth.
+/// The number of parts for an interval that moves a ball's centre by up to `travel` in each direction.
 int partsFor(double travel, double radius)
 {
   return std::clamp(static_cast<int>(std::ceil(travel / std::max(0.5 * radius, 0.02))), 1, kMostParts);
 }
 
-/// The ball while it turns about an axis through the origin by angles, none of which is large, from `lower` to `upper`.
-/// A part of the arc of its centre, of half angle h < pi / 2 and radius rho, lies in the ball around the middle of its
-/// chord with radius rho sin h: at an angle f from the middle, the squared distance 1 - 2 cos f cos h + cos^2 h (in
-/// rho^2) is largest at the ends, where it is sin^2 h, as at the middle it is (1 - cos h)^2, no more.
+/// Covers a ball that turns about an axis through the origin by the angles from `lower` to `upper`, which are at most
+/// kLargestAngle in magnitude. The arc of the ball's centre, with radius rho, is cut into parts of half angle h. Each
+/// part lies in a ball around the middle of its chord with radius rho sin h if h < pi / 2: at an angle f from the
+/// middle of the arc, the squared distance from this point is rho^2 (1 - 2 cos f cos h + cos^2 h). This is largest at
+/// the ends of the arc, f = h, where it equals (rho sin h)^2.
 void turn(const Ball& ball, const Vector3d& axis, double lower, double upper, std::vector<Ball>& result)
 {
   const Vector3d along = axis.dot(ball.center) * axis;
@@ -143,7 +148,7 @@ void slide(const Ball& ball, const Vector3d& axis, double lower, double upper, s
     result.push_back(rounded(ball.center + (lower + (2 * part + 1) * half) * axis, ball.radius + half));
 }
 
-// What is not a number is near everything.
+// NaN counts as near.
 bool near(const Ball& a, const Ball& b, double distance)
 {
   return !((a.center - b.center).norm() > a.radius + b.radius + distance + kReachMargin);
@@ -163,7 +168,7 @@ bool near(const Ball& ball, const Obstacle& obstacle, double distance)
   return !((center.cwiseAbs() - box.half).cwiseMax(0.0).norm() > reach + box.rounding);
 }
 
-/// Whether the numbers of a region are small enough for its margins; not where one is not a number.
+/// Whether the coordinates of a region are small enough for the margins. False if one of them is NaN.
 bool isBound(const Region& region)
 {
   return region.all.center.norm() + region.all.radius <= kFarthest;
@@ -214,8 +219,8 @@ int Reach::parent(int link) const
   return parent_joints_[static_cast<std::size_t>(link)].parent_link;
 }
 
-/// A continuous joint turns all the way round, whatever limits there are; one that mimics another has the other's. A
-/// circle whose ends differ from pi by rounding is closed: balls are larger by more than that.
+/// A continuous joint turns the full circle, whatever limits it has. A mimic joint follows the limits of the joint that
+/// it mimics. Rounding of pi leaves no gap in a full circle, because the balls are enlarged by more than that.
 std::optional<Reach::Interval> Reach::positions(const Joint& joint) const
 {
   const Interval circle = {-kPi, kPi};
@@ -234,7 +239,8 @@ std::optional<Reach::Interval> Reach::positions(const Joint& joint) const
   return turns && interval.upper - interval.lower >= 2.0 * kPi ? circle : interval;
 }
 
-/// From the frame of the joint's child to that of its parent. No value: no bound.
+/// The swept region in the frame of the joint's parent link; `region` is in the frame of its child link. Empty if the
+/// region is unbounded.
 std::optional<Region> Reach::swept(const Region& region, const Joint& joint) const
 {
   if (joint.type == JointType::Planar || joint.type == JointType::Floating)
@@ -283,8 +289,8 @@ const Region* Reach::inPlanningFrame(const SweptBody& body) const
   return above < body.above.size() ? &body.above[above] : nullptr;
 }
 
-/// In the frame of the last link above both; no variable moves both of them against it but a mimic's, which only makes
-/// the bounds wider than they need be.
+/// Compares the regions in the frame of the last link that is above both bodies. Only a mimicked variable can move both
+/// bodies relative to this frame. Treating them as independent makes the bounds wider than necessary, but never wrong.
 bool Reach::mayMeet(const SweptBody& a, const SweptBody& b, double distance) const
 {
   int link_a = a.link;

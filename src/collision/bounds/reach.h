@@ -17,47 +17,49 @@ struct Ball
   double radius;  ///< metres
 };
 
-/// Balls that hold a body wherever the joints take it, and one that holds them all.
+/// Balls that together contain a body for all positions of the joints, and one ball that contains them all.
 struct Region
 {
   std::vector<Ball> balls;
   Ball all;
 };
 
-/// The regions of a body in the frames of its link, of its parent, and so on up to the planning frame, as far as there
-/// are bounds.
+/// The regions of a body in the frame of its link, of the parent link, and so on up to the planning frame. The list
+/// ends early if a region is not bounded.
 struct SweptBody
 {
   int link;
-  std::vector<Region> above;  ///< by how many links the frame is above `link`
+  std::vector<Region> above;  ///< index i: the frame i links above `link`
 };
 
-/// The limits of the robot's revolute and prismatic joints, and a little more: within them bounds on reach hold.
+/// The limits of the robot's revolute and prismatic joints, slightly enlarged. The reach bounds hold for states within
+/// these ranges.
 std::vector<VariableRange> limitRanges(const RobotModel& robot);
 
-/// Where the joints of a robot, within their limits, can take what moves with its links. Bounds that hold: nothing is
-/// sampled. Regions are sets of balls, since a ball that is turned is the same ball; each joint sweeps them along arcs
-/// or segments, which are cut into parts and covered with balls again.
+/// Upper bounds of the regions that a robot's bodies can reach while the joints stay within their limits. Nothing is
+/// sampled. A region is a set of balls, because a rotated ball is still a ball. A joint sweeps each ball along an arc
+/// or a segment; the swept volume is cut into parts, and each part is covered with a ball again.
 class Reach
 {
  public:
   explicit Reach(const RobotModel& robot);
 
-  /// Of the shapes of a body that moves with `link`, `pose` being that of their frame in the link's. The inside of
-  /// meshes is held too.
+  /// Sweeps the shapes of a body that moves with `link`. `pose` is the pose of the shapes' frame in the frame of the
+  /// link. The regions contain the inside of meshes too.
   SweptBody sweep(const std::vector<PlacedShape>& shapes, const Eigen::Isometry3d& pose, int link) const;
 
-  /// Whether two bodies of the robot may come within `distance` of each other, as far as the bounds tell.
+  /// Whether two bodies of the robot may come within `distance` of each other. False is proven; true means only that
+  /// the bounds do not exclude it.
   bool mayMeet(const SweptBody& a, const SweptBody& b, double distance) const;
 
-  /// Where a body can be in the planning frame; null: anywhere.
+  /// The region of a body in the planning frame; null: not bounded.
   const Region* inPlanningFrame(const SweptBody& body) const;
 
   /// See limitRanges.
   const std::vector<VariableRange>& ranges() const { return ranges_; }
 
  private:
-  /// The joint's position; no value: no bound.
+  /// Range of a joint's position, in radians or metres.
   struct Interval
   {
     double lower;
@@ -69,23 +71,23 @@ class Reach
   std::optional<Interval> positions(const Joint& joint) const;
   std::optional<Region> swept(const Region& region, const Joint& joint) const;
 
-  std::vector<Joint> parent_joints_;  // of each link; a fixed one of the planning frame where there is none
+  std::vector<Joint> parent_joints_;  // of each link; a root link has a fixed joint to the planning frame
   std::vector<int> depths_;
   std::vector<VariableRange> ranges_;
-  std::vector<std::optional<Interval>> intervals_;  // of each variable, a little wider than its limits
+  std::vector<std::optional<Interval>> intervals_;  // of each variable: its limits, slightly enlarged; empty: unbounded
 };
 
 struct PlacedBox
 {
   PlacedBox(const Eigen::Isometry3d& pose_of_center, const Eigen::Vector3d& half_lengths);
 
-  Eigen::Isometry3d pose;  ///< of its centre
-  Eigen::Vector3d half;    ///< half lengths of its edges
+  Eigen::Isometry3d pose;  ///< pose of the box's centre
+  Eigen::Vector3d half;    ///< half lengths of the edges
   double radius;
-  double rounding;  ///< metres: of what is computed with it
+  double rounding;  ///< metres: rounding error of tests with this box
 };
 using Obstacle = std::variant<PlacedBox, HalfSpace>;
 
-/// Whether something of a region may come within `distance` of an obstacle in the same frame.
+/// Whether a region may come within `distance` of an obstacle in the same frame.
 bool mayMeet(const Region& region, const Obstacle& obstacle, double distance);
 }  // namespace gpu_planning_scene::core

@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Whether two bodies may come near each other, as far as that was asked.
+/// Cached answer: whether two bodies may come near each other.
 enum class Near : std::uint8_t
 {
   Unknown,
@@ -16,11 +16,11 @@ enum class Near : std::uint8_t
   Perhaps
 };
 
-/// What is known of each pair of a row's and a column's body.
+/// Cached answers for pairs of bodies, one body for each row and column.
 class ReachabilityCache
 {
  public:
-  /// Keeps what is known of the rows and columns that were there before and still are.
+  /// Keeps the answers for the rows and columns that exist before and after the call.
   void resize(std::size_t rows, std::size_t columns)
   {
     if (columns != columns_)
@@ -44,7 +44,7 @@ class ReachabilityCache
       cells_[row * columns_ + column] = Near::Unknown;
   }
 
-  /// What `ask` says, which is asked once.
+  /// Whether the two bodies may come near each other. Calls ask() only if the answer is not cached.
   template <class Ask>
   bool perhaps(std::size_t row, std::size_t column, const Ask& ask)
   {

@@ -7,6 +7,8 @@
 #include "collision/geometry/shape_bounds.h"
 #include "scene/rigid_pose.h"
 
+// Compares the swept bodies of Reach with each other and with the objects of the world. A new scene invalidates only
+// the rows and columns of the objects that have changed.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -29,7 +31,7 @@ bool sameCarried(const AttachedObject& a, const AttachedObject& b)
          sameObject(a.object, b.object);
 }
 
-/// How many objects are in a pair.
+/// Counts the objects that occur in at least one pair.
 class ObjectCount
 {
  public:
@@ -41,7 +43,7 @@ class ObjectCount
   std::vector<std::uint8_t> seen_;
 };
 
-/// Takes out of `pairs` those of which leaves(pair) is true. Returns how many.
+/// Removes the pairs for which leaves(pair) is true. Returns their number.
 template <class Predicate>
 std::size_t removePairs(std::vector<CheckedPair>& pairs, const Predicate& leaves)
 {
@@ -96,7 +98,7 @@ void ReachabilityFilter::takeRobot(const std::shared_ptr<const RobotModel>& robo
 {
   if (robot_ == robot)
     return;
-  robot_.reset();  // should one of the next lines throw
+  robot_.reset();  // first: if a line below throws, the next call starts anew
   swept_.clear();
   carried_.clear();
   objects_.clear();
@@ -151,8 +153,8 @@ void ReachabilityFilter::keepObjects(const PlanningScene& scene)
   }
 }
 
-/// Forgets what no longer holds, before it takes over what the scene has instead: should a line throw, what is known is
-/// still true of what is kept.
+/// Updates the caches for a new scene. Invalidates cached results before it stores the new objects, so that the caches
+/// stay valid if a line throws.
 void ReachabilityFilter::keepWhatStays(const PlanningScene& scene)
 {
   near_objects_.resize(scene.objects.size(), robot_->links().size() + scene.attached.size());

@@ -11,30 +11,30 @@
 
 namespace gpu_planning_scene::core
 {
-/// Finds pairs of bodies that can change no answer. Keeps what it learned of the robot, of objects and of what is
-/// carried for the next scene in which they are as they were.
+/// Leaves out pairs of bodies that can never collide within the joints' limits. Results for the robot, the objects and
+/// the attached objects are kept for the next scene, as far as these have not changed.
 class ReachabilityFilter
 {
  public:
-  /// Takes out of `pairs` those that come within their required distance in no state within the joints' limits, and
-  /// counts them in `report`, as far as the group moves them. Returns the ranges of variables that this holds for; none
-  /// if nothing was left out.
+  /// Removes from `pairs` each pair that stays beyond its required distance in all states within the joints' limits.
+  /// Counts the removed pairs that the group moves in `report`. Returns the ranges of variables for which the removal
+  /// is valid; empty if no pair was removed.
   std::vector<VariableRange> leaveOutUnreachable(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
                                                  CheckedPairs& pairs, SceneReport& report);
 
  private:
   struct KnownBox
   {
-    std::weak_ptr<const Mesh> mesh;  // that is gone may leave its address to another
+    std::weak_ptr<const Mesh> mesh;  // weak, because another mesh may reuse the address of a deleted one
     Eigen::AlignedBox3d box;
   };
   struct KnownObject
   {
     WorldObject object;
-    std::vector<Obstacle> obstacles;  // in the planning frame
+    std::vector<Obstacle> obstacles;  // shapes of the object, in the planning frame
   };
 
-  /// A link by its index, or what is carried, counted on from there.
+  /// The mover number of a body: a link's index; attached objects are numbered after the links.
   std::size_t moverOf(const PlanningScene& scene, const RobotBody& body) const;
   const SweptBody& sweptBody(const RobotBody& body, std::size_t mover);
   bool mayMeet(const PlanningScene& scene, const RobotBody& body, std::size_t mover, std::size_t object);
@@ -47,8 +47,8 @@ class ReachabilityFilter
 
   std::shared_ptr<const RobotModel> robot_;
   std::optional<Reach> reach_;
-  std::vector<std::optional<SweptBody>> swept_;  // of each mover
-  std::vector<double> link_padding_;             // these three of the last scene, in its order
+  std::vector<std::optional<SweptBody>> swept_;  // swept body of each mover
+  std::vector<double> link_padding_;             // of the last scene, as are carried_ and objects_
   std::vector<AttachedObject> carried_;
   std::vector<KnownObject> objects_;
   std::unordered_map<const Mesh*, KnownBox> boxes_;

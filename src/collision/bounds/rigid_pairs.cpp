@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <iterator>
 
+// Two links are fixed to each other if the same link is their anchor. The exact checker decides each pair once, with
+// the link poses in the frames of the anchors.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The uppermost link that this one is fixed to; -1: the planning frame.
+/// The uppermost link that this link is fixed to. -1: the planning frame.
 int anchorOf(const RobotModel& robot, int link)
 {
   for (;;)
@@ -23,8 +25,8 @@ int anchorOf(const RobotModel& robot, int link)
   }
 }
 
-/// Of each link in the frame of its anchor. Two links of one anchor are as far from each other as in any state, without
-/// the rounding of where the anchor is.
+/// The pose of each link in the frame of its anchor. Two links with the same anchor have the same relative pose in all
+/// states. Poses in the anchor's frame avoid the rounding of the anchor's own pose.
 std::vector<Eigen::Isometry3d> posesInAnchors(const RobotModel& robot)
 {
   std::vector<Eigen::Isometry3d> poses;
@@ -61,8 +63,8 @@ std::unique_ptr<const CpuTraversal> RigidPairs::traversalOf(const PlanningScene&
       std::make_shared<const CollisionProblem>(problemOf(scene, bodies, pairs, true, tessellations_)));
 }
 
-/// The relative pose of such a pair is the same in all states, but for rounding: the contract leaves open what becomes
-/// of a distance that this could move across the required one, as it is within the checker's slack.
+/// The relative pose of a rigid pair is the same in all states, up to rounding. Rounding can change the verdict only if
+/// the distance is within the checker's slack of the required distance, and there the contract allows both verdicts.
 std::optional<BodyPair> RigidPairs::firstCollision(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
                                                    CheckedPairs fixed)
 {

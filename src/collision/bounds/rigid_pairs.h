@@ -12,15 +12,17 @@
 
 namespace gpu_planning_scene::core
 {
-/// Pairs of bodies that no joint moves against each other: two on links that are fixed to each other, or an object and
-/// one on a link that is fixed in the planning frame. What is found of a robot's own links is kept for the next scene.
+/// Decides rigid pairs once per scene. No joint moves the two bodies of a rigid pair relative to each other: their
+/// links are fixed to each other, or one body is an object and the other one's link is fixed in the planning frame.
+/// Results for a robot's own links are kept for the next scene.
 class RigidPairs
 {
  public:
-  /// Takes such pairs out of `pairs` and returns them.
+  /// Moves the rigid pairs from `pairs` to the result.
   static CheckedPairs take(const RobotModel& robot, const std::vector<RobotBody>& bodies, CheckedPairs& pairs);
 
-  /// The bodies of a pair of those that the group moves that collides, if there is one: then every state does.
+  /// The bodies of a colliding pair among the pairs that the group moves, if there is one. The pair then collides in
+  /// every state.
   std::optional<BodyPair> firstCollision(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
                                          CheckedPairs fixed);
 
@@ -29,8 +31,8 @@ class RigidPairs
                                                   const CheckedPairs& pairs, ForestCache& forest);
 
   std::shared_ptr<const RobotModel> robot_;
-  std::map<BodyPair, bool> links_collide_;  // of pairs of the robot's links that were asked for
+  std::map<BodyPair, bool> links_collide_;  // results for pairs of the robot's links, as far as they have been checked
   TessellationCache tessellations_;
-  ForestCache forest_;  // of the other pairs
+  ForestCache forest_;  // trees of the other pairs
 };
 }  // namespace gpu_planning_scene::core

@@ -31,20 +31,20 @@ struct AbandonableThread::Queue
       {
         thrown = std::current_exception();
       }
-      taken = nullptr;  // what it holds ends here, on this thread, before the next job
+      taken = nullptr;  // destroys the job's objects on this thread, before the next job
       lock.lock();
-      error = std::move(thrown);  // the caller's alone
+      error = std::move(thrown);  // moved, so that only the caller owns the exception
       done = true;
       ended.notify_one();
     }
   }
 
-  std::mutex mutex;  // of all below but the thread
+  std::mutex mutex;  // guards all members below except the thread
   std::condition_variable wake;
   std::condition_variable ended;
-  std::function<void()> job;  // that waits; each is waited for, so there is never a second one
-  bool done = false;          // the last job
-  std::exception_ptr error;   // that it threw
+  std::function<void()> job;  // the next job; there is at most one, because the caller waits for each job
+  bool done = false;          // the last job has ended
+  std::exception_ptr error;   // exception that the last job threw
   bool stopping = false;
   std::thread thread;
 };
@@ -76,7 +76,7 @@ bool AbandonableThread::run(std::function<void()> job, double seconds)
   queue_->wake.notify_one();
   if (!queue_->ended.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return queue_->done; }))
   {
-    queue_->stopping = true;  // should the job end after all
+    queue_->stopping = true;  // the thread exits if the job ends after all
     lock.unlock();
     queue_->thread.detach();
     queue_.reset();

@@ -15,30 +15,31 @@
 #include "collision/problem/state_validation.h"
 #include "model/seconds_since.h"
 
+// Small batches are faster on the CPU. The threshold is measured per group (see breakEven) and kept for a while.
 namespace gpu_planning_scene::core
 {
 namespace
 {
 using Clock = std::chrono::steady_clock;
 
-// Scenes that change often must not spend their time on measuring: a group's threshold is kept from scene to scene
-// until this many times the time that measuring it took has passed.
+// A new scene keeps the measured threshold until this many times the duration of the measurement has passed. So
+// frequent scene changes do not cause frequent measurements.
 constexpr double kMeasuringPause = 50.0;
 
-// A sample of fewer of the caller's states would not tell what they are like.
+// Fewer states of the caller are not representative.
 constexpr std::size_t kEnough = 256;
 
 }  // namespace
 
 struct BatchChecker::Impl
 {
-  /// From how many states on a group's batches go to the GPU.
+  /// The number of states from which on a group's batches go to the GPU.
   struct Threshold
   {
     std::size_t states;
-    std::weak_ptr<const PlanningScene> scene;  // for which it was measured
+    std::weak_ptr<const PlanningScene> scene;  // scene for which it was measured
     Clock::time_point keep_until;
-    bool by_own_states;  // measured with states of the caller's, not with random ones
+    bool by_own_states;  // measured with the caller's states instead of random ones
   };
 
   explicit Impl(const BatchCheckerOptions& options)
@@ -59,19 +60,19 @@ struct BatchChecker::Impl
   std::optional<std::size_t> fixed_threshold;
   CpuScene on_cpu;
   GpuChecker engine;
-  GpuWork work;                               // of the last batch
-  std::optional<std::string> selected_group;  // whose pairs the engine has now
+  GpuWork work;                               // work of the last batch
+  std::optional<std::string> selected_group;  // group whose pairs the engine holds
   std::map<std::string, Threshold> thresholds;
 };
 
-/// States that the group's problem holds for.
+/// The group's problem must be valid for the states.
 void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, const std::string& group,
                                     BatchResult& result, const Margins* margins)
 {
   if (selected_group != group)
   {
     const auto& problem = on_cpu.problem(group);
-    selected_group.reset();  // for as long as it is not known which pairs the engine has
+    selected_group.reset();  // in case selectPairs throws: the engine's pairs are then unknown
     engine.selectPairs(problem);
     selected_group = group;
   }
@@ -79,7 +80,7 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
   work = engine.lastWork();
 }
 
-/// Splits off the states that the group's problem does not hold for, which only the CPU can answer.
+/// Sends the states for which the group's problem is not valid to the CPU; only the CPU can decide them.
 void BatchChecker::Impl::check(const double* states, std::size_t count, const std::string& group, BatchResult& result)
 {
   const CollisionProblem& problem = *on_cpu.problem(group);
@@ -87,7 +88,7 @@ void BatchChecker::Impl::check(const double* states, std::size_t count, const st
     return on_cpu.check(states, count, group, result);
   if (count < threshold(group, states, count))
     return on_cpu.check(states, count, group, result);
-  std::vector<std::size_t> rows[2];  // for the GPU, for the CPU
+  std::vector<std::size_t> rows[2];  // [0]: states for the GPU, [1]: states for the CPU
   for (std::size_t i = 0; i < count; ++i)
     rows[holdsFor(problem, states + i * width()) ? 0 : 1].push_back(i);
   if (rows[1].empty())
@@ -114,7 +115,7 @@ void BatchChecker::Impl::check(const double* states, std::size_t count, const st
   }
 }
 
-/// States outside the joints' limits have no bounds and are not free, whatever is found of them.
+/// States outside the joints' limits have no displacement bounds, so they are never reported as free.
 void BatchChecker::Impl::checkAround(const double* states, std::size_t count, const std::string& group,
                                      const Margins& margins, BatchResult& result)
 {
@@ -145,7 +146,8 @@ std::size_t BatchChecker::Impl::threshold(const std::string& group, const double
   return measured;
 }
 
-/// With the caller's own states, over and over, if there are enough to tell what they are like; else with random ones.
+/// Measures the threshold with the caller's states, repeated as needed, if there are enough of them; otherwise with
+/// random states.
 std::size_t BatchChecker::Impl::measure(const std::string& group, const double* states, std::size_t count)
 {
   const RobotModel& robot = *on_cpu.scene()->robot;
@@ -203,7 +205,7 @@ void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   }
   impl_->selected_group = "";
   if (previous && previous->robot != impl_->on_cpu.scene()->robot)
-    impl_->thresholds.clear();  // its groups may be called alike
+    impl_->thresholds.clear();  // the new robot may have groups with the same names
 }
 
 BatchResult BatchChecker::check(const double* states, std::size_t count, const std::string& group,
@@ -216,7 +218,7 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
   if (count != 0 && !decided)
   {
     const std::size_t on_gpu =
-        impl_->threshold(group, states, count);  // measured now, if it must be: no part of the check
+        impl_->threshold(group, states, count);  // any measurement happens here, before the check is timed
     if (around && count >= on_gpu)
       impl_->engine.prepareMargins();
   }

@@ -4,19 +4,21 @@
 #include <cmath>
 #include <vector>
 
+// Times both kinds of work at a few sizes, takes the fastest of several runs, and interpolates the size at which their
+// times are equal.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-// Growing, until one of the two takes kLong; two of them in any case.
+// The timed sizes. Timing stops when one of the two takes kLong, but not before the second size.
 constexpr std::size_t kSizes[] = {1, 16, 64, 256, kMostTimed};
 constexpr double kLong = 0.005;    // seconds
-constexpr int kRepeats = 3;        // of which the fastest counts: what disturbs only makes slower
-constexpr int kConfirmations = 5;  // before the bulk way is believed to be the faster one, however long it takes
-// What is not clearly faster is not chosen: a measurement that was disturbed must not be a loss for as long as it
-// holds.
+constexpr int kRepeats = 3;        // the fastest run counts, because disturbances only slow a run down
+constexpr int kConfirmations = 5;  // runs before `bulk` is accepted as faster, even if they are long
+// `bulk` must be faster by this factor: a disturbed measurement must not select the slower one until the next
+// measurement.
 constexpr double kClearly = 1.2;
-// Beyond what was timed, only a much smaller cost of each further item is believed.
+// Beyond the timed sizes, `bulk` is chosen only if its cost per further item is this many times smaller.
 constexpr double kMuchLess = 2.0;
 
 struct Comparison
@@ -25,14 +27,14 @@ struct Comparison
   double direct;  // seconds
   double bulk;
 
-  /// By how many seconds the direct way was faster, with what it is granted.
+  /// Lead of `direct` in seconds, with the time of `bulk` weighted by kClearly.
   double ahead() const { return kClearly * bulk - direct; }
   double longest() const { return std::max(direct, bulk); }
 };
 
 std::vector<Comparison> compare(const TimedWork& direct, const TimedWork& bulk)
 {
-  direct(1);  // what is only done the first time
+  direct(1);  // untimed: the first call may do work that later calls need not do
   bulk(1);
   std::vector<Comparison> made;
   for (const std::size_t size : kSizes)
@@ -53,8 +55,8 @@ std::vector<Comparison> compare(const TimedWork& direct, const TimedWork& bulk)
 }
 }  // namespace
 
-/// Between two sizes the lead is taken to be linear, and beyond the last as between the last two: small batches leave
-/// lanes or cores idle, so that time grows more slowly at first.
+/// The lead of `direct` is interpolated linearly between two sizes, and extrapolated from the last two sizes. Only the
+/// last sizes are used because small batches leave lanes or cores idle: their time grows more slowly.
 std::size_t breakEven(const TimedWork& direct, const TimedWork& bulk)
 {
   const std::vector<Comparison> made = compare(direct, bulk);
@@ -69,7 +71,7 @@ std::size_t breakEven(const TimedWork& direct, const TimedWork& bulk)
   const Comparison& b = made[after];
   if (beyond && kMuchLess * (b.bulk - a.bulk) >= b.direct - a.direct)
     return kNoBatch;
-  const double lost = (a.ahead() - b.ahead()) / (b.size - a.size);  // of the lead, for each item
+  const double lost = (a.ahead() - b.ahead()) / (b.size - a.size);  // lead that is lost per item
   const double size = a.size + a.ahead() / lost;
   return lost > 0.0 && size < 1e9 ? static_cast<std::size_t>(std::ceil(size)) : kNoBatch;
 }

@@ -10,7 +10,8 @@ namespace
 {
 constexpr std::size_t kStatesPerChunk = 16;
 
-// So many are sooner checked than threads started; and what is learned from them is kept.
+// Checking this many states takes less time than starting threads. The calling thread also keeps its learned order of
+// checks.
 constexpr std::size_t kFewStates = 128;
 }  // namespace
 

@@ -12,52 +12,52 @@
 
 namespace gpu_planning_scene::core
 {
-/// A scene's problems, group by group, and how the CPU answers them. Each is made when it is first asked for, and trees
-/// are kept for the next scene with the same shapes. One caller at a time.
+/// The collision problems of a scene, one per group, and their checks on the CPU. A problem is made when it is first
+/// needed. Trees are kept for the next scene with the same shapes. One caller at a time.
 class CpuScene
 {
  public:
-  /// Throws Error for a tolerance that is not one.
+  /// Throws Error for an invalid tolerance.
   explicit CpuScene(const CheckerOptions& options);
 
   /// Throws Error and keeps the old scene if this one cannot be used.
   void setScene(std::shared_ptr<const PlanningScene> scene);
   const std::shared_ptr<const PlanningScene>& scene() const { return scene_; }
 
-  /// These throw Error for an unknown group.
+  /// This and the functions below throw Error for an unknown group.
   const SceneReport& report(const std::string& group) { return groupOf(group).report; }
   const std::shared_ptr<const CollisionProblem>& problem(const std::string& group) { return groupOf(group).problem; }
 
-  /// The trees that it walks.
+  /// The trees of the CPU's traversals.
   const std::shared_ptr<ForestCache>& trees() const { return forest_; }
 
-  /// Makes ready what the first call of `check` would.
+  /// Prepares the group, so that the first call of `check` need not do so.
   void prepare(const std::string& group) { prepare(groupOf(group)); }
 
-  /// The margins of the group's pairs for `count` rows of the robot's variables. Throws Error as DisplacementBounds
-  /// does.
+  /// The margins of the group's pairs for `count` states (rows of the robot's variables). Throws Error if `around` does
+  /// not fit the states.
   Margins margins(const JointNeighbourhood& around, const double* states, std::size_t count, const std::string& group);
 
-  /// Checks rows of the robot's variables on all cores: any rows, also those that `problem` does not hold for. Fills
-  /// `valid` and `colliding`. `margins`: of the group, for these states; null: none.
+  /// Checks `count` states on all cores and fills `valid` and `colliding`. All states are allowed, also those for which
+  /// `problem` is not valid. `margins`: margins of the group for these states; null: none.
   void check(const double* states, std::size_t count, const std::string& group, BatchResult& result,
              const Margins* margins = nullptr);
 
  private:
-  /// Of one thread, with what was learned of the order of pairs.
+  /// Work space of one thread, including the learned order of checks.
   struct Scratch
   {
-    CpuTraversal::Scratch within;   // of states that the problem holds for
-    CpuTraversal::Scratch outside;  // of the others
-    CpuTraversal::Scratch near;     // of states with margins
+    CpuTraversal::Scratch within;   // for states for which the problem is valid
+    CpuTraversal::Scratch outside;  // for the other states
+    CpuTraversal::Scratch near;     // for states with margins
     std::vector<Eigen::Isometry3d> poses;
   };
   struct Group
   {
     SceneReport report;
     std::shared_ptr<const CollisionProblem> problem;
-    std::unique_ptr<const CpuTraversal> within;   // of that problem
-    std::unique_ptr<const CpuTraversal> outside;  // of states that it does not hold for
+    std::unique_ptr<const CpuTraversal> within;   // traversal of this problem
+    std::unique_ptr<const CpuTraversal> outside;  // all pairs, for states for which the problem is not valid
     std::unique_ptr<const DisplacementBounds> displacements;
     Scratch scratch;
   };

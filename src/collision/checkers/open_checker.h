@@ -7,8 +7,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// The checker for a device: BatchChecker, or CpuChecker where `options.device` is "cpu". There is no silent fallback:
-/// without a usable device it throws Error, which says what to do.
+/// Opens the checker for a device: a CpuChecker if `options.device` is "cpu", else a BatchChecker. There is no silent
+/// fallback: if the device cannot be used, it throws an Error that says what to do.
 std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
                                           const BatchCheckerOptions& options);
 }  // namespace gpu_planning_scene::core

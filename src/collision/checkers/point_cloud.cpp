@@ -13,6 +13,7 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/rigid_pose.h"
 
+// Sorts the points into voxels, makes a cube for each occupied voxel, and removes the cubes that touch the robot.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -21,11 +22,11 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// A voxel's three indices, of 21 bits each, make a key of 63 bits.
+// A key of 63 bits holds the three indices of a voxel, with 21 bits each.
 constexpr int kBits = 21;
 constexpr std::int64_t kMostIndex = (std::int64_t{1} << (kBits - 1)) - 1;
 
-// Culling keeps a little more than rounding could lose.
+// The culling boxes are enlarged by this margin, which exceeds their rounding error.
 constexpr double kCubeMargin = 1e-6;  // metres
 
 std::uint64_t keyOf(const Vector3d& index)
@@ -71,11 +72,11 @@ struct PointCloudFilter::Impl
                                      const std::vector<PlacedShape>& cubes) const;
 
   PointCloudOptions options;
-  ProblemMaker maker{optionsWithAllPairs()};  // these two keep the robot's trees from cloud to cloud
+  ProblemMaker maker{optionsWithAllPairs()};  // `maker` and `trees` keep the robot's trees from cloud to cloud
   ForestCache trees;
 };
 
-/// Ascending, each once.
+/// The keys of the occupied voxels, in ascending order, each once.
 std::vector<std::uint64_t> PointCloudFilter::Impl::voxelsOf(const std::vector<Eigen::Vector3f>& points,
                                                             const Isometry3d& sensor) const
 {
@@ -97,7 +98,7 @@ std::vector<std::uint64_t> PointCloudFilter::Impl::voxelsOf(const std::vector<Ei
   return keys;
 }
 
-/// Those whose boxes are within the padding of the box of some shape of the robot.
+/// The indices of the cubes whose boxes are within the padding of the bounding box of a shape of the robot.
 std::vector<std::size_t> PointCloudFilter::Impl::cubesNear(const PlanningScene& scene,
                                                            const std::vector<Isometry3d>& link_poses,
                                                            const std::vector<PlacedShape>& cubes) const
@@ -127,7 +128,7 @@ void PointCloudFilter::Impl::removeRobot(const PlanningScene& scene, const doubl
   const std::vector<std::size_t> near = cubesNear(scene, link_poses, cubes);
   if (near.empty())
     return;
-  // The robot and what it carries, with the padding that is asked for, among the cubes alone.
+  // A scene with the robot and its attached objects, padded by options.robot_padding, and with the near cubes only.
   PlanningScene among(scene.robot);
   among.allowed_collisions = {};
   among.link_padding.assign(link_poses.size(), options.robot_padding);
@@ -135,7 +136,7 @@ void PointCloudFilter::Impl::removeRobot(const PlanningScene& scene, const doubl
   for (AttachedObject& carried : among.attached)
     carried.padding = 0.0;
   among.objects.push_back({"cloud", Isometry3d::Identity(), {}, 0.0});
-  for (const AttachedObject& carried : among.attached)  // it must not be called as any of these
+  for (const AttachedObject& carried : among.attached)  // a unique name: it contains the names of all attached objects
     among.objects[0].id += carried.object.id;
   for (const std::size_t cube : near)
     among.objects[0].shapes.push_back(cubes[cube]);

@@ -22,7 +22,7 @@ namespace
 using Clock = std::chrono::steady_clock;
 using Scene = std::shared_ptr<const PlanningScene>;
 
-// Longer waits than this would not fit into the clock.
+// Longer waits would overflow the clock's type.
 constexpr double kNoLimit = 1e8;  // seconds
 
 Clock::duration duration(double seconds)
@@ -48,13 +48,14 @@ double millionTriangles(const PlanningScene& scene)
 
 struct ResilientChecker::Impl
 {
-  /// On the device's thread; shared by the jobs that use it, so that the last one can destroy it there.
+  /// The device's checker, which is used on the device's thread only. The jobs share it, so that it can be destroyed
+  /// there.
   struct Slot
   {
     std::unique_ptr<StateChecker> checker;
   };
   template <class Result>
-  using Question = std::function<Result(StateChecker&)>;  // must own what it uses: see AbandonableThread
+  using Question = std::function<Result(StateChecker&)>;  // must own all objects that it uses, see AbandonableThread
 
   Impl(Make make_the_device, Make make_the_cpu, const ResilientOptions& the_options)
     : make_device(std::move(make_the_device)), make_cpu(std::move(make_the_cpu)), options(the_options)
@@ -76,33 +77,33 @@ struct ResilientChecker::Impl
   const Make make_cpu;
   const ResilientOptions options;
 
-  std::mutex mutex;  // of all below but the status
+  std::mutex mutex;  // guards all members below except the status
   Scene scene;
-  std::shared_ptr<Slot> device;  // null: none
+  std::shared_ptr<Slot> device;  // null: no device is open
   Scene device_scene;
   std::unique_ptr<StateChecker> cpu;
   Scene cpu_scene;
-  bool asked_cpu = false;  // the last question was its
+  bool asked_cpu = false;  // the CPU answered the last request
   bool opened_before = false;
-  bool lost = false;  // and not made anew since
+  bool lost = false;  // the device was lost and has not been reopened
   double seconds_per_call = 0.0;
   std::deque<Clock::time_point> losses;
-  Clock::time_point retry = Clock::time_point::min();  // the CPU answers until then
+  Clock::time_point retry = Clock::time_point::min();  // the CPU answers until this time
   AbandonableThread thread;
 
-  mutable std::mutex status_mutex;  // for callers that do not wait for a check that runs
+  mutable std::mutex status_mutex;  // guards the members below, for callers that do not wait for a running check
   DeviceHistory history;
   std::string device_name;
   std::string device_warning;
 };
 
-/// Throws DeviceLost where the job does not end. Then the thread has what the job uses, should it ever come back.
+/// Throws DeviceLost if the job does not end in time. The abandoned thread then owns the objects that the job uses.
 void ResilientChecker::Impl::run(const std::function<void()>& job, double seconds)
 {
   if (thread.run(job, std::min(seconds, kNoLimit)))
     return;
   device.reset();
-  noteFailedRebuild();  // there is no thread for one
+  noteFailedRebuild();  // no thread is left that could open the device again
   std::ostringstream message;
   message << "the device has not answered for " << seconds << " s and is not used any more";
   throw DeviceLost(message.str());
@@ -151,7 +152,8 @@ void ResilientChecker::Impl::dropDevice()
         [slot = std::exchange(device, nullptr)]
         {
           slot->checker.reset();
-          // A software device's memory lies on the heap, in hundreds of megabytes, and would stay there with holes.
+          // A software renderer has hundreds of megabytes on the heap, which free() alone would not return to the
+          // system.
           malloc_trim(0);
         },
         seconds_per_call);
@@ -188,7 +190,8 @@ void ResilientChecker::Impl::noteLoss(const std::string& error)
     useCpu(error);
 }
 
-/// Whether the device has the scene now. Throws DeviceLost, and Error where neither the device nor the CPU takes it.
+/// Gives the scene to the device. Returns whether the device has it now. Throws DeviceLost. Throws Error if neither the
+/// device nor the CPU accepts the scene.
 bool ResilientChecker::Impl::placeOnDevice(const Scene& the_scene)
 {
   if (device && device_scene == the_scene)
@@ -216,7 +219,7 @@ bool ResilientChecker::Impl::placeOnDevice(const Scene& the_scene)
     if (lost)
       noteFailedRebuild();
     dropDevice();
-    placeOnCpu(the_scene);  // throws where the scene is to blame; the device is then made anew with the next question
+    placeOnCpu(the_scene);  // throws if the scene is invalid; the next request then opens the device again
     useCpu(error.what());
     return false;
   }
@@ -265,7 +268,7 @@ Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result
     }
     catch (...)
     {
-      dropDevice();  // nobody knows what state that has left it in
+      dropDevice();  // the state of the checker is unknown after this exception
       throw;
     }
   }
@@ -305,10 +308,10 @@ BatchResult ResilientChecker::check(const double* states, std::size_t count, con
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   const RobotModel& robot = *impl_->scene->robot;
-  validateStates(robot, states, count);  // here, where a state's number is known
+  validateStates(robot, states, count);  // here, so that the error names the state's number in the request
   if (around)
     validateNeighbourhood(robot, *around, count);
-  // The question owns what it uses: see AbandonableThread.
+  // The request owns all objects that it uses, see AbandonableThread.
   const auto rows = std::make_shared<const std::vector<double>>(states, states + count * robot.variables().size());
   const auto neighbourhood = around ? std::make_shared<const JointNeighbourhood>(*around) : nullptr;
   BatchResult result =

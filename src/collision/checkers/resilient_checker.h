@@ -10,45 +10,47 @@
 
 namespace gpu_planning_scene::core
 {
-/// What has become of a device since the start.
+/// Events of a device since the start.
 struct DeviceHistory
 {
-  std::uint64_t losses = 0;    ///< that were noticed
-  std::uint64_t rebuilds = 0;  ///< new checkers on the device, after the first
+  std::uint64_t losses = 0;    ///< noticed losses of the device
+  std::uint64_t rebuilds = 0;  ///< new checkers on the device after the first one
   std::uint64_t batches_on_cpu = 0;
-  bool on_cpu = false;          ///< the CPU answers at present
-  bool rebuild_failed = false;  ///< the device was lost and could not be had again, so far
-  std::string last_error;       ///< of the device; empty: none
+  bool on_cpu = false;          ///< the CPU answers now
+  bool rebuild_failed = false;  ///< the device was lost and has not been reopened successfully
+  std::string last_error;       ///< last error of the device; empty: none
 };
 
 struct ResilientOptions
 {
-  /// A call that takes longer is a lost device, which is given up for good; callers check as many states at once as
-  /// take far less. For each million triangles of the scene the same once more: their trees are built within the call.
+  /// A call that takes longer than this counts as a hanging device, which is given up for good. Batches must be small
+  /// enough to take far less. The limit grows by the same amount for each million triangles of the scene, because their
+  /// trees are built within the call.
   double device_seconds = 30.0;
-  std::size_t most_losses = 3;  ///< so many within loss_window seconds, and the CPU answers
+  std::size_t most_losses = 3;  ///< after this many losses within loss_window seconds, the CPU answers
   double loss_window = 60.0;
-  double retry_seconds = 60.0;  ///< after which the device is tried again
+  double retry_seconds = 60.0;  ///< time after which the device is tried again
 };
 
-/// Asks a device's checker; where that is lost it makes a new one, with the current scene, and asks again; where that
-/// fails too the CPU answers, and the device is tried again later. A device's checker that could not take a scene is
-/// dropped, so that nothing is ever answered from a half-built scene; a scene that the CPU takes and the device does
-/// not, as it is too large, say, is the CPU's. Who answers changes no answer.
-/// All work on the device is done on one thread of its own. Where that hangs, it is left behind with what it uses, and
-/// from then on the CPU answers: at most one thread is lost so.
+/// A checker that survives the loss of its device. If the device is lost, it opens a new checker on the device with the
+/// current scene and repeats the request. If this fails too, the CPU answers, and the device is tried again later. A
+/// device's checker that failed to take a scene is dropped, so no answer ever comes from an incomplete scene. If the
+/// CPU takes a scene and the device does not (e.g. because the scene is too large), the CPU answers for this scene. The
+/// verdicts do not depend on which of the two answers.
+///
+/// One thread does all work on the device. If it hangs, it is abandoned together with the objects that it uses, and the
+/// CPU answers from then on. So at most one thread is lost.
 class ResilientChecker : public StateChecker
 {
  public:
   using Make = std::function<std::unique_ptr<StateChecker>(std::shared_ptr<const PlanningScene>)>;
   enum class Opening
   {
-    AtStart,  ///< the device may take as long as it likes, and what it throws is thrown: nothing can work without it
-    Later     ///< the device has as long as for a scene, and the CPU stands in for it
+    AtStart,  ///< no time limit for the device, and its errors are thrown: the program needs the device to start
+    Later     ///< the time limit of a scene applies, and the CPU answers if the device fails
   };
 
-  /// `device` is called at once. `cpu` is called when it is first needed, and throws nothing but what the scene is to
-  /// be blamed for.
+  /// `device` is called immediately, `cpu` when it is first needed. `cpu` may throw only if the scene is invalid.
   ResilientChecker(std::shared_ptr<const PlanningScene> scene, Make device, Make cpu,
                    const ResilientOptions& options = {}, Opening opening = Opening::AtStart);
   ~ResilientChecker() override;
@@ -57,7 +59,7 @@ class ResilientChecker : public StateChecker
   BatchResult check(const double* states, std::size_t count, const std::string& group = "",
                     const JointNeighbourhood* around = nullptr) override;
   SceneReport report(const std::string& group = "") override;
-  /// Of who answers at present. These three do not wait for a check that runs.
+  /// These three functions describe the device or CPU that answers now. They do not wait for a running check.
   std::string deviceName() const override;
   std::string deviceWarning() const override;
   DeviceHistory history() const;

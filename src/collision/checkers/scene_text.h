@@ -10,19 +10,20 @@
 
 namespace gpu_planning_scene::core
 {
-/// Lines for a person: the device, the robot, the triangles, the checked pairs, and what is left out and why.
+/// Describes a scene in lines of text: the device, the robot, the triangles, the checked pairs, and the omitted pairs
+/// with their reasons.
 std::vector<std::string> describeScene(const PlanningScene& scene, const SceneReport& report,
                                        const std::string& device);
 
 /// "1 link", "2 links".
 std::string counted(std::size_t count, const std::string& noun);
 
-/// Which pairs of bodies collided in how many states.
+/// Counts for each pair of bodies the states in which it collided.
 class PairCounts
 {
  public:
   void add(const BatchResult& result);
-  /// The commonest `limit` pairs, "BODY - BODY: N states", most first.
+  /// The `limit` most frequent pairs, in descending order, each as "BODY - BODY: N states".
   std::vector<std::string> commonest(const PlanningScene& scene, std::size_t limit) const;
 
  private:

@@ -9,6 +9,8 @@
 #include "collision/exact/cpu_shape_pair.h"
 #include "collision/exact/cpu_traversal.h"
 
+// Best-first search with bounding boxes: a pair is tested only if its boxes may be nearer than the best clearance so
+// far. Bisection over the required distance then gives the clearance of the pair.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -17,7 +19,7 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// Bounds on distances are this much wider than rounding makes them wrong.
+// Distance bounds are widened by this margin, which exceeds their rounding error.
 constexpr double kDistanceMargin = 1e-9;  // metres
 
 struct Nearest
@@ -25,8 +27,8 @@ struct Nearest
   double clearance = std::numeric_limits<double>::infinity();
   BodyPair bodies = kNoPair;
 
-  /// Takes a pair whose clearance is between two bounds into account. `collides(x)`: whether it is at most x. Most
-  /// pairs cost one look at their bounds, or one test.
+  /// Updates the result with a pair whose clearance is between two bounds. `collides(x)`: whether the clearance is at
+  /// most x. Most pairs cost only a comparison of bounds, or one test.
   template <class Collides>
   void consider(double lower, double upper, std::int32_t a, std::int32_t b, const Collides& collides)
   {
@@ -43,18 +45,19 @@ struct Nearest
   }
 };
 
-/// Bounds on the distance of what two boxes hold.
+/// Lower bound of the distance between the contents of two boxes.
 double leastDistance(const AlignedBox3d& a, const AlignedBox3d& b)
 {
   return a.exteriorDistance(b) - kDistanceMargin;
 }
 
+/// Upper bound of the distance between the contents of two boxes.
 double mostDistance(const AlignedBox3d& a, const AlignedBox3d& b)
 {
   return (a.max() - b.min()).cwiseAbs().cwiseMax((b.max() - a.min()).cwiseAbs()).norm() + kDistanceMargin;
 }
 
-/// Of one state.
+/// The search for one state.
 class Search
 {
  public:
@@ -108,9 +111,9 @@ class Search
   }
 
  private:
-  /// Nodes of the tree over objects, the nearer child first, as far as they are nearer than the best so far. The tree's
-  /// boxes and the robot's are both grown by their padding: how far such boxes are apart is no more than what is beyond
-  /// the required distance, as boxes grow by no less than balls of the padding's radius.
+  /// Visits the tree over objects, the nearer child first. Skips nodes that are not nearer than the best clearance so
+  /// far. The boxes of the tree and of the robot are grown by their padding. A box grown by the padding contains the
+  /// ball-shaped padding, so the distance of two grown boxes is at most the distance beyond the required distance.
   void considerObjects(std::uint32_t instance, Nearest& nearest)
   {
     if (objects_.nodes().empty())
@@ -178,7 +181,7 @@ class Search
   CpuShapePair pair_;
   const ObjectTree& objects_;
   const std::vector<AlignedBox3d>& world_bounds_;
-  std::vector<Isometry3d> poses_;  // of the robot's instances, in the planning frame
+  std::vector<Isometry3d> poses_;  // poses of the robot's instances, in the planning frame
   std::vector<AlignedBox3d> bounds_;
   std::vector<Entry> stack_;
   CpuShapePair::Scratch scratch_;

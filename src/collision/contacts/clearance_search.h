@@ -12,27 +12,28 @@
 
 namespace gpu_planning_scene::core
 {
-/// How near a state is to a collision, by the exact test of pairs: a pair is at most x beyond its required distance v
-/// if it collides where v + x is required. Immutable.
+/// Finds the clearance of a state with the exact test of pairs. A pair is at most x beyond its required distance v if
+/// it collides with the required distance v + x. Immutable.
 class ClearanceSearch
 {
  public:
-  /// The problem has all pairs, so also those that collide in every state. `objects`: over worldBounds().
+  /// The problem must contain all pairs, also those that collide in every state. `objects` must be built over
+  /// worldBounds().
   ClearanceSearch(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest,
                   std::shared_ptr<const ObjectTree> objects);
 
-  /// `link_poses`: of every link, in the planning frame.
+  /// `link_poses`: the pose of each link in the planning frame.
   Clearance find(const Eigen::Isometry3d* link_poses) const;
 
  private:
   std::shared_ptr<const CollisionProblem> problem_;
   std::shared_ptr<const CpuForest> forest_;
   std::shared_ptr<const ObjectTree> objects_;
-  std::vector<Eigen::AlignedBox3d> world_bounds_;  // of its instances, without their padding
+  std::vector<Eigen::AlignedBox3d> world_bounds_;  // boxes of the world's instances, without padding
 };
 
-/// The least x in [low, high], to 1e-6 m and not above it, for which `holds`, which does for high, and for all above
-/// the least.
+/// Bisection for the least x in [low, high] with holds(x). `holds` must be true for `high` and for all values above the
+/// least one. The result is at most 1e-6 m below the least x, and never above it.
 template <class Predicate>
 double leastFor(double low, double high, const Predicate& holds)
 {
@@ -41,7 +42,7 @@ double leastFor(double low, double high, const Predicate& holds)
   {
     const double middle = 0.5 * (low + high);
     if (middle <= low || middle >= high)
-      break;  // doubles as large as these have no micrometres
+      break;  // doubles of this size have no finer resolution
     (holds(middle) ? high : low) = middle;
   }
   return low;

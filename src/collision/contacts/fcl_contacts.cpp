@@ -13,6 +13,8 @@
 #include "collision/contacts/clearance_search.h"
 #include "collision/geometry/primitive_solid.h"
 
+// FCL computes contact points and nearest points. Its results are used only if they agree with the exact test;
+// otherwise a search along the line between the centres gives the depth.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -23,10 +25,10 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMostOfPair = 256;
 
-// How far from a box a point on its border may be.
+// Tolerance for points on the border of a box.
 constexpr double kContactMargin = 1e-6;  // metres
 
-// FCL's nearest points are believed where their distance is right to this.
+// FCL's nearest points are used only if their distance is correct to this.
 constexpr double kNearEnough = 1e-4;  // metres
 
 bool isUnit(const Vector3d& vector)
@@ -34,10 +36,12 @@ bool isUnit(const Vector3d& vector)
   return std::abs(vector.norm() - 1.0) < 1e-6;
 }
 
-/// What FCL finds where surfaces cross. It gives up on some pairs with an exception; then it has found nothing.
-/// Of triangles that lie in one plane, or are larger than what overlaps, it names points outside of both shapes, and
-/// depths of triangles. Points must be in both shapes' boxes. A way along an axis that takes the boxes apart takes the
-/// shapes apart: deeper contacts than the shortest one are told where there are no others, and as that deep.
+/// The contacts that FCL finds between crossing surfaces; none if FCL fails with an exception.
+///
+/// For coplanar triangles and for triangles larger than the overlap, FCL may report points outside both shapes, and the
+/// depth of a triangle. So points must lie in the boxes of both shapes. A translation along an axis that separates the
+/// boxes also separates the shapes, so the shortest such translation limits the depth. Deeper contacts are reported
+/// only if there are no others, and with this depth.
 std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, const AlignedBox3d& box_a,
                                       const AlignedBox3d& box_b, double required)
 {
@@ -62,7 +66,7 @@ std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, cons
     if (!contact.pos.allFinite() || !grown.contains(contact.pos) || !isUnit(contact.normal) ||
         !std::isfinite(contact.penetration_depth))
       continue;
-    // FCL exchanges a solid and a tree, and says so.
+    // FCL may exchange a primitive and a tree; contact.o1 tells which shape is first.
     const Vector3d normal = contact.o1 == a.model.get() ? contact.normal : Vector3d(-contact.normal);
     const double depth = std::abs(contact.penetration_depth);
     (depth <= deepest + kContactMargin ? contacts : too_deep)
@@ -71,7 +75,7 @@ std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, cons
   return contacts.empty() ? too_deep : contacts;
 }
 
-/// A point of each shape, as near to each other as any, if their distance by FCL is within kNearEnough of `distance`.
+/// The nearest points of the two shapes by FCL. Empty unless their distance is within kNearEnough of `distance`.
 std::optional<std::array<Vector3d, 2>> fclNearestPoints(const FclShape& a, const FclShape& b, double distance)
 {
   fcl::DistanceResultd result;
@@ -91,14 +95,14 @@ std::optional<std::array<Vector3d, 2>> fclNearestPoints(const FclShape& a, const
   return std::array<Vector3d, 2>{p, q};
 }
 
-/// From the centre of one shape to that of the other; any direction where they are the same.
+/// The direction from the centre of box a to the centre of box b; an arbitrary one if the centres coincide.
 Vector3d directionBetween(const AlignedBox3d& a, const AlignedBox3d& b)
 {
   const Vector3d way = b.center() - a.center();
   return way.norm() > 1e-9 ? Vector3d(way.normalized()) : Vector3d::UnitZ();
 }
 
-/// Of shapes apart, within the required distance.
+/// The contact of two shapes that do not touch, but are within the required distance.
 ShapeContact contactApart(const FclShape& a, const FclShape& b, const AlignedBox3d& box_a, const AlignedBox3d& box_b,
                           double distance, double required)
 {
@@ -110,7 +114,7 @@ ShapeContact contactApart(const FclShape& a, const FclShape& b, const AlignedBox
           way.norm() > 1e-9 ? Vector3d(way.normalized()) : directionBetween(box_a, box_b), required - distance};
 }
 
-/// Of shapes that touch, or of which one is inside the other.
+/// The contact of two shapes that touch, or of which one is inside the other.
 ShapeContact contactWithin(const FclShape& a, const FclShape& b, const AlignedBox3d& box_a, const AlignedBox3d& box_b,
                            double required, const CpuShapePair& exact, CpuShapePair::Scratch& scratch)
 {
@@ -122,9 +126,9 @@ ShapeContact contactWithin(const FclShape& a, const FclShape& b, const AlignedBo
     return shape;
   };
   const auto apart = [&](double way) { return !exact.collide(a.tree, a.pose, b.tree, moved(way).pose, 0.0, scratch); };
-  // Moved so far, the balls around their boxes are apart.
+  // After this translation, the spheres around the two boxes do not overlap.
   const double depth = leastFor(0.0, box_a.diagonal().norm() + box_b.diagonal().norm(), apart);
-  Vector3d point = box_a.intersection(box_b).center();  // of the inner one's box
+  Vector3d point = box_a.intersection(box_b).center();  // one inside the other: centre of the inner box
   if (depth < kNearEnough)
     if (const auto nearest = fclNearestPoints(a, moved(depth + kNearEnough), kNearEnough))
       point = (*nearest)[0];

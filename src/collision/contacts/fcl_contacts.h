@@ -13,11 +13,11 @@
 
 namespace gpu_planning_scene::core
 {
-/// Of two shapes a and b.
+/// A contact of two shapes a and b, in the planning frame.
 struct ShapeContact
 {
   Eigen::Vector3d point;
-  Eigen::Vector3d normal;  ///< unit, from a to b
+  Eigen::Vector3d normal;  ///< unit vector from a to b
   double depth;            ///< metres
 };
 
@@ -29,12 +29,13 @@ struct FclShape
   FclGeometry model;  ///< see makeFclSolid
 };
 
-/// Contacts of a pair of shapes that collides by the exact test: at least one. FCL tells them where it finds any. Else
-/// there is one, see StateInspector::contacts. `required`: the pair's distance, which counts as depth.
+/// The contacts of two shapes that collide by the exact test; at least one. FCL's contacts are used if FCL finds any.
+/// Otherwise there is exactly one contact, see StateInspector::contacts. `required` is the required distance of the
+/// pair; it counts as depth.
 std::vector<ShapeContact> contactsOf(const FclShape& a, const FclShape& b, double required, const CpuForest& forest,
                                      const CpuShapePair& exact, CpuShapePair::Scratch& scratch);
 
-/// The contact of a shape, a solid or a mesh, with a half-space: where it reaches deepest.
+/// The contact of a primitive or mesh with a half-space, at the deepest point of the shape.
 ShapeContact contactOf(const Eigen::Isometry3d& pose, const Shape& shape, const WorldHalfSpace& half_space,
                        double required);
 }  // namespace gpu_planning_scene::core

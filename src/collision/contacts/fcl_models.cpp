@@ -2,7 +2,7 @@
 
 #include <vector>
 
-// Before BVH_model.h, whose templates need it and do not include it.
+// Must precede BVH_model.h, whose templates need this header but do not include it.
 #include <fcl/math/bv/utility.h>
 
 #include <fcl/geometry/bvh/BVH_model.h>

@@ -17,9 +17,9 @@ namespace gpu_planning_scene::core
 /// Bounding volumes of FCL's trees.
 enum class FclTree
 {
-  Obbrss,  ///< FCL's own choice, MoveIt's
-  Obb,     ///< as in RAPID
-  Aabb,    ///< not oriented: see FclMovedTree
+  Obbrss,  ///< the default of FCL and MoveIt
+  Obb,     ///< as in RAPID (Gottschalk 1996)
+  Aabb,    ///< not oriented, see FclMovedTree
   Kios,
   Kdop24  ///< not oriented
 };
@@ -31,22 +31,23 @@ inline bool isOriented(FclTree tree)
 
 using FclGeometry = std::shared_ptr<fcl::CollisionGeometry<double>>;
 
-/// Spheres, cylinders and cones as FCL's shapes, all else as a tree over the tessellation.
+/// Makes FCL's primitive for a sphere, cylinder or cone, and a tree over the tessellation for any other shape.
 FclGeometry makeFclGeometry(const Shape& shape, const Tessellation& tessellation, FclTree tree);
 
-/// As MoveIt has them: boxes as FCL's boxes too, which tell contacts as those of whole faces; meshes as OBBRSS trees.
+/// Makes the same geometry as MoveIt: as makeFclGeometry with OBBRSS trees, but a box becomes FCL's box. FCL then
+/// reports contacts of whole faces.
 FclGeometry makeFclSolid(const Shape& shape, const Tessellation& tessellation);
 
-/// A tree of volumes that are not oriented, which has to be fitted anew for each pose. FCL would build it anew for each
-/// query, unless it lies in the planning frame already, as it does here. Not thread-safe.
+/// A tree of bounding volumes that are not oriented. It must be refitted for each pose. FCL would rebuild it for each
+/// query unless its vertices are already in the planning frame; this class keeps them there. Not thread-safe.
 class FclMovedTree
 {
  public:
   virtual ~FclMovedTree() = default;
-  /// In the planning frame; the mesh is at `pose`.
+  /// The tree in the planning frame, for a mesh at `pose`.
   virtual const fcl::CollisionGeometry<double>* at(const Eigen::Isometry3d& pose) = 0;
 };
 
-/// Null for what needs no such tree: oriented volumes, and primitives that FCL knows.
+/// Makes such a tree. Null if none is needed: for oriented volumes, and for FCL's primitives.
 std::shared_ptr<FclMovedTree> makeFclMovedTree(const Shape& shape, const Tessellation& tessellation, FclTree tree);
 }  // namespace gpu_planning_scene::core

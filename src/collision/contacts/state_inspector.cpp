@@ -13,14 +13,16 @@
 #include "collision/exact/forest_cache.h"
 #include "collision/problem/state_validation.h"
 
+// The exact checker finds the colliding pairs of instances. FCL gives their contacts, of which the deepest ones per
+// pair of bodies are kept.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-// Of points of a pair that are nearer than this, the deepest is told.
+// Of the contact points of a pair within this distance of each other, only the deepest is reported.
 constexpr double kSamePoint = 1e-6;  // metres
 
-/// What is made of shapes, for all scenes that have them.
+/// Trees and FCL geometries of shapes. Scenes that have the same shapes share them.
 struct Models
 {
   FclGeometry modelOf(const CollisionProblem& problem, std::uint32_t tree)
@@ -37,13 +39,13 @@ struct Models
       entry = entry->first.expired() ? fcl.erase(entry) : std::next(entry);
   }
 
-  std::mutex mutex;  // of all below
+  std::mutex mutex;  // guards all members below
   ProblemMaker maker{optionsWithAllPairs()};
   ForestCache forests;
-  std::map<std::weak_ptr<const Mesh>, FclGeometry, std::owner_less<>> fcl;  // by tessellation: equal shapes share one
+  std::map<std::weak_ptr<const Mesh>, FclGeometry, std::owner_less<>> fcl;  // key: tessellation; shared by equal shapes
 };
 
-/// What is asked about for a group.
+/// The prepared data of one group.
 struct Inspected
 {
   std::shared_ptr<const CollisionProblem> problem;
@@ -52,12 +54,12 @@ struct Inspected
   std::unique_ptr<const ClearanceSearch> clearance;
 };
 
-/// Tells which points are nearer to another one than kSamePoint. Those that may be are in the same cell of a grid or in
-/// one beside it.
+/// Finds points that are nearer to each other than kSamePoint. Two such points are in the same cell of a grid or in
+/// adjacent cells.
 class NearPoints
 {
  public:
-  /// Whether it was added: not where another one is near.
+  /// Adds the point unless another point is near. Returns whether it was added.
   bool add(const Eigen::Vector3d& point)
   {
     const Cell center = {{cellOf(point.x()), cellOf(point.y()), cellOf(point.z())}};
@@ -77,7 +79,7 @@ class NearPoints
  private:
   using Cell = std::array<std::int64_t, 3>;
 
-  /// Beyond a bound, where doubles are further apart than that, all are in one cell.
+  /// Coordinates beyond a bound share one cell, because the resolution of double is coarser than kSamePoint there.
   static std::int64_t cellOf(double coordinate)
   {
     constexpr double kFarthest = 1e18;
@@ -87,7 +89,7 @@ class NearPoints
   std::map<Cell, std::vector<Eigen::Vector3d>> cells_;
 };
 
-/// The deepest of those at the same place, at most `most`, deepest first.
+/// At most `most` contacts, the deepest first. Of contacts at the same place only the deepest is kept.
 std::vector<Contact> deepest(std::vector<Contact> contacts, std::size_t most)
 {
   std::stable_sort(contacts.begin(), contacts.end(),
@@ -119,7 +121,7 @@ struct StateInspector::Impl
 
   const std::shared_ptr<const PlanningScene> scene;
   const std::shared_ptr<Models> models;
-  std::map<std::string, Inspected> groups;  // under the models' mutex; never removed
+  std::map<std::string, Inspected> groups;  // guarded by the mutex of `models`; entries are never removed
 };
 
 const Inspected& StateInspector::Impl::inspected(const std::string& group)

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+// Top-down build of a bounding volume hierarchy. Each node sorts the centres of its items into bins along each axis and
+// is split between two bins where the surface area heuristic predicts the least cost (Wald 2007).
 namespace gpu_planning_scene::core
 {
 namespace
@@ -14,8 +16,8 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
 constexpr int kMostBins = 32;
-constexpr int kMaxSahDepth = 64;    // deeper nodes are halved by count, which bounds the depth
-constexpr double kVisitCost = 1.5;  // of a node, in units of the cost of a leaf's item
+constexpr int kMaxSahDepth = 64;    // deeper nodes are split into halves of equal count, which bounds the depth
+constexpr double kVisitCost = 1.5;  // cost of visiting a node, relative to the cost of a leaf's item
 
 double area(const AlignedBox3d& box)
 {
@@ -29,7 +31,7 @@ struct Split
 {
   double cost = std::numeric_limits<double>::infinity();
   int axis = -1;
-  int bin = 0;  // items of bins up to this one go to the first child
+  int bin = 0;  // the items of bins 0 .. bin go to the first child
 };
 
 class Builder
@@ -92,7 +94,7 @@ class Builder
     buildNode(child + 1, middle, end, depth + 1);
   }
 
-  /// More bins than twice the items would separate no more of them, and most nodes have few items.
+  /// Most nodes have few items, and more bins than twice the items would hardly separate more of them.
   static int binsFor(std::uint32_t count) { return count < kMostBins / 2 ? 2 * static_cast<int>(count) : kMostBins; }
 
   int binOf(std::uint32_t item, int axis, int bins, const AlignedBox3d& centers) const
@@ -118,7 +120,7 @@ class Builder
         bounds[bin].extend(boxes_[tree_.order[i]]);
         ++counts[bin];
       }
-      std::array<double, kMostBins> upper_costs;  // of all bins from this one on
+      std::array<double, kMostBins> upper_costs;  // cost of all bins from this one on
       AlignedBox3d upper;
       std::uint32_t upper_count = 0;
       for (int bin = bins - 1; bin > 0; --bin)
@@ -147,7 +149,7 @@ class Builder
 };
 }  // namespace
 
-/// The centre is rounded, so the half lengths must reach both ends from there.
+/// The centre is rounded to float, so the half lengths must reach both ends of the box from the rounded centre.
 void setBox(const AlignedBox3d& box, Node& node)
 {
   for (int axis = 0; axis < 3; ++axis)

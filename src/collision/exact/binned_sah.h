@@ -10,22 +10,23 @@
 
 namespace gpu_planning_scene::core
 {
-/// A tree over boxes: a leaf's first .. first + count index `order`, which holds the numbers of the boxes. The root is
-/// node 0.
+/// A bounding volume hierarchy over boxes. Node 0 is the root. The entries first .. first + count - 1 of `order` hold
+/// the numbers of a leaf's boxes.
 struct BoxTree
 {
   std::vector<Node> nodes;
   std::vector<std::uint32_t> order;
 };
 
-/// Top-down build with binned surface area heuristic, after Wald, "On fast Construction of SAH-based Bounding Volume
-/// Hierarchies" (2007). Depth is bounded by 64 + log2(boxes). No boxes: no nodes.
+/// Builds a tree from the top with the binned surface area heuristic (Wald, "On fast Construction of SAH-based Bounding
+/// Volume Hierarchies", 2007). The depth is at most 64 + log2(boxes). Without boxes the tree has no nodes.
 BoxTree buildBinnedSah(const std::vector<Eigen::AlignedBox3d>& boxes, std::uint32_t max_leaf_size);
 
-/// The smallest float box of a node that holds `box`.
+/// Sets the node's box to the smallest float box that contains `box`.
 void setBox(const Eigen::AlignedBox3d& box, Node& node);
 
-/// A tree per mesh with that build, leaves of up to kLeafTriangles. The builder where there is no GL device, and the
-/// yardstick for the trees that the GPU builds. Every mesh has at least one triangle.
+/// Builds a tree for each mesh in the same way, with leaves of at most kLeafTriangles. This builder serves machines
+/// without a GL device, and it is the reference for the quality of the GPU's trees. Each mesh must have at least one
+/// triangle.
 Forest buildBinnedSah(const std::vector<Tessellation>& meshes);
 }  // namespace gpu_planning_scene::core

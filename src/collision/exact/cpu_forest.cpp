@@ -5,14 +5,16 @@
 
 #include "collision/geometry/primitive_solid.h"
 
+// Converts trees with axis-aligned boxes into trees with oriented boxes. Oriented boxes fit triangles more closely, so
+// a traversal visits fewer nodes (Gottschalk, Lin and Manocha, "OBBTree", 1996).
 namespace gpu_planning_scene::core
 {
 namespace
 {
 using Eigen::Matrix3d;
 
-/// Copies a tree out of a forest, depth first, so that what is walked together lies together, and the triangles below a
-/// node side by side. Leaves the nodes' boxes open.
+/// Copies a tree from a forest in depth-first order: nodes that are visited together lie together, and the triangles
+/// below a node are contiguous. Does not set the boxes of the nodes.
 void copyTree(const Forest& forest, std::size_t number, const Mesh& mesh, CpuTree& tree)
 {
   tree.triangles.reserve(mesh.triangles.size());

@@ -4,6 +4,9 @@
 #include "collision/geometry/cpu_box_pair.h"
 #include "collision/geometry/primitive_solid.h"
 
+// Meshes are decided by a simultaneous traversal of two trees of oriented boxes (Gottschalk, Lin and Manocha,
+// "OBBTree", 1996), with exact tests at the leaves. If the surfaces do not meet, winding numbers tell whether one shape
+// is inside the other.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -12,16 +15,17 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// Boxes are grown by this much, so that neither rounding in the box tests nor kSlack loses a pair.
+// Boxes are grown by this margin, so that a pair is lost neither to rounding in the box tests nor to kSlack.
 constexpr double kBoxMargin = 1e-9;  // metres
 
-// How far within the tolerance nodes have to be to be called a collision: more than rounding moves them.
+// Nodes count as a collision only if they are within the tolerance by this margin, which exceeds their rounding error.
 constexpr double kToleranceMargin = 1e-9;  // metres
 
-// Two solids take about as long as this many nodes.
+// The test of two solids costs about as much as visiting this many nodes.
 constexpr std::uint64_t kStepsOfSolids = 20;
 
-/// Loses nothing where both are far from the origin of the frame that they are given in.
+/// The pose of b in the frame of a. The translations are subtracted first, so no digits are lost if both are far from
+/// the origin.
 Isometry3d relativePose(const Isometry3d& a, const Isometry3d& b)
 {
   Isometry3d b_in_a;
@@ -45,8 +49,8 @@ bool leavesMeet(const CpuTree& tree_a, const CpuNode& a, const CpuTree& tree_b, 
   return false;
 }
 
-/// Whether a component of one mesh lies inside the solid of the other, where no surfaces meet: then any point of it
-/// tells.
+/// Whether a component of one mesh lies inside the solid of the other. The surfaces must not meet. Then each point of a
+/// component gives the same answer, so one point suffices.
 bool holdsComponent(const CpuTree& outer, const CpuTree& inner, const Isometry3d& inner_in_outer,
                     std::vector<std::uint32_t>& stack)
 {
@@ -56,7 +60,8 @@ bool holdsComponent(const CpuTree& outer, const CpuTree& inner, const Isometry3d
   const double diagonal = bounds.diagonal().norm() + kBoxMargin;
   for (const Component& component : inner.parts.components)
   {
-    // A side of its box is a distance of two of its points along an axis, so nothing with a longer one fits in.
+    // Each side of the component's box is the distance of two of its points along an axis. If a side exceeds the
+    // diagonal of the solid's bounds, the component does not fit into the solid.
     const Vector3d point = inner_in_outer * component.point;
     if (bounds.contains(point) && component.bounds.sizes().maxCoeff() <= diagonal && isInsideSolid(outer, point, stack))
       return true;
@@ -91,7 +96,7 @@ bool CpuShapePair::collide(std::uint32_t a, const Isometry3d& pose_a, std::uint3
     scratch.steps += kStepsOfSolids;
     return solidsWithin(tree_a.shape, tree_b.shape, b_in_a, required);
   }
-  // A triangle inside the primitive meets it as well; the primitive inside the mesh is left.
+  // surfaceMeetsSolid also finds triangles inside the primitive. The remaining case is a primitive inside the mesh.
   const Isometry3d a_in_b = b_in_a.inverse();
   return tree_a.mesh ? surfaceMeetsSolid(tree_a, tree_b, a_in_b, required, scratch) ||
                            isInsideSolid(tree_a, b_in_a.translation(), scratch.nodes)
@@ -123,7 +128,7 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
       const double radius = around.half.norm();
       if (distance > radius + margin)
         continue;
-      // A node holds a triangle, all of which is within its radius of its centre.
+      // All triangles of a node are within `radius` of the node's centre, and each node has a triangle.
       if (tolerance_ > 0.0 && distance + radius <= near_enough)
         return true;
     }
@@ -143,13 +148,17 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
   return false;
 }
 
-/// Simultaneous traversal of nodes whose boxes overlap, as the roots' do: of each two the larger is opened.
-/// With a tolerance it ends at two nodes whose centres are so close that no point of one is further from a point of the
-/// other than the required distance and the tolerance: each node holds a triangle, all of which is within the node's
-/// radius (half the diagonal of its box) of the box's centre. Nodes without required distance that overlap, with
-/// diagonals that add up to no more than the tolerance, are such: their centres are no further apart than the sum of
-/// the radii, which is half the tolerance. For a required distance v the overlap of boxes grown by v would prove less,
-/// as their corners reach as far as v times the root of 3.
+/// Simultaneous traversal of two trees. The boxes of each pair of nodes overlap; the caller has tested the root boxes.
+/// The larger node of a pair is opened.
+///
+/// With a tolerance, the traversal stops at two nodes that are close enough to count as a collision. Each node has a
+/// triangle, and all points of this triangle are within the node's radius (half the diagonal of its box) of the box's
+/// centre. So the distance of the two triangles is at most the distance of the centres plus both radii. The traversal
+/// stops if this sum is at most the required distance plus the tolerance.
+///
+/// Example: the required distance is 0, two nodes overlap, and their diagonals add up to at most the tolerance. Then
+/// the radii add up to at most half of the tolerance, and so does the distance of the centres. For a required distance
+/// v > 0, the overlap of boxes grown by v would prove less, because their corners reach v times the square root of 3.
 bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, double required,
                                 Scratch& scratch) const
 {
@@ -191,7 +200,7 @@ bool CpuShapePair::collide(std::uint32_t number, const Isometry3d& pose, const P
                            double required, Scratch& scratch) const
 {
   const CpuTree& tree = forest_->tree(number);
-  const Vector3d normal = pose.linear().transpose() * half_space.normal;  // in the shape's frame
+  const Vector3d normal = pose.linear().transpose() * half_space.normal;  // normal in the shape's frame
   const double most = half_space.offset - half_space.normal.dot(pose.translation()) + required + kSlack;
   if (!tree.mesh)
     return -reachAlong(tree.shape, -normal) <= most;

@@ -11,19 +11,20 @@
 
 namespace gpu_planning_scene::core
 {
-/// A plane, and all below it: points x with normal . x <= offset.
+/// All points x with normal . x <= offset.
 struct PlacedHalfSpace
 {
   Eigen::Vector3d normal;
   double offset;
 };
 
-/// Decides pairs of placed shapes, as the contract says and kSlack explains: solids by their true surfaces, meshes by
-/// their triangles and by what their closed components hold. Distances are right to 1e-10 m for coordinates within a
-/// kilometre; a pair's answer does not depend on the trees.
-/// With a tolerance above 0, pairs of which one is a mesh may be called colliding without a look at their triangles,
-/// where nodes of the trees show that they are no further apart than the required distance and the tolerance. Then
-/// answers within the tolerance do depend on the trees.
+/// Decides whether two placed shapes collide, as the contract defines it (see kSlack): primitives by their exact
+/// surfaces, meshes by their triangles and by the solids of their closed components. Distances are accurate to 1e-10 m
+/// for coordinates within a kilometre. The verdict of a pair does not depend on the trees.
+///
+/// With a tolerance above 0, a pair with a mesh may be reported as colliding without a test of its triangles, if nodes
+/// of the trees prove a distance of at most the required distance plus the tolerance. Then verdicts within the
+/// tolerance do depend on the trees.
 class CpuShapePair
 {
  public:
@@ -32,7 +33,7 @@ class CpuShapePair
   {
     std::vector<std::array<std::uint32_t, 2>> node_pairs;
     std::vector<std::uint32_t> nodes;
-    std::uint64_t steps = 0;  // nodes looked at so far: what the pairs cost
+    std::uint64_t steps = 0;  // nodes visited so far: the cost of the pairs
   };
 
   /// `tolerance`: metres, at least 0.
@@ -41,7 +42,7 @@ class CpuShapePair
   {
   }
 
-  /// Whether two shapes, by their trees, collide where `required` is the pair's required distance.
+  /// Whether the shapes of trees `a` and `b` collide. `required` is the required distance of the pair.
   bool collide(std::uint32_t a, const Eigen::Isometry3d& pose_a, std::uint32_t b, const Eigen::Isometry3d& pose_b,
                double required, Scratch& scratch) const;
 
@@ -58,6 +59,6 @@ class CpuShapePair
   double tolerance_;
 };
 
-/// The tree's root box, placed and made a little larger than rounding makes it smaller.
+/// An axis-aligned box in the frame of `pose` that contains the shape; it is enlarged by more than the rounding error.
 Eigen::AlignedBox3d boundsOf(const CpuTree& tree, const Eigen::Isometry3d& pose);
 }  // namespace gpu_planning_scene::core

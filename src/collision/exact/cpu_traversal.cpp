@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+// Per robot instance, a tree over the world's objects is the broad phase; CpuShapePair decides the pairs that remain.
+// Checks are sorted by their past success per cost, so that most colliding states need few checks.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -164,8 +166,8 @@ bool CpuTraversal::check(std::uint32_t number, const Isometry3d* link_poses, dou
          visit({first, second});
 }
 
-/// To find a collision at the least expected cost, checks go by hits per cost. Sorted after 1, 2, 4, ... states, then
-/// every kStatesPerOrder.
+/// Sorts the checks by collisions found per cost, which makes the expected cost of finding a collision small. Sorts
+/// after 1, 2, 4, ... states, then every kStatesPerOrder states.
 void CpuTraversal::learnOrder(Scratch& scratch)
 {
   const std::uint64_t states = ++scratch.states;

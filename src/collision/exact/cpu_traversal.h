@@ -16,55 +16,56 @@
 
 namespace gpu_planning_scene::core
 {
-/// The exact checker: one state at a time in double precision on the calling thread, in higher precision where double
-/// cannot decide. Its answers are the canonical ones, see CpuShapePair.
+/// The exact checker. It decides one state at a time on the calling thread, in double precision, and in higher
+/// precision if double cannot decide. Its verdicts are canonical, see CpuShapePair.
 class CpuTraversal
 {
  public:
-  /// An index of a robot's instance, and one into the robot's, then the world's, then the half-spaces.
+  /// The index of a robot instance, and the index of a second instance. The second index counts the robot's instances,
+  /// then the world's, then the half-spaces.
   using InstancePair = std::array<std::uint32_t, 2>;
 
-  /// Work space of one thread, reused from call to call. Keeps how often each check found a collision and what it cost,
-  /// so that the next state begins with those that find most for their cost: the order changes no answer but which of
-  /// several colliding pairs is found.
+  /// Work space of one thread, reused from call to call. It records how often each check found a collision and its
+  /// cost. Later states begin with the checks that find the most collisions for their cost. The order affects only
+  /// which of several colliding pairs is found.
   struct Scratch
   {
-    std::vector<std::uint32_t> order;         // of checks, see check
-    std::vector<double> hits;                 // of each check
-    std::vector<double> cost;                 // of each check, in all: nodes looked at, and one each time
-    std::uint64_t states = 0;                 // so far
-    std::vector<std::uint8_t> placed;         // the instances of which these are known:
+    std::vector<std::uint32_t> order;         // order of the checks, see check
+    std::vector<double> hits;                 // collisions found by each check
+    std::vector<double> cost;                 // cost of each check: visited nodes, plus 1 for each call
+    std::uint64_t states = 0;                 // states checked so far
+    std::vector<std::uint8_t> placed;         // 1: the pose and the bounds of this robot instance are set
     std::vector<Eigen::Isometry3d> poses;     // in the planning frame
     std::vector<Eigen::AlignedBox3d> bounds;  // in the planning frame
     std::vector<std::uint32_t> near_objects;
     CpuShapePair::Scratch pair;
   };
 
-  /// `forest` holds a valid tree for each of the problem's trees, whoever built it.
+  /// `forest` must hold a valid tree for each of the problem's trees. It may come from any builder.
   CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const Forest> forest);
 
-  /// The same with what was made ready for a problem with the same trees and, where `objects` is not null, with the
-  /// same world, see worldBounds.
+  /// The same for a forest that was made before for a problem with the same trees. If `objects` is not null, it must
+  /// have been made for the same world, see worldBounds.
   CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest,
                std::shared_ptr<const ObjectTree> objects = nullptr);
 
-  /// The bodies of a colliding pair, if there is one. `link_poses`: of every link, in the planning frame. Thread-safe
-  /// as long as each thread has its own scratch. `margins`: by how much more than its required distance each robot
-  /// instance has to be away from the world, then each self pair from one another (see DisplacementBounds); null: by
-  /// none.
+  /// The bodies of a colliding pair, if there is one. `link_poses` holds the pose of each link in the planning frame.
+  /// `margins` (see DisplacementBounds) holds the additional distance that is required: for each robot instance from
+  /// the world, then for each self pair. Null means no margins. Thread-safe if each thread has its own scratch.
   std::optional<BodyPair> firstCollision(const Eigen::Isometry3d* link_poses, Scratch& scratch,
                                          const double* margins = nullptr) const;
 
   /// All colliding pairs of bodies, each once.
   std::vector<BodyPair> allCollisions(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
 
-  /// All colliding pairs of instances, each once; those that collide in every state are not among them. Leaves the
-  /// poses of all instances that are in a pair in the scratch.
+  /// All colliding pairs of instances, each once, without pairs that collide in every state. The scratch then has the
+  /// poses of all instances that are in a pair.
   std::vector<InstancePair> collidingInstances(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
 
  private:
-  /// A check is one of a robot instance against the world, by its index, or, counted on from there, one of a self pair.
-  /// Calls visit(instance pair) for what collides until it returns true, and returns whether it did.
+  /// A check tests one robot instance against the world, or one self pair. The first numbers are the robot instances;
+  /// the self pairs follow. Calls visit(instance pair) for each collision until it returns true. Returns whether visit
+  /// returned true.
   template <class Visit>
   bool check(std::uint32_t number, const Eigen::Isometry3d* link_poses, double margin, Scratch& scratch,
              const Visit& visit) const;
@@ -82,9 +83,9 @@ class CpuTraversal
   std::shared_ptr<const ObjectTree> objects_;
 };
 
-/// The body of an instance, by its index as in CpuTraversal::InstancePair.
+/// The body of an instance; the index counts as in the second index of CpuTraversal::InstancePair.
 std::int32_t bodyOf(const CollisionProblem& problem, std::size_t instance);
 
-/// The boxes of the world's instances, grown by their padding: what the tree over objects is made of.
+/// The boxes of the world's instances, grown by their padding. ObjectTree is built over them.
 std::vector<Eigen::AlignedBox3d> worldBounds(const CollisionProblem& problem, const CpuForest& forest);
 }  // namespace gpu_planning_scene::core

@@ -10,14 +10,14 @@
 
 namespace gpu_planning_scene::core
 {
-constexpr std::uint32_t kLeafTriangles = 4;  // the most that a leaf holds
+constexpr std::uint32_t kLeafTriangles = 4;  // largest number of triangles in a leaf
 
-/// A node of a bounding volume hierarchy over triangles, as it lies in GPU memory (two RGBA32UI texels).
-/// The box is in the mesh's frame, in metres, and contains its triangles' double-precision vertices.
+/// A node of a bounding volume hierarchy over triangles, in the layout of the GPU's memory (two RGBA32UI texels). The
+/// box is in the mesh's frame, in metres. It contains the double-precision vertices of its triangles.
 struct Node
 {
   std::array<float, 3> center;
-  std::uint32_t first;  ///< inner node: its children are nodes first and first + 1; leaf: its first triangle
+  std::uint32_t first;  ///< inner node: the children are first and first + 1; leaf: index into leaf_triangles
   std::array<float, 3> half;
   std::uint32_t count;  ///< 0: inner node; otherwise the number of a leaf's triangles (at most kLeafTriangles)
 };
@@ -36,13 +36,13 @@ inline Eigen::AlignedBox3d boundsOf(const Node& node)
   return {centerOf(node) - halfOf(node), centerOf(node) + halfOf(node)};
 }
 
-/// The trees of several meshes in one array of nodes. There may be others in it too.
-/// Triangles are numbered through all meshes: mesh m's triangle t is number first_triangle[m] + t.
+/// The trees of several meshes in one array of nodes. The array may contain further nodes. Triangles are numbered
+/// across all meshes: triangle t of mesh m has the number first_triangle[m] + t.
 struct Forest
 {
   std::vector<Node> nodes;
   std::vector<std::uint32_t> roots;           ///< one per mesh
   std::vector<std::uint32_t> first_triangle;  ///< one per mesh
-  std::vector<std::uint32_t> leaf_triangles;  ///< what a leaf's first .. first + count index: triangle numbers
+  std::vector<std::uint32_t> leaf_triangles;  ///< triangle numbers; a leaf has the entries first .. first + count - 1
 };
 }  // namespace gpu_planning_scene::core

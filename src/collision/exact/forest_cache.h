@@ -9,14 +9,14 @@
 
 namespace gpu_planning_scene::core
 {
-/// Trees on the CPU, kept for the next problem: only those of new shapes are built, and the tree over objects is
+/// Keeps the CPU's trees for the next problem. Only the trees of new shapes are built, and the tree over objects is
 /// refitted.
 class ForestCache
 {
  public:
   std::unique_ptr<const CpuTraversal> traversalOf(std::shared_ptr<const CollisionProblem> problem);
 
-  /// What the last traversal walks; null before the first.
+  /// The trees of the last traversal; null before the first one.
   const std::shared_ptr<const CpuForest>& forest() const { return forest_; }
   const std::shared_ptr<const ObjectTree>& objects() const { return objects_; }
 

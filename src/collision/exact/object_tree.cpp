@@ -2,11 +2,13 @@
 
 #include <utility>
 
+// Refits the previous tree from the leaves to the root. The surface area heuristic tells when the refitted tree has
+// become too slow and a new one is built.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Past this growth of the nodes' areas a new tree pays.
+/// If the nodes' areas have grown by more than this factor, building a new tree pays off.
 constexpr double kMostGrowth = 1.2;
 
 double areaOf(const std::vector<Node>& nodes)
@@ -37,7 +39,7 @@ ObjectTree::ObjectTree(std::vector<Eigen::AlignedBox3d> boxes, const ObjectTree&
   area_when_built_ = areaOf(tree_.nodes);
 }
 
-/// Children come after their parents.
+/// Visits the nodes backwards, because children come after their parents.
 void ObjectTree::refit()
 {
   for (auto node = tree_.nodes.rbegin(); node != tree_.nodes.rend(); ++node)

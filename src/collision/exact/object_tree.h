@@ -9,14 +9,14 @@
 
 namespace gpu_planning_scene::core
 {
-/// The tree over the boxes of a world's objects, one object in each leaf: node 0 is the root, a leaf's `first` indexes
-/// order(). Immutable.
+/// A tree over the boxes of the world's objects, with one object in each leaf. Node 0 is the root. A leaf's `first`
+/// indexes order(). Immutable.
 class ObjectTree
 {
  public:
   ObjectTree() = default;
-  /// `previous`, where it has as many boxes, gives its tree: boxes that moved are made to fit, which costs a tenth of a
-  /// new tree. Only where its boxes have grown so much that it would be slow to traverse, a new one is built.
+  /// If `previous` has as many boxes, its tree is refitted to the new boxes; this costs a tenth of a new build. A new
+  /// tree is built only if the nodes have grown so much that the refitted tree would be slow to traverse.
   ObjectTree(std::vector<Eigen::AlignedBox3d> boxes, const ObjectTree& previous);
 
   const std::vector<Node>& nodes() const { return tree_.nodes; }
@@ -28,6 +28,6 @@ class ObjectTree
 
   std::vector<Eigen::AlignedBox3d> boxes_;
   BoxTree tree_;
-  double area_when_built_ = 0.0;  // of all nodes together: what a traversal costs, by the surface area heuristic
+  double area_when_built_ = 0.0;  // area of all nodes together: the cost of a traversal by the surface area heuristic
 };
 }  // namespace gpu_planning_scene::core

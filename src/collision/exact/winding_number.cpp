@@ -6,16 +6,18 @@
 
 #include "collision/geometry/exact_orientation.h"
 
+// Sums the signed crossings of a segment from the point to a point outside of the mesh. If the segment meets an edge, a
+// vertex or a coplanar triangle, another segment is tried.
 namespace gpu_planning_scene::core
 {
 namespace
 {
 using Eigen::Vector3d;
 
-/// Far above the rounding of the box test, for coordinates of up to kilometres.
+/// Far above the rounding error of the box test, for coordinates of up to kilometres.
 constexpr double kRayMargin = 1e-9;  // metres
 
-/// Whether a segment and a box overlap, by their separating axes; never misses an overlap.
+/// Whether a segment and an oriented box overlap, by their separating axes (Ericson 2005). Never misses an overlap.
 class SegmentBoxTest
 {
  public:
@@ -47,8 +49,8 @@ class SegmentBoxTest
   Vector3d half_;
 };
 
-/// +1 or -1 where the segment passes through the inside of the triangle, by the side that it comes from; 0 where it
-/// does not meet it. Nothing where the two meet in any other way.
+/// +1 or -1 if the segment passes through the inside of the triangle; the sign is the side of the start. 0 if the
+/// segment does not meet the triangle. Empty if they meet in any other way.
 std::optional<int> crossing(const Vector3d& start, const Vector3d& end, const Triangle& t)
 {
   const std::array<int, 3> turns = {exactOrientation(start, end, t[0], t[1]), exactOrientation(start, end, t[1], t[2]),
@@ -61,7 +63,7 @@ std::optional<int> crossing(const Vector3d& start, const Vector3d& end, const Tr
     right = right || turn < 0;
   }
   if (left && right)
-    return 0;  // the line passes outside
+    return 0;  // the line passes outside the triangle
   const int start_side = exactOrientation(t[0], t[1], t[2], start);
   const int end_side = exactOrientation(t[0], t[1], t[2], end);
   if (start_side * end_side > 0)
@@ -71,7 +73,7 @@ std::optional<int> crossing(const Vector3d& start, const Vector3d& end, const Tr
   return start_side;
 }
 
-/// The sum of the crossings of closed components; nothing if one of them is degenerate.
+/// The sum of the crossings with closed components; empty if a crossing is degenerate.
 std::optional<int> sumOfCrossings(const CpuTree& tree, const Vector3d& start, const Vector3d& end,
                                   std::vector<std::uint32_t>& stack)
 {
@@ -103,8 +105,8 @@ std::optional<int> sumOfCrossings(const CpuTree& tree, const Vector3d& start, co
   return sum;
 }
 
-/// A point outside the bounds, not far beyond the face that is nearest to `point`. Later attempts take other
-/// directions.
+/// A point outside the bounds, near the face of the bounds that is nearest to `point`. Each attempt gives another
+/// direction.
 Vector3d pointOutside(const Eigen::AlignedBox3d& bounds, const Vector3d& point, int attempt)
 {
   int axis;
@@ -113,7 +115,7 @@ Vector3d pointOutside(const Eigen::AlignedBox3d& bounds, const Vector3d& point, 
   const double below = (point - bounds.min()).minCoeff(&axis_below);
   const double size = bounds.sizes().maxCoeff();
   Vector3d end = point;
-  // Multiples of irrational numbers, less their whole part, never repeat.
+  // The fractional parts of the multiples of an irrational number never repeat.
   const auto slant = [attempt, size](double irrational)
   {
     const double multiple = (attempt + 1) * irrational;

@@ -9,6 +9,8 @@
 
 #include "model/coordinate_hash.h"
 
+// Merges vertices at equal places, finds the connected components with disjoint sets, and then sorts the edges by their
+// ends to find the edges that are not shared by exactly two triangles in opposite directions.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -32,7 +34,7 @@ class DisjointSets
   std::vector<std::uint32_t> parent_;
 };
 
-/// For each vertex the number of its place; equal places have equal numbers.
+/// The number of each vertex's place. Vertices at equal coordinates get equal numbers.
 std::vector<std::uint32_t> weldedVertices(const Mesh& mesh)
 {
   std::unordered_map<Eigen::Vector3d, std::uint32_t, CoordinateHash> places;
@@ -49,22 +51,24 @@ std::vector<std::uint32_t> weldedVertices(const Mesh& mesh)
 
 using Corners = std::array<std::uint32_t, 3>;
 
+/// Whether the corners are three different places. They may lie on a line.
 bool hasArea(const Corners& c)
 {
   return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
 }
 
-/// Calls visit(triangle) for triangles with an edge that is not shared by exactly two, in opposite directions.
+/// Calls visit(triangle) for each triangle with an edge that is not shared by exactly two triangles in opposite
+/// directions.
 template <class Visit>
 void visitUnpaired(const std::vector<Corners>& triangles, std::size_t places, const Visit& visit)
 {
   struct Use
   {
-    std::uint32_t higher;  // the edge's other end
+    std::uint32_t higher;  // the vertex number at the edge's other end
     std::uint32_t triangle;
-    bool upwards;  // runs from the lower end to the higher one
+    bool upwards;  // the triangle runs along the edge from the lower vertex number to the higher one
   };
-  // The uses of each edge lie together, by its lower end.
+  // The uses are grouped by the lower vertex number of their edge (counting sort).
   std::vector<std::uint32_t> begin(places + 1, 0);
   const auto for_edges = [&](const auto& each)
   {

@@ -1,6 +1,3 @@
-// Two methods: the algorithm of Gilbert, Johnson and Keerthi in double, which ends with a proof for nearly all pairs,
-// and a search for a separating direction that always ends, for pairs whose distance is within rounding of the required
-// one: there the direction between the nearest points is mostly rounding.
 #include "collision/geometry/convex_pair.h"
 
 #include <algorithm>
@@ -11,6 +8,9 @@
 #include "collision/geometry/simplex.h"
 #include "model/math_constants.h"
 
+// Two methods. The algorithm of Gilbert, Johnson and Keerthi (1988), in double, proves the answer for nearly all pairs.
+// If the distance is within rounding of the required distance, the direction between the nearest points is mostly
+// rounding error. A search for a separating direction, which always ends, then decides.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -18,10 +18,10 @@ namespace
 using Eigen::Vector3d;
 
 constexpr int kMaxIterations = 48;
-/// How exactly the search determines the greatest gap.
+/// Accuracy of the greatest gap that the search finds.
 constexpr double kGapAccuracy = 1e-13;  // metres
 
-/// The Minkowski difference a - b: its distance from the origin is that of the two sets.
+/// The Minkowski difference a - b. Its distance from the origin is the distance between a and b.
 class Difference
 {
  public:
@@ -36,7 +36,8 @@ class Difference
   const Vector3d& center() const { return center_; }
   double radius() const { return radius_; }
 
-  /// Bounds the rounding of a point of the difference, and of its projection on a unit vector.
+  /// An upper bound of the rounding error of a point of the difference, and of the projection of this point on a unit
+  /// vector.
   double rounding() const { return 32.0 * kEpsilon * size_; }
 
  private:
@@ -54,8 +55,9 @@ enum class ConvexVerdict
   Undecided
 };
 
-/// `nearest` becomes the nearest point of the difference that was found. Both verdicts are certain: there is a point of
-/// the difference that near, or a plane that holds it off.
+/// Sets `nearest` to the nearest point of the difference that was found. Within and Apart are both proven: by a point
+/// of the difference within `distance` of the origin, or by a plane that separates the difference from the origin by
+/// more.
 ConvexVerdict decideByDescent(const Difference& difference, double distance, const Vector3d& guess, Vector3d& nearest)
 {
   const double rounding = difference.rounding();
@@ -80,9 +82,9 @@ ConvexVerdict decideByDescent(const Difference& difference, double distance, con
   return ConvexVerdict::Undecided;
 }
 
-/// BroadPhaseQueries directions n = m + alpha u + beta v, with alpha and beta in [-reach, reach], for one along which
-/// the difference is farther than `distance` from the origin. F(n) = min n . x - distance |n|, over the x of the
-/// difference, is concave, so that nested golden-section searches find its maximum.
+/// Searches the directions n = m + alpha u + beta v, with alpha and beta in [-reach, reach], for one along which the
+/// difference is farther than `distance` from the origin. The function F(n) = min n . x - distance |n|, over the points
+/// x of the difference, is concave, so nested golden-section searches (Kiefer 1953) find its maximum.
 class DirectionSearch
 {
  public:
@@ -90,7 +92,7 @@ class DirectionSearch
 
   bool separates(const Vector3d& m, const Vector3d& u, const Vector3d& v, double reach)
   {
-    // F changes by no more than the sizes for each unit of alpha or beta.
+    // For each unit of alpha or beta, F changes by at most the sum of these sizes.
     const double step = std::max(kGapAccuracy / (difference_.radius() + difference_.center().norm() + distance_),
                                  16.0 * kEpsilon * reach);
     const auto along_v = [&](double alpha)
@@ -101,7 +103,7 @@ class DirectionSearch
  private:
   double excess(const Vector3d& n) const { return n.dot(difference_.nearestAlong(n)) - distance_ * n.norm(); }
 
-  /// Of a concave function on [-reach, reach]; ends early with a value that is certainly above 0.
+  /// The maximum of a concave function on [-reach, reach]. Stops early at a value that is certainly above 0.
   template <class Function>
   double maximum(const Function& function, double reach, double step) const
   {
@@ -139,8 +141,8 @@ class DirectionSearch
   double distance_;
 };
 
-/// `near` is a point of the difference, farther from the origin than `distance` but for rounding: along a direction n
-/// that separates, n . near > distance |n|.
+/// `near` is a point of the difference; its distance from the origin is more than `distance`, up to rounding. Each
+/// separating direction n fulfils n . near > distance |n|.
 bool isSeparable(const Difference& difference, double distance, const Vector3d& near)
 {
   DirectionSearch search(difference, distance);
@@ -148,15 +150,17 @@ bool isSeparable(const Difference& difference, double distance, const Vector3d& 
   const Vector3d m = near / length;
   const Vector3d u = m.unitOrthogonal();
   const Vector3d v = m.cross(u);
-  // With |m| = 1: |n| < length / distance. Rounding of `near` is given some room.
+  // Because n . near = length, a separating direction n has |n| < length / distance. Some room is added for the
+  // rounding of `near`.
   const double ratio = (length + difference.rounding()) / distance;
   const double all = 1.01 * std::sqrt(std::max(0.0, ratio * ratio - 1.0)) + 4.0 * difference.rounding() / length;
   constexpr double kWide = 8.0;
   constexpr double kNarrow = 0.01;
   if (all <= kWide)
     return search.separates(m, u, v, all);
-  // The direction of `near` is most likely right: then little needs to be searched. Otherwise all directions are, on
-  // the faces of a cube, less those along which the centre is not on the positive side.
+  // The direction of `near` is most likely a separating one, so a small search around it comes first. If it fails, the
+  // directions n to the six faces of a cube are searched. A face is left out if n . centre is at most 0 for all of its
+  // directions.
   if (search.separates(m, u, v, kNarrow))
     return true;
   for (int axis = 0; axis < 3; ++axis)

@@ -4,22 +4,23 @@
 
 namespace gpu_planning_scene::core
 {
-/// A convex set, by its support function.
+/// A convex set that is described by its support function, as for the algorithm of Gilbert, Johnson and Keerthi (1988).
 class Convex
 {
  public:
   virtual ~Convex() = default;
 
-  /// A point of the set that is farthest in a direction; the direction has any length, also 0.
+  /// A point of the set that is farthest along a direction of any length. For the direction 0, any point.
   virtual Eigen::Vector3d farthest(const Eigen::Vector3d& direction) const = 0;
 
-  /// A point of the set, and how far the others may be from it.
+  /// A point of the set, and the radius of a sphere around it that contains the set.
   virtual Eigen::Vector3d center() const = 0;
   virtual double radius() const = 0;
 };
 
-/// Whether the distance of two convex sets, whose coordinates are in one frame, is at most `distance` (above 0). Right
-/// where the true distance is not within about 1e-14 times the sets' size of it, or within 1e-12 m. `from_b` is a guess
-/// at the direction from b to a, of any length but 0: a good one saves time.
+/// Whether the distance between two convex sets is at most `distance` (above 0). Both sets have their coordinates in
+/// the same frame. The answer is right unless the true distance differs from `distance` by less than about 1e-14 times
+/// the sizes of the sets, or by less than 1e-12 m. `from_b` is a guess of the direction from b to a. It may have any
+/// length but 0; a good guess saves time.
 bool convexWithin(const Convex& a, const Convex& b, double distance, const Eigen::Vector3d& from_b);
 }  // namespace gpu_planning_scene::core

@@ -8,21 +8,22 @@
 
 namespace gpu_planning_scene::core
 {
-/// Two boxes, in the frame of the first one's axes: half lengths, the way from the first centre to the second, and the
-/// axes of the second. Whether they overlap, by their 15 possible separating axes, after Gottschalk, Lin and Manocha,
-/// "OBBTree" (1996). Axes are asked for in the order of the functions here: edges only of boxes that the faces of the
-/// first do not separate, as kParallel counts on that.
+/// Overlap test of two oriented boxes by their 15 possible separating axes (Gottschalk, Lin and Manocha, "OBBTree",
+/// 1996). All members are in the frame of the first box: a and b are the half lengths, t is the vector from the first
+/// centre to the second, and r holds the axes of the second box. Call the functions in the order of their definition:
+/// kParallel is large enough for the edge axes only if no face of the first box separates the boxes.
 struct BoxPair
 {
-  // Keeps rounding from separating boxes by the cross product of two edges that are parallel but for rounding: more
-  // than the axes of nodes and the poses of links are off from orthonormal, a few 1e-15.
+  // Two edges that are parallel up to rounding have a cross product that is mostly rounding error; this term keeps such
+  // an axis from separating the boxes. It is larger than the deviation from orthonormal axes of nodes and link poses, a
+  // few 1e-15.
   static constexpr double kParallel = 1e-14;
 
   Eigen::Vector3d a;
   Eigen::Vector3d b;
   Eigen::Vector3d t;
   Eigen::Matrix3d r;      // columns: the axes of b
-  Eigen::Matrix3d abs_r;  // absolute values, and kParallel
+  Eigen::Matrix3d abs_r;  // absolute values of r, plus kParallel
 
   bool apartAlongFaceOfA(int i) const
   {
@@ -59,8 +60,8 @@ struct BoxPair
   }
 };
 
-/// Whether boxes overlap of which the orientation of the second in the frame of the first is fixed at construction, as
-/// it is for all node pairs of two trees of axis-aligned boxes.
+/// The same test for many pairs of boxes with one relative orientation, which is fixed at construction. All node pairs
+/// of two trees of axis-aligned boxes have the same relative orientation.
 class BoxPairTest
 {
  public:
@@ -69,7 +70,8 @@ class BoxPairTest
   {
   }
 
-  /// `t`: from the centre of the first box to that of the second, in the frame of the first.
+  /// `a`, `b`: half lengths. `t`: vector from the centre of the first box to the centre of the second, in the frame of
+  /// the first.
   bool overlap(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& t) const
   {
     const BoxPair pair{a, b, t, r_, abs_r_};
@@ -87,8 +89,8 @@ inline OrientedBox placed(const OrientedBox& box, const Eigen::Isometry3d& pose)
   return {pose.linear() * box.axes, pose * box.center, box.half};
 }
 
-/// Whether boxes in one frame overlap where one of them is grown by `growth` on all sides. Computes the rotation
-/// between them row by row, as far as it takes to tell the two apart.
+/// Whether two boxes in one frame overlap after the first box has been grown by `growth` on all sides. Computes the
+/// relative rotation row by row, and only until a face of the first box separates the boxes.
 inline bool overlap(const OrientedBox& a, const OrientedBox& b, double growth)
 {
   BoxPair pair;

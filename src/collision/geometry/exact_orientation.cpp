@@ -1,5 +1,5 @@
-// The only file that sees CGAL, of which it takes the kernel (LGPL, headers only). It is compiled with -frounding-math,
-// which the kernel's interval arithmetic needs.
+// The only file that includes CGAL. It uses CGAL's kernel (LGPL, headers only), which filters by interval arithmetic.
+// This arithmetic needs the option -frounding-math.
 #include "collision/geometry/exact_orientation.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

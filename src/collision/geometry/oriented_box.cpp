@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+// Fits an oriented box to triangles: builds the box along each of a few candidate axes, among them the eigenvectors of
+// the corners' covariance (Gottschalk, Lin and Manocha, "OBBTree", 1996), and keeps the box of least surface.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -12,14 +14,16 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A triangle of less height than about this share of its edges has no clear normal.
+// A triangle whose height is below about this share of its edges has no reliable normal.
 constexpr double kSliver = 1e-9;
 
-// Coordinates along axes that are orthonormal to rounding, the centre's, and those of a point from there: each step's
-// rounding is at most a few units of the last place of the farthest corner; 32 are several times their sum.
+// Three steps round: the coordinates of the corners along axes that are orthonormal up to rounding, the centre of the
+// box, and the coordinates of a point relative to this centre. Each error is at most a few units in the last place of
+// the farthest corner; 32 units are several times their sum.
 constexpr double kBoxRounding = 32.0 * std::numeric_limits<double>::epsilon();
 
-/// Right-handed axes: z of unit length, and a direction, not along z, made normal to it.
+/// Right-handed axes: z has unit length; x is the part of `direction` that is orthogonal to z. `direction` must not be
+/// parallel to z.
 Matrix3d axesFrom(const Vector3d& direction, const Vector3d& z)
 {
   Matrix3d axes;

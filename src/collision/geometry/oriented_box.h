@@ -9,12 +9,12 @@
 
 namespace gpu_planning_scene::core
 {
-/// A box with axes of its own (OBB).
+/// A box with its own axes (oriented bounding box, OBB).
 struct OrientedBox
 {
-  Eigen::Matrix3d axes;  ///< columns, orthonormal to rounding
+  Eigen::Matrix3d axes;  ///< columns: orthonormal up to rounding
   Eigen::Vector3d center;
-  Eigen::Vector3d half;  ///< along the axes
+  Eigen::Vector3d half;  ///< half lengths along the axes
 
   bool holds(const Eigen::Vector3d& point) const
   {
@@ -22,13 +22,15 @@ struct OrientedBox
   }
 };
 
-/// The surface of a box but for a factor: half of it from full lengths, an eighth from half lengths.
+/// A measure that is proportional to the surface of a box: half of the surface from full lengths, an eighth of it from
+/// half lengths.
 inline double surfaceMeasure(const Eigen::Vector3d& lengths)
 {
   return lengths.x() * lengths.y() + lengths.y() * lengths.z() + lengths.z() * lengths.x();
 }
 
-/// What the axes of a box around triangles are chosen by. Of two sets together it follows from those of each.
+/// Statistics of a set of triangles from which the axes of its box are chosen. The statistics of the union of two sets
+/// follow from the statistics of the two sets.
 class TriangleSpread
 {
  public:
@@ -36,11 +38,12 @@ class TriangleSpread
   explicit TriangleSpread(const Triangle& triangle);
   TriangleSpread(const TriangleSpread& a, const TriangleSpread& b);
 
-  /// The main axes of the corners: the eigenvectors of their covariance.
+  /// The main axes of the triangles' corners: the eigenvectors of their covariance (as in Gottschalk, Lin and Manocha,
+  /// "OBBTree", 1996).
   Eigen::Matrix3d mainAxes() const;
 
-  const Eigen::Vector3d& edge() const { return edge_; }      ///< see AxesChoice
-  const Eigen::Vector3d& normal() const { return normal_; }  ///< of the largest triangle, twice its area long
+  const Eigen::Vector3d& edge() const { return edge_; }      ///< middle edge of the largest triangle, see AxesChoice
+  const Eigen::Vector3d& normal() const { return normal_; }  ///< of the largest triangle; length: twice its area
 
  private:
   double corners_ = 0.0;
@@ -50,20 +53,21 @@ class TriangleSpread
   Eigen::Vector3d normal_ = Eigen::Vector3d::Zero();
 };
 
-/// Axes of which a box's are chosen: those of the frame, the main axes, and, unless the largest triangle is a sliver,
-/// its normal with two directions of its plane: its edge of middle length (of half a rectangle it is a side), and the
-/// axis of the frame that is nearest to the plane.
+/// Candidates for the axes of a box: the axes of the frame, the main axes, and two choices from the largest triangle
+/// unless it is a sliver. Both contain the normal of the largest triangle. One adds its edge of middle length, which is
+/// a side of the rectangle if the triangle is half of a rectangle. The other adds the axis of the frame that is nearest
+/// to the triangle's plane.
 struct AxesChoice
 {
-  std::array<Eigen::Matrix3d, 4> axes;  // right-handed, orthonormal to rounding
+  std::array<Eigen::Matrix3d, 4> axes;  // right-handed, orthonormal up to rounding
   std::size_t count;                    // at least the first two
 };
 AxesChoice axesChoice(const TriangleSpread& spread);
 
-/// The least box with the given axes that holds the corners of `count` triangles (at least one), enlarged by what
-/// rounding may take from it: OrientedBox::holds is true of each.
+/// The smallest box with the given axes that contains the corners of `count` triangles (at least 1). The box is
+/// enlarged by the possible rounding error, so OrientedBox::holds is true for each corner.
 OrientedBox boxAlong(const Eigen::Matrix3d& axes, const Triangle* triangles, std::size_t count);
 
-/// The box with the least surface of those along axesChoice(spread). `spread`: of these triangles.
+/// The box of least surface among the boxes along axesChoice(spread). `spread` must belong to these triangles.
 OrientedBox fitOrientedBox(const TriangleSpread& spread, const Triangle* triangles, std::size_t count);
 }  // namespace gpu_planning_scene::core

@@ -4,11 +4,13 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
+// The least distance between two triangles whose edges do not pierce each other is the least distance between a vertex
+// and a triangle or between two edges. All of these distances are computed in quadruple precision.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-// Without expression templates: their proxies refer to temporaries.
+// No expression templates: their proxies refer to temporaries.
 using Quad = boost::multiprecision::number<boost::multiprecision::cpp_bin_float_quad::backend_type,
                                            boost::multiprecision::et_off>;
 
@@ -42,7 +44,7 @@ Vector cross(const Vector& a, const Vector& b)
 
 using PreciseTriangle = std::array<Vector, 3>;
 
-/// The parameter in [0, 1] of the point of a segment that is nearest to a point.
+/// The quotient, clamped to [0, 1]: the parameter of the point of a segment that is nearest to a point.
 Quad clampedRatio(const Quad& numerator, const Quad& denominator)
 {
   if (numerator <= 0 || denominator <= 0)
@@ -57,7 +59,8 @@ Quad squaredDistanceToSegment(const Vector& start, const Vector& end, const Vect
   return dot(difference, difference);
 }
 
-/// Where the nearest points are inside both segments; otherwise `best`, which is to hold the distances of the ends.
+/// The smaller of `best` and the squared distance of two segments, if the nearest points are inside both segments;
+/// otherwise `best`. `best` must already include the distances of the segments' ends.
 Quad leastOfSegments(const Vector& p0, const Vector& p1, const Vector& q0, const Vector& q1, const Quad& best)
 {
   const Vector u = p1 - p0;

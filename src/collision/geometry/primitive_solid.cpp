@@ -9,6 +9,8 @@
 #include "collision/geometry/precise_distance.h"
 #include "model/math_constants.h"
 
+// Spheres are decided by the distance of a point. The other primitives have support functions and are decided by
+// convexWithin (Gilbert, Johnson and Keerthi 1988).
 namespace gpu_planning_scene::core
 {
 namespace
@@ -24,8 +26,9 @@ struct Overloaded : Functions...
 template <class... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;
 
-/// From the nearest point of a cylinder or a cone, whose radius is linear in z, to a point; 0 inside. In the half plane
-/// of distance from the axis and z.
+/// The vector from the nearest point of a cylinder or cone to a point; 0 inside. The radius is linear in z, so the
+/// search takes place in the half plane that is spanned by the axis and the point: x is the distance from the axis, y
+/// is z.
 Vector3d fromFrustum(double bottom_radius, double top_radius, double half_length, const Vector3d& point)
 {
   const Vector2d p(point.head<2>().norm(), point.z());
@@ -50,7 +53,7 @@ Vector3d fromFrustum(double bottom_radius, double top_radius, double half_length
   return {best.x() * outward.x(), best.x() * outward.y(), best.y()};
 }
 
-/// From the nearest point of a solid, not a sphere, to a point; 0 inside.
+/// The vector from the nearest point of a box, cylinder or cone to a point; 0 inside.
 Vector3d fromSolid(const Shape& solid, const Vector3d& point)
 {
   return std::visit(
@@ -63,7 +66,7 @@ Vector3d fromSolid(const Shape& solid, const Vector3d& point)
       solid);
 }
 
-/// The point of a disk around the z axis that is farthest in a direction.
+/// The point of a disk around the z axis that is farthest along a direction.
 Vector3d farthestOfDisk(double radius, double z, const Vector3d& direction)
 {
   const double across = direction.head<2>().norm();
@@ -132,7 +135,7 @@ class PlacedConvexSolid final : public Convex
   double radius_;
 };
 
-/// Whether the point is at most `distance` from the triangle.
+/// Whether the distance between the point and the triangle is at most `distance`.
 bool triangleWithinPoint(const Triangle& triangle, const Vector3d& point, double distance)
 {
   const double found = (nearestPoint(triangle, point) - point).norm();
@@ -141,9 +144,9 @@ bool triangleWithinPoint(const Triangle& triangle, const Vector3d& point, double
     size = std::max({size, vertex.lpNorm<Eigen::Infinity>(), (vertex - point).lpNorm<Eigen::Infinity>()});
   const double rounding = 16.0 * kEpsilon * size;
   if (found + rounding <= distance)
-    return true;  // it is that of a point of the triangle
+    return true;  // certain: `found` is the distance of a point of the triangle
   if (found - rounding * (1.0 + size / distance) > distance)
-    return false;  // see nearestPoint: its error is least where it matters least
+    return false;  // certain: the error of nearestPoint shrinks as the distance grows
   return preciseDistance(triangle, point) <= distance;
 }
 }  // namespace

@@ -6,6 +6,6 @@
 
 namespace gpu_planning_scene::core
 {
-/// The box along the axes of its frame that holds a shape, which is no half-space.
+/// The axis-aligned bounding box of a shape in the shape's frame. The shape must not be a half-space.
 Eigen::AlignedBox3d boundsOf(const Shape& shape);
 }  // namespace gpu_planning_scene::core

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+// Finds the face of the hull that is nearest to the origin by trying its faces, edges and points (the distance
+// subalgorithm of Gilbert, Johnson and Keerthi 1988, in a direct form for at most four points).
 namespace gpu_planning_scene::core
 {
 using Eigen::Vector3d;
@@ -46,14 +48,15 @@ void Simplex::offerTriangle(Face& best, int a, int b, int c) const
   offerSegment(best, c, a);
 }
 
-/// Of four points: certainly, whatever was rounded. Of nearly flat ones nothing is certain.
+/// Whether the hull of the four points contains the origin for certain, in spite of rounding. False for nearly flat
+/// hulls, where rounding decides.
 bool Simplex::holdsOrigin() const
 {
   const Vector3d ab = points_[1] - points_[0];
   const Vector3d ac = points_[2] - points_[0];
   const Vector3d ad = points_[3] - points_[0];
   const Vector3d& corner = points_[0];
-  // A volume rounds by less than 48 epsilon of the product of its edges.
+  // The rounding error of a volume is below 48 epsilon times the product of its edges.
   const auto error = [](const Vector3d& u, const Vector3d& v, const Vector3d& w)
   { return 48.0 * std::numeric_limits<double>::epsilon() * std::sqrt(u.squaredNorm() * v.squaredNorm()) * w.norm(); };
   const double volume = ab.dot(ac.cross(ad));

@@ -6,24 +6,25 @@
 
 namespace gpu_planning_scene::core
 {
-/// The hull of up to four points and its point that is nearest to the origin: the inner step of the algorithm of
-/// Gilbert, Johnson and Keerthi, "A Fast Procedure for Computing the Distance Between Complex Objects" (1988).
+/// The convex hull of up to four points, and the point of the hull that is nearest to the origin. This is the inner
+/// step of the algorithm of Gilbert, Johnson and Keerthi, "A Fast Procedure for Computing the Distance Between Complex
+/// Objects" (1988).
 class Simplex
 {
  public:
   explicit Simplex(const Eigen::Vector3d& point) : nearest_(point) { points_[0] = point; }
 
-  /// Adds a point, finds the nearest point anew and keeps those points that it is a combination of. There are at most
-  /// three before.
+  /// Adds a point to at most three. Finds the new nearest point, and keeps only the points of the face that contains
+  /// it.
   void add(const Eigen::Vector3d& point);
 
-  /// Whether there is room for another point; where there is none the origin is inside.
+  /// Whether the simplex has four points and so has no room for another one. The origin is then inside it.
   bool full() const { return count_ == 4; }
 
   const Eigen::Vector3d& nearest() const { return nearest_; }
 
  private:
-  /// The points of a face, by number, with their weights in its nearest point.
+  /// A face of the hull: the numbers of its points, and its point that is nearest to the origin.
   struct Face
   {
     int count = 0;

@@ -8,13 +8,15 @@
 #include "collision/geometry/precise_distance.h"
 #include "model/math_constants.h"
 
+// Three stages, each slower and more certain than the one before: separating axes and the signs of volumes in double
+// (Devillers and Guigue 2002); nearest points in double; exact signs and distances in quadruple precision.
 namespace gpu_planning_scene::core
 {
 namespace
 {
 using Eigen::Vector3d;
 
-// A square that is smaller has lost digits, or will, to underflow; then nothing is certain.
+// A smaller squared length has lost digits to underflow, or will lose them. It proves nothing.
 constexpr double kUnderflow = 1e-280;
 
 double sizeOf(const Vector3d& v)
@@ -22,20 +24,22 @@ double sizeOf(const Vector3d& v)
   return v.lpNorm<Eigen::Infinity>();
 }
 
-/// A bound on the rounding error of the volume u x v . w of three differences of coordinates, by their largest
-/// components: six products of three factors, each with less than eight roundings.
+/// An upper bound of the rounding error of the volume u x v . w. The three vectors are differences of coordinates; the
+/// arguments are their largest components. The volume has six products of three factors, each with less than eight
+/// roundings.
 double volumeError(double u_size, double v_size, double w_size)
 {
   return 6.0 * 8.0 * kEpsilon * u_size * v_size * w_size + std::numeric_limits<double>::min();
 }
 
-/// 0 where rounding may have changed the sign.
+/// The sign of `value`, or 0 if the rounding error may have changed the sign.
 int clearSign(double value, double error)
 {
   return value > error ? 1 : value < -error ? -1 : 0;
 }
 
-/// The vertices of two triangles from one of them, and how much room rounding needs.
+/// Projects the vertices of two triangles, relative to a vertex of the second, with an upper bound of the rounding
+/// error.
 class PairProjections
 {
  public:
@@ -45,15 +49,15 @@ class PairProjections
     double size = 0.0;
     for (const Vector3d& vertex : vertices_)
       size = std::max(size, sizeOf(vertex));
-    // Each coordinate difference and each of the three products and two sums of a projection rounds by epsilon / 2 of
-    // no more than sqrt(3) size times the axis.
+    // A projection rounds in its coordinate differences, its three products and its two sums. Each rounds by epsilon /
+    // 2 of at most sqrt(3) size times the length of the axis.
     error_ = 8.0 * kEpsilon * size;
   }
 
   double size() const { return error_ / (8.0 * kEpsilon); }
 
-  /// Whether the projections on an axis of any length are certainly farther apart than `distance`: then the triangles
-  /// are. No matter where the axis comes from.
+  /// Whether the projections of the triangles on an axis are certainly farther apart than `distance`. If so, the
+  /// triangles are too. The axis may have any length; rounding errors of its direction do not matter.
   bool apartAlong(const Vector3d& axis, double distance) const
   {
     const double p0 = axis.dot(vertices_[0]);
@@ -79,10 +83,11 @@ enum class TriangleVerdict
   Undecided
 };
 
-/// Decides what is clear: apart if an axis separates the triangles by more than `distance`; a hit by the signs of
-/// volumes: those of one triangle and a vertex of the other (sides of planes) and those of two edges (how the line of
-/// an edge passes the edges of the other triangle, as in Pluecker coordinates; see e.g. Devillers and Guigue, "Faster
-/// Triangle-Triangle Intersection Tests", 2002).
+/// Decides the pairs that double arithmetic can prove. Apart: an axis separates the triangles by more than `distance`.
+/// Hit: the signs of volumes show that an edge of one triangle passes through the other. One kind of volume is spanned
+/// by a triangle and a vertex of the other; it tells the side of the plane. The other kind is spanned by an edge of
+/// each; as in Pluecker coordinates, it tells on which side the line of an edge passes the edges of the other triangle
+/// (e.g. Devillers and Guigue, "Faster Triangle-Triangle Intersection Tests", 2002).
 TriangleVerdict decideBySigns(const Triangle& p, const Triangle& q, const PairProjections& projections, double distance)
 {
   Triangle edge_p;
@@ -97,14 +102,14 @@ TriangleVerdict decideBySigns(const Triangle& p, const Triangle& q, const PairPr
     edge_q_size[i] = sizeOf(edge_q[i]);
   }
 
-  // On which side of the plane of `triangle` the vertices of `other` are; returns whether they are all on one, clearly
-  // apart.
+  // Finds the side of the plane of `triangle` for each vertex of `other`. Returns whether all vertices are certainly on
+  // one side and farther than `distance` from the plane.
   const auto find_sides = [distance](const Triangle& triangle, const Triangle& edge,
                                      const std::array<double, 3>& edge_size, const Triangle& other,
                                      std::array<int, 3>& sides)
   {
     const Vector3d normal = edge[0].cross(edge[1]);
-    // The second term bounds the error of the normal: little of a sliver's normal may be left.
+    // The second term bounds the error of the normal, which may be mostly rounding error for a sliver.
     const double squared = normal.squaredNorm();
     const double tolerance = squared > kUnderflow
                                  ? distance * (std::sqrt(squared) + 16.0 * kEpsilon * edge_size[0] * edge_size[1])
@@ -120,12 +125,12 @@ TriangleVerdict decideBySigns(const Triangle& p, const Triangle& q, const PairPr
     }
     return std::abs(apart) == 3;
   };
-  std::array<int, 3> side_of_p;  // of the vertices of q
-  std::array<int, 3> side_of_q;  // of the vertices of p
+  std::array<int, 3> side_of_p;  // sides of the plane of p, for the vertices of q
+  std::array<int, 3> side_of_q;  // sides of the plane of q, for the vertices of p
   if (find_sides(p, edge_p, edge_p_size, q, side_of_p) || find_sides(q, edge_q, edge_q_size, p, side_of_q))
     return TriangleVerdict::Apart;
 
-  std::array<std::array<int, 3>, 3> turn;  // [i][j]: how edge i of p passes edge j of q
+  std::array<std::array<int, 3>, 3> turn;  // [i][j]: the side on which edge i of p passes edge j of q
   for (int i = 0; i < 3; ++i)
   {
     for (int j = 0; j < 3; ++j)
@@ -150,7 +155,7 @@ TriangleVerdict decideBySigns(const Triangle& p, const Triangle& q, const PairPr
   return TriangleVerdict::Undecided;
 }
 
-/// Two points, one of each shape, and the vector from the one to the other.
+/// The shortest vector offered so far between a point of one shape and a point of the other.
 struct Nearest
 {
   double squared_distance = std::numeric_limits<double>::infinity();
@@ -167,7 +172,7 @@ struct Nearest
   }
 };
 
-/// The nearest points inside both segments, if there are such.
+/// Offers the nearest points of the two lines if they are inside both segments.
 void offerNearestOfSegments(const Vector3d& p0, const Vector3d& p1, const Vector3d& q0, const Vector3d& q1,
                             Nearest& nearest)
 {
@@ -182,8 +187,8 @@ void offerNearestOfSegments(const Vector3d& p0, const Vector3d& p1, const Vector
     nearest.offer(w + (s / nn) * u - (t / nn) * v);
 }
 
-/// Of two triangles of which no edge of one passes through the inside of the other. Whatever rounding does to the
-/// choice of the points, they are points of the triangles: their distance is an upper bound.
+/// The nearest points of two triangles, if no edge of one passes through the inside of the other. Rounding may choose
+/// other points, but they are always points of the triangles. So the distance is an upper bound in any case.
 Nearest nearestOfOutlines(const Triangle& a, const Triangle& b)
 {
   Nearest nearest;
@@ -197,7 +202,7 @@ Nearest nearestOfOutlines(const Triangle& a, const Triangle& b)
   return nearest;
 }
 
-/// Whether the segment passes through the inside of the triangle, from one side to the other, by exact signs.
+/// Whether the segment passes through the inside of the triangle from one side to the other, decided by exact signs.
 bool segmentPierces(const Vector3d& start, const Vector3d& end, const Triangle& triangle)
 {
   if (exactOrientation(triangle[0], triangle[1], triangle[2], start) *
@@ -257,7 +262,8 @@ Vector3d nearestPoint(const Triangle& triangle, const Vector3d& point)
     if (v >= 0.0 && w >= 0.0 && v + w <= nn)
       offer(a + (v / nn) * ab + (w / nn) * ac);
   }
-  // Also where the foot of the perpendicular seems to be inside: of a sliver's plane only rounding may be left.
+  // The edges are tried even if the foot of the perpendicular seems to be inside: the normal of a sliver may be mostly
+  // rounding error.
   for (int i = 0; i < 3; ++i)
   {
     const Vector3d edge = triangle[(i + 1) % 3] - triangle[i];
@@ -282,7 +288,8 @@ bool precedes(const Triangle& a, const Triangle& b)
 
 bool trianglesWithin(const Triangle& a, const Triangle& b, double required)
 {
-  // What is decided before the last line is certain, so it cannot depend on the order of vertices and triangles.
+  // All decisions before the last line are proven, so they cannot depend on the order of the vertices and of the
+  // triangles.
   const double threshold = required + kSlack;
   const PairProjections projections(a, b);
   const TriangleVerdict verdict = decideBySigns(a, b, projections, threshold);

@@ -4,11 +4,13 @@
 
 #include "shader_constants.h"
 
+// Counts the reported collisions per query and sorts the queries by these counts. A new order is due when the number of
+// states has doubled, and at least every kMostStatesPerOrder states.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The share of a kind's hits that its first queries have, those that come before the rest of the other kind.
+/// The first queries of a kind that have this share of the kind's hits run before the rest of the other kind.
 constexpr double kHotShare = 0.9;
 constexpr std::size_t kMostStatesPerOrder = std::size_t{1} << 20U;
 
@@ -23,7 +25,7 @@ void rank(std::vector<RankedQuery>& queries)
       queries.begin(), queries.end(), [](const RankedQuery& a, const RankedQuery& b) { return a.hits > b.hits; });
 }
 
-/// How many of the first queries have kHotShare of all hits.
+/// The number of first queries that together have kHotShare of all hits.
 std::uint32_t hotCount(const std::vector<RankedQuery>& queries)
 {
   std::uint64_t all = 0;
@@ -97,7 +99,7 @@ std::vector<RankedQuery> BroadPhaseOrder::worldQueries() const
   return queries;
 }
 
-/// An instance's pairs by their hits, some to a query.
+/// Sorts the pairs of each instance by their hits, and puts up to QUERY_PARTNERS of them into one query.
 std::vector<RankedQuery> BroadPhaseOrder::selfQueries() const
 {
   std::vector<Pair> pairs = pairs_;

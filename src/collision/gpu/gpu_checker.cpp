@@ -11,6 +11,8 @@
 #include "model/seconds_since.h"
 #include "shader_constants.h"
 
+// Runs all GL work on the GL thread of this object. The GPU reports each state as a hit, as free or as undecided; the
+// calling thread then decides the undecided states with the exact checker, on all cores.
 namespace gpu_planning_scene::core
 {
 GpuChecker::GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees)
@@ -52,7 +54,7 @@ void GpuChecker::release()
           pairs_.reset();
         });
   }
-  catch (const DeviceLost&)  // said of a lost context after every job: there is nothing to be released from it
+  catch (const DeviceLost&)  // a lost context reports this after each job; it has nothing left to release
   {
   }
 }
@@ -74,7 +76,7 @@ void GpuChecker::setProblem(std::shared_ptr<const CollisionProblem> problem, std
   on_cpu_.reset();
 }
 
-/// Goes back to the problem before one that did not fit.
+/// Restores the old problem after a new one did not fit.
 void GpuChecker::restore()
 {
   usable_ = false;
@@ -94,7 +96,7 @@ void GpuChecker::restore()
 void GpuChecker::apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot)
 {
   pairs_->setProblem(problem);
-  // Compiling takes a time that grows with the square of the links.
+  // The time to compile the shader grows with the square of the number of links.
   constexpr std::size_t kMostLinks = 120;
   if (!robot || !double_fault_.empty() || robot->links().size() > kMostLinks)
   {
@@ -163,7 +165,7 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
   {
     gl_.run([&] { pairs_->check(source, count, verdicts, margins); });
   }
-  catch (const OutOfDeviceMemory& error)  // OpenGL leaves everything undefined then, and states are not at fault
+  catch (const OutOfDeviceMemory& error)  // OpenGL's state is undefined then; the caller's states are not the cause
   {
     throw DeviceLost(error.what());
   }
@@ -173,7 +175,7 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
     {
       const auto [a, b] = GpuPairChecker::pairOf(verdicts.hits[i]);
       result.valid[i] = 0;
-      // Ascending: what is carried comes after the objects that it hits.
+      // Ascending order: the body index of an attached object is larger than the index of an object that it hits.
       const std::int32_t first = robot[a].body;
       const std::int32_t second = bodyOf(*problem_, b);
       result.colliding[i] = {std::min(first, second), std::max(first, second)};

@@ -19,36 +19,36 @@
 
 namespace gpu_planning_scene::core
 {
-/// A collision problem on a GPU, with the CPU behind it: states that floats leave undecided go to a double-precision
-/// traversal of the same trees. One caller at a time; any thread. Each method throws DeviceLost where the device fails
-/// or its context is lost; then nothing more comes of this engine.
+/// Checks a collision problem on a GPU, with the CPU behind it: a double-precision traversal of the same problem
+/// decides the states that float32 leaves undecided. One caller at a time, on any thread. Each method throws DeviceLost
+/// if the device fails or its context is lost; the object is then unusable.
 class GpuChecker
 {
  public:
-  /// Throws Error: no usable device, a shader that does not compile, max_batch of 0.
-  /// `trees`: the CPU's, for undecided states; others may use them too, one at a time. Null: its own.
+  /// Throws Error if there is no usable device, if a shader does not compile, or if max_batch is 0. `trees`: the CPU's
+  /// trees for undecided states; other users may share them, one at a time. Null: its own trees.
   GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees = nullptr);
   ~GpuChecker();
 
-  /// Builds the trees. `robot`: whose states are checked; null for a problem that is no robot's. Throws Error and keeps
-  /// the old problem if the device cannot hold the new one.
+  /// Builds the trees. `robot`: the robot whose states are checked; null if the problem has no robot model. Throws
+  /// Error and keeps the old problem if the device cannot hold the new one.
   void setProblem(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const RobotModel> robot = nullptr);
 
-  /// Restricts the checked pairs to those of `problem`, which has the same trees and instances.
+  /// Restricts the checked pairs to the pairs of `problem`, which must have the same trees and instances.
   void selectPairs(std::shared_ptr<const CollisionProblem> problem);
 
-  /// Compiles what batches with margins need, unless that is done, so that no check has to.
+  /// Compiles the programs for batches with margins, if this has not been done, so that no check has to.
   void prepareMargins();
 
-  /// Checks `count` rows of the robot's variables: fills the result but for revision and seconds. `margins`: for these
-  /// rows and the selected pairs; null: none.
+  /// Checks `count` states (rows of the robot's variables). Fills the result except for revision and seconds.
+  /// `margins`: for these states and the selected pairs; null: none.
   void check(const double* states, std::size_t count, BatchResult& result, const Margins* margins = nullptr);
 
-  /// The same for poses that the caller finds.
+  /// The same for link poses that the caller computes.
   void checkPoses(std::size_t count, std::size_t link_count, const UploadedPoses::LinkPoses& link_poses,
                   BatchResult& result);
 
-  /// Of the last batch.
+  /// Work of the last batch.
   const GpuWork& lastWork() const { return pairs_->lastWork(); }
 
   const Device& device() const { return gl_.device(); }
@@ -68,15 +68,15 @@ class GpuChecker
 
   std::string shader_folder_;
   GlThread gl_;
-  // These two are made, used and destroyed on the GL thread. No kinematics where the device's double precision is not
-  // good.
+  // `pairs_` and `kinematics_` are created, used and destroyed on the GL thread. `kinematics_` is null if the device's
+  // double precision is not reliable, or if the robot has too many links.
   std::unique_ptr<GpuPairChecker> pairs_;
   std::unique_ptr<GpuKinematics> kinematics_;
   std::string double_fault_;
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
-  bool usable_ = false;  // the device has that problem, not a part of another
+  bool usable_ = false;  // the device holds exactly `problem_`
   std::shared_ptr<ForestCache> trees_;
-  std::unique_ptr<const CpuTraversal> on_cpu_;  // of the selected pairs; made when a state is undecided
+  std::unique_ptr<const CpuTraversal> on_cpu_;  // for the selected pairs; built when a state is undecided
 };
 }  // namespace gpu_planning_scene::core

@@ -8,6 +8,8 @@
 #include "collision/gpu/kinematics_shader.h"
 #include "shader_constants.h"
 
+// Uploads the joint values of a part; the robot's shader computes the link poses in double and writes the instances'
+// poses as floats. setInstances lists the shape instances of each link for the shader.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -24,7 +26,7 @@ Texel twoDoubles(double first, double second)
   return texel;
 }
 
-/// Of each variable, the largest amount that gives no angle beyond the sine's range.
+/// The largest magnitude of each variable that gives no angle beyond the range of the shader's sine.
 std::vector<double> largestValues(const RobotModel& robot)
 {
   std::vector<double> largest(robot.variables().size(), std::numeric_limits<double>::max());

@@ -12,7 +12,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Forward kinematics on the GPU, by a shader that is made for the robot. Used on the context's thread.
+/// Forward kinematics on the GPU by a shader that is generated for the robot. Used on the context's thread.
 class GpuKinematics : public PoseSource
 {
  public:
@@ -20,22 +20,22 @@ class GpuKinematics : public PoseSource
 
   const std::shared_ptr<const RobotModel>& robot() const { return robot_; }
 
-  /// The shapes to place: those of `problem.robot`.
+  /// Sets the shape instances to place: the instances of `problem.robot`.
   void setInstances(const CollisionProblem& problem);
 
-  /// Whether the shader's sines are right for all angles of a state.
+  /// Whether all angles of a state are within the range of the shader's sine and cosine.
   bool canPlace(const double* state) const;
 
-  /// The batch that `write` is about: row-major, rows of the robot's variables, which canPlace.
+  /// Sets the batch for `write`: row-major rows of the robot's variables. canPlace must be true for each row.
   void setStates(const double* states) { states_ = states; }
   void write(std::size_t begin, std::size_t count, TexelBuffer& poses) override;
 
  private:
   std::shared_ptr<const RobotModel> robot_;
   Program program_;
-  std::vector<double> largest_;  // amount of each variable
+  std::vector<double> largest_;  // largest magnitude of each variable for canPlace
   const double* states_ = nullptr;
-  // Two, so that states go up while the GPU works on those before.
+  // Two buffers, so that states are uploaded while the GPU works on the previous part.
   std::array<TexelBuffer, 2> uploads_;
   std::size_t next_upload_ = 0;
   TexelBuffer link_shapes_;

@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The bits of the next float that is no less.
+/// The bits of the smallest float that is not below `value`.
 std::uint32_t roundedUp(double value)
 {
   auto rounded = static_cast<float>(value);
@@ -46,7 +46,7 @@ void GpuMargins::write(const Margins& margins, std::size_t begin, std::size_t co
     for (const auto& [a, b] : self_pairs_)
       numbers_[a * robots_ + b] = numbers_[b * robots_ + a] = number++;
   }
-  // Only the rows of margins from the first to the last that a state of the part refers to.
+  // Uploads only the rows from the first to the last one that a state of the part refers to.
   const auto rows = margins.rows.begin() + static_cast<std::ptrdiff_t>(begin);
   const auto [first, last] = std::minmax_element(rows, rows + static_cast<std::ptrdiff_t>(count));
   std::vector<std::uint32_t> words = numbers_;

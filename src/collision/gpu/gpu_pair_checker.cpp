@@ -8,18 +8,21 @@
 #include "gpu/gl_check.h"
 #include "shader_constants.h"
 
+// Queues all dispatches of a part without waiting: kinematics, half-spaces, broad phase, root boxes, traversal and
+// containment. If a list overflows, the device sets a counter, and the part is split and repeated.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-/// States of a batch that are enough to learn from.
+/// The order of queries is learned from about this many states of a batch.
 constexpr std::size_t kMostCounted = 16384;
 
-/// Some devices end work that takes seconds, and other users of the device wait meanwhile.
+/// Wanted duration of a part. Some devices abort work that takes seconds, and other users of the device wait meanwhile.
 constexpr double kPartSeconds = 0.05;
 constexpr std::size_t kFirstPart = 2048;
 
-/// Where a part's flags and hits lie behind its counters.
+/// Byte offsets in the results of a part: counters, then flags, then hits. `words` is the size of the flags and of the
+/// hits.
 struct AnswerOffsets
 {
   explicit AnswerOffsets(std::size_t count)
@@ -36,7 +39,7 @@ struct AnswerOffsets
 };
 static_assert(COUNTER_WORDS * sizeof(std::uint32_t) <= Buffer::kStorageAlignment, "they lie before the flags");
 
-/// Room that is enough for most batches: what a state leaves behind on average, and some for batches of few states.
+/// Default capacities that suffice for most batches: the average need per state, plus a constant for small batches.
 ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
 {
   const auto per_state = [&](std::uint32_t chosen, std::size_t count)
@@ -97,7 +100,7 @@ void GpuPairChecker::selectPairs(const CollisionProblem& problem)
   prepare();
 }
 
-/// What would otherwise be done within a batch: programs are compiled.
+/// Compiles programs and sizes the parts, so that no batch has to.
 void GpuPairChecker::prepare()
 {
   writeQueries();
@@ -219,7 +222,7 @@ bool GpuPairChecker::fetch(Part& part, Verdicts& verdicts)
   return true;
 }
 
-/// All of a part's work, without waiting for any of it.
+/// Starts all of a part's work without waiting for any of it.
 void GpuPairChecker::start(const Batch& batch, Part& part)
 {
   const AnswerOffsets offsets(part.count);
@@ -267,7 +270,7 @@ void GpuPairChecker::testHalfSpaces(std::uint32_t states)
   programs_->half_spaces.set(LOCATION_WORLD_COUNT, scene_.worldCount());
   scene_.halfSpaces().bindStorage(BINDING_C);
   scene_.halfSpacePairs().bindStorage(BINDING_D);
-  // One at a time: what one lane may do is limited.
+  // One dispatch per half-space, because the work of one invocation is limited.
   for (std::uint32_t half_space = 0; half_space < scene_.halfSpaceCount(); ++half_space)
   {
     programs_->half_spaces.set(LOCATION_HALF_SPACE, half_space);
@@ -275,7 +278,7 @@ void GpuPairChecker::testHalfSpaces(std::uint32_t states)
   }
 }
 
-/// BroadPhaseQueries that found most before come first, whether in the world or among links.
+/// The queries with the most hits run first, whether they are about the world or about other links.
 void GpuPairChecker::findCandidates(std::uint32_t states)
 {
   for (const Program* program : {&programs_->spheres, &programs_->world, &programs_->self, &programs_->roots})
@@ -326,7 +329,7 @@ TraversalTask GpuPairChecker::task(bool solids, bool padded) const
   return {solids, padded, scene_.tolerance(), scene_.depthBound()};
 }
 
-/// Solids first: what is found there costs less.
+/// Solids first, because their collisions are cheaper to find.
 void GpuPairChecker::traverse(bool padded)
 {
   if (scene_.solidNodes() != 0)
@@ -334,7 +337,7 @@ void GpuPairChecker::traverse(bool padded)
   traversal_->start(lists_, task(false, padded));
 }
 
-/// Of meshes in meshes and of primitives in meshes; what primitives contain, testRoots has seen.
+/// Tests whether a mesh or a primitive is inside a mesh. testRoots has already tested the inside of primitives.
 void GpuPairChecker::testContainment()
 {
   if (!scene_.hasMeshSolids())

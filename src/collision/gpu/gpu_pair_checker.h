@@ -18,20 +18,20 @@
 
 namespace gpu_planning_scene::core
 {
-/// What the GPU found of a batch. A state without a flag is free.
+/// The GPU's results for a batch. A state without a flag is free.
 struct Verdicts
 {
-  std::vector<std::uint32_t> flags;  ///< STATE_* bits, one word a state
-  std::vector<std::uint32_t> hits;   ///< where STATE_HIT is set: the pair, see pairOf
+  std::vector<std::uint32_t> flags;  ///< STATE_* bits, one word per state
+  std::vector<std::uint32_t> hits;   ///< if STATE_HIT is set: the colliding pair, see pairOf
 };
 
-/// Checks the pairs of a collision problem in many states, given the poses of the robot's instances: broad phase, root
-/// boxes, traversal, triangles. Knows nothing of joints. Used on the context's thread.
+/// Checks the pairs of a collision problem in many states, given the poses of the robot's instances. The steps are the
+/// broad phase, the root boxes, the traversal and the triangles. The class knows no joints. Used on the context's
+/// thread.
 class GpuPairChecker
 {
  public:
-  /// At most `max_states` states go to the GPU at once. `capacities`: 0 where the default for that many states is
-  /// wanted.
+  /// At most `max_states` states go to the GPU at once. `capacities`: 0 means the default for this number of states.
   GpuPairChecker(const std::string& shader_folder, Traversal traversal, std::size_t max_states,
                  const ListCapacities& capacities = {});
 
@@ -40,34 +40,37 @@ class GpuPairChecker
   void selectPairs(const CollisionProblem& problem);
   const GpuScene& scene() const { return scene_; }
 
-  /// Compiles what batches with margins need, unless that is done.
+  /// Compiles the programs for batches with margins, if this has not been done.
   void prepareMargins();
 
-  /// What is wrong with the device's float arithmetic, in one line; then every triangle test leaves its state
-  /// undecided. Empty where it is as docs/error_bounds.md assumes.
+  /// The fault of the device's float32 arithmetic in one line, or empty if it is as docs/error_bounds.md assumes. With
+  /// a fault, each triangle test leaves its state undecided.
   const std::string& floatFault() const { return float_fault_; }
 
-  /// The poses come relative to the frame of the world's poses. Batches go to the device part by part, the next one
-  /// before the answers of the one before are fetched; a part takes about kPartSeconds at most. A part whose lists
-  /// overflow is split; a single state that still overflows is undecided. `margins`: for these states and pairs; null:
-  /// none.
+  /// Checks `count` states. The poses must be in the frame of the world's poses, i.e. relative to
+  /// CollisionProblem::origin.
+  ///
+  /// A batch goes to the device in parts. A part takes at most about kPartSeconds, and the next part is started before
+  /// the results of the current one are fetched. A part whose lists overflow is split; a single state whose lists
+  /// overflow is undecided. `margins`: for these states and pairs; null: none.
   void check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins = nullptr);
 
-  /// Of the last check; parts whose lists overflowed count once they were split.
+  /// Work of the last check. A part whose lists overflowed counts only after it has been split.
   const GpuWork& lastWork() const { return work_; }
 
-  /// Indices of a reported pair: into CollisionProblem::robot, and into robot, world and half-spaces in succession.
+  /// The indices of a reported pair. The first is an index into CollisionProblem::robot; the second counts the robot's
+  /// instances, then the world's, then the half-spaces.
   static std::pair<std::uint32_t, std::uint32_t> pairOf(std::uint32_t hit);
 
  private:
-  /// What is done before pairs are traversed: for batches without margins, and for those with.
+  /// The programs that run before the traversal. There is one set for batches without margins, and one with margins.
   struct Programs
   {
     Programs(const std::string& folder, const std::string& definitions);
     Program spheres, world, self, roots, half_spaces;
   };
 
-  /// A batch: where its poses come from, and its margins, or null.
+  /// A batch: the source of its poses, its margins (or null), and the size of its parts.
   struct Batch
   {
     PoseSource& poses;
@@ -75,14 +78,14 @@ class GpuPairChecker
     BatchSize& parts;
   };
 
-  /// States of a batch that are on their way through the device, and where their answers come to lie.
+  /// The states of a batch that the device works on together, and the buffers for their results.
   struct Part
   {
     std::size_t begin = 0;
     std::size_t count = 0;
     std::uint32_t serial = 0;
-    Buffer answers;    // counters, flags and hits, see AnswerOffsets
-    Readback fetched;  // likewise
+    Buffer answers;    // counters, flags and hits on the device, see AnswerOffsets
+    Readback fetched;  // the same, read back
   };
 
   void start(const Batch& batch, Part& part);
@@ -99,7 +102,7 @@ class GpuPairChecker
   void testContainment();
 
   std::string float_fault_;
-  std::string definitions_;  // of the programs that test triangles
+  std::string definitions_;  // for the programs that test triangles
   GpuScene scene_;
   std::size_t max_states_;
   BatchSize plain_parts_, parts_with_margins_;
@@ -111,8 +114,8 @@ class GpuPairChecker
   ArgumentsKernel arguments_;
   std::string folder_;
   Programs plain_;
-  std::optional<Programs> with_margins_;  // when they are first needed
-  const Programs* programs_ = &plain_;    // of the batch
+  std::optional<Programs> with_margins_;  // compiled when first needed
+  const Programs* programs_ = &plain_;    // programs of the current batch
   Program inside_program_, done_program_;
   GpuMargins margins_;
   TexelBuffer poses_, spheres_, world_queries_, self_queries_;

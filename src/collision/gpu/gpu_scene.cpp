@@ -15,7 +15,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The box of an instance's true surface, grown by its padding and a little more than rounding loses.
+/// The axis-aligned box of an instance's exact surface, grown by its padding and by more than the rounding error.
 Eigen::AlignedBox3d placedBounds(const Eigen::AlignedBox3d& triangles, double sagitta, const Eigen::Isometry3d& pose,
                                  double padding)
 {
@@ -26,7 +26,7 @@ Eigen::AlignedBox3d placedBounds(const Eigen::AlignedBox3d& triangles, double sa
   return {center - grown, center + grown};
 }
 
-/// An instance as shaders/problem/instances.glsl reads it.
+/// An instance in the layout of shaders/problem/instances.glsl.
 struct InstanceRecord
 {
   std::uint32_t root;
@@ -40,8 +40,8 @@ struct InstanceRecord
 };
 static_assert(sizeof(InstanceRecord) == 48, "three uvec4");
 
-/// Fills in what the shaders know of a solid. Its core is a box around the origin that lies within it: what lies in the
-/// box is inside without any look at the surface.
+/// Fills in the description of a solid for the shaders. Its core is a box around the origin that lies inside the solid.
+/// A point in the core is inside the solid without a test of the surface.
 void describeSolid(const Shape& shape, InstanceRecord& record)
 {
   constexpr double kRounding = 1.0 - 1e-6;
@@ -77,7 +77,7 @@ void describeSolid(const Shape& shape, InstanceRecord& record)
   }
 }
 
-/// A bit for each flag, 32 to a word, in whole texels.
+/// Packs the flags into bits, 32 per word, padded to whole texels.
 std::vector<std::uint32_t> packedBits(const std::vector<std::uint8_t>& flags)
 {
   std::vector<std::uint32_t> bits((flags.size() / 128 + 1) * 4, 0);
@@ -94,18 +94,18 @@ void write(const std::vector<T>& data, TexelBuffer& buffer)
   buffer.buffer().write(data);
 }
 
-/// A node of the tree over objects as shaders/broad_phase/world_pairs.comp walks it.
+/// A node of the tree over objects in the layout of shaders/broad_phase/world_pairs.comp.
 struct ObjectNode
 {
   std::array<float, 3> center;
-  std::uint32_t next;  // where the walk goes on if the boxes are apart
+  std::uint32_t next;  // node at which the traversal continues if the boxes do not overlap
   std::array<float, 3> half;
   std::uint32_t object;
 };
 static_assert(sizeof(ObjectNode) == 32, "two texels");
 
-/// Adds a subtree in the order of a walk, the first child after its parent. Boxes with what rounding in the tests of
-/// boxes needs (as in shaders/tree_build/layout.glsl). The depth of a tree is bounded, see buildBinnedSah.
+/// Appends a subtree in depth-first order. The boxes are enlarged by the rounding error of the box tests (as in
+/// shaders/tree_build/layout.glsl). The recursion depth is bounded, see buildBinnedSah.
 void appendSubtree(const ObjectTree& tree, std::uint32_t root, std::vector<ObjectNode>& walk)
 {
   const Node& node = tree.nodes()[root];
@@ -177,7 +177,7 @@ void GpuScene::writeInstances(const CollisionProblem& problem)
   write(instances, instances_);
 }
 
-/// A primitive's node: a leaf that holds it whole.
+/// Writes a node for each instance. The node of a primitive is a leaf that contains the whole primitive.
 void GpuScene::writeSolids(const CollisionProblem& problem)
 {
   solid_nodes_ = 0;

@@ -11,21 +11,22 @@
 
 namespace gpu_planning_scene::core
 {
-/// A collision problem in GPU memory: the trees of all distinct shapes, the instances, the tree over world instances
-/// and the pairs that are checked. Used on the context's thread.
+/// A collision problem in GPU memory: the trees of all distinct shapes, the instances, the tree over world instances,
+/// and the checked pairs. Used on the context's thread.
 class GpuScene
 {
  public:
   explicit GpuScene(const std::string& shader_folder) : trees_(shader_folder) {}
 
-  /// Uploads a problem and builds the trees that are not there yet. Throws Error if the problem is too large for the
+  /// Uploads a problem and builds the trees that do not exist yet. Throws Error if the problem is too large for the
   /// device; the scene is then unusable until the next setProblem.
   void setProblem(const CollisionProblem& problem);
 
-  /// Restricts the checked pairs to those of `problem`, which has the same trees and instances as the one uploaded.
+  /// Restricts the checked pairs to the pairs of `problem`, which must have the same trees and instances as the
+  /// uploaded one.
   void selectPairs(const CollisionProblem& problem);
 
-  /// Binds what the kernels read as textures: nodes, triangles, world poses, instances, the object tree, pairs.
+  /// Binds the textures of the kernels: nodes, triangles, world poses, instances, the object tree, pairs.
   void bind() const;
   const Buffer& components() const { return trees_.components(); }
   const Buffer& leafOrder() const { return trees_.leafOrder(); }
@@ -36,18 +37,18 @@ class GpuScene
   std::uint32_t robotCount() const { return robot_count_; }
   std::uint32_t worldCount() const { return world_count_; }
   std::uint32_t halfSpaceCount() const { return half_space_count_; }
-  /// Where the nodes of primitives lie that are tested as solids, one for each instance; 0: there are none.
+  /// The index of the first node of the primitives that are tested as solids, with one node for each instance. 0: none.
   std::uint32_t solidNodes() const { return solid_nodes_; }
-  /// Metres; 0: exact.
+  /// In metres; 0: exact.
   float tolerance() const { return tolerance_; }
   /// Whether some pairs have a required distance.
   bool isPadded() const { return padded_; }
   /// Whether a mesh has closed components.
   bool hasMeshSolids() const { return has_mesh_solids_; }
-  /// No tree has more levels than this.
+  /// Upper bound of the number of levels of a tree.
   std::uint32_t depthBound() const { return trees_.depth(); }
 
-  /// The problem's trees as the CPU can walk them; reads back from the GPU.
+  /// Reads the problem's trees back from the GPU, in the form for the CPU.
   Forest readForest() const;
 
  private:
@@ -70,6 +71,6 @@ class GpuScene
   bool has_mesh_solids_ = false;
 };
 
-/// The rows of [rotation | translation] as a shader reads them (shaders/geometry/pose.glsl).
+/// Writes the rows of the matrix [rotation | translation] as the shaders read them (shaders/geometry/pose.glsl).
 void writePoseRows(const Eigen::Isometry3d& pose, float* rows);
 }  // namespace gpu_planning_scene::core

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <functional>
 
+// Forward kinematics as straight-line code: the pose of each link is the pose of its parent times the pose of its
+// joint. Rotations use Rodrigues' formula.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -27,7 +29,7 @@ std::string vector(const Vector3d& v)
   return vector([&](int i) { return literal(v[i]); });
 }
 
-/// A matrix by columns.
+/// The text of a matrix; GLSL lists the columns one after the other.
 std::string matrix(const std::function<std::string(int, int)>& entry)
 {
   return "dmat3(" + vector([&](int row) { return entry(row, 0); }) + ", " +
@@ -39,7 +41,7 @@ std::string matrix(const Matrix3d& m)
   return matrix([&](int row, int column) { return literal(m(row, column)); });
 }
 
-/// coefficient * factor, as a further term of a sum.
+/// Adds the term coefficient * factor to the text of a sum. An empty factor means 1.
 void addTerm(double coefficient, const std::string& factor, std::string& sum)
 {
   if (coefficient == 0.0)
@@ -49,7 +51,8 @@ void addTerm(double coefficient, const std::string& factor, std::string& sum)
   sum += factor.empty() ? literal(coefficient) : literal(coefficient) + " * " + factor;
 }
 
-/// origin * (a turn around `axis`), by Rodrigues' formula a a^T + c (I - a a^T) + s [a]x; c and s are names.
+/// The text of origin * (rotation around `axis`) by Rodrigues' formula a a^T + c (I - a a^T) + s [a]x. `c` and `s` are
+/// the names of the cosine and the sine.
 std::string turned(const Matrix3d& origin, const Vector3d& axis, const std::string& c, const std::string& s)
 {
   const Matrix3d along = axis * axis.transpose();
@@ -69,7 +72,7 @@ std::string turned(const Matrix3d& origin, const Vector3d& axis, const std::stri
       });
 }
 
-/// The lines that make relativeN, the pose of link N in its parent link's frame.
+/// The lines that define relativeN, the pose of link N in the frame of its parent link.
 class JointText
 {
  public:

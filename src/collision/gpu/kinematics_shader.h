@@ -6,8 +6,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// The text of a compute shader that finds the poses of a robot's links, and of what moves with them (see
-/// shaders/problem/kinematics.glsl), one state a lane: the joints' constants stand in it as numbers, and products with
-/// zeros are left out.
+/// Generates the text of a compute shader that computes the poses of a robot's links and of their shape instances (see
+/// shaders/problem/kinematics.glsl), one state per invocation. The joints' constants are literals in the text, and
+/// products with zeros are left out.
 std::string kinematicsShader(const RobotModel& robot);
 }  // namespace gpu_planning_scene::core

@@ -6,15 +6,15 @@
 
 namespace gpu_planning_scene::core
 {
-/// Where the poses of the robot's instances come from. Used on the context's thread.
+/// A source of the poses of the robot's instances. Used on the context's thread.
 class PoseSource
 {
  public:
   virtual ~PoseSource() = default;
 
-  /// Writes the poses in states [begin, begin + count) of a batch: three texels an instance
-  /// (shaders/geometry/pose.glsl), instance by instance (poseIndex in shaders/problem/instance_lists.glsl). `poses` has
-  /// room for them.
+  /// Writes the poses for the states [begin, begin + count) of a batch. A pose takes three texels
+  /// (shaders/geometry/pose.glsl). The poses are ordered by instance, then by state (poseIndex in
+  /// shaders/problem/instance_lists.glsl). `poses` must be large enough.
   virtual void write(std::size_t begin, std::size_t count, TexelBuffer& poses) = 0;
 };
 }  // namespace gpu_planning_scene::core

@@ -9,11 +9,11 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Large enough that threads do not meet often, small enough that they end together.
+/// Large enough that threads rarely contend for chunks, small enough that they finish at about the same time.
 constexpr std::size_t kStatesPerChunk = 256;
 }  // namespace
 
-/// Kinematics in double, each pose brought near the origin and rounded once.
+/// Computes the poses in double, subtracts the origin, and rounds each pose once to float.
 void UploadedPoses::write(std::size_t begin, std::size_t count, TexelBuffer& poses)
 {
   const std::vector<ShapeInstance>& instances = problem_.robot;

@@ -9,12 +9,12 @@
 
 namespace gpu_planning_scene::core
 {
-/// Poses that the CPU finds, on all cores, and the GPU gets: of two meshes, and where a device's double precision is
-/// not to be trusted.
+/// Poses that the CPU computes on all cores and uploads to the GPU. They serve problems without a robot model, and
+/// states that GpuKinematics cannot place, e.g. on a device whose double precision is not reliable.
 class UploadedPoses : public PoseSource
 {
  public:
-  /// Writes the poses of all links (of bodies that CollisionProblem::robot names) in state `row`. Called from several
+  /// Writes the poses of all links in state `row`; ShapeInstance::link is the index of a link. Called from several
   /// threads.
   using LinkPoses = std::function<void(std::size_t row, Eigen::Isometry3d* link_poses)>;
 

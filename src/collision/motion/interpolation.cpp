@@ -6,22 +6,24 @@
 
 #include "gpu_planning_scene/error.h"
 
+// Interpolates joint by joint: lengths and bounded angles linearly, other angles along the shorter arc, rotations by
+// spherical linear interpolation (Shoemake 1985).
 namespace gpu_planning_scene::core
 {
 namespace
 {
 constexpr double kTurn = 2.0 * EIGEN_PI;
 
-/// What of a state a joint's variables are: how it is interpolated and how far it moves.
+/// The kind of a group of joint variables. It decides how they are interpolated and how their travel is measured.
 enum class Part
 {
   Length,
-  Angle,         // bounded: the way that does not cross the limits
-  WrappedAngle,  // the shorter way round
-  Rotation       // a quaternion, x first
+  Angle,         // linear, because the limits must not be crossed
+  WrappedAngle,  // along the shorter arc of the circle
+  Rotation       // a quaternion (x, y, z, w)
 };
 
-/// Calls visit(part, first variable, number of variables) for what an active joint's variables are made of.
+/// Calls visit(part, first variable, number of variables) for each group of variables of an active joint.
 template <class Visit>
 void forParts(const RobotModel& robot, const Joint& joint, const Visit& visit)
 {
@@ -50,7 +52,7 @@ void forParts(const RobotModel& robot, const Joint& joint, const Visit& visit)
   }
 }
 
-/// The same for all active joints.
+/// The same for all active joints of the robot.
 template <class Visit>
 void forParts(const RobotModel& robot, const Visit& visit)
 {
@@ -59,7 +61,8 @@ void forParts(const RobotModel& robot, const Visit& visit)
       forParts(robot, joint, visit);
 }
 
-/// As forward kinematics reads it: any length above 0, and no rotation for 0.
+/// The rotation of a state's quaternion, as forward kinematics reads it: the quaternion may have any length above 0,
+/// and the quaternion 0 means no rotation.
 Eigen::Quaterniond rotationOf(const double* variables)
 {
   Eigen::Vector4d coefficients = Eigen::Map<const Eigen::Vector4d>(variables);
@@ -69,7 +72,7 @@ Eigen::Quaterniond rotationOf(const double* variables)
   return Eigen::Quaterniond(Eigen::Vector4d(coefficients / largest)).normalized();
 }
 
-/// How far a part moves, in radians or metres: the largest of its variables.
+/// The travel of a part, in radians or metres: the largest change of its variables, or half of the angle of a rotation.
 double travelOf(Part part, const double* from, const double* to, int count)
 {
   switch (part)
@@ -116,7 +119,7 @@ void validateSteps(const MotionSteps& steps)
   refuseStep(steps.prismatic, "prismatic", "metres");
 }
 
-/// A joint that mimics another one has its variable, and moves as that one does.
+/// A mimic joint uses the variable of the joint that it mimics; its travel is a multiple of that joint's travel.
 std::vector<JointTravel> jointTravel(const RobotModel& robot, const double* from, const double* to)
 {
   std::vector<JointTravel> travel(robot.joints().size());

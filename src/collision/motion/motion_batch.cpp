@@ -2,21 +2,24 @@
 
 #include <utility>
 
+// Samples are checked in bisection order, so that collisions are found early. Under the rule Bound, a sample proves a
+// segment free if the distance of each pair exceeds its required distance by more than its joint displacement bound.
+// Other segments are halved (adaptive bisection of Schwarzer, Saha, Latombe 2002 and 2005).
 namespace gpu_planning_scene::core
 {
 namespace
 {
-// A call can be stopped between two batches of states.
+// Short batches, because a call can only be stopped between two batches.
 constexpr BatchSize::Limits kBatch{0.05, 2048, 64, 65536};
 
-// The first samples of a motion that are asked about: its ends and its middle; each time later so many times as many.
+// First batch of samples of a motion: its ends and its middle. Each later round has kGrowth times as many in total.
 constexpr std::size_t kFirstSamples = 3;
 constexpr std::size_t kGrowth = 4;
 
-// A sample that cannot be proven to be free for less than this around it is as good as a collision.
+// If a motion cannot be proven to be free even for this joint travel around a sample, it is rejected there.
 constexpr double kLeastWay = 1e-7;  // radians and metres
 
-/// 0 and n, then the middles of what is between two of those before, all parts of a level before the next.
+/// The numbers n and 0, then the middles of the segments in between, level by level.
 std::vector<std::size_t> bisectionOrder(std::size_t n)
 {
   std::vector<std::size_t> order = {n, 0};
@@ -60,7 +63,7 @@ void MotionBatch::add(const double* from, const double* to)
     motion.travel = jointTravel(robot_, from, to);
   for (const JointTravel& joint : motion.travel)
     motion.longest_travel = std::max({motion.longest_travel, joint.length, joint.angle});
-  // Beyond the limits displacements have no bounds.
+  // Outside the joints' limits there are no displacement bounds.
   if (options_.rule == MotionRule::Bound && !(withinRanges(limits_, from) && withinRanges(limits_, to)))
     motion.reject();
   motions_.push_back(std::move(motion));
@@ -93,7 +96,7 @@ void MotionBatch::ask(const std::vector<Interval>& intervals, bool with_margins,
       ++motion.samples;
       if (!with_margins)
         continue;
-      if (interval.motion != last_motion)  // the intervals of a motion follow one another and are equally wide
+      if (interval.motion != last_motion)  // a motion's intervals are consecutive and equally wide
         for (const JointTravel& joint : motion.travel)
           around.travel.push_back({joint.length * interval.half, joint.angle * interval.half});
       last_motion = interval.motion;
@@ -147,7 +150,8 @@ std::vector<MotionBatch::Interval> MotionBatch::firstIntervals() const
   return intervals;
 }
 
-/// Of those that are still wanted; where that is too small, or too many samples were taken, the motion is given up.
+/// Halves the intervals that are still wanted. Rejects a motion if its interval is too small or if too many of its
+/// samples have been checked.
 std::vector<MotionBatch::Interval> MotionBatch::halves(const std::vector<Interval>& intervals)
 {
   for (const Interval& interval : intervals)
@@ -160,7 +164,7 @@ std::vector<MotionBatch::Interval> MotionBatch::halves(const std::vector<Interva
       for (const double side : {-0.5, 0.5})
       {
         const Interval half{interval.motion, interval.middle + side * interval.half, 0.5 * interval.half};
-        // What the first and the last sample stand for is half outside.
+        // The first and the last sample represent intervals that lie half outside the motion.
         if (half.middle > 0.0 && half.middle < 1.0)
           result.push_back(half);
       }

@@ -16,26 +16,26 @@
 
 namespace gpu_planning_scene::core
 {
-/// The motions of one call of MotionChecker::check: first their samples, then, where the rule asks for it, what is
-/// between these.
+/// The motions of one call of MotionChecker::check. Their samples are checked first. If the rule is Bound, the segments
+/// between the samples are then proven to be free.
 class MotionBatch
 {
  public:
   MotionBatch(StateChecker& checker, const RobotModel& robot, const std::string& group,
               const MotionCheckerOptions& options, MotionQuery question, const std::function<bool()>& stop);
 
-  /// Rows of all variables, which must outlive this.
+  /// Adds a motion. `from` and `to` are rows of all variables; they must outlive this object.
   void add(const double* from, const double* to);
 
-  /// Few samples of each motion first: most motions that collide do so at one of them.
+  /// Checks the samples, a few of each motion first: most colliding motions collide at one of these.
   void checkSamples();
-  /// Then, what of the motions that are left is between their samples.
+  /// Proves that the motions that are still valid are free between their samples.
   void prove();
   std::vector<MotionVerdict> verdicts() const;
   std::size_t statesChecked() const { return states_checked_; }
 
  private:
-  /// The part of a motion that a sample stands for: fractions from middle - half to middle + half.
+  /// The segment of a motion that a sample represents: the fractions from middle - half to middle + half.
   struct Interval
   {
     std::size_t motion;
@@ -49,17 +49,17 @@ class MotionBatch
   {
     const double* from;
     const double* to;
-    std::size_t parts;                // its samples are the fractions 0, 1 / parts, ... 1
-    std::vector<std::size_t> order;   // of its samples: ends first, then middles of what is between those before
-    std::vector<JointTravel> travel;  // Bound: of all of it
-    double longest_travel = 0.0;      // of them
-    std::size_t samples = 0;          // that were taken
-    double limit = 1.0;               // what is beyond this fraction is not wanted any more
+    std::size_t parts;                // number of segments; the samples are the fractions 0, 1 / parts, ... 1
+    std::vector<std::size_t> order;   // order of the samples, see bisectionOrder
+    std::vector<JointTravel> travel;  // travel of each joint over the whole motion (rule Bound)
+    double longest_travel = 0.0;      // largest length or angle in `travel`
+    std::size_t samples = 0;          // number of samples that were checked
+    double limit = 1.0;               // the motion is not checked beyond this fraction any more
     double first_invalid = 1.0;
     bool valid = true;
     BodyPair colliding = kNoPair;
 
-    /// Nothing of it is free, or none of it can be proven.
+    /// Rejects the whole motion, because it needs too many samples or is outside the joints' limits.
     void reject()
     {
       valid = false;
@@ -74,7 +74,7 @@ class MotionBatch
     return last_valid_ ? interval.begin() < motion.limit : motion.valid;
   }
 
-  /// The middle of the interval is not free, or the interval is not proven to be.
+  /// Rejects the motion from this interval on: its middle collides, or the interval cannot be proven to be free.
   void fail(const Interval& interval, const BodyPair& colliding)
   {
     Motion& motion = motions_[interval.motion];
@@ -86,8 +86,8 @@ class MotionBatch
     motion.colliding = colliding;
   }
 
-  /// Calls visit(interval, free, colliding pair) for what the checker says of the middles, with or without margins; not
-  /// free once the call is stopped.
+  /// Checks the middles of the intervals, with or without margins, and calls visit(interval, free, colliding pair) for
+  /// each. After the call has been stopped, `free` is false.
   template <class Visit>
   void ask(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit);
   std::vector<Interval> firstIntervals() const;

@@ -6,15 +6,15 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Whether `attached` may touch the link, as it is the one that carries it, or one of its touch links.
+/// Whether `attached` may touch the link: the link carries it, or is one of its touch links.
 bool mayTouch(const AttachedObject& attached, int link)
 {
   return link == attached.link ||
          std::find(attached.touch_links.begin(), attached.touch_links.end(), link) != attached.touch_links.end();
 }
 
-/// Pairs that are never checked for what is carried, as in MoveIt: with its link and touch links, and two objects of
-/// one link.
+/// Whether a pair is never checked because of an attached object, as in MoveIt: an attached object with its link or one
+/// of its touch links, or two objects attached to the same link.
 bool touchByCarrying(const RobotBody& a, const RobotBody& b)
 {
   if (a.attached && b.attached)
@@ -70,7 +70,7 @@ CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<Robo
     body_rows.push_back(matrix.row(*body.name));
   for (const WorldObject& object : scene.objects)
     object_rows.push_back(matrix.row(object.id));
-  // Of most objects the matrix knows nothing: it says the same of them all.
+  // The allowed collision matrix has no entry for most objects; all of them have the same verdict for a body.
   struct Solid
   {
     std::uint32_t object;

@@ -13,36 +13,36 @@
 
 namespace gpu_planning_scene::core
 {
-/// A body that moves with the robot: a link, or an object that a link carries.
+/// A body that moves with the robot: a link or an attached object.
 struct RobotBody
 {
   int body;  ///< body index of the planning scene
-  int link;  ///< that it moves with
+  int link;  ///< link that the body moves with
   const std::string* name;
   const std::vector<PlacedShape>* shapes;
-  Eigen::Isometry3d pose;          ///< of the shapes' frame in the link's
-  double padding;                  ///< metres: its link's, and for what is carried its own on top
+  Eigen::Isometry3d pose;          ///< pose of the shapes' frame in the frame of the link
+  double padding;                  ///< metres: the padding of the link; for an attached object, plus its own padding
   const AttachedObject* attached;  ///< null for a link
 };
 
-/// The links, then the attached objects, of those that have shapes. Points into the scene.
+/// The links that have shapes, followed by the attached objects that have shapes. The result points into the scene.
 std::vector<RobotBody> robotBodies(const PlanningScene& scene);
 
 struct CheckedPair
 {
   std::uint32_t body;   ///< index into the robot's bodies
-  std::uint32_t other;  ///< self pairs: a later one; world pairs: index of an object
+  std::uint32_t other;  ///< self pairs: index of a later body; world pairs: index of an object
   bool moved;           ///< the group moves at least one of the two
 };
 
-/// What is checked of a scene, whatever the group, by pairs of bodies that have shapes.
+/// The checked pairs of a scene for all groups. Both bodies of a pair have shapes.
 struct CheckedPairs
 {
   std::vector<CheckedPair> self;
   std::vector<CheckedPair> world;
 };
 
-/// Moves the pairs of which leaves(pair) is true from one list to the end of another.
+/// Moves the pairs for which leaves(pair) is true from one list to the end of another.
 template <class Predicate>
 void takePairs(std::vector<CheckedPair>& from, std::vector<CheckedPair>& to, const Predicate& leaves)
 {
@@ -56,10 +56,11 @@ void takePairs(std::vector<CheckedPair>& from, std::vector<CheckedPair>& to, con
   from.erase(std::remove_if(from.begin(), from.end(), taken), from.end());
 }
 
-/// How many of the pairs the group moves.
+/// The number of pairs that the group moves.
 std::size_t countMoved(const std::vector<CheckedPair>& pairs);
 
-/// `moved`: of each link, whether the group moves it. Counts in `report` what is checked and what is left out.
+/// Finds the checked pairs of a scene. `moved` tells for each link whether the group moves it. Counts the checked pairs
+/// and the omitted ones in `report`.
 CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
                               const std::vector<bool>& moved, SceneReport& report);
 }  // namespace gpu_planning_scene::core

@@ -13,11 +13,11 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Adds the trees of shapes to a problem, each distinct one once.
+/// Adds the trees of shapes to a problem. If trees are shared, each distinct shape gets one tree.
 class TreeTable
 {
  public:
-  /// `shapes`: about how many there will be.
+  /// `shapes`: the approximate number of shapes.
   TreeTable(CollisionProblem& problem, bool share, TessellationCache& tessellations, std::size_t shapes)
     : problem_(problem), share_(share), tessellations_(tessellations)
   {
@@ -45,14 +45,14 @@ class TreeTable
   std::unordered_map<ShapeKey, std::uint32_t, ShapeKeyHash> trees_;
 };
 
-/// A half-open range of indices of geometries.
+/// A half-open range of indices of shape instances.
 struct Range
 {
   std::size_t begin;
   std::size_t end;
 };
 
-/// What of CollisionProblem::robot, ::world and ::half_spaces belongs to a body.
+/// The ranges of CollisionProblem::robot, ::world and ::half_spaces that belong to each body.
 struct Instances
 {
   std::vector<Range> of_body;  // into the robot's instances, by index of a RobotBody
@@ -77,7 +77,8 @@ void addObject(const WorldObject& object, std::int32_t body, TreeTable& trees, C
   }
 }
 
-/// Adds the bodies that are in a checked pair of any group, the robot's first.
+/// Adds the instances of all bodies that are in a checked pair of any group: first the robot's bodies, then the
+/// objects.
 Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>& bodies, const CheckedPairs& pairs,
                        bool share_trees, TessellationCache& tessellations, CollisionProblem& problem)
 {
@@ -121,14 +122,14 @@ Instances addInstances(const PlanningScene& scene, const std::vector<RobotBody>&
   return instances;
 }
 
-/// Marks a row of a pair matrix from column `columns.begin` to `columns.end`.
+/// Marks the columns [columns.begin, columns.end) of one row of a pair matrix.
 void markPairs(std::vector<std::uint8_t>& matrix, std::size_t width, std::size_t row, const Range& columns)
 {
-  for (std::size_t column = columns.begin; column < columns.end; ++column)  // one, mostly
+  for (std::size_t column = columns.begin; column < columns.end; ++column)  // mostly one column
     matrix[row * width + column] = 1;
 }
 
-/// Adds the pairs of instances of those pairs of bodies that the group moves.
+/// Adds the instance pairs of all body pairs that the group moves.
 void addPairs(const CheckedPairs& pairs, const Instances& instances, CollisionProblem& problem)
 {
   for (const CheckedPair& pair : pairs.self)
@@ -156,7 +157,8 @@ void addPairs(const CheckedPairs& pairs, const Instances& instances, CollisionPr
   }
 }
 
-/// A point near the robot, whatever its limits: where they leave out 0, states are taken at the nearer limit.
+/// The position of a link in the robot's default state. A variable whose limits exclude 0 takes the limit nearest to 0
+/// instead, so that the point is near the robot.
 Eigen::Vector3d originFor(const RobotModel& robot, int link)
 {
   std::vector<double> state = robot.defaultState();

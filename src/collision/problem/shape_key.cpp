@@ -7,7 +7,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A primitive is known by its kind and extents.
+/// The kind and the half extents identify a primitive.
 ShapeKey::ShapeKey(const Shape& shape) : kind(shape.index()), dimensions(Eigen::Vector3d::Zero()), mesh(nullptr)
 {
   if (isMesh(shape))

@@ -8,10 +8,10 @@
 
 namespace gpu_planning_scene::core
 {
-/// Equal for shapes that can share a tree: primitives of the same kind and dimensions, or the same mesh.
+/// Keys are equal if the shapes can share a tree: primitives of the same kind and dimensions, or the same mesh.
 struct ShapeKey
 {
-  /// Of a shape that is not a half-space.
+  /// `shape` must not be a half-space.
   explicit ShapeKey(const Shape& shape);
 
   std::size_t kind;

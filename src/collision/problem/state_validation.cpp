@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// With as many digits as tell 1e39 from 1e6.
+/// The number with up to 9 significant digits; very large numbers get an exponent.
 std::string text(double value)
 {
   std::array<char, 32> digits;

@@ -8,14 +8,13 @@
 
 namespace gpu_planning_scene::core
 {
-/// Throws Error if there is no scene, or it has no robot.
+/// Throws Error if there is no scene, or if the scene has no robot.
 void requireRobot(const std::shared_ptr<const PlanningScene>& scene);
 
-/// Throws Error where `around` is not for `count` states of this robot, or one of its ways is not finite and at least
-/// 0.
+/// Throws Error if `around` does not fit `count` states of this robot, or if a joint travel is not finite or below 0.
 void validateNeighbourhood(const RobotModel& robot, const JointNeighbourhood& around, std::size_t count);
 
-/// Throws Error if one of `count` rows of the robot's variables holds a value that is not finite or beyond
-/// Variable::largest.
+/// Throws Error if one of `count` states (rows of the robot's variables) has a value that is not finite or exceeds
+/// Variable::largest in magnitude.
 void validateStates(const RobotModel& robot, const double* states, std::size_t count);
 }  // namespace gpu_planning_scene::core

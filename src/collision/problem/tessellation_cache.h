@@ -8,8 +8,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Tessellations that somebody still has: the next scene gets the same meshes for equal primitives, by which trees are
-/// known.
+/// Finds tessellations that are still in use. Equal primitives of consecutive scenes then get the same mesh, and trees
+/// are identified by their mesh.
 class TessellationCache
 {
  public:

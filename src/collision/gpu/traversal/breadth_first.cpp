@@ -4,6 +4,8 @@
 
 #include "shader_constants.h"
 
+// Four dispatches per level: test the child pairs, sum the counts, write the next level's list and the leaf pairs, test
+// the triangles of the leaf pairs (Gress and Zachmann 2003).
 namespace gpu_planning_scene::core
 {
 namespace
@@ -49,7 +51,7 @@ void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
     program->set(LOCATION_LEAF_PAIR_CAPACITY, lists.capacity.leaf_pairs);
   }
   leaf_pairs_.bindTexture(UNIT_LEAF_PAIRS);
-  // The list shrinks to nothing as soon as all pairs have come to an end; the dispatches that follow are empty.
+  // The list is empty as soon as all pairs have ended; the remaining dispatches then do nothing.
   for (std::uint32_t level = 0; level < task.levels; ++level)
   {
     const std::uint32_t out_counter = level % 2 == 0 ? COUNTER_ENTRIES_ODD : COUNTER_ENTRIES_EVEN;

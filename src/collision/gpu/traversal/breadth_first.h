@@ -4,9 +4,10 @@
 
 namespace gpu_planning_scene::core
 {
-/// Gress and Zachmann 2003: level by level over packed lists of overlapping node pairs; sums of overlap counts place
-/// the next level's pairs (shaders/traversal/level.glsl). The CPU does not wait in between: each level sizes the next
-/// one's dispatches.
+/// Breadth-first traversal (Gress and Zachmann 2003). Each level reads a packed list of overlapping node pairs and
+/// counts the overlapping child pairs. Prefix sums of the counts place the pairs of the next level
+/// (shaders/traversal/level.glsl). The CPU does not wait between levels: each level computes the size of the next
+/// level's dispatches.
 class BreadthFirst : public GpuTraversal
 {
  public:

@@ -13,16 +13,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// How long the lists of a batch may get. A list that is too short makes the batch be split.
+/// Capacities of a batch's lists, in entries. If a list overflows, the batch is split.
 struct ListCapacities
 {
   std::uint32_t candidates = 0;  ///< pairs of instances whose spheres or outer boxes overlap
-  std::uint32_t root_pairs = 0;  ///< of them, those whose root boxes overlap
-  std::uint32_t node_pairs = 0;  ///< of one level (breadth-first), or spilled (work queues)
-  std::uint32_t leaf_pairs = 0;  ///< of one level (breadth-first)
+  std::uint32_t root_pairs = 0;  ///< candidates whose root boxes overlap
+  std::uint32_t node_pairs = 0;  ///< of one level (breadth-first), or left for another pass (work queues)
+  std::uint32_t leaf_pairs = 0;  ///< leaf pairs of one level (breadth-first)
 };
 
-/// The lists of a batch in GPU memory, see shaders/shader_constants.h and shaders/traversal/root pairs.glsl.
+/// The lists of a batch in GPU memory, see shaders/shader_constants.h and shaders/traversal/root_pairs.glsl.
 struct BatchLists
 {
   explicit BatchLists(const ListCapacities& capacities);
@@ -30,25 +30,25 @@ struct BatchLists
   ListCapacities capacity;
   Buffer counters;
   TexelBuffer candidates, root_pairs;
-  TexelBuffer mesh_entries, solid_entries;  ///< the root pairs' root pairs: of two meshes, of a mesh and a solid
-  std::array<TexelBuffer, 2> node_pairs;    ///< what traversals leave for the next level or pass, in turns
+  TexelBuffer mesh_entries, solid_entries;  ///< node pairs to start from: of two meshes; of a mesh and a solid
+  std::array<TexelBuffer, 2> node_pairs;    ///< node pairs for the next level or pass, by turns
 };
 
-/// What a traversal has before it.
+/// The task of one traversal.
 struct TraversalTask
 {
-  bool solids = false;       ///< pairs of a mesh and a solid, else of two meshes
+  bool solids = false;       ///< true: pairs of a mesh and a solid; false: pairs of two meshes
   bool padded = false;       ///< some pairs have a required distance
   float tolerance = 0.0F;    ///< metres
-  std::uint32_t levels = 1;  ///< no tree has more
+  std::uint32_t levels = 1;  ///< upper bound of the levels of a tree
 };
 
-/// The programs of one shader, one for each kind of task, compiled when it is wanted for the first time: merely to hold
-/// the code for what a task does not need halves the speed on llvmpipe.
+/// The programs of one shader, one for each kind of task. A program is compiled when it is first needed. Separate
+/// programs pay off, because code that a task does not need halves the speed on llvmpipe even if it never runs.
 class TaskPrograms
 {
  public:
-  /// What of a task makes a difference to a shader.
+  /// The properties of a task that affect a shader.
   enum class Needs
   {
     All,
@@ -64,26 +64,27 @@ class TaskPrograms
   std::array<std::optional<Program>, 8> programs_;
 };
 
-/// Takes the node pairs of a batch to their ends: every pair of overlapping leaves has its triangles tested.
-/// Used on the context's thread, with the scene and the lists bound.
+/// Traverses the trees of all root pairs of a batch down to the leaves. Each pair of overlapping leaves has its
+/// triangles tested. Used on the context's thread, with the scene and the lists bound.
 class GpuTraversal
 {
  public:
   virtual ~GpuTraversal() = default;
 
-  /// Compiles what `start` needs for such a task.
+  /// Compiles the programs that `start` needs for this task.
   virtual void prepare(const TraversalTask& task) = 0;
 
-  /// Traverses from the entries of the task's kind, without waiting for the device: where something is left undone, as
-  /// a list overflowed or the device ended work early, counters[COUNTER_OVERFLOW] says so.
+  /// Starts the traversal from the entries of the task's kind, without waiting for the device. Sets
+  /// counters[COUNTER_OVERFLOW] if work is left undone, because a list overflowed or the device ended invocations
+  /// early.
   virtual void start(BatchLists& lists, const TraversalTask& task) = 0;
 };
 
-/// `definitions`: for the programs, see Program.
+/// `definitions`: preprocessor definitions for the programs, see Program.
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,
                                             const std::string& definitions, const ListCapacities& capacities);
 
-/// Dispatches that size other dispatches.
+/// A kernel that computes the size of a later indirect dispatch on the device.
 class ArgumentsKernel
 {
  public:
@@ -91,8 +92,8 @@ class ArgumentsKernel
   {
   }
 
-  /// Writes indirect arguments for a list of counters[counter] elements, at most `capacity`, in workgroups of `lanes`;
-  /// sets counters[cleared] to 0.
+  /// Writes the indirect arguments for a list of counters[counter] elements, at most `capacity`, in work groups that
+  /// handle `lanes` elements each. Sets counters[cleared] to 0.
   void prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes, std::uint32_t cleared) const;
   static std::size_t argumentsOffset();
 

@@ -2,11 +2,14 @@
 
 #include "shader_constants.h"
 
+// Runs a fixed number of passes without waiting. Before each pass a small dispatch computes the size of the pass on the
+// device; the last one sets the overflow counter if node pairs remain.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-/// One, as a rule: what follows is for what the stacks or the granted iterations were too short for.
+/// Usually one pass suffices. The others take the node pairs for which the stacks or the allowed iterations did not
+/// suffice.
 constexpr std::uint32_t kPasses = 3;
 }  // namespace
 

@@ -4,9 +4,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// Every lane walks node pairs with a stack of its own, a workgroup shares a list of leaf pairs
-/// (shaders/traversal/work_queue.comp). A pass that could not finish within the iterations that a device grants hands
-/// on what is left to the next pass.
+/// Depth-first traversal with work queues (shaders/traversal/work_queue.comp). Each invocation walks node pairs with
+/// its own stack, and a work group shares a list of leaf pairs. If a pass cannot finish within the iterations that a
+/// device allows, it leaves the remaining node pairs to the next pass.
 class WorkQueue : public GpuTraversal
 {
  public:

@@ -6,13 +6,16 @@
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
 
+// Three steps: a radix sort of the Morton codes within each mesh; BUILD_ROUNDS rounds of merging, in which each round
+// computes the size of the next round's dispatches; the layout, which goes through the rounds in reverse order.
 namespace gpu_planning_scene::core
 {
 namespace
 {
 constexpr std::size_t kUint = sizeof(std::uint32_t);
 
-/// So that no lane of the prefix sums comes near the 65535 iterations after which llvmpipe ends it.
+/// With at most this many primitives, no invocation of the prefix sums comes near 65535 iterations, after which
+/// llvmpipe ends it.
 constexpr std::size_t kMostPrimitives = std::size_t{1} << 23;
 
 std::size_t divideUp(std::size_t value, std::size_t by)
@@ -33,7 +36,7 @@ std::vector<float> floatVertices(const std::vector<const Mesh*>& meshes)
         for (int axis = 0; axis < 3; ++axis)
         {
           const double value = mesh->vertices[corner][axis];
-          if (!(std::abs(value) < 1e9))  // products of four lengths, as in the bounds of errors, must be floats too
+          if (!(std::abs(value) < 1e9))  // products of four lengths, which the error bounds use, must fit into a float
             throw Error("mesh " + mesh->name + ": coordinate " + std::to_string(value) +
                         " m is out of range; check the mesh's unit and scale");
           vertices.push_back(static_cast<float>(value));
@@ -185,7 +188,7 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   gather_program_.set(LOCATION_PRIMITIVE_COUNT, static_cast<std::uint32_t>(count));
   gather_program_.dispatch(groupsFor(count));
 
-  // One record more than there are rounds: what the last one leaves, and where the final clusters lie.
+  // One record more than rounds: it holds the number and the place of the final clusters.
   rounds_.reserve(kUint * (BUILD_ROUNDS + 1) * ROUND_STRIDE);
   rounds_.clear();
   const std::size_t lanes = count == mesh_count ? 0 : count;

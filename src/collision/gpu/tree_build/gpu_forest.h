@@ -13,30 +13,32 @@
 
 namespace gpu_planning_scene::core
 {
-/// Where a forest lies among others in shared buffers.
+/// The place of a forest in buffers that it shares with other forests.
 struct ForestRegion
 {
-  std::uint32_t first_node = 0;       ///< the roots lie here, one per mesh, then the pairs of children
+  std::uint32_t first_node = 0;       ///< first the roots, one per mesh, then the pairs of children
   std::uint32_t node_count = 0;       ///< 2 * primitives - meshes
-  std::uint32_t first_primitive = 0;  ///< of its primitives in the leaf order
+  std::uint32_t first_primitive = 0;  ///< first primitive in the leaf order
   std::uint32_t primitive_count = 0;
-  std::uint32_t depth = 0;  ///< no root lies further than this above a leaf
+  std::uint32_t depth = 0;  ///< upper bound of the number of levels between a root and a leaf
 };
 
-/// Builds bounding volume trees on the GPU, many at once: Morton order (Lauterbach et al. 2009), then bottom-up merging
-/// of nearest neighbours by surface area (Meister and Bittner 2018, PLOC), which gives trees of SAH quality without a
-/// separate pass of improvement, then leaves and nodes are laid out from the roots down.
-/// Every primitive lies in exactly one leaf; zero-area and duplicate triangles are primitives like any other; the depth
-/// is at most BUILD_ROUNDS. Used on the context's thread.
+/// Builds bounding volume hierarchies on the GPU, many at once. Primitives are sorted in Morton order (Lauterbach et
+/// al. 2009). Nearest neighbours by surface area are then merged from the leaves up (PLOC, Meister and Bittner 2018).
+/// This gives trees of SAH quality without a separate optimisation pass. Finally leaves and nodes are laid out from the
+/// roots down.
+///
+/// Each primitive is in exactly one leaf, also zero-area and duplicate triangles. The depth is at most BUILD_ROUNDS.
+/// Used on the context's thread.
 class GpuForestBuilder
 {
  public:
   explicit GpuForestBuilder(const std::string& shader_folder);
 
-  /// Trees over the triangles of `meshes`, with leaves of at most LEAF_TRIANGLES. Writes the nodes, the leaf order and
-  /// the triangles' vertices (three texels each, in leaf order) after `region`'s first_node and first_primitive,
-  /// growing the buffers as needed, and completes `region`. Throws Error where a mesh's coordinates do not fit into
-  /// float32.
+  /// Builds trees over the triangles of `meshes`, with leaves of at most LEAF_TRIANGLES. Writes the nodes, the leaf
+  /// order and the triangles' vertices (three texels each, in leaf order), beginning at first_node and first_primitive
+  /// of `region`. Grows the buffers as needed and fills in the rest of `region`. Throws Error if a mesh's coordinates
+  /// are too large for float32.
   void buildTriangles(const std::vector<const Mesh*>& meshes, ForestRegion& region, TexelBuffer& nodes,
                       Buffer& leaf_order, TexelBuffer& triangles);
 
@@ -44,7 +46,7 @@ class GpuForestBuilder
   void build(std::size_t primitive_count, const std::vector<std::uint32_t>& first_primitive, std::uint32_t leaf_size,
              ForestRegion& region, TexelBuffer& nodes, Buffer& leaf_order);
   void sortByMorton(std::size_t primitive_count, std::size_t mesh_count);
-  /// Returns the number of rounds that merged: a bound on the depth.
+  /// Returns the number of rounds that merged clusters, which is an upper bound of the depth.
   std::uint32_t mergeClusters(std::size_t primitive_count, std::size_t mesh_count);
   void layOut(std::size_t mesh_count, std::uint32_t leaf_size, const ForestRegion& region, const TexelBuffer& nodes,
               const Buffer& leaf_order);

@@ -10,26 +10,26 @@
 
 namespace gpu_planning_scene::core
 {
-/// A node with its oriented box as it lies in GPU memory (shaders/problem/oriented_nodes.glsl). In the mesh's frame,
-/// metres.
+/// A node with its oriented box in the layout of the GPU's memory (shaders/problem/oriented_nodes.glsl). In the mesh's
+/// frame, in metres.
 struct OrientedNode
 {
   std::array<float, 3> center;
-  std::uint32_t first;  ///< as Node has it
+  std::uint32_t first;  ///< as in Node
   std::array<float, 3> half;
-  std::uint32_t count;               ///< likewise
-  std::array<float, 4> orientation;  ///< quaternion x, y, z, w: of the box in the mesh's frame
+  std::uint32_t count;               ///< as in Node
+  std::array<float, 4> orientation;  ///< quaternion x, y, z, w of the box in the mesh's frame
 };
 static_assert(sizeof(OrientedNode) == 48, "three RGBA32UI texels");
 
-/// Fits an oriented box to every node of trees on the GPU, by its triangles: see shaders/tree_build/fit.glsl. Used on
-/// the context's thread.
+/// Fits an oriented box to the triangles of each node on the GPU, see shaders/tree_build/fit.glsl (Gottschalk, Lin and
+/// Manocha, "OBBTree", 1996). Used on the context's thread.
 class GpuOrientedBoxes
 {
  public:
   explicit GpuOrientedBoxes(const std::string& shader_folder);
 
-  /// Writes the oriented nodes of a region, in the places of its nodes, growing the buffer as needed.
+  /// Writes the oriented nodes of a region at the same indices as its nodes. Grows the buffer as needed.
   void fit(const ForestRegion& region, const TexelBuffer& nodes, const TexelBuffer& triangles, TexelBuffer& oriented);
 
  private:

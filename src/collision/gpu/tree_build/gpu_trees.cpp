@@ -7,15 +7,17 @@
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
 
+// New trees are appended to the buffers, so existing ones need not be moved. If too much memory is unused, all trees
+// are dropped and the current ones are built again.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Memory is cleared of trees that nobody uses when they are as many as the others, and this many triangles.
+/// Unused trees are dropped when they have more triangles than the used trees plus this number.
 constexpr std::size_t kFewTriangles = 65536;
 
-/// Meshes are built together up to this many triangles, so that a dispatch takes about 50 ms on llvmpipe, and work
-/// space stays small. A larger mesh is built alone.
+/// Meshes are built together up to this number of triangles, so that a dispatch takes about 50 ms on llvmpipe and the
+/// work space stays small. A larger mesh is built alone.
 constexpr std::size_t kTrianglesAtOnce = std::size_t{1} << 18U;
 }  // namespace
 
@@ -187,7 +189,7 @@ Forest GpuTrees::readForest(const std::vector<std::size_t>& numbers) const
     std::uint32_t first_node;
     std::uint32_t first_leaf;
   };
-  std::map<std::size_t, Place> places;  // of builds, in the forest
+  std::map<std::size_t, Place> places;  // key: build; value: its place in the forest
   for (const std::size_t number : numbers)
   {
     const Entry& entry = *chosen_[number];
