@@ -36,7 +36,8 @@ float positionError(Pose a, Pose b, Pose pose, vec3 far_a, vec3 far_b)
   return u * (length(parts) + length(far_a)) * (1.0 + 64.0 * u);
 }
 
-// Upper bound on the error of the position of b's box in a, and of the depth of a point of b in the solid a.
+// Upper bound on the error of the position of b's box in the frame of a, and of the depth of a point of b
+// in the solid a.
 float boxError(float position_error)
 {
   return 8.0 * position_error;

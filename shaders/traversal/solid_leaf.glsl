@@ -53,7 +53,7 @@ bool liesBeyond(vec3 corners[3], Instance solid, vec3 n, float beyond)
 // Hit: von Neumann's alternating projections between the triangle and a core of the solid, which lies a depth below the
 // surface. A point of the triangle is inside the solid if its distance from the core is less than that depth. The depth
 // shrinks from step to step. Two of three steps are prolonged to the plane that bounds the core at the point found.
-// Each step proves something or nothing, so the convergence of the search does not affect correctness.
+// A step that proves nothing leaves the result undecided, so the convergence of the search does not affect correctness.
 uint triangleSolid(vec3 corners[3], Instance solid, float error, float distance, float gap)
 {
   float size = dot(solid.size, solid.size);
