@@ -191,15 +191,15 @@
 #define COUNTER_ROOT_PAIRS 1
 #define COUNTER_NEXT_ENTRY 2      // work queues: the next entry that no invocation has taken
 #define COUNTER_OVERFLOW 3        // not 0: a list was too short or work remained, so the batch must be split
-#define COUNTER_ENTRIES_EVEN 4    // node pairs: two lists that are read and written in turn
+#define COUNTER_ENTRIES_EVEN 4    // node pairs: this list and the next one are read and written in turn
 #define COUNTER_ENTRIES_ODD 5
 #define COUNTER_LEAF_PAIRS 6
-#define COUNTER_LANES_ENDED 7     // work queues: invocations that reached their end, and invocations that were started
-#define COUNTER_LANES_STARTED 8
-#define COUNTER_MESH_ENTRIES 9    // root pairs whose shapes are both made of triangles, and root pairs with a solid
-#define COUNTER_SOLID_ENTRIES 10
-#define COUNTER_SCRATCH 11       // never read: for shaders that must clear some counter
-#define COUNTER_DONE 15          // the serial number of the part, once all its work is done
+#define COUNTER_LANES_ENDED 7     // work queues: invocations that reached their end
+#define COUNTER_LANES_STARTED 8   // work queues: invocations that were started
+#define COUNTER_MESH_ENTRIES 9    // root pairs whose shapes are both made of triangles
+#define COUNTER_SOLID_ENTRIES 10  // root pairs with a solid
+#define COUNTER_SCRATCH 11        // never read: for shaders that must clear some counter
+#define COUNTER_DONE 15           // the serial number of the part, once all its work is done
 #define COUNTER_ARGUMENTS 12      // indirect arguments: three uints each
 #define COUNTER_LEAF_ARGUMENTS 16
 #define COUNTER_CHUNK_ARGUMENTS 20

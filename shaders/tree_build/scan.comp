@@ -37,8 +37,8 @@ void main()
     const uint lanes = remaining == mesh_count ? 0u : remaining;
     setGroups(next + ROUND_CLUSTER_GROUPS, lanes);
     setGroups(next + ROUND_CHUNK_GROUPS, (lanes + CHUNK - 1u) / CHUNK);
-    // The rounds that follow write no clusters. So this record keeps the buffer to which this round, the last one, writes
-    // the roots: 1 for the odd clusters (layout_roots.comp).
+    // The rounds that follow write no clusters. So this record keeps the buffer to which this round, the last one,
+    // writes the roots: 1 for the odd clusters (layout_roots.comp).
     if (!done && remaining == mesh_count)
       rounds[BUILD_ROUNDS * ROUND_STRIDE + ROUND_PAIRS] = (round_index + 1u) & 1u;
   }
