@@ -1,11 +1,12 @@
 #pragma once
-// Constants and layouts that the shaders and the C++ code share. Read by both: preprocessor lines and comments only.
+// Constants and buffer layouts that the shaders and the C++ code share. Both read this file, so it holds only
+// preprocessor lines and comments.
 
-// Lanes of a workgroup, but for the work queues.
+// Invocations of a work group (lanes). Work groups of the work queues have QUEUE_LANES instead.
 #define GROUP_SIZE 64
 
-// --- Uniforms -----------------------------------------------------------------------------------------------------------
-// Where each of them is set; no two have the same place.
+// --- Uniforms ------------------------------------------------------------------------------------------------------
+// The location of each uniform. No two of these uniforms share a location.
 #define LOCATION_STATE_COUNT 0
 #define LOCATION_ROBOT_COUNT 1
 #define LOCATION_WORLD_COUNT 2
@@ -48,40 +49,44 @@
 #define LOCATION_LISTED_COUNT 39
 #define LOCATION_CASE_COUNT 40
 
-// --- Building trees ---------------------------------------------------------------------------------------------------
-// A tree's leaf holds at most this many triangles.
+// --- Building trees ------------------------------------------------------------------------------------------------
+// A leaf of a tree holds at most this many triangles.
 #define LEAF_TRIANGLES 4
-// A leaf in one word: its first triangle below this bit, its number of triangles less one above.
+// A leaf is packed into one word. The bits below this one hold its first triangle, the bits from this one on hold its
+// number of triangles minus 1.
 #define LEAF_COUNT_SHIFT 30
-// A primitive that is tested as a solid has a tree of one leaf, with this bit for a triangle, and its instance.
+// A primitive that is tested as a solid has a tree of one leaf. The first triangle of that leaf is this bit combined
+// with the index of the primitive's instance.
 #define SOLID_LEAF (1u << 29)
-// What testing a triangle costs in a traversal, a node's box being 1 (surface area heuristic).
+// Cost of testing one triangle in a traversal, relative to the cost of testing one box (surface area heuristic).
 #define TRIANGLE_COST 0.4
-// Oriented boxes: nodes of up to this many triangles are fitted by one lane, of more by a workgroup, of even more not at all.
+// Oriented boxes: one invocation fits a node of up to FIT_LANE_TRIANGLES triangles, a work group fits a node of up to
+// FIT_MOST_TRIANGLES. A larger node keeps its axis-aligned box.
 #define FIT_LANE_TRIANGLES 128
 #define FIT_MOST_TRIANGLES 65536
-// Elements that one lane of the sort and of the compaction handles in sequence.
+// Number of elements that one invocation of the sort and of the compaction handles in sequence.
 #define CHUNK 32
 #define RADIX_BITS 4
 #define RADIX_SIZE 16
 #define MORTON_BITS 30
-// Clusters look for their nearest neighbour this far to both sides.
+// A cluster looks for its nearest neighbour among this many clusters before it and as many after it.
 #define SEARCH_RADIUS 12
-// Merge rounds by nearest neighbour, then rounds that merge neighbours regardless, so that the depth is bounded.
+// The first rounds merge clusters that are nearest neighbours. The forced rounds then merge adjacent clusters whatever
+// their boxes, so that the depth of the trees is bounded.
 #define NEAREST_ROUNDS 40
 #define FORCED_ROUNDS 44
 #define BUILD_ROUNDS (NEAREST_ROUNDS + FORCED_ROUNDS)
-// One record of the build's round list, in uints.
+// Size of one record of the build's list of rounds, in uints, and the places of its fields.
 #define ROUND_STRIDE 12
-#define ROUND_CLUSTER_GROUPS 0   // indirect arguments: a lane per cluster
-#define ROUND_CLUSTERS 3         // how many clusters the round begins with
-#define ROUND_CHUNK_GROUPS 4     // indirect arguments: a lane per CHUNK clusters
-#define ROUND_FIRST_PAIR 7       // pairs of children made before this round
-#define ROUND_PAIR_GROUPS 8      // indirect arguments: a lane per pair that the round made
-#define ROUND_PAIRS 11           // how many pairs the round made
+#define ROUND_CLUSTER_GROUPS 0   // indirect arguments: one invocation per cluster
+#define ROUND_CLUSTERS 3         // number of clusters at the beginning of the round
+#define ROUND_CHUNK_GROUPS 4     // indirect arguments: one invocation per CHUNK clusters
+#define ROUND_FIRST_PAIR 7       // number of pairs of children made before this round
+#define ROUND_PAIR_GROUPS 8      // indirect arguments: one invocation per pair that the round made
+#define ROUND_PAIRS 11           // number of pairs that the round made
 
-// --- Checking batches of states -----------------------------------------------------------------------------------------
-// Buffer textures.
+// --- Checking batches of states ------------------------------------------------------------------------------------
+// Units of the buffer textures.
 #define UNIT_NODES 0
 #define UNIT_TRIANGLES 1
 #define UNIT_ROBOT_POSES 2
@@ -90,119 +95,127 @@
 #define UNIT_ENTRIES 5
 #define UNIT_LEAF_PAIRS 6
 #define UNIT_CANDIDATES 7
-#define UNIT_INSTANCES 8     // three texels an instance, see instances.glsl; robot's first, then the world's
-#define UNIT_OBJECT_TREE 9   // two texels a node, see check_world_broad.comp
+#define UNIT_INSTANCES 8     // three texels each, see problem/instances.glsl; the robot's first, then the world's
+#define UNIT_OBJECT_TREE 9   // two texels a node, see broad_phase/world_pairs.comp
 #define UNIT_WORLD_PAIRS 10  // bits [robot][world], 128 a texel
-#define UNIT_QUERIES 11     // see searches.glsl
+#define UNIT_QUERIES 11     // see broad_phase/queries.glsl
 #define UNIT_SPHERES 12      // [robot][state]
-#define UNIT_STATES 13       // these two: see kinematics.glsl
+#define UNIT_STATES 13       // this one and the next: see problem/kinematics.glsl
 #define UNIT_LINK_SHAPES 14
 #define UNIT_ORIENTED_NODES 15
-#define UNIT_MARGINS 16      // see margins.glsl
-// Storage buffers.
+#define UNIT_MARGINS 16      // see problem/margins.glsl
+// Bindings of the storage buffers.
 #define BINDING_COUNTERS 0
 #define BINDING_FLAGS 1       // one uint a state: STATE_* bits
-#define BINDING_HITS 2        // one uint a state: the pair that was hit
-#define BINDING_A 3           // these differ from kernel to kernel
+#define BINDING_HITS 2        // one uint a state: a pair that collides
+#define BINDING_A 3           // BINDING_A to BINDING_D differ from shader to shader
 #define BINDING_B 4
 #define BINDING_C 5
 #define BINDING_D 6
 
-// What float32 is trusted with, see docs/error_bounds.md. The relative error of one operation in any rounding mode; the
-// distance within which the contract leaves the answer to one canonical computation on the CPU (1e-9 m) and some.
+// Limits of float32, derived in docs/error_bounds.md. UNIT_ROUNDOFF bounds the relative error of one operation in every
+// rounding mode (2^-23). CONTRACT_BAND (metres) is slightly more than the 1e-9 m within which the contract leaves the
+// verdict to one canonical computation on the CPU.
 #define UNIT_ROUNDOFF 1.1920929e-7
 #define CONTRACT_BAND 1.1e-9
 
-// 0 on a device whose arithmetic is not as assumed: then no triangle test proves anything.
+// 0 on a device whose float32 arithmetic failed the self-test. Tests of triangles then prove nothing.
 #ifndef FLOATS_DECIDE
 #define FLOATS_DECIDE 1
 #endif
 
-// 1 in the programs that traverse pairs of a mesh and a solid, 0 in those for pairs of meshes.
+// 1 in the programs that traverse pairs of a mesh and a solid, 0 in the programs that traverse pairs of meshes.
 #ifndef SOLIDS
 #define SOLIDS 0
 #endif
 
-// 1 in the programs that may stop early, see tolerance.glsl.
+// 1 in the programs that may end a traversal early, see traversal/tolerance.glsl.
 #ifndef TOLERANT
 #define TOLERANT 0
 #endif
 
-// 1 in the programs for batches with margins, see margins.glsl.
+// 1 in the programs for batches with margins, see problem/margins.glsl.
 #ifndef MARGINS
 #define MARGINS 0
 #endif
 
-// 1 in the programs that test triangles for a required distance.
+// 1 in the programs that also compare the distance of two triangles with a required distance.
 #ifndef PADDED
 #define PADDED 0
 #endif
 
-// The bits of float32's infinity: those of NaN are larger.
+// The bits of infinity in float32. As unsigned integers, the bits of every NaN are larger.
 #define INFINITY_BITS 0x7f800000u
 
+// Bits of the verdict of a state. Both may be set; the hit then counts.
 #define STATE_HIT 1u
 #define STATE_UNDECIDED 2u
 
-// What an instance's shape is: a mesh without closed components is a surface, the others are solids.
+// Kinds of the shape of an instance. SOLID_NONE is a mesh without closed components: it is a surface and has no inside.
+// All other kinds are solids.
 #define SOLID_NONE 0u
 #define SOLID_BOX 1u
 #define SOLID_SPHERE 2u
 #define SOLID_CYLINDER 3u
 #define SOLID_CONE 4u
 #define SOLID_MESH 5u
-// Steps in which a triangle and a solid look for the place where they are nearest.
+// Most steps of the search for the nearest points of a triangle and a solid (traversal/solid_leaf.glsl).
 #define SOLID_ITERATIONS 16u
-// A mesh of more connected components than this is not looked into for containment on the GPU.
+// The GPU tests a mesh for containment only if it has at most this many connected components. Otherwise the state
+// becomes undecided.
 #define MAX_COMPONENTS 1024
 
-// A pair of instances in one uint: a robot instance, and a robot instance or (robot count + a world instance).
+// A pair of instances is packed into one uint. The upper bits hold a robot instance. The lower PAIR_OTHER_BITS bits
+// hold the other instance: first come the robot instances, then the world instances, then the half-spaces.
 #define PAIR_OTHER_BITS 20
 #define MAX_ROBOT_INSTANCES (1 << 12)
 #define MAX_INSTANCES (1 << PAIR_OTHER_BITS)
 
-// Lanes that one dispatch of a part may have: indices of lanes and texels are products in 32 bits, which must not wrap.
+// Most invocations that one dispatch of a part may have. Indices of invocations and texels are products in 32 bits,
+// which must not overflow.
 #define MOST_LANES (1 << 30)
 
-// How many others one search of the broad phase compares a robot instance with, 16 bits each, and none.
+// One query of the broad phase among links compares a robot instance with up to this many others, 16 bits each.
+// NO_PARTNER marks an unused place.
 #define QUERY_PARTNERS 6
 #define NO_PARTNER 0xffffu
-// A node of the tree over objects that is not a leaf.
+// Marks an inner node in the tree over the world's objects.
 #define NO_OBJECT 0xffffffffu
 
-// A root pair's texels, see root pairs.glsl.
+// Number of texels of one root pair, see traversal/root_pairs.glsl.
 #define ROOT_PAIR_TEXELS 5
 
-// Counters, in uints. Each list has a count and, before each dispatch over it, indirect arguments.
+// Places of the counters (uints). Each list has a count. Its indirect arguments are written before each dispatch over
+// it.
 #define COUNTER_CANDIDATES 0
 #define COUNTER_ROOT_PAIRS 1
-#define COUNTER_NEXT_ENTRY 2      // work queues: the next entry that nobody has taken
-#define COUNTER_OVERFLOW 3        // not 0: a list was too short or work was left, the batch has to be split
-#define COUNTER_ENTRIES_EVEN 4    // node pairs; the two lists take turns
+#define COUNTER_NEXT_ENTRY 2      // work queues: the next entry that no invocation has taken
+#define COUNTER_OVERFLOW 3        // not 0: a list was too short or work remained, so the batch must be split
+#define COUNTER_ENTRIES_EVEN 4    // node pairs: this list and the next one are read and written in turn
 #define COUNTER_ENTRIES_ODD 5
 #define COUNTER_LEAF_PAIRS 6
-#define COUNTER_LANES_ENDED 7     // work queues: lanes that came to their end, and that were started
-#define COUNTER_LANES_STARTED 8
-#define COUNTER_MESH_ENTRIES 9    // root pairs whose shapes are both made of triangles, and those with a solid
-#define COUNTER_SOLID_ENTRIES 10
-#define COUNTER_SCRATCH 11       // may be cleared
-#define COUNTER_DONE 15          // the part's serial number, when all of its work is done
-#define COUNTER_ARGUMENTS 12      // three uints
+#define COUNTER_LANES_ENDED 7     // work queues: invocations that reached their end
+#define COUNTER_LANES_STARTED 8   // work queues: invocations that were started
+#define COUNTER_MESH_ENTRIES 9    // root pairs whose shapes are both made of triangles
+#define COUNTER_SOLID_ENTRIES 10  // root pairs with a solid
+#define COUNTER_SCRATCH 11        // never read: for shaders that must clear some counter
+#define COUNTER_DONE 15           // the serial number of the part, once all its work is done
+#define COUNTER_ARGUMENTS 12      // indirect arguments: three uints each
 #define COUNTER_LEAF_ARGUMENTS 16
 #define COUNTER_CHUNK_ARGUMENTS 20
-#define COUNTER_PASS_ENTRIES 23   // work queues: how many entries the pass has
+#define COUNTER_PASS_ENTRIES 23   // work queues: number of entries of the pass
 #define COUNTER_WORDS 24
 
-// Breadth-first traversal: node pairs that one lane handles in sequence.
+// Breadth-first traversal: number of node pairs that one invocation handles in sequence.
 #define LEVEL_CHUNK 8
-// Leaf pairs whose triangles a workgroup spreads over its lanes at once.
+// Number of leaf pairs whose triangles a work group distributes over its invocations at once.
 #define LEAF_CHUNK 64
-// Work queues: lanes of a workgroup, its most workgroups, steps between two barriers, node pairs that a lane's stack
-// holds, leaf pairs at which the group turns to triangles.
-#define QUEUE_LANES 32
-#define QUEUE_MAX_GROUPS 2048
-#define QUEUE_STEPS 8
-#define QUEUE_STACK 48
-#define QUEUE_FLUSH 32
-// llvmpipe ends an invocation silently after 65535 loop iterations; a lane hands its work on before that.
+// Work queues.
+#define QUEUE_LANES 32         // invocations of a work group
+#define QUEUE_MAX_GROUPS 2048  // most work groups of a dispatch
+#define QUEUE_STEPS 8          // most steps of an invocation between two barriers
+#define QUEUE_STACK 48         // node pairs and leaf pairs that the memory of an invocation holds
+#define QUEUE_FLUSH 32         // number of leaf pairs from which on the work group tests their triangles
+// llvmpipe ends an invocation without an error after 65535 loop iterations. An invocation hands its work on before
+// that.
 #define LANE_ITERATIONS 50000

@@ -1,4 +1,5 @@
-// The list of (state, pair) whose root boxes are still to be tested.
+// The list of candidates: pairs of instances in a state whose root boxes must still be tested. A full list sets
+// COUNTER_OVERFLOW.
 #include "common/counters.glsl"
 layout(location = LOCATION_CANDIDATE_CAPACITY) uniform uint candidate_capacity;
 layout(std430, binding = BINDING_B) writeonly buffer Candidates { uvec2 candidates[]; };

@@ -1,5 +1,6 @@
-// One lane per (state, robot instance): whether the shape reaches into one half-space of the world. The lowest corner above
-// the plane decides, found by a walk of the shape's tree; tessellations lie within their solids.
+// One invocation per (state, robot instance): tests whether the shape reaches into one half-space of the world, and
+// reports the verdict. The lowest corner above the plane decides. A traversal of the shape's tree finds it. A
+// tessellation lies within its solid, so the slack is added to the gap. Lengths are in metres.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -14,12 +15,13 @@ layout(location = LOCATION_HALF_SPACE_COUNT) uniform uint half_space_count;
 layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
 layout(location = LOCATION_HALF_SPACE) uniform uint half_space;
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
-// Two vec4 each: the plane's normal and offset; the padding.
+// Two vec4 a half-space: the normal and the offset of its plane; its padding.
 layout(std430, binding = BINDING_C) readonly buffer HalfSpaces { vec4 half_spaces[]; };
-layout(std430, binding = BINDING_D) readonly buffer HalfSpacePairs { uint half_space_pairs[]; };  // bits [robot][half-space]
+// One bit per pair: [robot][half-space].
+layout(std430, binding = BINDING_D) readonly buffer HalfSpacePairs { uint half_space_pairs[]; };
 
-// STATE_* bits: a corner is proven to lie at most `distance` above the plane; one may lie at most `gap` above it.
-// Normal and offset are in the tree's frame.
+// Returns STATE_* bits: STATE_HIT if a corner is proven to lie at most `distance` above the plane, STATE_UNDECIDED if a
+// corner may lie at most `gap` above it. The normal and the offset are in the frame of the tree.
 uint reachesDown(uint root, vec3 normal, float offset, float error, float distance, float gap)
 {
   uint stack[BUILD_ROUNDS + 2];
@@ -51,7 +53,7 @@ uint reachesDown(uint root, vec3 normal, float offset, float error, float distan
       }
     }
   }
-  // What is left of the tree was not looked at, whoever ended the loop.
+  // Nodes are left on the stack if the steps ran out or the device ended the loop. Their triangles were not tested.
   return top > 0 && (found & STATE_HIT) == 0u ? STATE_UNDECIDED : found;
 }
 

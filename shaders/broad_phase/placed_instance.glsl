@@ -1,6 +1,6 @@
-// The box around a robot instance's root, placed, and by how much all that is compared with it has to grow: rounding of the pose,
-// of the product and of the comparison, 1e-5 of all lengths that enter. What an object's own box needs, its rounding outwards
-// provides.
+// The root box of a robot instance, placed by its pose, and the margin by which every volume that is compared with it
+// must grow. The margin covers the rounding of the pose, of the product and of the comparison: 1e-5 of all lengths that
+// enter. The box of an object was rounded outwards, which covers its own error. Lengths are in metres.
 #include "problem/margins.glsl"
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
 
@@ -9,8 +9,9 @@ struct PlacedInstance
   Instance instance;
   Box box;      // of the root, in the shape's frame
   Pose pose;
-  vec3 center;  // of the box, in the planning frame
-  float way;    // how far it may move, metres
+  vec3 center;  // of the box, relative to the scene's origin
+  float way;    // how far the instance may move against the world (worldMargin)
+  // Slack, band of the contract and rounding.
   float margin;
 };
 

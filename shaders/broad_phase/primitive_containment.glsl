@@ -1,8 +1,9 @@
-// Whether a shape has a part inside a primitive without touching its surface: one point of each of its connected components
-// tells, as long as no surfaces meet, which the traversal finds.
+// Tests whether a part of a shape lies inside a primitive without touching its surface. One point of each connected
+// component decides, provided that no surfaces meet. The traversal finds surfaces that meet. Lengths are in metres.
 #include "problem/components.glsl"
 
-// How far a point is inside a solid, in metres; negative outside, and then no further than the true distance.
+// The depth of a point below the surface of a solid. It is negative outside, where its absolute value is at most the
+// true distance.
 float depthInSolid(Instance solid, vec3 p)
 {
   const vec3 size = solid.size;
@@ -15,14 +16,16 @@ float depthInSolid(Instance solid, vec3 p)
     return size.x - length(p);
   if (solid.kind == SOLID_CYLINDER)
     return min(size.x - length(p.xy), size.z - abs(p.z));
-  // A cone's radius shrinks from size.x at the base, z = -size.z, to 0 at the apex; the distance is to its side.
+  // The radius of a cone shrinks from size.x at its base (z = -size.z) to 0 at its apex. side * slope is the depth
+  // below the side of the cone.
   const float side = size.x * (size.z - p.z) / (2.0 * size.z) - length(p.xy);
   const float slope = 2.0 * size.z / sqrt(size.x * size.x + 4.0 * size.z * size.z);
   return min(side * slope, p.z + size.z);
 }
 
-// STATE_HIT if a point of `inner`, placed by `pose` in the primitive's frame, is inside by more than `error`;
-// STATE_UNDECIDED if one is within the error, or if there are too many components to look at; else 0.
+// Returns STATE_* bits: STATE_HIT if a point of `inner` is inside the primitive by more than `error`, STATE_UNDECIDED
+// if a point is within `error` of its surface or if `inner` has too many components. `pose` places `inner` in the frame
+// of the primitive.
 uint containment(Instance inner, Instance solid, Pose pose, float error)
 {
   if (!isPrimitive(solid))

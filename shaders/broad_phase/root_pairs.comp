@@ -1,5 +1,6 @@
-// One lane per candidate: the relative pose, the test of the root boxes, and whether one is inside the other, a solid.
-// What remains becomes a root pair and the node pair that its traversal begins with.
+// One invocation per candidate: computes the relative pose, tests the root boxes, and tests whether one shape is inside
+// the other one, a primitive. A candidate that remains becomes a root pair (traversal/root_pairs.glsl) and the node
+// pair with which its traversal begins. Lengths are in metres.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -15,12 +16,13 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "problem/margins.glsl"
 layout(location = LOCATION_CANDIDATE_CAPACITY) uniform uint candidate_capacity;
 layout(location = LOCATION_ROOT_PAIR_CAPACITY) uniform uint root_pair_capacity;
-layout(location = LOCATION_SOLID_NODES) uniform uint solid_nodes;  // where the nodes of primitives lie, one an instance; 0: these have trees of triangles
+// First node of the primitives, one node an instance. 0: primitives are tested by their triangles.
+layout(location = LOCATION_SOLID_NODES) uniform uint solid_nodes;
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
 layout(binding = UNIT_WORLD_POSES) uniform usamplerBuffer world_poses;
 layout(binding = UNIT_CANDIDATES) uniform usamplerBuffer candidates;
 layout(std430, binding = BINDING_A) writeonly buffer RootPairs { uvec4 root_pairs[]; };
-// Node pairs that traversals begin with: of two meshes, of a mesh and a solid.
+// The node pairs with which traversals begin: of two meshes, and of a mesh and a solid.
 layout(std430, binding = BINDING_B) writeonly buffer MeshEntries { uvec4 mesh_entries[]; };
 layout(std430, binding = BINDING_D) writeonly buffer SolidEntries { uvec4 solid_entries[]; };
 
@@ -44,7 +46,7 @@ void main()
   const Pose pose = relativePose(pose_a, pose_b);
   const Instance a = fetchInstance(other);
   const Instance b = fetchInstance(robot);
-  // One of the two is tested as the solid it is, and not by triangles.
+  // At most one of the two shapes is tested as a solid. The other one is tested by its triangles.
   const bool a_is_solid = solid_nodes != 0u && isPrimitive(a);
   const bool b_is_solid = solid_nodes != 0u && !a_is_solid && isPrimitive(b);
   const uint root_a = a_is_solid ? solid_nodes + other : a.root;
@@ -57,7 +59,8 @@ void main()
   const float gap = requiredGap(distance, (a_is_solid ? 0.0 : a.slack) + (b_is_solid ? 0.0 : b.slack));
   if (nodesApart(fetchOrientedNode(root_a), fetchOrientedNode(root_b), pose, boxMargin(gap, error)))
     return;
-  // What the traversal tests against a solid, it finds inside as well.
+  // The traversal finds triangles inside the shape that it tests as a solid. So an uncertain result for that shape is
+  // dropped here.
   uint inside = containment(b, a, pose, boxError(error)) & (a_is_solid ? STATE_HIT : ~0u);
   inside |= containment(a, b, inversePose(pose), inverseError(error, far_a)) & (b_is_solid ? STATE_HIT : ~0u);
   if (inside != 0u)

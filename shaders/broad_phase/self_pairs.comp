@@ -1,4 +1,5 @@
-// Broad phase among links: one lane per (state, query), which compares the sphere of one robot instance with those of six others.
+// Broad phase among links. One invocation per (state, query): compares the bounding sphere of a robot instance with the
+// spheres of six others. Overlapping spheres make a candidate.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

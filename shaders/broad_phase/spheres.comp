@@ -1,4 +1,4 @@
-// One lane per (state, robot instance): the sphere around its root box in the planning frame, for the broad phase among links.
+// One invocation per (state, robot instance): writes the sphere around its root box, for the broad phase among links.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -6,7 +6,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "geometry/pose.glsl"
 #include "problem/nodes.glsl"
 #include "broad_phase/placed_instance.glsl"
-layout(std430, binding = BINDING_A) writeonly buffer Spheres { vec4 spheres[]; };  // centre and radius
+// xyz: the centre, relative to the scene's origin; w: the radius; metres.
+layout(std430, binding = BINDING_A) writeonly buffer Spheres { vec4 spheres[]; };
 
 void main()
 {

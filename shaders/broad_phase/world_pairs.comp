@@ -1,5 +1,6 @@
-// Broad phase against the world: one lane per (state, query), a query being for what is near one robot instance. It walks the
-// tree over world instances with the box around the instance's root box.
+// Broad phase against the world. One invocation per (state, query): finds the world instances near one robot instance.
+// It traverses the tree over the world instances with the bounding box of the robot instance. Overlapping boxes make a
+// candidate.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -10,8 +11,9 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "broad_phase/placed_instance.glsl"
 #include "broad_phase/queries.glsl"
 layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
-// A node: its box's centre, and which node comes next where the boxes are apart; half extents, and the instance or NO_OBJECT.
-// Where they overlap, the next node in the list comes next, so no stack is needed; past the last one the walk ends.
+// Two texels a node. First: the centre of its box, and the next node if the boxes are apart. Second: the half extents,
+// and the world instance or NO_OBJECT. If the boxes overlap, the next node is the next one in the list, so no stack is
+// needed. The traversal ends behind the last node.
 layout(binding = UNIT_OBJECT_TREE) uniform usamplerBuffer object_tree;
 layout(binding = UNIT_WORLD_PAIRS) uniform usamplerBuffer world_pairs;
 
@@ -40,12 +42,13 @@ void main()
     const uvec4 head = texelFetch(object_tree, int(2u * at));
     const uvec4 tail = texelFetch(object_tree, int(2u * at + 1u));
     const bool apart = any(greaterThan(abs(uintBitsToFloat(head.xyz) - center), uintBitsToFloat(tail.xyz) + extent));
-    // A loop: it costs only those that take it.
+    // A loop instead of a branch: on llvmpipe, only the invocations that enter it pay for it.
     for (bool leaf = !apart && tail.w != NO_OBJECT && isChecked(robot, tail.w); leaf; leaf = false)
       addCandidate(state, packPair(robot, robot_count + tail.w));
     at = apart ? head.w : at + 1u;
   }
-  // Too many objects for one lane: what is left is not lost, the batch is split and its states become undecided.
+  // The tree was too large for one invocation. The overflow makes the host split the batch, and a single state that
+  // still overflows becomes undecided. So no object is lost.
   if (at < node_count)
     atomicOr(counters[COUNTER_OVERFLOW], 1u);
 }

@@ -1,4 +1,5 @@
-// One lane, the last of a part's work: its serial number says that nothing was dropped before.
+// One invocation, in the last dispatch of a part: writes the serial number of the part. This number proves to the host
+// that no earlier dispatch of the part was dropped.
 #include "shader_constants.h"
 layout(local_size_x = 1) in;
 #include "common/counters.glsl"

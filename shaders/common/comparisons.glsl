@@ -1,6 +1,7 @@
-// Comparisons that prove something, and that no compiler may turn round.
-// Whether a > b, for numbers that are not negative. Compilers may assume that no float is NaN, and then turn a comparison
-// round; they may not assume it of integers. NaN has larger bits than infinity: where a or b is NaN, this is false.
+// A comparison of floats that no compiler can invert. A compiler may assume that no float is NaN, and replace a > b by
+// the negation of a <= b, which is true for a NaN. It may not assume this of integers, so the bits are compared.
+// Returns true if a > b, for a and b that are not negative. The result is false if a or b is NaN, because the bits of a
+// NaN are larger than those of infinity.
 bool provenGreater(float a, float b)
 {
   const uint bits = floatBitsToUint(a);

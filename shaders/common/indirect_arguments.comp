@@ -1,5 +1,6 @@
-// One lane: indirect arguments for dispatches over a list of `counter` elements, at most `capacity`, and of
-// workgroups of `lanes` lanes; `cleared` starts again from 0.
+// One invocation: writes the indirect arguments of dispatches over a list, with `lanes` elements for each work group.
+// In: the length of the list, counters[counter], of which at most `capacity` elements exist. Out: three uints from
+// counters[argument_offset] on. It also sets counters[cleared] to 0.
 #include "shader_constants.h"
 layout(local_size_x = 1) in;
 #include "common/counters.glsl"
@@ -7,7 +8,7 @@ layout(local_size_x = 1) in;
 layout(location = LOCATION_COUNTER) uniform uint counter;
 layout(location = LOCATION_CAPACITY) uniform uint capacity;
 layout(location = LOCATION_LANES) uniform uint lanes;
-layout(location = LOCATION_ARGUMENT_OFFSET) uniform uint argument_offset;  // where they go among the counters
+layout(location = LOCATION_ARGUMENT_OFFSET) uniform uint argument_offset;  // place of the arguments among the counters
 layout(location = LOCATION_CLEARED) uniform uint cleared;
 
 void main()

@@ -1,4 +1,5 @@
-// Indirect arguments among the counters; more than 65535 workgroups are spread over y.
+// Writes the indirect arguments of `groups` work groups to the counters from place `at` on. OpenGL grants 65535 work
+// groups along x; more of them are spread over y.
 void setGroups(uint at, uint groups)
 {
   const uint rows = (groups + 65534u) / 65535u;

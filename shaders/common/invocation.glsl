@@ -1,5 +1,5 @@
-// What every kernel needs: its place in the dispatch. Dispatches of more than 65535 workgroups are spread over y.
-// Include it after the declaration of local_size_x.
+// The place of an invocation in its dispatch. A dispatch of more than 65535 work groups is spread over y. Include this
+// file after the declaration of local_size_x.
 #include "shader_constants.h"
 
 uint groupIndex()

@@ -1,12 +1,12 @@
-// A pixel of a picture: diffuse light from the eye and a little more from above, the same on both faces of a triangle, as
-// meshes may be open or inside out.
+// One invocation per drawn pixel of a picture: diffuse light from the eye and a little more light from above. Both
+// faces of a triangle are lit alike, because meshes may be open or inside out.
 
 layout(location = 0) uniform vec3 eye;  // metres, in the planning frame
 layout(location = 1) uniform vec3 up;   // of unit length
 
-layout(location = 0) in vec3 place;
-layout(location = 1) flat in vec3 facing;
-layout(location = 2) flat in vec4 paint;
+layout(location = 0) in vec3 place;        // metres, in the planning frame
+layout(location = 1) flat in vec3 facing;  // the triangle's normal, of unit length
+layout(location = 2) flat in vec4 paint;   // the triangle's colour
 
 layout(location = 0) out vec4 color;
 

@@ -1,9 +1,10 @@
-// A corner of a triangle of a picture: src/render/renderer.cpp.
+// One invocation per corner of a triangle of a picture: projects the corner and passes its colour and normal on.
+// src/render/renderer.cpp sets the inputs.
 
 layout(location = 0) uniform mat4 to_clip_space;
 
 layout(location = 0) in vec3 position;  // metres, in the planning frame
-layout(location = 1) in vec3 normal;    // of its triangle
+layout(location = 1) in vec3 normal;    // of the corner's triangle, of unit length
 layout(location = 2) in vec4 color;
 
 out gl_PerVertex

@@ -1,4 +1,4 @@
-// Rigid motions: x -> rotation * x + translation. Lengths in metres.
+// Rigid transforms: x -> rotation * x + translation. Lengths are in metres.
 struct Pose
 {
   mat3 rotation;
@@ -30,7 +30,7 @@ vec3 apply(Pose pose, vec3 point)
   return moved;
 }
 
-// The pose of b in a's frame, both given in the same frame.
+// The pose of b in the frame of a. The poses a and b are given in one common frame.
 Pose relativePose(Pose a, Pose b)
 {
   const mat3 inverse = transpose(a.rotation);

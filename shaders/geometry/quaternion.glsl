@@ -1,4 +1,5 @@
-// Rotations as quaternions (x, y, z, w), of length 1 but for rounding: entries of the matrix are then right to 25 u.
+// Rotations as quaternions (x, y, z, w). Their length is 1 up to rounding. The entries of rotationOf's matrix are then
+// off by at most 25 u.
 mat3 rotationOf(vec4 q)
 {
   const vec3 twice = 2.0 * q.xyz;
@@ -15,7 +16,8 @@ vec4 product(vec4 a, vec4 b)
   return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz));
 }
 
-// Of a rotation, from the largest of its four entries, so that nothing cancels.
+// The quaternion of a rotation matrix (Shepperd 1978). It is computed from the largest of the
+// quaternion's four entries, so that no digits cancel.
 vec4 quaternionOf(mat3 m)
 {
   const vec4 squares = vec4(1.0 + m[0].x - m[1].y - m[2].z, 1.0 - m[0].x + m[1].y - m[2].z, 1.0 - m[0].x - m[1].y + m[2].z,

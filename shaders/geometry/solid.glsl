@@ -1,17 +1,20 @@
-// Primitives as the solids they are, in their own frames: points and directions around a box, sphere, cylinder or cone.
+// Primitives as solids, in their own frames: cores, nearest points and extents of a box, sphere, cylinder or cone.
+// Lengths are in metres.
 
-// A solid of the same kind that lies at least `depth` within this one: sizes for projectToCore. A cone's core is the cone
-// whose base and side have moved inwards; x is its radius, y the height of its base, z that of its apex.
+// The sizes of the core at `depth`, for projectToCore. The core is a solid of the same kind whose points all lie at
+// least `depth` below the surface of this solid. The core of a cone is the cone whose base and side have moved inwards:
+// x is the radius of its base, y the height of its base, z the height of its apex.
 vec3 coreSize(Instance solid, float depth)
 {
   const vec3 size = solid.size;
-  const float slope = 2.0 * size.z * inversesqrt(size.x * size.x + 4.0 * size.z * size.z);  // of the side's normal outwards
+  // The radial component of the outward normal of the side.
+  const float slope = 2.0 * size.z * inversesqrt(size.x * size.x + 4.0 * size.z * size.z);
   const float base = size.x * (2.0 * size.z - depth) / (2.0 * size.z) - depth / slope;
   const vec3 cone = vec3(base, depth - size.z, depth - size.z + 2.0 * size.z * base / size.x);
   return solid.kind == SOLID_CONE ? cone : size - depth;
 }
 
-// The depth at which there is next to nothing left of the solid.
+// The depth at which the core has no volume left: the radius of the largest sphere inside the solid.
 float innerRadius(Instance solid)
 {
   const vec3 size = solid.size;
@@ -20,7 +23,7 @@ float innerRadius(Instance solid)
   return solid.kind == SOLID_CONE ? cone : min(size.x, min(size.y, size.z));
 }
 
-// The point of the core that is nearest to p, or near it.
+// The point of the core that is nearest to p, up to rounding.
 vec3 projectToCore(uint kind, vec3 core, vec3 p)
 {
   if (kind == SOLID_BOX)
@@ -31,7 +34,7 @@ vec3 projectToCore(uint kind, vec3 core, vec3 p)
   const vec2 outward = radius > 0.0 ? p.xy / radius : vec2(0.0);
   if (kind == SOLID_CYLINDER)
     return vec3(outward * min(radius, core.x), clamp(p.z, -core.z, core.z));
-  // In the plane through axis and point: the cone is a triangle, its side runs from (core.x, core.y) to (0, core.z).
+  // A cone: in the plane through its axis and p it is a triangle, whose side runs from (core.x, core.y) to (0, core.z).
   const vec2 side = vec2(-core.x, core.z - core.y);
   const vec2 to = vec2(radius - core.x, p.z - core.y);
   const bool inside = p.z >= core.y && to.x * side.y - to.y * side.x <= 0.0;
@@ -43,7 +46,7 @@ vec3 projectToCore(uint kind, vec3 core, vec3 p)
   return inside ? p : vec3(outward * nearest.x, nearest.y);
 }
 
-// How far the solid reaches along a direction: the most that n . x is for its points.
+// The extent of the solid along a direction (support function): the largest n . x of its points x.
 float extentAlong(Instance solid, vec3 n)
 {
   const vec3 size = solid.size;

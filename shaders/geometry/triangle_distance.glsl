@@ -1,6 +1,7 @@
-// The distance of two triangles against a required one. Closest points are sought among edges and corners (Ericson 2005,
-// "Real-Time Collision Detection", 5.1); how well they were found matters not, since they are only witnesses: their own
-// distance bounds the triangles' from above, and the corners' extent along the line between them bounds it from below.
+// Compares the distance of two triangles with a required distance. The nearest points are searched among edges and
+// corners (Ericson 2005, "Real-Time Collision Detection", 5.1). These points are only witnesses, so the accuracy of the
+// search does not matter: their own distance bounds the triangles' distance from above, and the extents of the corners
+// along the line between them bound it from below.
 struct Witness
 {
   vec3 on_a;
@@ -16,7 +17,7 @@ void keepNearer(vec3 on_a, vec3 on_b, inout Witness best)
     best = Witness(on_a, on_b, squared);
 }
 
-// A quotient that is no number gives 0: still a point of the edge.
+// numerator / denominator, clamped to [0, 1]. A NaN becomes 0, which is still a point of the edge.
 float fraction(float numerator, float denominator)
 {
   const float t = numerator / denominator;
@@ -37,7 +38,7 @@ void edgeEdge(vec3 p, vec3 along_p, vec3 q, vec3 along_q, inout Witness best)
   keepNearer(p + s * along_p, q + t * along_q, best);
 }
 
-// The foot of a corner on the other triangle, where it lies within.
+// Projects a corner onto the plane of the other triangle. Returns true if the foot lies within that triangle.
 bool footWithin(vec3 corner, vec3 origin, vec3 e1, vec3 e2, out vec3 foot)
 {
   const vec3 to = corner - origin;
@@ -49,8 +50,9 @@ bool footWithin(vec3 corner, vec3 origin, vec3 e1, vec3 e2, out vec3 foot)
   return s >= 0.0 && t >= 0.0 && s + t <= 1.0;
 }
 
-// Like trianglePair, for triangles that are not known to meet: STATE_HIT if their distance is proven to be at most
-// `distance`, 0 if it is proven to be more than `gap`.
+// The test after trianglePair, for triangles that are not proven to meet. Returns STATE_HIT if their distance is proven
+// to be at most `distance`, 0 if it is proven to be more than `gap`, else STATE_UNDECIDED. In: the corners in one frame
+// (metres); the corners of b are off by at most `error` relative to the corners of a.
 uint triangleDistance(vec3 a[3], vec3 b[3], float error, float distance, float gap)
 {
   vec3 pa[3];

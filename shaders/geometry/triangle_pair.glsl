@@ -1,14 +1,15 @@
-// Two triangles: proven to meet (STATE_HIT), proven to be more than `gap` apart (0), or undecided (STATE_UNDECIDED).
-// a and b are the corners in one frame, metres; b's, which were placed with their shape's origin at `origin_b`, are off by at
-// most `error` against a's. Uses the six distances of
-// corners to the other's plane and the nine volumes that an edge of a spans with an edge of b (Devillers and Guigue 2002
-// decide by their signs): a hit is an edge that pierces the other triangle, apart is a separating axis out of the two
-// normals and the nine products of edges. A sign counts only beyond the bound on what it may be off by, and an axis, which
-// need not be exact, only if all corners lie on their sides of it (docs/error_bounds.md). Comparisons are written so that
-// a value that is no number proves nothing.
+// Tests two triangles. Returns STATE_HIT if they are proven to meet, 0 if they are proven to be more than `gap` apart,
+// else STATE_UNDECIDED. In: the corners of a and b in one frame (metres). The shape of b was placed with its origin at
+// `origin_b`; the corners of b are off by at most `error` relative to the corners of a.
+// The test uses the six distances of corners to the plane of the other triangle, and the nine volumes that an edge of a
+// spans with an edge of b. Devillers and Guigue (2002) decide by their signs. A hit is an edge that pierces the other
+// triangle. The triangles are apart if one of eleven axes separates them: the two normals and the nine cross products
+// of edges.
+// A sign counts only if the value exceeds its error bound. An axis need not be exact, but it counts only if all corners
+// lie on their sides of it (docs/error_bounds.md). Comparisons are written so that a NaN proves nothing.
 uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
 {
-  precise vec3 r[3];  // b's corners from a's first: differences of close numbers lose nothing
+  precise vec3 r[3];  // b's corners relative to a's first one: differences of close numbers lose no digits
   precise vec3 ea[3];
   precise vec3 eb[3];
   float squared_a = 0.0;
@@ -36,8 +37,9 @@ uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
   precise const vec3 na = cross(ea[0], ea[1]);
   precise const vec3 nb = cross(eb[0], eb[1]);
 
-  // What edges are off by: the placing of b moves all its corners alike but for their own roundings. The longest edges, and
-  // the longest way between corners; as long as the true ones may be.
+  // edge_a, edge_b: bounds on the errors of edges. Placing b moves all its corners nearly alike, apart from the
+  // rounding of each corner. length_a, length_b, reach: upper bounds on the true lengths of the edges, and on the
+  // distance between two corners.
   float length_a = sqrt(squared_a) * (1.0 + 8.0 * u);
   float length_b = sqrt(squared_b) * (1.0 + 8.0 * u);
   const float edge_a = u * (1.1 * far_a + length_a);
@@ -45,12 +47,14 @@ uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
   length_a += edge_a;
   length_b += edge_b;
   const float reach = sqrt(squared_r) * (1.0 + 8.0 * u) + length_a + length_b + error;
-  // What a determinant is off by: of a corner of b above a's plane, of a corner of a above b's plane, and of a volume.
+  // Error bounds of the determinants: error_b for the height of a corner of b above a's plane, error_a for the height
+  // of a corner of a above b's plane, error_v for a volume.
   const float error_r = error + 8.0 * u * reach;
   const float error_b = length_a * (2.0 * edge_a * reach + length_a * error_r) + TINY;
   const float error_a = length_b * (2.0 * edge_b * reach + length_b * error_r) + TINY;
   const float error_v = (edge_a * length_b + length_a * edge_b) * reach + length_a * length_b * error_r + TINY;
-  // What all corners together must be beyond an axis of length 1, and what the axes are askew by.
+  // beyond: the separation that all corners must have along an axis of length 1. error_span: bound on the error of the
+  // extents along a cross product of edges.
   const float beyond = (error + gap + 6.0 * u * reach) * (1.0 + 16.0 * u);
   const float squared_beyond = beyond * beyond * (1.0 + 32.0 * u);
   const float error_span = 20.0 * u * length_a * length_b * (length_a + length_b) + TINY;
@@ -68,20 +72,21 @@ uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
                gap_b > beyond * lengthAtMost(na) + 3.0 * u * length_a * length_a * length_a + TINY;
   bool hit = false;
 
-  // One bit per edge pair for the sign of its volume, where it is certain.
+  // For each edge of b: true while its volumes with the edges of a are all certainly positive (above), or negative
+  // (below).
   bvec3 b_edge_above = bvec3(true);
   bvec3 b_edge_below = bvec3(true);
   for (int i = 0; i < 3; ++i)
   {
     const int i1 = (i + 1) % 3;
-    precise const float span_b = dot(nb, ea[i]);  // b's extent along the product of edges, from edge j to the corner opposite
+    precise const float span_b = dot(nb, ea[i]);  // extent of b along the axis, from edge j to the opposite corner
     bool all_above = true;
     bool all_below = true;
     for (int j = 0; j < 3; ++j)
     {
       precise const vec3 axis = cross(ea[i], eb[j]);
       precise const float volume = dot(axis, b[j] - a[i]);
-      precise const float span_a = -dot(na, eb[j]);  // the same of a
+      precise const float span_a = -dot(na, eb[j]);  // extent of a
       const float separation = max(volume + min(0.0, span_b) - max(0.0, span_a), min(0.0, span_a) - volume - max(0.0, span_b));
       const float certain = separation - error_span;
       apart = apart || (certain > LEAST_SQUARED && certain * certain > squared_beyond * (dot(axis, axis) + LOST_SQUARE));

@@ -1,24 +1,25 @@
-// Whether a point is inside the solid that a mesh's closed components bound: the signed crossings of a ray along a
-// coordinate axis add up to the winding number. A ray that comes too near to an edge, or begins too near to the surface,
-// tells nothing.
+// Tests whether a point is inside the solid that the closed components of a mesh bound. The signed crossings of a ray
+// along a coordinate axis add up to the winding number of the point, which is 0 outside. A ray that passes too near to
+// an edge, or begins too near to the surface, decides nothing.
 layout(std430, binding = BINDING_A) readonly buffer LeafOrder { uint leaf_order[]; };
-layout(std430, binding = BINDING_B) readonly buffer SolidTriangles { uint solid_triangles[]; };  // bits
+layout(std430, binding = BINDING_B) readonly buffer SolidTriangles { uint solid_triangles[]; };  // one bit per triangle
 
-// Triangles count where they belong to a closed component.
+// Returns true if the triangle at this place of the leaf order belongs to a closed component. Only these triangles
+// count.
 bool boundsSolid(uint primitive)
 {
   const uint triangle = leaf_order[primitive];
   return (solid_triangles[triangle >> 5u] >> (triangle & 31u) & 1u) != 0u;
 }
 
-// Twice the area that an edge spans with the origin.
+// Twice the signed area of the triangle between the origin and an edge.
 float spanned(vec2 from, vec2 to)
 {
   return from.x * to.y - from.y * to.x;
 }
 
-// +1 or -1 if the ray from the origin along +z crosses the triangle, by its direction; 0 if it does not;
-// UNCERTAIN_CROSSING if that is not certain. Corners are off by at most `error`.
+// The crossing of a triangle by the ray from the origin along +z: +1 or -1 by the direction of the triangle, 0 if the
+// ray misses it, UNCERTAIN_CROSSING if rounding leaves this open. The corners are off by at most `error`.
 #define UNCERTAIN_CROSSING 1000
 
 int crossing(vec3 c[3], float error)
@@ -54,7 +55,7 @@ int crossing(vec3 c[3], float error)
     return 0;
   if (!above && !below)
     return UNCERTAIN_CROSSING;
-  // The height at which the axis meets the triangle's plane, times the sum of the areas.
+  // The height at which the z axis meets the plane of the triangle, times the sum of the areas.
   precise const float height = area[1] * c[0].z + area[2] * c[1].z + area[0] * c[2].z;
   const float height_error = 3.0 * (area_error * size + (abs(area[0]) + abs(area[1]) + abs(area[2])) * (error + 4.0 * u * size)) + TINY;
   const int direction = above ? 1 : -1;
@@ -62,8 +63,8 @@ int crossing(vec3 c[3], float error)
   return along > height_error ? direction : (along < -height_error ? 0 : UNCERTAIN_CROSSING);
 }
 
-// STATE_HIT if `point`, off by at most `error`, is inside; 0 if it is outside; STATE_UNDECIDED if no ray tells, or if
-// `iterations`, which counts down, comes to its end.
+// Returns STATE_HIT if `point`, which is off by at most `error`, is inside, 0 if it is outside. Returns STATE_UNDECIDED
+// if none of the three rays decides, or if `iterations`, which counts down, reaches 0.
 uint insideMesh(uint root, vec3 point, float error, inout uint iterations)
 {
   for (int axis = 0; axis < 3 * FLOATS_DECIDE; ++axis)
@@ -96,7 +97,7 @@ uint insideMesh(uint root, vec3 point, float error, inout uint iterations)
         precise vec3 c[3];
         for (int k = 0; k < 3; ++k)
         {
-          // A turn of the coordinates that brings the axis to z.
+          // Permutes the coordinates so that the axis of the ray becomes z.
           c[k] = corners[k] - point;
           c[k] = vec3(c[k][(axis + 1) % 3], c[k][(axis + 2) % 3], c[k][axis]);
         }

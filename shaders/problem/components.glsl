@@ -1,4 +1,5 @@
-// The connected components of the shapes: for each one a point of it, and the longest edge of its box, rounded down.
+// The connected components of the shapes. Each has one of its points, in the frame of its shape, and the length of the
+// longest edge of its bounding box, rounded down. Lengths are in metres.
 layout(std430, binding = BINDING_C) readonly buffer Components { vec4 components[]; };
 
 vec3 componentPoint(uint component)

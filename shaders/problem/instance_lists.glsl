@@ -1,10 +1,11 @@
-// The states and instances of a batch, and which of them an invocation works for.
+// The numbers of states and robot instances of a batch, and the row and state for which an invocation works.
 #include "problem/instances.glsl"
 layout(location = LOCATION_STATE_COUNT) uniform uint state_count;
 layout(location = LOCATION_ROBOT_COUNT) uniform uint robot_count;
 
-// Invocations of the broad phase go through all states for one row, a robot instance or a search, before the next one: what
-// hits early in the lists then spares its state the rest, and a state's pairs do not wait side by side.
+// A row is a robot instance or a query. The invocations of the broad phase go through all states for one row before the
+// next row. So a hit in an early row spares its state the later rows, and the pairs of one state do not lie side by
+// side in the lists.
 uint rowOf(uint invocation)
 {
   return invocation / state_count;

@@ -1,14 +1,14 @@
-// The instances of trees: robot instances first, then the world's.
+// The shape instances: the robot's first, then the world's. Three texels an instance. Lengths are in metres.
 struct Instance
 {
-  uint root;             // node
-  float slack;           // the true surface lies at most this much outside of the triangles, metres
-  uint first_component;  // of its shape, see components.glsl
-  uint component_count;  // 0: too many
-  vec3 core;             // half edge lengths of a box around the shape's origin that lies within its solid; negative: there is none
+  uint root;             // root node of its tree
+  float slack;           // the true surface lies at most this far outside the triangles
+  uint first_component;  // first component of its shape, see components.glsl
+  uint component_count;  // 0: more than MAX_COMPONENTS
+  vec3 core;             // half edge lengths of a box around the shape's origin, inside its solid; negative: none
   uint kind;             // SOLID_*
-  vec3 size;             // of the solid: half edge lengths of a box; radius, radius, half length of the others
-  float padding;         // metres
+  vec3 size;             // box: half edge lengths; cylinder and cone: radius, radius, half length; sphere: its radius
+  float padding;
 };
 
 layout(binding = UNIT_INSTANCES) uniform usamplerBuffer instance_texels;

@@ -1,13 +1,16 @@
-// What the kinematics that is generated for a robot is made of, in double precision: link poses are as good as the CPU's
-// (src/model/kinematics.cpp), and rounding them is all that floats lose (docs/error_bounds.md).
+// Parts of the kinematics shader that the C++ code generates for a robot (src/collision/gpu/kinematics_shader.cpp). It
+// computes in double precision, so that link poses are as accurate as the CPU's (src/model/kinematics.cpp). The only
+// loss is the rounding of the poses to float (docs/error_bounds.md). Lengths are in metres, angles in radians.
 #include "problem/instances.glsl"
 #include "problem/instance_lists.glsl"
-// A state's variables, two doubles a texel, state by state.
+// The variables of the states, two doubles a texel, state after state.
 layout(binding = UNIT_STATES) uniform usamplerBuffer state_texels;
-// Two texels with the frame's origin that poses are relative to; a texel a link: its first record and the one past its last; the records, seven
-// texels a shape: the rows of its pose in its link's frame, two texels each, then the instance.
+// Texels 0 and 1: the origin of the poses, in the planning frame. Then one texel per link: the first of its records,
+// the end of its records, and the texel at which the records begin. Then the records, one for each shape of a link: six
+// texels with the rows of its pose in the frame of its link (two texels a row), and one with its robot instance.
 layout(binding = UNIT_LINK_SHAPES) uniform usamplerBuffer link_shapes;
-layout(std430, binding = BINDING_A) writeonly buffer Poses { vec4 poses[]; };  // three rows an instance, see poseIndex
+// Three rows of [rotation | translation] for each robot instance and state, see poseIndex.
+layout(std430, binding = BINDING_A) writeonly buffer Poses { vec4 poses[]; };
 
 struct DoublePose
 {
@@ -31,7 +34,8 @@ double variable(uint state, uint variable_count, uint index)
   return twoDoubles(texelFetch(state_texels, int(at / 2u)))[at % 2u];
 }
 
-// Sine and cosine of |x| <= 2^20: reduction as in src/model/sine.cpp (Cody and Waite 1980), then Taylor series.
+// Sine and cosine for |x| <= 2^20: argument reduction as in src/model/sine.cpp (Cody and Waite 1980), then Taylor
+// series.
 void sineCosine(double x, out double sine, out double cosine)
 {
   const double quadrants = roundEven(x * 0.63661977236758134308lf);
@@ -63,7 +67,7 @@ void sineCosine(double x, out double sine, out double cosine)
   cosine = (odd ? s : c) * (turn == 1 || turn == 2 ? -1.0lf : 1.0lf);
 }
 
-// The rotation of a quaternion x, y, z, w of any length; none for one of no length.
+// The rotation of a quaternion (x, y, z, w) of any length. A quaternion of length 0 gives the identity.
 dmat3 quaternionRotation(dvec4 q)
 {
   const double most = max(max(abs(q.x), abs(q.y)), max(abs(q.z), abs(q.w)));
@@ -77,7 +81,7 @@ dmat3 quaternionRotation(dvec4 q)
                q.y * d.z + w.x, q.x * d.z + w.y, q.y * d.z - w.x, 1.0lf - q.x * d.x - q.y * d.y);
 }
 
-// Writes the poses of all that moves with a link, each rounded once.
+// Writes the poses of all shapes that move with a link. Each pose is rounded to float once.
 void placeShapes(uint state, uint link, DoublePose link_pose)
 {
   const dvec3 origin = dvec3(twoDoubles(texelFetch(link_shapes, 0)), twoDoubles(texelFetch(link_shapes, 1)).x);

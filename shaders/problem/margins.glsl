@@ -1,8 +1,9 @@
-// By how much more than their required distance pairs have to be apart, in metres, where a batch has margins (see
-// src/collision/bounds/displacement_bounds.h). Words: for two robot instances the number of their pair's margin; for each state the row of its
-// margins; the rows, of a float for each robot instance and each self pair.
+// The margins of a batch, in metres. In a batch with margins, a pair must be apart by its required distance plus its
+// margin (src/collision/bounds/displacement_bounds.h). The buffer has three parts, in words: for each two robot
+// instances, the number of the margin of their pair; for each state, the number of its row; then the rows. A row has
+// one float for each robot instance (its margin against the world) and one for each checked pair of robot instances.
 #if MARGINS
-layout(location = LOCATION_MARGIN_COUNT) uniform uint margin_count;  // of a row
+layout(location = LOCATION_MARGIN_COUNT) uniform uint margin_count;  // floats of a row
 layout(binding = UNIT_MARGINS) uniform usamplerBuffer margin_words;
 
 uint marginWord(uint index)
@@ -17,7 +18,7 @@ float marginOf(uint state, uint number)
 }
 #endif
 
-// Of a robot instance against the world.
+// The margin of a robot instance against the world.
 float worldMargin(uint state, uint robot)
 {
 #if MARGINS
@@ -27,7 +28,7 @@ float worldMargin(uint state, uint robot)
 #endif
 }
 
-// Of two robot instances that are a pair.
+// The margin of two robot instances that are a checked pair.
 float selfMargin(uint state, uint a, uint b)
 {
 #if MARGINS

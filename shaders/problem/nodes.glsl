@@ -1,4 +1,4 @@
-// Nodes and their boxes.
+// Nodes of the bounding volume trees, with axis-aligned boxes in the frame of the shape (metres). Two texels a node.
 struct Box
 {
   vec3 center;
@@ -8,7 +8,7 @@ struct Box
 struct TreeNode
 {
   Box box;
-  uint first;  // inner node: its children are first and first + 1; leaf: its first triangle
+  uint first;  // inner node: the first of its two children, which are adjacent; leaf: its first triangle
   uint count;  // 0: inner node
 };
 
@@ -21,7 +21,7 @@ TreeNode fetchNode(uint index)
   return TreeNode(Box(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz)), a.w, b.w);
 }
 
-// A leaf in one word: its first triangle, and how many less one.
+// Packs a leaf into one word: its first triangle, and its number of triangles minus 1 (LEAF_COUNT_SHIFT).
 uint leafReference(uint first, uint count)
 {
   return first | ((count - 1u) << LEAF_COUNT_SHIFT);
@@ -37,7 +37,8 @@ uint leafCount(uint leaf)
   return (leaf >> LEAF_COUNT_SHIFT) + 1u;
 }
 
-// A solid stands in a tree of its own: one leaf, whose first triangle is this bit and the instance.
+// Returns true if the leaf stands for a primitive that is tested as a solid (SOLID_LEAF). This leaf is a tree of its
+// own.
 bool isSolidLeaf(uint leaf)
 {
   return (leaf & SOLID_LEAF) != 0u;

@@ -1,11 +1,12 @@
-// Nodes with their oriented boxes (OBB), which traversals of pairs test: three texels a node, in the order of the nodes.
+// Nodes with oriented bounding boxes (OBB), which the traversals of pairs test. Three texels a node, in the order of
+// the axis-aligned nodes. Lengths are in metres.
 #include "geometry/quaternion.glsl"
 
 struct OrientedNode
 {
-  Box box;     // in its own frame but for the centre, which is in the tree's
-  mat3 axes;   // of the box, in the tree's frame
-  uint first;  // as TreeNode has them
+  Box box;     // centre in the frame of the tree, extent along `axes`
+  mat3 axes;   // columns: the axes of the box in the frame of the tree
+  uint first;  // `first` and `count`: as in TreeNode
   uint count;
 };
 
@@ -19,16 +20,17 @@ OrientedNode fetchOrientedNode(uint index)
   return OrientedNode(Box(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz)), rotationOf(q), a.w, b.w);
 }
 
-// How far two boxes are apart along the best of the 15 axes that can separate them (Gottschalk, Lin and Manocha 1996, "OBBTree"):
-// half edge lengths, the way from a's centre to b's and b's axes, both in a's frame. Not above 0: it proves nothing. The
-// axes that are products of edges are at most 1 long, so that a gap along them is one in metres a fortiori.
+// The largest gap between two boxes along the 15 axes that can separate them (Gottschalk, Lin and Manocha 1996,
+// "OBBTree"). A gap that is not above 0 proves nothing. In: the half edge lengths of both boxes; t, the vector from a's
+// centre to b's; r, the axes of b; t and r are given along the axes of a. The axes that are products of edges are at
+// most 1 long, so the gap along them in metres is at least the computed one.
 float boxGap(vec3 ea, vec3 eb, vec3 t, mat3 r)
 {
   const mat3 q = absolute(r);
   const vec3 gap_a = abs(t) - (ea + q * eb);
   const vec3 gap_b = abs(t * r) - (eb + ea * q);
   float gap = max(max(max(gap_a.x, gap_a.y), gap_a.z), max(max(gap_b.x, gap_b.y), gap_b.z));
-  // The axis products x, y, z of a with axis j of b, three at a time.
+  // The cross products of the axes x, y, z of a with axis j of b, three at a time.
   for (int j = 0; j < 3; ++j)
   {
     const int k = (j + 1) % 3;
@@ -42,13 +44,14 @@ float boxGap(vec3 ea, vec3 eb, vec3 t, mat3 r)
   return gap;
 }
 
-// What a test of two boxes may be off by, relative to their half edge lengths.
+// The part of the error of a test of two boxes that grows with their half edge lengths.
 float sizeError(Box a, Box b)
 {
   return 512.0 * u * dot(a.extent + b.extent, vec3(1.0));
 }
 
-// Whether node b, whose tree is placed by `pose` in a's tree's frame, is apart from node a by more than `margin`, or nothing.
+// Returns true if node b is proven to be more than `margin` apart from node a. `pose` places the tree of b in the frame
+// of the tree of a. False proves nothing.
 bool nodesApart(OrientedNode a, OrientedNode b, Pose pose, float margin)
 {
   const vec3 between = (apply(pose, b.box.center) - a.box.center) * a.axes;
@@ -56,8 +59,8 @@ bool nodesApart(OrientedNode a, OrientedNode b, Pose pose, float margin)
   return boxGap(a.box.extent, b.box.extent, between, turned) > margin + sizeError(a.box, b.box);
 }
 
-// Whether a node's box lies within the core of the other tree's solid by more than `margin`: then what it holds is inside.
-// A core that is not there has negative extents, and nothing lies within it.
+// Returns true if the box of a node lies within the core of the other tree's solid, by more than `margin`. The contents
+// of the node are then inside that solid. A shape without a core has negative extents, which contain nothing.
 bool nodeInCore(OrientedNode a, OrientedNode b, vec3 core_a, vec3 core_b, Pose pose, float margin)
 {
   const mat3 b_axes = pose.rotation * b.axes;
@@ -68,7 +71,8 @@ bool nodeInCore(OrientedNode a, OrientedNode b, vec3 core_a, vec3 core_b, Pose p
   return all(lessThan(b_in_a, core_a)) || all(lessThan(a_in_b, core_b));
 }
 
-// Which of two overlapping nodes is taken apart: an inner node beats a leaf, of two inner nodes the larger one goes.
+// Chooses which of two overlapping nodes the traversal opens: an inner node rather than a leaf, and the larger one of
+// two inner nodes. Returns true for node a.
 bool descendsIntoA(OrientedNode a, OrientedNode b)
 {
   return a.count == 0u && (b.count != 0u || dot(a.box.extent, a.box.extent) >= dot(b.box.extent, b.box.extent));

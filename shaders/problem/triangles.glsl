@@ -1,4 +1,4 @@
-// The triangles of all trees, in leaf order: three texels with the corners, metres, in the shape's frame.
+// The triangles of all trees, in leaf order. Three texels a triangle: its corners in the frame of the shape (metres).
 layout(binding = UNIT_TRIANGLES) uniform usamplerBuffer triangle_texels;
 
 void fetchTriangle(uint index, out vec3 corners[3])

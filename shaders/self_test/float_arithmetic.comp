@@ -1,13 +1,15 @@
-// One lane per pair of numbers: what the device makes of the operations that the error bounds rely on. Two-sum (Knuth
-// 1969) and two-product (Dekker 1971) give the rounding error of one operation exactly, but only where the compiler
-// neither reorders nor contracts what is `precise` and every operation is rounded as it should be.
+// One invocation per pair of numbers: records the device's results of the operations on which the error bounds rely.
+// src/gpu/float_arithmetic.cpp checks them. Two-sum (Knuth 1969) and two-product (Dekker 1971) give the rounding error
+// of one operation exactly. They do so only if the compiler does not reorder or contract `precise` expressions, and if
+// the device rounds every operation properly.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 layout(location = LOCATION_CASE_COUNT) uniform uint case_count;
 layout(std430, binding = BINDING_C) readonly buffer Numbers { vec2 numbers[]; };
-// Two vec4 a case: sum and its error, product and its error; what is left of the product without contraction, the length
-// of (x, y, x), 1 if a comparison with no number holds, the dot product of (x, y, x) and (y, y, x).
+// Two vec4 a case. First: the sum and its error, the product and its error. Second: x * y minus the product, which
+// is 0 unless the compiler contracts the two operations; the length of (x, y, x); 1 if a comparison with NaN holds; the
+// dot product of (x, y, x) and (y, y, x).
 layout(std430, binding = BINDING_A) writeonly buffer Results { vec4 results[]; };
 
 void split(float x, out float high, out float low)

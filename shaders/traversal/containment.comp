@@ -1,5 +1,5 @@
-// One lane per root pair whose state is still open after the traversal: whether one shape has a component inside the other, a
-// mesh with closed components, though no surfaces cross.
+// One invocation per root pair whose state has no hit after the traversal: tests whether one shape has a component
+// inside the other one, a mesh with closed components, although no surfaces cross. It reports the verdict.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -14,7 +14,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "geometry/winding_number.glsl"
 layout(location = LOCATION_ROOT_PAIR_CAPACITY) uniform uint root_pair_capacity;
 
-// STATE_* bits for the components of `inner`, placed by `pose` in the solid's frame.
+// Returns STATE_* bits for the components of `inner`. `pose` places them in the frame of the solid, where their points
+// are off by at most `error` (metres).
 uint meshContainment(Instance inner, Instance solid, Pose pose, float error, inout uint iterations)
 {
   if (solid.kind != SOLID_MESH)
@@ -27,14 +28,15 @@ uint meshContainment(Instance inner, Instance solid, Pose pose, float error, ino
   uint i = 0u;
   for (; i < inner.component_count && iterations > 0u; ++i, --iterations)
   {
-    // What is inside is no longer than the solid's box from corner to corner, and all its points are in that box.
+    // A component inside the solid is at most as long as the diagonal of the solid's box, and all its points are in
+    // that box.
     const uint component = inner.first_component + i;
     const vec3 point = apply(pose, componentPoint(component));
     if (componentSize(component) > diagonal || any(greaterThan(abs(point - bounds.center) - bounds.extent, vec3(error))))
       continue;
     found |= insideMesh(solid.root, point, error, iterations);
   }
-  // Components that were not looked at, whoever ended the loop, are not known to be outside.
+  // Components are left if the iterations ran out or the device ended the loop. They may be inside.
   return i < inner.component_count ? found | STATE_UNDECIDED : found;
 }
 
@@ -48,7 +50,7 @@ void main()
     return;
   const Instance a = fetchInstance(pairOther(root_pair.pair));
   const Instance b = fetchInstance(pairRobot(root_pair.pair));
-  uint iterations = LANE_ITERATIONS / (4u * LEAF_TRIANGLES);  // of loops that have short ones within
+  uint iterations = LANE_ITERATIONS / (4u * LEAF_TRIANGLES);  // small, because the loops contain short inner loops
   uint found = meshContainment(b, a, root_pair.pose, boxError(root_pair.error), iterations);
   if ((found & STATE_HIT) == 0u)
     found |= meshContainment(a, b, inversePose(root_pair.pose), inverseError(root_pair.error, farCorner(fetchNode(a.root).box)), iterations);

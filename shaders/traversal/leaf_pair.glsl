@@ -1,5 +1,5 @@
-// One triangle of a leaf against one of another. PADDED is 1 where some pairs have a required distance: merely to hold the
-// code for them halves the speed of all others on llvmpipe.
+// Tests one triangle of a leaf against one triangle of another leaf. PADDED is 1 if some pairs have a required
+// distance. On llvmpipe, the mere presence of the code for them halves the speed of all other pairs.
 #include "geometry/error_bounds.glsl"
 #include "problem/triangles.glsl"
 #include "geometry/triangle_pair.glsl"
@@ -15,8 +15,8 @@ void testTriangles(uint root_pair_index, RootPair root_pair, uint triangle_a, ui
     b[k] = apply(root_pair.pose, b[k]);
   uint found = FLOATS_DECIDE != 0 ? trianglePair(a, b, root_pair.pose.translation, root_pair.error, root_pair.gap) : STATE_UNDECIDED;
 #if PADDED && FLOATS_DECIDE
-  // Where triangles are not known to meet, their distance may still be too small. A loop: on llvmpipe it costs only those
-  // that take it.
+  // The distance of triangles that are not proven to meet may still be too small. A loop instead of a branch: on
+  // llvmpipe, only the invocations that enter it pay for it.
   const float distance = fetchDistance(root_pair_index);
   for (bool open = found == STATE_UNDECIDED && distance > 0.0; open; open = false)
     found = triangleDistance(a, b, root_pair.error, distance, root_pair.gap);
@@ -25,7 +25,7 @@ void testTriangles(uint root_pair_index, RootPair root_pair, uint triangle_a, ui
     report(root_pair.state, root_pair.pair, found);
 }
 
-// Triangle `i` of the smaller one of two leaves against the larger one.
+// Tests triangle `i` of the smaller one of two leaves against all triangles of the larger one.
 void testLeafRow(uvec4 pair, uint i)
 {
   const RootPair root_pair = fetchRootPair(pair.x);

@@ -1,17 +1,17 @@
-// Leaf pairs that a workgroup shares, and the tests of their triangles. Most leaves hold fewer than LEAF_TRIANGLES triangles:
-// so each lane takes one triangle of a pair's smaller leaf and tests it against the larger one, or, in the programs for solids,
-// one triangle and tests it against the solid.
+// A list of leaf pairs that a work group shares, and the tests of their triangles. Most leaves hold fewer than
+// LEAF_TRIANGLES triangles. Each invocation therefore takes one triangle of a pair's smaller leaf and tests it against
+// the larger leaf. In the programs for solids, it takes one triangle and tests it against the solid.
 #include "traversal/leaf_pair.glsl"
 #if SOLIDS
 #include "traversal/solid_leaf.glsl"
 #endif
 
-shared uvec4 leaf_pairs[LEAF_QUEUE];  // root_pair, then the leaves as leafReference() has them
+shared uvec4 leaf_pairs[LEAF_QUEUE];  // x: the root pair; y, z: the two leaves, as leafReference() packs them
 shared uint leaf_pair_count;
 shared uint row_count;
-shared uint rows[LEAF_CHUNK * LEAF_TRIANGLES];  // place in leaf_pairs, and a triangle of one leaf
+shared uint rows[LEAF_CHUNK * LEAF_TRIANGLES];  // LEAF_TRIANGLES * place in leaf_pairs + triangle of one leaf
 
-// Loop iterations of a chunk of leaf pairs, and of a row.
+// Upper bounds on the loop iterations for a chunk of leaf pairs, and for a row.
 #define CHUNK_ITERATIONS (4u + 2u * LEAF_TRIANGLES)
 #if SOLIDS
 #define ROW_ITERATIONS (2u * SOLID_ITERATIONS)
@@ -31,7 +31,8 @@ void addRows(uint place)
     rows[at + i] = place * LEAF_TRIANGLES + i;
 }
 
-// The first `count` of leaf_pairs. Called by all lanes together; returns loop iterations, at most.
+// Tests the first `count` of leaf_pairs. All invocations of the work group call it together. Returns an upper bound on
+// its loop iterations.
 uint testLeafPairs(uint count)
 {
   uint iterations = 0u;

@@ -1,5 +1,6 @@
-// One lane per LEVEL_CHUNK node pairs: which child pairs overlap. Out: a mask a pair (low four bits: go on to the next
-// level, next four: leaf pairs) and the chunk's sums.
+// One invocation per LEVEL_CHUNK node pairs: tests which child pairs overlap. Out: one mask per node pair (low four
+// bits: pairs for the next level, next four bits: leaf pairs), and the sums of both for the chunk. A pair that is
+// proven to collide is reported, and its mask is 0.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

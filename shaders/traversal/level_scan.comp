@@ -1,5 +1,6 @@
-// One workgroup: exclusive prefix sums of the chunks' sums, the sizes of the next level and of the leaf list, and the
-// indirect arguments for both. A list that is too short is noticed here, before anything is written.
+// One work group: computes the exclusive prefix sums of the chunks' sums, the sizes of the next level and of the leaf
+// list, and the indirect arguments for both. It sets COUNTER_OVERFLOW if a list is too short, before anything is
+// written to it.
 #include "shader_constants.h"
 layout(local_size_x = 256) in;
 #include "common/counters.glsl"
@@ -8,8 +9,8 @@ layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;
 layout(location = LOCATION_OUT_COUNTER) uniform uint out_counter;
 layout(location = LOCATION_ENTRY_CAPACITY) uniform uint entry_capacity;
 layout(location = LOCATION_LEAF_PAIR_CAPACITY) uniform uint leaf_pair_capacity;
-layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;  // of the list read
-layout(location = LOCATION_IS_LAST) uniform uint is_last;  // 1 for the deepest level that there can be
+layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;  // of the list that is read
+layout(location = LOCATION_IS_LAST) uniform uint is_last;  // 1 for the deepest level that is possible
 layout(std430, binding = BINDING_B) buffer Sums { uvec2 sums[]; };
 
 #define SCAN_TYPE uvec2
@@ -22,13 +23,13 @@ void main()
   const uvec2 total = scanInPlace((entry_count + LEVEL_CHUNK - 1u) / LEVEL_CHUNK);
   if (gl_LocalInvocationID.x == 0u)
   {
-    // The last level of all leaves nothing for a next one.
+    // The deepest possible level has no node pairs for a next level.
     if (total.x > entry_capacity || total.y > leaf_pair_capacity || (is_last != 0u && total.x != 0u))
       counters[COUNTER_OVERFLOW] = 1u;
     const uvec2 kept = min(total, uvec2(entry_capacity, leaf_pair_capacity));
     counters[out_counter] = kept.x;
     counters[COUNTER_LEAF_PAIRS] = kept.y;
-    // This level's arguments serve once more, for writing the next one.
+    // level_expand.comp runs with the arguments of this level.
     for (uint i = 0u; i < 3u; ++i)
       counters[COUNTER_CHUNK_ARGUMENTS + i] = counters[COUNTER_ARGUMENTS + i];
     const uint chunks = (kept.x + LEVEL_CHUNK - 1u) / LEVEL_CHUNK;

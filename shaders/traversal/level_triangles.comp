@@ -1,4 +1,4 @@
-// One workgroup per GROUP_SIZE leaf pairs: the tests of their triangles.
+// One work group per GROUP_SIZE leaf pairs: tests their triangles and reports the verdicts.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,13 +1,15 @@
-// One lane, before each pass of the work queues and after the last one: whether the pass before took all its entries and all
-// its lanes came to their end, and the arguments of the next pass.
+// One invocation, before each pass of the work queues and after the last one. It checks that the previous pass took all
+// its entries and that all its invocations reached their end, and sets COUNTER_OVERFLOW if not. Then it writes the
+// arguments of the next pass.
 #include "shader_constants.h"
 layout(local_size_x = 1) in;
 #include "common/counters.glsl"
 #include "common/indirect_arguments.glsl"
 layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;   // of the list that the next pass reads
 layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;
-layout(location = LOCATION_OUT_COUNTER) uniform uint out_counter;  // of the list that it writes
-layout(location = LOCATION_IS_LAST) uniform uint is_last;      // 1: there is no further pass, what is left is left
+layout(location = LOCATION_OUT_COUNTER) uniform uint out_counter;  // of the list that the next pass writes
+// 1: no further pass follows, so entries that are left are an overflow.
+layout(location = LOCATION_IS_LAST) uniform uint is_last;
 
 void main()
 {

@@ -1,6 +1,7 @@
-// A root pair is a pair of tree instances in one state, whose root boxes overlap. Five texels: the rows of b's pose in a's
-// frame; state, pair, error and gap; the required distance. a is the pair's second instance (of a robot and a world
-// instance the world's, so that it is the smaller shape whose points are moved), b its first.
+// A root pair is a pair of instances in one state whose root boxes overlap. a is the second instance of the pair, b the
+// first one. In a robot-world pair, a is the world's instance, so that the points of the smaller shape are moved. Five
+// texels: three rows of the pose of b in the frame of a; state, pair, error and gap; the required distance. Lengths are
+// in metres.
 #include "geometry/pose.glsl"
 
 struct RootPair
@@ -8,8 +9,8 @@ struct RootPair
   Pose pose;
   uint state;
   uint pair;
-  float error;  // bound on the displacement of b's points against a's by rounding, metres
-  float gap;    // triangles that are further apart than this do not make the pair collide, metres
+  float error;  // upper bound on the rounding error of the position of b's points relative to a's
+  float gap;    // a pair of triangles with a larger distance does not make the pair collide
 };
 
 #ifndef WRITES_ITEMS
@@ -29,7 +30,7 @@ uint fetchState(uint index)
   return texelFetch(item_texels, int(index) * ROOT_PAIR_TEXELS + 3).x;
 }
 
-// At a distance up to this one, in metres, the pair collides.
+// The required distance in metres: the pair collides at this distance and below.
 float fetchDistance(uint index)
 {
   return uintBitsToFloat(texelFetch(item_texels, int(index) * ROOT_PAIR_TEXELS + 4).x);

@@ -1,9 +1,9 @@
-// One triangle of a leaf against a solid.
+// Tests one triangle of a leaf against a solid. Lengths are in metres.
 #include "geometry/error_bounds.glsl"
 #include "problem/triangles.glsl"
 #include "geometry/solid.glsl"
 
-// The point of a triangle that is nearest to p, or near it: in any case a point of the triangle.
+// The point of a triangle that is nearest to p, up to rounding. The result is a point of the triangle in any case.
 vec3 nearestOfTriangle(vec3 corners[3], vec3 p)
 {
   const vec3 e1 = corners[1] - corners[0];
@@ -15,7 +15,8 @@ vec3 nearestOfTriangle(vec3 corners[3], vec3 p)
   const float t1 = dot(e1, to);
   const float t2 = dot(e2, to);
   const float area = d11 * d22 - d12 * d12;
-  // Of the plane through the triangle, then of its edges; the foot on the plane counts where it is within.
+  // The nearest point of the triangle's plane counts if it is within the triangle. Otherwise the nearest point of the
+  // edges counts.
   const float s = (d22 * t1 - d12 * t2) / area;
   const float t = (d11 * t2 - d12 * t1) / area;
   const bool within = s >= 0.0 && t >= 0.0 && s + t <= 1.0;
@@ -33,7 +34,8 @@ vec3 nearestOfTriangle(vec3 corners[3], vec3 p)
   return within ? corners[0] + s * e1 + t * e2 : on_edge;
 }
 
-// Whether the corners lie beyond the solid along n, on one side of it, by more than `beyond` for n of length 1.
+// Returns true if all corners lie on one side of the solid along n, beyond it by more than `beyond` (for n of length
+// 1).
 bool liesBeyond(vec3 corners[3], Instance solid, vec3 n, float beyond)
 {
   const vec3 heights = vec3(dot(n, corners[0]), dot(n, corners[1]), dot(n, corners[2]));
@@ -43,13 +45,15 @@ bool liesBeyond(vec3 corners[3], Instance solid, vec3 n, float beyond)
   return max(least, -most) - extentAlong(solid, above ? n : -n) > beyond * lengthAtMost(n) * (1.0 + 16.0 * u) + TINY;
 }
 
-// A triangle, whose corners in the solid's frame are off by at most `error`, and a solid: STATE_HIT if their distance is
-// proven to be at most `distance`, 0 if it is proven to be more than `gap`, else STATE_UNDECIDED.
-// Apart: an axis beyond which all corners lie; first those that separate a triangle from a box (Akenine-Moeller 2001), then the
-// lines between the two points below. A hit: projections back and forth (von Neumann's alternating projections), two of three
-// steps prolonged to the plane that bounds the core at the point found, between the triangle and a core of the solid, a depth
-// below its surface, which shrinks from step to step: a point of the triangle that is nearer to the core than the core is
-// deep is inside. How well all this converges matters not, since each step is a proof or nothing.
+// Tests a triangle against a solid. The corners, in the frame of the solid, are off by at most `error`. Returns
+// STATE_HIT if the distance is proven to be at most `distance`, 0 if it is proven to be more than `gap`, else
+// STATE_UNDECIDED.
+// Apart: an axis beyond which all corners lie. The first axes are those that separate a triangle from a box
+// (Akenine-Moeller 2001). The later axes are the lines between the two points of the search for a hit.
+// Hit: von Neumann's alternating projections between the triangle and a core of the solid, which lies a depth below the
+// surface. A point of the triangle is inside the solid if its distance from the core is less than that depth. The depth
+// shrinks from step to step. Two of three steps are prolonged to the plane that bounds the core at the point found.
+// A step that proves nothing leaves the result undecided, so the convergence of the search does not affect correctness.
 uint triangleSolid(vec3 corners[3], Instance solid, float error, float distance, float gap)
 {
   float size = dot(solid.size, solid.size);
@@ -89,7 +93,7 @@ uint triangleSolid(vec3 corners[3], Instance solid, float error, float distance,
   return found;
 }
 
-// Triangle `i` of a leaf against the solid that the other leaf stands for.
+// Tests triangle `i` of one leaf against the solid for which the other leaf stands.
 void testSolidRow(uvec4 pair, uint i)
 {
   const RootPair root_pair = fetchRootPair(pair.x);

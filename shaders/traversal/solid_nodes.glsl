@@ -1,8 +1,10 @@
-// Nodes against solids, in the programs for these. The boxes around curved solids have corners that the solids do not fill.
+// Tests nodes against solids, in the programs for solids. These tests separate more pairs than tests of two boxes,
+// because the box around a curved solid has corners that the solid does not fill. Lengths are in metres.
 #include "geometry/solid.glsl"
 
-// Whether a box with its centre and axes in the solid's frame lies beyond the solid by more than `margin`, along the line from
-// the point of the solid that is nearest to the centre. `false` proves nothing.
+// Returns true if a box is proven to lie beyond the solid by more than `margin`. The axis is the line from the nearest
+// point of the solid to the centre of the box. The centre and the axes of the box are in the frame of the solid. False
+// proves nothing.
 bool boxBeyondSolid(Instance solid, vec3 center, mat3 axes, vec3 extent, float margin)
 {
   const vec3 n = center - projectToCore(solid.kind, coreSize(solid, 0.0), center);
@@ -10,7 +12,8 @@ bool boxBeyondSolid(Instance solid, vec3 center, mat3 axes, vec3 extent, float m
   return gap > margin * lengthAtMost(n) * (1.0 + 16.0 * u) + TINY;
 }
 
-// The same for nodes of which one stands for a solid: a's where that is a primitive, else b's (check_roots.comp).
+// The same test for two nodes of which one stands for a solid. That is node a if its instance is a primitive, otherwise
+// node b (broad_phase/root_pairs.comp).
 bool nodeBeyondSolid(OrientedNode a, OrientedNode b, Instance instance_a, Instance instance_b, RootPair root_pair)
 {
   const float margin = boxMargin(root_pair.gap, root_pair.error) + sizeError(a.box, b.box);

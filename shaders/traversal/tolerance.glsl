@@ -1,14 +1,14 @@
-// Where a traversal may end, with a tolerance above 0. All that a node holds is within half its box's diagonal of the box's
-// centre, so two nodes hold points of the two shapes that are no further apart than their centres and those two halves: if
-// that is at most the required distance and the tolerance, a collision is no false one. Nodes that overlap are that close
-// where their diagonals add up to the tolerance.
+// With a tolerance above 0, a traversal may end early. All contents of a node are within half the diagonal of its box
+// from the centre of the box. So two nodes hold points of the two shapes whose distance is at most the distance of the
+// centres plus both half diagonals. If that sum is at most the required distance plus the tolerance, a collision may be
+// reported. Overlapping nodes satisfy this when the sum of their diagonals is at most the tolerance.
 layout(location = LOCATION_TOLERANCE) uniform float tolerance;  // metres
 
 bool isCloseEnough(uint root_pair_index, RootPair root_pair, OrientedNode a, OrientedNode b)
 {
   const vec3 between = apply(root_pair.pose, b.box.center) - a.box.center;
 #if SOLIDS
-  // A solid is all that its box is, or it has no such nodes.
+  // Only the solid of a box fills its node. Other solids do not end a traversal early.
   const bool a_is_box = isSolidLeaf(a.first) && a.count != 0u && fetchInstance(pairOther(root_pair.pair)).kind == SOLID_BOX;
   const bool b_is_box = isSolidLeaf(b.first) && b.count != 0u && fetchInstance(pairRobot(root_pair.pair)).kind == SOLID_BOX;
   const vec3 beyond_a = max(abs(between) - a.box.extent, 0.0);

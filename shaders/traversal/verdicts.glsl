@@ -1,4 +1,5 @@
-// What is known of each state. Coherent, so that a hit is seen by all workgroups while they run.
+// The verdict of each state (STATE_* bits), and a colliding pair of each state with a hit. The flags are coherent, so
+// that all work groups see a hit while they run.
 layout(std430, binding = BINDING_FLAGS) coherent buffer Flags { uint flags[]; };
 layout(std430, binding = BINDING_HITS) buffer Hits { uint hits[]; };
 
@@ -7,7 +8,7 @@ bool isDecided(uint state)
   return (flags[state] & STATE_HIT) != 0u;
 }
 
-// `found`: STATE_* bits. Any hit may be the one that is reported.
+// Adds `found` (STATE_* bits) to the verdict of a state. If several pairs collide, any one of them may be kept.
 void report(uint state, uint pair, uint found)
 {
 #if !FLOATS_DECIDE

@@ -1,10 +1,12 @@
-// Traversal by work queues. Every lane takes node pairs from the entry list and walks them with a stack of its own; pairs of
-// leaves go to a list that the workgroup shares. When that list is full enough, all lanes turn to its triangles. All lanes
-// of a group meet at the same barriers: the outer loop is uniform, and a lane does at most QUEUE_STEPS steps between
-// two barriers. What does not fit a stack, or is left when the iterations run out, goes to the next entry list.
+// Traversal by work queues. Each invocation takes node pairs from the entry list and traverses them with a stack of its
+// own. It adds leaf pairs to a list that the work group shares. As soon as that list holds QUEUE_FLUSH pairs, all
+// invocations of the work group test its triangles. All invocations of a work group meet at the same barriers: the
+// outer loop is uniform, and an invocation makes at most QUEUE_STEPS steps between two barriers. Node pairs go to the
+// next entry list if they do not fit the stack or are left when the iterations run out.
 //
-// Where a branch skips nothing (llvmpipe), every store and atomic costs each lane each time. So a step has one store: a
-// lane's memory holds node pairs from below and leaf pairs from above, and all else is done once a round.
+// On llvmpipe a branch skips nothing, so each invocation pays for every store and atomic every time. A step therefore
+// has only one store: the memory of an invocation holds node pairs from below and leaf pairs from above. All other
+// writes happen once a round.
 #include "shader_constants.h"
 layout(local_size_x = QUEUE_LANES) in;
 #include "common/invocation.glsl"
@@ -18,26 +20,27 @@ layout(local_size_x = QUEUE_LANES) in;
 #endif
 #include "common/counters.glsl"
 #include "traversal/verdicts.glsl"
-// Room for what all lanes may add before the group turns to triangles.
+// Room for all leaf pairs that the invocations can add before the work group tests triangles.
 #define LEAF_QUEUE (QUEUE_FLUSH + QUEUE_LANES * QUEUE_STEPS)
 #include "traversal/leaf_queue.glsl"
 #if TOLERANT
 #include "traversal/tolerance.glsl"
 #endif
-layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;   // COUNTER_ENTRIES_* of the list read, and of the one written
-layout(location = LOCATION_OUT_COUNTER) uniform uint out_counter;
+layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;    // counter of the list that is read
+layout(location = LOCATION_OUT_COUNTER) uniform uint out_counter;  // counter of the list that is written
 layout(location = LOCATION_ENTRY_CAPACITY) uniform uint entry_capacity;
-layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;  // of the list read
+layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;  // of the list that is read
 layout(binding = UNIT_ENTRIES) uniform usamplerBuffer entries;
 layout(std430, binding = BINDING_A) writeonly buffer Spill { uvec4 spilled[]; };
 
-// Loop iterations of one step, where the compiler does not unroll the inner loops. Should they be more, lanes end early,
-// and the count of lanes below finds it out.
+// Loop iterations of one step, if the compiler does not unroll the inner loops. If a step has more, the device may end
+// invocations early. The count of invocations below detects this.
 #define STEP_ITERATIONS 4u
 
 shared uint busy;
 
-// The state is undecided if the list is full: its answer is never lost.
+// Hands a node pair on to the next pass. If the list is full, the state becomes undecided, so that no collision is
+// missed.
 void spill(uint root_pair, uvec2 nodes, uint state)
 {
   const uint at = atomicAdd(counters[out_counter], 1u);
@@ -51,11 +54,11 @@ void main()
 {
   const uint entry_count = min(counters[in_counter], in_capacity);
   uvec2 memory[QUEUE_STACK];
-  uint waiting = 0u;   // node pairs in memory, from below
-  uint leaves = 0u;    // leaf pairs in memory, from above
+  uint waiting = 0u;   // number of node pairs in `memory`, from below
+  uint leaves = 0u;    // number of leaf pairs in `memory`, from above
   uvec2 nodes = uvec2(0u);
-  bool walking = false;     // whether `nodes` is a pair to be tested
-  bool exhausted = false;  // whether the entry list has nothing left
+  bool walking = false;    // true: `nodes` is a pair to be tested
+  bool exhausted = false;  // true: the entry list is empty
   uint root_pair_index = 0u;
   RootPair root_pair;
   root_pair.state = 0u;
@@ -111,7 +114,8 @@ void main()
       const uvec2 first = into_a ? uvec2(a.first, nodes.y) : uvec2(nodes.x, b.first);
       const uvec2 second = into_a ? uvec2(a.first + 1u, nodes.y) : uvec2(nodes.x, b.first + 1u);
       const uvec2 leaf_pair = uvec2(leafReference(a.first, a.count), leafReference(b.first, b.count));
-      // Stored in any case, kept if they overlap: a condition would be a branch for each lane.
+      // The pair is always stored, and counted only if the nodes overlap. A condition would be a branch for each
+      // invocation.
       memory[leaf ? QUEUE_STACK - 1u - leaves : waiting] = leaf ? leaf_pair : second;
       leaves += overlap && leaf ? 1u : 0u;
       waiting += overlap && !leaf ? 1u : 0u;
@@ -132,7 +136,7 @@ void main()
       walking = false;
       waiting = 0u;
     }
-    // A stack that is full by itself: its current pair waits for the next pass.
+    // Node pairs alone fill the memory. The current pair goes to the next pass.
     if (walking && waiting >= QUEUE_STACK)
     {
       spill(root_pair_index, nodes, root_pair.state);
@@ -160,12 +164,12 @@ void main()
     barrier();
   }
 
-  // Only after too many iterations: hand on what is left.
+  // Something is left only after too many iterations. Node pairs go to the next pass.
   testLeafPairs(leaf_pair_count);
   if (walking)
     spill(root_pair_index, nodes, root_pair.state);
   for (; waiting > 0u; --waiting)
     spill(root_pair_index, memory[waiting - 1u], root_pair.state);
-  // A device that ends lanes early is found out by this count.
+  // This count reveals a device that ends invocations early.
   atomicAdd(counters[COUNTER_LANES_ENDED], 1u);
 }

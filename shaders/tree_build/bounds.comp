@@ -1,4 +1,5 @@
-// One lane per primitive: bounds of the box centres of each mesh, as order-preserving integers.
+// One invocation per primitive: computes the bounds of the box centres of each mesh, as integers in the order of the
+// floats. In: the boxes of boxes.comp.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -6,7 +7,7 @@ layout(local_size_x = GROUP_SIZE) in;
 layout(location = LOCATION_PRIMITIVE_COUNT) uniform uint primitive_count;
 layout(std430, binding = 0) readonly buffer Boxes { uvec4 boxes[]; };
 layout(std430, binding = 1) readonly buffer MeshOf { uint mesh_of[]; };
-layout(std430, binding = 2) buffer Bounds { uint bounds[]; };  // six a mesh: lowest ~x, ~y, ~z, highest x, y, z
+layout(std430, binding = 2) buffer Bounds { uint bounds[]; };  // six a mesh: ~(lowest x, y, z), highest x, y, z
 
 // Maps floats to unsigned integers of the same order (Herf 2001, "Radix Tricks").
 uint ordered(float value)
@@ -25,7 +26,7 @@ void main()
   const uint mesh = 6u * mesh_of[i];
   for (uint axis = 0u; axis < 3u; ++axis)
   {
-    // The complement turns a minimum into a maximum, so that a buffer of zeros is a good start for both.
+    // The complement turns a minimum into a maximum, so a buffer of zeros is the right start for both.
     atomicMax(bounds[mesh + axis], ~ordered(center[axis]));
     atomicMax(bounds[mesh + 3u + axis], ordered(center[axis]));
   }

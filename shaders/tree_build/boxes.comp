@@ -1,5 +1,6 @@
-// One lane per triangle: its box, rounded outward so that it holds the double-precision vertices that the floats were
-// rounded from. In: nine floats a triangle, metres in the mesh's frame. Out: two uvec4 a triangle (see cluster.glsl).
+// One invocation per triangle: computes its box, rounded outwards so that it holds the double-precision vertices from
+// which the floats were rounded. In: nine floats a triangle, metres, in the mesh's frame. Out: two uvec4 a triangle
+// (cluster.glsl).
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -24,7 +25,8 @@ void main()
   const vec3 c = vertex(i, 2u);
   const vec3 low = min(a, min(b, c));
   const vec3 high = max(a, max(b, c));
-  // 2^-23 relative covers the conversion's half unit in the last place; 1e-37 covers what is flushed to zero.
+  // A relative 2^-23 covers the conversion's half unit in the last place; 1e-37 covers numbers that are flushed to
+  // zero.
   Cluster box;
   box.low = low - (abs(low) * 1.1920929e-7 + 1e-37);
   box.high = high + (abs(high) * 1.1920929e-7 + 1e-37);

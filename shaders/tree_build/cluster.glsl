@@ -1,12 +1,12 @@
-// A cluster of the bottom-up build: a subtree that has no parent yet. Two uvec4: the box's corners as float bits,
-// what it refers to and how many triangles it holds.
+// A cluster of the bottom-up build: a subtree that has no parent yet. Two uvec4: the corners of its box as float bits
+// (metres, in the mesh's frame), its reference and its number of triangles.
 struct Cluster
 {
   vec3 low;
   vec3 high;
-  uint reference;  // count 1: a primitive; more: the number of the pair that its children lie in
-  uint count;
-  bool opened;     // whether it is cheaper to open it than to test all its triangles
+  uint reference;  // count 1: a primitive; more: the number of the pair that holds its children
+  uint count;      // number of triangles
+  bool opened;     // true if opening it is cheaper than testing all its triangles
 };
 
 #define OPENED_BIT 0x80000000u

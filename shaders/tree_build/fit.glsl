@@ -1,13 +1,17 @@
-// Fitting an oriented box to the triangles of a node: of four boxes the one with the least surface, along the frame's axes,
-// along the main axes of the corners (Gottschalk, Lin and Manocha 1996, "OBBTree"), and along the normal of the largest
-// triangle with two directions of its plane: its edge of middle length (of half a rectangle it is a side), and the axis of
-// the frame that is nearest to the plane. src/collision/geometry/oriented_box.cpp does the same in double. All is computed around
-// `origin`, the centre of the node's axis-aligned box.
+// Fits an oriented box to the triangles of a node. It chooses the one with the smallest surface of four boxes, whose
+// axes are:
+// - the axes of the frame;
+// - the main axes of the corners (Gottschalk, Lin and Manocha 1996, "OBBTree");
+// - the normal of the largest triangle and its edge of middle length, which is a side if the triangle is half a
+//   rectangle;
+// - the same normal and the axis of the frame that is nearest to the plane of the triangle.
+// src/collision/geometry/oriented_box.cpp does the same in double. All coordinates are relative to `origin`, the centre
+// of the node's axis-aligned box, in metres.
 #include "geometry/quaternion.glsl"
 
 #define FIT_BOXES 4
 
-// What the axes are chosen by.
+// Sums over the corners of triangles, from which the axes are chosen.
 struct Spread
 {
   vec3 sum;
@@ -68,7 +72,8 @@ void join(inout Spread spread, Spread other)
   spread.largest = larger ? other.largest : spread.largest;
 }
 
-// By Jacobi's rotations, the one for the largest entry beside the diagonal at a time. How well they converge is no matter.
+// The main axes, by Jacobi's rotations, each for the largest off-diagonal entry. A box along any axes is valid, so the
+// convergence does not affect correctness.
 vec4 mainAxes(mat3 covariance)
 {
   vec4 q = vec4(0.0, 0.0, 0.0, 1.0);
@@ -94,7 +99,7 @@ vec4 mainAxes(mat3 covariance)
   return q;
 }
 
-// z of unit length, and x as near to `direction` as can be.
+// Axes with this z, of unit length, and with x as near to `direction` as possible.
 vec4 axesFrom(vec3 direction, vec3 z)
 {
   const vec3 x = normalize(direction - dot(z, direction) * z);
@@ -112,6 +117,7 @@ vec3 middleEdge(vec3 corners[3])
   return off.x <= off.y && off.x <= off.z ? edges[0] : off.y <= off.z ? edges[1] : edges[2];
 }
 
+// The axis of the frame that is nearest to the plane with this normal.
 vec3 nearestAxis(vec3 normal)
 {
   const vec3 n = abs(normal);
@@ -149,8 +155,9 @@ float halfSurface(vec3 sizes)
   return sizes.x * sizes.y + sizes.y * sizes.z + sizes.z * sizes.x;
 }
 
-// Writes the best of the boxes. What is no number is never the better one. Half edge lengths are rounded outwards: the way from
-// `origin` to a corner, at most `radius` long, is rounded and turned by axes that are right to 25 u an entry, and so is the centre.
+// Writes the box with the smallest surface. A surface that is NaN is never the smallest. The half edge lengths are
+// rounded outwards: the vector from `origin` to a corner, at most `radius` long, is rounded and turned by axes whose
+// entries are off by at most 25 u, and the centre is computed likewise.
 void writeBest(uint at, TreeNode node, Extents extents, vec4 axes[FIT_BOXES])
 {
   int best = 0;

@@ -1,5 +1,6 @@
-// One lane per node: its oriented box. Nodes of many triangles are listed for fit_large_boxes.comp; nodes of more than
-// FIT_MOST_TRIANGLES keep their axis-aligned box, which bounds the work: these are the topmost of few trees.
+// One invocation per node: fits its oriented box (fit.glsl). Nodes of more than FIT_LANE_TRIANGLES triangles are listed
+// for fit_large_boxes.comp. Nodes of more than FIT_MOST_TRIANGLES keep their axis-aligned box, which bounds the work:
+// they are the topmost nodes of few trees.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -9,10 +10,11 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "tree_build/fit.glsl"
 layout(location = LOCATION_FIRST_NODE) uniform uint first_node;
 layout(location = LOCATION_NODE_COUNT) uniform uint node_count;
-layout(std430, binding = 1) buffer LargeNodes { uvec4 large_nodes[]; };  // the node, its first triangle, how many
+// For each listed node, its place, its first triangle and its number of triangles.
+layout(std430, binding = 1) buffer LargeNodes { uvec4 large_nodes[]; };
 layout(std430, binding = 2) buffer LargeCount { uint large_count; };
 
-// The first triangle below a node and how many there are: a subtree's triangles are contiguous.
+// The first triangle below a node, and the number of triangles below it. The triangles of a subtree are contiguous.
 uvec2 trianglesBelow(TreeNode node)
 {
   TreeNode left = node;

@@ -1,4 +1,5 @@
-// One workgroup per listed node: its oriented box, fitted as fit_boxes.comp does, by all lanes together.
+// One work group per listed node: all its invocations together fit the oriented box of the node, as fit_boxes.comp
+// does.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,4 +1,4 @@
-// One lane per sorted key: the first clusters, one per primitive, in Morton order.
+// One invocation per sorted key: writes the first clusters, one per primitive, in Morton order.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -8,7 +8,8 @@ layout(std430, binding = 0) readonly buffer Keys { uvec2 keys[]; };
 layout(std430, binding = 1) readonly buffer MeshOf { uint mesh_of[]; };
 layout(std430, binding = 2) readonly buffer Boxes { uvec4 boxes[]; };
 layout(std430, binding = 3) writeonly buffer Clusters { uvec4 clusters[]; };
-layout(std430, binding = 4) writeonly buffer ClusterInfo { uvec2 cluster_info[]; };  // mesh, cost of a traversal (float bits)
+// For each cluster, its mesh and the cost of a traversal (float bits).
+layout(std430, binding = 4) writeonly buffer ClusterInfo { uvec2 cluster_info[]; };
 
 void main()
 {

@@ -1,8 +1,9 @@
-// One lane per triangle, in leaf order: three texels with its vertices (metres, mesh's frame), w unused.
+// One invocation per triangle, in leaf order: writes three texels with its vertices (metres, mesh's frame); w is
+// unused.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
-layout(location = LOCATION_FIRST_TRIANGLE) uniform uint first_triangle;  // of this forest's triangles among all
+layout(location = LOCATION_FIRST_TRIANGLE) uniform uint first_triangle;  // the forest's first one among all
 layout(location = LOCATION_TRIANGLE_COUNT) uniform uint triangle_count;
 layout(std430, binding = 0) readonly buffer Vertices { float vertices[]; };
 layout(std430, binding = 1) readonly buffer LeafOrder { uint leaf_order[]; };

@@ -1,14 +1,16 @@
-// The last step of the build, from the roots down: nodes get their final form, and every triangle its place, so that a
-// subtree's triangles are contiguous and a subtree of at most leaf_size triangles that is not worth opening becomes a leaf.
+// The last step of the build, from the roots down: writes each node in its final form and gives each triangle its
+// place. The triangles of a subtree are contiguous. A subtree of at most leaf_size triangles becomes a leaf if it is
+// not cheaper to open it.
 #include "tree_build/cluster.glsl"
-layout(location = LOCATION_ROOT_BASE) uniform uint root_base;      // where the roots of this forest lie among the nodes
+layout(location = LOCATION_ROOT_BASE) uniform uint root_base;      // place of this forest's first root among the nodes
 layout(location = LOCATION_LEAF_SIZE) uniform uint leaf_size;
-layout(location = LOCATION_PRIMITIVE_BASE) uniform uint primitive_base;  // the number of its first triangle
+layout(location = LOCATION_PRIMITIVE_BASE) uniform uint primitive_base;  // number of this forest's first triangle
 layout(std430, binding = 5) buffer PairStarts { uint pair_starts[]; };         // the first triangle below each pair
-layout(std430, binding = 6) writeonly buffer Nodes { uvec4 nodes[]; };         // two a node, see forest.h
+layout(std430, binding = 6) writeonly buffer Nodes { uvec4 nodes[]; };         // two a node, see problem/nodes.glsl
 layout(std430, binding = 7) writeonly buffer LeafOrder { uint leaf_order[]; };
 
-// Places a subtree whose triangles begin at `start` into node `at`. Pairs of children follow the `roots` roots.
+// Writes the subtree `c`, whose triangles begin at `start`, to node `at`. `first_pair_node`: the place of the first
+// pair of children, after the roots.
 void place(Cluster c, uint at, uint start, uint first_pair_node)
 {
   const bool leaf = c.count == 1u || (c.count <= leaf_size && !c.opened);
@@ -17,7 +19,7 @@ void place(Cluster c, uint at, uint start, uint first_pair_node)
   else
     pair_starts[c.reference] = start;
   const vec3 center = 0.5 * c.low + 0.5 * c.high;
-  // Rounded outward: the half extents cover both corners whatever was rounded in the centre.
+  // Rounded outwards: the half extents cover both corners, whatever the rounding of the centre.
   const vec3 half_extent = max(c.high - center, center - c.low) * (1.0 + 4.0 * 1.1920929e-7) + 1e-37;
   nodes[2u * at] = uvec4(floatBitsToUint(center), leaf ? start : first_pair_node + 2u * c.reference);
   nodes[2u * at + 1u] = uvec4(floatBitsToUint(half_extent), leaf ? c.count : 0u);

@@ -1,4 +1,5 @@
-// One lane per pair that a round made; the rounds run from the last to the first, so parents come before children.
+// One invocation per pair of children that a round made: places both children. The rounds run from the last to the
+// first, so parents come before their children.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,4 +1,4 @@
-// One lane per mesh: its root.
+// One invocation per mesh: places the root of its tree. The clusters that are left at the end are the roots.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

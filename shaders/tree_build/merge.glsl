@@ -1,4 +1,5 @@
-// What happens to a cluster in a round: two that are each other's nearest merge at the place of the lower one.
+// The fate of a cluster in a round. Two clusters that are each other's nearest neighbours merge, at the place of the
+// lower one.
 layout(location = LOCATION_ROUND_INDEX) uniform uint round_index;
 layout(std430, binding = 2) readonly buffer Rounds { uint rounds[]; };
 layout(std430, binding = 3) readonly buffer Nearest { uint nearest[]; };

@@ -1,5 +1,6 @@
-// One lane per primitive: the Morton code of its box's centre within its mesh's bounds, 10 bits an axis
-// (Lauterbach et al. 2009, "Fast BVH Construction on GPUs").
+// One invocation per primitive: computes the Morton code of the centre of its box within the bounds of its mesh, 10
+// bits an axis (Lauterbach et al. 2009, "Fast BVH Construction on GPUs"). In: the boxes of boxes.comp, the bounds of
+// bounds.comp.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -10,12 +11,13 @@ layout(std430, binding = 1) readonly buffer MeshOf { uint mesh_of[]; };
 layout(std430, binding = 2) readonly buffer Bounds { uint bounds[]; };
 layout(std430, binding = 3) writeonly buffer Keys { uvec2 keys[]; };  // (Morton code, primitive)
 
+// The inverse of `ordered` in bounds.comp.
 float unordered(uint key)
 {
   return uintBitsToFloat((key & 0x80000000u) != 0u ? key & 0x7fffffffu : ~key);
 }
 
-// Puts two zero bits between the lowest ten bits.
+// Inserts two zero bits between each two of the lowest ten bits.
 uint spread(uint x)
 {
   x = (x | (x << 16u)) & 0x030000ffu;
@@ -40,7 +42,7 @@ void main()
     low[axis] = unordered(~bounds[mesh + axis]);
     high[axis] = unordered(bounds[mesh + 3u + axis]);
   }
-  // One scale for all axes: cells are cubes, so that flat and long meshes are not cut more along their thin axes.
+  // One scale for all axes makes the cells cubes. So flat and long meshes are not cut more often along their thin axes.
   const vec3 extent = high - low;
   const float size = max(extent.x, max(extent.y, extent.z));
   const vec3 unit = size > 0.0 ? clamp((center - low) / size, 0.0, 1.0) : vec3(0.0);

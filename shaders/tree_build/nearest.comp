@@ -1,7 +1,7 @@
-// One lane per cluster: the neighbour within SEARCH_RADIUS places whose union with it has the smallest surface
-// (Meister and Bittner 2018, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction").
-// Ties go to the neighbour whose index differs in the lowest bits, so that equal boxes pair up instead of forming
-// chains. In the forced rounds neighbours pair up by parity, which bounds the depth.
+// One invocation per cluster: finds the neighbour within SEARCH_RADIUS places for which the union of both boxes has the
+// smallest surface (Meister and Bittner 2018, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy
+// Construction"). A tie goes to the neighbour whose index differs in the lowest bits, so that equal boxes form pairs
+// and not chains. In the forced rounds, neighbours form pairs by parity, which bounds the depth.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,5 +1,5 @@
-// One workgroup: exclusive prefix sums of a round's counts, the round's pairs, and the next round's record. When each
-// mesh is down to one cluster, the rounds that follow get zero workgroups.
+// One work group: computes the exclusive prefix sums of a round's counts, the number of pairs that the round makes, and
+// the next round's record. As soon as each mesh has only one cluster, the rounds that follow get zero work groups.
 layout(local_size_x = 256) in;
 #include "common/invocation.glsl"
 layout(location = LOCATION_ROUND_INDEX) uniform uint round_index;
@@ -37,7 +37,8 @@ void main()
     const uint lanes = remaining == mesh_count ? 0u : remaining;
     setGroups(next + ROUND_CLUSTER_GROUPS, lanes);
     setGroups(next + ROUND_CHUNK_GROUPS, (lanes + CHUNK - 1u) / CHUNK);
-    // Unchanged clusters stay where they are, so what is last written is what the last round that ran wrote.
+    // The rounds that follow write no clusters. So this record keeps the buffer to which this round, the last one,
+    // writes the roots: 1 for the odd clusters (layout_roots.comp).
     if (!done && remaining == mesh_count)
       rounds[BUILD_ROUNDS * ROUND_STRIDE + ROUND_PAIRS] = (round_index + 1u) & 1u;
   }

@@ -1,4 +1,5 @@
-// Radix sort, step 1 of 3: one lane per CHUNK keys counts their digits. The digit is of the key, or of the key's mesh.
+// Radix sort, step 1 of 3. One invocation per CHUNK keys counts their digits. The digit is that of the key, or of the
+// key's mesh.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,4 +1,4 @@
-// The digit that a pass of the radix sort looks at (least significant first; Knuth, TAOCP 3, 5.2.5).
+// The digit that a pass of the radix sort uses, from the least significant one on (Knuth, TAOCP 3, 5.2.5).
 layout(location = LOCATION_KEY_COUNT) uniform uint key_count;
 layout(location = LOCATION_SHIFT) uniform uint shift;
 layout(location = LOCATION_BY_MESH) uniform uint by_mesh;  // 1: sort by the primitive's mesh instead of the key

@@ -1,16 +1,16 @@
-// One lane per CHUNK clusters: writes the clusters that remain, packed and in order, and the pairs of children that
-// the merged ones now have.
+// One invocation per CHUNK clusters: writes the clusters that remain, packed and in order, and the pairs of children of
+// the merged clusters.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/cluster.glsl"
 #include "tree_build/merge.glsl"
 layout(std430, binding = 0) readonly buffer ClustersIn { uvec4 clusters_in[]; };
-layout(std430, binding = 1) readonly buffer InfoIn { uvec2 info_in[]; };  // mesh, cost
+layout(std430, binding = 1) readonly buffer InfoIn { uvec2 info_in[]; };  // mesh, cost of a traversal (float bits)
 layout(std430, binding = 4) readonly buffer Sums { uvec2 sums[]; };
 layout(std430, binding = 5) writeonly buffer ClustersOut { uvec4 clusters_out[]; };
 layout(std430, binding = 6) writeonly buffer InfoOut { uvec2 info_out[]; };
-layout(std430, binding = 7) writeonly buffer Pairs { uvec4 pairs[]; };  // four a pair: two clusters
+layout(std430, binding = 7) writeonly buffer Pairs { uvec4 pairs[]; };  // four a pair: its two clusters
 
 void main()
 {
@@ -41,7 +41,7 @@ void main()
       const Cluster a = unpackCluster(low, high);
       const Cluster b = unpackCluster(other_low, other_high);
       Cluster merged = Cluster(min(a.low, b.low), max(a.high, b.high), at.y, a.count + b.count, false);
-      // The surface area heuristic decides whether a few triangles make a leaf (MacDonald and Booth 1990).
+      // The surface area heuristic decides whether a few triangles form a leaf (MacDonald and Booth 1990).
       const float area = halfArea(merged.high - merged.low);
       const float closed_cost = TRIANGLE_COST * float(merged.count) * area;
       const float opened_cost = area + uintBitsToFloat(info.y) + uintBitsToFloat(info_in[j].y);

@@ -13,7 +13,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Transfers see what shaders have written, and do not overtake it.
+/// Orders the next transfer after all earlier writes of shaders.
 void waitForShaders()
 {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);

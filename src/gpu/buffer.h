@@ -7,8 +7,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// A block of GPU memory of fixed size. Move-only; used on the context's thread. All sizes are in bytes.
-/// Throws Error where OpenGL fails (out of memory, out of range).
+/// A block of GPU memory. Move-only; used on the context's thread. All sizes are in bytes. Throws Error if OpenGL fails
+/// (out of memory, out of range).
 class Buffer
 {
  public:
@@ -21,18 +21,18 @@ class Buffer
   std::size_t size() const { return size_; }
   std::uint32_t id() const { return id_; }
 
-  /// Grows to at least `size`, with head room up to `most` bytes; keeps what it held.
+  /// Grows to at least `size` bytes, with head room up to `most` bytes in all, and keeps the contents.
   void reserve(std::size_t size, std::size_t most = std::numeric_limits<std::size_t>::max());
   void write(const void* data, std::size_t size, std::size_t offset = 0);
   void read(void* data, std::size_t size, std::size_t offset = 0) const;
-  void clear();  ///< fills it with zeros
+  void clear();  ///< fills the buffer with zeros
   void clear(std::size_t offset, std::size_t size);
-  void copyFrom(const Buffer& other, std::size_t size);  ///< to the front
+  void copyFrom(const Buffer& other, std::size_t size);  ///< copies the first `size` bytes
 
   void bindStorage(std::uint32_t binding) const;
-  /// A part of it; `offset` is a multiple of kStorageAlignment.
+  /// Binds a part of the buffer. `offset` is a multiple of kStorageAlignment.
   void bindStorage(std::uint32_t binding, std::size_t offset, std::size_t size) const;
-  static constexpr std::size_t kStorageAlignment = 256;  // the most that OpenGL lets a device ask for
+  static constexpr std::size_t kStorageAlignment = 256;  // the largest alignment that OpenGL lets a device require
 
   template <class T>
   void write(const std::vector<T>& data)
@@ -45,8 +45,9 @@ class Buffer
   std::size_t size_ = 0;
 };
 
-/// A buffer that shaders read through a buffer texture of 16-byte texels (RGBA32UI): on llvmpipe such reads cost a
-/// quarter of a storage buffer's. Integers, so that bit patterns survive on devices that flush denormals.
+/// A buffer that shaders read through a buffer texture of 16-byte texels (RGBA32UI). On llvmpipe this costs a quarter
+/// of a read from a storage buffer. The texels are integers, so that bit patterns survive on devices that flush
+/// denormals.
 class TexelBuffer
 {
  public:
@@ -55,7 +56,8 @@ class TexelBuffer
   TexelBuffer(const TexelBuffer&) = delete;
   TexelBuffer& operator=(const TexelBuffer&) = delete;
 
-  /// Grows to at least `size` bytes and keeps what it held. Throws Error past the device's limit, and is as it was.
+  /// Grows to at least `size` bytes and keeps the contents. Throws Error beyond the device's limit; the buffer is then
+  /// unchanged.
   void reserve(std::size_t size);
   Buffer& buffer() { return buffer_; }
   const Buffer& buffer() const { return buffer_; }

@@ -41,8 +41,7 @@ bool isNumber(const std::string& text)
              text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-/// EGL's displays without a window system: one per device, or Mesa's surfaceless platform where devices cannot be
-/// listed.
+/// The EGL displays without a window system: one per device, or Mesa's surfaceless platform if EGL lists no devices.
 std::vector<EGLDisplay> displays()
 {
   std::vector<EGLDisplay> found;
@@ -70,7 +69,7 @@ void destroy(EGLDisplay display, EGLContext context)
   eglDestroyContext(display, context);
 }
 
-/// Makes an OpenGL 4.5 context current, or says why not.
+/// Makes an OpenGL 4.5 context current. On failure it returns EGL_NO_CONTEXT and writes the reason to `why_not`.
 EGLContext makeContext(EGLDisplay display, std::string* why_not)
 {
   EGLint major = 0;
@@ -85,7 +84,7 @@ EGLContext makeContext(EGLDisplay display, std::string* why_not)
     *why_not = "no desktop OpenGL";
     return EGL_NO_CONTEXT;
   }
-  // Told of resets, where the driver can: then a lost device is noticed by asking, see refuseLostContext().
+  // Requests notification of resets if the driver offers it. refuseLostContext() then detects a lost device.
   const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
                                4,
                                EGL_CONTEXT_MINOR_VERSION,
@@ -121,10 +120,10 @@ struct Candidate
 {
   EGLDisplay display;
   Device device;
-  std::string why_not;  // empty where the device is usable
+  std::string why_not;  // empty if the device is usable
 };
 
-/// libepoxy ends the process where they are missing.
+/// libepoxy ends the process if one of these libraries is missing, so they are looked for first.
 void requireLibraries()
 {
   const bool has_gl = dlopen("libOpenGL.so.0", RTLD_LAZY) != nullptr || dlopen("libGL.so.1", RTLD_LAZY) != nullptr;

@@ -13,7 +13,8 @@ class EglContext
 {
  public:
   /// `selector`: "auto" (the first hardware device, else the first software one), "software", an index of
-  /// listDevices(), or part of a renderer's name (case-insensitive). Throws Error that lists the devices if none fits.
+  /// listDevices(), or part of a renderer's name (case-insensitive). Throws Error with a list of the devices if none
+  /// fits.
   explicit EglContext(const std::string& selector);
   ~EglContext();
   EglContext(const EglContext&) = delete;

@@ -24,7 +24,7 @@ struct Outcome
 };
 static_assert(sizeof(Outcome) == 32, "two vec4");
 
-/// Numbers of 24 random bits between 2^-12 and 2^12: sums and products of two are exact in double.
+/// Numbers of 24 random bits, most of them between 2^-12 and 2^12. The sum and the product of two are exact in double.
 std::vector<std::array<float, 2>> someNumbers()
 {
   std::mt19937 generator(20031);
@@ -40,7 +40,7 @@ std::vector<std::array<float, 2>> someNumbers()
   return numbers;
 }
 
-/// What is wrong with the outcome for x and y; nullptr if it is right.
+/// The fault of the outcome for x and y; nullptr if there is none.
 const char* faultOf(double x, double y, const Outcome& found)
 {
   const double sum = x + y;

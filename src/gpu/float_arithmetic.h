@@ -4,13 +4,13 @@
 
 namespace gpu_planning_scene::core
 {
-/// Tests the device's float32 for what docs/error_bounds.md assumes, with a kernel that is compiled as all others are:
-/// two-sum and two-product exact, nothing contracted where `precise` forbids it, lengths right to 4 units of 2^-23 and
-/// dot products to 3, comparisons with no number false. Returns one line that says what is wrong, or an empty string.
-/// Used on the context's thread.
+/// Tests whether the device's float32 fulfils the assumptions of docs/error_bounds.md, with a shader that is compiled
+/// like all others. Two-sum (Knuth 1969) and two-product (Dekker 1971) must be exact, and `precise` expressions must
+/// not be contracted. Lengths must be right to 4 units of 2^-23, and dot products to 3. Comparisons with NaN must be
+/// false. Returns one line that describes the first fault, or an empty string. Used on the context's thread.
 std::string findFloatFault(const std::string& shader_folder);
 
-/// The same of double precision, which places links: operations good to 2^-50 of the result, and rounded to float as
-/// they should be.
+/// The same test for double precision, in which links are placed. Operations must be right to 2^-50 of their result,
+/// and results must be rounded to the nearest float.
 std::string findDoubleFault(const std::string& shader_folder);
 }  // namespace gpu_planning_scene::core

@@ -35,7 +35,7 @@ void checkGl(const char* where)
   const GLenum first = glGetError();
   if (first == GL_NO_ERROR)
     return;
-  // One flag per kind of error may be set; a lost context reports its error for ever.
+  // Several flags may be set, one for each kind of error. A lost context reports its error for ever.
   for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i)
   {
   }

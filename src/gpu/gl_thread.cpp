@@ -43,7 +43,7 @@ void GlThread::run(const std::function<void()>& job)
         }
         catch (...)
         {
-          refuseLostContext();  // the cause of what was thrown
+          refuseLostContext();  // a reset is then the true cause
           throw;
         }
         refuseLostContext();

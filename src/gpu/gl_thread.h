@@ -13,17 +13,17 @@
 
 namespace gpu_planning_scene::core
 {
-/// A thread that owns an OpenGL context and does one job after the other: a context is current on one thread only.
+/// A thread that owns an OpenGL context and runs one job after the other. A context is current on one thread only.
 class GlThread
 {
  public:
   /// Starts the thread and makes the context; throws Error as EglContext does.
   explicit GlThread(const std::string& device_selector);
-  /// Finishes the jobs that were given, then destroys the context.
+  /// Finishes the queued jobs, then destroys the context.
   ~GlThread();
 
-  /// Runs `job` on the thread and waits for it; what it throws is thrown here. DeviceLost where the context was lost
-  /// meanwhile, whatever the job made of it. Thread-safe.
+  /// Runs `job` on the thread, waits for it, and rethrows its exception here. Throws DeviceLost if the context was lost
+  /// meanwhile, whether the job failed or not. Thread-safe.
   void run(const std::function<void()>& job);
 
   const Device& device() const { return device_; }

@@ -21,7 +21,8 @@ namespace
 {
 constexpr std::size_t kMaxGroups = 65535;
 
-/// What a dispatch may read of the dispatches before it: storage, buffer textures and indirect arguments.
+/// Orders the next dispatch after earlier writes that it may read: storage buffers, buffer textures, indirect
+/// arguments.
 void waitForEarlierDispatches()
 {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
@@ -41,7 +42,7 @@ void appendText(const std::string& folder, std::istream& lines, std::set<std::st
     words >> word >> quoted;
     if (word == "#include" && quoted.size() > 2)
       appendFile(folder, quoted.substr(1, quoted.size() - 2), seen, text);
-    else if (word != "#pragma")  // the include guards of files that C++ reads too
+    else if (word != "#pragma")  // the include guard of a file that C++ reads too
       text += line + '\n';
   }
 }
@@ -75,7 +76,7 @@ std::string linkLog(GLuint program)
   return log;
 }
 
-/// A new linked program; `name` is for messages.
+/// Compiles and links a program. `name` is for messages.
 GLuint compile(const std::string& source, const std::string& name)
 {
   const char* text = source.c_str();
@@ -106,7 +107,7 @@ GLuint compile(const std::string& source, const std::string& name)
   return program;
 }
 
-/// Seen from this library, so that an installation can be moved.
+/// The folder relative to the file of this library, so that an installation can be moved.
 std::string installedShaderFolder()
 {
   Dl_info library;

@@ -8,38 +8,38 @@
 
 namespace gpu_planning_scene::core
 {
-/// The folder that holds the shaders: $GPU_PLANNING_SCENE_SHADERS if set, else where they were installed, else the
-/// source tree. Throws Error if none of them has any.
+/// The folder of the shaders: $GPU_PLANNING_SCENE_SHADERS if set (not checked), else the installed folder, else the
+/// folder in the source tree. Throws Error if neither of these two holds the shaders.
 std::string shaderFolder();
 
-/// Reads a shader and the files that it includes (#include "NAME", from the same folder, each once). Throws Error that
-/// names a missing file.
+/// Reads a shader and the files that it includes (#include "NAME", relative to `folder`, each once). Throws Error with
+/// the name of a missing file.
 std::string readShader(const std::string& folder, const std::string& name);
 
-/// Workgroups of GROUP_SIZE that have at least `lanes` lanes.
+/// The number of work groups of GROUP_SIZE that hold at least `lanes` invocations.
 std::size_t groupsFor(std::size_t lanes);
 
 /// A compute program. Move-only; used on the context's thread.
 class Program
 {
  public:
-  /// Compiles `name` of `folder`, or takes it from the program cache; `definitions` are lines that go before its text
-  /// ("#define X 1\n"). Throws Error with the compiler's log.
+  /// Compiles the shader `name` of `folder`, or loads it from the program cache. `definitions` are lines that precede
+  /// its text ("#define X 1\n"). Throws Error with the compiler's log.
   Program(const std::string& folder, const std::string& name, const std::string& definitions = "");
-  /// The same from a text of the program's own making, which may include files of `folder`. `name` is for messages.
+  /// Compiles a generated `text`, which may include files of `folder`. `name` is for messages.
   static Program fromText(const std::string& folder, const std::string& name, const std::string& text);
   ~Program();
   Program(Program&& other) noexcept;
   Program& operator=(Program&&) = delete;
 
-  /// Uniforms have explicit locations in the shaders.
+  /// Sets a uniform. The shaders give its location explicitly (LOCATION_* in shader_constants.h).
   void set(int location, std::uint32_t value) const;
   void setFloat(int location, float value) const;
 
-  /// Runs `groups` workgroups (at most the 65535 that OpenGL grants in x; more are spread over y), after all that was
-  /// dispatched before. Zero groups do nothing.
+  /// Runs `groups` work groups after all earlier dispatches. OpenGL grants 65535 of them along x; more are spread over
+  /// y. Zero groups do nothing. Throws Error if OpenGL cannot run that many.
   void dispatch(std::size_t groups) const;
-  /// The same with the group counts that lie in `arguments` at `offset` (three uints).
+  /// The same with the numbers of work groups that lie in `arguments` at `offset` (three uints).
   void dispatchIndirect(const Buffer& arguments, std::size_t offset) const;
 
  private:

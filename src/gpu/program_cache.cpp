@@ -29,14 +29,14 @@ struct Entry
   std::vector<char> binary;
 };
 
-/// What a file begins with; the key and the binary follow.
+/// The beginning of a file. The key and the binary follow.
 struct Header
 {
   std::array<char, 8> magic = {'G', 'P', 'S', 'P', 'R', 'O', 'G', '1'};
   std::uint64_t format = 0;
   std::uint64_t key_bytes = 0;
   std::uint64_t binary_bytes = 0;
-  std::uint64_t checksum = 0;  // of all the rest of the file, this one being 0
+  std::uint64_t checksum = 0;  // of the whole file, with 0 in this field
 };
 static_assert(sizeof(Header) == 40, "no padding: all of it is written");
 
@@ -48,7 +48,7 @@ std::uint64_t hash(const char* data, std::size_t size, std::uint64_t seed = 0xcb
   return seed;
 }
 
-/// Empty: none is wanted, or the user has no place for one.
+/// Empty if the cache is switched off, or if the user has no cache folder and no home folder.
 fs::path cacheFolder()
 {
   const char* mode = std::getenv("GPU_PLANNING_SCENE_PROGRAM_CACHE");
@@ -71,7 +71,7 @@ std::vector<GLint> binaryFormats()
   return formats;
 }
 
-/// All that a linked program depends on.
+/// The key of a program: all that its binary depends on.
 std::string keyOf(const std::string& source)
 {
   std::string key;
@@ -98,7 +98,7 @@ std::uint64_t checksum(Header header, const std::string& key, const std::vector<
   return hash(binary.data(), binary.size(), hash(key.data(), key.size(), hash(bytes.data(), bytes.size())));
 }
 
-/// Nothing where the file is missing, damaged, or an entry of another key with the same hash.
+/// No value if the file is missing or damaged, or holds another key with the same hash.
 std::optional<Entry> readEntry(const fs::path& path, const std::string& key)
 {
   std::error_code missing;
@@ -123,7 +123,7 @@ std::optional<Entry> readEntry(const fs::path& path, const std::string& key)
   return entry;
 }
 
-/// By way of a file of its own and a rename, so that another process sees all of it or nothing.
+/// Writes a temporary file and renames it, so that other processes see the whole file or none.
 void writeEntry(const fs::path& path, const std::string& key, const Entry& entry)
 {
   Header header;
@@ -148,7 +148,8 @@ void writeEntry(const fs::path& path, const std::string& key, const Entry& entry
     fs::remove(temporary, failed);
 }
 
-/// Removes the entries that were used longest ago, and what a process that was killed has left.
+/// Removes the files that were used longest ago, until the rest has at most kMostBytes. Temporary files that a killed
+/// process left are removed likewise.
 void removeOldest(const fs::path& folder)
 {
   struct File

@@ -13,7 +13,7 @@ Readback::~Readback()
 {
   dropFence();
   if (id_)
-    glDeleteBuffers(1, &id_);  // unmaps it
+    glDeleteBuffers(1, &id_);  // also unmaps the buffer
 }
 
 void Readback::dropFence()

@@ -7,8 +7,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Host memory that the device copies a buffer's front to. What it was asked for can be read without waiting for what
-/// the device was given to do later, as a plain download would. Used on the context's thread.
+/// Host memory to which the device copies the front of a buffer. The host can read the copy while the device works on
+/// later commands; a plain download would wait for these too. Used on the context's thread.
 class Readback
 {
  public:
@@ -17,10 +17,12 @@ class Readback
   Readback(const Readback&) = delete;
   Readback& operator=(const Readback&) = delete;
 
-  /// Has the first `size` bytes copied, once all that was begun before is done. Throws Error where OpenGL fails.
+  /// Starts a copy of the first `size` bytes of `from`, after all commands that were given before. Throws Error if
+  /// OpenGL fails.
   void begin(const Buffer& from, std::size_t size);
 
-  /// Waits for the copy; the words hold until the next `begin`. Throws Error if there is none or the device fails.
+  /// Waits for the copy. Its words are valid until the next `begin`. Throws Error if no copy was begun or the device
+  /// fails.
   const std::uint32_t* wait();
 
  private:

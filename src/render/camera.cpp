@@ -8,7 +8,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kAspect = 4.0 / 3.0;  // of the usual picture
+constexpr double kAspect = 4.0 / 3.0;  // width to height of the usual picture
 }  // namespace
 
 Eigen::AlignedBox3d nearRobot(const PlanningScene& scene, const double* state)
@@ -22,7 +22,8 @@ Eigen::AlignedBox3d nearRobot(const PlanningScene& scene, const double* state)
       robot.extend(bodyBounds(scene, static_cast<int>(body), poses[body]));
   if (robot.isEmpty())
     robot = Eigen::AlignedBox3d(-Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones());
-  // A cell's walls may be far away; what is within the robot's own size of it tells where it is.
+  // The walls of a cell may be far away. Objects within half the robot's diagonal are enough to show where the robot
+  // is.
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.5 * robot.diagonal().norm());
   const Eigen::AlignedBox3d around(robot.min() - margin, robot.max() + margin);
   Eigen::AlignedBox3d near = robot;
@@ -43,7 +44,7 @@ Camera cameraFor(const PlanningScene& scene, const double* state, const Eigen::V
   camera.target = near.center();
   const Eigen::Vector3d side =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up) * Eigen::Vector3d(1.0, -0.75, 0.55).normalized();
-  // As near as it can stand with all corners of the box in the picture, with a little room around.
+  // The least distance at which all corners of the box are in the picture, plus a little room.
   const Eigen::Vector3d right = up.cross(side).normalized();
   const Eigen::Vector3d top = side.cross(right);
   const double slope = std::tan(0.5 * camera.field_of_view);

@@ -8,7 +8,7 @@ namespace gpu_planning_scene::core
 {
 std::vector<BodyPair> collidingPairs(const PlanningScene& scene, const double* state)
 {
-  // Nothing is left out, so that the state may lie outside the joints' limits.
+  // No pair is left out of the problem, so the state may be outside the joint limits.
   const auto problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
   const auto traversal = ForestCache().traversalOf(problem);
   std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());

@@ -47,7 +47,7 @@ class Painter
       addTriangle(placed[a], placed[b], placed[c], color);
   }
 
-  /// The part of the half-space's plane that lies around `center`.
+  /// Adds the part of the half-space's plane around `center`: a square with edges of twice `half_size`.
   void addPlane(const HalfSpace& plane, const Eigen::Isometry3d& pose, const Eigen::Vector3d& center, double half_size,
                 const BodyColor& color)
   {
@@ -64,7 +64,7 @@ class Painter
   std::vector<DrawnVertex>& vertices_;
 };
 
-/// Tessellations of equal solids are made once: a point cloud has thousands of equal cubes.
+/// Tessellates equal solids only once: a point cloud has thousands of equal cubes.
 class Tessellations
 {
  public:

@@ -17,8 +17,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr int kSamples = 2;  // per pixel and axis: edges are smooth
-constexpr int kLargest = 4096;
+constexpr int kSamples = 2;     // drawn pixels per pixel and axis: they smooth the edges
+constexpr int kLargest = 4096;  // pixels
 constexpr std::array<float, 4> kBackground{0.965F, 0.97F, 0.98F, 1.0F};
 
 GLuint compileStage(GLenum stage, const std::string& folder, const char* name)
@@ -37,7 +37,7 @@ GLuint compileStage(GLenum stage, const std::string& folder, const char* name)
   return program;
 }
 
-/// From the planning frame to the clip space of OpenGL.
+/// The transform from the planning frame to the clip space of OpenGL.
 Eigen::Matrix4f projection(const Camera& camera, double aspect, double near, double far)
 {
   const Eigen::Vector3d back = (camera.eye - camera.target).normalized();
@@ -59,7 +59,7 @@ Eigen::Matrix4f projection(const Camera& camera, double aspect, double near, dou
   return (lens * view).cast<float>();
 }
 
-/// A colour and a depth buffer of that size, to draw into.
+/// A colour buffer and a depth buffer of the given size, bound for drawing.
 class Target
 {
  public:
@@ -97,7 +97,8 @@ void bindAttribute(GLuint array, GLuint index, GLint count, GLenum type, GLboole
   glVertexArrayAttribBinding(array, index, 0);
 }
 
-/// RGBA, rows from the bottom. On the context's thread, whose context is destroyed with all that is left in it.
+/// Returns RGBA pixels in rows from the bottom. Runs on the context's thread. The end of its context destroys the
+/// objects that remain.
 std::vector<std::uint8_t> draw(const Drawing& drawing, const Eigen::Matrix4f& matrix, const Camera& camera, int width,
                                int height)
 {
@@ -139,7 +140,7 @@ std::vector<std::uint8_t> draw(const Drawing& drawing, const Eigen::Matrix4f& ma
   return pixels;
 }
 
-/// The mean of kSamples x kSamples drawn pixels for each of the picture's.
+/// Averages kSamples x kSamples drawn pixels for each pixel of the picture.
 Image reduced(const std::vector<std::uint8_t>& pixels, int width, int height)
 {
   Image image{width, height, {}};

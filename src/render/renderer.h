@@ -20,13 +20,14 @@ struct Camera
   double field_of_view = 0.7;                     ///< radians, vertical
 };
 
-/// Box around the robot in `state` with what it carries, and around the objects beside it.
+/// The bounding box of the robot in `state`, its attached objects, and the parts of objects near it. In the planning
+/// frame.
 Eigen::AlignedBox3d nearRobot(const PlanningScene& scene, const double* state);
 
-/// Shows all of nearRobot, from the front, the side and above.
+/// A camera that shows all of nearRobot from the front, the side and above.
 Camera cameraFor(const PlanningScene& scene, const double* state, const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
 
-/// Rows from the top, three bytes (red, green, blue) a pixel.
+/// Pixels in rows from the top, three bytes (red, green, blue) each.
 struct Image
 {
   int width = 0;
@@ -37,12 +38,12 @@ struct Image
 /// Every pair of bodies that collides in `state`, by the exact checker.
 std::vector<BodyPair> collidingPairs(const PlanningScene& scene, const double* state);
 
-/// A picture of the scene: see drawingOf for the colours. `device`: as EglContext has it. The same scene gives the same
-/// picture on the same device. Throws Error.
+/// A picture of the scene in the colours of drawingOf. `device`: a selector, as in EglContext. The same scene gives the
+/// same picture on the same device. Throws Error if the size, the camera or the device cannot be used.
 Image render(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
              const std::vector<Eigen::Vector3d>& contact_points, const Camera& camera, int width, int height,
              const std::string& device);
 
-/// Throws Error: the file cannot be written.
+/// Throws Error if the file cannot be written.
 void writePng(const Image& image, const std::string& path);
 }  // namespace gpu_planning_scene::core

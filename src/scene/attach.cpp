@@ -5,7 +5,7 @@
 #include "scene/frame.h"
 #include "scene/validate_scene.h"
 
-// Objects taken up by a link and put back.
+// Attaching objects to links, and detaching them.
 
 namespace gpu_planning_scene::core
 {

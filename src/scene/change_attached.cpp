@@ -5,7 +5,7 @@
 #include "scene/scene_changer.h"
 #include "scene/validate_scene.h"
 
-// What links carry: taken up, appended to, put back.
+// Attached objects: attaching them, appending to them, detaching them.
 
 namespace gpu_planning_scene::core
 {
@@ -109,7 +109,7 @@ void SceneChanger::addTouchLinks(const AttachedChange& change, AttachedObject& c
   }
 }
 
-/// Of what is given in the link's own frame, the robot's state need not be known.
+/// A pose in the link's own frame does not need the state of the robot.
 Eigen::Isometry3d SceneChanger::poseInLink(const Eigen::Isometry3d& pose, const FrameAt& frame, int link)
 {
   if (frame.name == linkName(link) || frame.name == "/" + linkName(link))

@@ -1,7 +1,7 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/scene_changer.h"
 
-// Objects of the world: added, appended to, moved, removed.
+// Objects of the world: adding, appending to, moving and removing them.
 
 namespace gpu_planning_scene::core
 {
@@ -53,8 +53,8 @@ void SceneChanger::addObject(const ObjectChange& change)
     objects_.add(std::move(object));
 }
 
-/// MoveIt uses neither the frame nor the pose that come with an append, without a word. A pose of no displacement is
-/// what clients write who fill in a quaternion.
+/// MoveIt ignores the frame and the pose of an append without a warning. Here they are refused if they differ from the
+/// object's. The identity counts as no pose, because clients that fill in a quaternion send it.
 void SceneChanger::appendToObject(WorldObject& object, const ObjectChange& change)
 {
   const std::string where =
@@ -83,7 +83,7 @@ void SceneChanger::moveObject(const ObjectChange& change)
                 " shapes");
   const bool has_lone_pose = !change.pose && change.shape_poses.size() == 1;
   const Eigen::Isometry3d none = Eigen::Isometry3d::Identity();
-  // Before anything of the object changes: the frame may be its own.
+  // The new pose is computed before the object changes, because `frame` may be the object's own.
   object->pose = placed(has_lone_pose ? change.shape_poses.front() : change.pose.value_or(none), change.frame);
   for (std::size_t i = 0; i < change.shape_poses.size(); ++i)
     shapes[i].pose = has_lone_pose ? none : change.shape_poses[i];
@@ -91,7 +91,7 @@ void SceneChanger::moveObject(const ObjectChange& change)
     object->subframes[name] = pose;
 }
 
-/// MoveIt's tutorials attach an object and remove it from the world in one change: that removal is no error here.
+/// MoveIt's tutorials attach an object and remove it from the world in one change. This removal is not an error.
 void SceneChanger::removeObject(const ObjectChange& change)
 {
   const std::string& id = change.id;

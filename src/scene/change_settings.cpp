@@ -4,7 +4,7 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/scene_changer.h"
 
-// Names, fixed frames, the allowed-collision matrix, padding, scale, colours.
+// Names, fixed frames, the allowed collision matrix, padding, scale, colours.
 
 namespace gpu_planning_scene::core
 {
@@ -20,7 +20,7 @@ void SceneChanger::changeNames(const SceneChange& change)
     scene.name = change.name;
 }
 
-/// MoveIt lists the planning frame among them.
+/// MoveIt lists the planning frame among the fixed frames. It is accepted but not stored.
 void SceneChanger::changeFixedFrames(const SceneChange& change)
 {
   PlanningScene& scene = result_.scene;

@@ -4,7 +4,7 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/scene_changer.h"
 
-// The robot's state, and what it carries.
+// The state of the robot, and its attached objects.
 
 namespace gpu_planning_scene::core
 {
@@ -38,14 +38,14 @@ void SceneChanger::setVariables(const std::map<std::string, double>& variables)
       throw Error("robot_state: the position of '" + name + "' is not finite");
     state[static_cast<std::size_t>(variable)] = value;
   }
-  // Values of some joints alone are no state: nothing is made up for the others, and what would be placed by them is
-  // refused.
+  // The values of only some joints are not a state. No values are invented for the other joints, so a change that needs
+  // the pose of a link is refused.
   if (is_known)
     result_.state = std::move(state);
 }
 
-/// As in MoveIt, a robot state whose is_diff is false replaces what links carry. Clients often leave is_diff unset by
-/// mistake, so each object that is gone has a warning.
+/// As in MoveIt, a robot state whose is_diff is false replaces the attached objects. Clients often leave is_diff unset
+/// by mistake, so each object that is removed gives a warning.
 void SceneChanger::dropCarried(const StateChange& change)
 {
   for (const std::string& id : attached_.ids())

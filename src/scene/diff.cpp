@@ -5,7 +5,7 @@
 
 #include "gpu_planning_scene/scene_change.h"
 
-// What leads from one scene to another.
+// The change that leads from one scene to another.
 
 namespace gpu_planning_scene::core
 {
@@ -67,7 +67,7 @@ bool sameCarried(const AttachedObject& a, const AttachedObject& b)
   return a.link == b.link && a.touch_links == b.touch_links && sameObject(a.object, b.object);
 }
 
-/// An object's place in a scene.
+/// An object of a scene, in the world or attached.
 struct Known
 {
   const WorldObject* object = nullptr;
@@ -127,7 +127,7 @@ ObjectChange move(const WorldObject& from, const WorldObject& to)
   return change;
 }
 
-/// The links whose value is another one; vectors that are empty have the usual value throughout.
+/// The links whose value has changed. An empty vector stands for the usual value of every link.
 std::map<std::string, double> changedLinks(const RobotModel& robot, const std::vector<double>& from,
                                            const std::vector<double>& to, double usual)
 {
@@ -142,7 +142,7 @@ std::map<std::string, double> changedLinks(const RobotModel& robot, const std::v
   return changed;
 }
 
-/// Of every link, as a full scene takes defaults for those that it does not name.
+/// The value of every link, because a full scene gives defaults to links that it does not name.
 std::map<std::string, double> allLinks(const RobotModel& robot, const std::vector<double>& values, double usual)
 {
   std::map<std::string, double> all;
@@ -151,8 +151,8 @@ std::map<std::string, double> allLinks(const RobotModel& robot, const std::vecto
   return all;
 }
 
-/// What a difference cannot say: that there is no name or fixed frame any more; that an object has lost its
-/// colour and is still there; that an object is gone and its colour or its entry in the matrix is still there.
+/// Returns true if a difference cannot express the change: the name or the fixed frames are removed; an object stays
+/// and its colour is removed; or an object is removed and its colour or its matrix entry stays.
 bool needsFullScene(const PlanningScene& from, const PlanningScene& to)
 {
   if ((to.name.empty() && !from.name.empty()) || (to.fixed_frames.empty() && !from.fixed_frames.empty()))
@@ -170,7 +170,8 @@ bool needsFullScene(const PlanningScene& from, const PlanningScene& to)
                      [&](const AttachedObject& attached) { return keepsEntries(attached.object.id); });
 }
 
-/// What is carried no more is put back first: where it is then does not matter, as it is added or removed after.
+/// Objects that are no longer attached are detached first. Their place in the world does not matter, because they are
+/// then added anew or removed.
 void compareCarried(const PlanningScene& from, const PlanningScene& to, SceneChange& change)
 {
   const auto before = objectsOf(from);
@@ -258,6 +259,7 @@ SceneChange diffOf(const PlanningScene& from, const PlanningScene& to)
       change.colors[id] = color;
   compareCarried(from, to, change);
   compareObjects(from, to, change);
+  // Detaching an object needs the state of the robot. A full scene does not.
   const bool puts_back =
       std::any_of(change.state.attached.begin(), change.state.attached.end(),
                   [](const AttachedChange& attached) { return attached.object.operation == Operation::Remove; });

@@ -15,7 +15,7 @@ Eigen::Isometry3d poseOf(const KnownFrames& known, const ObjectFrame& object, co
   return object.link < 0 ? *object.pose : linkPose(known.robot, object.link, state) * *object.pose;
 }
 
-/// OBJECT/SUBFRAME; both may have slashes in them.
+/// OBJECT/SUBFRAME; both names may contain slashes.
 std::optional<Eigen::Isometry3d> findSubframe(const KnownFrames& known, const std::string& name, const double* state)
 {
   for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1))
@@ -58,7 +58,8 @@ Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* stat
   return poses[static_cast<std::size_t>(link)];
 }
 
-/// Old tf1 names begin with a slash, and so do the links of some robots: as written first, then without it.
+/// Old tf1 names begin with a slash, and so do the links of some robots. So the name is tried as written, then without
+/// the slash.
 std::optional<Eigen::Isometry3d> findFrame(const KnownFrames& known, const std::string& name, const double* state)
 {
   const auto pose = findAsWritten(known, name, state);

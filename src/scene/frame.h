@@ -11,18 +11,18 @@
 
 namespace gpu_planning_scene::core
 {
-/// The pose of a link in the planning frame. Throws Error where `state` is null or not finite.
+/// The pose of a link in the planning frame. Throws Error if `state` is null or not finite.
 Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* state);
 
-/// An object of a scene as far as it is a frame.
+/// The frame of an object, with its subframes.
 struct ObjectFrame
 {
   const Eigen::Isometry3d* pose;
   const std::map<std::string, Eigen::Isometry3d>* subframes;
-  int link = -1;  ///< that carries it, and whose frame the pose is in; -1: the planning frame
+  int link = -1;  ///< the link that carries the object, in whose frame `pose` is; -1: `pose` is in the planning frame
 };
 
-/// What PlanningScene::frame looks names up in.
+/// The frames of a scene in which PlanningScene::frame looks up names.
 struct KnownFrames
 {
   const RobotModel& robot;

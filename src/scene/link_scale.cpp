@@ -2,7 +2,7 @@
 #include "gpu_planning_scene/planning_scene.h"
 #include "model/scaled_shapes.h"
 
-// The scale of links, which what they carry has too.
+// The scale of links, which also applies to their attached objects.
 
 namespace gpu_planning_scene::core
 {

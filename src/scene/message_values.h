@@ -9,7 +9,8 @@
 
 namespace gpu_planning_scene::core
 {
-// What the numbers of MoveIt's messages mean, in messages and in files. All throw Error.
+// Conversions of numbers that MoveIt's messages and scene files share. They throw Error for values that have no
+// meaning.
 
 /// Numbered as in shape_msgs/SolidPrimitive.
 enum class PrimitiveType
@@ -20,15 +21,16 @@ enum class PrimitiveType
   Cone = 4
 };
 
-/// Box: x, y, z; sphere: radius; cylinder and cone: height, radius. Zeros may follow, as messages that were filled by
-/// habit have them. The sizes are not looked at: see validateShape.
+/// The dimensions are x, y, z for a box, the radius for a sphere, and height, radius for a cylinder and a cone. Zeros
+/// may follow, because some clients fill in more numbers than needed. The sizes are not checked here: see
+/// validateShape.
 Shape primitiveOf(PrimitiveType type, const std::vector<double>& dimensions);
 
 /// The half-space behind the plane a x + b y + c z + d = 0.
 HalfSpace halfSpaceBehind(const Eigen::Vector4d& plane);
 
-/// The values of a planar or floating joint's variables where its child is at `pose` in the joint's frame.
+/// The values of a planar or floating joint's variables for which its child is at `pose` in the joint's frame.
 std::vector<double> variablesAt(const Joint& joint, const Eigen::Isometry3d& pose);
-/// The opposite. Not for a quaternion of zero length.
+/// The inverse of variablesAt. The quaternion must not have length 0.
 Eigen::Isometry3d poseOfVariables(const Joint& joint, const double* values);
 }  // namespace gpu_planning_scene::core

@@ -2,13 +2,14 @@
 
 #include "scene/scene_reader.h"
 
-// Padding and scale of links.
+// Padding and scale of links, and colours of bodies.
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The list `key` of values by link; those that are not in it have their default. Empty: all are `usual`.
+/// Reads the list `key` of values by link. Links that it does not name have their default. Empty if all values are
+/// `usual`.
 std::vector<double> readLinkValues(const YamlValue& scene, const SceneReader& reader, const char* key,
                                    const std::string& member, const std::vector<double>& defaults, double usual)
 {

@@ -6,7 +6,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// A matrix row: bare, or MoveIt's AllowedCollisionEntry with `enabled`.
+/// The values of a matrix row: the bare row, or `enabled` of MoveIt's AllowedCollisionEntry.
 const YamlValue& rowValues(const YamlValue& row, std::size_t count)
 {
   const YamlValue& values = row.kind() == YamlValue::Kind::Map ? row.at("enabled") : row;

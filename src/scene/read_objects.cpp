@@ -16,7 +16,8 @@ const std::vector<YamlValue>& itemsOf(const YamlValue* parent, const char* key)
   return list ? list->items() : none;
 }
 
-/// ROS writes the message's zeros where an object's pose was never set. Then it has its lone shape's, as in messages.
+/// ROS writes zeros for an object's pose that was never set. An object with one shape then takes the pose of
+/// that shape, as in messages.
 bool isUnsetPose(const YamlValue& value)
 {
   for (const char* key : {"position", "orientation"})
@@ -57,7 +58,7 @@ std::map<std::string, Eigen::Isometry3d> readSubframes(const YamlValue& object)
   return subframes;
 }
 
-/// The object, with its pose in the frame that its header names.
+/// Reads an object. Its pose is in the frame that its header names.
 WorldObject readObject(const YamlValue& value, SceneReader& reader)
 {
   value.warnOfUnknownKeys({"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes", "mesh_poses",
@@ -90,7 +91,7 @@ int readLink(const YamlValue& value, const SceneReader& reader)
   return link;
 }
 
-/// The pose in the link's frame of the frame that `header` (may be null) names; without a name, the link's own.
+/// The pose in the link's frame of the frame that `header` names. Without a header or a name: the link's own frame.
 Eigen::Isometry3d readFrameInLink(const YamlValue* header, int link, const SceneReader& reader)
 {
   const YamlValue* frame = header ? header->find("frame_id") : nullptr;

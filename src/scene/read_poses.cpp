@@ -15,7 +15,7 @@ Eigen::Quaterniond readOrientation(const YamlValue& value)
   const double norm = components.stableNorm();
   if (norm == 0.0)
     value.fail("the quaternion is zero; no rotation is [0, 0, 0, 1]");
-  // Divided first, so that squares of large components do not overflow.
+  // The components are divided first, so that squares of large components do not overflow.
   return Eigen::Quaterniond(Eigen::Vector4d(components / norm)).normalized();
 }
 
@@ -70,7 +70,8 @@ Eigen::Isometry3d readFrame(const YamlValue* header, const SceneReader& reader)
   const YamlValue* value = header ? header->find("frame_id") : nullptr;
   if (!value || value->text().empty())
     return Eigen::Isometry3d::Identity();
-  // Old tf1 names begin with a slash, and so do the links of some robots: as written first, then without it.
+  // Old tf1 names begin with a slash, and so do the links of some robots. So the name is tried as written, then without
+  // the slash.
   for (const std::string& frame : {value->text(), withoutLeadingSlash(value->text())})
   {
     if (frame == reader.robot.planningFrame())

@@ -6,7 +6,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The state as far as it was read, and what was not used of the file.
+/// The values that were read so far, and the names of joints in the file that are not used.
 struct GivenState
 {
   std::vector<double> values;

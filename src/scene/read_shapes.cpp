@@ -75,13 +75,13 @@ std::shared_ptr<const Mesh> readInlineMesh(const YamlValue& value, SceneReader& 
     value.fail("the mesh has no triangles");
   for (const auto& known : reader.inline_meshes)
     if (known->triangles == mesh->triangles && known->vertices == mesh->vertices)
-      return known;  // one tree serves them all
+      return known;  // equal meshes share one tree
   reader.inline_meshes.push_back(mesh);
   return mesh;
 }
 
-/// A mesh's vertices and triangles, or a `resource` (a URI or path) with an optional `scale` (`dimensions` in
-/// robowflex's files).
+/// A mesh: `vertices` and `triangles`, or a `resource` (a URI or path) with an optional `scale`, which robowflex's
+/// files call `dimensions`.
 std::shared_ptr<const Mesh> readMesh(const YamlValue& value, SceneReader& reader)
 {
   value.warnOfUnknownKeys({"vertices", "triangles", "resource", "scale", "dimensions"}, reader.warnings);
@@ -123,7 +123,7 @@ HalfSpace readPlane(const YamlValue& value, const SceneReader& reader)
   }
 }
 
-/// One pose per shape; a lone shape may do without.
+/// Reads one pose per shape. A lone shape needs none.
 std::vector<Eigen::Isometry3d> readShapePoses(const YamlValue& object, const char* key, std::size_t count)
 {
   std::vector<Eigen::Isometry3d> poses;

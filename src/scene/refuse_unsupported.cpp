@@ -1,6 +1,7 @@
 #include "scene/scene_reader.h"
 
-// What MoveIt's messages can say and this package does not model: better no answer than one for another scene.
+// Parts of MoveIt's messages that this package does not model. They are refused, because an answer would be for another
+// scene.
 
 namespace gpu_planning_scene::core
 {

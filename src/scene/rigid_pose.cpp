@@ -12,9 +12,10 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr double kTolerance = 1e-6;
-constexpr double kRounding = 1e-15;  // rotations that are as good as doubles get stay as they are
+constexpr double kRounding = 1e-15;  // a rotation that is off by less is not changed
 
-/// How far its matrix is from that of a rotation and a translation.
+/// The deviation of the matrix from a rotation and a translation. Infinite if the pose is not finite, is a
+/// reflection, or is too far away.
 double excessOf(const Eigen::Isometry3d& pose)
 {
   const Eigen::Matrix3d rotation = pose.linear();

@@ -11,7 +11,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Most changes name none but these, and what they change may be large.
+/// Returns true if the change names only the planning frame and links. Most changes do, and trying a large one takes
+/// long.
 bool namesNoOtherFrames(const RobotModel& robot, const SceneChange& change)
 {
   const auto is_robots = [&robot](const FrameAt& frame)
@@ -44,8 +45,8 @@ Change applyChange(const PlanningScene& scene, const std::vector<double>& state,
   }
 }
 
-/// The change is tried, with any state and any pose for frames that are not known: which names are known depends on
-/// neither. What is wrong with the change is said where it is made.
+/// Tries the change with some state of the robot, and some pose for each unknown frame. The names that are unknown
+/// depend on neither. Errors are ignored here; applyChange reports them.
 std::vector<FrameAt> externalFrames(const PlanningScene& scene, const SceneChange& change)
 {
   if (namesNoOtherFrames(*scene.robot, change))

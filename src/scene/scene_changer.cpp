@@ -8,7 +8,7 @@
 #include "scene/rigid_pose.h"
 #include "scene/shape_order.h"
 
-// What all parts of a change need.
+// Functions that all parts of a change use.
 
 namespace gpu_planning_scene::core
 {
@@ -38,7 +38,7 @@ SceneChanger::SceneChanger(const PlanningScene& scene, const std::vector<double>
   requirePadding(defaults.attached_padding, "default_attached_padding");
 }
 
-/// A full scene's world is emptied first: what it attaches is no object of the scene before.
+/// The world of a full scene is emptied first, so that the change cannot attach an object of the previous scene.
 Change SceneChanger::make(const SceneChange& change)
 {
   changeNames(change);

@@ -14,11 +14,11 @@ namespace gpu_planning_scene::core
 {
 void appendShapes(const ObjectChange& change, WorldObject& object);
 
-/// Makes one change on a copy of a scene. Each kind of part has a file of its own.
+/// Applies one change to a copy of a scene. Each kind of part has a file of its own.
 class SceneChanger
 {
  public:
-  /// The pose of a frame that the scene does not know; throws Error.
+  /// The pose in the planning frame of a frame that the scene does not know. Throws Error if it is unknown here too.
   using Lookup = std::function<Eigen::Isometry3d(const FrameAt&)>;
 
   SceneChanger(const PlanningScene& scene, const std::vector<double>& state, const SceneDefaults& defaults,
@@ -62,16 +62,16 @@ class SceneChanger
   // scene_changer.cpp
   void requireNewId(const std::string& id) const;
   int requireLink(const std::string& name, const std::string& where) const;
-  /// Throws Error unless all that the change gives can be used.
+  /// Throws Error if a pose, name or shape of the change cannot be used.
   void require(const ObjectChange& change);
   void requirePose(const Eigen::Isometry3d& pose, const std::string& where) const;
-  /// Forgets what the scene knows of an object that is gone: its colour and its allowed collisions.
+  /// Removes the colour and the allowed collisions of an object that is gone.
   void forget(const std::string& id);
-  /// Warns where earlier changes allow the new object to touch other bodies, as those pairs are not checked.
+  /// Warns if earlier changes allow the new object to touch other bodies, because these pairs are not checked.
   void warnOfAllowedCollisions(const std::string& id);
-  /// The object that an Add describes, its pose in the change's frame.
+  /// The object that an Add describes. Its pose is in the frame of the change.
   WorldObject newObject(const ObjectChange& change) const;
-  /// A pose in a frame, in the planning frame.
+  /// Transforms a pose in `frame` to the planning frame.
   Eigen::Isometry3d placed(const Eigen::Isometry3d& pose, const FrameAt& frame);
   const std::string& linkName(int link) const
   {
@@ -86,8 +86,8 @@ class SceneChanger
   SceneCount count_;
   const SceneDefaults& defaults_;
   Lookup lookup_;
-  bool has_new_matrix_ = false;          // set by this change
-  std::set<std::string> attached_here_;  // by this change
-  std::set<const Mesh*> valid_meshes_;   // of this change
+  bool has_new_matrix_ = false;          // this change has set the matrix
+  std::set<std::string> attached_here_;  // ids of objects that this change attached
+  std::set<const Mesh*> valid_meshes_;   // meshes of this change that were found valid
 };
 }  // namespace gpu_planning_scene::core

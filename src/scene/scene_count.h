@@ -8,22 +8,22 @@
 
 namespace gpu_planning_scene::core
 {
-/// Holds what a scene has against its limits. Throws Error that names the limit as the node's parameters do.
+/// Compares the contents of a scene with its limits. Throws Error that names the limit as the node's parameters do.
 class SceneCount
 {
  public:
   SceneCount(const SceneLimits& limits, const PlanningScene& scene);
 
-  /// Before the object is kept.
+  /// Counts an object with its shapes, before it is added to the scene.
   void add(const std::string& id, const std::vector<PlacedShape>& shapes);
   void remove(const std::vector<PlacedShape>& shapes);
-  /// Of the whole scene, where a mesh was added.
+  /// Checks the triangles of the whole scene, if a mesh was added.
   void requireTriangles(const PlanningScene& scene) const;
 
-  /// Of the whole scene.
+  /// Checks the frames and colours of the whole scene.
   void requireFramesAndColors(const PlanningScene& scene) const;
 
-  /// A name that is not empty, not longer than the limit, and one line. `what` it is, for the message.
+  /// Checks that a name is not empty, not longer than the limit, and one line. `what` describes it in the message.
   void requireName(const std::string& name, const std::string& what) const;
   void requireMatrix(const AllowedCollisionMatrix& matrix) const;
 

@@ -19,15 +19,15 @@ inline const std::string& idOf(const AttachedObject& attached)
   return attached.object.id;
 }
 
-/// The objects of a scene while many of them change: found by their ids in a table. Those that are taken out leave a
-/// gap until close() is called, so that ten thousand changes do not move ten thousand objects each.
+/// The objects of a scene while many of them change. A table finds them by their ids. An object that is taken out
+/// leaves a gap until close() is called, so that ten thousand changes do not move ten thousand objects each.
 template <class Item>
 class SceneItems
 {
  public:
   explicit SceneItems(std::vector<Item>& items) : items_(items) {}
 
-  /// Null if there is none. Valid until the next add().
+  /// The object with this id, or null. Valid until the next add().
   Item* find(const std::string& id)
   {
     makeTable();
@@ -44,7 +44,7 @@ class SceneItems
     return items_.back();
   }
 
-  /// One that there is.
+  /// Takes out an object, which must exist.
   Item take(const std::string& id)
   {
     makeTable();

@@ -13,18 +13,18 @@
 
 namespace gpu_planning_scene::core
 {
-// The parts of a scene file. Each function throws Error with file and line.
+// Readers of the parts of a scene file. Each function throws Error with file and line.
 
-/// What reading one scene file needs and keeps.
+/// The inputs and the intermediate results of reading one scene file.
 struct SceneReader
 {
   const RobotModel& robot;
   const PackageResolver& packages;
-  std::string folder;                  ///< what relative mesh paths are relative to
+  std::string folder;                  ///< start of relative mesh paths
   std::vector<std::string>* warnings;  ///< may be null
   const SceneDefaults& defaults;
   std::vector<double> state = {};                              ///< the file's robot state; empty if it has none
-  std::map<std::string, Eigen::Isometry3d> fixed_frames = {};  ///< their poses in the planning frame
+  std::map<std::string, Eigen::Isometry3d> fixed_frames = {};  ///< poses in the planning frame
   MeshAccess meshes = {};
   MeshCache mesh_files = MeshCache();
   std::vector<std::shared_ptr<const Mesh>> inline_meshes = {};
@@ -34,35 +34,37 @@ struct SceneReader
 
 /// [x, y, z], or a map with x, y and z.
 Eigen::Vector3d readVector(const YamlValue& value);
-/// A position and an orientation under these names, both optional. The orientation (x, y, z, w) is normalised.
+/// A pose from a position and an orientation under these keys, both optional. The orientation (x, y, z, w) is
+/// normalised.
 Eigen::Isometry3d readPose(const YamlValue& value, const char* position_key = "position",
                            const char* orientation_key = "orientation");
 
-/// A map of the scene's `fixed_frame_transforms`, added to `reader.fixed_frames`.
+/// Reads an entry of the scene's `fixed_frame_transforms` and adds it to `reader.fixed_frames`.
 void readFixedFrame(const YamlValue& value, SceneReader& reader);
-/// The pose in the planning frame of the frame that `header` (may be null) names.
+/// The pose in the planning frame of the frame that `header` names. Without a header or a name: the planning frame.
 Eigen::Isometry3d readFrame(const YamlValue* header, const SceneReader& reader);
 
-/// `robot_state`, complete: what the file does not give has its default. Empty where no joint is given.
+/// Reads `robot_state`. Values that the file does not give have their defaults. Empty if the file gives no value at
+/// all.
 std::vector<double> readRobotState(const YamlValue& value, const SceneReader& reader);
 
-/// False, and `matrix` unchanged, where the value holds no entries.
+/// Returns false and leaves `matrix` unchanged if the value holds no entries.
 bool readMatrix(const YamlValue& value, const SceneReader& reader, AllowedCollisionMatrix& matrix);
 
-/// The primitives, meshes and planes of a collision object, in its frame. A plane is the half-space behind it.
+/// The primitives, meshes and planes of a collision object, in its frame. A plane becomes the half-space behind it.
 std::vector<PlacedShape> readShapes(const YamlValue& object, SceneReader& reader);
 
-/// The objects of the world, and those that links carry (`robot_state.attached_collision_objects`). Every id is new
-/// and no link's.
+/// Reads the objects of the world and the attached objects (`robot_state.attached_collision_objects`). An id must not
+/// occur twice and must not be the name of a link.
 void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& result);
 
-/// `link_padding` and `link_scale`: one value per link of the robot; empty if all are zero, or one.
+/// `link_padding` and `link_scale`: one value per link of the robot. Empty if each padding is 0, or each scale is 1.
 std::vector<double> readLinkPadding(const YamlValue& scene, const SceneReader& reader);
 std::vector<double> readLinkScale(const YamlValue& scene, const SceneReader& reader);
 
 /// `object_colors`.
 std::map<std::string, Color> readColors(const YamlValue& scene, const SceneReader& reader);
 
-/// Octomaps: fails where there is one.
+/// Throws Error if the scene has an octomap.
 void refuseUnsupported(const YamlValue& scene);
 }  // namespace gpu_planning_scene::core

@@ -39,7 +39,7 @@ class SceneTextReader
   }
 
  private:
-  /// Files of either layout start an object with its name; where a line with several words follows, that is its pose.
+  /// In all files, an object begins with its name. If a line of several words follows, that line is its pose.
   WorldObject readObject()
   {
     WorldObject object;

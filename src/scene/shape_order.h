@@ -6,7 +6,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Messages list the primitives of an object, then its meshes, then its planes, and a move names poses in that order:
-/// so lie an object's shapes, from wherever they came.
+/// Sorts the shapes of an object: primitives, then meshes, then planes. Messages list them in this order, and a move
+/// gives their poses in this order. So all objects keep it, whatever their source.
 void orderShapes(std::vector<PlacedShape>& shapes);
 }  // namespace gpu_planning_scene::core

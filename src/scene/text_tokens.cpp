@@ -80,7 +80,8 @@ std::size_t TextTokens::index(const char* what)
   return static_cast<std::size_t>(*value);
 }
 
-/// Whatever is counted takes a character at least, so no memory is asked for that the file does not account for.
+/// Each counted item takes at least one character. So a wrong count does not allocate more memory than the file
+/// justifies.
 std::size_t TextTokens::count(const char* what)
 {
   const std::size_t value = index(what);

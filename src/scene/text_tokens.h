@@ -8,8 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A text of words between blanks, read from its beginning, that knows where it stands, so that what is wrong can be
-/// said with file and line.
+/// Reads a text word by word; blanks separate words. It counts lines, so that errors name file and line.
 class TextTokens
 {
  public:
@@ -19,18 +18,18 @@ class TextTokens
   /// Throws Error with file and line.
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// The next word, left where it is; empty at the end.
+  /// The next word, which stays unread; empty at the end.
   std::string_view peek();
-  /// Fails at the end.
+  /// Reads the next word. Fails at the end of the text. `what` describes the word in messages.
   std::string word(const char* what);
-  /// What is left of the line, without blanks around it.
+  /// Reads the rest of the line, without blanks around it.
   std::string restOfLine();
-  /// Whether the next line that is not empty has more than one word.
+  /// Returns true if the next line that is not empty has more than one word.
   bool nextLineHasSeveralWords();
 
   double number(const char* what);           ///< fails if it is not a finite number
   std::size_t index(const char* what);       ///< fails if it is not a whole number from 0 on
-  std::size_t count(const char* what);       ///< an index; fails if there are not as many characters left
+  std::size_t count(const char* what);       ///< an index; fails if the text has fewer characters left
   Eigen::Vector3d vector(const char* what);  ///< x y z
   Eigen::Isometry3d pose();                  ///< x y z and a quaternion x y z w, which is normalised
 

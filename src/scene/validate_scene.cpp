@@ -13,7 +13,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// rigid() also makes the rotation a better one, which takes long.
+/// isRigid() comes first, because rigid() also corrects the rotation, which takes long.
 void validatePose(const Eigen::Isometry3d& pose, const std::string& where)
 {
   if (!isRigid(pose))
@@ -26,7 +26,7 @@ void validatePadding(double padding, const std::string& where)
     throw Error(where + ": the padding is " + std::to_string(padding) + "; it must not be negative, nor above 1000 km");
 }
 
-/// Meshes by address that have been found valid.
+/// Meshes that were found valid, by address.
 using Meshes = std::unordered_map<const Mesh*, std::weak_ptr<const Mesh>>;
 
 void validateObject(const WorldObject& object, const Meshes& known, Meshes& valid)
@@ -97,7 +97,7 @@ void SceneValidator::validate(const PlanningScene& scene)
   for (std::size_t i = 0; i < scene.link_padding.size(); ++i)
     validatePadding(scene.link_padding[i], "link '" + links[i].name + "'");
 
-  Meshes valid;  // of this scene
+  Meshes valid;  // meshes of this scene
   std::unordered_set<std::string_view> ids;
   ids.reserve(links.size() + scene.objects.size() + scene.attached.size());
   for (const Link& link : links)

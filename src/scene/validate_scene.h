@@ -7,19 +7,20 @@
 
 namespace gpu_planning_scene::core
 {
-/// What no checker can use, as scenes may come from a program as well as from a file: throws Error for two objects of
-/// one name, a pose or shape that is not valid, a negative padding, a half-space in a link or a carried object, or an
-/// attached object whose links the robot does not have. (The robot's shapes were checked when it was loaded.)
+/// Refuses a scene that no checker can use. Scenes may come from a program as well as from a file. Throws Error for:
+/// two bodies of one name; an invalid pose or shape; a padding that is negative or above 1000 km; a wrong number of
+/// link paddings; a half-space in a link or an attached object; an attached object with links that the robot does not
+/// have, or without its link's scale. The shapes of the robot were checked when it was loaded.
 void validateScene(const PlanningScene& scene);
 
-/// The same for scene after scene: meshes, which never change, are looked through once.
+/// Validates one scene after the other. Each mesh is checked only once, because meshes never change.
 class SceneValidator
 {
  public:
   void validate(const PlanningScene& scene);
 
  private:
-  /// Weak: a mesh that is gone may leave its address to another.
+  /// Weak pointers, because a new mesh may get the address of a mesh that is gone.
   std::unordered_map<const Mesh*, std::weak_ptr<const Mesh>> valid_;
 };
 

@@ -15,8 +15,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Builds the values from the parser's events. yaml-cpp's own node tree would be several times slower for large meshes
-/// and takes a key that is given twice without a word.
+/// Builds the values from the parser's events. yaml-cpp's own node tree would be several times slower for large meshes,
+/// and it accepts a key that is given twice without an error.
 class YamlTreeBuilder : public YAML::EventHandler
 {
  public:
@@ -27,7 +27,7 @@ class YamlTreeBuilder : public YAML::EventHandler
   void OnDocumentStart(const YAML::Mark& mark) override
   {
     document_ = makeValue(YamlValue::Kind::Null, mark);
-    // On some broken texts the parser finds one empty document after the other and never goes on.
+    // On some broken texts the parser returns one empty document after the other and never ends.
     if (mark.pos == document_start_)
       document_.fail("not YAML: the document ends where it begins");
     document_start_ = mark.pos;
@@ -44,7 +44,7 @@ class YamlTreeBuilder : public YAML::EventHandler
     const auto target = anchors_.find(anchor);
     if (target == anchors_.end())
       makeValue(YamlValue::Kind::Null, mark).fail("an alias inside the value that it stands for");
-    // Each use is a copy, and a few lines of aliases of aliases would take all memory.
+    // Each use of an alias is a copy. A few lines of aliases of aliases would take all memory.
     copied_ += target->second.size;
     if (copied_ > kMostCopied)
       target->second.value.fail("aliases stand for more than " + std::to_string(kMostCopied) + " values");
@@ -76,8 +76,8 @@ class YamlTreeBuilder : public YAML::EventHandler
   {
     YamlValue value;
     YAML::anchor_t anchor;
-    std::unique_ptr<YamlValue> key;  ///< of a map, where its value has yet to come
-    std::size_t size = 1;            ///< values in it, itself among them
+    std::unique_ptr<YamlValue> key;  ///< of a map: a key whose value has not been read yet
+    std::size_t size = 1;            ///< number of values in it, itself included
   };
   struct Anchored
   {
@@ -219,7 +219,7 @@ const std::string& YamlValue::text() const
 
 double YamlValue::number() const
 {
-  // YAML writes .nan and .inf, which are as unwelcome here as nan and inf.
+  // .nan and .inf, which YAML allows, are not accepted, and neither are nan and inf.
   const std::optional<double> value = parseNumber(text());
   if (!value || !std::isfinite(*value))
     fail("'" + scalar_ + "' is not a finite number");

@@ -9,7 +9,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A value of a YAML file that knows where it stands, so that what is wrong with it can be said with file and line.
+/// A value of a YAML file. It keeps its line, so that errors name file and line.
 class YamlValue
 {
  public:
@@ -21,7 +21,7 @@ class YamlValue
     Map
   };
 
-  /// Throws Error if the file cannot be read, is not YAML, names a key twice, or holds no or more than one document.
+  /// Throws Error if the file cannot be read, is not YAML, has a key twice, or does not hold exactly one document.
   static YamlValue loadFile(const std::string& path);
 
   Kind kind() const { return kind_; }
@@ -42,10 +42,10 @@ class YamlValue
   long long integer() const;
   bool boolean() const;  ///< true, false, yes, no, 1, 0 (as YAML 1.1 and ROS write them)
   const std::string& text() const;
-  /// As many finite numbers as asked for.
+  /// The items of a list of exactly `count` finite numbers; fails if the value is not one.
   std::vector<double> numbers(std::size_t count) const;
 
-  /// Adds a line to `warnings` (may be null) for each member that is not `known`.
+  /// Adds a line to `warnings` (may be null) for each member whose key is not in `known`.
   void warnOfUnknownKeys(std::initializer_list<const char*> known, std::vector<std::string>* warnings) const;
 
  private:
