@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prints 'N passed, N failed, N skipped' for a JUnit file of ctest; what is given after it is added to the failed."""
+"""count_tests.py FILE N: prints 'N passed, N failed, N skipped' for a JUnit file of ctest, with N more failures."""
 import sys
 import xml.etree.ElementTree
 

@@ -1,8 +1,8 @@
-# Sourced by scripts/test: clang-tidy on what changed.
+# Sourced by scripts/test: runs clang-tidy on changed files.
 # shellcheck shell=bash
 
-# lint_base: the commit that changes are counted from: where this branch left the upstream one, or else the commit before.
-# Fails without one (no git, a shallow clone, a first commit).
+# lint_base: prints the commit with which the files are compared. This is the commit where the branch left its upstream
+# branch, or otherwise the previous commit. Fails without such a commit (no git, a shallow clone, a first commit).
 lint_base()
 {
   local upstream base head
@@ -17,14 +17,14 @@ lint_base()
   git_here rev-parse --verify --quiet HEAD~1
 }
 
-# Under sudo the repository belongs to someone else, which git refuses otherwise.
+# safe.directory: under sudo the repository belongs to another user, and git would refuse it.
 git_here()
 {
   git -C "$repository" -c safe.directory='*' "$@" 2> /dev/null
 }
 
-# files_to_lint: our .cpp files that changed, committed or not, and those that include a header of ours that did; all of
-# them where the changes are unknown.
+# files_to_lint: prints the changed .cpp files, committed or not, and the .cpp files that include a changed header. If
+# the changes are unknown, prints all .cpp files.
 files_to_lint()
 {
   local base changed header
@@ -43,12 +43,12 @@ files_to_lint()
   } | sort --unique
 }
 
-# lint BUILD_FOLDER: prints findings; fails if there are any.
+# lint BUILD_FOLDER: prints the findings of clang-tidy; fails if there are any.
 lint()
 {
   local list="$temporary/lint" file
   files_to_lint | while read -r file; do
-    # Not what is compiled elsewhere only, such as the package of test/install.
+    # Leaves out files that this build does not compile, such as the package of test/install.
     if grep --quiet --fixed-strings "\"$repository/$file\"" "$1/compile_commands.json"; then
       echo "$repository/$file"
     fi
