@@ -16,7 +16,7 @@ std::string textParameter(const ros::NodeHandle& node, const std::string& name, 
 double lengthParameter(const ros::NodeHandle& node, const std::string& name, double fallback);
 /// Finite, and above 0.
 double positiveParameter(const ros::NodeHandle& node, const std::string& name, double fallback);
-/// An integer from `least` to `most`; also given as a floating-point number such as 1e6.
+/// An integer from `least` to `most`. A floating-point number without a fraction, such as 1e6, counts as an integer.
 std::size_t countParameter(const ros::NodeHandle& node, const std::string& name, std::size_t fallback,
                            std::size_t least, std::size_t most);
 

@@ -25,8 +25,8 @@ struct PlanServiceOptions
 /// Throws Error, which names the parameter.
 PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own);
 
-/// Converts a request of ~plan to a query. `config`: the configuration of the requested planner. `planners`: those of
-/// the requested group. Throws Error for a wrong request.
+/// Converts a request of ~plan to a query. `config`: the configuration of the requested planner. `planners`: the
+/// settings of the requested group. Throws Error for a wrong request.
 PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const PlannerConfig& config,
                         const GroupPlanners& planners, const PlanServiceOptions& options);
 }  // namespace gpu_planning_scene::core

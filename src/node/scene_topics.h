@@ -13,7 +13,7 @@ namespace gpu_planning_scene::core
 class SceneTopics
 {
  public:
-  /// The queue holds at most `most_changes` changes from messages of together at most `most_bytes`. All arguments
+  /// The queue holds at most `most_changes` changes, from messages with `most_bytes` bytes in total. All arguments
   /// passed by reference must outlive this object.
   SceneTopics(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneServices& changes,
               const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t most_changes, std::size_t most_bytes);

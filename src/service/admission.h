@@ -16,7 +16,7 @@ class Admission
   {
   }
 
-  /// Its owner is inside until the pass is destroyed.
+  /// The owner of a pass is admitted until the pass is destroyed.
   class Pass
   {
    public:

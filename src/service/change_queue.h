@@ -25,7 +25,7 @@ class ChangeQueue
   /// Called on the queue's thread for each change that was not made.
   using Refuse = std::function<void(const std::string& source, const std::string& why)>;
 
-  /// The queue holds at most `most_changes` changes of together at most `most_bytes` (see add()). One change always
+  /// The queue holds at most `most_changes` changes with `most_bytes` bytes in total (see add()). One change always
   /// fits, whatever its size.
   ChangeQueue(Maker maker, Refuse refuse, std::size_t most_changes, std::size_t most_bytes);
   /// Calls stop().

@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core
 class CheckQueue
 {
  public:
-  /// `largest_batch`: the most states of requests that are merged into one batch; 0: requests are not merged.
+  /// `largest_batch`: the largest number of states in a batch of merged requests; 0: requests are not merged.
   CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_checker, const CheckServerOptions& options,
              std::size_t largest_batch);
   ~CheckQueue();

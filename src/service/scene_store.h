@@ -55,8 +55,8 @@ class SceneStore
   /// Sets the robot's variables, by name; names that the robot lacks are ignored. The revision stays the same. If a
   /// value is not finite, it throws Error and sets nothing. `stamp`: nanoseconds; 0: unknown.
   void updateState(const std::map<std::string, double>& variables, std::int64_t stamp = 0);
-  /// The state whose stamp is nearest to `stamp` (nanoseconds; 0: the newest state). States without stamps: the newest
-  /// state. Throws Error if `stamp` is older than StateHistory keeps.
+  /// The state whose stamp is nearest to `stamp` (nanoseconds; 0: the newest state). If no state had a stamp, it is the
+  /// newest state. Throws Error if the states of that time have already been dropped (see StateHistory).
   std::vector<double> stateAt(std::int64_t stamp) const;
 
   /// Called after each change with the scenes before and after it, in the order of revisions. During the call, readers

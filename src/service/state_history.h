@@ -12,8 +12,8 @@ class StateHistory
  public:
   static constexpr std::int64_t kKept = 10'000'000'000;  ///< nanoseconds before the newest stamp
 
-  /// A stamp of 0 means "no stamp": the state is not kept. If the stamp is older than the kept states (the clock was
-  /// set back), all other states are dropped.
+  /// A stamp of 0 means "no stamp": the state is not kept. If the stamp is more than kKept before the newest one (the
+  /// clock was set back), all other states are dropped.
   void add(std::int64_t stamp, const std::vector<double>& state);
 
   /// The state whose stamp (nanoseconds) is nearest; null if there is none. Throws Error if `stamp` is before all kept
