@@ -1,4 +1,4 @@
-# What is needed at run time and to build against the package.
+# Installs the files that are needed at run time and to build against the package.
 set(libraries gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_scene_gpu gpu_planning_scene_collision
   gpu_planning_scene_planning)
 set(export_folder ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)

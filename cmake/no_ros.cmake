@@ -1,4 +1,4 @@
-# The libraries, tools and benchmarks on a machine without ROS: the folders that catkin would name.
+# Builds without ROS: sets the install folders that catkin sets otherwise.
 set(CATKIN_GLOBAL_INCLUDE_DESTINATION include)
 set(CATKIN_PACKAGE_LIB_DESTINATION lib)
 set(CATKIN_PACKAGE_BIN_DESTINATION lib/${PROJECT_NAME})

@@ -1,7 +1,7 @@
-# The catkin package: messages, and what other packages get by find_package(gpu_planning_scene).
+# The catkin package: its messages, and its exports for find_package(gpu_planning_scene).
 
-# Debian's ROS lives in the system's Python; a pyenv or conda python3 earlier on PATH lacks catkin_pkg.
-# So does what Debian's pluginlib brings.
+# Debian's ROS needs the system's Python, which has catkin_pkg and ament_package (for pluginlib). A python3 of pyenv or
+# conda, which may come earlier on PATH, lacks them.
 foreach(name PYTHON_EXECUTABLE Python3_EXECUTABLE)
   if(NOT ${name} AND EXISTS /usr/bin/python3)
     set(${name} /usr/bin/python3 CACHE FILEPATH "The Python that has catkin_pkg and ament_package")
@@ -37,7 +37,7 @@ add_service_files(FILES
   ShowTreeLevel.srv)
 generate_messages(DEPENDENCIES ${message_dependencies})
 
-# Only the ROS-free libraries are exported, so a user of the library needs no roscpp.
+# Only the libraries without ROS are exported, so that their users need no roscpp.
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_scene_gpu gpu_planning_scene_collision

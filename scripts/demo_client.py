@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Checks random states of the robot on the parameter server through planning_scene_node, and sums up the answers."""
+"""Checks random states of the robot on the parameter server through planning_scene_node, and summarises the answers."""
 import argparse
 import collections
 import math
@@ -10,14 +10,14 @@ import xml.etree.ElementTree
 import numpy
 import yaml
 
-# Variables are named as in MoveIt: the joint's name, or JOINT/PART where a joint has several.
+# Variables have MoveIt's names: the name of the joint, or JOINT/PART if the joint has several variables.
 Variable = collections.namedtuple("Variable", "name lower upper")
 QUATERNION = ["rot_x", "rot_y", "rot_z", "rot_w"]
 
 
 def variables_of(urdf, reach=1.0):
-    """The variables of a URDF text that a request gives values for. Angles without limits range over a turn,
-    translations of planar and floating joints over [-reach, reach]."""
+    """The variables of a URDF text that need values. Angles without limits get the range [-pi, pi]; translations of
+    planar and floating joints get the range [-reach, reach] in metres."""
     variables = []
     for joint in xml.etree.ElementTree.fromstring(urdf).findall("joint"):
         name, kind = joint.get("name"), joint.get("type")
@@ -38,8 +38,9 @@ def variables_of(urdf, reach=1.0):
 
 
 def random_states(variables, count, seed, around=None, spread=0.0):
-    """One row a state: uniform between the limits, or, where `around` (name -> value) is given, within `spread` of it
-    and the limits. Rotations of floating joints are uniform over all rotations, or those of `around`."""
+    """Random states, one per row. Without `around`, they are uniform within the limits, and rotations of floating
+    joints are uniform over all rotations. With `around` (name -> value), each variable is within the limits and within
+    `spread` of its value in `around`; quaternions are normalised afterwards."""
     generator = numpy.random.default_rng(seed)
     lower = numpy.array([variable.lower for variable in variables])
     upper = numpy.array([variable.upper for variable in variables])
@@ -60,14 +61,14 @@ def random_states(variables, count, seed, around=None, spread=0.0):
 
 
 def state_of_scene(path):
-    """The joint values that a scene file's robot_state names."""
+    """The joint values in the robot_state of a scene file."""
     with open(path) as file:
         joint_state = yaml.safe_load(file)["robot_state"]["joint_state"]
     return dict(zip(joint_state["name"], joint_state["position"]))
 
 
 def summary(response, count, seconds):
-    """Lines for a person."""
+    """The lines that the client prints."""
     valid = numpy.frombuffer(response.valid, dtype=numpy.uint8)
     pairs = collections.Counter(
         tuple(sorted(pair)) for pair, free in zip(zip(response.body_1, response.body_2), valid) if not free
@@ -82,8 +83,8 @@ def summary(response, count, seconds):
 
 
 def call(arguments):
-    """Asks the node; returns the exit code."""
-    import rospy  # here, so that the rest can be used without ROS
+    """Calls the node; returns the exit code."""
+    import rospy  # imported here, so that the other functions work without ROS
     from gpu_planning_scene.srv import CheckStates
 
     rospy.init_node("demo_client", anonymous=True)
@@ -95,7 +96,7 @@ def call(arguments):
     request = {"group": arguments.group, "joint_names": [variable.name for variable in variables], "max_contacts": 0}
 
     calls = []
-    for _ in range(5):  # the first find pages, threads and shaders cold, others meet a busy machine
+    for _ in range(5):  # the median leaves out slow first calls and calls on a busy machine
         begin = time.monotonic()
         response = check_states(positions=states.ravel(), **request)
         calls.append((time.monotonic() - begin, response))
@@ -118,13 +119,13 @@ def main():
     parser.add_argument("--group", default="", help="check only what this planning group moves")
     parser.add_argument("--service", default="/planning_scene/check_states", help="(default: %(default)s)")
     parser.add_argument("--timeout", type=float, default=120, help="seconds to wait for it (default: %(default)s)")
-    # roslaunch and rosrun add arguments of their own, such as __name:=...
+    # Removes the arguments that roslaunch and rosrun add, such as __name:=...
     arguments = parser.parse_args([argument for argument in sys.argv[1:] if ":=" not in argument])
     try:
         return call(arguments)
     except KeyboardInterrupt:
         return 130
-    except Exception as error:  # whatever it is, a user wants one line
+    except Exception as error:  # one line for the user instead of a traceback
         print(f"demo_client: {error}", file=sys.stderr)
         return 1
 

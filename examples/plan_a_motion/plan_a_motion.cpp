@@ -1,4 +1,4 @@
-// plan_a_motion URDF SRDF GROUP: from a robot's description to a path between two of its states, past a ball.
+// plan_a_motion URDF SRDF GROUP: plans a path of a planning group between two states, past a ball, and prints it.
 #include <iostream>
 
 #include <ompl/geometric/SimpleSetup.h>
@@ -32,12 +32,12 @@ try
   setup.setPlanner(std::make_shared<BatchRrtConnect>(information));
 
   ompl::base::ScopedState<> start(space), goal(space);
-  start = std::vector<double>{-1.0, 0.8};  // the group's joints
+  start = std::vector<double>{-1.0, 0.8};  // a value for each joint of the group
   goal = std::vector<double>{1.0, 0.8};
   setup.setStartAndGoalStates(start, goal);
   if (setup.solve(10.0) != ompl::base::PlannerStatus::EXACT_SOLUTION)
     throw std::runtime_error("there is no path");
-  setup.getSolutionPath().printAsMatrix(std::cout);  // a row for each waypoint, proven free between them too
+  setup.getSolutionPath().printAsMatrix(std::cout);  // a row per waypoint; the path is free between them too
   return 0;
 }
 catch (const std::exception& error)

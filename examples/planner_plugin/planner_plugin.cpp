@@ -1,4 +1,4 @@
-// A package that adds a planner to planning_scene_node: requests name it as planner_plugin/BKPIECE.
+// A plugin that adds a planner to planning_scene_node. Requests name it planner_plugin/BKPIECE.
 
 #include <memory>
 

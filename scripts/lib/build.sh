@@ -1,8 +1,8 @@
 # Sourced by the scripts: configures and builds.
 # shellcheck shell=bash
 
-# configure_and_build FOLDER CMAKE_OPTIONS...: shows the output only where it fails. Builds no more than `target`, if that is
-# set.
+# configure_and_build FOLDER CMAKE_OPTIONS...: shows the output only after a failure. If `target` is set, builds only
+# this target.
 configure_and_build()
 {
   local folder=$1 log="$1/build.log"

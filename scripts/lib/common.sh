@@ -7,7 +7,7 @@ die()
   exit 1
 }
 
-# A heading of the script's own output.
+# Prints a heading.
 say()
 {
   echo "== $*"
@@ -16,8 +16,8 @@ say()
 repository="$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)"
 build="$repository/build"
 
-# The system's tools come before those of pyenv, conda and the like, whose python3 lacks Debian's ROS, and whose prefixes
-# CMake would search. Another ROS that is sourced here would be mixed with Debian's: it goes too.
+# Puts the system's tools before those of pyenv and conda: their python3 lacks Debian's ROS, and CMake would search
+# their prefixes. Also removes the variables of another sourced ROS, which would be mixed with Debian's.
 use_system_environment()
 {
   export PATH="/usr/bin:/bin:/usr/sbin:/sbin:$PATH"
@@ -25,7 +25,8 @@ use_system_environment()
     ROS_DISTRO ROS_NAMESPACE ROSLISP_PACKAGE_DIRECTORIES
 }
 
-# use_build_folder FOLDER: makes it. What another user left there (sudo, once) is named rather than tripped over.
+# use_build_folder FOLDER: makes the folder. Ends with an error if it contains files of another user, for example after
+# a run with sudo.
 use_build_folder()
 {
   local foreign

@@ -1,5 +1,5 @@
-"""draw_planning.py DIR: draws planning.svg from DIR/planning.csv: how many problems are solved within a time, for each
-method, one picture for each motion rule."""
+"""draw_planning.py DIR: draws DIR/planning.svg from DIR/planning.csv. The chart shows for each method how many problems
+it solves within a time, with one panel per motion rule."""
 
 import csv
 import pathlib

@@ -1,8 +1,8 @@
-# Sourced by scripts/test: clang-tidy on what changed.
+# Sourced by scripts/test: runs clang-tidy on changed files.
 # shellcheck shell=bash
 
-# lint_base: the commit that changes are counted from: where this branch left the upstream one, or else the commit before.
-# Fails without one (no git, a shallow clone, a first commit).
+# lint_base: prints the commit with which the files are compared. This is the commit where the branch left its upstream
+# branch, or otherwise the previous commit. Fails without such a commit (no git, a shallow clone, a first commit).
 lint_base()
 {
   local upstream base head
@@ -17,15 +17,15 @@ lint_base()
   git_here rev-parse --verify --quiet HEAD~1
 }
 
-# Under sudo the repository belongs to someone else, which git refuses otherwise.
+# safe.directory: under sudo the repository belongs to another user, and git would refuse it.
 git_here()
 {
   git -C "$repository" -c safe.directory='*' "$@" 2> /dev/null
 }
 
-# files_to_lint: the .cpp files that changed, committed or not, and for each changed header one file that includes it: the
-# .cpp of the same name, or else the first. clang-tidy reports the findings of a header through any file that includes it.
-# Prints all files where git cannot tell the changes.
+# files_to_lint: prints the changed .cpp files, committed or not, and one .cpp file per changed header: the file of the same
+# name, or else the first file that includes the header. clang-tidy reports the findings of a header through any file that
+# includes it. If git does not know the changes, prints all .cpp files.
 files_to_lint()
 {
   local base changed header
@@ -52,15 +52,15 @@ includer_of()
   grep "/${name%.h}\.cpp$" <<< "$includers" | head -1 | grep . || head -1 <<< "$includers"
 }
 
-# lint: prints the findings of clang-tidy in the changed files; fails if there are any. clang-tidy needs the command that
-# compiles each file alone, and a unity build has none: a build folder is configured for it, where only messages are made.
+# lint: prints the findings of clang-tidy in the changed files; fails if there are any. clang-tidy needs a compile command for
+# each file, which a unity build does not have. So lint configures a second build folder, and builds only the messages there.
 lint()
 {
   local list="$temporary/lint" folder="$build/lint" target=gpu_planning_scene_generate_messages_cpp
   files_to_lint > "$list.changed"
   if [[ -s "$list.changed" ]]; then
     configure_and_build "$folder" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
-    # The commands lack files that another build compiles, such as those of test/install.
+    # The compile commands do not include files of other builds, such as test/install.
     sed "s|^|$repository/|" "$list.changed" |
       while read -r file; do
         ! grep --quiet --fixed-strings "\"$file\"" "$folder/compile_commands.json" || echo "$file"

@@ -1,14 +1,14 @@
-# Sourced by the scripts: runs programs, and at the end of the script, however it comes, ends those that it started and
-# removes its temporary folder.
+# Sourced by the scripts: runs programs. At the end of the script, also after an error or a signal, it ends the programs
+# that the script started, and removes its temporary folder.
 # shellcheck shell=bash
 
 started=()  # ids of the processes that this script started in the background
-grace=10    # seconds that a process has to end by itself
+grace=10    # seconds between SIGTERM and SIGKILL
 temporary="$(mktemp -d)"
-# Everything below this script inherits it, so that it is found even where the process between has ended.
+# All descendants of this script inherit this variable. It identifies them even after their parent has ended.
 export GPU_PLANNING_SCENE_SCRIPT="$$.$RANDOM$RANDOM"
 
-# process_state PID: as in /proc/PID/stat, Z for one that has ended; fails when the process is gone.
+# process_state PID: prints the state in /proc/PID/stat, Z for a process that has ended. Fails if the process is gone.
 process_state()
 {
   local line
@@ -22,7 +22,8 @@ is_running()
   [[ "$(process_state "$1")" == [^Z] ]]
 }
 
-# stop PID: asks a process of ours to end (it ends those below it, as roslaunch does); after `grace` it has to.
+# stop PID: sends SIGTERM to a process of this script, which should end its children as roslaunch does. After `grace`
+# seconds, sends SIGKILL.
 stop()
 {
   local tries=$((grace * 10))
@@ -33,14 +34,14 @@ stop()
   kill -KILL "$1" 2> /dev/null || true
 }
 
-# stop_all: the same for everything that is left below this script.
+# stop_all: does the same with all remaining descendants of this script.
 stop_all()
 {
   local left signal=TERM tries=$((grace * 10))
   while mapfile -t left < <(processes_below) && [[ ${#left[@]} -gt 0 ]]; do
     kill -"$signal" "${left[@]}" 2> /dev/null || true
     sleep 0.1
-    signal=0  # asked once
+    signal=0  # send SIGTERM only once
     [[ $((tries--)) -gt 0 ]] || signal=KILL
   done
 }
@@ -54,17 +55,17 @@ processes_below()
   done < <(env --unset=GPU_PLANNING_SCENE_SCRIPT grep -lasF "$mark" /proc/[0-9]*/environ)
 }
 
-# start LOG COMMAND...: in the background; its id is in $! afterwards.
+# start LOG COMMAND...: starts a command in the background, with its output in LOG. Its id is in $! afterwards.
 start()
 {
   local log=$1
   shift
   "$@" > "$log" 2>&1 < /dev/null &
   started+=($!)
-  disown  # bash is not to report its end
+  disown  # otherwise bash reports its end
 }
 
-# run COMMAND...: waits for it, but a signal that comes meanwhile ends the script at once.
+# run COMMAND...: runs a command to its end. A signal during the run ends the script immediately.
 run()
 {
   "$@" < /dev/null &
@@ -72,7 +73,7 @@ run()
   wait $!
 }
 
-# run_beside PID COMMAND...: as `run`, but ends the command and fails when the process PID ends before it.
+# run_beside PID COMMAND...: like run, but if the process PID ends first, it ends the command and fails.
 run_beside()
 {
   local other=$1 own

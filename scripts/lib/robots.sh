@@ -1,9 +1,9 @@
-# Sourced by the scripts: the robots of Debian's dart-doc.
+# Sourced by the scripts: finds the robots of Debian's package dart-doc.
 # shellcheck shell=bash
 
-# find_robots: sets robots to the folder with urdf/KR5, urdf/drchubo and urdf/wam. The package is not installed: it lies
-# under /usr/share/doc, which slim images leave out, so it is unpacked into the build folder, once. Fails where it is
-# neither there nor to be had.
+# find_robots: sets `robots` to the folder with urdf/KR5, urdf/drchubo and urdf/wam. If the package is not installed,
+# this function downloads it once and unpacks it into the build folder. (An installation would not help on slim images,
+# which leave out /usr/share/doc.) Fails if the package is not there and cannot be downloaded.
 find_robots()
 {
   local installed=/usr/share/doc/dart/data
@@ -14,7 +14,7 @@ find_robots()
 
   local folder="$temporary/dart-doc"
   mkdir -p "$folder"
-  # apt's lists may be missing or old even where no package had to be installed.
+  # The lists of apt may be missing or old, even if no package had to be installed.
   if ! download_robots "$folder"; then
     update_package_lists && download_robots "$folder" || return 1
   fi

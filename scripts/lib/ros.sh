@@ -1,7 +1,7 @@
-# Sourced by the scripts: a ROS master of our own, on the loopback interface.
+# Sourced by the scripts: starts a separate ROS master on the loopback interface.
 # shellcheck shell=bash
 
-# source_workspace FOLDER: the environment of a built workspace.
+# source_workspace FOLDER: sets the environment of a built workspace.
 source_workspace()
 {
   set +u  # catkin's script reads unset variables
@@ -10,7 +10,7 @@ source_workspace()
   set -u
 }
 
-# start_master: on a free port, so that it meets no other master.
+# start_master: starts roscore on a free port, so that it does not conflict with another master.
 start_master()
 {
   local port log="$temporary/roscore.log" tries=200

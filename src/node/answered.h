@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// What `work` throws, as a short line; empty if it throws nothing.
+/// Runs `work` and returns its error as a short line; empty if it throws nothing.
 template <class Work>
 std::string faultOf(Work work)
 {
@@ -32,7 +32,8 @@ std::string faultOf(Work work)
   }
 }
 
-/// The response that `work` fills in, with `success`; what `work` throws becomes one without, and `message` says why.
+/// Returns the response that `work` fills in, with `success` set. If `work` throws, returns an empty response without
+/// `success` and with the error in `message`.
 template <class Response, class Work>
 Response answered(Work work)
 {

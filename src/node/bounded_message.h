@@ -19,20 +19,20 @@
 
 namespace gpu_planning_scene::core
 {
-/// [~limits/message_size] bytes of a message or request; 256 MiB before it is set. Thread-safe.
+/// [~limits/message_size] Sets the largest size of a message or request in bytes; 256 MiB by default. Thread-safe.
 void setMessageLimit(std::uint32_t bytes);
-/// Throws std::runtime_error that names the parameter.
+/// Throws std::runtime_error, which names the parameter, if a message of this size is too large.
 void requireMessageSize(std::uint32_t bytes);
 
-/// Reads generated messages through their own allInOne, and holds the length of each array against what is left of the
-/// message before memory is taken. (roscpp resizes first: a length of 2^32 in a message of 12 bytes takes all memory.)
-/// Throws std::runtime_error where the message ends early.
+/// Reads a message through its generated allInOne. Before it allocates memory for an array, it compares the length of
+/// the array with the rest of the message. (roscpp allocates first: a length of 2^32 in a message of 12 bytes takes all
+/// memory.) Throws std::runtime_error if the message ends early.
 class BoundedStream
 {
  public:
   BoundedStream(const std::uint8_t* data, std::size_t size) : at_(data), end_(data + size) {}
 
-  /// What a generated allInOne calls for each field.
+  /// The generated allInOne calls next() for each field.
   template <class T>
   std::enable_if_t<std::is_arithmetic_v<T>> next(T& value)
   {
@@ -59,8 +59,8 @@ class BoundedStream
     }
     else
     {
-      // Every element takes at least a byte, but may take a hundred times more memory than that: it is taken bit by
-      // bit.
+      // An element has at least one byte in the message, but may need a hundred times as much memory. So memory is
+      // allocated element by element.
       const std::uint32_t count = length(1);
       values.clear();
       for (std::uint32_t i = 0; i < count; ++i)
@@ -74,7 +74,7 @@ class BoundedStream
   bool atEnd() const { return at_ == end_; }
 
  private:
-  /// An array's length; `least` is how many bytes an element has at least.
+  /// Reads the length of an array. `least`: the smallest size of an element in bytes.
   std::uint32_t length(std::size_t least);
   void copy(void* to, std::size_t bytes);
   void require(std::size_t bytes) const;
@@ -83,7 +83,7 @@ class BoundedStream
   const std::uint8_t* end_;
 };
 
-/// The message in those bytes, wholly; throws std::runtime_error.
+/// Reads a message that fills all `size` bytes; throws std::runtime_error otherwise.
 template <class M>
 void readBounded(const std::uint8_t* data, std::uint32_t size, M& message)
 {
@@ -94,8 +94,8 @@ void readBounded(const std::uint8_t* data, std::uint32_t size, M& message)
     throw std::runtime_error("a message is longer than what it holds");
 }
 
-/// To advertise and subscribe with in place of M, whose traits it has. `fault` says why there is no message, else it is
-/// empty.
+/// Takes the place of M in services and topics, with the traits of M. `fault`: the reason why the message could not be
+/// read; empty if it was read.
 template <class M>
 struct Bounded
 {
@@ -103,7 +103,7 @@ struct Bounded
   std::string fault;
 };
 
-/// Advertises a service whose handler gets the request with its fault.
+/// Options for a service whose handler gets the request with its fault.
 template <class Service, class Handler>
 ros::AdvertiseServiceOptions boundedService(const std::string& name, Handler handler,
                                             ros::CallbackQueueInterface* queue)
@@ -167,7 +167,7 @@ namespace serialization
 template <class M>
 struct Serializer<gpu_planning_scene::core::Bounded<M>>
 {
-  /// Never throws: roscpp would drop the connection without a word to the client.
+  /// Never throws: after an exception, roscpp drops the connection and the client gets no reason.
   template <class Stream>
   static void read(Stream& stream, gpu_planning_scene::core::Bounded<M>& bounded)
   {

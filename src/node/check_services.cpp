@@ -18,9 +18,9 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kInspections = 2;               // at a time
-constexpr std::chrono::milliseconds kLook{100};       // how often a waiting request looks whether the node ends
-constexpr std::chrono::milliseconds kPatience{4000};  // with the checker, once it does
+constexpr std::size_t kInspections = 2;               // at the same time
+constexpr std::chrono::milliseconds kLook{100};       // interval in which a waiting request checks for shutdown
+constexpr std::chrono::milliseconds kPatience{4000};  // longest wait for the checker after the start of the shutdown
 
 Error shuttingDown()
 {
@@ -35,8 +35,8 @@ std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedColli
   return std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message, limits));
 }
 
-/// The options for a request's motions, and the samples that they are cut into, at most `most_samples`. `starts`,
-/// `ends`: `count` full rows.
+/// The options for a request's motions, and the number of samples of all motions. Throws Error for more than
+/// `most_samples`. `starts`, `ends`: one full state per motion.
 std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions::Request& request,
                                                               const RobotModel& robot, MotionRule default_rule,
                                                               const std::vector<double>& starts,
@@ -110,11 +110,11 @@ void CheckServices::stop()
   inspections_.stop();
 }
 
-/// The server answers soon after a stop, but for a checker that hangs.
+/// Waits for the answer. After the start of the shutdown, the wait is bounded, because the checker may hang.
 CheckAnswer CheckServices::answerOf(CheckJob job) const
 {
   std::future<CheckAnswer> answer = server_.submit(std::move(job));
-  std::chrono::milliseconds waited{0};  // since the stop
+  std::chrono::milliseconds waited{0};  // since the start of the shutdown
   while (answer.wait_for(kLook) != std::future_status::ready)
   {
     waited += stopping_ ? kLook : std::chrono::milliseconds{0};
@@ -181,7 +181,7 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
     const double* state = answer.states.data() + i * width;
     if (!valid[i] && request.max_contacts != 0)
     {
-      // One more than may be shows that there are too many.
+      // One contact above the limit shows that there are too many.
       const std::size_t most =
           std::min<std::size_t>(request.max_contacts, options_.most_contacts + 1 - response.contacts.size());
       for (const Contact& contact : inspector->contacts(state, request.group, most, request.max_contacts_per_pair))
@@ -198,7 +198,8 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
   }
 }
 
-/// Built without the lock: several may be built at once, and the newest scene's is kept.
+/// The inspector is built without the lock, so that several can be built at the same time. The inspector of the newest
+/// scene is kept.
 std::shared_ptr<const StateInspector> CheckServices::inspectorOf(const std::shared_ptr<const PlanningScene>& scene)
 {
   std::shared_ptr<const StateInspector> previous;
@@ -243,7 +244,8 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         validateStates(robot, ends.data(), count);
         std::tie(job.motions, job.samples) =
             requestedMotions(request, robot, options_.motion_rule, starts, ends, options_.most_states);
-        // The variables that the request does not name are taken from the snapshot that is checked, not from this one.
+        // The full states above serve to count the samples. For the check, the variables that the request does not name
+        // come from the checked snapshot, which may be newer than `now`.
         job.states = request.starts;
         job.states.insert(job.states.end(), request.ends.begin(), request.ends.end());
         job.group = request.group;

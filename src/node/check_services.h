@@ -15,16 +15,16 @@ namespace gpu_planning_scene::core
 {
 struct CheckServicesOptions
 {
-  std::size_t most_states = 1000000;           ///< of the motions of one request
-  std::size_t most_inspected_states = 10000;   ///< of one request, for contacts and clearance
-  std::size_t most_contacts = 100000;          ///< in one answer
-  std::size_t most_waiting_inspections = 64;   ///< requests for contacts or clearance
-  MotionRule motion_rule = MotionRule::Bound;  ///< of requests that name none: ~planning/motion_rule
+  std::size_t most_states = 1000000;           ///< samples of all motions of one request
+  std::size_t most_inspected_states = 10000;   ///< states of one request with contacts or clearance
+  std::size_t most_contacts = 100000;          ///< in one response
+  std::size_t most_waiting_inspections = 64;   ///< queued requests for contacts or clearance
+  MotionRule motion_rule = MotionRule::Bound;  ///< rule of requests that name none: ~planning/motion_rule
 };
 
-/// Answers check_states, check_motions and get_report. Throws nothing: what is wrong with a request is said in the
-/// response. Thread-safe; a call waits for its answer, and looks for contacts and clearance on its own thread: two at a
-/// time do, as each of them can keep a core for long.
+/// Answers check_states, check_motions and get_report. Throws nothing: the response has the error. Thread-safe. A call
+/// blocks until it has its answer. Contacts and clearance are computed on the thread of the call. They can keep a core
+/// busy for long, so at most two calls compute them at the same time.
 class CheckServices
 {
  public:
@@ -35,8 +35,8 @@ class CheckServices
   CheckMotions::Response checkMotions(const CheckMotions::Request& request);
   GetReport::Response report(const GetReport::Request& request);
 
-  /// Looks at no further state. What waits for its turn, or for a checker that takes more than some seconds, is told
-  /// that it was not answered.
+  /// Stops the computation of contacts and clearance. Running and queued requests for them get the error "shutting
+  /// down". So do requests that still wait for a checker after some seconds.
   void stop();
 
  private:
@@ -50,8 +50,8 @@ class CheckServices
   const CheckServicesOptions options_;
   Admission inspections_;
   std::atomic<bool> stopping_{false};
-  std::mutex mutex_;  // of the two below: the inspector of the newest scene that was asked about
-  std::shared_ptr<const PlanningScene> inspected_;
-  std::shared_ptr<const StateInspector> inspector_;
+  std::mutex mutex_;                                 // guards the two members below
+  std::shared_ptr<const PlanningScene> inspected_;   // the newest scene of a request for contacts or clearance
+  std::shared_ptr<const StateInspector> inspector_;  // of that scene
 };
 }  // namespace gpu_planning_scene::core

@@ -15,7 +15,8 @@ CheckServer::MakeChecker checkerMaker(const BatchCheckerOptions& options, const 
   { return std::make_unique<CpuChecker>(std::move(scene), options); };
   const auto device = [options, open_device](std::shared_ptr<const PlanningScene> scene)
   { return open_device(std::move(scene), options); };
-  const auto started = std::make_shared<std::atomic<bool>>(false);  // shared by the copies, of which each lane has one
+  // Each check queue and the plan service has a copy of the function below; the copies share this flag.
+  const auto started = std::make_shared<std::atomic<bool>>(false);
   return [=, &diagnostics](std::shared_ptr<const PlanningScene> scene)
   {
     std::shared_ptr<StateChecker> checker;

@@ -10,12 +10,13 @@
 
 namespace gpu_planning_scene::core
 {
-/// Makes the checker on the device that the options name; throws Error.
+/// Makes a checker on the device that the options name. Throws Error.
 using OpenDevice = std::function<std::unique_ptr<StateChecker>(std::shared_ptr<const PlanningScene> scene,
                                                                const BatchCheckerOptions& options)>;
 
-/// Makes checkers that outlive their device, and that diagnostics know of, which outlives what makes them. Until there
-/// is one, what opening the device throws is thrown; after that the CPU stands in for a device that cannot be opened.
+/// Returns a function that makes checkers. A checker survives the loss of its device and is registered with
+/// `diagnostics`, which must outlive the function. The first checker needs the device: errors of opening it are thrown.
+/// For later checkers the CPU answers if the device cannot be opened.
 CheckServer::MakeChecker checkerMaker(const BatchCheckerOptions& options, const ResilientOptions& resilience,
                                       const OpenDevice& open_device, Diagnostics& diagnostics);
 }  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Where in a point the field begins.
+/// Offset of the field in a point, in bytes.
 std::size_t offsetOf(const sensor_msgs::PointCloud2& message, const std::string& name)
 {
   for (const sensor_msgs::PointField& field : message.fields)
@@ -31,7 +31,7 @@ std::vector<Eigen::Vector3f> pointsOf(const sensor_msgs::PointCloud2& message)
                 std::to_string(message.height) + " rows of " + std::to_string(message.width) + " points");
   std::vector<Eigen::Vector3f> points;
   if (row == 0)
-    return points;  // of however many rows
+    return points;  // without a loop over `height`, which may be any number here
   points.reserve(std::size_t{message.width} * message.height);
   for (std::size_t y = 0; y < message.height; ++y)
     for (std::size_t x = 0; x < message.width; ++x)
@@ -73,7 +73,7 @@ void CloudTopic::take(const sensor_msgs::PointCloud2& message)
     if (!is_there)
       return;
     change.operation = Operation::Remove;
-    change.keeps_allowed_collisions = true;  // the next cloud has the same id
+    change.keeps_allowed_collisions = true;  // for the next cloud, which has the same id
   }
   SceneChange diff;
   diff.is_diff = true;

@@ -11,18 +11,18 @@
 
 namespace gpu_planning_scene::core
 {
-/// The points of a cloud, from its fields x, y and z of 32-bit floats. Throws Error: no such fields, or sizes that do
-/// not fit together.
+/// The points of a cloud, from its FLOAT32 fields x, y and z. Throws Error if a field is missing, if the cloud is
+/// big-endian, or if its sizes do not fit together.
 std::vector<Eigen::Vector3f> pointsOf(const sensor_msgs::PointCloud2& message);
 
-/// Makes of each point cloud an object of the scene, which replaces the last one's. One caller at a time.
+/// Turns each point cloud into a world object, which replaces the object of the previous cloud. Not thread-safe.
 class CloudTopic
 {
  public:
   CloudTopic(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory, const PointCloudOptions& options,
              std::string id);
 
-  /// Throws Error and has changed nothing.
+  /// If it throws Error, nothing has changed.
   void take(const sensor_msgs::PointCloud2& message);
 
  private:

@@ -19,7 +19,7 @@ void add(DiagnosticStatus& status, const std::string& key, const std::string& va
   status.values.back().value = value;
 }
 
-/// What became of the devices of all checkers.
+/// The sum of the device histories of all checkers.
 DeviceHistory sumOf(const std::vector<std::shared_ptr<const StateChecker>>& checkers)
 {
   DeviceHistory sum;

@@ -14,17 +14,17 @@
 
 namespace gpu_planning_scene::core
 {
-/// What the node is doing, for people and for those who watch over it: /diagnostics, once a second.
+/// Collects the status of the node for /diagnostics. Thread-safe.
 class Diagnostics
 {
  public:
-  /// The checkers that are there; they may go.
+  /// Adds a checker to the status, for as long as the checker exists.
   void watch(const std::shared_ptr<const StateChecker>& checker);
-  /// A message or request that was not used, and why.
+  /// Counts a rejected message or request. `why`: the reason.
   void refused(const std::string& why);
 
-  /// Since the last call the rate. OK; WARN: the CPU stands in for a device; ERROR: for one that could not be had
-  /// again.
+  /// The level is WARN if the CPU answers for a lost device, ERROR if the device could not be opened again, else OK.
+  /// The rate of states is that since the last call.
   diagnostic_msgs::DiagnosticStatus status(const SceneStore& store, const CheckServer& server);
 
  private:
@@ -36,7 +36,7 @@ class Diagnostics
   std::chrono::steady_clock::time_point at_ = std::chrono::steady_clock::now();
 };
 
-/// Publishes it as long as it lives. All arguments outlive it.
+/// Publishes the status on /diagnostics once a second during its lifetime. All arguments must outlive it.
 class DiagnosticsPublisher
 {
  public:

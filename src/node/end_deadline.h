@@ -6,8 +6,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Ends the process, with an exit code of 1, if it still lives after so many seconds: what runs then, on a device that
-/// hangs, say, cannot be ended by itself, and whoever started the process would kill it some seconds later.
+/// Ends the process with exit code 1 if this object still exists after `seconds`. A thread that hangs in a device
+/// cannot be stopped, and roslaunch would kill the process some seconds later.
 class EndDeadline
 {
  public:

@@ -28,7 +28,8 @@ void Endpoints::close()
   closed_ = true;
 }
 
-/// Services and topics are taken down last: that drops connections, which answers are still written to.
+/// Services and topics stay up until the destructor: to take them down drops connections, to which roscpp may still be
+/// writing answers.
 void Endpoints::stop()
 {
   close();

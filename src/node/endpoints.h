@@ -16,15 +16,15 @@
 
 namespace gpu_planning_scene::core
 {
-/// Services and topics that share threads of their own. All that comes is read with care (see Bounded), and what is
-/// refused is counted.
+/// Services and topics with a callback queue and threads of their own. Messages are read with bounds (see Bounded), and
+/// rejected messages are counted.
 class Endpoints
 {
  public:
   Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads, Diagnostics& diagnostics);
   ~Endpoints();
 
-  /// A service in the node's namespace. `answer` makes a response of a request, and throws nothing.
+  /// Advertises a service in the node's namespace. `answer` turns a request into a response and throws nothing.
   template <class Service, class Answer>
   void advertise(const std::string& name, Answer answer)
   {
@@ -41,8 +41,8 @@ class Endpoints
     services_.push_back(own_.advertiseService(options));
   }
 
-  /// A topic; "~NAME" is in the node's namespace. `take` throws what is wrong with a message, and Busy where
-  /// a right one cannot be taken.
+  /// Subscribes to a topic; "~NAME" is in the node's namespace. `take` throws an exception for a wrong message, and
+  /// Busy if it has no room for a correct message.
   template <class Message, class Take>
   void subscribe(const std::string& name, std::uint32_t queue_size, Take take)
   {
@@ -70,18 +70,18 @@ class Endpoints
                                                 }));
   }
 
-  /// Counts and logs a message that is not used.
+  /// Counts and logs a rejected message.
   void refuse(const std::string& topic, const std::string& why);
 
-  /// From now on all that comes is told that the node shuts down.
+  /// From now on, requests and messages get the error that the node is shutting down.
   void close();
-  /// Closes, and waits for what runs.
+  /// Calls close(), waits for running callbacks, and rejects the requests and messages that wait.
   void stop();
-  /// After stop(): tells what has come since then.
+  /// After stop(): rejects the requests and messages that have arrived since then.
   void refuseWaiting();
 
  private:
-  /// Most responses say whether they are one; for the others the call fails.
+  /// Reports a fault in the response's `success` and `message`. Without these fields, the service call fails.
   template <class Response>
   auto close(const std::string& fault, Response& response, int) -> decltype(response.success, bool())
   {

@@ -10,15 +10,15 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::chrono::milliseconds kPause(10);
-constexpr double kForEver = 1e8;  // seconds; longer waits would not fit into the clock
+constexpr double kForEver = 1e8;  // seconds; longer waits would overflow the clock
 
-/// tf2 knows no leading slash, which MoveIt's users may give.
+/// tf2 accepts no leading slash, but MoveIt's users may write one.
 std::string withoutSlash(const std::string& name)
 {
   return name.empty() || name.front() != '/' ? name : name.substr(1);
 }
 
-/// In one line.
+/// The error in one line.
 std::string reasonOf(const tf2::TransformException& error)
 {
   std::string text = error.what();
@@ -38,7 +38,7 @@ FrameLookup::Clock::time_point FrameLookup::deadline() const
          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(timeout_, kForEver)));
 }
 
-/// Asks again and again: tf2 would wait by ROS time, for ever where that stands still.
+/// Polls tf2. The wait of tf2 itself uses ROS time, and never ends if ROS time stands still.
 Eigen::Isometry3d FrameLookup::operator()(const FrameAt& frame, Clock::time_point until) const
 {
   ros::Time stamp;

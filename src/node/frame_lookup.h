@@ -11,18 +11,18 @@
 
 namespace gpu_planning_scene::core
 {
-/// Where frames of tf are in the planning frame. Thread-safe.
+/// Looks up poses of tf frames in the planning frame. Thread-safe.
 class FrameLookup
 {
  public:
-  using Clock = std::chrono::steady_clock;  // ROS time may stand still
+  using Clock = std::chrono::steady_clock;  // not ROS time, which may stand still
 
-  /// Nobody waits any more once `stopping` is true; any thread asks it.
+  /// `timeout`: seconds. `stopping`: called from any thread; when it returns true, all waits end.
   FrameLookup(std::string planning_frame, double timeout, std::function<bool()> stopping);
 
-  /// Until when who asks now has to wait.
+  /// The deadline of a lookup that starts now.
   Clock::time_point deadline() const;
-  /// Waits for the frame at its stamp (0: the latest), but no longer than that. Throws Error.
+  /// The pose of the frame at its stamp (0: the latest). Waits for the frame, at most until `until`; then throws Error.
   Eigen::Isometry3d operator()(const FrameAt& frame, Clock::time_point until) const;
 
  private:
@@ -30,6 +30,6 @@ class FrameLookup
   const double timeout_;
   const std::function<bool()> stopping_;
   tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;  // with a thread of its own
+  tf2_ros::TransformListener listener_;  // has its own thread
 };
 }  // namespace gpu_planning_scene::core

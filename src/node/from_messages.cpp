@@ -25,7 +25,7 @@ void requireAsMany(std::size_t values, std::size_t names, const std::string& wha
     throw Error(what + ": " + std::to_string(values) + " values for " + std::to_string(names) + " names");
 }
 
-/// A list of names and values, of which each may be there once.
+/// Inserts a value. Throws Error if the map already has the name.
 template <class Value>
 void insertOnce(std::map<std::string, Value>& map, const std::string& name, const Value& value, const char* what)
 {
@@ -33,7 +33,7 @@ void insertOnce(std::map<std::string, Value>& map, const std::string& name, cons
     throw Error(std::string(what) + " of '" + name + "' is given twice");
 }
 
-/// The variables of a robot_state, and what is not used of it.
+/// Reads the variables of a robot_state, and collects the names of joints that it cannot use.
 class StateReader
 {
  public:
@@ -95,7 +95,8 @@ class StateReader
     (joint.mimic ? mimic_ : fixed_).push_back(name);
   }
 
-  /// MoveIt names the planning frame in the header and means the joint's own, whatever its parent.
+  /// The transform is that of the joint, relative to its parent link. MoveIt writes the planning frame into the header
+  /// even for joints with another parent, so both frames are accepted.
   void readTransform(const Joint& joint, const std::string& frame, const geometry_msgs::Transform& transform)
   {
     const std::string where = "robot_state: multi_dof_joint_state of '" + joint.name + "'";
@@ -154,7 +155,8 @@ void readFixedFrames(const PlanningSceneMessage& message, const RobotModel& robo
   }
 }
 
-/// Before anything is made of it. A name is in the entries of all the others: long ones count more.
+/// Checks the limits before memory is allocated for the matrix. The matrix repeats each name in the entries of all
+/// other names, so long names count more.
 void requireLimits(const AllowedCollisionMatrixMessage& message, const SceneLimits& limits)
 {
   constexpr std::size_t kBytesOfAnEntry = 64;

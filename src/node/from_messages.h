@@ -8,10 +8,11 @@
 
 namespace gpu_planning_scene::core
 {
-// Messages as changes of a scene. All throw Error, which names the object and what is wrong; numbers, names and limits
-// are looked at by applyChange, but for those of a matrix, which takes far more memory than its message.
+// Convert messages to changes of a scene. All throw Error, which names the object and the fault. applyChange checks
+// numbers, names and limits. The limits of a matrix are checked here, because a matrix needs far more memory than its
+// message.
 
-/// `warnings` (may be null) receives a line for what the robot cannot use of the state.
+/// `warnings` (may be null) gets a line for each group of unused joints, and one for an unused matrix.
 SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& robot, const SceneLimits& limits,
                        std::vector<std::string>* warnings);
 ObjectChange objectChangeFrom(const CollisionObject& message);

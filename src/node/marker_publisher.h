@@ -12,15 +12,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// Draws the scene on ~markers while somebody looks: the robot in its current state, the objects, what collides,
-/// contact points, and the boxes that were asked for. Latched, at a rate, and only where something has changed.
+/// Publishes the scene on the latched topic ~markers: the robot in its current state, the objects, colliding bodies,
+/// contact points, and the requested tree boxes. It publishes at a fixed rate, only if something has changed and the
+/// topic has subscribers.
 class MarkerPublisher
 {
  public:
   /// `rate`: per second.
   MarkerPublisher(ros::NodeHandle& own, const SceneStore& store, double rate, std::size_t most_triangles);
 
-  /// Throws nothing: what is wrong with the request is said in the response.
+  /// Throws nothing: the response has the error.
   ShowTreeLevel::Response show(const ShowTreeLevel::Request& request);
 
  private:
@@ -28,7 +29,7 @@ class MarkerPublisher
 
   const SceneStore& store_;
   ros::Publisher publisher_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   MarkerOptions options_;
   Snapshot drawn_;
   bool changed_ = true;

@@ -48,7 +48,7 @@ geometry_msgs::Pose toPose(const Eigen::Isometry3d& pose)
   return message;
 }
 
-/// The triangles that a shape is drawn with; 0: RViz has it as it is.
+/// The number of triangles that draw a shape; 0 if RViz has a marker for the shape.
 std::size_t trianglesOf(const Shape& shape)
 {
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
@@ -56,7 +56,8 @@ std::size_t trianglesOf(const Shape& shape)
   return std::holds_alternative<Cone>(shape) ? tessellate(shape).mesh->triangles.size() : 0;
 }
 
-/// Which shapes are drawn with their triangles: all, or the smallest that fit.
+/// Triangle count of the largest shape that is drawn with its triangles: the smallest shapes together may have
+/// `most_triangles`.
 std::size_t largestDrawn(const PlanningScene& scene, std::size_t bodies, std::size_t most_triangles)
 {
   std::vector<std::size_t> counts;
@@ -77,7 +78,7 @@ std::size_t largestDrawn(const PlanningScene& scene, std::size_t bodies, std::si
   return largest;
 }
 
-/// A box of a tree level has as many points as so many triangles.
+/// The 24 points of a box's edges count as so many triangles.
 constexpr std::size_t kTrianglesOfBox = 8;
 
 class MarkerMaker
@@ -183,7 +184,7 @@ class MarkerMaker
       addMesh(*tessellate(shape).mesh, pose);
   }
 
-  /// Equal solids that are turned alike share a marker: a point cloud has tens of thousands of cubes.
+  /// Solids of equal size and rotation share a marker, because a point cloud has tens of thousands of cubes.
   void addToList(int type, const Eigen::Vector3d& size, const Eigen::Isometry3d& pose)
   {
     std::array<double, 13> key{static_cast<double>(type)};
@@ -220,7 +221,7 @@ class MarkerMaker
         marker.points.push_back(toPoint(mesh.vertices[corner]));
   }
 
-  /// A thin plate below the plane, as large as what is near the robot.
+  /// Draws a half-space as a thin plate below its plane. The plate is as large as the surroundings of the robot.
   void addPlane(const HalfSpace& plane, const Eigen::Isometry3d& pose)
   {
     constexpr double kThickness = 0.002;
@@ -242,7 +243,7 @@ class MarkerMaker
       std::vector<std::uint32_t> below;
       for (const std::uint32_t node : level)
         if (forest.nodes[node].count != 0)
-          below.push_back(node);  // leaves stay, so that every level covers the shape
+          below.push_back(node);  // leaves are kept, so that every level covers the shape
         else
           below.insert(below.end(), {forest.nodes[node].first, forest.nodes[node].first + 1});
       if (below == level || drawn_ + kTrianglesOfBox * below.size() > options_.most_triangles)
@@ -277,10 +278,10 @@ class MarkerMaker
   const std::vector<Eigen::Isometry3d> poses_;
   const Eigen::AlignedBox3d near_;
   visualization_msgs::MarkerArray array_;
-  std::size_t largest_drawn_ = 0;  // of shapes with more triangles the boxes are drawn
-  std::size_t drawn_ = 0;          // triangles, or as much as that
+  std::size_t largest_drawn_ = 0;  // shapes with more triangles are drawn as boxes
+  std::size_t drawn_ = 0;          // triangles so far; tree boxes count as kTrianglesOfBox
   std::map<std::string, int> next_id_;
-  std::map<std::array<double, 13>, std::size_t> lists_;  // of the body at hand: where its marker is
+  std::map<std::array<double, 13>, std::size_t> lists_;  // list markers of the body, by type, size and rotation
   std::string name_;
   BodyColor color_{};
 };

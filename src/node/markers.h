@@ -16,19 +16,19 @@ namespace gpu_planning_scene::core
 struct MarkerOptions
 {
   ros::Time stamp;
-  /// [~markers/triangles] where meshes and cones have more in all, the largest are drawn as their boxes; and a tree's
-  /// boxes are then of a level further up.
+  /// [~markers/triangles] If meshes and cones together have more triangles, the largest are drawn as boxes. If there is
+  /// no room for the boxes of `tree_level`, the boxes of a level nearer to the root are drawn.
   std::size_t most_triangles = 500000;
-  int tree_level = -1;    ///< the boxes of this level of the trees, the root's being 0; -1: none
-  std::string tree_body;  ///< of one body alone; empty: of all
+  int tree_level = -1;    ///< draws the boxes of this level of the trees; 0: the roots, -1: none
+  std::string tree_body;  ///< draws the tree boxes of this body only; empty: of all bodies
 };
 
-/// Throws Error for a level below -1, and for a name that no link and no object has; an empty one means all.
+/// Throws Error for a level below -1, and for a name that no link and no object has. An empty name means all bodies.
 void requireTreeLevel(const PlanningScene& scene, int level, const std::string& body);
 
-/// What RViz draws: the robot, the objects and what is carried, in the planning frame, colliding bodies red; contact
-/// points; the boxes of a tree level. The first marker deletes those of before. Namespaces: robot, objects, attached,
-/// contacts, tree.
+/// Markers for RViz, in the planning frame: the robot, the objects and the attached objects, with colliding bodies in
+/// red; contact points; the boxes of a tree level. The first marker deletes all earlier markers. Namespaces: robot,
+/// objects, attached, contacts, tree.
 visualization_msgs::MarkerArray markersOf(const PlanningScene& scene, const double* state,
                                           const std::vector<BodyPair>& colliding,
                                           const std::vector<Eigen::Vector3d>& contact_points,

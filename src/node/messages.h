@@ -1,7 +1,7 @@
 #pragma once
-// All messages and services of this package, which ROS puts into the namespace gpu_planning_scene. Inside
-// gpu_planning_scene::core their names can be used as they are, but for two that the library uses for classes of its
-// own.
+// All messages and services of this package. ROS puts them into the namespace gpu_planning_scene, so their names can be
+// used in gpu_planning_scene::core without a prefix. Two names are also classes of the library; the aliases below name
+// the messages.
 
 #include <gpu_planning_scene/AllowedCollisionMatrix.h>
 #include <gpu_planning_scene/ApplyPlanningScene.h>

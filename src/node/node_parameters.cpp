@@ -14,7 +14,7 @@ using XmlRpc::XmlRpcValue;
 
 constexpr std::size_t kNoLimit = 1000000000;
 
-/// The node reads meshes in a process of its own, and only what lies in a package or below a folder that it is given.
+/// The node reads meshes in a separate process, and only from packages and from the folders of ~mesh/roots.
 MeshAccess meshAccessFromParameters(const ros::NodeHandle& own)
 {
   MeshLimits limits;

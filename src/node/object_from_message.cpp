@@ -21,7 +21,7 @@ Eigen::Isometry3d poseFrom(const geometry_msgs::Pose& pose)
   return isometryOf(pose.position, pose.orientation);
 }
 
-/// ROS writes zeros where a pose was never set.
+/// ROS fills a pose that was never set with zeros.
 bool isUnset(const geometry_msgs::Pose& pose)
 {
   const geometry_msgs::Point& p = pose.position;
@@ -68,7 +68,7 @@ class ShapeReader
   }
 
  private:
-  /// A pose that is missing is no displacement, as in MoveIt.
+  /// A shape without a pose gets the identity, as in MoveIt.
   template <class Messages, class Read>
   void add(const Messages& messages, const std::vector<geometry_msgs::Pose>& poses, const char* kind, const Read& read)
   {
@@ -119,7 +119,7 @@ Eigen::Quaterniond rotationOf(const geometry_msgs::Quaternion& message)
   const double norm = components.stableNorm();
   if (norm == 0.0)
     return Eigen::Quaterniond::Identity();
-  // Divided first, so that squares of large components do not overflow.
+  // Division by the stable norm comes first, so that squares of large components do not overflow in normalized().
   return Eigen::Quaterniond(Eigen::Vector4d(components / norm)).normalized();
 }
 

@@ -11,14 +11,14 @@
 
 namespace gpu_planning_scene::core
 {
-/// The meshes of one message: those that are equal become one, so that one tree serves them all.
+/// The meshes of one message. Equal meshes become one object, so that they share one tree.
 class InlineMeshes
 {
  public:
   std::shared_ptr<const Mesh> meshOf(const shape_msgs::Mesh& message, const std::string& object);
 
  private:
-  std::unordered_multimap<std::size_t, std::shared_ptr<const Mesh>> meshes_;  // by a hash of what is in them
+  std::unordered_multimap<std::size_t, std::shared_ptr<const Mesh>> meshes_;  // by a hash of their vertices
 };
 
 ObjectChange objectChangeFrom(const CollisionObject& message, InlineMeshes& meshes);
@@ -26,7 +26,8 @@ AttachedChange attachedChangeFrom(const AttachedCollisionObject& message, Inline
 
 Eigen::Quaterniond rotationOf(const geometry_msgs::Quaternion& message);
 
-/// A position (geometry_msgs/Point or Vector3) and an orientation, which is normalised; one of zero length means none.
+/// The pose of a position (geometry_msgs/Point or Vector3) and an orientation. The orientation is normalised; the zero
+/// quaternion means no rotation.
 template <class Position>
 Eigen::Isometry3d isometryOf(const Position& position, const geometry_msgs::Quaternion& orientation)
 {

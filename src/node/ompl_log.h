@@ -4,7 +4,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// While it is there, what OMPL logs goes to rosconsole, as "ompl": what it calls information as debugging.
+/// During its lifetime, OMPL's log messages go to rosconsole, under the name "ompl". OMPL's information messages become
+/// debug messages.
 class OmplLog : public ompl::msg::OutputHandler
 {
  public:

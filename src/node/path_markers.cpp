@@ -9,13 +9,13 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// Straight motions in joint space are curves.
+// A straight motion in joint space is a curve in the planning frame, so a line has several points per motion.
 constexpr double kStep = 0.05;           // radians and metres between two points of a line
-constexpr double kMostSteps = 200.0;     // of a motion
+constexpr double kMostSteps = 200.0;     // per motion
 constexpr double kLineWidth = 0.005;     // metres
 constexpr double kPointDiameter = 0.02;  // metres
 
-/// Links that the group moves and that have no child: the hands of arms.
+/// Links that the group moves and that have no child link, such as the hand of an arm.
 std::vector<int> lastLinks(const RobotModel& robot, const Group& group)
 {
   std::vector<int> links = group.moved_links;

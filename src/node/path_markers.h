@@ -8,8 +8,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// A path as RViz draws it, in the planning frame: the ways of the links at the ends of the group's chains, as lines,
-/// and a point at each waypoint. The first marker deletes those of before. `waypoints`: rows of all variables.
+/// Markers of a path for RViz, in the planning frame. For each link at the end of a chain of the group, a line shows
+/// the link's path, with a point at each waypoint. The first marker deletes all earlier markers. `waypoints`: rows of
+/// all variables.
 visualization_msgs::MarkerArray pathMarkers(const PlanningScene& scene,
                                             const std::vector<std::vector<double>>& waypoints, const Group& group);
 }  // namespace gpu_planning_scene::core

@@ -16,7 +16,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Only what the group plans for can be a goal.
+/// Throws Error if a column of the goals is not a variable of the group's state space.
 void requirePlannedFor(const std::vector<int>& columns, const GroupStateSpace& space)
 {
   for (const int column : columns)
@@ -24,11 +24,11 @@ void requirePlannedFor(const std::vector<int>& columns, const GroupStateSpace& s
       throw Error("goal_names has " + space.robot()->variables()[static_cast<std::size_t>(column)].name +
                   ", which group '" + space.group().name + "' does not plan for");
 }
-/// Planners take any number. A count of many millions, or a motion a billionth as long as the space, which planners
-/// answer with as many states, keep them busy for hours between two looks at the clock.
+/// Refuses parameters that keep a planner busy for hours between two checks of the time, because planners accept any
+/// number. Examples are a count of many millions, and a `range` that is a billionth of the extent of the space.
 void refuseCostly(const std::map<std::string, std::string>& parameters, double extent, std::size_t most)
 {
-  constexpr double kLeastRange = 1e-4;  // of the extent
+  constexpr double kLeastRange = 1e-4;  // fraction of the extent
   for (const auto& [name, text] : parameters)
   {
     const std::optional<double> value = parseNumber(text);

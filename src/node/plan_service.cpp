@@ -52,14 +52,14 @@ trajectory_msgs::JointTrajectory trajectoryOf(const PlanningScene& scene, const 
   return trajectory;
 }
 
-/// What the request is to blame for.
+/// An error in the request.
 class BadRequest : public Error
 {
  public:
   using Error::Error;
 };
 
-/// Of work in which an Error comes from the request.
+/// Runs work in which every Error except DeviceLost comes from the request. Rethrows these errors as BadRequest.
 template <class Work>
 auto blamingTheRequest(const Work& work)
 {
@@ -78,7 +78,7 @@ auto blamingTheRequest(const Work& work)
 }
 }  // namespace
 
-/// A checker with the scene, for as long as one request is planned for. One that is not given back is not used again.
+/// A checker with the scene, for the planning of one request. A checker that is not given back is dropped.
 class PlanService::CheckerLease
 {
  public:
@@ -178,7 +178,7 @@ PlanningResult PlanService::plan(const Task& task)
   }
   catch (const BadRequest&)
   {
-    lease.giveBack();  // nothing is wrong with it
+    lease.giveBack();  // the checker is not the cause of the error
     throw;
   }
 }

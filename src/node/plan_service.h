@@ -18,30 +18,31 @@
 
 namespace gpu_planning_scene::core
 {
-/// Answers ~plan, and draws the last path on ~plan_markers. Throws nothing: what is wrong is said in the response. Some
-/// plan at a time, each with a checker of its own, which is kept for the next; others wait. Thread-safe.
+/// Answers ~plan, and publishes the last path on ~plan_markers. Throws nothing: the response has the error. Several
+/// requests are planned at the same time, each with its own checker; further requests wait. Checkers are kept for later
+/// requests. Thread-safe.
 class PlanService
 {
  public:
-  /// Throws Error for wrong ~planners.
+  /// Throws Error for wrong values in ~planners.
   PlanService(ros::NodeHandle& own, const SceneStore& store, CheckServer::MakeChecker make_checker,
               const MemoryGuard& memory, const PlanServiceOptions& options);
 
   PlanMotion::Response plan(const PlanMotion::Request& request);
 
-  /// Ends the planning that runs, and tells those who wait.
+  /// Ends running planners. Running and queued requests get an Error "shutting down".
   void stop();
 
  private:
   class CheckerLease;
 
-  /// What a request asks for, and in which scene.
+  /// A request, converted, with the scene for which it is planned.
   struct Task
   {
     std::shared_ptr<const PlanningScene> scene;
     PlanningQuery query;
     std::shared_ptr<const PlannerFactory> factory;
-    std::string planner;  // its name as a plugin
+    std::string planner;  // plugin name of the planner
   };
 
   void fill(const PlanMotion::Request& request, PlanMotion::Response& response);
@@ -59,6 +60,6 @@ class PlanService
   Admission admission_;
   std::atomic<bool> stopping_{false};
   std::mutex mutex_;
-  std::vector<std::shared_ptr<StateChecker>> idle_;  // mutex_ guards it
+  std::vector<std::shared_ptr<StateChecker>> idle_;  // guarded by mutex_
 };
 }  // namespace gpu_planning_scene::core

@@ -9,18 +9,18 @@
 
 namespace gpu_planning_scene::core
 {
-/// A planner by its type and its parameters, by OMPL's names.
+/// A planner's type (plugin name) and its parameters, under OMPL's names.
 struct PlannerConfig
 {
   std::string type;
   std::map<std::string, std::string> parameters;
 };
 
-/// What a planners.yaml, laid out as MoveIt's ompl_planning.yaml, says of a group.
+/// The entry of a group in ~planners, whose layout is that of MoveIt's ompl_planning.yaml.
 struct GroupPlanners
 {
   std::string default_config;           ///< empty: none
-  std::vector<std::string> configs;     ///< that are meant for the group; empty: all
+  std::vector<std::string> configs;     ///< the configurations that the group may use; empty: all
   std::vector<std::string> projection;  ///< projection_evaluator: joints(A,B)
   std::optional<double> longest_valid_segment_fraction;
 };
@@ -28,13 +28,14 @@ struct GroupPlanners
 class PlannerConfigs
 {
  public:
-  /// From ~planners (other keys of a group are warned of): planner_configs/NAME/{type, PARAMETER...} and
-  /// GROUP/{default_planner_config, planner_configs, projection_evaluator, longest_valid_segment_fraction}. Throws
-  /// Error, which names the parameter.
+  /// Reads ~planners: planner_configs/NAME/{type, PARAMETER...} and GROUP/{default_planner_config, planner_configs,
+  /// projection_evaluator, longest_valid_segment_fraction}. Other keys of a group give a warning. Throws Error, which
+  /// names the parameter.
   static PlannerConfigs fromParameters(const ros::NodeHandle& own);
 
-  /// The configuration of that name; one of that type without parameters where there is none; the group's default, or
-  /// the batch planner's, for an empty name. Throws Error for one that is there and not meant for the group.
+  /// The configuration `name`. If there is no such configuration, `name` is the type of a planner without parameters.
+  /// An empty name means the group's default, and the batch planner if the group has no default. Throws Error for a
+  /// configuration that the group may not use.
   PlannerConfig find(const std::string& name, const std::string& group) const;
 
   const GroupPlanners& ofGroup(const std::string& group) const;

@@ -13,7 +13,8 @@ struct PlannerPlugins::Impl
 {
   using Loader = pluginlib::ClassLoader<PlannerFactory>;
 
-  /// Made when a planner is first wanted: who checks states alone needs none, nor a package that rospack finds.
+  /// Made when a planner is first needed. A node that only checks states needs no planners, and its package need not be
+  /// found by rospack.
   Loader& theLoader()
   {
     if (!loader)
@@ -23,7 +24,7 @@ struct PlannerPlugins::Impl
 
   std::mutex mutex;
   std::unique_ptr<Loader> loader;
-  std::map<std::string, std::shared_ptr<const PlannerFactory>> loaded;  // before the loader: they end first
+  std::map<std::string, std::shared_ptr<const PlannerFactory>> loaded;  // destroyed before the loader of its libraries
 };
 
 PlannerPlugins::PlannerPlugins() : impl_(std::make_unique<Impl>()) {}

@@ -9,19 +9,19 @@
 
 namespace gpu_planning_scene::core
 {
-/// Planners of all packages that export some to pluginlib. Thread-safe.
+/// The planners that any package exports to pluginlib. Thread-safe.
 class PlannerPlugins
 {
  public:
   PlannerPlugins();
   ~PlannerPlugins();
 
-  /// Debian's pluginlib looks for packages as ROS 1 does, but asks ROS 2's index first, and throws where no environment
-  /// was set up for that. To be called before there are other threads.
+  /// Sets AMENT_PREFIX_PATH, unless it is set. Debian's pluginlib finds packages as ROS 1 does, but first looks into
+  /// the index of ROS 2, and throws if that variable is not set. Call this before the start of other threads.
   static void prepareEnvironment();
 
-  /// The plugin of that name; it is loaded once. Throws Error that lists the names there are, and std::runtime_error
-  /// for one that cannot be loaded.
+  /// The plugin of that name. Each plugin is loaded once. Throws Error, which lists the known names, for an unknown
+  /// name. Throws std::runtime_error if the plugin cannot be loaded.
   std::shared_ptr<const PlannerFactory> find(const std::string& name);
 
  private:

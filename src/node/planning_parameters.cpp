@@ -12,7 +12,7 @@ namespace
 {
 using XmlRpc::XmlRpcValue;
 
-/// Sets the values of the links that the parameter names.
+/// Sets the values of the links in the parameter `name`.
 void setOfLinks(const ros::NodeHandle& node, const std::string& name, const RobotModel& robot, bool may_be_zero,
                 std::vector<double>& values, std::vector<std::string>* warnings)
 {
@@ -33,7 +33,7 @@ void setOfLinks(const ros::NodeHandle& node, const std::string& name, const Robo
   }
 }
 
-/// What is the same everywhere as it would be without parameters needs no values.
+/// Returns no values if all links have the usual value, which needs no entries in SceneDefaults.
 std::vector<double> orNone(std::vector<double> values, double usual)
 {
   const bool all_usual = std::all_of(values.begin(), values.end(), [usual](double value) { return value == usual; });

@@ -1,5 +1,4 @@
-// planning_scene_node: holds a planning scene, which clients change, and answers over ROS which robot states are free
-// of collision.
+// planning_scene_node: holds a planning scene that clients can change, and checks robot states for collision over ROS.
 
 #include <csignal>
 #include <iostream>
@@ -21,10 +20,11 @@ void requestStop(int)
   stop_requested = 1;
 }
 
-/// The handles outlive the error: with the last of them roscpp shuts down, and its log with it.
+/// The node handles are outside the try block: roscpp and its log shut down with the last handle, so an error must be
+/// logged before.
 int run()
 {
-  // Waits for the master, deaf to what is asked of it: until then signals end the process as they end any other.
+  // The constructor waits for the master. The signal handlers are set after it, so that a signal can end the wait.
   ros::NodeHandle node;
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
@@ -47,8 +47,8 @@ int main(int argc, char** argv)
 {
   try
   {
-    // Not roscpp's own handler: it would drop the requests that are being answered.
     gpu_planning_scene::core::PlannerPlugins::prepareEnvironment();
+    // Without roscpp's own signal handler, which drops the requests that are being answered.
     ros::init(argc, argv, "planning_scene_node", ros::init_options::NoSigintHandler);
     return gpu_planning_scene::core::run();
   }

@@ -5,6 +5,6 @@
 
 namespace gpu_planning_scene::core
 {
-/// `answer` has a report.
+/// Writes the report of `answer`, which must have one, into the response.
 void fillReport(const CheckAnswer& answer, GetReport::Response& response);
 }  // namespace gpu_planning_scene::core

@@ -30,7 +30,7 @@ std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<st
 
 void requireWholeRotations(const RobotModel& robot, const std::vector<int>& columns)
 {
-  constexpr int kRotation = 3;  // of a floating joint's variables: the first one after the position
+  constexpr int kRotation = 3;  // index of the first rotation variable of a floating joint, after the position
   constexpr int kCoefficients = 4;
   for (const Joint& joint : robot.joints())
   {

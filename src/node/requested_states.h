@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A field of a request, with its name there, for messages.
+/// The values of a request's field, and the name of the field for error messages.
 template <class Values>
 struct RequestField
 {
@@ -16,13 +16,14 @@ struct RequestField
   const Values& values;
 };
 
-/// The variables that a request's rows have values of, after all of the rows' values were looked at. `require_count`
-/// throws Error for too many rows. Throws Error: no name, an unknown one, values that are not rows, or not finite.
+/// The variable indices of the columns of `rows`. Checks all values of the rows. `require_count` throws Error for too
+/// many rows. Throws Error if there is no name or an unknown name, if the values do not make whole rows, or if a value
+/// is not finite.
 std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<std::vector<std::string>>& names,
                                   const RequestField<std::vector<double>>& rows,
                                   const std::function<void(std::size_t)>& require_count);
 
-/// Throws Error where some of a rotation's variables are among the columns, and some are not: such a rotation cannot be
-/// moved from one to another without those that are missing.
+/// Throws Error if the columns have only some of the four variables of a floating joint's rotation: a motion between
+/// two such rotations is not defined.
 void requireWholeRotations(const RobotModel& robot, const std::vector<int>& columns);
 }  // namespace gpu_planning_scene::core

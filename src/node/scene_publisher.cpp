@@ -21,7 +21,7 @@ ScenePublisher::~ScenePublisher()
   store_.setListener({});
 }
 
-/// Nothing may be thrown here: the change is made.
+/// Must not throw: the change has already been made.
 void ScenePublisher::changed(const std::shared_ptr<const PlanningScene>& before,
                              const std::shared_ptr<const PlanningScene>& after)
 {

@@ -9,9 +9,10 @@
 
 namespace gpu_planning_scene::core
 {
-/// Publishes the scene: ~monitored_planning_scene_diffs gets each change, ~monitored_planning_scene (latched) the whole
-/// scene at the start, after each change that is no difference, and every few seconds where it has changed. A diff
-/// names the revision that it follows: a client to which one is missing asks for the whole scene.
+/// Publishes the scene. ~monitored_planning_scene_diffs gets each change. ~monitored_planning_scene (latched) gets the
+/// whole scene: at the start, after each change that cannot be sent as a difference, and every `full_scene_period`
+/// seconds if the scene has changed. A difference names the revision before it, so that a client notices a missing one
+/// and requests the whole scene.
 class ScenePublisher
 {
  public:
@@ -26,7 +27,7 @@ class ScenePublisher
   ros::Publisher full_;
   ros::Publisher diffs_;
   ros::WallTimer timer_;
-  std::mutex mutex_;  // of the full scenes' order
+  std::mutex mutex_;  // keeps the full scenes in the order of their revisions
   std::uint64_t full_revision_ = 0;
 };
 }  // namespace gpu_planning_scene::core

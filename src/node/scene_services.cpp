@@ -14,7 +14,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// What only removes and moves is made however much memory is used: it is how a client makes room.
+/// Whether the change needs memory. Changes that only remove and move objects are made even when memory is short,
+/// because a client frees memory with them.
 bool takesMemory(const SceneChange& change)
 {
   const auto brings = [](const ObjectChange& object) { return !object.shapes.empty() || !object.subframes.empty(); };
@@ -25,7 +26,7 @@ bool takesMemory(const SceneChange& change)
                      [&brings](const AttachedChange& carried) { return brings(carried.object); });
 }
 
-/// Of messages on topics: nobody waits for an answer.
+/// Logs the warnings of messages on topics, which have no response.
 void warnThrottled(const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)

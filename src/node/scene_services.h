@@ -9,25 +9,26 @@
 
 namespace gpu_planning_scene::core
 {
-/// Answers apply_planning_scene, get_planning_scene and clear, and makes what comes on topics. Thread-safe.
+/// Answers apply_planning_scene, get_planning_scene and clear, and makes the changes from topics. Thread-safe.
 class SceneServices
 {
  public:
   SceneServices(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory);
 
-  /// These throw nothing: what is wrong with a request is said in the response.
+  /// These three throw nothing: the response has the error.
   ApplyPlanningScene::Response apply(const ApplyPlanningScene::Request& request);
   Clear::Response clear();
   GetPlanningScene::Response get(const GetPlanningScene::Request& request) const;
 
-  /// What a message asks for. Throws Error; warnings are logged.
+  /// Converts a message to a change. Throws Error; warnings are logged.
   SceneChange changeOf(const PlanningSceneMessage& message) const;
   SceneChange changeOf(const CollisionObject& message) const;
   SceneChange changeOf(const AttachedCollisionObject& message) const;
-  /// Throws Error and has changed nothing; warnings are logged.
+  /// Makes the change. If it throws Error, nothing has changed. Warnings are logged.
   void make(const SceneChange& change, const SceneStore::Lookup& lookup);
 
-  /// Throws Error and has taken nothing. The names of other robots, and of joints without a variable, are passed over.
+  /// Sets the robot's state. If it throws Error, nothing has changed. Names that are no variable of the robot are
+  /// ignored.
   void take(const sensor_msgs::JointState& message);
 
  private:

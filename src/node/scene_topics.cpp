@@ -7,7 +7,7 @@ SceneTopics::SceneTopics(const ros::NodeHandle& node, const ros::NodeHandle& own
                          std::size_t most_bytes)
   : changes_(changes),
     lookup_(lookup),
-    topics_(node, own, 1, diagnostics),  // one thread: it keeps their order
+    topics_(node, own, 1, diagnostics),  // one thread, to keep the order of the messages
     queue_([this] { return maker(); },
            [this](const std::string& topic, const std::string& why) { topics_.refuse(topic, why); }, most_changes,
            most_bytes)
@@ -29,8 +29,8 @@ void SceneTopics::stop()
   topics_.stop();
 }
 
-/// roscpp's own queue has no bound (0), as it would drop the oldest without a word; the thread moves all that comes to
-/// the queue here, which has.
+/// roscpp's queue gets no bound (0), because it would drop the oldest messages silently. The thread of topics_ moves
+/// all messages to queue_, which has a bound.
 template <class Message>
 void SceneTopics::subscribe(const ros::NodeHandle& own, const std::string& name)
 {
@@ -43,7 +43,8 @@ void SceneTopics::subscribe(const ros::NodeHandle& own, const std::string& name)
       });
 }
 
-/// For changes that wait together: while one of them waits for a frame, all the others have waited as long.
+/// Returns the function that makes the changes of one set. They share a deadline for frames: while one change waits for
+/// its frame, the others wait as well.
 ChangeQueue::Make SceneTopics::maker() const
 {
   const auto until = lookup_.deadline();

@@ -7,21 +7,22 @@
 
 namespace gpu_planning_scene::core
 {
-/// Takes changes of the scene from the topics ~planning_scene, ~collision_object and ~attached_collision_object, and
-/// makes them in the order in which they come. None is dropped without a word: over the bounds an error is logged, and
-/// it is counted with all others that are refused.
+/// Receives changes of the scene from the topics ~planning_scene, ~collision_object and ~attached_collision_object, and
+/// makes them in the order of their arrival. No change is dropped silently: a change above the bounds is logged as an
+/// error and counted with the rejected messages.
 class SceneTopics
 {
  public:
-  /// At most so many changes, and bytes of messages, wait. What is referred to outlives it.
+  /// The queue holds at most `most_changes` changes, from messages with `most_bytes` bytes in total. All arguments
+  /// passed by reference must outlive this object.
   SceneTopics(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneServices& changes,
               const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t most_changes, std::size_t most_bytes);
-  /// As stop().
+  /// Calls stop().
   ~SceneTopics();
 
-  /// From now on, takes nothing.
+  /// Rejects all further messages.
   void close() { topics_.close(); }
-  /// Closes, makes what it is making, and refuses what waits.
+  /// Calls close(), finishes the current change, and rejects the queued changes.
   void stop();
 
  private:
@@ -32,6 +33,6 @@ class SceneTopics
   SceneServices& changes_;
   const FrameLookup& lookup_;
   Endpoints topics_;
-  ChangeQueue queue_;  // its thread tells topics_ what is refused
+  ChangeQueue queue_;  // after topics_: its thread reports rejected changes to topics_
 };
 }  // namespace gpu_planning_scene::core

@@ -25,7 +25,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kLongestEnd = 8.0;  // seconds; roslaunch kills after 15
+constexpr double kLongestEnd = 8.0;  // seconds; roslaunch kills the process after 15 s
 
 void warn(const std::vector<std::string>& warnings)
 {
@@ -33,8 +33,9 @@ void warn(const std::vector<std::string>& warnings)
     ROS_WARN_STREAM(warning);
 }
 
-/// glibc gives threads heaps of their own, and what one frees serves no other: with a thread for each waiting request,
-/// and scenes and devices that are made on one thread and dropped on another, the process would grow for hours.
+/// glibc gives each thread its own heap, and memory freed in one heap does not serve the other threads. The node has a
+/// thread for each waiting request, and destroys scenes and devices on other threads than it made them on. So with many
+/// heaps the process would grow for hours.
 void useOneHeap()
 {
   mallopt(M_ARENA_MAX, 1);
@@ -53,7 +54,7 @@ void logScene(CheckServer& server)
 void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_device,
            const std::function<bool()>& stop)
 {
-  std::optional<EndDeadline> deadline;  // the first one: it watches over the end of all others
+  std::optional<EndDeadline> deadline;  // declared first, so that it covers the destructors of all objects below
   useOneHeap();
   const ServiceOptions options = serviceOptionsFromParameters(own);
   const CheckServerOptions server_options = serverOptionsFromParameters(own);
@@ -109,9 +110,10 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   Endpoints plan_requests(node, own, plan_options.at_once + plan_options.most_waiting + 1, diagnostics);
   plan_requests.advertise<PlanMotion>("plan", [&](const PlanMotion::Request& r) { return plans.plan(r); });
 
-  // Each request that waits has a thread: so the one too many is told at once that the node is busy. As many as may
-  // wait are in the batch that the small lane checks, wait in either lane, and wait for contacts. check_states comes
-  // last: where it is there, all is.
+  // Each waiting request occupies a thread, and a thread must be free to answer "busy" immediately. Up to
+  // most_waiting_requests requests each can be in the running batch of small requests, in the queue of small requests,
+  // in the queue of large requests, and in the queue for contacts. check_states is advertised last: when it is there,
+  // all other services are.
   Endpoints check_requests(node, own, 4 * server_options.most_waiting_requests + 8, diagnostics);
   check_requests.advertise<CheckMotions>(
       "check_motions", [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
@@ -128,8 +130,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   while (ros::ok() && !stop() && !shutdown_call.came())
     ros::WallDuration(0.05).sleep();
 
-  // What runs is answered, or told that it takes too long; what waits is told; then the threads that bring the answers
-  // are waited for.
+  // Running requests are answered or, if they take too long, rejected; queued requests are rejected. Then the threads
+  // that send the answers are joined.
   stopping = true;
   deadline.emplace(kLongestEnd);
   const std::array<Endpoints*, 5> endpoints = {
@@ -144,8 +146,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   for (Endpoints* some : endpoints)
     some->stop();
   timers.stop();
-  // roscpp writes answers to their connections by itself, and drops what is not written when it shuts down. What comes
-  // in the meantime is told too.
+  // roscpp writes the answers to their connections on its own threads, and drops unwritten answers when it shuts down,
+  // so it gets time here. Requests that arrive meanwhile are rejected too.
   for (int i = 0; i < 10; ++i)
   {
     ros::WallDuration(0.05).sleep();

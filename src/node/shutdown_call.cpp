@@ -9,7 +9,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr const char* kMethod = "shutdown";  // of ROS's slave API
+constexpr const char* kMethod = "shutdown";  // of the ROS slave API
 }  // namespace
 
 ShutdownCall::ShutdownCall() : came_(std::make_shared<std::atomic<bool>>(false))

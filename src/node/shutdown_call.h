@@ -5,12 +5,13 @@
 
 namespace gpu_planning_scene::core
 {
-/// Listens for what `rosnode kill`, and the master where another node of this name starts, ask for: an end. roscpp
-/// would shut down at once, and drop the requests that are being answered; as long as this lives it is told instead.
+/// Receives the shutdown call of the ROS slave API during its lifetime. `rosnode kill` makes this call, and so does the
+/// master when another node with this name starts. roscpp itself would shut down immediately, and drop the requests
+/// that are being answered.
 class ShutdownCall
 {
  public:
-  /// ROS has started.
+  /// ROS must have been started.
   ShutdownCall();
   ~ShutdownCall();
   ShutdownCall(const ShutdownCall&) = delete;
@@ -19,6 +20,6 @@ class ShutdownCall
   bool came() const { return *came_; }
 
  private:
-  const std::shared_ptr<std::atomic<bool>> came_;  // the call may outlive this
+  const std::shared_ptr<std::atomic<bool>> came_;  // shared, because a call may outlive this object
 };
 }  // namespace gpu_planning_scene::core

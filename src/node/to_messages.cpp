@@ -43,7 +43,7 @@ geometry_msgs::Transform transformOf(const Eigen::Isometry3d& pose)
   return message;
 }
 
-/// Adds a shape and its pose to the list of its kind.
+/// Adds a shape and its pose to the lists of its kind in the message.
 struct AddShape
 {
   CollisionObject& message;
@@ -109,7 +109,7 @@ std::int8_t operationOf(Operation operation)
   return CollisionObject::ADD;
 }
 
-/// A move's poses of shapes stand in one list: they are counted through all three, whatever the shapes are.
+/// The shape poses of a Move all go to primitive_poses: a reader of the message joins its three lists of poses.
 CollisionObject messageOf(const ObjectChange& change, const std::string& planning_frame)
 {
   CollisionObject message;
@@ -140,7 +140,7 @@ AttachedCollisionObject messageOf(const AttachedChange& change, const std::strin
   return message;
 }
 
-/// Of planar and floating joints the transform, where all of their variables are there.
+/// Writes the variables. A planar or floating joint becomes a transform if all of its variables are given.
 void setVariables(const std::map<std::string, double>& variables, const RobotModel& robot, RobotState& message)
 {
   message.joint_state.header.frame_id = robot.planningFrame();
@@ -170,12 +170,12 @@ void setVariables(const std::map<std::string, double>& variables, const RobotMod
   }
 }
 
-/// An entry for each pair of names, also where the matrix has none and their defaults decide.
+/// Writes an entry for each pair of names that have entries. Pairs without an entry get the value of the defaults.
 AllowedCollisionMatrixMessage messageOf(const AllowedCollisionMatrix& matrix, const std::string& a_link)
 {
   AllowedCollisionMatrixMessage message;
   message.entry_names = matrix.bodiesWithEntries();
-  // A message without names says nothing of the matrix; one with a lone name has no entries.
+  // A message without names leaves the matrix as it is. A message with a single name sets an empty matrix.
   if (message.entry_names.empty())
     message.entry_names.push_back(a_link);
   message.entry_values.resize(message.entry_names.size());
@@ -194,7 +194,7 @@ AllowedCollisionMatrixMessage messageOf(const AllowedCollisionMatrix& matrix, co
   return message;
 }
 
-/// The change that makes the scene, as far as it is asked for.
+/// The change that makes the requested components of the scene.
 SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
 {
   using Components = PlanningSceneComponents;

@@ -8,11 +8,11 @@
 
 namespace gpu_planning_scene::core
 {
-/// A scene as the message that makes it. `components`: a sum of PlanningSceneComponents' numbers, 0 for all. `state`
-/// and `known`: of each variable its value, and whether it is known; those that are not are left out.
+/// The message that makes a scene. `components`: a sum of the numbers in PlanningSceneComponents; 0 for all. `state`,
+/// `known`: for each variable its value, and whether the value is known. Unknown variables are left out.
 PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
                                const std::vector<bool>& known);
 
-/// The message that changeFrom makes `change` of.
+/// The message that changeFrom() converts to `change`.
 PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robot);
 }  // namespace gpu_planning_scene::core

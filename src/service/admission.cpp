@@ -13,7 +13,7 @@ void Admission::stop()
   changed_.notify_all();
 }
 
-/// As all come in in turn, those whose number is below `left_ + most_inside_` may be inside.
+/// Callers are numbered and admitted in the order of their arrival: number n is admitted when n < left_ + most_inside_.
 void Admission::enter()
 {
   std::unique_lock<std::mutex> lock(mutex_);

@@ -7,7 +7,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Lets a few at a time in, in the order in which they come. So many others wait; the rest is turned away.
+/// Admits at most `most_inside` callers at a time, in the order of their arrival. At most `most_waiting` further
+/// callers wait; all others are rejected.
 class Admission
 {
  public:
@@ -15,11 +16,11 @@ class Admission
   {
   }
 
-  /// Whoever has one is inside.
+  /// The owner of a pass is admitted until the pass is destroyed.
   class Pass
   {
    public:
-    /// Waits to be let in. Throws Busy at once where too many wait, Error after stop().
+    /// Waits to be admitted. Throws Busy immediately if too many callers wait; throws Error after stop().
     explicit Pass(Admission& admission) : admission_(admission) { admission.enter(); }
     ~Pass() { admission_.leave(); }
     Pass(const Pass&) = delete;
@@ -29,7 +30,7 @@ class Admission
     Admission& admission_;
   };
 
-  /// Lets nobody in any more; who waits gets an Error "shutting down".
+  /// Admits no further caller. Waiting callers get an Error "shutting down".
   void stop();
 
  private:
@@ -38,7 +39,7 @@ class Admission
 
   const std::size_t most_inside_;
   const std::size_t most_waiting_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   std::uint64_t came_ = 0;
   std::uint64_t left_ = 0;

@@ -4,7 +4,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Too much is waiting; ask again later.
+/// A queue is full; the caller should ask again later.
 class Busy : public Error
 {
  public:

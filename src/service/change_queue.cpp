@@ -16,8 +16,9 @@ bool changesNoSettings(const SceneChange& change)
          change.link_scale.empty() && change.colors.empty();
 }
 
-/// Whether the two are the same as the first one with the second one's objects, or carried objects, added to its own.
-/// (Not where the one has objects and the other one carries: the parts of a change have an order of their own.)
+/// Whether both changes together equal the first one with the second one's objects, or its attached objects, appended.
+/// They do not if one has objects and the other has attached objects: one change applies the two kinds in a fixed
+/// order.
 bool canBeOne(const SceneChange& first, const SceneChange& second)
 {
   if (!changesNoSettings(second))
@@ -114,8 +115,8 @@ void ChangeQueue::makeAll(const Changes& changes)
   }
 }
 
-/// Those from `begin` to `end`, which can be one. Where they are refused together, each half of them is tried: so a
-/// wrong one among thousands is found, and all others are made, with few copies of the scene.
+/// Makes the changes from `begin` to `end`, which can be merged. If the merged change is rejected, each half is tried
+/// (bisection). So one wrong change among thousands is found, and all others are made, with few copies of the scene.
 void ChangeQueue::make(const Make& make_one, const Changes& changes, std::size_t begin, std::size_t end)
 {
   try

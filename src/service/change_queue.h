@@ -12,28 +12,30 @@
 
 namespace gpu_planning_scene::core
 {
-/// Changes of the scene that nobody waits for. They are made in the order in which they come, on a thread of the
-/// queue's own; what waits together is made as one change where that leads to the same scene, since each change copies
-/// it. A change that is refused takes no other one with it.
+/// Scene changes for which no caller waits, such as those of a topic. The queue's own thread makes them in the order of
+/// their arrival. Each change copies the scene, so queued changes are merged if that leads to the same scene. A
+/// rejected change does not affect the other changes.
 class ChangeQueue
 {
  public:
-  /// Makes a change, or throws and has changed nothing.
+  /// Makes a change. If it throws, nothing has changed.
   using Make = std::function<void(const SceneChange& change)>;
-  /// Called before what waits together is made.
+  /// Called once before each set of queued changes is made.
   using Maker = std::function<Make()>;
-  /// Hears, on the queue's thread, of a change that was not made.
+  /// Called on the queue's thread for each change that was not made.
   using Refuse = std::function<void(const std::string& source, const std::string& why)>;
 
-  /// At most `most_changes` wait, and at most `most_bytes` (what whoever adds them says), but one always may.
+  /// The queue holds at most `most_changes` changes with `most_bytes` bytes in total (see add()). One change always
+  /// fits, whatever its size.
   ChangeQueue(Maker maker, Refuse refuse, std::size_t most_changes, std::size_t most_bytes);
-  /// As stop().
+  /// Calls stop().
   ~ChangeQueue();
 
-  /// `source`: where it comes from, for messages. Throws Busy where a bound is reached, Error after stop().
+  /// `source`: the origin of the change, for messages. `bytes`: its size, for the bound. Throws Busy if a bound is
+  /// reached; throws Error after stop().
   void add(std::string source, SceneChange change, std::size_t bytes);
 
-  /// Makes what it is making, and refuses all that waits.
+  /// Finishes the current change and rejects all queued changes.
   void stop();
 
  private:
@@ -55,12 +57,12 @@ class ChangeQueue
   const std::size_t most_changes_;
   const std::size_t most_bytes_;
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   std::condition_variable wake_;
   Changes waiting_;
-  std::size_t bytes_ = 0;  // of what waits, and of what is being made
-  std::size_t making_ = 0;
+  std::size_t bytes_ = 0;   // of the queued changes and of the changes that are being made
+  std::size_t making_ = 0;  // number of changes that are being made
   bool stopping_ = false;
-  std::thread thread_;  // the last one: it uses all of the above
+  std::thread thread_;  // last member: the thread uses all members above
 };
 }  // namespace gpu_planning_scene::core

@@ -9,10 +9,10 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// A stop waits no longer than for one batch of states.
+// stop() waits for the current batch of states, so a batch should take no longer than this.
 constexpr double kBatchSeconds = 0.5;
-constexpr std::size_t kLeastBatch = 16;  // states
-constexpr std::size_t kFirstBatch = 1024;
+constexpr std::size_t kLeastBatch = 16;    // states
+constexpr std::size_t kFirstBatch = 1024;  // states
 
 std::exception_ptr shuttingDown()
 {
@@ -25,7 +25,7 @@ bool isEqual(const std::shared_ptr<const AllowedCollisionMatrix>& a,
   return a == b || (a && b && *a == *b);
 }
 
-/// Whether the rows are full states as they are.
+/// Whether the rows already have all variables in the robot's order.
 bool isFull(const CheckJob& job, std::size_t width)
 {
   if (job.columns.empty())
@@ -36,7 +36,7 @@ bool isFull(const CheckJob& job, std::size_t width)
   return job.columns.size() == width;
 }
 
-/// Rows of all variables. Throws Error where a variable is neither given nor known.
+/// The job's states with all variables. Throws Error if a variable is neither given nor known.
 std::vector<double> filled(const CheckJob& job, const Snapshot& now)
 {
   const RobotModel& robot = *now.scene->robot;
@@ -45,7 +45,7 @@ std::vector<double> filled(const CheckJob& job, const Snapshot& now)
   return fullStates(robot, job.columns, job.states.data(), job.states.size() / job.columns.size(), now.partialState());
 }
 
-/// Adds the answer for some states to that for those before them.
+/// Appends the result of a batch of states to the result of the earlier batches.
 void append(const BatchResult& part, BatchResult& all)
 {
   all.valid.insert(all.valid.end(), part.valid.begin(), part.valid.end());
@@ -56,7 +56,7 @@ void append(const BatchResult& part, BatchResult& all)
   all.undecided_seconds += part.undecided_seconds;
 }
 
-/// The rows of one request in the answer for several, `width` values each.
+/// Takes the answer of one request out of the answer of a merged batch. Rows of states have `width` values.
 CheckAnswer part(const CheckAnswer& whole, std::size_t first, std::size_t count, bool keep_states, std::size_t width)
 {
   const auto begin = static_cast<std::ptrdiff_t>(first);
@@ -153,7 +153,7 @@ void CheckQueue::run()
     answer(batch);
 }
 
-/// The request that waits longest, and those that can be answered with it. None: the lane stops.
+/// Takes the oldest queued request and all requests that can be merged with it. Empty: the queue stops.
 CheckQueue::Batch CheckQueue::nextBatch()
 {
   std::unique_lock<std::mutex> lock(mutex_);
@@ -179,7 +179,7 @@ CheckQueue::Batch CheckQueue::nextBatch()
   return batch;
 }
 
-/// Where several are refused together, each is asked alone: only those that are wrong get an error.
+/// If a merged batch fails, each of its requests is checked alone, so that only the wrong requests get an error.
 void CheckQueue::answer(Batch& batch)
 {
   try
@@ -246,7 +246,8 @@ CheckAnswer CheckQueue::check(Batch& batch, std::size_t count)
   return answer;
 }
 
-/// Full rows of all requests. Of several the jobs stay as they are, as they may be asked alone after all.
+/// Full states of all requests of the batch. A merged batch keeps the states of its jobs, because each request may have
+/// to be checked alone afterwards. A single request gives its states away.
 std::vector<double> CheckQueue::statesOf(Batch& batch, const Snapshot& now) const
 {
   CheckJob& first = batch.front().job;
@@ -265,7 +266,7 @@ BatchResult CheckQueue::checkStates(const std::vector<double>& states, std::size
 {
   BatchResult all;
   std::size_t from = 0;
-  do  // once at least: the group is looked at in any case
+  do  // at least once: the checker must see an unknown group even without states
   {
     if (from != 0 && isStopping())
       std::rethrow_exception(shuttingDown());
@@ -284,7 +285,7 @@ void CheckQueue::checkMotions(const CheckJob& job, const std::vector<double>& st
   const MotionChecker checker(checker_, answer.scene->robot, job.group, *job.motions);
   const std::size_t count = width_ == 0 ? 0 : states.size() / width_ / 2;
   if (count == 0)
-    checker_->check(nullptr, 0, job.group);  // the group is looked at in any case
+    checker_->check(nullptr, 0, job.group);  // the checker must see an unknown group even without motions
   answer.motions = checker.check(states.data(), states.data() + count * width_, count, MotionQuery::LastValid,
                                  [this] { return isStopping(); });
   if (isStopping())
@@ -338,7 +339,7 @@ void CheckQueue::countAnswered(const CheckAnswer& answer, std::size_t requests)
   statistics_.undecided += answer.result.undecided_states;
 }
 
-/// A promise that has its value already keeps it.
+/// Requests that already have an answer keep it.
 void CheckQueue::fail(Request& request, std::exception_ptr error)
 {
   try

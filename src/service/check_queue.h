@@ -10,16 +10,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// A queue of requests, and the thread and the checker that answer them.
+/// A queue of check requests, with the thread and the checker that answer them.
 class CheckQueue
 {
  public:
-  /// `largest_batch`: states of requests that are answered together; 0: each request alone.
+  /// `largest_batch`: the largest number of states in a batch of merged requests; 0: requests are not merged.
   CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_checker, const CheckServerOptions& options,
              std::size_t largest_batch);
   ~CheckQueue();
 
-  /// Makes the checker before the first request comes. Throws what that throws.
+  /// Makes the checker before the first request arrives. Throws the errors of `make_checker`.
   void open();
   std::size_t stateWidth() const { return width_; }
   std::future<CheckAnswer> submit(CheckJob job, std::size_t count);
@@ -43,7 +43,7 @@ class CheckQueue
   void checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer);
   bool isStopping() const;
   std::vector<double> statesOf(Batch& batch, const Snapshot& now) const;
-  /// What the checker has now: the newest scene, or that with the matrix.
+  /// Gives the checker the newest scene and returns it. `matrix` replaces the scene's matrix, unless it is null.
   Snapshot takeScene(const AllowedCollisionMatrix* matrix);
   void countAnswered(const CheckAnswer& answer, std::size_t requests);
   void fail(Request& request, std::exception_ptr error);
@@ -54,17 +54,17 @@ class CheckQueue
   const std::size_t largest_batch_;
   const std::size_t width_;
 
-  // The thread's alone, but for open(), which is before it.
+  // Used by the queue's thread only. open() uses them too, before the thread starts.
   std::shared_ptr<StateChecker> checker_;
   std::shared_ptr<const PlanningScene> checked_;  // the checker's scene
   BatchSize batch_size_;
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // guards the members below
   std::condition_variable wake_;
   Batch waiting_;
   std::size_t waiting_states_ = 0;
   bool stopping_ = false;
   CheckStatistics statistics_;
-  std::thread thread_;  // the last one: it uses all of the above
+  std::thread thread_;  // last member: the thread uses all members above
 };
 }  // namespace gpu_planning_scene::core

@@ -6,8 +6,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// Of a matrix that small requests may have: to compare and to copy it, and to sort the pairs anew, takes no longer than
-// a check.
+// The largest matrix of a small request. To compare it, to copy it and to sort the pairs again takes no longer than a
+// check.
 constexpr std::size_t kBodiesOfSmallMatrix = 100;
 
 bool isSmall(const CheckJob& job)

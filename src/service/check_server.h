@@ -18,47 +18,48 @@ namespace gpu_planning_scene::core
 {
 struct CheckServerOptions
 {
-  std::size_t small_request = 1024;           ///< states; larger requests go to the other lane
-  std::size_t most_waiting_requests = 64;     ///< in each lane
-  std::size_t most_waiting_states = 4000000;  ///< in each lane
-  std::size_t most_states = 1000000;          ///< of one request
+  std::size_t small_request = 1024;           ///< states; larger requests go to the queue of large requests
+  std::size_t most_waiting_requests = 64;     ///< in each queue
+  std::size_t most_waiting_states = 4000000;  ///< in each queue; one request always fits
+  std::size_t most_states = 1000000;          ///< in one request
   std::size_t largest_batch = 16384;          ///< states that are checked at once
 };
 
-/// States are rows of values for some of the robot's variables. The others are filled in when the check starts, from
-/// what is known of the robot's state in the same instant as the scene that is checked.
+/// A request to check states or motions. States are rows of values for some of the robot's variables. The other
+/// variables are filled in when the check starts, from the robot's state of the same snapshot as the checked scene.
 struct CheckJob
 {
-  std::vector<int> columns;  ///< the variables that the rows have values of, each once; empty: all, in order
+  std::vector<int> columns;  ///< variable indices of the columns of `states`, each once; empty: all, in order
   std::vector<double> states;
   std::string group;
-  std::shared_ptr<const AllowedCollisionMatrix> matrix;  ///< in place of the scene's; null: none
-  bool report = false;                                   ///< whether the scene's report is wanted too
-  bool keep_states = false;                              ///< whether the answer is to have the full states
-  /// Set: the states are the starts of straight motions, then as many ends, and the answer is about the motions.
+  std::shared_ptr<const AllowedCollisionMatrix> matrix;  ///< replaces the scene's matrix; null: the scene's is used
+  bool report = false;                                   ///< whether the answer has the scene's report
+  bool keep_states = false;                              ///< whether the answer has the full states
+  /// If set, `states` has the starts of straight motions, followed by as many ends, and the motions are checked.
   std::optional<MotionCheckerOptions> motions;
-  std::size_t samples = 0;  ///< of the motions, by their steps: what the job counts for in the queues
+  std::size_t samples = 0;  ///< samples of the motions at their steps; the queues count them as the job's states
 };
 
 struct CheckAnswer
 {
-  BatchResult result;                  ///< seconds: of all that was answered together; of motions nothing else
-  std::vector<MotionVerdict> motions;  ///< of a job that has motions, up to where each is valid
+  /// `seconds` is the time of the whole batch. For a job with motions, only `revision` and `seconds` are set.
+  BatchResult result;
+  std::vector<MotionVerdict> motions;  ///< for a job with motions: how far each motion is valid
   std::uint64_t states_checked = 0;
-  std::shared_ptr<const PlanningScene> scene;  ///< that was checked, the job's matrix in it
+  std::shared_ptr<const PlanningScene> scene;  ///< the checked scene, with the job's matrix
   std::optional<SceneReport> report;
-  std::vector<double> states;  ///< rows of all variables, if they were to be kept
-  std::string device;          ///< that answered
+  std::vector<double> states;  ///< rows of all variables, if CheckJob::keep_states is set
+  std::string device;          ///< the device that checked the states
 };
 
-/// Since the start, and what waits now.
+/// Counts since the start, and the lengths of the queues now.
 struct CheckStatistics
 {
-  std::uint64_t requests = 0;  ///< that were answered
-  std::uint64_t batches = 0;   ///< that they were answered in
-  std::uint64_t states = 0;
-  std::uint64_t undecided = 0;  ///< of the states: those that the CPU settled for a device
-  std::uint64_t busy = 0;       ///< requests that were turned away
+  std::uint64_t requests = 0;   ///< answered requests
+  std::uint64_t batches = 0;    ///< batches of the answered requests
+  std::uint64_t states = 0;     ///< checked states
+  std::uint64_t undecided = 0;  ///< states that the device left undecided and the exact checker decided
+  std::uint64_t busy = 0;       ///< requests that got Busy
   std::uint64_t errors = 0;     ///< requests that ended with an error
   std::size_t waiting_requests = 0;
   std::size_t waiting_states = 0;
@@ -66,31 +67,33 @@ struct CheckStatistics
 
 class CheckQueue;
 
-/// Checks for many clients at once, in two lanes, each with a thread and a checker of its own: one merges small
-/// requests that wait together (of the same group and matrix), the other does large ones in turn, so a small one never
-/// waits for a large one. (Requests with a large matrix are large too: to take it takes long.) A lane takes the store's
-/// newest scene when it starts a batch: each answer belongs wholly to one snapshot, which is no older than any that the
-/// store had when the request came.
+/// Checks states and motions for many clients at once. It has two queues, each with its own thread and checker. One
+/// queue merges small requests that have the same group and matrix. The other queue answers large requests one by one.
+/// So a small request never waits for a large one. A request with a large matrix counts as large, because the checker
+/// needs long to take the matrix over.
+/// A queue takes the store's newest scene when it starts a batch. So each answer belongs to one snapshot, which is at
+/// least as new as the store's snapshot at the arrival of the request.
 class CheckServer
 {
  public:
   using MakeChecker = std::function<std::shared_ptr<StateChecker>(std::shared_ptr<const PlanningScene>)>;
 
-  /// Makes the small lane's checker at once, and throws what that throws; the large lane's when it is first needed. A
-  /// checker that does not take a scene is dropped and another one made for the next batch. `store` outlives it.
+  /// Makes the checker of the small requests immediately, and throws the errors of `make_checker`. The checker of the
+  /// large requests is made when it is first needed. A checker that refuses a scene is dropped, and another one is made
+  /// for the next batch. `store` must outlive the server.
   CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options);
-  /// As stop().
+  /// Calls stop().
   ~CheckServer();
 
-  /// Throws Error for more states than one request may have.
+  /// Throws Error if `count` is more than one request may have.
   void requireStateCount(std::size_t count) const;
 
-  /// Throws Busy at once where a bound is reached, Error for too many states. The future's error is the checker's, or
-  /// that a variable is neither given nor known.
+  /// Throws Busy immediately if the queue is full; throws Error for too many states and for rows of the wrong length.
+  /// The future gets the checker's errors, and an Error if a variable is neither given nor known.
   std::future<CheckAnswer> submit(CheckJob job);
 
-  /// Answers what runs, but for large requests that would take longer than about a second. All that waits, and what
-  /// comes later, gets an Error "shutting down".
+  /// Waits for the current batch of states (about 0.5 s). A request that needs no further batch is answered. Unfinished
+  /// requests, running motion checks, queued and later requests get an Error "shutting down".
   void stop();
 
   CheckStatistics statistics() const;

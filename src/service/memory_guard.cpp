@@ -44,7 +44,7 @@ void MemoryGuard::require() const
   if (residentMemory() <= most_)
     return;
   {
-    // At most a tenth of the time goes into this: it takes long where there are many holes.
+    // malloc_trim takes long on a fragmented heap, so it gets at most about a tenth of the time.
     const std::lock_guard<std::mutex> lock(mutex_);
     const Clock::time_point begin = Clock::now();
     if (begin >= next_return_)

@@ -6,25 +6,25 @@
 
 namespace gpu_planning_scene::core
 {
-/// Bytes of memory that this process uses.
+/// Resident memory of this process in bytes.
 std::size_t residentMemory();
 
-/// Refuses what would take more memory while the process uses more than its bound. What is free inside the process is
-/// given back to the system before that. (A bound by the system, as RLIMIT_AS
-/// is, would not do: drivers map much more than they use.)
+/// Refuses operations that need more memory while the process uses more than its bound. Before that, free heap memory
+/// is returned to the system. A bound of the system such as RLIMIT_AS does not serve here: it counts address space, and
+/// drivers map much more than they use.
 class MemoryGuard
 {
  public:
-  /// 0: 80 % of the machine's.
+  /// `most_bytes`: the bound; 0: 80 % of the machine's memory.
   explicit MemoryGuard(std::size_t most_bytes);
-  /// Throws Error over the bound.
+  /// Throws Error if the process uses more than the bound.
   void require() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
   const std::size_t most_;
-  mutable std::mutex mutex_;                 // of the one below
-  mutable Clock::time_point next_return_{};  // when free memory is given back again
+  mutable std::mutex mutex_;                 // guards next_return_
+  mutable Clock::time_point next_return_{};  // earliest time to return free memory again
 };
 }  // namespace gpu_planning_scene::core

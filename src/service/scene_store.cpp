@@ -9,7 +9,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Asks for what the change needs, the scene does not know, and was not asked for yet.
+/// Looks up the frames that the change needs and that neither the scene nor `frames` has. Adds them to `frames`.
 void findFrames(const PlanningScene& scene, const SceneChange& change, const SceneStore::Lookup& lookup,
                 ExternalFrames& frames)
 {
@@ -24,7 +24,7 @@ bool hasAll(const ExternalFrames& frames, const std::vector<FrameAt>& wanted)
       wanted.begin(), wanted.end(), [&](const FrameAt& frame) { return frames.count(frame) != 0; });
 }
 
-/// What the change starts from: the robot's state where all of it is known, or known with what the change brings.
+/// The robot's state before the change. Empty if a variable is neither known nor set by the change.
 std::vector<double> startingState(const Snapshot& at, const std::map<std::string, double>& variables)
 {
   const RobotModel& robot = *at.scene->robot;
@@ -76,7 +76,7 @@ SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& l
 
     const std::lock_guard<std::mutex> changing(changes_);
     at = snapshot();
-    // Another change may have taken a frame away that the scene knew.
+    // Another change may have removed a frame that the scene had during the lookup.
     if (at.scene != asked && !hasAll(frames, externalFrames(*at.scene, change)))
       continue;
     Change made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
@@ -98,7 +98,7 @@ std::uint64_t SceneStore::clear()
   return replace(std::move(scene), {});
 }
 
-/// The scene and the variables that come with it, at once. They are the robot's, and finite.
+/// Sets the scene and the given variables in one step. The variables are finite.
 std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::string, double>& variables)
 {
   const std::shared_ptr<const PlanningScene> before = snapshot().scene;
@@ -114,7 +114,7 @@ std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::strin
   return after->revision;
 }
 
-/// Under the mutex.
+/// The caller holds mutex_. Names that the robot lacks are ignored.
 void SceneStore::setVariables(const std::map<std::string, double>& variables)
 {
   for (const auto& [name, value] : variables)

@@ -14,22 +14,23 @@
 
 namespace gpu_planning_scene::core
 {
-/// An immutable scene, and the robot's state in the same instant.
+/// An immutable scene, and the robot's state at the same instant.
 struct Snapshot
 {
   std::shared_ptr<const PlanningScene> scene;
   std::vector<double> state;  ///< one value per variable
-  std::vector<bool> known;    ///< which of them are known; the others have their default
+  std::vector<bool> known;    ///< one per variable; an unknown variable has its default value
 
   bool allKnown() const;
   PartialState partialState() const;
 };
 
-/// The scene of a running service, which changes wholly or not at all. Thread-safe; readers never wait for a change.
+/// The scene of a running service. A change is made completely or not at all. Thread-safe; readers never wait for a
+/// change.
 class SceneStore
 {
  public:
-  /// What `scene` knows of the robot's state is known from the start.
+  /// The robot's state starts as the current state of `scene`; without one, it is unknown.
   SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits);
 
   Snapshot snapshot() const;
@@ -37,27 +38,29 @@ class SceneStore
 
   struct Applied
   {
-    std::uint64_t revision = 0;  ///< of the scene with the change in it
+    std::uint64_t revision = 0;  ///< of the scene after the change
     std::vector<std::string> warnings;
   };
-  /// Finds a frame that the scene does not know; it may wait, as no lock is held. Throws Error.
+  /// Returns the pose of a frame that the scene does not have. It may wait, because no lock is held. Throws Error if it
+  /// does not find the frame.
   using Lookup = std::function<Eigen::Isometry3d(const FrameAt&)>;
-  /// See applyChange. One change comes after the other; the revision grows by 1. What throws changes nothing.
+  /// Calls applyChange. Changes are made one after the other. Each change increases the revision by 1. If it throws,
+  /// nothing has changed.
   Applied apply(const SceneChange& change, const Lookup& lookup);
 
-  /// Removes all objects, those that links carry too, with their entries in the allowed-collision matrix, and all
-  /// colours. Returns the new revision.
+  /// Removes all objects and attached objects with their entries in the allowed collision matrix, and all colours.
+  /// Returns the new revision.
   std::uint64_t clear();
 
-  /// Takes the robot's variables, by name; other names are passed over. The revision stays. Throws Error and takes
-  /// nothing if a value is not finite. `stamp`: nanoseconds; 0 where it is not known.
+  /// Sets the robot's variables, by name; names that the robot lacks are ignored. The revision stays the same. If a
+  /// value is not finite, it throws Error and sets nothing. `stamp`: nanoseconds; 0: unknown.
   void updateState(const std::map<std::string, double>& variables, std::int64_t stamp = 0);
-  /// The state with the nearest stamp (nanoseconds; 0: the newest) of the last seconds; the newest where states came
-  /// without stamps. Throws Error: longer ago than what is kept.
+  /// The state whose stamp is nearest to `stamp` (nanoseconds; 0: the newest state). If no state had a stamp, it is the
+  /// newest state. Throws Error if the states of that time have already been dropped (see StateHistory).
   std::vector<double> stateAt(std::int64_t stamp) const;
 
-  /// Called after each change with the scenes before and after it, in the order of revisions. Readers go on meanwhile,
-  /// other changes wait; it must not change the scene itself.
+  /// Called after each change with the scenes before and after it, in the order of revisions. During the call, readers
+  /// continue and other changes wait. The listener must not change the scene.
   using Listener = std::function<void(const std::shared_ptr<const PlanningScene>& before,
                                       const std::shared_ptr<const PlanningScene>& after)>;
   void setListener(Listener listener);
@@ -66,14 +69,14 @@ class SceneStore
   std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables);
   void setVariables(const std::map<std::string, double>& variables);
 
-  std::mutex changes_;        // held by whoever makes a change
-  mutable std::mutex mutex_;  // of the four below
+  std::mutex changes_;        // held during a change
+  mutable std::mutex mutex_;  // guards the next four members
   std::shared_ptr<const PlanningScene> scene_;
   std::vector<double> state_;
   std::vector<bool> known_;
   StateHistory history_;
   const SceneDefaults defaults_;
   const SceneLimits limits_;
-  Listener listener_;  // changes_ guards it
+  Listener listener_;  // guarded by changes_
 };
 }  // namespace gpu_planning_scene::core

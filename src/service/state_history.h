@@ -6,17 +6,18 @@
 
 namespace gpu_planning_scene::core
 {
-/// The robot's states of the last seconds, by their stamps. Not thread-safe.
+/// The robot's states of the last 10 seconds, ordered by stamp. Not thread-safe.
 class StateHistory
 {
  public:
-  static constexpr std::int64_t kKept = 10'000'000'000;  ///< nanoseconds back from the newest
+  static constexpr std::int64_t kKept = 10'000'000'000;  ///< nanoseconds before the newest stamp
 
-  /// A stamp of 0 is none, and is not kept. A clock that was set back begins anew.
+  /// A stamp of 0 means "no stamp": the state is not kept. If the stamp is more than kKept before the newest one (the
+  /// clock was set back), all other states are dropped.
   void add(std::int64_t stamp, const std::vector<double>& state);
 
-  /// The one whose stamp (nanoseconds) is nearest; null where there is none at all. Throws Error: longer ago than what
-  /// is kept.
+  /// The state whose stamp (nanoseconds) is nearest; null if there is none. Throws Error if `stamp` is before all kept
+  /// states and older states were dropped.
   const std::vector<double>* nearest(std::int64_t stamp) const;
 
  private:
@@ -25,7 +26,7 @@ class StateHistory
     std::int64_t stamp;
     std::vector<double> state;
   };
-  std::deque<Stamped> states_;  // by stamp
-  bool forgot_ = false;         // there were older ones
+  std::deque<Stamped> states_;  // ordered by stamp
+  bool forgot_ = false;         // whether older states were dropped
 };
 }  // namespace gpu_planning_scene::core

@@ -25,15 +25,15 @@ BodyPair ordered(int first, int second)
   return {std::min(first, second), std::max(first, second)};
 }
 
-/// In how many of `count` states each pair of links collides. A checker of states reports one pair per state, which
-/// hides the others; here every pair counts.
+/// Counts for each pair of links in how many states it collides. A StateChecker reports only one pair per state, so
+/// this class uses the exact checker's traversal, which finds all pairs.
 class PairSampler
 {
  public:
   explicit PairSampler(std::shared_ptr<const RobotModel> robot) : robot_(std::move(robot))
   {
     PlanningScene scene(robot_);
-    scene.allowed_collisions = AllowedCollisionMatrix();  // every pair
+    scene.allowed_collisions = AllowedCollisionMatrix();  // check every pair
     const auto problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
     const auto forest = std::make_shared<const Forest>(buildBinnedSah(problem->trees));
     traversal_ = std::make_unique<const CpuTraversal>(problem, forest);
@@ -83,7 +83,7 @@ HitCounts countInRandomStates(const RobotModel& robot, const PairSampler& sample
   return counts;
 }
 
-/// Pairs that the SRDF decides in the user's own words.
+/// Pairs that the SRDF enables, or disables for a reason of the user's own.
 std::set<BodyPair> usersPairs(const SrdfCollisions& srdf)
 {
   std::set<BodyPair> pairs;

@@ -10,7 +10,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Why a pair of links need not be checked, in the words of MoveIt's Setup Assistant.
+/// The reason why a pair of links need not be checked, as named by MoveIt's Setup Assistant.
 enum class DisabledReason
 {
   Adjacent,  ///< a joint joins them
@@ -31,20 +31,20 @@ struct SamplingOptions
 {
   std::size_t samples = 10000;
   std::uint64_t seed = 0;
-  double always_share = 0.95;  ///< of the samples, from which a pair counts as Always
+  double always_share = 0.95;  ///< a pair that collides in at least this share of the samples is Always
 };
 
 struct GeneratedMatrix
 {
   std::vector<DisabledPair> disabled;  ///< sorted by link indices
-  std::size_t remaining_pairs = 0;     ///< of links with collision shapes: still to be checked
+  std::size_t remaining_pairs = 0;     ///< pairs of links with collision shapes that must be checked
 };
 
-/// Decides for all pairs of links with collision shapes from random states, which it checks for every pair, in double
-/// precision, on all cores. Pairs that the robot's SRDF disables for a reason of the user's own, or enables are
-/// left as they are. Shows a progress bar.
+/// Decides for each pair of links with collision shapes whether it must be checked. It samples random states and checks
+/// all pairs in each, in double precision, on all cores. Pairs that the robot's SRDF enables, or disables for a reason
+/// of the user's own, are left out. Shows a progress bar.
 GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const SamplingOptions& options);
 
-/// Whether an SRDF entry with this reason is the user's own, and not one that the generator makes.
+/// Whether this reason of an SRDF entry is the user's own, that is, none of DisabledReason.
 bool isUsersReason(const std::string& reason);
 }  // namespace gpu_planning_scene::core

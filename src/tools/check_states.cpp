@@ -1,4 +1,4 @@
-// check_states: which of many robot states are free of collision, on the command line.
+// check_states: checks many robot states for collision, on the command line.
 
 #include <algorithm>
 #include <cstdio>
@@ -31,7 +31,7 @@ std::vector<Option> options()
   return all;
 }
 
-/// Wrong options should be found before large files are read.
+/// Finds wrong options before large files are read.
 void checkUsage(const CommandLine& arguments)
 {
   arguments.required("--urdf");
@@ -41,7 +41,7 @@ void checkUsage(const CommandLine& arguments)
     throw UsageError("give either --states FILE or --random N");
 }
 
-/// All states, a device's batch at a time, so that there is progress to show.
+/// Checks all states, in batches of `batch` states, to show the progress.
 BatchResult checkAll(StateChecker& checker, StateSource& source, std::size_t batch, const std::string& group)
 {
   BatchResult all;
@@ -118,7 +118,7 @@ void run(const CommandLine& arguments)
   std::ofstream out_file;
   if (!out_path.empty())
   {
-    out_file.open(out_path, std::ios::app);  // found out now, not after the work; nothing is overwritten yet
+    out_file.open(out_path, std::ios::app);  // find out before the work whether the file is writable; keep its content
     if (!out_file)
       throw Error(out_path + ": cannot write the file");
   }

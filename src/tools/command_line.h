@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A command line that the tool cannot make sense of; the exit code is 2, not 1.
+/// An error in the command line; the exit code is 2, not 1.
 class UsageError : public Error
 {
  public:
@@ -18,7 +18,7 @@ class UsageError : public Error
 struct Option
 {
   std::string name;      ///< as typed, "--urdf"
-  std::string argument;  ///< what --help calls its value; empty for a switch
+  std::string argument;  ///< name of the value in --help; empty for a switch
   std::string help;
   bool repeatable = false;
 };
@@ -27,7 +27,8 @@ struct Option
 class CommandLine
 {
  public:
-  /// Throws UsageError: unknown option, missing value, an option given twice, anything that is not an option.
+  /// Throws UsageError for an unknown option, a missing value, an option given twice, and an argument that is no
+  /// option.
   CommandLine(const std::vector<Option>& options, int argc, const char* const* argv);
 
   bool has(const std::string& name) const { return values_.count(name) != 0; }
@@ -44,13 +45,13 @@ class CommandLine
   std::map<std::string, std::vector<std::string>> values_;
 };
 
-/// One tool: what it can be asked and what it does.
+/// A command-line tool: its options, its help text and its work.
 struct Tool
 {
   std::string name;
-  std::string synopsis;  ///< what follows the name in the first line of --help
+  std::string synopsis;  ///< text after the name in the first line of --help
   std::string description;
-  std::vector<Option> options;  ///< --help and --version come by themselves
+  std::vector<Option> options;  ///< without --help and --version, which runTool adds
   void (*run)(const CommandLine& arguments);
 };
 

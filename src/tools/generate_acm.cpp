@@ -1,4 +1,4 @@
-// generate_acm: finds the pairs of links that need not be checked and writes them as an SRDF.
+// generate_acm: finds the pairs of links that need not be checked, and writes them into an SRDF.
 
 #include <algorithm>
 #include <fstream>

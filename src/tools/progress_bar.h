@@ -6,12 +6,12 @@
 
 namespace gpu_planning_scene::core
 {
-/// A bar on stderr for work that takes longer than a second; nothing where stderr is not a terminal.
+/// Shows a progress bar on stderr for work that takes longer than a second. Shows nothing if stderr is not a terminal.
 class ProgressBar
 {
  public:
   ProgressBar(std::string label, std::size_t total);
-  ~ProgressBar();  ///< wipes it
+  ~ProgressBar();  ///< erases the bar
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 

@@ -1,5 +1,5 @@
-// read_mesh: reads one mesh file under limits and writes it to the standard output, for childMeshReader. What the
-// library that reads meshes does with a hostile file, it does here.
+// read_mesh: reads one mesh file under limits on time and memory, and writes the mesh to the standard output, for
+// childMeshReader. A hostile file can crash or hang only this process.
 //
 //   read_mesh FILE SCALE_X SCALE_Y SCALE_Z SECONDS MEMORY FILE_SIZE TRIANGLES
 //
@@ -34,8 +34,8 @@ void limitThisProcess(unsigned seconds, rlim_t memory)
   limit(RLIMIT_CPU, seconds);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
-  alarm(seconds + 1);         // where whoever started this is gone
-#ifndef __SANITIZE_ADDRESS__  // whose shadow takes terabytes of addresses
+  alarm(seconds + 1);         // ends this process even if its parent has died
+#ifndef __SANITIZE_ADDRESS__  // the sanitizer's shadow memory takes terabytes of address space
   limit(RLIMIT_AS, memory);
 #else
   static_cast<void>(memory);

@@ -1,4 +1,4 @@
-// render: a picture of a robot in its scene, the bodies that collide in red, as a PNG file.
+// render: draws a robot in its scene, with colliding bodies in red, as a PNG file.
 
 #include <algorithm>
 #include <cstdio>

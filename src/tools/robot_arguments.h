@@ -10,16 +10,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// What every tool asks of a robot (--urdf, --srdf, --package, --unbounded-translation) and of a device (--device,
+/// The tools' options for the robot (--urdf, --srdf, --package, --unbounded-translation) and for the device (--device,
 /// --traversal, --max-batch, --tolerance).
 std::vector<Option> robotOptions();
 std::vector<Option> deviceOptions();
 
-/// NAME=DIR of each --package.
+/// Resolves packages by the NAME=DIR of each --package.
 PackageResolver packagesFrom(const CommandLine& arguments);
 std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::vector<std::string>* warnings);
 BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments);
 
-/// On stderr, a line each.
+/// Prints the warnings to stderr, one per line.
 void printWarnings(const std::vector<std::string>& warnings);
 }  // namespace gpu_planning_scene::core

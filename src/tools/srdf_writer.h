@@ -6,8 +6,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// An SRDF with the matrix and a comment on how it came about. `srdf`: the XML of the robot's SRDF, all of which is
-/// kept but earlier generated entries; empty if there is none.
+/// Writes an SRDF with the matrix and a comment that explains it. `srdf`: the XML of the robot's SRDF, or empty. All of
+/// it is kept except earlier generated entries.
 std::string srdfWith(const GeneratedMatrix& matrix, const RobotModel& robot, const SamplingOptions& options,
                      const std::string& srdf);
 }  // namespace gpu_planning_scene::core

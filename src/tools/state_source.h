@@ -9,13 +9,13 @@
 
 namespace gpu_planning_scene::core
 {
-/// The states that a tool checks, handed out piece by piece so that many random ones need no memory.
+/// The states that a tool checks. They are handed out in parts, so that many random states need little memory.
 class StateSource
 {
  public:
   virtual ~StateSource() = default;
   virtual std::size_t count() const = 0;
-  /// For a person: how many, and where they come from.
+  /// Text for the user: the number of states and their origin.
   virtual std::string text() const = 0;
   /// The next `count` states, row-major; valid until the next call.
   virtual const double* next(std::size_t count) = 0;
@@ -23,6 +23,7 @@ class StateSource
 
 /// --states, --random and --seed.
 std::vector<Option> stateOptions();
-/// What those ask for. `scene` must outlive it. Throws UsageError unless exactly one of --states and --random is given.
+/// The states of these options. `scene` must outlive the source. Throws UsageError unless exactly one of --states and
+/// --random is given, and Error for a wrong file.
 std::unique_ptr<StateSource> stateSourceFrom(const CommandLine& arguments, const PlanningScene& scene);
 }  // namespace gpu_planning_scene::core

@@ -17,7 +17,7 @@ std::string trimmed(const std::string& text)
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-/// A cell may be in quotes, with each quote in it doubled.
+/// Splits a row of CSV into cells. A cell may be in quotes, with each quote inside doubled.
 std::vector<std::string> splitRow(const std::string& line, const std::string& where)
 {
   std::vector<std::string> cells(1);
@@ -54,7 +54,7 @@ StateTable readStateTable(const std::string& path)
   if (!file || !std::getline(file, line))
     throw Error(path + ": cannot read the file, or it is empty");
   if (line.compare(0, 3, "\xEF\xBB\xBF") == 0)
-    line.erase(0, 3);  // the byte-order mark that spreadsheets write
+    line.erase(0, 3);  // byte-order mark, as written by spreadsheets
   StateTable table;
   table.names = splitRow(line, path + ":1");
   for (std::size_t i = 0; i < table.names.size(); ++i)

@@ -1,6 +1,7 @@
-# What gps_add_test runs after it has linked a GoogleTest program. Writes FILE, which ctest reads: one CTest test per suite,
-# since each process starts anew, loads robots and compiles shaders; or one per case where the environment has GPS_EACH_CASE.
-# PROGRAM: the path of the program; RESULTS: the folder of the suites' XML reports; PROPERTIES: of all tests of the program.
+# gps_add_test runs this script after it has linked a GoogleTest program. The script writes FILE, which ctest reads. FILE adds
+# one CTest test per suite, because each new process loads robots and compiles shaders again. If the environment variable
+# GPS_EACH_CASE is set, FILE adds one CTest test per case.
+# PROGRAM: path of the program; RESULTS: folder for the XML reports of the suites; PROPERTIES: properties of all these tests.
 execute_process(COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 ${PROGRAM} --gtest_list_tests
   RESULT_VARIABLE status OUTPUT_VARIABLE listing ERROR_VARIABLE error TIMEOUT 60)
 if(NOT status EQUAL 0)
@@ -11,7 +12,7 @@ set(suites "")
 set(cases "")
 string(REGEX REPLACE "[;[]" "_" listing "${listing}")
 string(REPLACE "\n" ";" listing "${listing}")
-# add(VARIABLE NAME ARGUMENTS...): a test of the program.
+# add(VARIABLE NAME ARGUMENTS...): appends the commands that add a test of the program.
 function(add variable name)
   list(JOIN ARGN "]==] [==[" arguments)
   set(${variable} "${${variable}}add_test([==[${name}]==] [==[${PROGRAM}]==] [==[${arguments}]==])\n\
