@@ -1,4 +1,4 @@
-"""The last line of ./scripts/test counts what ctest wrote: nothing that did not run counts as passed."""
+"""The last line of ./scripts/test counts the results of ctest. A test that did not run does not count as passed."""
 import pathlib
 import subprocess
 import tempfile

@@ -1,4 +1,4 @@
-// A few at a time, in turn; what is told to those that are too many, and to those that wait when all ends.
+// Admission lets a few requests in at a time, in order. It tests the errors of a full queue and of a shutdown.
 
 #include <atomic>
 #include <future>
