@@ -94,8 +94,7 @@ TEST(FittedBalls, CoverTheSurfaceAndFitCloserWhereThereAreMore)
   {
     const std::vector<benchmark::Ball> balls = benchmark::fitBalls(*mesh, count);
     EXPECT_LE(balls.size(), count);
-    EXPECT_LT(uncovered(*mesh, balls), 0.01)
-        << count;  // metres: between the samples the balls may leave the surface uncovered
+    EXPECT_LT(uncovered(*mesh, balls), 0.01) << count;  // metres: gaps between the samples
     double highest = 0.0;
     for (const benchmark::Ball& ball : balls)
       highest = std::max(highest, static_cast<double>(ball.center.head<2>().norm() + ball.radius));

@@ -1,8 +1,13 @@
-# The test install.a_package_builds_against_the_installed_one. BUILD: the build to install CONSUMER: a package to build
-# against it EXAMPLE: a second package, which plans for the robot of ROBOT.urdf and ROBOT.srdf PLUGIN: a third package,
-# which adds a planner FOLDER: the folder of all files that the test writes PREFIX: the CMAKE_INSTALL_PREFIX of BUILD
-# GENERATOR: the CMake generator of BUILD, because a machine may have only one SANITIZE: whether BUILD has sanitizers,
-# which CONSUMER then needs too
+# The test install.a_package_builds_against_the_installed_one.
+#
+#   BUILD      the build to install
+#   CONSUMER   a package to build against it
+#   EXAMPLE    a second package, which plans for the robot of ROBOT.urdf and ROBOT.srdf
+#   PLUGIN     a third package, which adds a planner
+#   FOLDER     the folder of all files that the test writes
+#   PREFIX     the CMAKE_INSTALL_PREFIX of BUILD
+#   GENERATOR  the CMake generator of BUILD, because a machine may have only one
+#   SANITIZE   whether BUILD has sanitizers, which CONSUMER then needs too
 
 # run(WHAT COMMAND...): runs the command and sets `output`. If it fails, the error shows WHAT and the command's output.
 function(run what)

@@ -85,8 +85,8 @@ class CheckerMaker : public testing::Test
   std::unique_ptr<CheckServer> server_;
 };
 
-constexpr std::size_t kLarge =
-    2000;  // states: large enough for the second queue, whose checker is made with its first request
+/// States of a request for the second queue, whose checker is made with its first request.
+constexpr std::size_t kLarge = 2000;
 
 TEST_F(CheckerMaker, ADeviceThatCannotBeOpenedAtTheStartIsAnError)
 {

@@ -1,4 +1,4 @@
-// The topics that the node subscribes to, and those that it publishes.
+// The topics that the node subscribes to, and the topics that it publishes.
 
 #include <mutex>
 

@@ -86,8 +86,8 @@ bool originInside(const Simplex& tetrahedron)
   return true;
 }
 
-/// The point nearest to the origin of a simplex of up to three points. Reduces `simplex` to the points whose hull
-/// contains the nearest point.
+/// The point nearest to the origin of a simplex of up to three points. Reduces `simplex` to the
+/// points whose convex hull contains the nearest point.
 Vector nearestOfFace(Simplex& simplex)
 {
   const Simplex all = simplex;

@@ -41,8 +41,8 @@ std::vector<std::uint32_t> placesOf(const std::vector<Eigen::Vector3d>& vertices
   return places;
 }
 
-/// Half the solid angle that a triangle subtends at the origin is the angle of the vector (denominator, numerator); van
-/// Oosterom and Strackee (1983).
+/// The solid angle that a triangle subtends at the origin, after van Oosterom and Strackee (1983). It is twice the
+/// angle of the vector (denominator, numerator).
 struct HalfAngle
 {
   double numerator;

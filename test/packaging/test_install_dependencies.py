@@ -33,8 +33,8 @@ class InstallDependencies(unittest.TestCase):
         path.chmod(0o755)
 
     def have(self, installed, known=()):
-        """Makes a dpkg-query that reports `installed` as installed and `known` as removed. It fails, as dpkg-query does for
-        unknown packages."""
+        """Makes a dpkg-query that reports `installed` as installed and `known` as removed. It fails as
+        dpkg-query does for unknown packages."""
         lines = [f"echo {package} installed" for package in installed]
         lines += [f"echo {package} config-files" for package in known]
         self.stub("dpkg-query", "\n".join(lines + ["echo no packages found >&2", "exit 1"]))

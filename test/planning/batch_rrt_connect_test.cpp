@@ -290,7 +290,7 @@ TEST(BatchRrtConnect, FindsInShortCallsWhatItFindsInALongOne)
 
 TEST(BatchRrtConnect, RepeatsAPathForASeed)
 {
-  // OMPL warns about every seed after the first. Here all random generators are created after the seed is set.
+  // OMPL warns about every seed after the first one. Here all random generators are created after the seed is set.
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
   const auto solve = [](std::uint_fast32_t seed)
   {

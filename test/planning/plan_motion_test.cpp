@@ -127,7 +127,7 @@ TEST(PlanMotion, RefusesASolutionThatIsNone)
   }
 }
 
-/// OMPL's RRTConnect occasionally returns such a path.
+/// OMPL's RRTConnect occasionally returns a path that begins at the goal.
 TEST(PlanMotion, RefusesAnApproximateSolutionThatDoesNotBeginAtTheStart)
 {
   const PlanningQuery wanted = query({-1.0, 0.0}, {{1.0, 0.0}});
@@ -314,8 +314,7 @@ class Moving : public testing::TestWithParam<const char*>
 
 TEST_P(Moving, IsToldWhichTranslationIsOutOfBounds)
 {
-  const PlanningResult goal =
-      plan(at(0.0, 0.0), at(1.5, 0.0));  // the bound of an unlimited translation is 1 m by default
+  const PlanningResult goal = plan(at(0.0, 0.0), at(1.5, 0.0));  // the default bound of unlimited translations is 1 m
   EXPECT_EQ(goal.status, PlanningStatus::OutOfBounds);
   EXPECT_EQ(goal.message.find("the goal is out of bounds: move/"), 0U) << goal.message;
   EXPECT_NE(goal.message.find("x is 1.5"), std::string::npos) << goal.message;

@@ -1,4 +1,4 @@
-// A change with one wrong part changes nothing, wherever the wrong part is.
+// A change with one wrong part changes nothing. This holds for a wrong part at any place.
 
 #include "scene/change_testing.h"
 

@@ -1,4 +1,4 @@
-// Admission lets a few requests in at a time, in order. It tests the errors of a full queue and of a shutdown.
+// Admission lets in a few requests at a time, in order. A full queue and a shutdown cause errors.
 
 #include <atomic>
 #include <future>

@@ -1,5 +1,6 @@
-// Eight clients run for minutes. They check states, change the scene, send wrong requests and are killed, while the
-// device fails now and then. No answer may be wrong, no reply may be lost, and the node's memory may not grow.
+// Eight clients run for minutes. They check states, change the scene, send wrong requests, and start processes that are
+// killed. The device fails now and then. No answer may be wrong, no reply may be lost, and the node's memory must not
+// grow.
 
 #include <algorithm>
 #include <atomic>

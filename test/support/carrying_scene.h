@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 WorldObject boxInGripper(const RobotModel& robot, const double* state);
 const std::vector<std::string>& gripperLinks();
 
-/// "ur5_table_pick" with further features: a box that the gripper carries, links padded by 5 mm, objects padded by 2
-/// mm, and a floor that is a half-space.
+/// "ur5_table_pick" with further features: a box that the gripper carries, a padding of 5 mm for links and of 2 mm for
+/// objects, and a floor that is a half-space.
 TestScene carryingScene();
 }  // namespace gpu_planning_scene::core

@@ -117,7 +117,7 @@ struct FclPeer::Impl
   }
 
   /// One check, numbered as in CpuTraversal: a number below robot.size() is a robot instance that is checked against
-  /// the world. The numbers above are the self pairs.
+  /// the world. Larger numbers are self pairs.
   bool check(std::uint32_t number, double margin, double& seconds, std::optional<BodyPair>& found) const
   {
     if (number >= robot.size())

@@ -40,8 +40,8 @@ class FclPeer
 
   std::optional<BodyPair> firstCollision();
 
-  /// The first pair that is nearer than its margin, by FCL's distances. `margins`: as for CpuTraversal. The order must
-  /// be FclOrder::Learned.
+  /// The first pair whose distance, by FCL, is at most its required distance plus its margin. `margins`: as for
+  /// CpuTraversal. The order must be FclOrder::Learned.
   std::optional<BodyPair> firstNear(const double* margins);
 
   /// All pairs of bodies that collide.

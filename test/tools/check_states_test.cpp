@@ -111,8 +111,8 @@ TEST_F(CheckStates, OtherVariablesTakeTheScenesState)
 
 TEST_F(CheckStates, AGroupRestrictsThePairs)
 {
-  const std::string csv =
-      "slide,turn\n1,0\n-1,0\n";  // first state: the cart is in the wall; second state: the pole is in the lamp
+  // In the first state the cart is in the wall, in the second state the pole is in the lamp.
+  const std::string csv = "slide,turn\n1,0\n-1,0\n";
   EXPECT_EQ("0", linesOf(checkCsv(csv).out).at(0).substr(0, 1));
   const auto rows = linesOf(checkCsv(csv, {"--group", "mast"}).out);
   EXPECT_EQ("1,,", rows.at(0));

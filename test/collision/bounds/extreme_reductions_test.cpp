@@ -58,8 +58,8 @@ WorldObject ballAt(const std::string& id, const Eigen::Vector3d& at)
   return {id, Eigen::Isometry3d(Eigen::Translation3d(at)), {{Sphere{0.01}}}, 0.0};
 }
 
-/// States from one turn below 0 to one turn above 0, at the limits, and slightly beyond the limits as far as states may
-/// go.
+/// States from half a turn below 0 to half a turn above 0, at the limits and slightly beyond them, as far as the
+/// checker accepts the values.
 std::vector<double> statesFor(const Limits& limits, const RobotModel& robot)
 {
   std::vector<double> states;

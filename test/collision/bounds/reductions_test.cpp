@@ -51,8 +51,7 @@ CheckerOptions with(const Reductions& reductions)
   return options;
 }
 
-/// Two of three states are within the limits, some of them at limits. The other states are outside, by up to 3 rad or 3
-/// m.
+/// Two of three states are within the limits, some of them at limits. The others are outside by up to 3 rad or 3 m.
 std::vector<double> statesInAndOut(const RobotModel& robot, std::size_t count)
 {
   std::mt19937_64 generator(kSeed);

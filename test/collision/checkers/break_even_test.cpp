@@ -25,8 +25,7 @@ TimedWork work(double fixed, double per_item, double* spent = nullptr)
 
 TEST(BreakEven, IsWhereOneIsClearlyFaster)
 {
-  EXPECT_NEAR(static_cast<double>(breakEven(work(2e-6, 4e-6), work(202e-6, 2e-6))), 150.0,
-              2.0);  // microseconds: 1.2 (202 + 2 n) = 2 + 4 n
+  EXPECT_NEAR(static_cast<double>(breakEven(work(2e-6, 4e-6), work(202e-6, 2e-6))), 150.0, 2.0);  // 240 + 2.4 n = 4 n
   EXPECT_NEAR(static_cast<double>(breakEven(work(0.0, 10e-6), work(1e-3, 0.0))), 120.0, 1.0);
   EXPECT_EQ(breakEven(work(1e-6, 10e-6), work(1e-6, 9e-6)), kNoBatch);
 }

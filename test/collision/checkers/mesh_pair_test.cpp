@@ -29,7 +29,7 @@ TEST_P(MeshPair, SpheresMeetWhereTheirCentresAreNearerThanTheirRadii)
   constexpr std::size_t kPoses = 3000;
   const Tessellation large = tessellate(Sphere{0.2});
   const Tessellation small = tessellate(Sphere{0.1});
-  // As meshes, so that surfaces are compared.
+  // The spheres are meshes, so that surfaces are compared. No distance is so small that one contains the other.
   MeshPairChecker checker(large.mesh, small.mesh, options());
   std::mt19937_64 generator(kSeed);
   std::normal_distribution<double> normal;

@@ -194,7 +194,7 @@ TEST(PointCloud, LeavesNoStateFreeThatAPointRefutes)
   PointCloudFilter filter({0.03, 0.0, 10.0});
   scene.objects.push_back(filter.objectOf("cloud", points, sensor, scene, start.data()));
   CpuChecker with_cloud(std::make_shared<const PlanningScene>(scene));
-  // The points as tiny spheres, without the robot's own points: those within a voxel of the robot.
+  // The points as tiny spheres, except points within a voxel of the robot.
   PlanningScene exact = scene;
   exact.objects = {{"points", Isometry3d::Identity(), {}}};
   for (const Vector3f& point : points)

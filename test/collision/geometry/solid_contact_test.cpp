@@ -1,6 +1,6 @@
 // Convex shapes at exactly known distances. A point of the first shape has an outward normal n, and a point of the
 // second has the outward normal -n. The second point is placed at distance d along n from the first. Two parallel
-// planes at distance d then separate the shapes, so d is their distance, whatever the shapes are.
+// planes at distance d then separate the shapes, so d is their distance for all convex shapes.
 
 #include <cmath>
 #include <string>
