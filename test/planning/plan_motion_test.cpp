@@ -127,7 +127,7 @@ TEST(PlanMotion, RefusesASolutionThatIsNone)
   }
 }
 
-/// OMPL's RRTConnect occasionally returns a path that begins at the goal.
+/// OMPL's RRTConnect occasionally returns an approximate path that does not begin at the start.
 TEST(PlanMotion, RefusesAnApproximateSolutionThatDoesNotBeginAtTheStart)
 {
   const PlanningQuery wanted = query({-1.0, 0.0}, {{1.0, 0.0}});
