@@ -1,5 +1,5 @@
-// The benchmark program writes its tables and the script draws them; what is wrong is counted as wrong, and an exact
-// method that is wrong is an error.
+// The benchmark program writes its tables and the script draws them. Wrong answers are counted. Wrong answers of an
+// exact method are an error.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace
 using Row = std::map<std::string, std::string>;
 using Table = std::vector<Row>;
 
-/// A folder that is removed at the end.
+/// A temporary folder. The destructor removes it.
 class TemporaryFolder
 {
  public:
@@ -156,7 +156,7 @@ TEST(Benchmark, FailsWhereAnExactMethodIsWrong)
   EXPECT_NE(output.err.find("wrong answers of methods that are to be exact"), std::string::npos) << output.err;
 }
 
-/// Every pair that comes near is free by these shaders, which a test's answers, once timed, have to show.
+/// With these shaders every pair in the narrow phase is free. The timed answers must reveal this.
 TEST(Benchmark, FailsWhereATimedAnswerIsWrong)
 {
   const TemporaryFolder folder;

@@ -1,4 +1,4 @@
-// The peers are what their names say: a peer that answers for another robot would make the comparison worthless.
+// The peers give correct answers for the same robot. Otherwise the comparison would be worthless.
 
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@ namespace
 {
 constexpr std::size_t kStates = 300;
 
-/// In random states of the scene.
+/// FCL's answers for random states of the scene.
 std::vector<std::uint8_t> fclAnswers(const TestScene& scene, FclTree tree, FclOrder order = FclOrder::Fixed)
 {
   const RobotModel& robot = *scene.scene->robot;
   const FclPeer original(std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr)), tree, order);
-  FclPeer peer(original);  // copies are what threads have
+  FclPeer peer(original);  // each thread uses a copy, so the copy is tested
   const std::vector<double> states = scene.randomStates(kStates, 1);
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   std::vector<std::uint8_t> valid;
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> exactAnswers(const TestScene& scene)
   return CpuChecker(scene.scene).check(scene.randomStates(kStates, 1).data(), kStates).valid;
 }
 
-/// How far a vertex is from the nearest ball, at most.
+/// The largest distance from a vertex to the nearest ball.
 double uncovered(const Mesh& mesh, const std::vector<benchmark::Ball>& balls)
 {
   double most = 0.0;
@@ -94,7 +94,7 @@ TEST(FittedBalls, CoverTheSurfaceAndFitCloserWhereThereAreMore)
   {
     const std::vector<benchmark::Ball> balls = benchmark::fitBalls(*mesh, count);
     EXPECT_LE(balls.size(), count);
-    EXPECT_LT(uncovered(*mesh, balls), 0.01) << count;  // between samples
+    EXPECT_LT(uncovered(*mesh, balls), 0.01) << count;  // metres: gaps between the samples
     double highest = 0.0;
     for (const benchmark::Ball& ball : balls)
       highest = std::max(highest, static_cast<double>(ball.center.head<2>().norm() + ball.radius));

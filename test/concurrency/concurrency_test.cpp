@@ -1,5 +1,5 @@
-// Several threads check states while another one changes the scene: each answer belongs wholly to the scene whose
-// revision it names.
+// Several threads check states while another thread changes the scene. Each answer must belong entirely to the scene
+// whose revision it names.
 
 #include <atomic>
 #include <functional>
@@ -17,7 +17,7 @@ namespace
 constexpr int kCheckingThreads = 3;
 constexpr std::size_t kStates = 40;
 
-/// A slider on a rail, and a wall that is in its way in scenes of odd revision.
+/// A slider on a rail, and a wall that obstructs the slider in scenes with an odd revision.
 class Scenes
 {
  public:
@@ -64,7 +64,7 @@ void checkWhileTheSceneChanges(StateChecker& checker, const Scenes& scenes, std:
             const BatchResult result = checker.check(states.data(), kStates);
             for (std::size_t i = 0; i < kStates; ++i)
             {
-              // The wall is from 0.75 to 0.85, the carriage reaches 0.05 to both sides.
+              // The wall extends from 0.75 to 0.85, and the carriage 0.05 to both sides.
               const bool hits = result.revision % 2 == 1 && states[i] > 0.7 && states[i] < 0.9;
               wrong += result.valid[i] == (hits ? 0 : 1) ? 0 : 1;
             }

@@ -1,6 +1,7 @@
-# What concurrency.has_no_data_races runs. SOURCE: the repository; FOLDER: where the build goes; GENERATOR: of the build.
+# Runs concurrency.has_no_data_races. SOURCE: the repository; FOLDER: build folder; GENERATOR: CMake generator of the
+# build.
 
-# run(WHAT COMMAND...): fails, saying WHAT, with the command's output.
+# run(WHAT COMMAND...): runs the command. If it fails, the error shows WHAT and the command's output.
 function(run what)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)

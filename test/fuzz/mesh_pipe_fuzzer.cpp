@@ -1,4 +1,4 @@
-// What a mesh reader that was taken over might send becomes a mesh or one line of error.
+// Any bytes of a mesh reader, even of a compromised one, become a mesh or one line of error.
 
 #include "fuzz/fuzz_target.h"
 #include "model/mesh_pipe.h"

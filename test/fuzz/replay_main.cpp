@@ -1,8 +1,8 @@
-// Runs a fuzz target without libFuzzer: on each seed, then on mutations of the seeds.
+// Runs a fuzz target without libFuzzer: first on each seed, then on mutations of the seeds.
 //
 //   X_fuzzer SEED_FOLDER_OR_FILE [MUTATIONS [RANDOM_SEED]]
 //
-// A crash or an uncaught exception ends the program; the input that was last begun then lies in ./X_fuzzer.last_input.
+// A crash or an uncaught exception ends the program. The last input then remains in ./X_fuzzer.last_input.
 
 #include <algorithm>
 #include <cstdio>
@@ -38,8 +38,8 @@ std::vector<Bytes> readSeeds(const fs::path& path)
   return seeds;
 }
 
-/// Changes that break formats in the ways that formats break: bits, numbers, lengths, parts lost, doubled or of
-/// another.
+/// Makes changes that typically break formats: flipped bits, extreme numbers, wrong lengths, and parts that are lost,
+/// repeated or taken from another seed.
 class Mutator
 {
  public:

@@ -1,5 +1,6 @@
-// Bytes from anywhere, as requests and messages to the node's handlers: each is answered or refused, with one line. An
-// input is a row of messages to a node that has just started: a byte for the kind, two for the length, and the message.
+// Feeds arbitrary bytes as requests and messages to the node's handlers. Each message must be accepted or refused, with
+// one line of text. An input is a sequence of messages to a node that has just started. Each message has one byte for
+// its kind, two for its length, and its content.
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +61,7 @@ PlanServiceOptions fewGoals()
   return options;
 }
 
-/// As in a planners.yaml that knows one group.
+/// As a planners.yaml with settings for one group.
 GroupPlanners plannersOf(const std::string& group)
 {
   GroupPlanners planners;
@@ -72,7 +73,7 @@ GroupPlanners plannersOf(const std::string& group)
   return planners;
 }
 
-/// In place of tf, which knows one frame.
+/// Replaces tf. It knows one frame.
 Eigen::Isometry3d frameOfTf(const FrameAt& frame)
 {
   if (frame.name != "tf")
@@ -80,7 +81,7 @@ Eigen::Isometry3d frameOfTf(const FrameAt& frame)
   return Eigen::Translation3d(1.0, 2.0, 3.0) * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
 }
 
-/// The node's handlers, without a ROS master.
+/// The node's handlers without a ROS master.
 class Handlers
 {
  public:
@@ -146,12 +147,12 @@ class Handlers
         });
   }
 
-  /// As roscpp and then the node's endpoints do.
+  /// Reads a message as roscpp and then the node's endpoints do.
   template <class M, class Handler>
   static void read(const std::uint8_t* data, std::uint32_t size, Handler handler)
   {
     Bounded<M> bounded;
-    // Streams are for reading and writing alike.
+    // The stream's constructor takes a non-const pointer although it only reads.
     ros::serialization::IStream stream(const_cast<std::uint8_t*>(data), size);
     ros::serialization::deserialize(stream, bounded);
     if (!bounded.fault.empty())
@@ -169,7 +170,7 @@ class Handlers
 
   void get(const GetPlanningScene::Request& request) { requireReadable(scenes_.get(request).scene); }
 
-  /// What the node publishes and answers can be read by a node.
+  /// Ends the program unless a node can read a message that the node publishes or answers.
   void requireReadable(const PlanningSceneMessage& message) const
   {
     if (const std::string fault =
@@ -192,7 +193,7 @@ class Handlers
     markersOf(*now.scene, now.state.data(), {}, {}, options);
   }
 
-  /// What is asked for is read, and nothing planned: that takes its time whatever the bytes are.
+  /// Reads the request and plans nothing, because planning takes its time for any request.
   void plan(const PlanMotion::Request& request) const
   {
     const PlannerConfig config{"geometric::RRTConnect", {{"range", "0.5"}}};
@@ -201,7 +202,8 @@ class Handlers
     requireWithinGroup(query, now.scene->robot);
   }
 
-  /// Rows of all variables, finite, and goals that leave the start only where the group moves.
+  /// Ends the program unless all rows have finite values for all variables and the goals differ from the start only in
+  /// variables of the group.
   static void requireWithinGroup(const PlanningQuery& query, const std::shared_ptr<const RobotModel>& robot)
   {
     const GroupStateSpace space(robot, query.group);

@@ -1,4 +1,4 @@
-// A .scene text from anywhere becomes a scene or one line of error.
+// An arbitrary .scene text becomes a scene or one line of error.
 
 #include "fuzz/fuzz_target.h"
 #include "gpu_planning_scene/planning_scene.h"

@@ -1,4 +1,4 @@
-// An SRDF from anywhere becomes groups and pairs of a known robot, or one line of error.
+// An arbitrary SRDF becomes groups and pairs of a known robot, or one line of error.
 
 #include "fuzz/fuzz_target.h"
 #include "gpu_planning_scene/planning_scene.h"
@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         std::vector<std::string> warnings;
         const auto robot = RobotModel::fromXml(urdf, textOf(data, size), RobotModelOptions(), &warnings);
         useRobot(*robot);
-        const PlanningScene scene(robot);  // makes a matrix of the SRDF's pairs
+        const PlanningScene scene(robot);  // makes a matrix from the SRDF's pairs
       });
   return 0;
 }

@@ -1,4 +1,4 @@
-// A URDF from anywhere becomes a robot or one line of error.
+// An arbitrary URDF becomes a robot or one line of error.
 
 #include "fuzz/fuzz_target.h"
 

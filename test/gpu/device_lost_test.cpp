@@ -1,4 +1,4 @@
-// A device that fails, or whose context is reset, is told from wrong input.
+// Errors of the device and resets of its context are reported as DeviceLost, other errors are not.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// As long as it lives, the driver says that the context was reset.
+/// While this object lives, the driver reports that the context was reset.
 class ResetContext
 {
  public:
@@ -71,7 +71,7 @@ TEST(DeviceLost, IsAnErrorOfOpenGl)
 TEST(DeviceLost, IsNotWhatASceneCanCause)
 {
   GlThread thread("auto");
-  // No device has that much.
+  // No device has this much memory.
   EXPECT_THROW(thread.run([] { Buffer(std::size_t{1} << 62); }), OutOfDeviceMemory);
   EXPECT_EQ(lossIn(thread, [] { Buffer(16); }), "");
 }

@@ -1,4 +1,4 @@
-// Devices are found, chosen and refused by name.
+// Devices are listed, selected by index or name, and unknown selectors are refused.
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-// The program cache: it saves time, and no damage to it changes an answer.
+// The program cache saves time. Damage to the cache changes no answer.
 
 #include <cstdint>
 #include <cstdlib>
@@ -110,7 +110,7 @@ TEST_F(ProgramCacheTest, DamagedEntriesAreNeverUsedAndAreReplaced)
   for (int i = 0; i < 200; ++i)
   {
     damaged.push_back(good);
-    // Half of them in the header, of which every byte counts.
+    // Half of the damaged bytes are in the header, where every byte matters.
     const std::size_t at = random() % (i % 2 == 0 ? kHeaderBytes : good.size());
     damaged.back()[at] = static_cast<char>(damaged.back()[at] ^ (1 << random() % 8));
   }
@@ -127,7 +127,7 @@ TEST_F(ProgramCacheTest, DamagedEntriesAreNeverUsedAndAreReplaced)
   }
 }
 
-/// Whole entries whose binary the driver does not know: of another build of it, say.
+/// Intact entries whose binary the driver does not accept, for example a binary of another version of the driver.
 TEST_F(ProgramCacheTest, EntriesThatTheDriverRefusesAreReplaced)
 {
   expectSeven();

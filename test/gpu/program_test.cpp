@@ -1,4 +1,4 @@
-// Shaders and buffers: what fails is seen and named.
+// Errors of shaders and buffers are detected, and their messages name the cause.
 
 #include <cstdint>
 #include <numeric>
@@ -62,7 +62,7 @@ TEST_F(ProgramTest, MayHaveMoreWorkgroupsThanOneDimensionHolds)
   program.dispatch(70001);
   std::uint32_t result[2] = {};
   buffer.read(result, sizeof(result));
-  // The last row may be filled up, but every index is there once.
+  // The last row of work groups may exceed the requested count, but every index occurs once.
   EXPECT_GE(result[0], 70001U);
   EXPECT_LT(result[0], 70001U + 2U);
   EXPECT_EQ(result[1], result[0] - 1);

@@ -1,8 +1,15 @@
-# What install.a_package_builds_against_the_installed_one runs. BUILD: the build to install; CONSUMER: the package to
-# build; EXAMPLE: another, which plans for the robot of ROBOT.urdf and ROBOT.srdf; PLUGIN: a third, which adds a planner; FOLDER:
-# where all of it goes; PREFIX: the CMAKE_INSTALL_PREFIX of BUILD; GENERATOR: CMake's, since a machine may have only one; SANITIZE: whether BUILD has sanitizers, which CONSUMER then needs too.
+# The test install.a_package_builds_against_the_installed_one.
+#
+#   BUILD      the build to install
+#   CONSUMER   a package to build against it
+#   EXAMPLE    a second package, which plans for the robot of ROBOT.urdf and ROBOT.srdf
+#   PLUGIN     a third package, which adds a planner
+#   FOLDER     the folder of all files that the test writes
+#   PREFIX     the CMAKE_INSTALL_PREFIX of BUILD
+#   GENERATOR  the CMake generator of BUILD, because a machine may have only one
+#   SANITIZE   whether BUILD has sanitizers, which CONSUMER then needs too
 
-# run(WHAT COMMAND...): fails, saying WHAT, with the command's output. Sets output.
+# run(WHAT COMMAND...): runs the command and sets `output`. If it fails, the error shows WHAT and the command's output.
 function(run what)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -12,12 +19,12 @@ function(run what)
 endfunction()
 
 file(REMOVE_RECURSE ${FOLDER})
-# A workspace that is sourced would hide what was installed.
+# A sourced workspace would hide the installed files.
 foreach(name LD_LIBRARY_PATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH)
   unset(ENV{${name}})
 endforeach()
-# Below DESTDIR, and not by `cmake --install --prefix`: catkin's setup files go to the prefix that BUILD was configured
-# with, whatever --prefix says, and a test must not write there.
+# The files go below DESTDIR. `cmake --install --prefix` would not do: catkin's setup files go to the prefix that BUILD
+# was configured with, whatever --prefix is, and a test must not write there.
 set(ENV{DESTDIR} ${FOLDER}/root)
 set(prefix ${FOLDER}/root${PREFIX})
 set(flags "")
@@ -34,7 +41,7 @@ foreach(program with_variables with_targets)
   run("${program} gives wrong answers" ${FOLDER}/build/${program})
 endforeach()
 
-# The example finds a path: from its first row to its last.
+# The example finds a path from its start to its goal.
 run("find_package does not find it for the example" ${CMAKE_COMMAND} -S ${EXAMPLE} -B ${FOLDER}/example -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${flags} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
 run("the example does not build" ${CMAKE_COMMAND} --build ${FOLDER}/example)
@@ -49,7 +56,7 @@ run("find_package does not find it for the plugin" ${CMAKE_COMMAND} -S ${PLUGIN}
   -DPython3_EXECUTABLE=${PYTHON_EXECUTABLE})
 run("the plugin does not build" ${CMAKE_COMMAND} --build ${FOLDER}/plugin)
 
-# The tools run from where they were installed, with nothing sourced.
+# The installed tools run without a sourced workspace.
 foreach(tool check_states generate_acm)
   run("${tool} does not run" ${prefix}/lib/gpu_planning_scene/${tool} --version)
 endforeach()
@@ -63,7 +70,7 @@ foreach(file setup.bash ${share}/launch/planning_scene.launch ${share}/config/de
   endif()
 endforeach()
 
-# It is the installed shaders that were compiled: one of them spoilt, the program fails and names it.
+# The programs compile the installed shaders: with a damaged shader the program fails and names it.
 file(WRITE ${prefix}/share/gpu_planning_scene/shaders/shader_constants.h "#error the installed one\n")
 execute_process(COMMAND ${FOLDER}/build/with_variables RESULT_VARIABLE status ERROR_VARIABLE output OUTPUT_VARIABLE output)
 if(status EQUAL 0 OR NOT output MATCHES "the installed one")

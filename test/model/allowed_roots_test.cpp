@@ -11,7 +11,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-// A package with a mesh, links that lead out of it and back into it, and meshes beside it.
+// A package with a mesh, symbolic links that stay in the package or lead out of it, and meshes outside the package.
 class AllowedRootsTest : public ::testing::Test
 {
  protected:
@@ -38,7 +38,7 @@ class AllowedRootsTest : public ::testing::Test
   {
     return errorOf([&] { resolved(uri); });
   }
-  // `name` with the test's folder, its links followed.
+  // The path of `name` in the test's folder, without symbolic links in the folder's path.
   std::string real(const std::string& name) const { return (fs::canonical(folder_.path(".")) / name).string(); }
 
   TemporaryFolder folder_;

@@ -115,7 +115,7 @@ TEST(ChildMeshReader, AFileThatNeedsTooMuchMemoryIsRefused)
   GTEST_SKIP() << "the address sanitizer takes more addresses than any limit";
 #endif
   const TemporaryFolder folder;
-  const std::string path = folder.write("large.stl", binaryStl(sheet(600)));  // 36 MB
+  const std::string path = folder.write("large.stl", binaryStl(sheet(600)));  // 36 MB of triangles
   MeshLimits limits;
   limits.memory = 100 << 20;
   const std::string error = errorOfReading(GPS_READ_MESH, path, limits);

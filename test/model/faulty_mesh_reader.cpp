@@ -1,4 +1,4 @@
-// A mesh reader that goes wrong in the way that the file's name says, in place of read_mesh.
+// A mesh reader that replaces read_mesh and fails. The name of the mesh file selects the failure.
 
 #include <csignal>
 #include <cstdio>

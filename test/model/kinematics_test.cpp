@@ -14,7 +14,7 @@ namespace
 {
 constexpr std::uint64_t kSeed = 11;
 
-// Forward kinematics written down anew, straight from urdfdom's tree.
+// A second implementation of forward kinematics, directly on urdfdom's tree.
 class NaiveKinematics
 {
  public:
@@ -69,7 +69,7 @@ class NaiveKinematics
         return result * Eigen::AngleAxisd(position(joint, state), axis);
       case urdf::Joint::PRISMATIC:
         return result * Eigen::Translation3d(position(joint, state) * axis);
-      case urdf::Joint::PLANAR:  // the tests' planar joints have z as their normal
+      case urdf::Joint::PLANAR:  // the normal of the tests' planar joints is z
         return result * Eigen::Translation3d(value(joint.name + "/x", state), value(joint.name + "/y", state), 0.0) *
                Eigen::AngleAxisd(value(joint.name + "/theta", state), Eigen::Vector3d::UnitZ());
       case urdf::Joint::FLOATING:
@@ -106,7 +106,7 @@ void expectSamePoses(const std::string& urdf, const RobotModel& robot, int state
     ASSERT_EQ(expected.size(), robot.links().size());
     for (std::size_t link = 0; link < poses.size(); ++link)
     {
-      // 1e-12: tens of joints of rounding in metres; a wrong formula is off by far more.
+      // 1e-12 covers the rounding of tens of joints in metres. A wrong formula causes a much larger error.
       ASSERT_TRUE(poses[link].matrix().isApprox(expected.at(robot.links()[link].name).matrix(), 1e-12))
           << robot.links()[link].name;
       ASSERT_EQ(poses[link].matrix().row(3), Eigen::RowVector4d(0, 0, 0, 1));
@@ -160,7 +160,7 @@ TEST(Kinematics, AStateIsReadWithoutScalingOfItsQuaternion)
 {
   const auto robot = robotOf(boxLink("a") + boxLink("b") + jointXml("j", "floating", "a", "b"));
   std::vector<Eigen::Isometry3d> poses(2);
-  // Twice a rotation by 90 degrees about z.
+  // The quaternion is twice as long as the unit quaternion of a rotation by 90 degrees about z.
   const double half = std::sqrt(0.5);
   const std::vector<double> state = {1, 2, 3, 0, 0, 2 * half, 2 * half};
   robot->linkPoses(state.data(), poses.data());

@@ -13,14 +13,14 @@ namespace
 {
 using Corners = std::array<std::array<double, 3>, 3>;
 
-// Edge lengths that no axis shares, so that mixed-up axes show.
+// The edge lengths differ between the axes, so that exchanged axes are detected.
 Mesh brick()
 {
   return *tessellate(Box{{0.5, 1.0, 2.0}}).mesh;
 }
 
-// A mesh's triangles as positions, each starting at its least corner, in ascending order; to micrometres, as files hold
-// float32.
+// A mesh's triangles as positions, rounded to micrometres because files hold float32. Each triangle starts at its
+// smallest corner; the triangles are in ascending order.
 std::vector<Corners> triangles(const Mesh& mesh)
 {
   std::vector<Corners> result;
@@ -130,7 +130,7 @@ TEST(MeshCache, DegenerateAndDuplicateTrianglesAreKept)
 TEST(MeshCache, PolygonsAreTriangulatedAndPointsAndLinesLeftOut)
 {
   const TemporaryFolder folder;
-  // An L of area 3, not convex, and a line and a point.
+  // An L of area 3, which is not convex, and a line and a point.
   const std::string file =
       folder.write("l.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\nl 1 5\np 2\n");
   const auto mesh = load(file);

@@ -9,7 +9,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Empty: the folders that the build was told.
+/// If the string is empty, the folders that the build was configured with are used.
 std::string& chosenFolder()
 {
   static std::string folder = []

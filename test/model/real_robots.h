@@ -8,19 +8,20 @@
 
 namespace gpu_planning_scene::core
 {
-/// From now on the robots and problems are those of `folder`: urdf/ with the robots of Debian's dart-doc, robots/ and
-/// problems/ as in ../shared. Without it they are in $GPU_PLANNING_SCENE_DATA if set, else where the build was told.
+/// Sets the folder of robots and problems: urdf/ with the robots of Debian's dart-doc, robots/ and problems/ as in
+/// ../shared. Without this call the folder is $GPU_PLANNING_SCENE_DATA if it is set, else the folders that the build
+/// was configured with.
 void useDataFolder(const std::string& folder);
 
-/// Where a set of problems of ur5_robotiq lies: scenes and motion requests.
+/// The folder of a set of problems of ur5_robotiq, with scenes and motion requests.
 std::string problemFolder(const std::string& set);
 
-/// A robot that is not part of the project: Debian's dart-doc has some, ../shared another.
+/// A robot that is not part of the project. It comes from Debian's dart-doc or from ../shared.
 struct RealRobot
 {
   std::string name;
   std::string urdf;
-  std::string srdf;  ///< empty: none
+  std::string srdf;  ///< empty if the robot has no SRDF
   std::map<std::string, std::string> packages;
 
   bool available() const;
@@ -33,11 +34,11 @@ RealRobot wam();
 RealRobot drchubo();
 RealRobot ur5Robotiq();
 
-/// Those that are there.
+/// The robots whose files exist.
 std::vector<RealRobot> realRobots();
 }  // namespace gpu_planning_scene::core
 
-/// Skips the test where the robot is missing.
+/// Skips the test if the robot is missing.
 #define SKIP_WITHOUT(robot)                         \
   if (!(robot).available())                         \
     GTEST_SKIP() << "there is no " << (robot).urdf; \

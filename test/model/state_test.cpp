@@ -47,7 +47,7 @@ TEST(State, RandomStatesFillTheirLimitsAndStayInside)
 
 TEST(State, RandomStatesAreTheSameWithEveryStandardLibrary)
 {
-  std::mt19937_64 generator;  // its 10,000th number is laid down by the C++ standard
+  std::mt19937_64 generator;  // the C++ standard specifies its 10,000th number
   generator.discard(9999);
   double state;
   robotOf(slider("0", "1"))->randomState(generator, &state);

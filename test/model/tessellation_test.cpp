@@ -19,7 +19,7 @@ double uniform(std::mt19937_64& generator)
   return std::uniform_real_distribution<double>(0.0, 1.0)(generator);
 }
 
-// A shape's surface, written down anew: how far a point is from it, and random points on it.
+// The true surface of a shape, implemented independently: the distance of a point from it, and random points on it.
 struct Surface
 {
   const char* name;
@@ -63,7 +63,7 @@ Surface cylinder(double r, double length)
             const double part = uniform(g);
             if (part < 0.4)
               return onCircle(r, z, g);
-            // Half of the samples of the caps lie near the rim, where the tessellation is farthest off.
+            // Half of the samples of the caps lie on the rim, where the tessellation's error is largest.
             const double rho = part < 0.7 ? r : r * std::sqrt(uniform(g));
             return onCircle(rho, std::copysign(0.5 * length, z), g);
           }};
@@ -122,7 +122,8 @@ double distance(const Eigen::Vector3d& p, const Mesh& mesh)
   return std::sqrt(least);
 }
 
-// Every edge has one triangle on each side, of opposite direction; and the enclosed volume is positive.
+// Every edge has one triangle on each side, in opposite directions. All triangles face outward, and the enclosed volume
+// is positive.
 void expectClosedAndOutward(const Mesh& mesh, const std::string& name)
 {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -208,7 +209,7 @@ TEST(Tessellation, NoPointOfTheTrueSurfaceIsFartherThanTheSagitta)
     for (int i = 0; i < std::min(samples, 2000); ++i)
       farthest = std::max(farthest, distance(surface.sample(generator), *tessellation.mesh));
     EXPECT_LE(farthest, tessellation.sagitta) << surface.name;
-    // Not a bound so wide that it says nothing.
+    // The bound is tight enough to be useful.
     EXPECT_GE(farthest, 0.25 * tessellation.sagitta) << surface.name;
   }
 }

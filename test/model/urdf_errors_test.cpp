@@ -12,7 +12,7 @@ std::string error(const std::string& urdf)
   return errorOf([&] { robotOf(urdf); });
 }
 
-// Every message is one line that begins with the file, has a line number and names the culprit.
+// Every message is one line that begins with the file and line number and names the cause.
 void expectError(const std::string& urdf, const std::string& where, const std::string& text)
 {
   const std::string message = error(urdf);

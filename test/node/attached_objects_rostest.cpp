@@ -1,4 +1,4 @@
-// Objects that links carry, over apply_planning_scene.
+// Attached objects, over apply_planning_scene.
 
 #include "node/node_client.h"
 
@@ -26,7 +26,7 @@ class AttachedObjects : public RunningNode
     return names;
   }
 
-  /// Another state, with the tip elsewhere.
+  /// A state in which the tip is elsewhere.
   static std::vector<double> otherState()
   {
     std::vector<double> state = free_state;

@@ -1,4 +1,4 @@
-// Messages as bytes, without a ROS master.
+// Messages are read from bytes. No ROS master is needed.
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/JointState.h>
@@ -22,7 +22,7 @@ Bytes bytesOf(const M& message)
   return bytes;
 }
 
-// What readBounded says of the bytes; "" where it takes them. Anything else that is thrown fails the test.
+// The error of readBounded for the bytes; "" if it accepts them. Other exceptions fail the test.
 template <class M>
 std::string faultOf(const Bytes& bytes, M& message)
 {
@@ -42,7 +42,7 @@ std::string faultOf(const Bytes& bytes, M& message)
   return "not a runtime_error";
 }
 
-// A request with every kind of field: strings, times, nested messages, fixed and open arrays.
+// A request with every kind of field: strings, times, nested messages, arrays of fixed and variable length.
 ApplyPlanningScene::Request fullRequest()
 {
   ApplyPlanningScene::Request request;
@@ -183,7 +183,7 @@ TEST_F(BoundedMessage, AServiceAnswersAFaultyRequest)
     parameters.request = ros::SerializedMessage(buffer, size);
     parameters.request.message_start = buffer.get();
     EXPECT_TRUE(options.helper->call(parameters));
-    constexpr std::size_t kHeader = 5;  // of an answer: whether it is one, and its length
+    constexpr std::size_t kHeader = 5;  // of an answer: its success flag and its length
     Clear::Response response;
     ros::serialization::IStream stream(parameters.response.buf.get() + kHeader,
                                        static_cast<std::uint32_t>(parameters.response.num_bytes - kHeader));

@@ -1,4 +1,4 @@
-// The node's checkers where the device fails after the start; no master is needed.
+// The node's checkers when the device fails after the start. No ROS master is needed.
 
 #include <atomic>
 #include <chrono>
@@ -17,7 +17,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// A device that is lost in its next checks.
+/// A device that is lost in each of its next `losses` checks.
 class Device : public CpuChecker
 {
  public:
@@ -47,7 +47,7 @@ class CheckerMaker : public testing::Test
   CheckerMaker() { resilience_.device_seconds = 0.2; }
   ~CheckerMaker() override { repaired_.set_value(); }
 
-  /// What opens the device from now on; it throws, or waits, or does nothing.
+  /// Sets the fault of opening the device from now on: it throws, waits, or does nothing.
   void openWith(void (*fault)(const std::shared_future<void>& repaired)) { fault_ = fault; }
 
   CheckServer& server()
@@ -85,7 +85,8 @@ class CheckerMaker : public testing::Test
   std::unique_ptr<CheckServer> server_;
 };
 
-constexpr std::size_t kLarge = 2000;  // states: of the lane whose checker is made with the first of them
+/// States of a request for the second queue, whose checker is made with its first request.
+constexpr std::size_t kLarge = 2000;
 
 TEST_F(CheckerMaker, ADeviceThatCannotBeOpenedAtTheStartIsAnError)
 {

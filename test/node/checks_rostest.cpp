@@ -1,4 +1,4 @@
-// check_states, check_motions and get_report: what they answer besides free or not.
+// check_states, check_motions and get_report: contacts, clearances, fractions of motions and the report.
 
 #include <limits>
 #include <set>

@@ -7,11 +7,11 @@
 
 namespace gpu_planning_scene::core
 {
-/// A planning_scene_node that a test starts by itself, with parameters of its own and the robot of the test's.
+/// A planning_scene_node that a test starts itself, with separate parameters and the test's robot.
 class ChildNode
 {
  public:
-  /// Waits until it answers. `arguments`: such as "_device:=cpu".
+  /// Starts the node and waits until it answers. `arguments`: for example "_device:=cpu".
   ChildNode(const std::string& node_name, std::vector<std::string> arguments, const std::string& program = GPS_NODE);
   ~ChildNode();
   ChildNode(const ChildNode&) = delete;
@@ -19,9 +19,9 @@ class ChildNode
 
   std::string service(const std::string& in_its_namespace) const { return "/" + name_ + "/" + in_its_namespace; }
   void interrupt() const;
-  /// As `rosnode kill` does.
+  /// Asks the node to shut down as `rosnode kill` does.
   void askToShutDown() const;
-  /// Its exit code; -1 if it has not ended after so many seconds, or was killed.
+  /// Waits up to `seconds` for the node to end. Returns its exit code; -1 if it still runs or was ended by a signal.
   int wait(double seconds);
 
  private:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The examples of the documents are run beside a node, as a reader would: calls from a shell, and rospy programs."""
+"""Runs the examples of the documents beside a node: calls from a shell, and rospy programs."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-// The end of a process that something holds up.
+// A process that hangs at its end is ended at a deadline.
 
 #include <chrono>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// A node whose device is lost: it answers, and says who does.
+// A node whose device is lost still answers, and its diagnostics report that the CPU has taken over.
 
 #include <mutex>
 
@@ -19,7 +19,8 @@ class Fault : public RunningNode
 
 TEST_F(Fault, DiagnosticsTellThatTheCpuHasTakenOver)
 {
-  // Its device is lost in one of several hundred calls; the first loss is enough for the CPU.
+  // The node loses its device in one of several hundred calls. With device_losses 1 the CPU takes over at the first
+  // loss.
   const ChildNode node("faulty_node", {"_device:=software", "_cpu_below:=0", "_device_losses:=1"}, GPS_FAULTY_NODE);
   std::mutex mutex;
   DiagnosticStatus latest;

@@ -1,4 +1,4 @@
-// The frames that poses of objects may be given in.
+// The frames in which an object's pose may be given.
 
 #include <thread>
 
@@ -14,7 +14,7 @@ namespace
 class Frames : public RunningNode
 {
  public:
-  /// A box of 2 cm at that place of the frame.
+  /// A box of 2 cm at `place` in the frame.
   static CollisionObject boxIn(const std::string& frame, const Eigen::Vector3d& place, const std::string& id = "box")
   {
     CollisionObject object = boxObject(id, place, 0.02);
@@ -86,7 +86,7 @@ TEST_F(Frames, APoseMayBeInAFrameOfTf)
 TEST_F(Frames, AFrameOfTfIsLookedUpAtItsStamp)
 {
   tf2_ros::TransformBroadcaster broadcaster;
-  ros::WallDuration(2.0).sleep();  // until the node listens to it
+  ros::WallDuration(2.0).sleep();  // time for the node to subscribe
   const ros::Time then = ros::Time::now();
   geometry_msgs::TransformStamped message = transform("wagon", farAway());
   for (const double seconds : {-1.0, 0.0, 0.1})

@@ -1,4 +1,4 @@
-// Requests whose bytes lie, sent without roscpp: they are answered with what is wrong, and the node lives on.
+// Requests with wrong bytes, sent without roscpp. The node answers them with an error and continues.
 
 #include <cstring>
 
@@ -24,7 +24,7 @@ void appendField(std::string& header, const std::string& field)
   header += field;
 }
 
-/// A connection to one of the node's services, past the handshake.
+/// A connection to one of the node's services after the handshake.
 class RawClient
 {
  public:
@@ -59,7 +59,7 @@ class RawClient
   RawClient& operator=(const RawClient&) = delete;
   ~RawClient() { close(socket_); }
 
-  /// Sends a body and returns that of the response; empty where there is none.
+  /// Sends a body and returns the body of the response; empty if there is no response.
   std::string ask(const std::string& body)
   {
     std::string bytes;
@@ -99,7 +99,7 @@ TEST_F(HostileBytes, AnArrayThatIsSaidToBeEndlessIsRefused)
 {
   std::string body;
   append(body, 0);            // group
-  append(body, 0xffffffffU);  // joint_names: so many
+  append(body, 0xffffffffU);  // joint_names: a wrong length
   append(body, 0);
   EXPECT_NE(std::string::npos, RawClient(name("check_states")).ask(body).find("ends early"));
   EXPECT_TRUE(isFree());

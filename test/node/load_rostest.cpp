@@ -1,4 +1,4 @@
-// What clients see of a node that has too much to do, and of one that is ended while it works.
+// The answers of a node that is overloaded, and of a node that is ended while it works.
 
 #include <atomic>
 #include <mutex>
@@ -26,7 +26,7 @@ class Load : public RunningNode
     return call;
   }
 
-  /// Calls `ask` on so many threads at once, with the number of the thread.
+  /// Calls `ask` with the thread's number on `threads` threads at once.
   template <class Ask>
   static void together(int threads, Ask ask)
   {
@@ -38,7 +38,7 @@ class Load : public RunningNode
       client.join();
   }
 
-  /// Publishes so many objects as fast as it can.
+  /// Publishes `count` objects as fast as possible.
   static void publishBoxes(ros::Publisher& publisher, int count)
   {
     while (publisher.getNumSubscribers() == 0)
@@ -75,7 +75,7 @@ TEST_F(Load, NoObjectOfManyOnATopicIsLost)
   ros::NodeHandle client;
   ros::Publisher publisher = client.advertise<CollisionObject>(node.service("collision_object"), kObjects + 1);
   publishBoxes(publisher, kObjects);
-  publisher.publish(objectOperation("no such object", CollisionObject::REMOVE));  // takes none of the others with it
+  publisher.publish(objectOperation("no such object", CollisionObject::REMOVE));  // must not affect the other changes
   EXPECT_TRUE(becomes([&] { return objectsOf(node) == kObjects; })) << objectsOf(node) << " objects are there";
 }
 
@@ -124,7 +124,7 @@ TEST_F(Load, WhatIsTooMuchIsToldBusyAtOnceAndTheRestIsAnswered)
   EXPECT_TRUE(after.response.success) << after.response.message;
 }
 
-/// Ends a node that has 8 requests of 300,000 states.
+/// Ends a node that has 8 requests of 300,000 states. Each request must be answered.
 template <class End>
 void expectAllAnswered(ChildNode& node, End end)
 {
@@ -135,7 +135,7 @@ void expectAllAnswered(ChildNode& node, End end)
       {
         while (asked < 8)
           ros::WallDuration(0.01).sleep();
-        ros::WallDuration(0.3).sleep();  // that is long enough for all to have come
+        ros::WallDuration(0.3).sleep();  // long enough for all requests to arrive
         end(node);
       });
   Load::together(8,

@@ -1,4 +1,4 @@
-// What RViz is sent, without a ROS master.
+// The markers for RViz. No ROS master is needed.
 
 #include <algorithm>
 #include <map>
@@ -178,7 +178,7 @@ TEST(Markers, NoMoreTrianglesAreDrawnThanTheLimitWhereMeshesAreEqual)
   std::size_t points = 0;
   for (const Marker& marker : markers(scene, {}, {}, options).markers)
     points += marker.type == Marker::TRIANGLE_LIST || marker.type == Marker::LINE_LIST ? marker.points.size() : 0;
-  // The roots' boxes are drawn in any case.
+  // The boxes of the roots are always drawn.
   EXPECT_LE(points, 3 * options.most_triangles + std::size_t{24} * 80);
   EXPECT_GT(points, 2 * options.most_triangles);
 }

@@ -1,4 +1,4 @@
-// Messages as changes of a scene, and scenes as messages; no master is needed.
+// Converts messages to changes of a scene, and scenes to messages. No ROS master is needed.
 
 #include <algorithm>
 #include <cmath>
@@ -103,11 +103,11 @@ TEST_F(Messages, AnObjectHasAllThatItsMessageSays)
 {
   CollisionObject object = box("a");
   object.header.frame_id = "rail";
-  object.pose = poseMessage(1, 2, 3, 1.0, 1.0);  // need not be normalised
+  object.pose = poseMessage(1, 2, 3, 1.0, 1.0);  // the quaternion need not be normalised
   object.primitives.push_back(primitive(shape_msgs::SolidPrimitive::SPHERE, {0.5, 0.0, 0.0}));
   object.primitives.push_back(primitive(shape_msgs::SolidPrimitive::CYLINDER, {0.4, 0.1}));
   object.primitives.push_back(primitive(shape_msgs::SolidPrimitive::CONE, {0.6, 0.2}));
-  object.primitive_poses = {poseMessage(0, 0, 7)};  // those that are missing are no displacement
+  object.primitive_poses = {poseMessage(0, 0, 7)};  // missing poses are the identity
   object.meshes = {triangle()};
   object.mesh_poses = {poseMessage(0, 0, 8)};
   object.planes.resize(1);
@@ -307,7 +307,7 @@ TEST_F(Messages, AMatrixOfDefaultsAloneChangesNothingInADifference)
 TEST_F(Messages, AMatrixIsHeldAgainstTheLimitsBeforeItIsRead)
 {
   AllowedCollisionMatrixMessage matrix;
-  matrix.entry_names = {"a", "b", "c"};  // without rows, so that reading it would be an error
+  matrix.entry_names = {"a", "b", "c"};  // without rows, which would be an error if the matrix were read
   SceneLimits some;
   const auto refusal = [&] { return errorOf([&] { matrixFrom(matrix, some); }); };
   const auto refused_for = [&](const char* parameter) { return refusal().find(parameter) != std::string::npos; };
@@ -391,7 +391,7 @@ TEST_F(Messages, WhatDoesNotFitIsRefused)
   refusedMessage("must be the planning frame 'rail'", message);
 }
 
-/// A scene with some of everything.
+/// A scene with every kind of content.
 PlanningSceneMessage everything()
 {
   PlanningSceneMessage message;

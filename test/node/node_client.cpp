@@ -19,7 +19,7 @@ std::string parameter(const std::string& name)
   return ros::param::param<std::string>("~" + name, "");
 }
 
-/// A point inside the shape, in its own frame: the middle of a mesh's first triangle lies on it, and that will do.
+/// A point in the shape's frame: the centre of a primitive; a point on the first triangle of a mesh.
 Eigen::Vector3d pointOf(const Shape& shape)
 {
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape);

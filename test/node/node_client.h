@@ -21,8 +21,8 @@ PlanningSceneMessage diffScene();
 PlanningSceneMessage diffWith(const CollisionObject& object);
 PlanningSceneMessage diffWith(const AttachedCollisionObject& object);
 
-/// A planning_scene_node that runs beside this program, and the robot that it has. Each test begins with a scene
-/// without objects, the robot in a state that is free of collision.
+/// A planning_scene_node that runs beside this program, and the node's robot. Each test begins with a scene without
+/// objects and with the robot in a state that is free of collision.
 class RunningNode : public testing::Test
 {
  public:
@@ -40,28 +40,28 @@ class RunningNode : public testing::Test
     EXPECT_TRUE(callPersistently(name(service), call)) << service << " does not answer";
     return call.response;
   }
-  /// The change must be made; returns its revision.
+  /// Expects that the change is made, and returns the new revision.
   static std::uint64_t apply(const PlanningSceneMessage& change);
-  /// The change must be refused for that reason and leave the scene as it was.
+  /// Expects that the change is refused for this reason and leaves the scene unchanged.
   static void expectRefusal(const PlanningSceneMessage& change, const std::string& reason);
   static PlanningSceneMessage scene(std::uint32_t components = 0);
-  /// The state's answer, with what the request asks for; all variables named.
+  /// A request to check states whose rows have all variables.
   static CheckStates::Request stateRequest(const std::vector<double>& states);
   static CheckStates::Response check(const std::vector<double>& state);
   static bool isFree() { return check(free_state).valid.at(0) != 0; }
-  /// The bodies that collide in the free state, "A B" in alphabetical order; empty where it is free.
+  /// The bodies that collide in the free state, "A B" in alphabetical order; empty if the state is free.
   static std::string collision();
   static RobotState stateMessage(const std::vector<double>& state);
-  /// Where a point of the link's frame is, in the planning frame.
+  /// The pose of the link in the planning frame.
   static Eigen::Isometry3d linkPose(const std::string& link, const std::vector<double>& state);
-  /// Inside the tip's shapes, in the free state.
+  /// A point in the first shape of the tip (on its surface if it is a mesh), in the free state and the planning frame.
   static Eigen::Vector3d tipPoint();
-  /// Where nothing of the robot is.
+  /// A point that the robot cannot reach.
   static Eigen::Vector3d farAway() { return {50.0, 0.0, 0.0}; }
 
   static std::shared_ptr<const RobotModel> robot;
   static std::vector<double> free_state;
-  static std::string tip;   ///< the last link that has shapes
-  static std::string base;  ///< the first one
+  static std::string tip;   ///< the last link with shapes
+  static std::string base;  ///< the first link with shapes
 };
 }  // namespace gpu_planning_scene::core

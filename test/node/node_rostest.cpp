@@ -1,5 +1,6 @@
-// Run by rostest beside a planning_scene_node: over ROS it answers as the library does, to several clients at once, and
-// outlives wrong requests. The parameters of this test's own node name the files that the node was started with.
+// Run by rostest beside a planning_scene_node. Over ROS the node answers as the library does, also to several clients
+// at once, and survives wrong requests. The parameters of this test's own node name the files that the node was started
+// with.
 
 #include <atomic>
 #include <limits>
@@ -53,7 +54,7 @@ class Node : public testing::Test
     return states;
   }
 
-  /// All variables named, in the robot's order.
+  /// A request with all variables in the robot's order.
   static CheckStates request(const std::vector<double>& states)
   {
     CheckStates call;
@@ -63,7 +64,7 @@ class Node : public testing::Test
     return call;
   }
 
-  /// Fails the test unless the node answers, and refuses.
+  /// Expects that the node answers with a refusal.
   static void expectRefusal(CheckStates call, const std::string& reason)
   {
     ASSERT_TRUE(callPersistently(kService, call)) << "no answer, expected: " << reason;
@@ -172,10 +173,10 @@ TEST_F(Node, TakesVariablesThatARequestLeavesOutFromJointStates)
   EXPECT_EQ(CpuChecker(scene).check(state.data(), 1).valid, partial.response.valid);
 }
 
-/// A node of its own with these arguments ends with exit code 1 and one line that says why.
+/// Expects that a node with these arguments ends with exit code 1 and one line that gives the reason.
 void expectNoStart(std::vector<std::string> arguments, const std::string& reason)
 {
-  // Private parameters outlive their node, so each gets a name of its own.
+  // Private parameters outlive their node, so each node gets a different name.
   static int number = 0;
   const std::string urdf = parameter("urdf");
   arguments.push_back("__name:=broken_" + std::to_string(++number));

@@ -1,4 +1,4 @@
-// Objects of the world, over apply_planning_scene: each operation, and what it means for the robot's tip.
+// Objects of the world, over apply_planning_scene: each operation and its effect on collisions of the robot's tip.
 
 #include "model/model_testing.h"
 #include "node/node_client.h"
@@ -103,7 +103,7 @@ TEST_F(ObjectOperations, APlanesSolidIsTheHalfSpaceBehindIt)
 {
   CollisionObject plane = objectOperation("plane", CollisionObject::ADD);
   plane.planes.resize(1);
-  plane.planes[0].coef = {{0.0, 0.0, 1.0, 100.0}};  // z = -100
+  plane.planes[0].coef = {{0.0, 0.0, 1.0, 100.0}};  // the plane z = -100
   apply(diffWith(plane));
   EXPECT_TRUE(isFree());
   plane.planes[0].coef = {{0.0, 0.0, 1.0, -tipPoint().z() - 0.001}};

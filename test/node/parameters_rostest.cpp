@@ -1,5 +1,5 @@
-// A node with parameters of its own (strict_parameters.yaml, strict_planning.yaml) and the slider robot: MoveIt's
-// padding and scale, limits, and point clouds.
+// A node with the slider robot and the parameters of strict_parameters.yaml and strict_planning.yaml: MoveIt's padding
+// and scale, limits, and point clouds.
 
 #include <sensor_msgs/JointState.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -15,7 +15,7 @@ class Parameters : public RunningNode
  public:
   static bool isFreeAt(double slide) { return check({slide, 0.0}).valid.at(0) != 0; }
 
-  /// Its faces are at 0.99 and 1.01 m.
+  /// A wall whose faces are at x = 0.99 and 1.01 m.
   static CollisionObject wall() { return boxObject("wall", {1.0, 0.0, 0.0}, 0.02); }
 
   static sensor_msgs::PointCloud2 cloud(const std::vector<Eigen::Vector3f>& points)
@@ -60,7 +60,7 @@ TEST_F(Parameters, PaddingAndScaleOfLinksAreThoseOfRobotDescriptionPlanning)
 TEST_F(Parameters, ObjectsHaveTheirOwnDefaultPadding)
 {
   apply(diffWith(wall()));
-  // The cart reaches 0.1 m ahead; its padding is 0.1 m, the wall's 0.03 m.
+  // The cart extends 0.1 m ahead. Its padding is 0.1 m, the wall's padding 0.03 m.
   EXPECT_TRUE(isFreeAt(0.99 - 0.1 - 0.13 - 0.001));
   EXPECT_FALSE(isFreeAt(0.99 - 0.1 - 0.13 + 0.001));
 }
@@ -73,7 +73,7 @@ TEST_F(Parameters, CarriedObjectsHaveTheirLinksPaddingAndTheirOwn)
   bumper.object = boxObject("bumper", {0.2, 0.0, 0.0}, 0.1);
   bumper.object.header.frame_id = "cart";
   apply(diffWith(bumper));
-  // The bumper reaches 0.25 m ahead; 0.1 m of the cart, 0.02 m of its own, 0.03 m of the wall.
+  // The bumper extends 0.25 m ahead. The paddings are 0.1 m (cart), 0.02 m (bumper) and 0.03 m (wall).
   EXPECT_TRUE(isFreeAt(0.99 - 0.25 - 0.15 - 0.001));
   EXPECT_FALSE(isFreeAt(0.99 - 0.25 - 0.15 + 0.001));
 }
@@ -134,7 +134,7 @@ TEST_F(Parameters, APointCloudIsAnObstacleWithoutTheRobotsOwnPoints)
     ros::WallDuration(0.1).sleep();
   EXPECT_TRUE(isFreeAt(far)) << "a new cloud replaces the old";
 
-  // The cart was at its free state at 100 s, and is far away now: the point on it was its own nevertheless.
+  // The cart was at its free state at 100 s and is far away now. The point on it still belongs to the robot.
   const ros::Publisher joint_states = node.advertise<sensor_msgs::JointState>("/joint_states", 1);
   for (int i = 0; i < 100 && joint_states.getNumSubscribers() == 0; ++i)
     ros::WallDuration(0.1).sleep();

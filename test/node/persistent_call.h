@@ -7,9 +7,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// Calls over a connection of this thread's that stays open. ros::service::call connects anew each time, and roscpp
-/// (1.15) then loses about one of 3000 calls without an answer while others connect too: an event of a closed
-/// connection is taken for one of the new connection that has got its socket's number.
+/// Calls a service over a connection of this thread that stays open. ros::service::call connects for each call. While
+/// other clients connect too, roscpp (1.15) then loses about one of 3000 calls: it takes an event of a closed
+/// connection for an event of the new connection, which has got the same socket number.
 template <class Service>
 bool callPersistently(const std::string& service, Service& call)
 {

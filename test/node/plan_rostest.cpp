@@ -1,5 +1,5 @@
-// ~plan: motions are found over ROS, by planners of any name, also for two clients at once; what is wrong with a
-// request is said. The node has planners.yaml, plan_parameters.yaml and the slider robot.
+// ~plan finds motions over ROS with any planner, also for two clients at once, and reports errors of a request. The
+// node has planners.yaml, plan_parameters.yaml and the slider robot.
 
 #include <cmath>
 #include <thread>
@@ -17,7 +17,7 @@ namespace
 {
 using Response = PlanMotion::Response;
 
-constexpr double kTurned = 0.785;  // radians: the pole does not fit into the slot
+constexpr double kTurned = 0.785;  // radians: at this angle the pole does not fit into the slot
 
 CollisionObject plate(const std::string& id, const Eigen::Vector3d& position, const Eigen::Vector3d& size)
 {
@@ -32,7 +32,7 @@ class Planning : public RunningNode
   void SetUp() override
   {
     RunningNode::SetUp();
-    // Between them the pole, which is 0.1 m wide, has to be turned.
+    // The pole is 0.1 m wide. It fits between the plates only if it is turned.
     apply(diffWith(plate("left", {0.0, 0.565, 0.5}, {0.4, 1.0, 0.4})));
     apply(diffWith(plate("right", {0.0, -0.565, 0.5}, {0.4, 1.0, 0.4})));
   }
@@ -50,7 +50,7 @@ class Planning : public RunningNode
 
   static Response plan(const PlanMotion::Request& request) { return call<PlanMotion>("plan", request); }
 
-  /// Solved, from the start to the goal, and free all the way.
+  /// Expects a solution from start to goal whose motions are free.
   static void expectSolved(const Response& response, const std::vector<double>& start, const std::vector<double>& goal)
   {
     ASSERT_TRUE(response.success) << response.message;
@@ -127,7 +127,7 @@ TEST_F(Planning, TakesTheDefaultOfTheGroupAndParametersOfTheRequest)
   wanted.parameters[0].key = "range";
   wanted.parameters[0].value = "far";
   expectStatus(wanted, Response::BAD_REQUEST, "parameter range of planner RRTConnect cannot be 'far'");
-  // What would keep a planner busy, far beyond the time.
+  // Values that would keep a planner busy far beyond its time.
   wanted.parameters[0].value = "1e-9";
   expectStatus(wanted, Response::BAD_REQUEST, "parameter range is 1e-9; it must be 0");
   wanted.planner = "geometric::BITstar";
@@ -140,7 +140,7 @@ TEST_F(Planning, TakesTheDefaultOfTheGroupAndParametersOfTheRequest)
   }
   wanted.parameters[0].value = "50";
   expectSolved(plan(wanted), wanted.start, wanted.goals);
-  // With it OMPL's planner uses what it has not made.
+  // With this parameter OMPL's planner would use an object that it has not created.
   wanted.planner = "geometric::RRTstar";
   wanted.parameters[0].key = "ordered_sampling";
   wanted.parameters[0].value = "1";
@@ -302,7 +302,7 @@ TEST_F(Planning, DrawsThePath)
   const Response response = plan(request());
   wait([&] { return !drawn.empty() && drawn.back().markers.size() > 1; });
   ASSERT_FALSE(drawn.empty());
-  ASSERT_EQ(drawn.back().markers.size(), 4u);  // deletes, pennant's and nut's lines, waypoints
+  ASSERT_EQ(drawn.back().markers.size(), 4u);  // the deletion, lines of pennant and nut, waypoints
   EXPECT_EQ(drawn.back().markers[0].action, visualization_msgs::Marker::DELETEALL);
   EXPECT_EQ(drawn.back().markers[3].points.size(), 2 * response.trajectory.points.size());
   EXPECT_NEAR(drawn.back().markers[1].points.front().x, -1.0, 1e-9);

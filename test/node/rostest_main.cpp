@@ -1,4 +1,4 @@
-// Of programs that rostest runs beside a planning_scene_node.
+// The main() of test programs that rostest runs beside a planning_scene_node.
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>

@@ -1,4 +1,4 @@
-// What the node does with requests, joint states and the package parameter, without a ROS master.
+// The node's handling of requests, joint states and the packages parameter. No ROS master is needed.
 
 #include <algorithm>
 #include <chrono>
@@ -26,7 +26,7 @@ namespace
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The slider robot and a wall from x = 0.9 to 1.1 m that the cart meets.
+/// The slider robot and a wall from x = 0.9 to 1.1 m, which the cart can hit.
 PlanningScene sceneWithWall()
 {
   PlanningScene scene(sliderRobot());
@@ -99,7 +99,7 @@ TEST_F(Service, OtherVariablesTakeTheCurrentState)
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);
 }
 
-/// A request waits while the scene and the robot's state change at once.
+/// A request is queued while a change sets the scene and the robot's state together.
 class WaitingService : public Service
 {
  public:
@@ -158,8 +158,7 @@ TEST_F(WaitingService, VariablesThatAMotionLeavesOutAreThoseOfTheRevisionThatItN
   EXPECT_EQ((std::vector<std::uint8_t>{0}), response.valid);
 }
 
-/// Requests for contacts, two of which may be answered at a time, and one may wait; their checks stand at a closed
-/// gate.
+/// Requests for contacts. Two may be answered at a time and one may be queued. Their checks wait at a closed gate.
 class WaitingInspections : public WaitingService
 {
  public:
@@ -371,7 +370,7 @@ TEST_F(Service, AMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
   const CheckMotions::Response response = services.checkMotions(asked);
   ASSERT_TRUE(response.success) << response.message;
   EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid);
-  // The cart meets the wall at 0.8 m, to within a rounding.
+  // The cart hits the wall at 0.8 m, up to rounding.
   EXPECT_NEAR(0.75, response.last_valid_fraction.at(1), 0.06);
   EXPECT_NEAR(0.1, response.first_invalid_fraction.at(1) - response.last_valid_fraction.at(1), 1e-9);
   EXPECT_EQ("", response.body_1.at(0));
@@ -508,7 +507,7 @@ TEST_F(JointStates, UpdateWhatTheyNameOfTheRobot)
   EXPECT_EQ(0.5, store.snapshot().state[1]);
   take(jointState({"slide"}, {0.25}));
   EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.snapshot().state);
-  take(jointState({"slide", "turn"}, {}));  // a driver that reports velocities alone
+  take(jointState({"slide", "turn"}, {}));  // as from a driver that reports only velocities
   EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.snapshot().state);
 }
 
@@ -518,7 +517,7 @@ TEST_F(JointStates, AWrongMessageChangesNothing)
   EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0, kNan})), Error);
   EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0})), Error);
   EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.snapshot().state);
-  take(jointState({"slide", "wheel"}, {1.0, kNan}));  // what is wrong is not this robot's
+  take(jointState({"slide", "wheel"}, {1.0, kNan}));  // the wrong value belongs to another robot
   EXPECT_EQ(1.0, store.snapshot().state[0]);
 }
 

@@ -1,4 +1,4 @@
-// Padding, scale, colours and matrices; what get_planning_scene tells of a scene, and what clear takes away.
+// Padding, scale, colours and matrices over ROS; get_planning_scene and clear.
 
 #include "gpu_planning_scene/planning_scene.h"
 #include "node/node_client.h"
@@ -28,7 +28,7 @@ class Settings : public RunningNode
     return change;
   }
 
-  /// Every link may touch the box.
+  /// A matrix in which every link may touch the box.
   static AllowedCollisionMatrixMessage boxIsAllowed()
   {
     AllowedCollisionMatrixMessage matrix;

@@ -1,4 +1,4 @@
-// A node that waits for something that does not come, and is told to end.
+// A node must end although it waits for a clock or a frame that does not come.
 
 #include <atomic>
 #include <thread>
@@ -23,13 +23,13 @@ class Stopping : public RunningNode
   }
 };
 
-/// As in a simulation that is paused, or not there yet: nobody publishes /clock.
+/// The simulation is paused or has not started: nobody publishes /clock.
 TEST_F(Stopping, AClockThatStandsStillHoldsUpNoChangeAndNoAnswer)
 {
   ros::param::set("/use_sim_time", true);
   ChildNode node("node_without_clock", {"_device:=cpu", "_tf_timeout:=0.2"});
   ros::param::del("/use_sim_time");
-  for (int i = 0; i < 5; ++i)  // the node has four threads for them
+  for (int i = 0; i < 5; ++i)  // more than the node's four threads for requests
   {
     ApplyPlanningScene change = boxInUnknownFrame();
     ASSERT_TRUE(callPersistently(node.service("apply_planning_scene"), change));
@@ -51,7 +51,7 @@ TEST_F(Stopping, AFrameThatIsWaitedForHoldsUpNoEnd)
       {
         while (!asking)
           ros::WallDuration(0.01).sleep();
-        ros::WallDuration(0.5).sleep();  // that is long enough for it to have come
+        ros::WallDuration(0.5).sleep();  // long enough for the request to arrive
         node.interrupt();
       });
   ApplyPlanningScene change = boxInUnknownFrame();

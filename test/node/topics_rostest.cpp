@@ -1,4 +1,4 @@
-// What the node takes from topics, and what it publishes.
+// The topics that the node subscribes to, and the topics that it publishes.
 
 #include <mutex>
 
@@ -15,7 +15,7 @@ namespace
 class Topics : public RunningNode
 {
  protected:
-  /// Publishes it once the node listens.
+  /// Publishes a message as soon as the node has subscribed.
   template <class Message>
   void publish(const std::string& topic, const Message& message)
   {
@@ -209,7 +209,7 @@ TEST_F(Topics, ANewcomerGetsTheWholeScene)
 TEST_F(Topics, MarkersShowWhatCollidesInRedAndTheBoxesOfATreeLevel)
 {
   std::mutex mutex;
-  std::map<std::string, int> counts;  // by namespace; "red": of any
+  std::map<std::string, int> counts;  // by namespace; "red": number of red markers in all namespaces
   const ros::Subscriber subscriber = node_.subscribe<visualization_msgs::MarkerArray>(
       name("markers"), 1,
       [&](const visualization_msgs::MarkerArray::ConstPtr& message)

@@ -68,7 +68,8 @@ Quad radiusOf(const Convex& convex)
   return sphere ? Quad(sphere->radius) : Quad(0);
 }
 
-/// Points of the set of differences whose convex hull is searched, at most four.
+/// At most four points of the difference of the two sets. The search looks for the point of their convex hull that is
+/// nearest to the origin.
 using Simplex = std::vector<Vector>;
 
 bool originInside(const Simplex& tetrahedron)
@@ -85,7 +86,8 @@ bool originInside(const Simplex& tetrahedron)
   return true;
 }
 
-/// The nearest point to the origin of a simplex of up to three points; `simplex` becomes the points it lies between.
+/// The point nearest to the origin of a simplex of up to three points. Reduces `simplex` to the
+/// points whose convex hull contains the nearest point.
 Vector nearestOfFace(Simplex& simplex)
 {
   const Simplex all = simplex;
@@ -122,7 +124,7 @@ Vector nearestOfFace(Simplex& simplex)
   return best;
 }
 
-/// The same for up to four points; a simplex that holds the origin is left as it is.
+/// As nearestOfFace() for up to four points. A tetrahedron that contains the origin is not reduced.
 Vector nearestToOrigin(Simplex& simplex)
 {
   if (simplex.size() < 4)
@@ -150,7 +152,7 @@ Bounds convexDistance(const Convex& a, const Motion& pose_a, const Convex& b, co
                       Quad enough)
 {
   const Quad radii = radiusOf(a) + radiusOf(b);
-  // The point of the difference of the two sets that is farthest in a direction.
+  // The farthest point of the difference of the two sets in a direction.
   const auto farthest = [&](const Vector& d)
   { return pose_a * farthestCore(a, pose_a.unrotate(d)) - pose_b * farthestCore(b, pose_b.unrotate(-d)); };
   Simplex simplex = {farthest(pose_b.translation - pose_a.translation + Vector(1, 0, 0))};
@@ -160,7 +162,7 @@ Bounds convexDistance(const Convex& a, const Motion& pose_a, const Convex& b, co
   {
     const Quad core = length(nearest);
     bounds.upper = std::max(Quad(0), core - radii);
-    // A common point, up to the rounding of quadruple precision.
+    // The sets have a common point, up to the rounding of quadruple precision.
     if (bounds.upper <= Quad(1e-25))
       return {0, 0};
     const Vector next = farthest(-nearest);

@@ -11,24 +11,24 @@ namespace gpu_planning_scene::core::oracle
 {
 struct PreparedShape::Impl
 {
-  // Exactly one of the three.
+  // Exactly one of these three is set.
   std::unique_ptr<PreparedMesh> mesh;
   std::optional<Convex> convex;
   std::optional<HalfSpace> half_space;
-  BoundingBox box;  // of a mesh or a convex
+  BoundingBox box;  // bounds `mesh` or `convex`
 };
 
 namespace
 {
-/// What is asked for: the distance where it lies between `required` and `limit`; something at most `required`, or at
-/// least `limit`, will do elsewhere.
+/// A distance is computed exactly if it lies between `required` and `limit`. Below `required`, any value of at most
+/// `required` is a correct result; above `limit`, any value of at least `limit`.
 struct Range
 {
   Quad required;
   Quad limit;
 };
 
-/// Rounding of quadruple precision, in metres: two points that are one.
+/// Two points that are nearer than this are equal up to the rounding of quadruple precision (metres).
 const Quad kRounding = 1e-20;
 
 Eigen::Vector3d halfSize(const Convex& convex)
@@ -44,7 +44,7 @@ Quad convexDistance(const Convex& a, const Motion& pose_a, const Convex& b, cons
   return bounds.lower > range.limit ? range.limit : bounds.upper;
 }
 
-/// The least over pairs of triangles, by descent of both trees.
+/// The smallest distance over all pairs of triangles, by a simultaneous descent of both trees.
 class MeshPair
 {
  public:

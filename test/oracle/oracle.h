@@ -8,19 +8,19 @@
 
 namespace gpu_planning_scene::core::oracle
 {
-/// What the project's contract says of a pair whose true distance is d and whose required distance is v.
+/// The verdict of the project's contract on a pair whose true distance is d and whose required distance is v.
 enum class Verdict
 {
   Collides,  ///< d <= v
   Free,      ///< d > v + 1e-9 m
-  Either     ///< in between
+  Either     ///< v < d <= v + 1e-9 m: the contract allows both answers
 };
 
-constexpr double kTolerance = 1e-9;  // metres: of the contract
-/// Distances between curved surfaces are found to this; those of triangles and half-spaces are exact to about 1e-28.
-constexpr double kAccuracy = 1e-13;  // metres, for shapes of up to metres
+constexpr double kTolerance = 1e-9;  // metres: the tolerance of the contract
+/// Accuracy of distances between curved surfaces. Distances of triangles and half-spaces are exact to about 1e-28.
+constexpr double kAccuracy = 1e-13;  // metres, for shapes of up to a few metres
 
-/// A shape made ready for questions about it. Immutable; may be shared by threads.
+/// A shape with the data that distance() and verdict() need. Immutable; threads may share it.
 class PreparedShape
 {
  public:
@@ -36,13 +36,13 @@ class PreparedShape
   std::unique_ptr<const Impl> impl_;
 };
 
-/// The distance of two placed shapes as sets of points: of surfaces, of the solids that the closed components of a mesh
-/// bound, and of primitives; 0 where they have a point in common. At least one is not a half-space. From `limit` up
-/// the answer is some distance of at least `limit`.
+/// The distance of two placed shapes as sets of points: surfaces, primitives, and the solids inside closed components
+/// of a mesh. It is 0 if the shapes have a common point. At most one shape is a half-space. If the distance is at least
+/// `limit`, the result is some value of at least `limit`.
 double distance(const PreparedShape& a, const Motion& pose_a, const PreparedShape& b, const Motion& pose_b,
                 double limit = std::numeric_limits<double>::infinity());
 
-/// Looks only as closely as the answer needs.
+/// The verdict on a pair. It computes the distance only as accurately as the verdict needs.
 Verdict verdict(const PreparedShape& a, const Motion& pose_a, const PreparedShape& b, const Motion& pose_b,
                 double required_distance);
 }  // namespace gpu_planning_scene::core::oracle

@@ -1,4 +1,4 @@
-// The oracle against distances that are known in closed form, everywhere and in random rigid motions.
+// Tests the oracle against distances that are known in closed form, also after random rigid motions.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ Shape boxMesh(double size, bool inverted = false)
   return std::shared_ptr<const Mesh>(mesh);
 }
 
-/// A box in a box, the inner one turned inside out: a solid with a cavity.
+/// A box with a second, inverted box inside: a solid with a cavity.
 Shape hollowBox(double outer, double inner)
 {
   auto mesh = std::make_shared<Mesh>(*std::get<std::shared_ptr<const Mesh>>(boxMesh(outer)));
@@ -70,8 +70,8 @@ Motion randomMotion(std::mt19937_64& random, double distance)
   return Motion(pose);
 }
 
-/// Whether b, placed in a's frame, is at that distance, to `tolerance`; in that place, and both moved in random ways, a
-/// kilometre away too, and with the arguments swapped.
+/// Expects that b, placed in a's frame, is at distance `expected`, to `tolerance`. Checks the pair in place and after
+/// random motions of both shapes, also a kilometre away, and with the arguments swapped.
 void expectDistance(const Shape& a, const Shape& b, const Eigen::Isometry3d& b_in_a, double expected,
                     double tolerance = 3e-13)
 {
@@ -136,8 +136,8 @@ TEST(Oracle, TrianglesAtKnownDistances)
   expectDistance(kFlat, triangle({-d, -1, 0}, {-d, 3, 0}, {-2, 0, 0}), shift(0, 0, 0), d);             // in a plane
   expectDistance(kFlat, triangle({0.2, 0.2, -1}, {0.2, 0.2, 1}, {0.3, 0.2, 1}), shift(0, 0, 0), 0.0);  // pierced
   expectDistance(kFlat, kFlat, shift(0.1, 0.1, 0), 0.0);                                               // overlapping
-  expectDistance(kFlat, triangle({0.1, 0.1, 0}, {0.2, 0.1, 0}, {0.1, 0.2, 0}), shift(0, 0, 0), 0.0);   // one in other
-  expectDistance(kFlat, triangle({0, 0, 0}, {-1, 0, 0}, {0, 0, 1}), shift(0, 0, 0), 0.0);              // a vertex
+  expectDistance(kFlat, triangle({0.1, 0.1, 0}, {0.2, 0.1, 0}, {0.1, 0.2, 0}), shift(0, 0, 0), 0.0);   // contained
+  expectDistance(kFlat, triangle({0, 0, 0}, {-1, 0, 0}, {0, 0, 1}), shift(0, 0, 0), 0.0);  // a common vertex
 }
 
 TEST(Oracle, TrianglesWithoutAreaAreSegmentsAndPoints)
@@ -147,7 +147,7 @@ TEST(Oracle, TrianglesWithoutAreaAreSegmentsAndPoints)
   expectDistance(kFlat, triangle({0.25, 0.25, -1.0}, {0.25, 0.25, 1.5}, {0.25, 0.25, 1.0}), shift(0, 0, 0), 0.0);
   const Shape segment = triangle({0, 0, 0}, {1, 0, 0}, {0.5, 0, 0});
   expectDistance(segment, segment, shift(0.0, 0.5, 0.0), 0.5);
-  // A sliver: its face still counts, at any thickness.
+  // A sliver: its face counts at any thickness.
   for (const double thin : {1e-3, 1e-7, 1e-12})
     expectDistance(triangle({-1, -thin, 0}, {1, -thin, 0}, {0, thin, 0}), triangle({0, 0, 0.25}, {1, 0, 1}, {-1, 0, 1}),
                    shift(0, 0, 0), 0.25);
@@ -162,7 +162,7 @@ TEST(Oracle, SpheresAndBoxes)
   expectDistance(box, Sphere{0.25}, shift(2.0, 2.0, 2.0), std::sqrt(3.0) - 0.25);
   expectDistance(box, Sphere{0.25}, shift(0.1, 0.0, 0.0), 0.0);
   expectDistance(box, box, shift(2.5, 1.0, 0.0), 0.5);
-  // An edge against an edge: half a diagonal is sqrt 2.
+  // An edge faces an edge: half a diagonal is sqrt 2.
   const Eigen::Isometry3d edge_up = shift(2.5 + std::sqrt(2.0), 0, 0) * turn(0.25 * kPi, Eigen::Vector3d::UnitZ());
   expectDistance(box, box, edge_up, 1.5);
 }
@@ -194,7 +194,7 @@ TEST(Oracle, CylindersAndCones)
 
 TEST(Oracle, GrazingCurvesAreDecidedToTheirAccuracy)
 {
-  // Two crossed cylinders, and a cone's slant on a cylinder's side, almost touching or just overlapping.
+  // Two crossed cylinders that almost touch or just overlap.
   const PreparedShape cylinder(Cylinder{0.5, 2.0});
   const Motion lying(turn(0.5 * kPi, Eigen::Vector3d::UnitX()));
   for (const double gap : {1e-3, 1e-6, 2e-9, 5e-10, 1e-11, -1e-11, -1e-9, -1e-5})
@@ -234,12 +234,12 @@ TEST(Oracle, OpenMeshesAndCavitiesAreEmpty)
   auto open = std::make_shared<Mesh>(*std::get<std::shared_ptr<const Mesh>>(boxMesh(2.0)));
   open->triangles.pop_back();
   expectDistance(std::shared_ptr<const Mesh>(open), boxMesh(1.0), shift(0.0, 0.0, 0.0), 0.5);
-  open->triangles.push_back(open->triangles[0]);  // as many as before, one of them twice
+  open->triangles.push_back(open->triangles[0]);  // as many triangles as before, one of them twice
   expectDistance(std::shared_ptr<const Mesh>(open), boxMesh(1.0), shift(0.0, 0.0, 0.0), 0.5);
   expectDistance(hollowBox(3.0, 2.0), boxMesh(1.0), shift(0.25, 0.0, 0.0), 0.25);
   expectDistance(hollowBox(3.0, 2.0), Sphere{0.5}, shift(0.25, 0.0, 0.0), 0.25);
   expectDistance(hollowBox(3.0, 1.0), boxMesh(0.25), shift(1.0, 0.0, 0.0), 0.0);
-  // Two shells of one direction: the winding number inside is 2, not a cavity.
+  // Two shells with the same orientation: the winding number inside is 2, so there is no cavity.
   auto twice = std::make_shared<Mesh>(*std::get<std::shared_ptr<const Mesh>>(hollowBox(3.0, 2.0)));
   for (std::size_t i = 12; i < 24; ++i)
     std::swap(twice->triangles[i][0], twice->triangles[i][1]);

@@ -9,7 +9,7 @@ namespace gpu_planning_scene::core::oracle
 {
 namespace
 {
-constexpr double kSlack = 1e-14;  // of the numbers that enter: some 50 roundings
+constexpr double kSlack = 1e-14;  // relative error bound for about 50 roundings
 constexpr double kPi = 3.14159265358979323846;
 
 BoundingBox outwardBox(const Eigen::AlignedBox3d& box)
@@ -19,7 +19,7 @@ BoundingBox outwardBox(const Eigen::AlignedBox3d& box)
   return {center, half + kSlack * (half + center.cwiseAbs())};
 }
 
-/// Numbers for the places of the vertices: equal places have equal numbers.
+/// Numbers the positions of the vertices. Vertices at equal positions have equal numbers.
 std::vector<std::uint32_t> placesOf(const std::vector<Eigen::Vector3d>& vertices)
 {
   std::vector<std::uint32_t> order(vertices.size());
@@ -41,8 +41,8 @@ std::vector<std::uint32_t> placesOf(const std::vector<Eigen::Vector3d>& vertices
   return places;
 }
 
-/// The solid angle that a triangle subtends at the origin, after van Oosterom and Strackee (1983): twice the angle of
-/// (denominator, numerator). Corners in any number type.
+/// The solid angle that a triangle subtends at the origin, after van Oosterom and Strackee (1983). It is twice the
+/// angle of the vector (denominator, numerator).
 struct HalfAngle
 {
   double numerator;
@@ -126,7 +126,7 @@ void PreparedMesh::findComponents(const Mesh& mesh)
   const std::size_t count = mesh.triangles.size();
   std::vector<std::array<std::uint32_t, 3>> corners(count);
   std::vector<std::vector<std::uint32_t>> triangles_at(mesh.vertices.size());
-  // For each edge, lower place first: how many triangles run along it upwards and downwards.
+  // For each edge, lower position number first: the number of triangles that run along it upwards and downwards.
   std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> uses;
   const auto has_area = [&](std::size_t t)
   { return corners[t][0] != corners[t][1] && corners[t][1] != corners[t][2] && corners[t][2] != corners[t][0]; };
@@ -204,11 +204,12 @@ bool PreparedMesh::solidHolds(const Vector& point) const
     const double c = d[2].norm();
     HalfAngle half = {d[0].dot(d[1].cross(d[2])),
                       a * b * c + d[0].dot(d[1]) * c + d[1].dot(d[2]) * a + d[2].dot(d[0]) * b};
-    // Near the triangle both terms cancel, and the sign of the first decides on a whole turn.
+    // Near the triangle both terms cancel. The sign of the numerator then decides between two angles 4 pi apart, so
+    // both terms are computed in quadruple precision.
     if (std::abs(half.numerator) <= 1e-8 * a * b * c && half.denominator <= 1e-8 * a * b * c)
       half = solidAngle(Vector(corners[0]) - point, Vector(corners[1]) - point, Vector(corners[2]) - point);
     angle += 2.0 * std::atan2(half.numerator, half.denominator);
   }
-  return std::abs(angle) > 2.0 * kPi;  // whole turns are multiples of 4 pi
+  return std::abs(angle) > 2.0 * kPi;  // each winding adds 4 pi
 }
 }  // namespace gpu_planning_scene::core::oracle

@@ -12,23 +12,25 @@
 
 namespace gpu_planning_scene::core::oracle
 {
-/// A box in a shape's frame, in doubles: it holds all that it stands for.
+/// A box in a shape's frame, in double. It contains the whole shape in spite of rounding.
 struct BoundingBox
 {
   Eigen::Vector3d center;
   Eigen::Vector3d half;
 };
 
-/// A lower bound of the distance of what two boxes hold, for b placed in a's frame: less what doubles may be off by.
+/// A lower bound of the distance of the contents of two boxes, for b placed in a's frame. It accounts for rounding in
+/// double.
 double leastDistance(const BoundingBox& a, const BoundingBox& b, const Eigen::Isometry3d& b_in_a);
 
-/// A mesh with a tree of boxes over its triangles, and what it bounds.
+/// A mesh with a tree of boxes over its triangles, its connected components, and the solids that closed components
+/// enclose.
 class PreparedMesh
 {
  public:
   explicit PreparedMesh(const Mesh& mesh);
 
-  /// Leaves have one triangle. The root is node 0, an inner node's children follow in pairs.
+  /// A leaf has one triangle. The root is node 0. The two children of an inner node are `child` and `child + 1`.
   struct Node
   {
     BoundingBox box;
@@ -42,8 +44,8 @@ class PreparedMesh
   const std::vector<Eigen::Vector3d>& componentPoints() const { return component_points_; }
   bool hasSolid() const { return !solid_triangles_.empty(); }
 
-  /// Whether the winding number around the point, of the closed components, is not 0. A point on the surface may count
-  /// as either.
+  /// Whether the winding number of the closed components around the point is not 0. A point on the surface may count as
+  /// inside or outside.
   bool solidHolds(const Vector& point) const;
 
  private:

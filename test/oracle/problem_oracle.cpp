@@ -6,7 +6,7 @@ namespace gpu_planning_scene::core::oracle
 {
 namespace
 {
-/// Rodrigues' formula; the axis is brought to unit length.
+/// Rodrigues' formula. The axis is normalised first.
 Motion rotation(const Vector& axis, Quad angle)
 {
   const Vector unit = (1 / length(axis)) * axis;
@@ -30,8 +30,8 @@ Motion shift(const Vector& translation)
   return result;
 }
 
-/// In the plane of a normal: x runs along the coordinate direction after the one that the normal is nearest to, brought
-/// into the plane, y across.
+/// A motion in the plane of a normal. The x axis is the coordinate direction that follows the one nearest to the
+/// normal, projected into the plane. The y axis is perpendicular to x and the normal.
 Motion planar(const Eigen::Vector3d& axis, const double* variables)
 {
   int nearest;
@@ -43,7 +43,8 @@ Motion planar(const Eigen::Vector3d& axis, const double* variables)
   return shift(Quad(variables[0]) * x + Quad(variables[1]) * cross(normal, x)) * rotation(normal, variables[2]);
 }
 
-/// Translation, then the quaternion x, y, z, w: v + 2 (w q x v + q x (q x v)) / |q, w|^2, or v if that is 0.
+/// A translation and the quaternion (q, w) = (x, y, z, w). It rotates v to v + 2 (w q x v + q x (q x v)) / |(q, w)|^2.
+/// A quaternion of 0 does not rotate.
 Motion floating(const double* variables)
 {
   const Vector q(variables[3], variables[4], variables[5]);

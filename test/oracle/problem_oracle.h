@@ -9,27 +9,27 @@
 
 namespace gpu_planning_scene::core::oracle
 {
-/// Where a robot's links are, in the planning frame, from its joints in quadruple precision.
+/// The poses of a robot's links in the planning frame, computed in quadruple precision.
 std::vector<Motion> linkPoses(const RobotModel& robot, const double* state);
 
-/// The contract's verdicts on whole states of a collision problem: its instances, pairs and paddings are taken as they
-/// are, its tessellations are not looked at. Thread-safe.
+/// The contract's verdicts on whole states of a collision problem. It uses the problem's instances, pairs and paddings,
+/// and ignores its tessellations. Thread-safe.
 class ProblemOracle
 {
  public:
   explicit ProblemOracle(std::shared_ptr<const CollisionProblem> problem);
   ~ProblemOracle();
 
-  /// Collides if a checked pair does, else Either if that is some pair's verdict, else Free. `link_poses`: of every
-  /// link, in the planning frame.
+  /// Collides if a checked pair collides; else Either if a checked pair has this verdict; else Free. `link_poses`: of
+  /// every link, in the planning frame.
   Verdict verdict(const std::vector<Motion>& link_poses) const;
 
-  /// The least, over all checked pairs, of distance less required distance; from `limit` up, some number of at least
-  /// `limit`.
+  /// The smallest value of distance minus required distance over all checked pairs. If it is at least `limit`, the
+  /// result is some value of at least `limit`.
   double clearance(const std::vector<Motion>& link_poses, double limit) const;
 
-  /// Verdict on one checked or unchecked pair of instances: indices into `robot`, and into `robot` followed by `world`
-  /// followed by `half_spaces`.
+  /// The verdict on a pair of instances, whether checked or not. `first` is an index into `robot`; `second` is an index
+  /// into the concatenation of `robot`, `world` and `half_spaces`.
   Verdict pairVerdict(const std::vector<Motion>& link_poses, std::size_t first, std::size_t second) const;
 
  private:

@@ -1,4 +1,4 @@
-// The oracle's kinematics against the project's, and its verdicts on whole states.
+// Compares the oracle's kinematics with the project's, and tests its verdicts on whole states.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ Eigen::Isometry3d shift(double x, double y, double z)
   return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
 }
 
-/// Two spheres of radius 0.5 on links 0 and 1; a box of the world around the origin, and the ground at z = -3.
+/// Two spheres of radius 0.5 on links 0 and 1, a box of the world around the origin, and the ground at z = -3.
 std::shared_ptr<CollisionProblem> spheresAndBox()
 {
   auto problem = std::make_shared<CollisionProblem>();
@@ -79,7 +79,7 @@ TEST(ProblemOracle, ChecksThePairsThatTheProblemSays)
 TEST(ProblemOracle, PaddingIsAddedForTheWorldOnly)
 {
   const auto problem = spheresAndBox();
-  // The sphere's lowest point is 0.25 above the box: the sum of the paddings.
+  // The sphere's lowest point is 0.25 m above the box, which is the sum of the paddings.
   EXPECT_EQ(verdictOf(problem, shift(0, 0, 0.25), shift(0, 0, 10)), Verdict::Collides);
   EXPECT_EQ(verdictOf(problem, shift(0, 0, 0.25 + 0.5e-9), shift(0, 0, 10)), Verdict::Either);
   EXPECT_EQ(verdictOf(problem, shift(0, 0, 0.25 + 2e-9), shift(0, 0, 10)), Verdict::Free);

@@ -6,8 +6,8 @@ namespace gpu_planning_scene::core::oracle
 {
 namespace
 {
-/// The sum of the first terms of sin x = x - x^3/3! + ... (first = 1) or cos x = 1 - x^2/2! + ... (first = 0). Up to
-/// x = pi / 4 the first term left out is below 1e-36.
+/// A truncated Taylor series: sin x = x - x^3/3! + ... (first = 1) or cos x = 1 - x^2/2! + ... (first = 0). For |x| <=
+/// pi / 4 the first omitted term is below 1e-36.
 Quad alternatingSeries(Quad x, int first)
 {
   Quad term = first == 1 ? x : Quad(1);
@@ -25,10 +25,10 @@ Quad sqrt(Quad value)
 {
   if (!(value > 0))
     return 0;
-  // Beyond the range of doubles: by a power of two, which costs nothing.
+  // Values near or below the range of double are scaled by a power of two, which is exact.
   if (value < Quad(1e-280))
     return sqrt(value * Quad(0x1p800)) * Quad(0x1p-400);
-  // Newton's method doubles the 53 bits to more than 113 in two steps.
+  // Two steps of Newton's method increase the 53 correct bits to more than 113.
   Quad root = std::sqrt(static_cast<double>(value));
   root = (root + value / root) / 2;
   return (root + value / root) / 2;
@@ -36,7 +36,7 @@ Quad sqrt(Quad value)
 
 SineCosine sineCosine(Quad angle)
 {
-  // pi to 160 bits as a sum of doubles
+  // pi to 160 bits as a sum of doubles.
   const Quad half_pi =
       (Quad(3.14159265358979311600e+00) + Quad(1.22464679914735320717e-16) + Quad(-2.99476980971833966588e-33)) / 2;
   const double turns = std::nearbyint(static_cast<double>(angle / half_pi));
@@ -60,7 +60,7 @@ Motion::Motion(const Eigen::Isometry3d& pose) : translation(pose.translation())
 {
   for (int i = 0; i < 3; ++i)
     rows[i] = Vector(pose.linear().row(i).transpose());
-  // Newton's iteration for the orthogonal polar factor, R <- (3 R - R R^T R) / 2: each step squares the error.
+  // Newton's iteration for the orthogonal polar factor, R <- (3 R - R R^T R) / 2. Each step squares the error.
   for (int step = 0; step < 3; ++step)
   {
     const std::array<Vector, 3> r = rows;

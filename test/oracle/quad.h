@@ -6,7 +6,7 @@
 
 namespace gpu_planning_scene::core::oracle
 {
-/// Quadruple precision, 113 bits: sums of doubles of like size and products of two are exact in it.
+/// Quadruple precision, 113 bits. The product of two doubles is exact, and so is the sum of doubles of similar size.
 __extension__ typedef __float128 Quad;
 
 Quad sqrt(Quad value);
@@ -16,7 +16,7 @@ struct SineCosine
   Quad sine;
   Quad cosine;
 };
-/// To about 1e-33, for angles up to 1e6.
+/// The error is about 1e-33 for angles of up to 1e6.
 SineCosine sineCosine(Quad angle);
 
 inline Quad abs(Quad value)
@@ -70,14 +70,14 @@ inline Quad length(const Vector& a)
   return sqrt(squaredLength(a));
 }
 
-/// A rotation, then a translation.
+/// A rigid motion: a rotation, then a translation.
 struct Motion
 {
-  std::array<Vector, 3> rows = {Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1)};  // of the rotation
+  std::array<Vector, 3> rows = {Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1)};  // rows of the rotation
   Vector translation;
 
   Motion() = default;
-  /// The nearest rotation to the pose's matrix, which is one up to the rounding of doubles.
+  /// Uses the rotation that is nearest to the pose's matrix, which is a rotation only up to the rounding of double.
   explicit Motion(const Eigen::Isometry3d& pose);
 
   Vector rotate(const Vector& v) const { return {dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)}; }

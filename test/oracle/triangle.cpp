@@ -18,9 +18,10 @@ Vector nearestOnSegment(const Vector& p, const Vector& q, const Vector& point)
   return squared > 0 ? p + clampToUnit(dot(point - p, along) / squared) * along : p;
 }
 
-/// The squared distance of two segments. Away from the ends the lines' common perpendicular has the foot points; else
-/// the distance is that of an end from the other segment. Every candidate is the distance of two points of the
-/// segments, so a rounding in the choice of one can only make it the lesser of two nearly equal distances.
+/// The squared distance of two segments. If the common perpendicular of the lines meets both segments, its foot points
+/// are nearest. Otherwise the distance is the distance of an end point from the other segment. Every candidate is the
+/// squared distance of two points of the segments. So rounding in the choice of a foot point only matters between
+/// nearly equal distances.
 Quad squaredDistance(const Vector& p, const Vector& q, const Vector& r, const Vector& s)
 {
   Quad best = squaredLength(p - nearestOnSegment(r, s, p));
@@ -44,7 +45,7 @@ Quad squaredDistance(const Vector& p, const Vector& q, const Vector& r, const Ve
   return best;
 }
 
-/// Whether a point of the triangle's plane, or one that is moved there along the normal, is in the triangle.
+/// Whether the projection of a point along the normal onto the triangle's plane is in the triangle.
 bool aboveFace(const Triangle& triangle, const Vector& point)
 {
   for (int i = 0; i < 3; ++i)
@@ -61,14 +62,14 @@ std::array<Quad, 3> heights(const Triangle& plane, const Triangle& other)
   return result;
 }
 
-/// Whether all corners are on one side of the plane, at least `limit` from it.
+/// Whether all corners are on one side of the plane, at least `limit` away from it.
 bool apartBy(const std::array<Quad, 3>& heights, Quad limit)
 {
   const auto [least, most] = std::minmax({heights[0], heights[1], heights[2]});
   return limit > 0 && (least >= limit || most <= -limit);
 }
 
-/// Whether an edge of `other`, whose corners have those heights above `face`, crosses it.
+/// Whether an edge of `other` crosses `face`. `heights`: of the corners of `other` above `face`.
 bool pierced(const Triangle& face, const Triangle& other, const std::array<Quad, 3>& heights)
 {
   for (int i = 0; i < 3; ++i)
@@ -83,7 +84,7 @@ bool pierced(const Triangle& face, const Triangle& other, const std::array<Quad,
   return false;
 }
 
-/// The least distance from a corner of `other` to the plane of `face` where the foot point is in the face.
+/// The smallest distance from a corner of `other` to the plane of `face`, for corners whose foot point is in the face.
 Quad leastHeight(const Triangle& face, const Triangle& other, const std::array<Quad, 3>& heights, Quad best)
 {
   for (int i = 0; i < 3; ++i)

@@ -6,8 +6,8 @@
 
 namespace gpu_planning_scene::core::oracle
 {
-/// A triangle with what its distances need. One without area, or thinner than 1e-25 of its longest edge, has no face:
-/// only its edges count, which is as far off as it is thin.
+/// A triangle with the data for its distances. A triangle without area, or thinner than 1e-25 of its longest edge, has
+/// no face: only its edges count. The error of this is at most the thickness.
 struct Triangle
 {
   explicit Triangle(const std::array<Vector, 3>& vertices);
@@ -15,9 +15,10 @@ struct Triangle
   std::array<Vector, 3> corners;
   bool has_face;
   Vector normal;                 ///< unit length
-  std::array<Vector, 3> inward;  ///< of the edge from corner i: in the face, at right angles to the edge
+  std::array<Vector, 3> inward;  ///< for the edge from corner i: in the plane of the face, perpendicular to the edge
 };
 
-/// Their distance; 0 where they meet. From `limit` up the answer is some lower bound of at least `limit`.
+/// The distance of two triangles; 0 if they have a common point. If the distance is at least `limit`, the result is
+/// some lower bound of at least `limit`.
 Quad distance(const Triangle& a, const Triangle& b, Quad limit);
 }  // namespace gpu_planning_scene::core::oracle

@@ -1,4 +1,4 @@
-"""Where the tests of this folder find the project."""
+"""The folders of the project that the tests of this folder read."""
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]

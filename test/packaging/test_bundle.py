@@ -1,4 +1,4 @@
-"""The bundle that another machine gets: made of this build, small, complete and without a look at the build tree."""
+"""The bundle for another machine is made from this build. It is small and complete, and does not use the build tree."""
 
 import csv
 import os
@@ -75,7 +75,7 @@ class BundleTest(unittest.TestCase):
             self.assertNotIn("RPATH", dynamic, path)
 
     def test_drivers_stay_the_machines(self):
-        """What is in lib/dispatch comes after the machine's folders."""
+        """The bundle has no drivers of its own. lib/dispatch comes after the machine's folders in the search order."""
         for path in self.files("lib"):
             if "/dispatch/" not in path:
                 self.assertNotRegex(os.path.basename(path), "^lib(EGL|GL|OpenGL|drm|gbm|X11|xcb|wayland)")
@@ -88,7 +88,7 @@ class BundleTest(unittest.TestCase):
             self.assertIn(program, result.stdout)
 
     def test_programs_start_with_the_bundled_loader(self):
-        """As on a machine whose glibc is older."""
+        """The loader is used on a machine whose glibc is older."""
         libraries = ":".join(os.path.join(self.bundle, folder) for folder in ("lib/glibc", "lib", "lib/common"))
         loader = next(path for path in self.files("lib/glibc") if "/ld-linux" in path)
         result = subprocess.run(

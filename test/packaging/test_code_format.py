@@ -1,4 +1,4 @@
-"""All C++ is laid out as .clang-format says, includes give whole paths, and tests have names of one kind."""
+"""All C++ follows .clang-format, includes give whole paths, and test names are in upper camel case."""
 import re
 import shutil
 import subprocess

@@ -1,4 +1,4 @@
-"""The demo's client: what it reads from a URDF, what it draws, and how it sums up answers."""
+"""The demo's client: the variables that it reads from a URDF, its random states, and its summary of answers."""
 import collections
 import importlib.util
 import unittest

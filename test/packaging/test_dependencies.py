@@ -1,4 +1,4 @@
-"""The Debian packages that the scripts install and the rosdep keys of package.xml name the same things."""
+"""The Debian packages that the scripts install match the rosdep keys of package.xml."""
 import unittest
 import xml.etree.ElementTree
 
@@ -6,7 +6,7 @@ from repository import ROOT, SCRIPTS
 
 
 def listed():
-    """(Debian package, rosdep key, reason) of each line of dependencies.txt."""
+    """The Debian package, rosdep key and reason in each line of dependencies.txt."""
     lines = (SCRIPTS / "dependencies.txt").read_text().splitlines()
     return [line.split(maxsplit=2) for line in lines if line and not line.startswith("#")]
 

@@ -1,4 +1,4 @@
-"""install_dependencies on machines that are made up of stubs: what it calls, and what it says where it cannot."""
+"""install_dependencies on simulated machines made of stubs: the commands that it calls, and its error messages."""
 import os
 import pathlib
 import shutil
@@ -33,7 +33,8 @@ class InstallDependencies(unittest.TestCase):
         path.chmod(0o755)
 
     def have(self, installed, known=()):
-        """A dpkg-query that knows `installed`, and `known` as removed; like dpkg's it fails if asked for others."""
+        """Makes a dpkg-query that reports `installed` as installed and `known` as removed. It fails as
+        dpkg-query does for unknown packages."""
         lines = [f"echo {package} installed" for package in installed]
         lines += [f"echo {package} config-files" for package in known]
         self.stub("dpkg-query", "\n".join(lines + ["echo no packages found >&2", "exit 1"]))

@@ -1,10 +1,10 @@
-"""Includes point one way through the folders of src/, as docs/architecture.md draws it, and give the path from src/."""
+"""Includes point one way through the folders of src/, as docs/architecture.md shows, and only some folders use ROS."""
 import re
 import unittest
 
 from repository import ROOT
 
-# Each folder may include itself and those that it names here, and what these may include.
+# Each folder may include itself, the folders listed for it, and the folders that these may include.
 LAYERS = {
     "gpu": [],
     "model": [],
@@ -17,7 +17,7 @@ LAYERS = {
     "collision/contacts": ["collision/bounds"],
     "collision/motion": ["collision/bounds"],
     "collision/checkers": ["collision/gpu", "collision/contacts", "collision/motion"],
-    "collision": [],  # what all rooms share
+    "collision": [],  # shared by all rooms
     "planning": ["collision/checkers"],
     "service": ["collision/checkers"],
     "render": ["collision/checkers"],
@@ -28,7 +28,7 @@ LAYERS = {
 
 
 def folder_of(path):
-    """The longest folder of LAYERS that holds a path below src/."""
+    """The innermost folder of LAYERS that contains a path below src/."""
     parts = path.split("/")[:-1]
     while parts and "/".join(parts) not in LAYERS:
         parts.pop()
@@ -36,7 +36,7 @@ def folder_of(path):
 
 
 def allowed(folder):
-    """All that a folder may include."""
+    """All folders that a folder may include."""
     found = {folder}
     for below in LAYERS[folder]:
         found |= allowed(below)

@@ -1,4 +1,4 @@
-"""However a script ends, it leaves neither a process nor a file of its own behind, and no other one is touched."""
+"""A script leaves no process and no file of its own behind, however it ends. It leaves other processes alone."""
 import os
 import pathlib
 import shutil
@@ -10,7 +10,7 @@ import unittest
 
 from repository import SCRIPTS
 
-# A stubborn child that ignores the request to end and has a child of its own.
+# A child that ignores SIGTERM and has a child of its own.
 START = f"""
 set -euo pipefail
 source {SCRIPTS}/lib/processes.sh
@@ -37,7 +37,7 @@ class Processes(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
 
     def start(self, then):
-        """A script that starts its processes and goes on with `then`."""
+        """Runs a script that starts its processes and continues with `then`."""
         process = subprocess.Popen(
             ["bash", "-c", START.format(folder=self.folder) + then], stdin=subprocess.DEVNULL, start_new_session=True
         )

@@ -1,4 +1,4 @@
-// Paths are found and valid, states and statuses are as for OMPL's own planners, and a seed repeats a path.
+// The planner finds valid paths, returns the states and statuses of OMPL's own planners, and repeats a path for a seed.
 
 #include <chrono>
 #include <cmath>
@@ -26,19 +26,19 @@ namespace ob = ompl::base;
 using ompl::geometric::PathGeometric;
 using Position = PointRobot::Position;
 
-constexpr double kSeconds = 60.0;  // far more than is needed
+constexpr double kSeconds = 60.0;  // much more time than needed
 
 const Position kLeft{-1.0, 0.0};
 const Position kRight{1.0, 0.0};
 const Position kInTheWall{0.0, 0.0};
 
-/// A wall that leaves a way round it at the upper end.
+/// A wall with a passage at its upper end.
 const std::vector<Wall> kOpenWall = {{-0.1, -3.0, 0.1, 1.5}};
 const std::vector<Wall> kClosedWall = {{-0.1, -3.0, 0.1, 3.0}};
-/// Two walls with a gap each, at different ends.
+/// Two walls, each with a gap at a different end.
 const std::vector<Wall> kTwoWalls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
 
-/// A planner with a problem.
+/// A planner with its problem.
 struct Planning
 {
   Planning(const std::vector<Wall>& walls, const Position& start, const std::vector<Position>& goals,
@@ -52,7 +52,7 @@ struct Planning
   }
 
   ob::PlannerStatus::StatusType solve(double seconds = kSeconds) { return planner->Planner::solve(seconds); }
-  /// Until it asks once more. Each round asks several times.
+  /// Stops when the planner has checked its termination condition `times` times. Each round checks it several times.
   ob::PlannerStatus::StatusType solveAsking(unsigned int times)
   {
     return planner->solve(ob::IterationTerminationCondition(times));
@@ -110,7 +110,8 @@ TEST(BatchRrtConnect, FindsAWayRoundWallsWithMotionsWithinItsRange)
     }
 }
 
-/// Samples half a metre apart hardly ever see a wall of a millimetre: what has grown through it is taken out again.
+/// Samples half a metre apart almost never hit a wall of a millimetre. The planner must remove branches that have grown
+/// through the wall.
 TEST(BatchRrtConnect, DoesNotJumpAThinWallUnderTheBoundAndBySamplesDoes)
 {
   MotionCheckerOptions coarse;
@@ -144,7 +145,7 @@ TEST(BatchRrtConnect, ApproachesAGoalThatIsOutOfReach)
 
 TEST(BatchRrtConnect, HasNothingToOfferWhereItCannotMove)
 {
-  // A chamber with a millimetre to spare, which no random branch stays within.
+  // A chamber with a millimetre of free space. No random branch stays within it.
   Planning planning(
       {{-1.3, -0.3, -1.051, 0.3}, {-0.949, -0.3, -0.7, 0.3}, {-1.1, -0.3, -0.9, -0.051}, {-1.1, 0.051, -0.9, 0.3}},
       kLeft, {kRight});
@@ -185,7 +186,7 @@ TEST(BatchRrtConnect, TakesGoalsThatArriveLate)
   int calls = 0;
   const auto sample = [&](const ob::GoalLazySamples*, ob::State* state)
   {
-    // The first is out of reach; the second comes while the planner works.
+    // The first goal cannot be reached. The second goal comes while the planner works.
     planning.robot.information()->copyState(state,
                                             planning.robot.at(++calls == 1 ? kRight : Position(-1.5, 1.0)).get());
     std::this_thread::sleep_for(std::chrono::milliseconds(calls == 1 ? 0 : 100));
@@ -200,7 +201,7 @@ TEST(BatchRrtConnect, TakesGoalsThatArriveLate)
 
 TEST(BatchRrtConnect, IsAtTheGoalWhereTheStartTreeEntersItsRegion)
 {
-  // The goal state is behind a wall, but what is near to it counts as well.
+  // The goal state is behind a wall, but states near it satisfy the goal as well.
   Planning planning(kClosedWall, kLeft, {});
   const auto goal = std::make_shared<ob::GoalState>(planning.robot.information());
   goal->setState(planning.robot.at({0.4, 0.0}));
@@ -234,7 +235,7 @@ TEST(BatchRrtConnect, ExportsBothTreesAndWhereTheyMet)
   ASSERT_EQ(data.numStartVertices(), 1U);
   ASSERT_EQ(data.numGoalVertices(), 1U);
   EXPECT_GE(data.numEdges() + 1, data.numVertices());
-  // The path's states are copies: they are looked for by where they are.
+  // The path's states are copies, so their vertices are found by position.
   const auto vertex_at = [&](const ob::State* state)
   {
     for (unsigned int i = 0; i < data.numVertices(); ++i)
@@ -271,7 +272,7 @@ TEST(BatchRrtConnect, GoesOnWithItsTreesAndForgetsThemWhenCleared)
   planning.expectPath(kLeft, {-1.5, 1.0});
 }
 
-/// A call may end amid a proof, which takes several batches: what was found before is not lost. (A call that ends amid
+/// A call may end during a proof, which takes several batches. Earlier results are then kept. (A call that ends during
 /// its first round finds nothing.)
 TEST(BatchRrtConnect, FindsInShortCallsWhatItFindsInALongOne)
 {
@@ -289,7 +290,7 @@ TEST(BatchRrtConnect, FindsInShortCallsWhatItFindsInALongOne)
 
 TEST(BatchRrtConnect, RepeatsAPathForASeed)
 {
-  // OMPL complains of every seed but the first; all that draws from it is made anew here.
+  // OMPL warns about every seed after the first one. Here all random generators are created after the seed is set.
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
   const auto solve = [](std::uint_fast32_t seed)
   {

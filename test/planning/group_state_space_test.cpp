@@ -1,4 +1,4 @@
-// The space of a group has the joints that can be planned for, and moves them as motions.h does.
+// The state space of a group contains the joints that can be planned for, and interpolates as interpolation.h does.
 
 #include <cmath>
 #include <random>
@@ -23,8 +23,8 @@ namespace ob = ompl::base;
 using Names = std::vector<std::string>;
 using Row = std::vector<double>;
 
-/// A floating base with a planar platform on it, then a chain with one joint of each other kind: with and without
-/// limits, mimic, passive, fixed, and one whose limits leave it no room.
+/// A floating base with a planar platform, followed by a chain with one joint of each other kind: with limits, without
+/// limits, mimic, passive, fixed, and jammed (lower limit = upper limit).
 std::string everyJointUrdf()
 {
   std::string urdf;
@@ -97,7 +97,7 @@ class GroupStateSpaceTest : public testing::Test
     return state;
   }
 
-  /// NaN where the space has no value.
+  /// The row of a state; NaN for variables that are not in the space.
   Row rowOf(const Space& space, const ob::State* state) const
   {
     Row row(width_, std::nan(""));
@@ -105,7 +105,7 @@ class GroupStateSpaceTest : public testing::Test
     return row;
   }
 
-  /// The variables that the default projection consists of.
+  /// The variables of the default projection.
   Names projectedVariables(const Space& space) const
   {
     Row row(width_);

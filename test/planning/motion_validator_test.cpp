@@ -1,4 +1,5 @@
-// The motion validator keeps OMPL's contract, also for many threads, and OMPL's own planners find valid paths with it.
+// The motion validator fulfils OMPL's contract, also with many threads, and OMPL's own planners find valid paths with
+// it.
 
 #include <atomic>
 #include <limits>
@@ -22,7 +23,7 @@ namespace ob = ompl::base;
 namespace og = ompl::geometric;
 using Position = PointRobot::Position;
 
-/// Walls with a gap each, at different ends; the robot is 0.1 m wide.
+/// Two walls, each with a gap at a different end. The robot is 0.1 m wide.
 const std::vector<Wall> kTwoWalls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
 
 struct MotionValidatorTest : testing::Test
@@ -45,7 +46,7 @@ TEST_F(MotionValidatorTest, CountsValidAndInvalidMotions)
   EXPECT_EQ(robot.validator().getInvalidMotionCount(), 3u);
 }
 
-/// OMPL's bounds let NaN pass, as no comparison with it is true.
+/// OMPL's bounds accept NaN, because every comparison with it is false.
 TEST_F(MotionValidatorTest, FindsNoMotionValidThatHasNoNumbers)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -80,7 +81,7 @@ TEST_F(MotionValidatorTest, GivesTheLastValidStateOfAnInvalidMotionAlone)
   EXPECT_EQ(PointRobot::positionOf(storage.get()), Position(1.5, 1.5));
 
   EXPECT_FALSE(robot.validator().checkMotion(from.get(), beyond.get(), last_valid));
-  // The wall begins at -0.5, the robot's half is 0.05.
+  // The wall begins at -0.5, and half the robot's width is 0.05.
   EXPECT_LT(PointRobot::positionOf(storage.get()).first, -0.55);
   EXPECT_GT(PointRobot::positionOf(storage.get()).first, -0.6);
   EXPECT_NEAR(last_valid.second, (PointRobot::positionOf(storage.get()).first + 1.0) / 2.0, 1e-12);
@@ -169,7 +170,7 @@ TYPED_TEST(OmplPlanners, FindAValidPath)
   const PointRobot robot(kTwoWalls);
   const ob::ProblemDefinitionPtr problem = robot.problem({-1.0, 0.0}, {{1.0, 0.0}});
   const auto objective = std::make_shared<PathLengthObjective>(robot.information());
-  objective->setCostThreshold(objective->infiniteCost());  // any path will do: the time is not for better ones
+  objective->setCostThreshold(objective->infiniteCost());  // stop at the first path
   problem->setOptimizationObjective(objective);
   TypeParam planner(robot.information());
   planner.setProblemDefinition(problem);

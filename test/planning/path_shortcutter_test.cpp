@@ -1,4 +1,4 @@
-// Shortened paths are shorter, valid, and end where they did.
+// Shortened paths are shorter and valid, and have the same ends.
 
 #include <cmath>
 
@@ -41,7 +41,7 @@ TEST(PathShortcutter, ComesNearTheShortestWayRoundAWall)
   EXPECT_TRUE(robot.isValid(path));
   EXPECT_EQ(PointRobot::positionOf(path.getStates().front()), PointRobot::Position(-1.0, 0.0));
   EXPECT_EQ(PointRobot::positionOf(path.getStates().back()), PointRobot::Position(1.0, 0.0));
-  // The cube's centre goes round the corners (+-0.15, 1).
+  // The shortest path of the cube's centre passes the corners (+-0.15, 1).
   const double shortest = 2.0 * std::hypot(0.85, 1.0) + 0.3;
   EXPECT_GE(path.length(), shortest);
   EXPECT_LE(path.length(), 1.05 * shortest);
@@ -53,7 +53,7 @@ class ShortenedPaths : public testing::TestWithParam<MotionRule>
 
 TEST_P(ShortenedPaths, AreNeitherLongerNorInvalid)
 {
-  // By samples this far apart, a part of a valid motion is often invalid.
+  // With such large steps between samples, a part of a valid motion is often invalid.
   MotionCheckerOptions options;
   options.rule = GetParam();
   options.steps.prismatic = 0.5;
@@ -116,7 +116,7 @@ TEST(PathShortcutter, MakesOneMotionOfSeveralThatAreAsLong)
 
 TEST(PathShortcutter, KeepsWhatIsAsLongAsAMotionThatIsNotValid)
 {
-  // Half way, a sample of the whole motion meets the wall, which those of its parts jump.
+  // A sample in the middle of the whole motion collides with the wall. The samples of its parts all miss the wall.
   MotionCheckerOptions options;
   options.rule = MotionRule::Samples;
   options.steps.prismatic = 1.0;

@@ -1,4 +1,4 @@
-// What planMotion answers, whatever its planner does.
+// The answers of planMotion for correct and faulty planners.
 
 #include <algorithm>
 #include <chrono>
@@ -38,7 +38,7 @@ class Factory : public PlannerFactory
   }
 };
 
-/// Goes straight to the goal, and asks nobody.
+/// A planner that goes straight to the goal without checking the motion.
 class Reckless : public ob::Planner
 {
  public:
@@ -51,7 +51,7 @@ class Reckless : public ob::Planner
   }
 };
 
-/// Says that it has a solution, and has none.
+/// A planner that reports a solution and has none.
 class Boastful : public ob::Planner
 {
  public:
@@ -63,7 +63,7 @@ class Boastful : public ob::Planner
   }
 };
 
-/// Goes from the start, or from the goal where `Backwards`, to half way between them.
+/// A planner whose path ends half way between start and goal. It begins at the start, or at the goal if `Backwards`.
 template <bool Backwards, ob::PlannerStatus::StatusType Status = ob::PlannerStatus::EXACT_SOLUTION>
 class Lost : public ob::Planner
 {
@@ -127,7 +127,7 @@ TEST(PlanMotion, RefusesASolutionThatIsNone)
   }
 }
 
-/// As OMPL's RRTConnect does now and then.
+/// OMPL's RRTConnect occasionally returns an approximate path that does not begin at the start.
 TEST(PlanMotion, RefusesAnApproximateSolutionThatDoesNotBeginAtTheStart)
 {
   const PlanningQuery wanted = query({-1.0, 0.0}, {{1.0, 0.0}});
@@ -175,7 +175,7 @@ TEST(PlanMotion, SaysWhatIsOutOfBounds)
   EXPECT_EQ(goal.message.find("the goal is out of bounds: y is 2.5"), 0U) << goal.message;
 }
 
-/// In planning, simplification, and the last look at the path.
+/// The stop may come during planning, simplification or the final check of the path.
 TEST(PlanMotion, EndsWheneverItIsToldTo)
 {
   const std::vector<Wall> walls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
@@ -187,13 +187,13 @@ TEST(PlanMotion, EndsWheneverItIsToldTo)
     int asked = 0;
     const auto begin = std::chrono::steady_clock::now();
     const PlanningResult ended = plan<BatchRrtConnect>(walls, wanted, [&] { return ++asked >= last; });
-    // The search is random: it may have ended by itself before.
+    // The search is random and may end before the stop.
     EXPECT_EQ(ended.status != PlanningStatus::Solved, asked >= last) << asked << " of " << needed;
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
   }
 }
 
-/// An arm that turns freely, on a lift that is not planned for, amid posts.
+/// An arm that turns without limits among posts, on a lift that is not planned for.
 class Turning : public testing::Test
 {
  protected:
@@ -232,10 +232,10 @@ class Turning : public testing::Test
   std::shared_ptr<StateChecker> checker_;
 };
 
-/// Of half a turn either way round is the shorter one.
+/// For half a turn, both directions are equally short. The waypoints must show the checked direction.
 TEST_F(Turning, IsAnsweredByValuesThatGoTheWayThatWasChecked)
 {
-  constexpr double kPi = EIGEN_PI;  // which is a long double
+  constexpr double kPi = EIGEN_PI;  // EIGEN_PI is a long double
   int solved = 0;
   for (const double post : {0.5 * kPi, -0.5 * kPi, 2.0})
   {
@@ -290,7 +290,7 @@ TEST_F(Turning, IsRefusedWhereAnotherJointIsBeyondItsLimits)
   EXPECT_EQ(beyond.message.find("the start is out of bounds: lift is 1.5"), 0U) << beyond.message;
 }
 
-/// A platform that drives in the plane, and a body that floats.
+/// A body that moves in the plane, and a body that floats.
 class Moving : public testing::TestWithParam<const char*>
 {
  protected:
@@ -314,7 +314,7 @@ class Moving : public testing::TestWithParam<const char*>
 
 TEST_P(Moving, IsToldWhichTranslationIsOutOfBounds)
 {
-  const PlanningResult goal = plan(at(0.0, 0.0), at(1.5, 0.0));  // a metre, where the robot's options say no other
+  const PlanningResult goal = plan(at(0.0, 0.0), at(1.5, 0.0));  // the default bound of unlimited translations is 1 m
   EXPECT_EQ(goal.status, PlanningStatus::OutOfBounds);
   EXPECT_EQ(goal.message.find("the goal is out of bounds: move/"), 0U) << goal.message;
   EXPECT_NE(goal.message.find("x is 1.5"), std::string::npos) << goal.message;

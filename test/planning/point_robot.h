@@ -13,7 +13,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A wall of the plane, from a lower to an upper corner (x, y).
+/// A wall in the plane, given by its lower and upper corner (x, y).
 struct Wall
 {
   double x_lower;
@@ -22,8 +22,8 @@ struct Wall
   double y_upper;
 };
 
-/// A cube with edges of 0.1 m that two prismatic joints, the group "plane", move in the plane, from -2 to 2 m, among
-/// walls.
+/// A cube with edges of 0.1 m among walls. The group "plane" of two prismatic joints moves it in the plane, from -2 to
+/// 2 m along each axis.
 class PointRobot
 {
  public:
@@ -33,7 +33,7 @@ class PointRobot
   ompl::base::ScopedState<> at(const Position& position) const;
   static Position positionOf(const ompl::base::State* state);
 
-  /// From the start to any of the goals.
+  /// The problem of a path from the start to any of the goals.
   ompl::base::ProblemDefinitionPtr problem(const Position& start, const std::vector<Position>& goals) const;
   ompl::geometric::PathGeometric path(const std::vector<Position>& positions) const;
   bool isValid(const ompl::geometric::PathGeometric& path) const { return validator_->validatePath(path); }

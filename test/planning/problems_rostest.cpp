@@ -1,6 +1,6 @@
-// The problems of ../shared through ~plan: one client, then two at once. Each path begins and ends where it has to, and
-// is free at ten times the resolution it was planned with, by the exact checker. ~problems: how many (default: one of
-// each set); ~planner as in the request.
+// Plans the problems of ../shared through ~plan, for one client and then for two at once. Each path must have the right
+// ends, and the exact checker must find it free at a tenth of the resolution that it was planned with. ~problems:
+// number of problems (default: one of each set); ~planner: as in the request.
 
 #include <algorithm>
 #include <chrono>
@@ -24,7 +24,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr double kTime = 10.0;         // seconds
-constexpr double kResolution = 0.002;  // a tenth of the node's
+constexpr double kResolution = 0.002;  // radians or metres: a tenth of the node's resolution
 
 std::string nameOf(const std::string& service)
 {
@@ -60,7 +60,7 @@ PlanMotion::Response plan(const PlanningProblem& problem)
   return call.response;
 }
 
-/// States of the path that collide.
+/// Number of states of the path that collide.
 std::size_t collisionsOf(const PlanningProblem& problem, const PlanMotion::Response& response, CpuChecker& exact)
 {
   const RobotModel& robot = *problem.scene->robot;

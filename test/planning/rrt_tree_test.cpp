@@ -1,4 +1,4 @@
-// The nearest vertex of a tree, also after parts of it were taken out.
+// The nearest vertex of a tree, also after parts of the tree were removed.
 
 #include <cmath>
 #include <limits>
@@ -23,7 +23,7 @@ class Trees : public testing::Test
   PointRobot::Position random()
   {
     std::uniform_real_distribution<double> any(-2.0, 2.0);
-    // Few different ones, so that vertices share their state.
+    // Few different values, so that some vertices have equal states.
     return {std::round(10.0 * any(generator_)) / 10.0, any(generator_) < 1.0 ? 0.5 : any(generator_)};
   }
 
@@ -36,7 +36,7 @@ class Trees : public testing::Test
         return vertex;
   }
 
-  /// By looking at all of them.
+  /// The distance to the nearest vertex, by brute force.
   double leastDistance(const ompl::base::State* state) const
   {
     double least = std::numeric_limits<double>::infinity();
@@ -49,7 +49,7 @@ class Trees : public testing::Test
   const std::uint64_t seed_ = std::random_device()();
   std::mt19937_64 generator_{seed_};
   PointRobot robot_{{}};
-  ompl::geometric::RRT planner_{robot_.information()};  // names the space, and its distances
+  ompl::geometric::RRT planner_{robot_.information()};  // provides the space and its distances
   RrtTree tree_{planner_};
 };
 

@@ -1,5 +1,5 @@
-// Answers are those of the checker for the states within bounds, asked for once, with the rest of the robot where the
-// scene has it.
+// The validity checker gives the StateChecker's answers for states within bounds and checks each state once. Variables
+// outside the group have their values in the scene.
 
 #include <cmath>
 #include <iostream>
@@ -25,7 +25,7 @@ namespace
 namespace ob = ompl::base;
 using Row = std::vector<double>;
 
-/// Answers as the CpuChecker does, and keeps what it was asked.
+/// Answers as CpuChecker and records the calls.
 class RecordingChecker : public StateChecker
 {
  public:
@@ -43,7 +43,7 @@ class RecordingChecker : public StateChecker
   SceneReport report(const std::string& group) override { return checker_.report(group); }
   std::string deviceName() const override { return "recorder"; }
 
-  std::vector<std::size_t> batches;  // the states of each check
+  std::vector<std::size_t> batches;  // number of states in each check
   std::vector<std::string> groups;
 
  private:
@@ -51,7 +51,7 @@ class RecordingChecker : public StateChecker
   CpuChecker checker_;
 };
 
-/// A wall from x = 0.9 to 1.1 m that the cart meets, and a lamp that the pole meets where the cart is at x = -1 m.
+/// A wall from x = 0.9 to 1.1 m, which the cart can hit, and a lamp that the pole hits when the cart is at x = -1 m.
 std::shared_ptr<PlanningScene> wallAndLamp(std::shared_ptr<const RobotModel> robot)
 {
   auto scene = std::make_shared<PlanningScene>(std::move(robot));
@@ -61,7 +61,7 @@ std::shared_ptr<PlanningScene> wallAndLamp(std::shared_ptr<const RobotModel> rob
   return scene;
 }
 
-/// All that planning for a group of a scene takes.
+/// The objects for planning for a group of a scene.
 struct Planning
 {
   explicit Planning(std::shared_ptr<const PlanningScene> the_scene, const std::string& group)
@@ -82,7 +82,7 @@ struct Planning
     return state;
   }
 
-  /// Of a group whose joints have limits: their values.
+  /// The state with these values, for a group whose joints all have limits.
   ob::ScopedState<> joints(const Row& values) const
   {
     ob::ScopedState<> state(space);
@@ -111,7 +111,8 @@ struct Planning
   std::shared_ptr<StateValidityChecker> validity;
 };
 
-/// In bulk and one by one, answers are those of a CpuChecker for `rows`, whose other variables are as in the scene.
+/// Expects the answers of a CpuChecker for `rows`, in bulk and one by one. Variables outside the group must have their
+/// values in the scene.
 void expectCheckersAnswers(const Planning& planning, const std::vector<Row>& rows)
 {
   CpuChecker peer(planning.scene);

@@ -1,4 +1,4 @@
-// Waypoints of a path of a body that floats: what a motion passes through does not depend on the signs of quaternions.
+// Waypoints of a path of a floating body. A motion must not depend on the signs of quaternions.
 
 #include <cmath>
 
@@ -32,7 +32,7 @@ class FloatingWaypoints : public testing::Test
     information_->setup();
   }
 
-  /// Turned about z.
+  /// A row with the body rotated about z by `angle`. `sign`: sign of the quaternion.
   static Row turned(double angle, double sign)
   {
     return {0.0, 0.0, 0.0, 0.0, 0.0, sign * std::sin(0.5 * angle), sign * std::cos(0.5 * angle)};

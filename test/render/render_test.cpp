@@ -1,4 +1,4 @@
-// Pictures are looked at pixel by pixel, on a software device.
+// Tests the pixels of pictures that a software device renders.
 
 #include <fstream>
 
@@ -17,7 +17,7 @@ namespace
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 
-/// The slider robot and a wall from x = 0.9 to 1.1 m that the cart meets.
+/// The slider robot and a wall from x = 0.9 to 1.1 m, which the cart can hit.
 PlanningScene sceneWithWall()
 {
   PlanningScene scene(sliderRobot());
@@ -57,7 +57,7 @@ bool isBackground(int red, int green, int blue)
   return red > 240 && green > 240 && blue > 240;
 }
 
-/// The share of the pixels.
+/// The share of the pixels for which `is_color` is true.
 double shareOf(const Image& image, IsColor is_color)
 {
   std::size_t count = 0;
@@ -116,7 +116,7 @@ TEST(Render, WhatIsNearerHidesWhatIsBehind)
     Camera camera;
     camera.eye = Eigen::Vector3d(x, 0.0, 0.0);
     camera.target = Eigen::Vector3d(1.0, 0.0, 0.0);
-    // The cart alone is red: the wall, 1 m wide, hides it from one side and not from the other.
+    // Only the cart is red. The wall, 1 m wide, hides it from one side and not from the other.
     return shareOf(render(scene, state.data(), {{1, 1}}, {}, camera, kWidth, kHeight, "software"), isRed);
   };
   ASSERT_EQ(scene.bodyName(1), "cart");
@@ -195,7 +195,7 @@ TEST(RenderTool, MeshFilesBecomeObjects)
   };
   EXPECT_NE(run("part=" + mesh).err.find("collides: cart - part"), std::string::npos);
   EXPECT_NE(run("part=" + mesh + ",0.55,0,0").err.find("free of collision"), std::string::npos);
-  // Turned about z by a right angle, it reaches from x = 0.05 to 1.05 at the cart's height.
+  // Rotated about z by a right angle, the part extends from x = 0.05 to 1.05 at the cart's height.
   const ProgramOutput turned = run("part=" + mesh + ",0.55,0,0,0,0,0.70710678,0.70710678");
   EXPECT_NE(turned.err.find("collides: cart - part"), std::string::npos) << turned.err;
   EXPECT_EQ(run("part=" + folder.path("none.obj")).exit_code, 1);

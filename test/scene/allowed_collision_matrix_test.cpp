@@ -1,4 +1,4 @@
-// The allowed-collision matrix by itself, and how long its entries live: as long as the object that they name.
+// The allowed-collision matrix, and the lifetime of its entries: an entry lives as long as the object that it names.
 
 #include "scene/change_testing.h"
 

@@ -1,4 +1,4 @@
-// Objects that links take up and put back: where they end up, and what is refused.
+// Objects that are attached to links and detached again: their poses, and the input errors.
 
 #include <limits>
 
@@ -39,7 +39,7 @@ TEST(Attach, KeepsTheObjectWhereItIsInTheState)
   EXPECT_EQ("left", carried.object.id);
   EXPECT_EQ(scene.robot->linkIndex("pole"), carried.link);
   EXPECT_EQ(std::vector<int>{scene.robot->linkIndex("cart")}, carried.touch_links);
-  // The pole stands at x = 0.5 and is turned by 90 degrees: the object is half a metre along its -y.
+  // The pole is at x = 0.5, rotated by 90 degrees, so the object is at -0.5 m along the pole's y.
   EXPECT_TRUE(carried.object.pose.isApprox(pose(0, -0.5, 0, -M_PI_2), 1e-15)) << carried.object.pose.matrix();
   EXPECT_EQ(7.0, carried.object.shapes.at(0).pose.translation().z());
   EXPECT_EQ(0.25, carried.object.padding);
@@ -55,7 +55,7 @@ TEST(Attach, CarriesTheObjectToWhereItIsDetached)
   EXPECT_TRUE(scene.attached.empty());
   ASSERT_EQ(3u, scene.objects.size());
   EXPECT_EQ("left", scene.objects[2].id);
-  // From the pole at x = -1, turned by 180 degrees, half a metre along its -y.
+  // The pole is at x = -1, rotated by 180 degrees. The object is still at -0.5 m along the pole's y.
   EXPECT_TRUE(scene.objects[2].pose.isApprox(pose(-1, 0.5, 0, M_PI_2), 1e-15)) << scene.objects[2].pose.matrix();
   EXPECT_EQ(0.25, scene.objects[2].padding);
 }

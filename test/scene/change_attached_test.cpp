@@ -1,4 +1,4 @@
-// What links carry: MoveIt's AttachedCollisionObject.
+// Changes of attached objects: MoveIt's AttachedCollisionObject.
 
 #include "scene/change_testing.h"
 
@@ -10,7 +10,7 @@ class ChangeAttached : public SceneChanges
 {
 };
 
-/// Where the pole, which is at 0.5 and turned by 90 degrees, has what is there in the planning frame.
+/// Converts a pose from the planning frame to the frame of the pole, which is at x = 0.5 and rotated by 90 degrees.
 Eigen::Isometry3d inPole(const Eigen::Isometry3d& pose)
 {
   return poseAt(0.5, 0, 0, M_PI_2).inverse() * pose;

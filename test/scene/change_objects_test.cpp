@@ -62,12 +62,12 @@ TEST_F(ChangeObjects, AppendAddsShapesAndSubframesAndLeavesTheObjectWhereItIs)
   EXPECT_EQ(5.0, object("a").shapes[0].pose.translation().y())
       << "primitives come before meshes, as messages have them";
   EXPECT_EQ(2u, object("a").subframes.size());
-  append.pose = poseAt(0, 0, 0);  // what clients write that fill in a quaternion
+  append.pose = poseAt(0, 0, 0);  // the identity pose of clients that fill in a quaternion
   append.frame.name = scene_.robot->planningFrame();
   change(append);
   EXPECT_TRUE(object("a").pose.isApprox(poseAt(1, 0, 0)));
   EXPECT_EQ(3u, object("a").shapes.size());
-  append.pose = poseAt(1, 0, 0);  // where it is
+  append.pose = poseAt(1, 0, 0);  // the object's own pose
   change(append);
   EXPECT_EQ(4u, object("a").shapes.size());
   append.pose = poseAt(7, 0, 0);
@@ -97,7 +97,7 @@ TEST_F(ChangeObjects, MoveSetsThePoseAndKeepsTheShapes)
   EXPECT_EQ(1.0, object("a").shapes[1].pose.translation().z());
 
   move.shape_poses = {poseAt(0, 0, 7), poseAt(0, 0, 8)};
-  move.frame.name = "a";  // where it is now
+  move.frame.name = "a";  // the object's current pose
   change(move);
   EXPECT_TRUE(object("a").pose.isApprox(poseAt(1, 2, 3, 0.5) * poseAt(1, 2, 3, 0.5)));
   EXPECT_EQ(7.0, object("a").shapes[0].pose.translation().z());

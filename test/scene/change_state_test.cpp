@@ -1,4 +1,4 @@
-// The robot's state in a change, and when it replaces what is attached.
+// The robot's state in a change: when it replaces the attached objects and when it keeps them.
 
 #include "scene/change_testing.h"
 

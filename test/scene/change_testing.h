@@ -17,23 +17,24 @@ Eigen::Isometry3d poseAt(double x, double y, double z, double angle_about_z = 0.
 PlacedShape boxAt(double size, const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
 PlacedShape triangleAt(const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity());
 
-/// Changes of one object: operation, id, and what is left to the test.
+/// A change of one object with its operation and id. A test sets the other fields.
 ObjectChange objectChange(Operation operation, const std::string& id, std::vector<PlacedShape> shapes = {});
 AttachedChange attachedChange(Operation operation, const std::string& id, const std::string& link,
                               std::vector<PlacedShape> shapes = {});
 
-/// Equal but for rounding, the order of objects, and what only a caller of the library can set.
+/// Expects that two scenes are equal up to rounding and the order of objects. Fields that no SceneChange can set are
+/// not compared.
 void expectSameScene(const PlanningScene& expected, const PlanningScene& found, double tolerance = 0.0);
 
-/// Changes one scene of the slider robot (slider_robot.h) step by step.
+/// Changes a scene of the slider robot (slider_robot.h) step by step.
 class SceneChanges : public testing::Test
 {
  protected:
   void apply(const SceneChange& change);
-  /// A difference with this object, or attached object, alone.
+  /// Applies a difference that contains only this object or attached object.
   void change(const ObjectChange& object);
   void change(const AttachedChange& attached);
-  /// The change is refused with a message of one line that has `fragment` in it, and nothing changes.
+  /// Expects that the change is refused with a message of one line that contains `fragment`, and that nothing changes.
   void refused(const std::string& fragment, const SceneChange& change);
   void refused(const std::string& fragment, const ObjectChange& object);
   void refused(const std::string& fragment, const AttachedChange& attached);

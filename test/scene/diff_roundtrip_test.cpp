@@ -1,4 +1,4 @@
-// What leads from one random scene to another leads there.
+// The computed difference of two random scenes leads from one to the other.
 
 #include <random>
 
@@ -121,7 +121,7 @@ TEST_F(RandomChanges, TheirDifferenceLeadsFromOneSceneToTheOther)
     differences += way.is_diff ? 1 : 0;
     const Change walked = applyChange(from, from.current_state, way, defaults_, limits_, {});
     PlanningScene expected = reached;
-    expected.matrix_source = walked.scene.matrix_source;  // a matrix like the SRDF's need not be the SRDF's
+    expected.matrix_source = walked.scene.matrix_source;  // an equal matrix need not come from the SRDF
     if (reached.current_state.empty())
       expected.current_state = walked.scene.current_state;
     expectSameScene(expected, walked.scene);

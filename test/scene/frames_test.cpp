@@ -1,4 +1,4 @@
-// Which frames a scene knows, in which order, and which are asked of others.
+// The frames that a scene knows, their precedence, and the frames that it looks up elsewhere.
 
 #include "scene/change_testing.h"
 
@@ -89,7 +89,7 @@ TEST_F(Frames, ThatTheSceneDoesNotKnowAreAskedForOnceEach)
   add("b", "sensor");
   add("c", "sensor", 7);
   add("d", "a");
-  add("e", "camera");  // is no fixed frame any more
+  add("e", "camera");  // the change replaces the fixed frames, and "camera" is no longer one of them
   std::vector<std::string> names;
   for (const FrameAt& frame : externalFrames(scene_, change))
     names.push_back(frame.name + " " + std::to_string(frame.stamp));

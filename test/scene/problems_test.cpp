@@ -35,7 +35,7 @@ std::vector<std::filesystem::path> sceneFiles()
   return files;
 }
 
-/// The request's joint values put into the scene's state.
+/// Sets a joint value of the request in a state. Joints that the robot lacks are ignored.
 std::vector<double> with(std::vector<double> state, const RobotModel& robot, const std::string& joint, double value)
 {
   const int variable = robot.variableIndex(joint);
@@ -66,7 +66,7 @@ TEST(Problems, EveryStartAndGoalIsFree)
   const auto robot = ur5();
   const auto files = sceneFiles();
   EXPECT_EQ(140u, files.size());
-  std::optional<CpuChecker> checker;  // one for all: the robot's trees are made once
+  std::optional<CpuChecker> checker;  // one checker for all scenes, so that the robot's trees are built once
   for (const auto& file : files)
   {
     SCOPED_TRACE(file);

@@ -1,4 +1,4 @@
-// The scale of links: about the shapes' own origins, meshes about the mean of their vertices.
+// The scale of links: primitives grow about their own origins, meshes about the mean of their vertices.
 
 #include "scene/change_testing.h"
 #include "scene/validate_scene.h"

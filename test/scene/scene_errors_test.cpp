@@ -1,4 +1,4 @@
-// Scene files that are wrong, or ask for what is not modelled, are refused with the file, the line and the reason.
+// Wrong scene files, and files with unsupported content, are refused with the file, the line and the reason.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ struct WrongScene
   const char* name;
   std::string yaml;
   int line;
-  const char* reason;  ///< part of the message
+  const char* reason;  ///< a part of the message
 };
 
 std::ostream& operator<<(std::ostream& out, const WrongScene& wrong)
@@ -23,7 +23,7 @@ std::ostream& operator<<(std::ostream& out, const WrongScene& wrong)
   return out << wrong.name;
 }
 
-/// A scene of one object, whose lines are numbers 4 and on.
+/// A scene with one object. The first of `lines` is line 4 of the file.
 std::string object(const std::string& lines)
 {
   return "world:\n  collision_objects:\n    - id: a\n" + lines;
@@ -59,7 +59,7 @@ std::string ball(const std::string& id)
   return "{id: " + id + ", " + sphere() + "}";
 }
 
-/// An attached object, whose lines are numbers 3 and on; its `object` comes last.
+/// An attached object. The first of `lines` is line 3 of the file; `object` comes last.
 std::string attached(const std::string& lines, const std::string& object = ball("a"))
 {
   return "robot_state:\n  attached_collision_objects:\n    -\n" + lines + "      object: " + object + "\n";

@@ -1,4 +1,4 @@
-// What a scene file means: both layouts, frames, poses, shapes, the robot's state and the allowed-collision matrix.
+// The content of scene files: both layouts, frames, poses, shapes, the robot's state and the allowed-collision matrix.
 
 #include <cmath>
 
@@ -166,7 +166,7 @@ TEST_F(SceneFile, BothLayoutsMeanTheSame)
     EXPECT_EQ(3u, mesh.vertices.size());
     EXPECT_EQ(1u, mesh.triangles.size());
     EXPECT_EQ(9.0, shapes[4].pose.translation().z());
-    // The object is turned by 90 degrees, so the cylinder's 0.5 m along its x go along y.
+    // The object is rotated by 90 degrees, so the cylinder's offset of 0.5 m along x becomes an offset along y.
     EXPECT_TRUE(shapePose(scene).isApprox(pose(1.0, 2.5, 3.0, M_PI_2), 1e-15));
 
     EXPECT_EQ(MatrixSource::SceneFile, scene.matrix_source);
@@ -384,7 +384,7 @@ world:
 
 TEST_F(SceneFile, PlanesAreTheHalfSpacesBehindThem)
 {
-  // 2 z - 1 <= 0 in MoveIt's layout, x + 3 <= 0 as bare numbers, turned to y and moved.
+  // 2 z - 1 <= 0 in MoveIt's layout; x + 3 <= 0 as a list of numbers, rotated so that its normal is y, and moved.
   const PlanningScene scene = load(R"(
 world:
   collision_objects:
@@ -444,7 +444,7 @@ robot_state:
             scene.attached[0].touch_links);
   EXPECT_TRUE(scene.attached[0].object.pose.isApprox(pose(1, 0, 0, 0), 1e-15));
   EXPECT_TRUE(scene.attached[1].object.pose.isApprox(pose(1, 0, 0, 0), 1e-15));
-  // Half a metre in front of the pole, which is turned by 90 degrees.
+  // The pole is at x = 0.5 and rotated by 90 degrees, so the object is 0.5 m in front of it, at -y.
   EXPECT_TRUE(scene.attached[2].object.pose.isApprox(pose(0, -0.5, 0, -M_PI_2), 1e-15))
       << scene.attached[2].object.pose.matrix();
   EXPECT_EQ("c", scene.bodyName(static_cast<int>(scene.robot->links().size()) + 2));

@@ -1,4 +1,4 @@
-// What a change may lead to.
+// The limits of a scene that a change must not exceed.
 
 #include "scene/change_testing.h"
 
@@ -17,8 +17,8 @@ TEST_F(Limits, OfObjectsCountTheWorldsAndThoseCarried)
   change(attachedChange(Operation::Add, "b", "pole", {boxAt(0.1)}));
   refused("limits/objects", objectChange(Operation::Add, "c", {boxAt(0.1)}));
   refused("limits/objects", attachedChange(Operation::Add, "c", "pole", {boxAt(0.1)}));
-  change(objectChange(Operation::Add, "a", {boxAt(0.2)}));  // replaces
-  change(attachedChange(Operation::Add, "a", "pole"));      // is one object still
+  change(objectChange(Operation::Add, "a", {boxAt(0.2)}));  // replaces the object
+  change(attachedChange(Operation::Add, "a", "pole"));      // the same object, now attached
   change(attachedChange(Operation::Remove, "a", "pole"));
   SceneChange swap;
   swap.is_diff = true;

@@ -1,4 +1,4 @@
-// .scene files, as RViz's MotionPlanning plugin writes them: the layouts of old and new versions.
+// .scene files, as RViz's MotionPlanning plugin writes them, in the layouts of old and new versions.
 
 #include "scene/change_testing.h"
 

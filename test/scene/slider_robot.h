@@ -7,10 +7,10 @@
 
 namespace gpu_planning_scene::core
 {
-/// A robot whose collisions are known by arithmetic (slider.urdf, slider.srdf): a cart, a cube of 0.2 m, that slides
-/// along x over a rail without shapes (`slide`, metres), and a pole on it, a box of 0.1 x 0.1 x 0.4 m whose centre is
-/// 0.5 m above the cart's, that turns about z (`turn`, radians). The joint `flag` mimics `turn`, the joint `bolt` is
-/// fixed; their links have no shapes. The group `drive` moves everything, the group `mast` the pole alone.
+/// A robot whose collisions follow from arithmetic (slider.urdf, slider.srdf). The cart, a cube of 0.2 m, slides along
+/// x over a rail without shapes (`slide`, metres). The pole, a box of 0.1 x 0.1 x 0.4 m, turns about z (`turn`,
+/// radians); its centre is 0.5 m above the cart's centre. The joint `flag` mimics `turn` and the joint `bolt` is fixed;
+/// their links have no shapes. The group `drive` moves everything, the group `mast` moves only the pole.
 std::string sliderUrdf();
 std::string sliderSrdf();
 std::shared_ptr<const RobotModel> sliderRobot();

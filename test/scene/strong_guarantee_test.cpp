@@ -1,4 +1,4 @@
-// A change with one wrong part changes nothing, wherever that part stands.
+// A change with one wrong part changes nothing. This holds for a wrong part at any place.
 
 #include "scene/change_testing.h"
 
@@ -15,7 +15,7 @@ class StrongGuarantee : public SceneChanges
     change(attachedChange(Operation::Add, "tool", "cart", {boxAt(0.1)}));
   }
 
-  /// A change that is right, and touches every part of a scene.
+  /// A valid change that touches every part of a scene.
   static SceneChange right(bool is_diff)
   {
     SceneChange change;

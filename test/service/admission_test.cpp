@@ -1,4 +1,4 @@
-// A few at a time, in turn; what is told to those that are too many, and to those that wait when all ends.
+// Admission lets in a few requests at a time, in order. A full queue and a shutdown cause errors.
 
 #include <atomic>
 #include <future>

@@ -1,4 +1,4 @@
-// Changes from topics: their order, what is made as one, what is refused and what is told of it.
+// Scene changes from topics: their order, which changes are merged, and how refused changes are reported.
 
 #include <future>
 #include <random>
@@ -46,7 +46,7 @@ SceneChange carried(const std::string& id, Operation operation = Operation::Add)
   return change;
 }
 
-/// A queue before a store, and a gate at which the first of the changes stands, so that all the others wait.
+/// A change queue in front of a scene store. A first change waits at a gate, so that all other changes are queued.
 class Queue : public testing::Test
 {
  public:
@@ -82,12 +82,12 @@ class Queue : public testing::Test
 
   std::promise<void> at_gate;
   std::promise<void> opened;
-  int made = 0;  // or tried
+  int made = 0;  // changes made or tried
   std::vector<std::string> refused;
   SceneStore store{PlanningScene(sliderRobot()), {}, {}};
 };
 
-/// The queue's thread has ended before anything is looked at.
+/// Opens the gate and waits until the queue's thread has ended, so that the test can read the results.
 void finish(ChangeQueue& queue, std::promise<void>& opened, SceneStore& store)
 {
   std::promise<void> last;

@@ -1,4 +1,4 @@
-// Checks for many clients at once: what is merged, what waits, what is turned away, and what an answer belongs to.
+// Checks for many clients at once: which requests are merged, queued or rejected, and to which scene an answer belongs.
 
 #include <atomic>
 #include <thread>
@@ -26,7 +26,7 @@ CheckServerOptions options()
   return options;
 }
 
-/// States of two variables, all with this first one.
+/// States of two variables, all with the first variable `first`.
 CheckJob job(std::size_t states, double first = 1.0)
 {
   CheckJob job;
@@ -35,7 +35,7 @@ CheckJob job(std::size_t states, double first = 1.0)
   return job;
 }
 
-/// States that say where the mast is, but not the cart.
+/// States with a value for `turn` and none for `slide`.
 CheckJob jobWithoutSlide(std::size_t states)
 {
   CheckJob job;
@@ -60,7 +60,7 @@ std::string errorOf(std::future<CheckAnswer>& answer)
 class Server : public testing::Test
 {
  public:
-  /// A request that stands at the closed gate, so that all later ones of its lane wait.
+  /// A request that waits at the closed gate, so that all later requests of its queue wait too.
   std::future<CheckAnswer> blocked(std::size_t states = 1)
   {
     gate.close();
@@ -181,7 +181,7 @@ TEST_F(Server, ALargeMatrixMakesALargeRequest)
   std::future<CheckAnswer> large = server.submit(std::move(with_matrix));
   gate.waitForChecks(1);
   std::future<CheckAnswer> small = server.submit(job(1));
-  gate.waitForChecks(2);  // for ever, if the small one had to wait
+  gate.waitForChecks(2);  // waits for ever if the small request is queued behind the large one
   gate.open();
   EXPECT_EQ(1u, large.get().result.valid.size());
   EXPECT_EQ(1u, small.get().result.valid.size());
@@ -233,7 +233,7 @@ TEST_F(Server, ASmallRequestDoesNotWaitForALargeOne)
 {
   std::future<CheckAnswer> large = blocked(kSmall + 1);
   std::future<CheckAnswer> small = server.submit(job(1));
-  gate.waitForChecks(2);  // for ever, if the small one had to wait
+  gate.waitForChecks(2);  // waits for ever if the small request is queued behind the large one
   EXPECT_EQ((std::vector<std::size_t>{kSmall + 1, 1}), gate.batches());
   gate.open();
   EXPECT_EQ(1u, small.get().result.valid.size());

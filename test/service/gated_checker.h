@@ -10,15 +10,15 @@
 
 namespace gpu_planning_scene::core
 {
-/// What several GatedCheckers did, and a gate that each of their checks waits at.
+/// Records the checks of several GatedCheckers. While the gate is closed, each check waits at it.
 class Gate
 {
  public:
   void close();
   void open();
-  /// Waits until that many checks have come to the gate, since the start.
+  /// Waits until `checks` checks in total have reached the gate.
   void waitForChecks(std::size_t checks);
-  std::vector<std::size_t> batches() const;  ///< the states of each check, in order
+  std::vector<std::size_t> batches() const;  ///< number of states of each check, in order
   std::size_t checkers() const;
 
  private:
@@ -30,8 +30,8 @@ class Gate
   std::vector<std::size_t> batches_;
 };
 
-/// A checker whose answers are known: a state is free where its first variable is at least 0 and the scene's revision
-/// is even. A first variable of 13 is an error, and so is a scene that is named "unusable".
+/// A checker with known answers: a state is free if its first variable is at least 0 and the scene's revision is even.
+/// A first variable of 13 is an error. A scene named "unusable" is an error.
 class GatedChecker : public StateChecker
 {
  public:

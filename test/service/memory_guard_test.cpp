@@ -1,4 +1,4 @@
-// What counts as used memory.
+// Freed memory does not count as used memory.
 
 #include <cstring>
 #include <memory>
@@ -28,7 +28,7 @@ TEST(MemoryGuard, WhatWasFreedIsNotCountedForGood)
     std::memset(pieces.back().get(), 1, kPiece);
   }
   EXPECT_THROW(MemoryGuard(limit).require(), Error);
-  pieces.erase(pieces.begin(), pieces.end() - 1);  // the last one keeps the heap from shrinking by itself
+  pieces.erase(pieces.begin(), pieces.end() - 1);  // the last piece keeps the heap from shrinking by itself
   if (residentMemory() <= limit)
     GTEST_SKIP() << "this system takes back what is freed";
   EXPECT_NO_THROW(MemoryGuard(limit).require());

@@ -1,4 +1,4 @@
-// The scene of a running service: revisions, the robot's state, frames that others know, and listeners.
+// The scene of a running service: revisions, the robot's state, frames of external sources, and listeners.
 
 #include <atomic>
 #include <limits>
@@ -140,7 +140,7 @@ TEST_F(Store, TheStateAtAStampIsTheNearestOfTheLastSeconds)
   store.updateState({{"slide", 1.0}}, 16 * kSecond);
   EXPECT_EQ(0.75, store.stateAt(10 * kSecond).at(0));
   EXPECT_THROW(store.stateAt(5 * kSecond), Error) << "older than what is kept";
-  store.updateState({{"slide", 0.125}}, 2 * kSecond);  // the clock was set back, as a simulation's is
+  store.updateState({{"slide", 0.125}}, 2 * kSecond);  // the clock was set back, as in a simulation
   EXPECT_EQ(0.125, store.stateAt(5 * kSecond).at(0));
 }
 
@@ -166,7 +166,7 @@ TEST_F(Store, AChangeMaySetTheStateAndJointStatesGoOnFromThere)
 
 TEST_F(Store, ASnapshotIsOfOneInstantWhileOthersChangeTheScene)
 {
-  // The box is where the cart is not.
+  // The x coordinates of the box and of the cart always add up to 1.
   const auto swap = [this](double slide)
   {
     SceneChange change = boxIn("");

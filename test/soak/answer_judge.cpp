@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Whole states: variables that the request does not name are those of the scene.
+/// Whole states. Variables that the request does not name have the values of the scene's current state.
 std::vector<double> statesOf(const CheckStates::Request& request, const PlanningScene& scene)
 {
   const std::size_t width = scene.robot->variables().size();
@@ -28,7 +28,8 @@ std::vector<double> statesOf(const CheckStates::Request& request, const Planning
   return states;
 }
 
-/// A verdict for each state; names and contacts where it collides, and nowhere else; a clearance of 0 there.
+/// Whether the response has a verdict for each state, has names and contacts exactly for states in collision, and has
+/// clearance 0 for them.
 bool fits(const CheckStates& call, std::size_t count)
 {
   const CheckStates::Response& response = call.response;
@@ -133,7 +134,7 @@ void AnswerJudge::judge(const Answer& answer)
     wrong += again.valid[i] == response.valid[i] ? 0 : 1;
   states += count;
 
-  // One state of some answers.
+  // The first state of every 20th answer.
   constexpr std::size_t kAnswersPerSample = 20;
   if (answers % kAnswersPerSample == 1 && samples_.size() < most_samples_ && count != 0)
     samples_.push_back(

@@ -12,24 +12,24 @@
 
 namespace gpu_planning_scene::core
 {
-/// Checks every answer again, on a thread of its own, with the CPU's exact checker and the scene that the answer names;
-/// and some of their states by the oracle.
+/// Checks every answer again in its own thread, with the exact checker on the CPU and the scene that the answer names.
+/// The oracle checks a sample of the states.
 class AnswerJudge
 {
  public:
   AnswerJudge(SceneHistory& history, std::size_t oracle_samples);
   ~AnswerJudge();
 
-  /// `least_revision`: of the newest change that was acknowledged before the request was sent.
+  /// `least_revision`: revision of the newest change that was acknowledged before the request was sent.
   void add(const CheckStates& answered, std::uint64_t least_revision);
-  /// Waits for what was added, and asks the oracle.
+  /// Waits until all answers are checked, then asks the oracle.
   void finish();
 
-  std::size_t answers = 0;  ///< these are to be read after finish()
+  std::size_t answers = 0;  ///< valid after finish(), like the following counts
   std::size_t states = 0;
-  std::size_t wrong = 0;           ///< states that the exact checker says otherwise of
-  std::size_t malformed = 0;       ///< answers whose parts do not fit together
-  std::size_t too_old = 0;         ///< answers of a scene from before an acknowledged change
+  std::size_t wrong = 0;           ///< states for which the exact checker has another verdict
+  std::size_t malformed = 0;       ///< answers whose fields contradict each other
+  std::size_t too_old = 0;         ///< answers for a scene that is older than an acknowledged change
   std::size_t unknown_scenes = 0;  ///< answers whose scene was never published
   std::size_t oracle_samples = 0;
   std::size_t oracle_wrong = 0;

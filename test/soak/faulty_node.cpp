@@ -1,4 +1,4 @@
-// The node as it is, but with a device that fails now and then: what the soak test runs against.
+// The unchanged node on a device that fails now and then, for the soak test.
 
 #include <atomic>
 #include <csignal>
@@ -17,7 +17,7 @@ namespace
 {
 volatile std::sig_atomic_t stop_requested = 0;
 
-/// A checker whose device is lost in one of so many calls.
+/// A checker whose device is lost in about one of 500 calls.
 class FaultyChecker : public StateChecker
 {
  public:

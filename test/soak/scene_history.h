@@ -12,18 +12,18 @@
 
 namespace gpu_planning_scene::core
 {
-/// The scenes that a node has had, one for each revision, made again from the differences that it publishes.
+/// The scenes of a node, one for each revision, reconstructed from the differences that the node publishes.
 class SceneHistory
 {
  public:
   explicit SceneHistory(std::shared_ptr<const RobotModel> robot);
 
-  /// From here on: `scene` is what the node has. To be called once, after the node was found to publish.
+  /// Starts the history with `scene`, the node's current scene. Call it once, after listens() is true.
   void start(const PlanningSceneMessage& scene);
   bool listens() const { return subscriber_.getNumPublishers() != 0; }
-  /// Waits for it a while; null where it does not come. Old scenes are forgotten.
+  /// Waits up to 10 s for the scene; null if the revision is unknown. Old scenes are removed.
   std::shared_ptr<const PlanningScene> at(std::uint64_t revision);
-  /// How often a difference did not follow the scene before it.
+  /// Number of differences that did not follow the last known scene.
   int gaps() const;
 
  private:

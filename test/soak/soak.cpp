@@ -1,5 +1,6 @@
-// Eight clients, for minutes: checks mixed with changes of the scene, wrong requests, clients that are killed, and a
-// device that fails now and then. No answer may be wrong, no reply may be lost, and memory stays what it is.
+// Eight clients run for minutes. They check states, change the scene, send wrong requests, and start processes that are
+// killed. The device fails now and then. No answer may be wrong, no reply may be lost, and the node's memory must not
+// grow.
 
 #include <algorithm>
 #include <atomic>
@@ -76,7 +77,7 @@ class Soak : public RunningNode
     }
   }
 
-  /// It is then where the scene has it.
+  /// The first joint then has its value in the scene's current state.
   static void leaveOutFirstJoint(CheckStates::Request& request)
   {
     const std::size_t width = request.joint_names.size();
@@ -139,7 +140,7 @@ class Soak : public RunningNode
     }
   }
 
-  /// Requests that must all be refused, and must harm nobody.
+  /// Sends requests that must all be refused and must not affect other clients.
   void askWrongly(std::uint64_t seed)
   {
     std::mt19937_64 generator(seed);
@@ -167,7 +168,7 @@ class Soak : public RunningNode
     }
   }
 
-  /// Starts clients as processes of their own and kills them while they wait for an answer.
+  /// Starts clients as separate processes and kills them while they wait for an answer.
   void killClients()
   {
     int number = 0;
@@ -203,7 +204,7 @@ class Soak : public RunningNode
                : latencies[static_cast<std::size_t>(fraction * static_cast<double>(latencies.size() - 1))];
   }
 
-  /// Bytes, the mean of that part of what diagnostics have told.
+  /// Mean memory in bytes over a part of the reported diagnostics; `from` and `to` are fractions of the run.
   double memory(double from, double to)
   {
     const auto at = [this](double fraction)
@@ -216,7 +217,7 @@ class Soak : public RunningNode
 
   std::atomic<bool> done{false};
   std::atomic<int> requests{0}, lost{0}, busy{0}, failed{0}, changes{0}, refused{0}, taken{0}, killed{0};
-  std::atomic<std::uint64_t> newest_change{0};  ///< of those that were acknowledged
+  std::atomic<std::uint64_t> newest_change{0};  ///< revision of the newest acknowledged change
   std::unique_ptr<AnswerJudge> judge;
   std::mutex mutex;
   std::vector<double> latencies;
@@ -280,14 +281,14 @@ TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
   EXPECT_EQ(0, lost) << "requests without a reply";
   EXPECT_EQ(0, failed) << "right requests that were refused, and not for want of time";
   EXPECT_EQ(0, taken) << "wrong requests that were not refused";
-  EXPECT_GT(judge->answers, 30u);  // with sanitizers, on llvmpipe
+  EXPECT_GT(judge->answers, 30u);  // low, for runs with sanitizers on llvmpipe
   EXPECT_GT(changes, 50);
   EXPECT_GT(killed, 5);
   EXPECT_GT(losses, 0.0) << "the test is to lose devices";
   EXPECT_LT(memory(0.75, 1.0), 1.1 * memory(0.25, 0.5) + 64e6);
 }
 
-/// Asks until it is killed.
+/// Sends requests until the process is killed.
 int runVictim()
 {
   RunningNode::SetUpTestSuite();

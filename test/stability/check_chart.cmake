@@ -1,4 +1,4 @@
-# A table of two families is drawn as SVG and PNG.
+# Draws the table of the families whose names contain "solids" as SVG and PNG, and checks the pictures.
 set(table ${FOLDER}/table.csv)
 set(pictures ${FOLDER}/table.svg ${FOLDER}/table.png)
 file(REMOVE ${table} ${pictures})

@@ -1,5 +1,5 @@
-// The stability program finds nothing wrong, and it would: with the shaders' error bounds, their undecided answers or
-// the containment stage taken away, it fails.
+// The stability program finds no wrong answers. It does find them, and fails, after a test removes the shaders' error
+// bounds, their undecided answers, or the containment stage.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ ProgramOutput runStability(const std::vector<std::string>& arguments)
   return runProgram(GPS_STABILITY, arguments);
 }
 
-/// What the program finds wrong with changed shaders; `family`: part of a name.
+/// Expects that the program finds wrong answers of the changed shaders. `family`: part of a family's name.
 void expectFailure(const ShaderFolder& shaders, const std::string& family)
 {
   const ProgramOutput output = runStability({"--cases", "64", "--family", family, "--shaders", shaders.path()});

@@ -8,7 +8,7 @@ WorldObject boxInGripper(const RobotModel& robot, const double* state)
   robot.linkPoses(state, poses.data());
   WorldObject box;
   box.id = "held_box";
-  // The fingers point along z and close along x, 79 mm apart: they squeeze the box by 3 mm each.
+  // The fingers point along z and close along x. They are 79 mm apart, so each of them penetrates the box by 3 mm.
   box.pose = poses[robot.linkIndex("robotiq_85_base_link")] * Eigen::Translation3d(0.0, 0.0, 0.15);
   box.shapes = {{Box{{0.085, 0.2, 0.06}}}};
   return box;

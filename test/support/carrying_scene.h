@@ -7,11 +7,11 @@
 
 namespace gpu_planning_scene::core
 {
-/// A box and the links that may touch it, for the gripper of ur5_robotiq.
+/// A box in the gripper of ur5_robotiq, and the links that may touch it.
 WorldObject boxInGripper(const RobotModel& robot, const double* state);
 const std::vector<std::string>& gripperLinks();
 
-/// "ur5_table_pick" with all that the scene lacks: a box that the gripper carries, links padded by 5 mm and objects by
-/// 2 mm, and a floor, which is a half-space.
+/// "ur5_table_pick" with further features: a box that the gripper carries, a padding of 5 mm for links and of 2 mm for
+/// objects, and a floor that is a half-space.
 TestScene carryingScene();
 }  // namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// The checker called "cpu", "breadth_first" or "work_queue", with a copy of the scene. It is made once per process, as
-/// compiling shaders takes a while.
+/// The checker called "cpu", "breadth_first" or "work_queue", with a copy of the scene. Each checker is made once per
+/// process, because compiling shaders takes a while.
 StateChecker& checkerOf(const std::string& name, const PlanningScene& scene);
 }  // namespace gpu_planning_scene::core

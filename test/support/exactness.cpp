@@ -18,7 +18,7 @@ namespace
 using oracle::Verdict;
 
 constexpr std::size_t kFailuresKept = 5;
-constexpr double kLargestClearance = 1e-2;  // metres: nothing is measured beyond
+constexpr double kLargestClearance = 1e-2;  // metres: larger clearances are not measured
 
 std::shared_ptr<const CollisionProblem> problemOf(const TestScene& scene)
 {
@@ -100,7 +100,7 @@ Verdict ExactnessCheck::pairVerdict(const std::vector<oracle::Motion>& poses, Bo
   return worst;
 }
 
-/// A reported pair that collides settles the state's verdict, and saves the oracle the other pairs.
+/// A reported pair that collides decides the state's verdict. The oracle then need not check the other pairs.
 ExactnessCheck::Judgement ExactnessCheck::judge(const double* state, const std::vector<BodyPair>& reported,
                                                 bool clearance) const
 {
@@ -120,7 +120,7 @@ ExactnessCheck::Judgement ExactnessCheck::judge(const double* state, const std::
   return judgement;
 }
 
-/// Calls of 1, 7, 64 and 1024 states; of the small ones only so many as take about a second.
+/// Calls of 1, 7, 64 and 1024 states. The small batch sizes check only part of the states, to take about a second each.
 void ExactnessCheck::compareSizes(StateChecker& checker, const std::string& name, const std::vector<double>& states,
                                   const std::vector<std::uint8_t>& expected, Exactness& exactness) const
 {
@@ -155,7 +155,7 @@ Exactness ExactnessCheck::compare(const std::vector<double>& states, bool cleara
   std::vector<BatchResult> results = {on_cpu};
   const auto add = [&](BatchChecker& checker, const char* name, Exactness::Undecided& undecided)
   {
-    checker.check(states.data(), count);  // what is done once is not to be timed
+    checker.check(states.data(), count);  // the first call includes one-time work, which is not timed
     results.push_back(checker.check(states.data(), count));
     undecided = {results.back().undecided_states, results.back().undecided_seconds, results.back().seconds};
     compareSizes(checker, name, states, on_cpu.valid, exactness);

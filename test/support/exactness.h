@@ -15,44 +15,44 @@
 
 namespace gpu_planning_scene::core
 {
-/// How the checkers' answers to some states compare with the oracle's and with each other.
+/// Compares the checkers' answers to some states with the oracle's answers and with each other.
 struct Exactness
 {
   std::size_t states = 0;
   std::size_t valid = 0;
-  std::size_t false_free = 0;       ///< free, where the contract asks for a collision
-  std::size_t false_collision = 0;  ///< the reverse
-  std::size_t false_pair = 0;       ///< a colliding pair is reported that is free, or not checked at all
-  std::size_t either = 0;           ///< the contract leaves these open
-  std::size_t unlike = 0;           ///< verdicts of some traversal or batch size that are not the CPU checker's
+  std::size_t false_free = 0;       ///< the checker answers free, the oracle finds a collision
+  std::size_t false_collision = 0;  ///< the checker answers collision, the oracle finds the state free
+  std::size_t false_pair = 0;       ///< a reported pair is free, or is not a checked pair
+  std::size_t either = 0;           ///< states for which the contract allows both answers
+  std::size_t unlike = 0;           ///< verdicts of some traversal or batch size that differ from the CPU checker's
   double oracle_seconds = 0.0;
 
-  /// Of a BatchChecker with each traversal, all states in one call.
+  /// The undecided states of a BatchChecker with one traversal. All states are checked in one call.
   struct Undecided
   {
     std::size_t states = 0;
-    double seconds = 0.0;  ///< spent on them
+    double seconds = 0.0;  ///< time for the undecided states
     double total_seconds = 0.0;
   };
   Undecided work_queue;
   Undecided breadth_first;
 
-  /// How many free states have a clearance, by the oracle, below 1e-9, 1e-8, ... 1e-3 m, and above; each state counts
-  /// once. All 0 where clearances were not asked for.
+  /// Number of free states whose clearance, by the oracle, is below 1e-9, 1e-8, ... 1e-3 m, and above. Each state
+  /// counts once. All entries are 0 if no clearances were requested.
   std::array<std::size_t, 8> clearances{};
 
-  std::vector<std::string> failures;  ///< a line for each of the first few
+  std::vector<std::string> failures;  ///< one line for each of the first failures
 
   bool good() const { return false_free + false_collision + false_pair + unlike == 0; }
 };
 
-/// Holds the answers of all checkers in a scene against the oracle, which works on all cores.
+/// Compares the answers of all checkers in a scene with the oracle. The oracle runs on all cores.
 class ExactnessCheck
 {
  public:
   explicit ExactnessCheck(const TestScene& scene);
 
-  /// `clearances`: whether they are measured. `label` is for the progress bar.
+  /// `clearances`: whether clearances are measured. `label`: for the progress bar.
   Exactness compare(const std::vector<double>& states, bool clearances, const std::string& label);
 
  private:
@@ -70,7 +70,7 @@ class ExactnessCheck
 
   const TestScene& scene_;
   oracle::ProblemOracle oracle_;
-  std::map<BodyPair, std::vector<std::pair<std::size_t, std::size_t>>> checked_;  // instances, as pairVerdict has them
+  std::map<BodyPair, std::vector<std::pair<std::size_t, std::size_t>>> checked_;  // pairs of instances
   CpuChecker cpu_;
   std::unique_ptr<BatchChecker> work_queue_;
   std::unique_ptr<BatchChecker> breadth_first_;

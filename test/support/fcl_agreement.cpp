@@ -19,7 +19,7 @@ std::string describe(const PlanningScene& scene, std::size_t state, const BodyPa
          what;
 }
 
-/// Ours is free, FCL's is not.
+/// Judges a state that the checker finds free and FCL finds in collision.
 void judgeFree(const PlanningScene& scene, const FclPeer& peer, std::size_t state, FclAgreement& agreement)
 {
   for (const auto& pair : peer.allCollisions())
@@ -33,7 +33,7 @@ void judgeFree(const PlanningScene& scene, const FclPeer& peer, std::size_t stat
   ++agreement.barely_touching;
 }
 
-/// Ours hits, and FCL does not hit the pair that ours names.
+/// Judges a state that the checker finds in collision by `pair`, while FCL finds `pair` free.
 void judgeHit(const PlanningScene& scene, const FclPeer& peer, std::size_t state, const BodyPair& pair,
               FclAgreement& agreement)
 {

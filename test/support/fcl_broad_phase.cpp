@@ -8,7 +8,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The manager looks at an object's box alone; pairs that it finds are looked at by their numbers.
+/// The manager reads only an object's bounding box. The caller identifies the objects found by their numbers.
 class Boxed : public fcl::CollisionObjectd
 {
  public:
@@ -24,7 +24,7 @@ class Boxed : public fcl::CollisionObjectd
   std::uint32_t number_;
 };
 
-/// The query is second.
+/// FCL passes the query as the second object.
 bool collect(fcl::CollisionObjectd* found, fcl::CollisionObjectd* /*query*/, void* numbers)
 {
   static_cast<std::vector<std::uint32_t>*>(numbers)->push_back(static_cast<const Boxed*>(found)->number());

@@ -8,8 +8,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// FCL's manager of objects in a dynamic tree of boxes, with which MoveIt finds the objects near a link. It is given
-/// boxes that are tighter than FCL's own of turned objects. Not thread-safe.
+/// FCL's manager of objects in a dynamic tree of boxes. MoveIt uses it to find the objects near a link. The boxes that
+/// it gets here are tighter than FCL's own boxes of rotated objects. Not thread-safe.
 class FclBroadPhase
 {
  public:
@@ -18,7 +18,7 @@ class FclBroadPhase
   FclBroadPhase(const FclBroadPhase&) = delete;
   FclBroadPhase& operator=(const FclBroadPhase&) = delete;
 
-  /// The numbers of the boxes that overlap `bounds`; valid until the next call.
+  /// The indices of the boxes that overlap `bounds`; valid until the next call.
   const std::vector<std::uint32_t>& near(const Eigen::AlignedBox3d& bounds);
 
  private:

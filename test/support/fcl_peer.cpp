@@ -23,7 +23,7 @@ using Eigen::Vector3d;
 
 constexpr double kNudge = 1e-6;  // metres
 
-/// Better no comparison than one with another problem.
+/// FCL would solve a different problem, so a comparison would mean nothing.
 void refuseUnsupported(const CollisionProblem& problem, FclTree tree)
 {
   if (!problem.half_spaces.empty())
@@ -46,7 +46,7 @@ struct FclPeer::Impl
     Isometry3d pose;
     AlignedBox3d bounds;
     double padding;
-    std::shared_ptr<FclMovedTree> moved;  // of trees that have to be
+    std::shared_ptr<FclMovedTree> moved;  // for trees that are fitted anew to each pose
   };
 
   std::shared_ptr<const CollisionProblem> problem;
@@ -54,8 +54,8 @@ struct FclPeer::Impl
   std::vector<FclGeometry> geometries;  // one per tree
   std::vector<Placed> robot;
   std::vector<Placed> world;
-  std::optional<LearnedOrder> order;           // none: fixed
-  std::shared_ptr<FclBroadPhase> broad_phase;  // of the world, where the order is learned
+  std::optional<LearnedOrder> order;           // empty: fixed order
+  std::shared_ptr<FclBroadPhase> broad_phase;  // of the world, if the order is learned
 
   AlignedBox3d boundsOf(std::uint32_t tree, const Isometry3d& pose) const
   {
@@ -77,7 +77,7 @@ struct FclPeer::Impl
                         b.moved ? Isometry3d::Identity() : pose_b, request, result) > 0;
   }
 
-  /// At least `limit` if the distance is; then FCL may have stopped looking.
+  /// FCL stops early when the distance is at least `limit`. The result is then at least `limit`.
   double distance(const Placed& a, const Placed& b, double limit = std::numeric_limits<double>::max()) const
   {
     const fcl::DistanceRequestd request;
@@ -98,14 +98,14 @@ struct FclPeer::Impl
     return distance(a, b, required * (1.0 + 1e-9)) <= required;
   }
 
-  /// The boxes of a pair first, then the pair. `padded`: whether paddings count.
+  /// Tests the bounding boxes of a pair, then the pair. `padded`: whether paddings count.
   bool collide(const Placed& a, const Placed& b, bool padded) const
   {
     const double required = padded ? a.padding + b.padding : 0.0;
     return boxesAreNear(a, b, required) && meet(a, b, required);
   }
 
-  /// The same. The time that FCL takes, which is many times that of reading the clock, is added to `seconds`.
+  /// As collide(). Adds FCL's time to `seconds`; reading the clock takes much less time than FCL.
   bool collideTimed(const Placed& a, const Placed& b, double required, double& seconds) const
   {
     if (!boxesAreNear(a, b, required))
@@ -116,8 +116,8 @@ struct FclPeer::Impl
     return result;
   }
 
-  /// A check as in CpuTraversal: of a robot's instance against the world, by its index, or, counted on from there, of a
-  /// self pair.
+  /// One check, numbered as in CpuTraversal: a number below robot.size() is a robot instance that is checked against
+  /// the world. Larger numbers are self pairs.
   bool check(std::uint32_t number, double margin, double& seconds, std::optional<BodyPair>& found) const
   {
     if (number >= robot.size())
@@ -140,7 +140,7 @@ struct FclPeer::Impl
     return false;
   }
 
-  /// `margins`: as for CpuTraversal; null: none.
+  /// `margins`: as for CpuTraversal; null if there are none.
   std::optional<BodyPair> firstInLearnedOrder(const double* margins)
   {
     std::optional<BodyPair> found;
@@ -149,7 +149,7 @@ struct FclPeer::Impl
     return found;
   }
 
-  /// What queries change, so that each copy has its own.
+  /// Makes a copy of the data that queries change. Each peer needs its own.
   void makeOwn()
   {
     if (order)
@@ -167,7 +167,7 @@ struct FclPeer::Impl
         placed.moved = makeFclMovedTree(problem->shapes[placed.tree], problem->trees[placed.tree], volumes);
   }
 
-  /// Calls visit(a, b, whether the pair is padded) for the checked pairs of geometries until it returns true.
+  /// Calls visit(a, b, whether the pair is padded) for the checked pairs of instances until it returns true.
   template <class Visit>
   void visitPairs(const Visit& visit) const
   {
@@ -182,7 +182,7 @@ struct FclPeer::Impl
         return;
   }
 
-  /// The same for the checked pairs of geometries of two bodies.
+  /// As visitPairs() for the checked pairs of instances of two bodies, without an early end.
   template <class Visit>
   void visitPairsOf(const BodyPair& pair, const Visit& visit) const
   {

@@ -13,33 +13,35 @@
 
 namespace gpu_planning_scene::core
 {
-/// In which order pairs are looked at for a first collision.
+/// The order in which pairs are checked until the first collision is found.
 enum class FclOrder
 {
-  Fixed,   ///< the world before the robot itself; the boxes of all pairs
-  Learned  ///< as CpuTraversal: what found most collisions for its cost comes first; FCL's broad phase for the world
+  Fixed,   ///< the world before the robot itself; the bounding boxes of all pairs are tested
+  Learned  ///< as CpuTraversal: checks with most collisions for their cost first; FCL's broad phase for the world
 };
 
-/// FCL 0.7 as the peer of tests and benchmarks: meshes and boxes as BVHModel, spheres, cylinders and cones as FCL's
-/// shapes, contacts on, the boxes of a pair tested first, the end at the first contact. Padded pairs by its distances,
-/// up to the padding. Not thread-safe: one per thread.
+/// FCL 0.7 as the peer of tests and benchmarks. Meshes and boxes are BVHModels; spheres, cylinders and cones are FCL's
+/// shapes. The bounding boxes of a pair are tested first. Contacts are on, and a query ends at the first contact.
+/// Padded pairs are checked by FCL's distances, up to the padding. Not thread-safe: one per thread.
 class FclPeer
 {
  public:
-  /// Throws Error for a problem with half-spaces, and for one with padding unless the tree knows distances.
+  /// Throws Error for a problem with half-spaces. Throws Error for a problem with padding if FCL computes no distances
+  /// for this kind of tree.
   explicit FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree = FclTree::Obbrss,
                    FclOrder order = FclOrder::Fixed);
-  /// Shares what queries do not change.
+  /// The copy shares the data that queries do not change.
   FclPeer(const FclPeer& other);
   ~FclPeer();
   FclPeer& operator=(const FclPeer&) = delete;
 
-  /// The poses that all further calls are about: of every link, in the planning frame.
+  /// Sets the poses of all links, in the planning frame, for the following calls.
   void setState(const Eigen::Isometry3d* link_poses);
 
   std::optional<BodyPair> firstCollision();
 
-  /// The same with margins as CpuTraversal's, by FCL's distances; the order must be learned.
+  /// The first pair whose distance, by FCL, is at most its required distance plus its margin. `margins`: as for
+  /// CpuTraversal. The order must be FclOrder::Learned.
   std::optional<BodyPair> firstNear(const double* margins);
 
   /// All pairs of bodies that collide.
@@ -48,17 +50,17 @@ class FclPeer
   /// Whether a pair of bodies, in either order, is checked and collides.
   bool collides(const BodyPair& pair) const;
 
-  /// Whether a pair of bodies is free when it is moved 1e-6 m apart, in one of seven directions.
+  /// Whether a pair of bodies is free when it is moved 1e-6 m apart in one of seven directions.
   bool freeWhenMovedApart(const BodyPair& pair) const;
 
   /// Whether the distance of a pair of bodies is at most `distance`, by FCL.
   bool within(const BodyPair& pair, double distance) const;
 
-  /// The least, over all checked pairs, of distance less padding, if it is below `limit`; else `limit`.
+  /// The smallest value of distance minus padding over all checked pairs if it is below `limit`; else `limit`.
   double clearance(double limit) const;
 
-  /// Whether one body of a pair has a vertex in a solid of the other: in a primitive, or in a mesh by the parity of the
-  /// crossings of rays.
+  /// Whether a body of the pair has a vertex inside a solid of the other body. For primitives this is computed
+  /// directly, for meshes by the parity of ray crossings.
   bool oneInsideTheOther(const BodyPair& pair) const;
 
  private:

@@ -18,13 +18,13 @@ namespace
 {
 using Eigen::Vector3d;
 
-/// A link: a tube along its z axis, and the joint that carries it, at the end of the link before.
+/// A link is a tube along its z axis. Its joint lies at the end of the previous link.
 struct ArmLink
 {
   double radius;
   double length;
   const char* axis;
-  double limit;  // radians, to both sides
+  double limit;  // radians, in both directions
 };
 
 constexpr std::array<ArmLink, 7> kLinks = {{{0.12, 0.30, "", 0.0},
@@ -35,10 +35,10 @@ constexpr std::array<ArmLink, 7> kLinks = {{{0.12, 0.30, "", 0.0},
                                             {0.04, 0.10, "0 1 0", 2.0},
                                             {0.03, 0.08, "0 0 1", 3.0}}};
 
-/// A tube with rounded ends along z from 0 to the link's length, with bumps of a tenth of its radius.
+/// A tube with rounded ends along z, from 0 to the link's length. Its bumps are a tenth of its radius high.
 std::shared_ptr<const Mesh> tube(const ArmLink& link, std::size_t triangles)
 {
-  // As many columns as make its triangles about as wide as high.
+  // The number of columns makes the triangles about as wide as high.
   const double ratio = 2.0 * M_PI * link.radius / (link.length + 2.0 * link.radius);
   return closedSurface("tube", triangles, ratio,
                        [&](double along, double angle) -> Vector3d
@@ -64,7 +64,7 @@ void writeStl(const std::string& path, const Mesh& mesh)
   file.write(reinterpret_cast<const char*>(&count), sizeof count);
   for (const auto& triangle : mesh.triangles)
   {
-    std::array<float, 12> record{};  // a normal of zeros, and the corners
+    std::array<float, 12> record{};  // a zero normal, then the corners
     for (int corner = 0; corner < 3; ++corner)
       for (int axis = 0; axis < 3; ++axis)
         record[3 + 3 * corner + axis] = static_cast<float>(mesh.vertices[triangle[corner]][axis]);
@@ -86,7 +86,7 @@ std::string urdf()
          << ".stl\"/></geometry></collision></link>\n";
     if (i == 0)
       continue;
-    // Out of the end of the link before, by a little, so that neighbours' tubes overlap as those of real robots do.
+    // The joint lies slightly before the end of the previous link, so neighbouring tubes overlap as in real robots.
     text << "<joint name=\"joint_" << i << "\" type=\"revolute\"><parent link=\"" << linkName(i - 1)
          << "\"/><child link=\"" << linkName(i) << "\"/><origin xyz=\"0 0 " << kLinks[i - 1].length - kLinks[i].radius
          << "\"/><axis xyz=\"" << kLinks[i].axis << "\"/><limit lower=\"" << -kLinks[i].limit << "\" upper=\""
@@ -96,7 +96,7 @@ std::string urdf()
   return text.str();
 }
 
-/// Links that are next to each other, or next but one, overlap whatever the joints.
+/// A link overlaps the next two links of the chain in all states.
 std::string srdf()
 {
   std::ostringstream text;

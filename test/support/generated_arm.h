@@ -8,13 +8,13 @@
 
 namespace gpu_planning_scene::core
 {
-/// A six-axis arm of about 1.1 m that the project makes itself, of any number of triangles: the growth of time with
-/// triangles is measured with it, and it serves where no other robot is at hand. Its URDF, SRDF and meshes (binary STL)
-/// lie in a temporary folder that goes with it.
+/// A six-axis arm of about 1.1 m with any number of triangles, which the project generates itself. It serves to measure
+/// how time grows with triangles, and as the robot where no other is available. Its URDF, SRDF and meshes (binary STL)
+/// lie in a temporary folder that the destructor removes.
 class GeneratedArm
 {
  public:
-  /// `triangles`: of all links, about.
+  /// `triangles`: the approximate number of triangles of all links together.
   explicit GeneratedArm(std::size_t triangles);
   ~GeneratedArm();
   GeneratedArm(const GeneratedArm&) = delete;

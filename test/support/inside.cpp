@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 bool rayCrosses(const Vector3d& origin, const Vector3d& direction, const Vector3d& a, const Vector3d& b,
                 const Vector3d& c)
 {
-  // Barycentric coordinates of the crossing of the ray's line with the triangle's plane, by Cramer's rule.
+  // Barycentric coordinates of the point where the ray's line crosses the triangle's plane.
   Eigen::Matrix3d sides;
   sides << a - b, a - c, direction;
   const double determinant = sides.determinant();
@@ -55,7 +55,7 @@ bool isInside(const Shape& shape, const Vector3d& p)
 
 bool hasVertexInside(const Mesh& mesh, const Eigen::Isometry3d& pose, const Shape& shape)
 {
-  // Few vertices are inside a mesh's box, and only they are worth the rays.
+  // The bounding box of the mesh excludes most vertices without tracing rays.
   Eigen::AlignedBox3d box;
   if (const auto* other = std::get_if<std::shared_ptr<const Mesh>>(&shape))
     for (const Vector3d& vertex : (*other)->vertices)

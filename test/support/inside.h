@@ -6,9 +6,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// Whether a point in the shape's frame is inside it. Of a mesh: whether most of several rays from the point cross its
-/// triangles an odd number of times, which means little for an open one. By brute force, independent of the code that
-/// it tests.
+/// Whether a point in the shape's frame is inside the shape. A point is inside a mesh if most of several rays from it
+/// cross the triangles an odd number of times; for an open mesh this means little. Brute force, independent of the
+/// tested code.
 bool isInside(const Shape& shape, const Eigen::Vector3d& point);
 
 /// Whether a mesh at `pose` in the shape's frame has a vertex inside the shape.

@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// The order in which checks of a state are made, learned as CpuTraversal learns its own: those that found most
+/// The order in which the checks of a state are made, learned as CpuTraversal learns its order: checks that found most
 /// collisions for their cost come first.
 class LearnedOrder
 {
@@ -18,7 +18,8 @@ class LearnedOrder
     std::iota(order_.begin(), order_.end(), 0U);
   }
 
-  /// Calls check(number, seconds of it to add to) in order until it returns true, and returns whether it did.
+  /// Calls check(number, seconds) in order until it returns true, and returns whether it did. The check adds its time
+  /// to `seconds`.
   template <class Check>
   bool any(const Check& check)
   {
@@ -35,10 +36,10 @@ class LearnedOrder
   }
 
  private:
-  static constexpr double kLeastCost = 1e-7;  // seconds: of a check that ends at its boxes
+  static constexpr double kLeastCost = 1e-7;  // seconds: cost of a check that ends at its bounding boxes
   static constexpr std::uint64_t kStatesPerOrder = 512;
 
-  /// After 1, 2, 4, ... states, then every kStatesPerOrder.
+  /// Sorts the checks after 1, 2, 4, ... states, then after every kStatesPerOrder states.
   void learn()
   {
     const std::uint64_t states = ++states_;
@@ -55,7 +56,7 @@ class LearnedOrder
 
   std::vector<std::uint32_t> order_;
   std::vector<double> hits_;
-  std::vector<double> cost_;  // seconds, in all
+  std::vector<double> cost_;  // total seconds
   std::uint64_t states_ = 0;
 };
 }  // namespace gpu_planning_scene::core

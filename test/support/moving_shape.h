@@ -15,7 +15,7 @@ struct PairPadding
   double objects = 0.0;
 };
 
-/// One moving shape, body 0, and objects, bodies 1 and up, each with its padding: no robot is needed.
+/// A moving shape (body 0) and objects (bodies 1 and up), each with its padding. No robot is needed.
 class MovingShape
 {
  public:
@@ -34,7 +34,7 @@ class MovingShape
   CpuTraversal::Scratch scratch_;
 };
 
-/// A rotation and a translation of up to `reach` along each axis.
+/// A random rotation, and a random translation of up to `reach` along each axis.
 Eigen::Isometry3d randomPose(std::mt19937_64& generator, double reach);
 
 Eigen::Isometry3d at(double x, double y, double z);

@@ -11,10 +11,10 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kReach = 0.1;  // metres: how far apart bodies move for a radian, about
+constexpr double kReach = 0.1;  // metres: approximate relative displacement of two bodies per radian of joint travel
 constexpr int kHalvings = 52;
 
-/// A way from a free to a colliding state. Positions on it run from 0 to 1.
+/// A segment from a free to a colliding state. Positions on it run from 0 to 1.
 struct Way
 {
   const double* from;
@@ -37,7 +37,7 @@ struct Way
   }
 };
 
-/// Ways between the free and the colliding ones of `states`.
+/// Segments between random pairs of a free and a colliding state of `states`.
 std::vector<Way> makeWays(const std::vector<double>& states, const std::vector<std::uint8_t>& valid, std::size_t count,
                           std::mt19937_64& generator)
 {

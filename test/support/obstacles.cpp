@@ -11,7 +11,8 @@ namespace
 {
 using Eigen::Vector3d;
 
-/// Two triangles for each cell of a grid of `rows` x `columns` vertices, of which the last may be joined to the first.
+/// Two triangles for each cell of a grid of `rows` x `columns` vertices. `closed`: the grid wraps around in both
+/// directions.
 void addGridTriangles(std::uint32_t rows, std::uint32_t columns, bool closed, Mesh& mesh)
 {
   const std::uint32_t open = closed ? 0 : 1;

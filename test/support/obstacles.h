@@ -14,7 +14,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Where generated obstacles lie: their centres in a spherical shell, their sizes up to `size` (all in metres).
+/// The region and size of generated obstacles: their centres lie in a spherical shell, their sizes are at most `size`.
+/// All lengths in metres.
 struct ObstacleField
 {
   std::size_t count;
@@ -24,23 +25,24 @@ struct ObstacleField
   double size;
 };
 
-/// Obstacles of every kind of shape, closed and open meshes among them, in random poses. The same for the same seed.
+/// Obstacles of every kind of shape, including closed and open meshes, in random poses. The same seed gives the same
+/// obstacles.
 std::vector<WorldObject> generateObstacles(const ObstacleField& field, std::uint64_t seed);
 
-/// `count` boxes in a ring around `center`, turned, at different heights; their edges up to `size` long.
+/// `count` rotated boxes in a ring around `center`, at different heights. Their longest edge is `size`.
 std::vector<WorldObject> boxesAround(const Eigen::Vector3d& center, std::size_t count, double radius, double size);
 
-/// Boards, sides and a back, open towards -x. `center`: of its foot.
+/// A shelf with boards, sides and a back, open towards -x. `center`: the centre of its foot.
 std::vector<WorldObject> shelf(const Eigen::Vector3d& center, const Eigen::Vector3d& size, std::size_t boards);
 
-/// A top on four legs, and three things on it. `center`: of its top's surface; `size`: with the legs.
+/// A table top on four legs, with three objects on it. `center`: the centre of the top surface; `size`: including legs.
 std::vector<WorldObject> table(const Eigen::Vector3d& center, const Eigen::Vector3d& size);
 
-/// Two walls along x, a lintel across them and a post between; its inner size.
+/// Two walls along x, a lintel across them and a post between them. `size`: the inner size.
 std::vector<WorldObject> corridor(const Eigen::Vector3d& center, const Eigen::Vector3d& size);
 
-/// A closed mesh of about `triangles` triangles: rings of vertices from one end, `along` = 0, to the other, 1, where it
-/// closes to a point. `ratio`: of its girth to its length. `position(along, angle)`: in metres.
+/// A closed mesh of about `triangles` triangles. Rings of vertices run from one end (`along` = 0) to the other (`along`
+/// = 1); both ends are single points. `ratio`: girth divided by length. `position(along, angle)`: in metres.
 std::shared_ptr<const Mesh> closedSurface(const std::string& name, std::size_t triangles, double ratio,
                                           const std::function<Eigen::Vector3d(double, double)>& position);
 

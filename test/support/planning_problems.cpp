@@ -18,7 +18,7 @@ std::shared_ptr<const RobotModel> robot()
   return model;
 }
 
-/// Joints that the robot lacks, or that are fixed, occur in the files and are passed over.
+/// Ignores joints that the robot lacks or that are fixed, because the files name them.
 void setVariable(const RobotModel& model, const std::string& name, double value, std::vector<double>& row)
 {
   const int variable = model.variableIndex(name);

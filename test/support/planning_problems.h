@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A motion to be planned: rows of all variables of the robot.
+/// A motion planning problem. Its states are rows of all variables of the robot.
 struct PlanningProblem
 {
   std::string name;  ///< SET/NUMBER
@@ -18,12 +18,12 @@ struct PlanningProblem
   std::vector<double> goal;
 };
 
-/// The folder of the problems, which need not be there.
+/// The folder of the problems. It may be missing.
 std::string planningProblemFolder();
 
-/// The names of all problems of the ur5, sorted; none where ../shared is missing.
+/// The sorted names of all problems of the ur5; empty if ../shared is missing.
 std::vector<std::string> planningProblemNames();
 
-/// Throws Error for a file that cannot be read. All problems share one robot.
+/// Throws Error if a file cannot be read. All problems share one robot.
 PlanningProblem loadPlanningProblem(const std::string& name);
 }  // namespace gpu_planning_scene::core

@@ -6,11 +6,11 @@
 
 namespace gpu_planning_scene::core
 {
-/// A temporary copy of shaders that a test or benchmark may change; removed at the end.
+/// A temporary copy of shaders that a test or benchmark may change. The destructor removes it.
 class ShaderFolder
 {
  public:
-  ShaderFolder();  ///< of the source tree's
+  ShaderFolder();  ///< copies the shaders of the source tree
   explicit ShaderFolder(const std::string& original);
   ~ShaderFolder();
   ShaderFolder(const ShaderFolder&) = delete;
@@ -18,9 +18,9 @@ class ShaderFolder
 
   const std::string& path() const { return path_; }
 
-  /// Gives a constant of shader_constants.h another value; throws std::runtime_error if it is not there.
+  /// Changes the value of a constant of shader_constants.h. Throws std::runtime_error if the constant is missing.
   void define(const std::string& name, const std::string& value) const;
-  /// Replaces the one place where a file has `text`; throws std::runtime_error if there is not exactly one.
+  /// Replaces `text` in a file by `by`. Throws std::runtime_error unless the file has `text` exactly once.
   void replace(const std::string& name, const std::string& text, const std::string& by) const;
   void write(const std::string& name, const std::string& text) const;
 

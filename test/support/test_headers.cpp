@@ -1,1 +1,1 @@
-// Nothing: the target of this file has the headers that tests precompile (see test/CMakeLists.txt).
+// This file is empty. Its target precompiles the headers of the tests (see test/CMakeLists.txt).

@@ -28,7 +28,7 @@ bool startsWith(const std::string& name, const std::string& start)
   return name.rfind(start, 0) == 0;
 }
 
-/// The folder of the problem set that a scene's name ends in.
+/// The folder of the problem set whose name follows the prefix of the scene's name.
 std::string problemFolderOf(const std::string& name)
 {
   return problemFolder(name.substr(kUr5Prefix.size()));
@@ -43,7 +43,7 @@ RealRobot robotOf(const std::string& name)
   return startsWith(name, "drchubo") ? drchubo() : kr5();
 }
 
-/// Random states of every variable's full range.
+/// A test scene whose random states use the full range of every variable.
 TestScene inFullRanges(const std::string& name, PlanningScene scene)
 {
   TestScene made;
@@ -57,7 +57,7 @@ TestScene inFullRanges(const std::string& name, PlanningScene scene)
   return made;
 }
 
-/// Random states within `reach` of `center`, as far as the limits allow.
+/// Restricts random states to at most `reach` from `center`, within the limits.
 void limitTo(const std::vector<double>& center, double reach, TestScene& scene)
 {
   for (std::size_t i = 0; i < center.size(); ++i)
@@ -67,7 +67,7 @@ void limitTo(const std::vector<double>& center, double reach, TestScene& scene)
   }
 }
 
-/// The goal of a motion request, near the obstacles; other variables at their default.
+/// The goal of a motion request, which lies near the obstacles. The other variables have their default values.
 std::vector<double> goalOf(const std::string& request_file, const RobotModel& robot)
 {
   std::vector<double> state = robot.defaultState();
@@ -76,8 +76,8 @@ std::vector<double> goalOf(const std::string& request_file, const RobotModel& ro
   return state;
 }
 
-/// The robot with the SRDF that generate_acm writes for it: of robots without one, more than adjacent links collide
-/// always.
+/// The robot with the SRDF that generate_acm writes for it. Without an SRDF, some pairs of links that are not adjacent
+/// collide in every state.
 std::shared_ptr<const RobotModel> loadWithGeneratedSrdf(const RealRobot& robot)
 {
   SamplingOptions sampling;
@@ -90,7 +90,7 @@ std::shared_ptr<const RobotModel> loadWithGeneratedSrdf(const RealRobot& robot)
   return RobotModel::fromXml(robot.urdfText(), srdf, options);
 }
 
-/// Loaded once per process: generating the matrix of DRC-Hubo takes a while.
+/// The model is loaded once per process, because generating the matrix of DRC-Hubo takes a while.
 std::shared_ptr<const RobotModel> drchuboModel()
 {
   static const std::shared_ptr<const RobotModel> model = loadWithGeneratedSrdf(drchubo());
@@ -112,7 +112,7 @@ TestScene loadUr5(const std::string& name)
   return made;
 }
 
-/// Legs apart, forearms level, fingers half closed: at the default pose most of the links' neighbours touch.
+/// Legs apart, forearms level, fingers half closed. At the default pose most neighbouring links touch.
 std::vector<double> atWork(const RobotModel& drchubo)
 {
   std::vector<double> state = drchubo.defaultState();
@@ -137,7 +137,7 @@ TestScene loadDrchubo(const std::string& name)
   return made;
 }
 
-/// KR5's URDF has y up, and its foot is at y = -0.5.
+/// Converts objects to the frame of KR5's URDF, in which y points up and the robot's foot is at y = -0.5.
 std::vector<WorldObject> forKr5(std::vector<WorldObject> objects)
 {
   Eigen::Isometry3d upright(Eigen::AngleAxisd(-M_PI / 2.0, Eigen::Vector3d::UnitX()));
@@ -147,7 +147,7 @@ std::vector<WorldObject> forKr5(std::vector<WorldObject> objects)
   return objects;
 }
 
-/// In a frame with z up, the robot's foot at its origin.
+/// Objects in a frame whose z axis points up and whose origin is the robot's foot.
 std::vector<WorldObject> furnitureOf(const std::string& name)
 {
   const bool boxes = name == "kr5_boxes" || name == "arm_boxes";

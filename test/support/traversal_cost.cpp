@@ -67,7 +67,7 @@ double traversalCost(const Forest& forest, const std::vector<Tessellation>& tree
   double cost = 0.0;
   for (int i = 0; i < kPoses; ++i)
   {
-    // b's centre near the surface of a's box: where the trees have to be looked into.
+    // b's centre lies near the surface of a's box, so that the traversal descends into both trees.
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.linear() = Eigen::Quaterniond(normal(generator), normal(generator), normal(generator), normal(generator))
                         .normalized()

@@ -9,7 +9,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// So many triangles, each of three calls of `corner`.
+/// A mesh of `triangles` separate triangles. Each corner is a call of `corner`.
 template <class Corner>
 std::shared_ptr<Mesh> triangleSoup(std::size_t triangles, const Corner& corner)
 {

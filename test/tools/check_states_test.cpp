@@ -1,4 +1,4 @@
-// The tool check_states from outside: its answers, its summary, its exit codes.
+// Runs the tool check_states and tests its answers, its summary and its exit codes.
 
 #include <algorithm>
 #include <cstdio>
@@ -17,7 +17,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// A wall from x = 0.9 to 1.1 m that the cart meets, and a lamp at the height of the pole, at x = -1 m.
+/// A wall from x = 0.9 to 1.1 m, which the cart can hit, and a lamp at x = -1 m at the height of the pole.
 const char* const kScene = R"(
 world:
   collision_objects:
@@ -47,7 +47,7 @@ class CheckStates : public testing::Test
     return runProgram(GPS_CHECK_STATES, arguments);
   }
 
-  /// With the slider robot and the scene.
+  /// Runs the tool with the slider robot and the scene.
   ProgramOutput check(std::vector<std::string> arguments) const
   {
     arguments.insert(arguments.begin(), {"--urdf", urdf, "--srdf", srdf, "--scene", scene});
@@ -60,7 +60,7 @@ class CheckStates : public testing::Test
     return check(std::move(arguments));
   }
 
-  /// One clear line on stderr, nothing on stdout.
+  /// Expects one clear line on stderr and nothing on stdout.
   static void expectError(const ProgramOutput& output, int exit_code, const std::string& reason)
   {
     EXPECT_EQ(exit_code, output.exit_code);
@@ -111,7 +111,8 @@ TEST_F(CheckStates, OtherVariablesTakeTheScenesState)
 
 TEST_F(CheckStates, AGroupRestrictsThePairs)
 {
-  const std::string csv = "slide,turn\n1,0\n-1,0\n";  // the cart in the wall, the pole in the lamp
+  // In the first state the cart is in the wall, in the second state the pole is in the lamp.
+  const std::string csv = "slide,turn\n1,0\n-1,0\n";
   EXPECT_EQ("0", linesOf(checkCsv(csv).out).at(0).substr(0, 1));
   const auto rows = linesOf(checkCsv(csv, {"--group", "mast"}).out);
   EXPECT_EQ("1,,", rows.at(0));
@@ -206,7 +207,7 @@ TEST_F(CheckStates, EveryDeviceAndTraversalAnswersTheSame)
 
 TEST_F(CheckStates, WithoutADeviceItSaysWhatToDo)
 {
-  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null", 1);  // what EGL finds where no driver is installed
+  setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null", 1);  // as if no driver were installed
   const ProgramOutput output = check({"--random", "1", "--device", "auto"});
   unsetenv("__EGL_VENDOR_LIBRARY_FILENAMES");
   expectError(output, 1, "no usable EGL device");

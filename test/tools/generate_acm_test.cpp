@@ -1,4 +1,4 @@
-// The tool generate_acm from outside: what it decides for pairs of links, and the SRDF that it writes.
+// Runs the tool generate_acm and tests its decisions on pairs of links and the SRDF that it writes.
 
 #include <cmath>
 #include <fstream>
@@ -24,10 +24,10 @@ std::string boxes(const std::string& link, const std::vector<std::pair<double, d
   return xml + "</link>\n";
 }
 
-/// Boxes on a line, so that each pair is decided by arithmetic. `slide` moves half, cover and spare along x by -5 to 5
-/// m; block and mount stay. Against block, at x = -0.1 to 0.1: mount adjoins it; half, from 0 to 5, meets it in about
-/// half of the states; cover, with a gap of 0.3 m around it, in 99 %; core in the default state; spare, 100 m away, in
-/// none.
+/// Boxes on a line, so that the right decision on each pair follows from arithmetic. The joint `slide` moves half,
+/// cover, core and spare along x by -5 to 5 m; block and mount do not move. The block extends from x = -0.1 to 0.1. Its
+/// relations to the other links: mount is adjacent; half (0.12 to 5) collides in about half of the states; cover, with
+/// a gap of 0.3 m around the block, in 99 %; core in the default state; spare, 100 m away, never.
 std::string lineUrdf()
 {
   const std::string range = "<axis xyz=\"1 0 0\"/><limit lower=\"-5\" upper=\"5\" effort=\"1\" velocity=\"1\"/>";
@@ -97,7 +97,7 @@ TEST_F(GenerateAcm, TheCommentSaysWhatNeverMeans)
   const std::string srdf = contentOf(out);
   EXPECT_NE(std::string::npos, srdf.find("3000 random states, seed 42")) << srdf;
   EXPECT_NE(std::string::npos, srdf.find("95 % confidence, for each pair, that fewer than 0.1 % of random")) << srdf;
-  // XML allows no two hyphens in a comment; the robot's name has them.
+  // XML allows no two hyphens in a comment, but the robot's name contains them.
   const std::size_t comment = srdf.find("<!--") + 4;
   EXPECT_EQ(srdf.find("-->"), srdf.find("--", comment)) << srdf;
 }
@@ -131,7 +131,7 @@ TEST_F(GenerateAcm, KeepsWhatTheUserWroteInAnSrdf)
   EXPECT_EQ(0u, reasons.count("block-core"));
   EXPECT_EQ("Adjacent", reasons.at("mount-half"));
 
-  // What it wrote itself is replaced, not added to.
+  // A second run replaces the tool's own entries and adds none.
   ASSERT_EQ(0, generate({"--samples", "1000", "--srdf", out}).exit_code);
   EXPECT_EQ(once, contentOf(out));
 }
@@ -150,14 +150,14 @@ struct RealRobot
 {
   const char* name;
   const char* urdf;
-  const char* package;  ///< in its folder; empty if its paths are relative
+  const char* package;  ///< the package in the URDF's folder; empty if the URDF has relative paths
 };
 
 class GenerateAcmForRealRobots : public testing::TestWithParam<RealRobot>
 {
 };
 
-/// Checks 20,000 states that the generator has not seen.
+/// Checks 20,000 states that the generator has not used.
 BatchResult checkFresh(const PlanningScene& scene)
 {
   const std::size_t count = 20000;
@@ -200,7 +200,8 @@ TEST_P(GenerateAcmForRealRobots, NeverPairsStayFreeAndTheRobotCanMove)
   EXPECT_GT(free_share, 0.1);
   EXPECT_LT(free_share, 0.9);
 
-  // Only the Never pairs are checked. One that collides with a share p is taken for Never with (1 - p)^10000.
+  // Only the Never pairs are checked. A pair that collides in a share p of the states is taken for Never with
+  // probability (1 - p)^10000.
   PlanningScene never(robot);
   never.allowed_collisions = AllowedCollisionMatrix();
   const auto reasons = reasonsOf(*robot);

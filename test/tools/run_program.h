@@ -12,7 +12,8 @@ struct ProgramOutput
   std::string err;
 };
 
-/// Runs a program to its end. Throws std::runtime_error if it cannot be started.
+/// Runs a program to its end. The exit code is 127 if it cannot be executed, and 128 plus the signal if a signal ended
+/// it. Throws std::runtime_error if no process can be created.
 ProgramOutput runProgram(const std::string& path, const std::vector<std::string>& arguments);
 
 std::vector<std::string> linesOf(const std::string& text);

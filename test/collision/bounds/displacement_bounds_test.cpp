@@ -1,4 +1,4 @@
-// What an arm can move to from a state is not free around it, and what it cannot is.
+// A state is not free in its neighbourhood if the arm can reach an obstacle there. It is free if the arm cannot.
 
 #include <cmath>
 
@@ -15,8 +15,8 @@ namespace
 {
 constexpr char kTurns[] = "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/>";
 constexpr char kSlides[] = "<axis xyz='0 1 0'/><limit lower='-0.02' upper='0.02' effort='1' velocity='1'/>";
-constexpr double kWay = 0.01;   // radians or metres
-constexpr double kBall = 0.01;  // metres: the radius of the ball at the tip
+constexpr double kWay = 0.01;   // radians or metres: travel of each joint
+constexpr double kBall = 0.01;  // metres: radius of the ball at the tip
 
 std::string ballLink(const std::string& name, double radius)
 {
@@ -24,8 +24,8 @@ std::string ballLink(const std::string& name, double radius)
          "'/></geometry></collision></link>";
 }
 
-/// Two links of half a metre along x that turn about z, a slide along y, and a ball at its end, 1 m from the first
-/// joint. `finger`: one that turns four times as far as the first joint, a quarter of a metre before it.
+/// Two links of 0.5 m along x that turn about z, a slide along y, and a ball at its end, 1 m from the first joint.
+/// `finger`: adds a finger of 0.25 m that mimics the first joint with multiplier -4.
 std::shared_ptr<const RobotModel> arm(bool finger = false)
 {
   std::string urdf = "<link name='base'/><link name='upper'/><link name='fore'/>" + ballLink("tip", kBall) +
@@ -44,7 +44,7 @@ std::shared_ptr<const RobotModel> arm(bool finger = false)
 class Displacement : public testing::Test
 {
  protected:
-  /// A ball in the world, `gap` away in y from where the ball at `at` ends.
+  /// A ball in the world. The gap along y between it and a ball of the robot at `at` is `gap` metres.
   static std::shared_ptr<PlanningScene> sceneWith(const std::shared_ptr<const RobotModel>& robot,
                                                   const Eigen::Vector3d& at, double gap)
   {
@@ -83,7 +83,7 @@ TEST_F(Displacement, OfAStretchedArmIsTheSumOfWhatItsJointsMoveTheTip)
   const Eigen::Vector3d tip(1.0, 0.0, 0.0);
   EXPECT_FALSE(isFreeAround(sceneWith(robot, tip, 0.99 * reached), around));
   EXPECT_TRUE(isFreeAround(sceneWith(robot, tip, 1.05 * reached), around));
-  // Where the elbow stands still, its part is not counted.
+  // The travel of an elbow that does not move is not counted.
   JointNeighbourhood stiff = around;
   stiff.travel[1] = {};
   EXPECT_TRUE(isFreeAround(sceneWith(robot, tip, 0.99 * reached), stiff));
@@ -105,7 +105,8 @@ TEST_F(Displacement, CountsWhatAJointMakesOfItsLeadersWay)
 
 TEST_F(Displacement, OfTwoLinksIsThatOfOneAgainstTheOther)
 {
-  // The fingertip and the tip go round the shoulder together; only the bend, which stands still here, parts them.
+  // The shoulder moves the fingertip and the tip together. Only the bend, which is at rest here, moves them relative to
+  // each other.
   const auto robot = arm(true);
   JointNeighbourhood around = allWays(*robot);
   auto scene = std::make_shared<PlanningScene>(robot);
@@ -114,7 +115,7 @@ TEST_F(Displacement, OfTwoLinksIsThatOfOneAgainstTheOther)
   around.travel[static_cast<std::size_t>(robot->jointIndex("shoulder"))].angle = 1.0;
   around.travel[static_cast<std::size_t>(robot->jointIndex("bend"))].angle = 0.0;
   EXPECT_EQ(checker.check(state.data(), 1, "", &around).valid[0], 1);
-  // Their surfaces are 0.32 - 0.02 m apart; the fingertip goes round the bend at 0.25 m.
+  // The gap between the surfaces is 0.32 - 0.02 m. The fingertip is 0.25 m from the axis of the bend.
   around.travel[static_cast<std::size_t>(robot->jointIndex("bend"))].angle = 1.0;
   EXPECT_EQ(checker.check(state.data(), 1, "", &around).valid[0], 1);
   around.travel[static_cast<std::size_t>(robot->jointIndex("bend"))].angle = 1.3;

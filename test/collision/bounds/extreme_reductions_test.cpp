@@ -1,5 +1,5 @@
-// What is left out of a problem changes no answer where numbers are extreme: joint limits that no joint has, poses a
-// little off rigid, and a system that refuses threads.
+// Pairs that are left out of a problem change no answer, even with extreme numbers: unrealistic joint limits, poses
+// that are slightly off rigid, and a system that refuses threads.
 #include <pthread.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ std::string limitXml(const Limits& limits)
   return text.str();
 }
 
-/// Returns how many states are free.
+/// Expects the same answers with and without reductions. Returns the number of free states.
 std::size_t expectSameAnswers(const std::shared_ptr<const PlanningScene>& scene, const std::vector<double>& states,
                               const std::string& what)
 {
@@ -58,7 +58,8 @@ WorldObject ballAt(const std::string& id, const Eigen::Vector3d& at)
   return {id, Eigen::Isometry3d(Eigen::Translation3d(at)), {{Sphere{0.01}}}, 0.0};
 }
 
-/// From a turn below to a turn above 0, at the limits, and in the slack beyond them, as far as states may go.
+/// States from half a turn below 0 to half a turn above 0, at the limits and slightly beyond them, as far as the
+/// checker accepts the values.
 std::vector<double> statesFor(const Limits& limits, const RobotModel& robot)
 {
   std::vector<double> states;
@@ -105,7 +106,7 @@ TEST(ExtremeReductions, StillLeaveOutWhatAJointOfHugeAnglesCannotReach)
   }
 }
 
-/// Two links that are welded together behind a slide; they overlap by 0.1 mm, or are 0.1 mm apart.
+/// Two links behind a slide are welded together. They overlap by 0.1 mm or are 0.1 mm apart.
 TEST(ExtremeReductions, DecideWeldedLinksWhereverTheJointsBeforeThemAre)
 {
   for (const double upper : {1.0, 1e9, 1e12, 1e13, 1e16})
@@ -126,8 +127,8 @@ TEST(ExtremeReductions, DecideWeldedLinksWhereverTheJointsBeforeThemAre)
       }
 }
 
-/// A box that a link carries, corner up, and far from an object's frame, which is a little off rigid, a shape that the
-/// box touches only where the frame's rotation is taken for the nearest true one.
+/// A link carries a box with a corner up. An object's frame is slightly off rigid, and its shape lies far from the
+/// frame's origin. The box touches the shape only if the frame's rotation is replaced by the nearest true rotation.
 TEST(ExtremeReductions, TakePosesALittleOffRigidForTheNearestTrueOnes)
 {
   const double half = 0.1;
@@ -169,7 +170,7 @@ TEST(Chunks, AreAllDoneWhereTheSystemRefusesThreads)
   ASSERT_EQ(pthread_getattr_default_np(&usual), 0);
   pthread_attr_t greedy;
   ASSERT_EQ(pthread_attr_init(&greedy), 0);
-  ASSERT_EQ(pthread_attr_setstacksize(&greedy, std::size_t{1} << 48), 0);  // more than there are addresses
+  ASSERT_EQ(pthread_attr_setstacksize(&greedy, std::size_t{1} << 48), 0);  // larger than the address space
   ASSERT_EQ(pthread_setattr_default_np(&greedy), 0);
   std::vector<int> done(1000, 0);
   EXPECT_NO_THROW(parallelFor(done.size(), 1,

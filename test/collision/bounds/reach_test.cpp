@@ -1,4 +1,4 @@
-// Bounds on where links can be: they hold for every state within the limits, and are tight enough to be of use.
+// Bounds on the positions of links hold for every state within the limits, and are tight enough to be useful.
 #include "collision/bounds/reach.h"
 
 #include <iostream>
@@ -16,7 +16,7 @@ namespace
 {
 constexpr std::uint64_t kSeed = 3;
 
-/// All kinds of joints that have bounds, some of them mimics, one with a negative multiplier.
+/// A robot with all kinds of joints that have bounds. Two joints are mimics with negative multipliers.
 std::shared_ptr<const RobotModel> oddRobot()
 {
   const std::string limit = "<limit lower='-1.5' upper='0.7' effort='1' velocity='1'/>";
@@ -54,7 +54,7 @@ bool isHeld(const Region& region, const Eigen::Vector3d& point)
   return holds(region.all) && std::any_of(region.balls.begin(), region.balls.end(), holds);
 }
 
-/// Every variable at a limit or between its limits.
+/// A random state. Each bounded variable is at a limit with probability 1/2.
 std::vector<double> stateWithin(const RobotModel& robot, std::mt19937_64& generator)
 {
   std::vector<double> state(robot.variables().size());
@@ -68,7 +68,7 @@ std::vector<double> stateWithin(const RobotModel& robot, std::mt19937_64& genera
   return state;
 }
 
-/// Looks whether corners of links are where the bounds say, in the frames of all links above and the planning frame.
+/// Expects corners of links within the bounds, in the frames of all links above and in the planning frame.
 void expectBoundsHold(const RobotModel& robot, int states)
 {
   std::cout << "seed " << kSeed << std::endl;
@@ -126,7 +126,7 @@ TEST_P(ReachOfRealRobots, HoldsWhereTheirLinksGo)
 }
 INSTANTIATE_TEST_SUITE_P(Robots, ReachOfRealRobots, testing::Values(&kr5, &wam, &drchubo, &ur5Robotiq));
 
-/// A rod of one metre that turns by `angle` either way about z at one end.
+/// The region of a rod of one metre that turns about z at one end, by up to `angle` in both directions.
 Region regionOfRod(double angle)
 {
   const std::string limit =
@@ -151,7 +151,7 @@ TEST(Reach, IsTightEnoughToTellWhatARodCannotTouch)
   EXPECT_FALSE(rodMayMeetBallAt(0.5, 1.25, 0.0));  // beyond its end
   EXPECT_FALSE(rodMayMeetBallAt(0.5, 0.2, 0.9));   // beside its angles
   EXPECT_FALSE(rodMayMeetBallAt(0.5, -0.4, 0.0));  // behind
-  EXPECT_TRUE(rodMayMeetBallAt(3.2, -0.9, 0.0));   // all the way round
+  EXPECT_TRUE(rodMayMeetBallAt(3.2, -0.9, 0.0));   // a full turn
   EXPECT_FALSE(rodMayMeetBallAt(3.2, -1.2, 0.0));
 }
 

@@ -1,5 +1,5 @@
-// What a problem maker learned of reach for one scene is used for the next only as far as it still holds: after each
-// change that matters its problem is the one that a new maker makes.
+// A problem maker reuses the reach of one scene for the next scene as far as it still holds. After each relevant change
+// its problem must equal the problem of a new maker.
 
 #include <functional>
 
@@ -14,7 +14,7 @@ namespace
 {
 constexpr const char* kNarrow = R"(<axis xyz="0 0 1"/><limit lower="-0.7" upper="0.7" effort="1" velocity="1"/>)";
 
-/// A base with an arm to the front and a tail, `apart` metres from each other, which turn a little.
+/// A base with an arm in front and a tail behind, `apart` metres from each other. Both turn by up to 0.7 rad.
 std::shared_ptr<const RobotModel> armAndTail(double apart)
 {
   const auto at = [](double x) { return "<origin xyz=\"" + std::to_string(x) + " 0 0\"/>" + kNarrow; };
@@ -33,7 +33,7 @@ AttachedObject rod(const std::string& id, int link, double from, double length)
   return attached;
 }
 
-/// Posts in front of the robot and behind it, a metre from each other.
+/// Posts in a row in front of the robot and behind it, a metre apart.
 PlanningScene sceneWithPosts()
 {
   PlanningScene scene(armAndTail(4.0));
@@ -54,7 +54,7 @@ struct Step
   std::function<void(PlanningScene&)> change;
 };
 
-/// Every step is to change what can be reached.
+/// Expects the problems of a new maker after each step. Every step must change the reachable pairs.
 void expectProblemsOfANewMaker(PlanningScene scene, const std::vector<Step>& steps)
 {
   ProblemMaker maker{CheckerOptions()};

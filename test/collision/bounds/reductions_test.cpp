@@ -1,4 +1,4 @@
-// What is left out of a problem changes no answer: not within the joints' limits, not outside of them, not for groups.
+// Pairs that are left out of a problem change no answer, within the joint limits, outside of them, and for groups.
 #include <iostream>
 #include <random>
 #include <set>
@@ -51,7 +51,7 @@ CheckerOptions with(const Reductions& reductions)
   return options;
 }
 
-/// Two of three within the limits, some of them at limits; the others outside, by up to a turn or a metre.
+/// Two of three states are within the limits, some of them at limits. The others are outside by up to 3 rad or 3 m.
 std::vector<double> statesInAndOut(const RobotModel& robot, std::size_t count)
 {
   std::mt19937_64 generator(kSeed);
@@ -72,7 +72,7 @@ std::vector<double> statesInAndOut(const RobotModel& robot, std::size_t count)
   return states;
 }
 
-/// A scene of `testScene`; "carrying": see carryingScene().
+/// A scene of testScene(), or carryingScene() for "carrying".
 const TestScene& sceneCalled(const std::string& name)
 {
   if (name != "carrying")
@@ -131,7 +131,7 @@ TEST_P(ReductionsIn, ChangeNoAnswerOfTheGpu)
   }
 }
 
-/// Bodies that `problem` compares.
+/// The pairs of bodies that `problem` checks.
 std::set<BodyPair> bodyPairs(const CollisionProblem& problem)
 {
   std::set<BodyPair> pairs;
@@ -148,7 +148,7 @@ std::set<BodyPair> bodyPairs(const CollisionProblem& problem)
   return pairs;
 }
 
-/// The problem with only those pairs that are not in `pairs`.
+/// The problem without the pairs of bodies in `pairs`.
 CollisionProblem withoutPairs(CollisionProblem problem, const std::set<BodyPair>& pairs)
 {
   std::vector<std::array<std::uint32_t, 2>> self_pairs;
@@ -199,8 +199,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ReductionsIn, testing::Values("kr5", "kr5_crowd
 INSTANTIATE_TEST_SUITE_P(Scenes, BoundsIn,
                          testing::Values("kr5", "kr5_crowded", "wam", "drchubo", "ur5_cage", "carrying"));
 
-/// base (fixed in the world, with a fixed mast) -swing-> arm; a box around the mast's top, one in the arm's way, one
-/// far away, one that only the base is near to.
+/// base (fixed in the world, with a fixed mast) -swing-> arm; a box in the arm's path, a box far away, and a box behind
+/// the base that the arm cannot reach.
 class SmallScene : public testing::Test
 {
  protected:
@@ -220,7 +220,7 @@ class SmallScene : public testing::Test
                 "<group name='arm'><joint name='swing'/></group>"));
     addBox("way", {0.45, 0.0, 0.0});
     addBox("far", {5.0, 0.0, 0.0});
-    addBox("behind", {-0.45, 0.0, 0.0});  // the arm would have to turn by more than a right angle
+    addBox("behind", {-0.45, 0.0, 0.0});  // reached only if the arm turned by more than a right angle
   }
 
   void addBox(const std::string& id, const Eigen::Vector3d& at)
@@ -252,7 +252,7 @@ TEST_F(SmallScene, ReportsWhatIsLeftOutAndWhy)
   EXPECT_EQ(reach.unreachable_objects, 2U);
   EXPECT_EQ(reach.self_pairs + reach.unreachable_self_pairs, whole.self_pairs);
   EXPECT_EQ(reach.world_pairs + reach.unreachable_world_pairs, whole.world_pairs);
-  EXPECT_EQ(reach.world_pairs, 1U);  // the arm and what is in its way
+  EXPECT_EQ(reach.world_pairs, 1U);  // the arm and the box in its path
 
   const SceneReport settled = reportOf(only(false, true, true, false));
   EXPECT_EQ(settled.settled_pairs, 1U + 6U);
@@ -263,7 +263,7 @@ TEST_F(SmallScene, ReportsWhatIsLeftOutAndWhy)
 
 TEST_F(SmallScene, AnswersStatesOutsideTheLimitsWithAllPairs)
 {
-  const std::vector<double> states = {0.0, 3.1, -0.9, -3.1};  // into the way, behind, neither, behind
+  const std::vector<double> states = {0.0, 3.1, -0.9, -3.1};  // hits "way", hits "behind", free, hits "behind"
   const std::vector<std::uint8_t> expected = {0, 0, 1, 0};
   CpuChecker on_cpu(scene_);
   EXPECT_EQ(on_cpu.report().unreachable_objects, 2U);

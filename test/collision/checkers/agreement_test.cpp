@@ -1,4 +1,4 @@
-// Every checker against FCL on real robots: the answers agree but for what FCL is known to get wrong.
+// Compares every checker with FCL on real robots. They must agree except where FCL is known to be wrong.
 
 #include <functional>
 #include <iostream>
@@ -20,7 +20,7 @@ constexpr std::uint64_t kSeed = 20261121;
 
 using Scene = std::shared_ptr<const PlanningScene>;
 
-/// A way to make a checker.
+/// A named way to make a checker.
 struct Implementation
 {
   std::string name;
@@ -63,7 +63,7 @@ TEST_P(Agreement, WithFclInRandomStates)
 
   const FclAgreement agreement = compareWithFcl(*scene.scene, states, result);
   std::cout << name << " on " << checker->deviceName() << ", seed " << kSeed << ": " << agreement << std::endl;
-  // Else the comparison shows little.
+  // Otherwise the comparison shows little.
   ASSERT_GE(agreement.free, kStates / 10);
   ASSERT_LE(agreement.free, kStates * 9 / 10);
   ASSERT_GE(agreement.world_hits, kStates / 20);

@@ -1,4 +1,4 @@
-// The batch checker's answers do not depend on how the states come to it, and what is wrong changes nothing.
+// The batch checker's answers do not depend on the batches and order of the states. A refused call changes nothing.
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ TEST_P(Invariance, ValidIsTheSameForTraversalsBatchSizesAndOrders)
   if (const std::string missing = missingFor(GetParam()); !missing.empty())
     GTEST_SKIP() << "there is no " << missing;
   const TestScene& scene = testScene(GetParam());
-  // All batch sizes see the same states; small batches see fewer of them, to save time.
+  // All batch sizes check the same states. Small batches check fewer of them, to save time.
   constexpr std::size_t kStates = 16384;
   const std::vector<double> states = scene.randomStates(kStates, kSeed);
   const std::size_t width = scene.scene->robot->variables().size();
@@ -71,7 +71,7 @@ class BatchCheckerTest : public testing::Test
  protected:
   void SetUp() override
   {
-    // An arm of two links over a table: no files needed.
+    // An arm of two links and a post. No files are needed.
     const std::string urdf = R"(<robot name="arm">
       <link name="base"><collision><geometry><box size="0.2 0.2 0.1"/></geometry></collision></link>
       <link name="upper"><collision><origin xyz="0.3 0 0"/><geometry><box size="0.4 0.05 0.05"/></geometry></collision></link>
@@ -112,8 +112,8 @@ TEST_F(BatchCheckerTest, ChecksNoStatesAtAll)
   EXPECT_TRUE(checker.check(nullptr, 0).valid.empty());
 }
 
-/// In the state that touches, a link's root box meets the post's; states at once count one by one, however they are
-/// cut.
+/// In the touching state, the root boxes of a link and the post overlap. A call counts each of its states, however it
+/// is split into parts.
 TEST_F(BatchCheckerTest, CountsWhatTheGpuLookedAt)
 {
   BatchChecker checker(scene_, with(Traversal::WorkQueue, 2));
@@ -152,7 +152,7 @@ TEST_F(BatchCheckerTest, RefusesValuesThatAreNotFiniteAndUnknownGroups)
 
 TEST_F(BatchCheckerTest, RestrictsAGroupToPairsWithALinkThatItMoves)
 {
-  // The upper arm stands in the table: only the whole robot collides, the wrist's links do not.
+  // The upper arm collides with the table. The pairs of the wrist's links do not collide.
   auto made = std::make_shared<PlanningScene>(*scene_);
   made->objects = {{"table", Eigen::Isometry3d(Eigen::Translation3d(0.3, 0.0, 0.2)), {{Box{{0.1, 0.1, 0.1}}}}}};
   for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})

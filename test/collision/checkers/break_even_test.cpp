@@ -1,4 +1,4 @@
-// From which batch size on the slower starter is the faster one.
+// The batch size from which a method with a slow start is the faster one.
 #include "collision/checkers/break_even.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Says that it took a constant time and a time for each item; `spent` counts what it said.
+/// Work that reports a constant time plus a time for each item. `spent` sums the reported times.
 TimedWork work(double fixed, double per_item, double* spent = nullptr)
 {
   return [=](std::size_t size)
@@ -45,7 +45,7 @@ TEST(BreakEven, IsBelievedBeyondWhatWasTimedOnlyOfMuchSmallerCosts)
 
 TEST(BreakEven, LooksAtLargerBatchesWhereSmallOnesAreAlike)
 {
-  // Faster at first, as lanes are idle, but not later.
+  // Faster at first because lanes are idle, but not for larger batches.
   const TimedWork lanes = [](std::size_t size)
   { return 1e-6 + (size <= 64 ? 0.0 : 4e-6 * static_cast<double>(size - 64)); };
   EXPECT_EQ(breakEven(work(2e-6, 2e-6), lanes), kNoBatch);
@@ -53,7 +53,7 @@ TEST(BreakEven, LooksAtLargerBatchesWhereSmallOnesAreAlike)
 
 TEST(BreakEven, DoesNotBelieveOneDisturbedRun)
 {
-  // The usual way is the faster one, but its first run at each size met with something.
+  // The first method is the faster one, but its first run at each size was disturbed.
   std::size_t last = 0;
   const TimedWork disturbed = [last](std::size_t size) mutable
   {

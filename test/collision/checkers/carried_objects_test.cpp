@@ -1,4 +1,5 @@
-// What a real robot's gripper carries: a box that moves with it, may touch the fingers that hold it, and hits the rest.
+// Objects that a real robot's gripper carries: a box moves with the gripper, may touch the fingers, and hits other
+// bodies.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ class CarriedObjects : public testing::TestWithParam<const char*>
     return scene;
   }
 
-  /// The names of a pair that collides in `state`; empty where it is free.
+  /// The names of a pair that collides in `state`; empty if the state is free.
   std::string collision(const PlanningScene& scene, const std::vector<double>& state,
                         const std::string& group = "") const
   {
@@ -43,7 +44,7 @@ class CarriedObjects : public testing::TestWithParam<const char*>
     return scene.bodyName(std::min(a, b)) + " - " + scene.bodyName(std::max(a, b));
   }
 
-  /// A thin table whose top is at the lowest corner of a box that the scene has in the world.
+  /// A thin table under an unrotated box of the world: the table's top touches the box's bottom.
   static WorldObject tableUnder(const WorldObject& box)
   {
     const Eigen::Vector3d half = std::get<Box>(box.shapes[0].shape).size / 2.0;
@@ -54,7 +55,7 @@ class CarriedObjects : public testing::TestWithParam<const char*>
     return table;
   }
 
-  /// A small ball that is so far from the box's end face, 0.1 m from its middle.
+  /// A small ball at `distance` from the end face of the box, which is 0.1 m from the box's centre.
   WorldObject postBeside(double distance) const
   {
     WorldObject post = boxInGripper(*robot_, picked_.data());
@@ -71,7 +72,7 @@ class CarriedObjects : public testing::TestWithParam<const char*>
 TEST_P(CarriedObjects, MayTouchTheirTouchLinksAlone)
 {
   PlanningScene held = sceneWithBox();
-  EXPECT_NE("", collision(held, picked_));  // still in the world, between the fingers
+  EXPECT_NE("", collision(held, picked_));  // the box is an object of the world between the fingers
   PlanningScene loose = held;
   held.attach("held_box", "ee_link", gripperLinks(), picked_.data());
   EXPECT_EQ("", collision(held, picked_));
@@ -86,7 +87,7 @@ TEST_P(CarriedObjects, MoveWithTheirLinkAndStayWhereTheyArePutDown)
 {
   PlanningScene scene = sceneWithBox();
   scene.attach("held_box", "ee_link", gripperLinks(), picked_.data());
-  // A post where the far end of the box comes to lie when the arm turns.
+  // The post is at the end of the box after the arm has turned.
   WorldObject post = boxInGripper(*robot_, turned_.data());
   post.id = "post";
   post.shapes = {{Sphere{0.01}, Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.095, 0.02))}};
@@ -103,7 +104,7 @@ TEST_P(CarriedObjects, HitLinksThatAreNoTouchLinks)
 {
   PlanningScene scene = sceneWithBox();
   scene.attach("held_box", "ee_link", gripperLinks(), picked_.data());
-  // So large that the base is in it.
+  // The box is so large that it contains the base.
   std::get<Box>(scene.attached[0].object.shapes[0].shape).size = {3.0, 3.0, 3.0};
   for (const auto& link : robot_->links())
     if (link.name != "base_link")
@@ -133,7 +134,7 @@ TEST_P(CarriedObjects, HaveTheirLinksScale)
   for (const auto& link : robot_->links())
     scene.allowed_collisions.setEntry(link.name, "held_box", true);
   std::vector<double> scale(robot_->links().size(), 1.0);
-  scale[robot_->linkIndex("ee_link")] = 1.19;  // of the box's 0.1 m
+  scale[robot_->linkIndex("ee_link")] = 1.19;  // scales the box's half length of 0.1 m
   scene.setLinkScale(scale);
   EXPECT_EQ("", collision(scene, picked_));
   scale[robot_->linkIndex("ee_link")] = 1.21;

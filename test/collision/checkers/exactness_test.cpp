@@ -1,5 +1,5 @@
-// A slice of what bench/exactness.cpp runs in full: no wrong answer by the contract on real robots, in random states
-// and close to contact, and one and the same verdict from every checker, traversal and batch size.
+// A small part of bench/exactness.cpp: no answer contradicts the contract on real robots, in random states and close to
+// contact, and every checker, traversal and batch size gives the same verdict.
 
 #include <iostream>
 #include <numeric>
@@ -50,7 +50,7 @@ class Exact : public testing::TestWithParam<Slice>
     EXPECT_EQ(0u, exactness.unlike);
     for (const std::string& failure : exactness.failures)
       ADD_FAILURE() << failure;
-    // Else little was compared.
+    // Otherwise little was compared.
     EXPECT_GE(exactness.valid, exactness.states / 20);
     EXPECT_LE(exactness.valid, exactness.states * 19 / 20);
   }
@@ -70,7 +70,8 @@ TEST_P(Exact, CloseToContact)
   const auto states = nearContactStates(scene_, GetParam().near_states, kSeed);
   const Exactness exactness = check.compare(states, true, GetParam().name);
   expectNothingWrong(exactness);
-  // One half was stepped back from contact, most of it by more than the contract leaves open, none by far.
+  // Half of the states were moved back from contact, most of them by more than the tolerance of the contract, none by
+  // much.
   const auto& clearances = exactness.clearances;
   EXPECT_GE(std::accumulate(clearances.begin() + 1, clearances.end(), std::size_t{0}), GetParam().near_states / 4);
   EXPECT_EQ(0u, clearances.back());

@@ -1,4 +1,4 @@
-// The comparison with FCL must see errors, and excuse only what the comparison's rules excuse.
+// The comparison with FCL must detect errors and accept only the differences that its rules allow.
 
 #include "support/fcl_agreement.h"
 
@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 const Vector3d kCubeSize(0.2, 0.2, 0.2);
 
-/// A cube on a slide along x; the other link makes the robot's base.
+/// A cube on a slide along x, on a base without shapes.
 std::shared_ptr<PlanningScene> cubeOnASlide()
 {
   return std::make_shared<PlanningScene>(robotOf(
@@ -42,7 +42,7 @@ BatchResult answer(bool free)
   return result;
 }
 
-/// The comparison of an answer with the cube at 0 and the object at `x`.
+/// The comparison of an answer for the cube at 0 and the object at `x`.
 FclAgreement compared(double x, const Shape& shape, bool free)
 {
   const auto scene = cubeOnASlide();

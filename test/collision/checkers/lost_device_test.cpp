@@ -1,4 +1,4 @@
-// The real GPU checker behind a ResilientChecker, where the driver says that its context was reset.
+// The real GPU checker in a ResilientChecker, with a driver that reports a reset of its context.
 
 #include <atomic>
 #include <utility>
@@ -15,7 +15,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-std::atomic<int> resets{0};  // that the driver has yet to tell of
+std::atomic<int> resets{0};  // number of resets that the driver still has to report
 PFNGLGETGRAPHICSRESETSTATUSPROC true_answer = nullptr;
 
 GLenum answer()
@@ -23,7 +23,7 @@ GLenum answer()
   return resets.fetch_sub(1) > 0 ? static_cast<GLenum>(GL_GUILTY_CONTEXT_RESET) : true_answer();
 }
 
-/// With its objects that much higher.
+/// The scene with its objects raised by `distance`.
 std::shared_ptr<const PlanningScene> raised(const PlanningScene& scene, double distance)
 {
   auto changed = std::make_shared<PlanningScene>(scene);
@@ -45,7 +45,7 @@ TEST(LostDevice, ChangesNoAnswer)
   ResilientChecker checker(
       test.scene, [options](auto scene) { return std::make_unique<BatchChecker>(scene, options); },
       [](auto scene) { return std::make_unique<CpuChecker>(scene); });
-  true_answer = epoxy_glGetGraphicsResetStatus;  // now that it has been asked: before, libepoxy has yet to look for it
+  true_answer = epoxy_glGetGraphicsResetStatus;  // only now: libepoxy looks the function up at its first call
   epoxy_glGetGraphicsResetStatus = answer;
   std::shared_ptr<const PlanningScene> scene = test.scene;
   BatchResult expected = CpuChecker(scene).check(states.data(), count);
@@ -55,7 +55,7 @@ TEST(LostDevice, ChangesNoAnswer)
     const BatchResult before = std::exchange(expected, CpuChecker(scene).check(states.data(), count));
     ASSERT_NE(expected.valid, before.valid) << "answers of the scene before would not be told apart";
     if (losses == 2)
-      resets = 1;  // in the change of the scene; another in the check
+      resets = 1;  // one reset in setScene(); another one in check()
     checker.setScene(scene);
     resets = losses == 0 ? 0 : 1;
     const BatchResult result = checker.check(states.data(), count);

@@ -1,4 +1,4 @@
-// Two rigid shapes in many poses: answers against distances that are known without any tree.
+// Two rigid shapes in many poses. The answers are compared with distances that are known without a tree.
 
 #include <cmath>
 #include <random>
@@ -29,7 +29,7 @@ TEST_P(MeshPair, SpheresMeetWhereTheirCentresAreNearerThanTheirRadii)
   constexpr std::size_t kPoses = 3000;
   const Tessellation large = tessellate(Sphere{0.2});
   const Tessellation small = tessellate(Sphere{0.1});
-  // As meshes, so that surfaces are compared: one within the other is not a surface contact.
+  // The spheres are meshes, so that surfaces are compared. No distance is so small that one contains the other.
   MeshPairChecker checker(large.mesh, small.mesh, options());
   std::mt19937_64 generator(kSeed);
   std::normal_distribution<double> normal;
@@ -70,7 +70,7 @@ TEST_P(MeshPair, BoxesTouchAtTheirFaces)
 
 TEST_P(MeshPair, CurvedSolidsAreDecidedByTheirTrueSurfaces)
 {
-  // Two cylinders with crossed axes: their distance is that of the axes, less the radii.
+  // Two cylinders with crossed axes. Their distance is the distance of the axes minus the radii.
   constexpr std::uint64_t kSeed = 7;
   MeshPairChecker checker(Cylinder{0.05, 0.4}, Cylinder{0.03, 0.3}, options());
   std::mt19937_64 generator(kSeed);
@@ -79,7 +79,7 @@ TEST_P(MeshPair, CurvedSolidsAreDecidedByTheirTrueSurfaces)
   std::vector<double> gaps;
   for (int i = 0; i < 300; ++i)
   {
-    // Gaps of the size of the tessellations' sagitta, to both sides.
+    // Gaps of the size of the tessellations' sagittas, in both directions.
     gaps.push_back(share(generator) * 2e-4);
     Eigen::Isometry3d pose(Eigen::AngleAxisd(EIGEN_PI * share(generator), Eigen::Vector3d::UnitZ()));
     pose.translate(Eigen::Vector3d(0.08 + gaps.back(), 0.0, 0.1 * share(generator)));

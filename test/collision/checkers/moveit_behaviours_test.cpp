@@ -1,5 +1,5 @@
-// What MoveIt's tests ask of its collision detectors, asked of ours, on the robots of Debian's and of the shared
-// problems.
+// The behaviours that MoveIt's tests require of its collision detectors, tested here on robots of Debian and of the
+// shared problems.
 
 #include <cmath>
 
@@ -22,10 +22,10 @@ using Eigen::Isometry3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
 
-/// A robot with a pose where it is free, and one where its links fold into each other.
+/// A robot with a pose in which its links collide. Its default pose is free.
 struct Subject
 {
-  const char* scene;  // see testScene
+  const char* scene;  // as in testScene()
   const char* tip;    // its last link
   std::vector<std::pair<const char*, double>> folded;
 };
@@ -54,7 +54,7 @@ class MoveitBehaviours : public testing::TestWithParam<std::tuple<const char*, S
   StateChecker& checker() const { return checkerOf(std::get<0>(GetParam()), *scene_); }
   int tip() const { return scene_->robot->linkIndex(subject().tip); }
 
-  /// The names of the pair that collides, sorted by body; empty where the state is free.
+  /// The names of the pair that collides, ordered by body; empty if the state is free.
   std::string collision(const std::vector<double>& state) const
   {
     const BatchResult result = checker().check(state.data(), 1);
@@ -66,7 +66,7 @@ class MoveitBehaviours : public testing::TestWithParam<std::tuple<const char*, S
 
   const StateInspector& inspector() const
   {
-    static std::unique_ptr<StateInspector> last;  // its trees serve the next scene
+    static std::unique_ptr<StateInspector> last;  // the next inspector reuses its trees
     auto next = std::make_unique<StateInspector>(std::make_shared<const PlanningScene>(*scene_), last.get());
     last = std::move(next);
     return *last;
@@ -84,7 +84,7 @@ class MoveitBehaviours : public testing::TestWithParam<std::tuple<const char*, S
     return poses[static_cast<std::size_t>(tip())];
   }
 
-  /// A place on the last link: the middle of its first shape.
+  /// The centre of the bounding box of the last link's first shape.
   Vector3d atTip() const
   {
     const PlacedShape& placed = scene_->robot->links()[static_cast<std::size_t>(tip())].shapes.at(0);
@@ -179,7 +179,7 @@ TEST_P(MoveitBehaviours, ACarriedObjectMovesWithItsLinkAndHitsTheWorld)
   EXPECT_EQ(collision(state_), "box, stick");
   scene_->objects[0].pose = Isometry3d(Translation3d(atTip() + Vector3d(0, 0, 6)));
   EXPECT_TRUE(free());
-  // Another pose takes it elsewhere.
+  // In another state the stick is elsewhere.
   scene_->objects[0].pose = Isometry3d(Translation3d(atTip() + Vector3d(0, 0, 3)));
   state_[1] += 0.3;
   EXPECT_EQ(collision(state_).find("stick"), std::string::npos);

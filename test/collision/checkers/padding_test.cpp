@@ -1,4 +1,4 @@
-// Padding and floors on real robots, as scene files ask for them. What is true of a distance comes from the oracle.
+// Padding and floors from scene files on a real robot. The oracle computes the true distances.
 
 #include <cmath>
 #include <random>
@@ -32,7 +32,7 @@ class PaddedRobot : public testing::TestWithParam<const char*>
     return loadSceneFile(folder_.write("scene.yaml", yaml), robot, {});
   }
 
-  /// By how much the closest checked pair is further apart than its padding.
+  /// The smallest value of distance minus required distance over all checked pairs.
   double clearance(const PlanningScene& scene) const
   {
     const oracle::ProblemOracle oracle(std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr)));
@@ -51,7 +51,7 @@ class PaddedRobot : public testing::TestWithParam<const char*>
   TemporaryFolder folder_;
 };
 
-/// A scene file of a ball beside the robot, with padding for every link.
+/// A scene file with a ball beside the robot and padding for every link.
 std::string ballScene(const RobotModel& robot, double padding)
 {
   std::string yaml = "link_padding:\n";
@@ -122,8 +122,8 @@ TEST_P(PaddedRobot, StandsOnAFloorOfAPlane)
 INSTANTIATE_TEST_SUITE_P(Checkers, PaddedRobot, testing::Values("cpu", "breadth_first", "work_queue"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
-/// Padding can be large against a link and all else: what is compared then is rounded by more than the link's size
-/// covers.
+/// Padding can be large compared with a link and all other shapes. The rounding error of a comparison is then larger
+/// than an error bound from the link's size.
 TEST(Padding, OfMetresAroundATinyLinkIsKept)
 {
   constexpr std::uint64_t kSeed = 7;
@@ -138,7 +138,7 @@ TEST(Padding, OfMetresAroundATinyLinkIsKept)
   scene.objects[0].id = "box";
   scene.objects[0].shapes.resize(1);
   scene.objects[0].shapes[0].shape = Box{Eigen::Vector3d::Constant(0.002)};
-  // How far the link is moved towards the object from where it is just near enough.
+  // The displacement of the link towards the object, from the position at the required distance.
   std::vector<double> states;
   for (int i = 0; i < 64; ++i)
     states.push_back(1e-9 * (i - 8));

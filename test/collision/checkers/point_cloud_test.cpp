@@ -1,4 +1,4 @@
-// A cloud's object holds every point of it but the robot's own.
+// The object of a point cloud contains every point except the robot's own points.
 
 #include <cmath>
 #include <random>
@@ -33,7 +33,7 @@ bool holds(const WorldObject& object, const Vector3d& point)
       });
 }
 
-/// A robot far from what the tests look at.
+/// A robot far from the points of the tests.
 PlanningScene farRobot()
 {
   return PlanningScene(robotOf("<link name=\"base\"/>" + boxLink("tip") + jointXml("move", "floating", "base", "tip")));
@@ -45,7 +45,7 @@ TEST(PointCloud, IsACubeForEachVoxelWithAPoint)
 {
   PointCloudFilter filter({0.1, 0.0, 100.0});
   const PlanningScene scene = farRobot();
-  // Both sides of the origin, a border between voxels, and two points in one.
+  // The points lie on both sides of the origin and on a border of voxels. Two points are in one voxel.
   const std::vector<Vector3f> points = {{0.05F, 0.05F, 0.05F},  {0.09F, 0.01F, 0.02F}, {-0.05F, 0.0F, 0.05F},
                                         {-0.05F, -1.0F, 7.03F}, {0.5F, 0.25F, -0.3F},  {3.0F, 4.0F, -5.0F}};
   const WorldObject object = filter.objectOf("cloud", points, Isometry3d::Identity(), scene, kFarAway.data());
@@ -107,7 +107,7 @@ TEST(PointCloud, OfTooManyVoxelsOrWithWrongOptionsIsRefused)
   EXPECT_THROW(PointCloudFilter({0.0, 0.0, 10.0}), Error);
 }
 
-/// Points on the shapes' surfaces, off by up to `noise` along each axis.
+/// Points on the shapes' surfaces, with a random error of up to `noise` along each axis.
 std::vector<Vector3f> pointsOn(const std::vector<PlacedShape>& shapes, const Isometry3d& pose, float noise,
                                std::mt19937_64& generator)
 {
@@ -134,7 +134,7 @@ TEST(PointCloud, OfTheRobotItselfAndWhatItCarriesIsTakenOut)
   std::mt19937_64 generator(seed);
   const int last = static_cast<int>(robot.links().size()) - 1;
   scene.attached.push_back({{"carried", at(0, 0, 0.3), {{Box{{0.05, 0.4, 0.05}}}}}, last, {}});
-  // The own padding of links and of what they carry is no reason to take more out.
+  // The padding of links and attached objects must not remove more points.
   scene.attached[0].padding = 2.0;
   scene.link_padding.assign(robot.links().size(), 0.5);
   PointCloudFilter filter({0.02, 0.03, 10.0});
@@ -160,7 +160,7 @@ TEST(PointCloud, OfTheRobotItselfAndWhatItCarriesIsTakenOut)
 
 TEST(PointCloud, NearTheRobotIsTakenOutUpToThePaddingAndNoFurther)
 {
-  const PlanningScene scene = farRobot();  // a box of half a metre, or so
+  const PlanningScene scene = farRobot();  // with a box link of 1 m
   const std::vector<double> state = {0, 0, 0, 0, 0, 0, 1};
   const double half = 0.5 * std::get<Box>(scene.robot->links()[1].shapes.at(0).shape).size.x();
   const float voxel = 0.01F;
@@ -194,7 +194,7 @@ TEST(PointCloud, LeavesNoStateFreeThatAPointRefutes)
   PointCloudFilter filter({0.03, 0.0, 10.0});
   scene.objects.push_back(filter.objectOf("cloud", points, sensor, scene, start.data()));
   CpuChecker with_cloud(std::make_shared<const PlanningScene>(scene));
-  // The points themselves, but for those that are the robot's own: within a voxel of it.
+  // The points as tiny spheres, except points within a voxel of the robot.
   PlanningScene exact = scene;
   exact.objects = {{"points", Isometry3d::Identity(), {}}};
   for (const Vector3f& point : points)

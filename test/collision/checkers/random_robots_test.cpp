@@ -1,6 +1,6 @@
-// Robots and worlds made at random - all joint types, several shapes a link, meshes and solids, few objects and
-// hundreds, joints that follow others - on the GPU against the CPU: every traversal gives the CPU's verdicts. And what
-// is said to be free around a state is, and no motion takes a point of the robot further than its margin.
+// Random robots and worlds with all joint types, mimic joints, several shapes per link, meshes and solids, and up to
+// hundreds of objects. Every traversal on the GPU must give the CPU's verdicts. A state that is free with its
+// neighbourhood must have free neighbours. No motion may move a point of the robot by more than its margin.
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +61,7 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     return types[static_cast<std::size_t>(below(4))];
   }
 
-  /// By any factor, also of another type than the leader; a leader may itself follow another.
+  /// A mimic element with a random multiplier. The leader may have another joint type and may be a mimic joint itself.
   std::string mimicXml(const std::vector<std::string>& leaders)
   {
     if (leaders.empty() || below(2) == 0)
@@ -89,7 +89,7 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     }
     for (int i = 1; i < links; ++i)
     {
-      // Chains, with a branch now and then.
+      // Mostly a chain, with some branches.
       const int parent = below(3) == 0 ? below(i) : i - 1;
       const std::string name = "j" + std::to_string(i);
       const std::string type = jointType(i);
@@ -157,7 +157,7 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     return states;
   }
 
-  /// Sets the ways of followers to what these make of their leaders'.
+  /// Sets the travel of mimic joints to the travel that follows from their leaders.
   static void follow(const RobotModel& robot, JointTravel* ways)
   {
     const std::vector<Joint>& joints = robot.joints();
@@ -171,7 +171,7 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
         }
   }
 
-  /// Rows from hardly anything to a good deal, each for some states; joints of which some stand still.
+  /// Rows of travel from 0 to 0.2, each for some of the states. Some joints do not move.
   JointNeighbourhood surroundings(const RobotModel& robot)
   {
     JointNeighbourhood around;
@@ -183,7 +183,7 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
                                     : JointTravel{uniform(0.0, most), uniform(0.0, most)});
       follow(robot, &around.travel[around.travel.size() - robot.joints().size()]);
     }
-    const bool by_turns = below(2) == 0;  // else a part of the batch does without the first rows, or the last ones
+    const bool by_turns = below(2) == 0;  // else a part of the batch may not use the first or the last rows
     for (std::size_t i = 0; i < kStates; ++i)
       around.rows.push_back(
           static_cast<std::uint32_t>(by_turns ? static_cast<std::size_t>(below(5)) : i * 5 / kStates));
@@ -192,7 +192,7 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
 
   Eigen::Vector3d direction() { return Eigen::Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized(); }
 
-  /// Each joint by up to its way, and as far as its limits let it.
+  /// Moves each joint by up to its travel, within its limits.
   void moveWithin(const RobotModel& robot, const JointTravel* ways, double* state)
   {
     const auto move = [&](int variable, double by)
@@ -239,8 +239,8 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     }
   }
 
-  /// The end of a motion from a state to anywhere or near by, of all joints or of few. Continuous joints may be given
-  /// whole turns away.
+  /// The end of a motion from a state to a random state or a part of the way, with all or only some of the joints. The
+  /// angles of continuous joints may be off by a whole turn.
   std::vector<double> endOfMotion(const RobotModel& robot, const std::vector<double>& start)
   {
     std::vector<double> far(start.size());
@@ -267,7 +267,7 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
   std::shared_ptr<const Mesh> mesh_;
 };
 
-/// Points on the shapes of a problem's robot, where a state has them.
+/// The positions of points on the shapes of a problem's robot in a state.
 class PlacedPoints
 {
  public:
@@ -277,8 +277,8 @@ class PlacedPoints
     robot.linkPoses(state, links_.data());
   }
 
-  /// The largest distance of a point of `shape` from where it is in `other`, as the link `viewer` sees it; -1: the
-  /// planning frame.
+  /// The largest distance between the positions of a point of `shape` in the two states, in the frame of the link
+  /// `viewer`; -1: the planning frame.
   double furthest(const PlacedPoints& other, std::uint32_t shape, int viewer) const
   {
     constexpr std::size_t kPoints = 24;
@@ -303,10 +303,10 @@ class PlacedPoints
   std::vector<Eigen::Isometry3d> links_;
 };
 
-/// The last link on the way from the root that is on the ways to both.
+/// The last common link on the paths from the root to both links.
 int commonLink(const RobotModel& robot, int a, int b)
 {
-  while (a != b)  // parents come before children
+  while (a != b)  // parents have smaller indices than children
   {
     int& later = a > b ? a : b;
     const int joint = robot.links()[static_cast<std::size_t>(later)].parent_joint;
@@ -315,14 +315,14 @@ int commonLink(const RobotModel& robot, int a, int b)
   return a;
 }
 
-/// Looks at a motion in parts, and at how far each takes the robot's points, from its start and in all. Returns the
-/// largest share of its margin that anything moved.
+/// Splits a motion into parts. Expects that each part, and the motion from its start to each part, moves points within
+/// their margins. Returns the largest ratio of displacement to margin.
 double expectWithinMargins(const PlanningScene& scene, const CollisionProblem& problem,
                            const DisplacementBounds& displacements, const std::vector<double>& start,
                            const std::vector<double>& end)
 {
   constexpr int kParts = 8;
-  constexpr double kRounding = 1e-12;  // metres: states in between are rounded where a joint stands still, too
+  constexpr double kRounding = 1e-12;  // metres: intermediate states have rounding errors even if a joint does not move
   const RobotModel& robot = *scene.robot;
   JointNeighbourhood around{jointTravel(robot, start.data(), end.data()), {0, 1}};
   for (std::size_t i = 0; i < robot.joints().size(); ++i)
@@ -357,7 +357,7 @@ double expectWithinMargins(const PlanningScene& scene, const CollisionProblem& p
   };
   for (std::uint32_t i = 0; i < problem.robot.size(); ++i)
     compare(i, {i}, -1);
-  // Two shapes come nearer by no more than both move against what carries both.
+  // Two shapes approach each other by at most the sum of their displacements in the frame of their last common link.
   for (std::size_t i = 0; i < problem.self_pairs.size(); ++i)
   {
     const auto [a, b] = problem.self_pairs[i];

@@ -1,4 +1,4 @@
-// A device that fails loses no answer and changes none.
+// A device that fails neither loses nor changes an answer.
 
 #include <atomic>
 #include <chrono>
@@ -21,18 +21,18 @@ namespace
 {
 using Scene = std::shared_ptr<const PlanningScene>;
 
-/// What the fakes do and have done.
+/// Controls and records the fake checkers.
 struct Script
 {
   using Step = std::function<void()>;  // throws, or waits, or does nothing
-  /// What the next calls do first; without a step they go on.
+  /// First step of each of the next calls of the constructor, setScene() and check(). Calls without a step just run.
   std::deque<Step> makes, scenes, checks;
   std::function<bool(const PlanningScene&)> takes = [](const PlanningScene&) { return true; };
 
   std::mutex mutex;
   int made = 0;
   int alive = 0;
-  std::vector<std::size_t> batches;  // their sizes
+  std::vector<std::size_t> batches;  // sizes of the checked batches
   std::vector<std::thread::id> destroyed_on;
 
   void next(std::deque<Step>& steps)
@@ -50,8 +50,8 @@ struct Script
   }
 };
 
-/// A state is free where its first variable is above 0, or the way of the first joint around it. It answers from no
-/// scene that it has only a half of.
+/// A state is free if its first variable is above 0, or above the travel of the first joint around it. A checker whose
+/// scene is half built must not be used.
 class FakeChecker : public StateChecker
 {
  public:
@@ -151,7 +151,7 @@ class Resilient : public testing::Test
     return *checker_;
   }
 
-  /// Asks about two states, of which the first is free, and returns the revision that the answer is of.
+  /// Checks two states, of which the first is free, and returns the revision of the answer.
   std::uint64_t ask()
   {
     std::vector<double> states(2 * scene(0)->robot->variables().size(), 0.0);

@@ -1,5 +1,5 @@
-// Scenes that change under a checker: after each of many edits its answers are those of a checker that was made for the
-// scene as it is now. Trees, components and tessellations stay from scene to scene, which must not show.
+// A checker keeps trees, components and tessellations from scene to scene. After each of many edits its answers must
+// equal the answers of a new checker for the current scene.
 
 #include <functional>
 #include <iostream>
@@ -23,7 +23,7 @@ constexpr std::uint64_t kSeed = 20;
 class SceneEdits
 {
  public:
-  /// `robots`: the scene's robot is the first, until another takes its place; they differ in meshes only.
+  /// `robots`: the robots that edits put into the scene, beginning with the first one. They differ only in meshes.
   explicit SceneEdits(std::vector<std::shared_ptr<const RobotModel>> robots)
     : robots_(std::move(robots)), scene_(robots_.front()), state_(scene_.robot->defaultState())
   {
@@ -45,7 +45,7 @@ class SceneEdits
     return std::make_shared<const PlanningScene>(scene_);
   }
 
-  /// The scene as it is, but with a mesh among its first objects that is refused.
+  /// The current scene with an additional object whose mesh is invalid.
   std::shared_ptr<const PlanningScene> refused() const
   {
     auto scene = std::make_shared<PlanningScene>(scene_);
@@ -75,7 +75,7 @@ class SceneEdits
     object.id = newName();
     scene_.objects.push_back(object);
   }
-  /// A mesh of many triangles, so that those of objects that are gone fill the memory.
+  /// Adds a mesh of many triangles, so that trees of removed objects fill the memory.
   void addLarge()
   {
     WorldObject object;
@@ -121,7 +121,7 @@ class SceneEdits
     if (!scene_.attached.empty())
       scene_.detach(std::string(scene_.attached.front().object.id), state_.data());
   }
-  /// What is carried moves in the hand, or is another thing, or goes to another link.
+  /// Moves an attached object in the hand, changes its shape, or attaches it to another link.
   void regrip()
   {
     if (scene_.attached.empty())
@@ -169,7 +169,7 @@ class SceneEdits
     if (const WorldObject* object = any())
       scene_.allowed_collisions.setDefault(object->id, random_() % 4 == 0);
   }
-  /// A half-space that the arm can reach, but does not in most states, tilted a little.
+  /// Adds a slightly tilted half-space that the arm hits in some states.
   void addFloor()
   {
     WorldObject object;
@@ -188,7 +188,7 @@ class SceneEdits
   int count_ = 0;
 };
 
-/// Fresh ones leave nothing out.
+/// Compares `checker` with new checkers after each edit. The verdicts are those of a checker that leaves no pairs out.
 void expectAnswersOfAFreshChecker(StateChecker& checker, int edits)
 {
   std::cout << "seed " << kSeed << std::endl;
@@ -286,7 +286,7 @@ TEST(SceneUpdates, AMeshThatIsNotValidIsRefusedAmongThoseThatWereSeen)
   scene->objects.push_back({"good", Eigen::Isometry3d::Identity(), {{good}}, 0.0});
   CpuChecker checker(std::make_shared<const PlanningScene>(*scene));
   checker.setScene(std::make_shared<const PlanningScene>(*scene));
-  for (int i = 0; i < 20; ++i)  // the addresses of those that are gone are likely to be used again
+  for (int i = 0; i < 20; ++i)  // new meshes are likely to reuse the addresses of old ones
   {
     const auto bad = std::make_shared<Mesh>(*good);
     bad->triangles[0][0] = 99;
@@ -299,7 +299,7 @@ TEST(SceneUpdates, AMeshThatIsNotValidIsRefusedAmongThoseThatWereSeen)
   }
 }
 
-/// Every box is in the leaf that names it and in all nodes above.
+/// Expects that every box is in exactly one leaf and inside all nodes above it.
 void expectHoldsAll(const ObjectTree& tree, const std::vector<Eigen::AlignedBox3d>& boxes)
 {
   std::vector<int> seen(boxes.size(), 0);

@@ -1,4 +1,4 @@
-// With a tolerance, what collides is still found, and nothing is called colliding that is further apart than that.
+// With a tolerance, all collisions are still found, and a pair that is reported is at most the tolerance apart.
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -20,9 +20,9 @@ namespace
 {
 constexpr std::uint64_t kSeed = 23;
 constexpr std::size_t kStates = 800;
-constexpr std::size_t kMostMeasured = 5;  // by the oracle, which takes its time
+constexpr std::size_t kMostMeasured = 5;  // by the oracle, which is slow
 
-/// "cpu", "breadth_first" or "work_queue".
+/// A checker with a tolerance. `method`: "cpu", "breadth_first" or "work_queue".
 std::unique_ptr<StateChecker> checkerWith(double tolerance, const std::string& method,
                                           const std::shared_ptr<const PlanningScene>& scene)
 {
@@ -88,8 +88,8 @@ class ToleranceBy : public testing::TestWithParam<const char*>
 };
 INSTANTIATE_TEST_SUITE_P(Methods, ToleranceBy, kMethods);
 
-/// Ball meshes: one in the world, one that floats about it, at all gaps from touching to more than is near enough, from
-/// all sides, turned anyhow.
+/// Two ball meshes: one in the world, one that floats around it. Their gaps range from touching to more than the
+/// required distance, in random directions and orientations.
 TEST_P(ToleranceBy, CountsOnTopOfPaddingForMeshesFromAllSides)
 {
   constexpr double kRadius = 0.2;
@@ -123,7 +123,7 @@ TEST_P(ToleranceBy, CountsOnTopOfPaddingForMeshesFromAllSides)
     double farthest = 0.0;
     for (std::size_t i = 0; i < kPoses; ++i)
     {
-      // The meshes lie within the balls, by up to 0.1 mm each.
+      // Each mesh lies inside its ball, by up to 0.1 mm.
       EXPECT_TRUE(gap[i] > 0.0297 || valid[i] == 0) << gap[i] << ", seed " << kSeed;
       if (valid[i] == 0)
         farthest = std::max(farthest, gap[i]);

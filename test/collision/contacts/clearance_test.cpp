@@ -1,4 +1,4 @@
-// Clearance is the oracle's, to a micrometre, and never more.
+// The clearance is within a micrometre of the oracle's clearance and never exceeds it.
 
 #include <cmath>
 
@@ -18,7 +18,7 @@ namespace
 {
 constexpr std::uint64_t kSeed = 23;
 
-/// The problem's world pairs, or its self pairs.
+/// The problem with only its world pairs or only its self pairs.
 std::shared_ptr<const CollisionProblem> partOf(const PlanningScene& scene, const std::string& group, bool world)
 {
   CollisionProblem problem = makeProblem(scene, group, nullptr);
@@ -105,7 +105,7 @@ TEST_F(ClearanceTest, IsInfiniteWhereNothingIsChecked)
 TEST_F(ClearanceTest, IsZeroForABodyInsideAnother)
 {
   PlanningScene scene(test_.scene->robot);
-  // A shell around all of the robot: no surfaces meet.
+  // A shell around the whole robot: no surfaces meet.
   scene.objects.push_back({"shell", Eigen::Isometry3d::Identity(), {{tessellate(Box{{20, 20, 20}}).mesh}}});
   const StateInspector inspector(std::make_shared<const PlanningScene>(scene));
   const std::vector<double> state = scene.robot->defaultState();

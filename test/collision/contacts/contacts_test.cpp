@@ -1,4 +1,4 @@
-// Contacts of shapes whose overlap is known, and that every pair that collides has one.
+// Contacts of shapes with a known overlap. Every pair that collides has a contact.
 
 #include <cmath>
 #include <map>
@@ -21,14 +21,15 @@ namespace
 {
 using Eigen::Vector3d;
 
-constexpr int kObject = 2;  // the first one's body: after two links without shapes
+constexpr int kObject = 2;  // body of the first object: it follows two links without shapes
 
 std::shared_ptr<const Mesh> meshOf(const Shape& shape)
 {
   return tessellate(shape).mesh;
 }
 
-/// Objects, and a shape that a hand without shapes holds: its body comes after theirs. Variables: the hand's place.
+/// Objects, and a shape that is attached to a hand without shapes. Its body follows the objects. Variables: the pose of
+/// the hand.
 class Held
 {
  public:
@@ -94,7 +95,7 @@ TEST(Contacts, OfABoxInATableAreInTheirOverlapAndAsManyAsAskedFor)
   EXPECT_TRUE(held.contacts(place, 0).empty());
 }
 
-/// Shapes of every kind, 0.2 m wide along x, and as meshes.
+/// Shapes of different kinds, 0.2 m wide along x, as primitives and as meshes.
 std::map<std::string, Shape> shapes()
 {
   const Shape box = Box{{0.2, 0.2, 0.2}};
@@ -154,7 +155,7 @@ TEST(Contacts, OfTouchingBodiesHaveNoDepth)
     const Held held(shape, {{Box{{0.2, 1.0, 1.0}}, at(0, 0, 0)}});
     const auto contacts = held.contacts({0.2, 0.0, 0.0});
     if (std::holds_alternative<std::shared_ptr<const Mesh>>(shape) && contacts.empty())
-      continue;  // of a round one: it is within the sphere, and touches nothing
+      continue;  // the mesh of a round shape lies inside the true shape and touches nothing
     ASSERT_FALSE(contacts.empty());
     EXPECT_LT(contacts[0].depth, 1e-3);
     EXPECT_NEAR(contacts[0].point.x(), 0.1, 1e-3);
@@ -192,7 +193,7 @@ TEST(Contacts, WithAHalfSpaceIsAtTheLowestPoint)
   }
 }
 
-/// How far a body must move along a contact's normal to come free is its depth, also where one box spans the other.
+/// A body comes free when it moves along a contact's normal by the depth. This also holds when one box spans the other.
 TEST(Contacts, AreAsDeepAsTheWayThatTakesTheShapesApart)
 {
   const Held held(Sphere{0.3}, {{Box{{1.0, 0.2, 0.2}}, at(0, 0, 0)}});
@@ -212,7 +213,7 @@ TEST(Contacts, TellTheDeepestOfEachPairFirst)
   const Held held(
       Box{{0.2, 0.2, 0.2}},
       {{Box{{1.0, 1.0, 0.1}}, at(0, 0, 0)}, {Box{{0.1, 1.0, 1.0}}, at(0.24, 0, 0)}, {Sphere{0.1}, at(9, 9, 9)}});
-  const Vector3d place(0.1, 0.2, 0.13);  // 2 cm in the one, 1 cm in the other
+  const Vector3d place(0.1, 0.2, 0.13);  // 2 cm deep in the first box, 1 cm in the second
   const auto contacts = held.contacts(place);
   ASSERT_GT(contacts.size(), 3u);
   EXPECT_EQ(contacts[0].bodies[0], kObject);

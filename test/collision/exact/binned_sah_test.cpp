@@ -35,7 +35,7 @@ Vector3d uniformPlace(std::mt19937_64& generator)
   return {coordinate(generator), coordinate(generator), 1000.0 + coordinate(generator)};
 }
 
-/// Places of which every halving of space leaves all but a few on one side.
+/// Random places of which every halving of space leaves all but a few on one side.
 Vector3d crowdedPlace(std::mt19937_64& generator)
 {
   std::uniform_real_distribution<double> exponent(-250.0, 0.0);
@@ -115,7 +115,7 @@ TEST_F(BinnedSah, BoxesContainTheDoubleVerticesOfAllTrianglesBelow)
               [&](std::uint32_t index, int depth)
               {
                 if (depth > 20)
-                  return;  // the crowded mesh is deep, and every level costs a walk
+                  return;  // the crowded mesh is deep, and every level costs a traversal
                 const Node& node = forest_.nodes[index];
                 for (const std::uint32_t triangle : trianglesBelow(index))
                 {

@@ -1,4 +1,4 @@
-// What lies inside the solid that the closed components of a mesh bound collides, though no surfaces meet.
+// A body inside the solid of a mesh's closed components collides, although no surfaces meet.
 
 #include <cmath>
 #include <functional>
@@ -68,7 +68,7 @@ MeshPointer together(const MeshPointer& a, const MeshPointer& b)
       });
 }
 
-/// Either one moving.
+/// Checks the pair with each of the two shapes as the moving shape.
 void expectCollision(bool expected, const Shape& small, const Shape& large, const Eigen::Isometry3d& small_in_large,
                      const std::string& what)
 {
@@ -76,7 +76,7 @@ void expectCollision(bool expected, const Shape& small, const Shape& large, cons
   EXPECT_EQ(expected, MovingShape(large, {{small}}).collides(small_in_large.inverse())) << what << ", moving";
 }
 
-/// Every kind that can be inside something, all within 0.1 m of their frames' origins.
+/// Shapes of every kind that can be inside another shape, all within 0.1 m of their frames' origins.
 std::vector<Shape> smallShapes()
 {
   return {Box{{0.1, 0.1, 0.1}},        Sphere{0.05},         Cylinder{0.04, 0.1}, Cone{0.04, 0.1}, Shape(boxMesh(0.1)),
@@ -85,7 +85,7 @@ std::vector<Shape> smallShapes()
 
 TEST(Containment, InsideAClosedMeshCollidesAndInsideAnOpenOneDoesNot)
 {
-  // At places where rays along the axes pass through edges and vertices, too.
+  // Some of the places send rays along the axes through edges and vertices.
   for (const Vector3d& place : {Vector3d(0, 0, 0), Vector3d(0.2, 0.2, 0.2), Vector3d(-0.3, 0.1, 0.25)})
   {
     for (const Shape& small : smallShapes())

@@ -1,4 +1,4 @@
-// Required distances of shapes, and half-spaces, in the exact checker.
+// Required distances of shapes and half-spaces in the exact checker.
 
 #include <cmath>
 #include <limits>
@@ -20,7 +20,8 @@ std::shared_ptr<const Mesh> meshOf(const Shape& shape)
   return tessellate(shape).mesh;
 }
 
-/// The moving shape is `gap` from the object along `direction` when its pose is `from` moved by gap * direction.
+/// Checks padded and bare pairs near their limit. The distance of the pair is `gap` when the moving shape's pose is
+/// `from` moved by gap * direction.
 void expectPadded(const Shape& moving, const Shape& object, const Eigen::Isometry3d& from, const Vector3d& direction,
                   const std::string& what)
 {
@@ -44,7 +45,7 @@ void expectPadded(const Shape& moving, const Shape& object, const Eigen::Isometr
   }
 }
 
-/// As primitives and as meshes, in all combinations.
+/// Runs expectPadded() for primitives and meshes in all combinations.
 void expectPaddedAsAnything(const Shape& moving, const Shape& object, const Eigen::Isometry3d& from,
                             const Vector3d& direction, const std::string& what)
 {
@@ -83,7 +84,7 @@ TEST(CpuPadding, DoesNotCountBetweenLinks)
   problem->self_pairs = {{0, 1}};
   const CpuTraversal traversal(problem, std::make_shared<const Forest>(buildBinnedSah(problem->trees)));
   CpuTraversal::Scratch scratch;
-  // Turned, so that the boxes along the axes overlap.
+  // The links are rotated, so that their axis-aligned boxes overlap.
   const Eigen::Isometry3d turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
   for (const double gap : {0.0, 0.05, 1e-8})
   {
@@ -92,7 +93,7 @@ TEST(CpuPadding, DoesNotCountBetweenLinks)
   }
 }
 
-/// How far the shape reaches along a direction of unit length, in its frame.
+/// The extent of the shape along a unit vector, from the origin of its frame.
 double reach(const Shape& shape, const Vector3d& n)
 {
   const double across = n.head<2>().norm();

@@ -24,7 +24,7 @@ Triangle triangleOf(const Mesh& mesh, std::size_t t, const Isometry3d& pose)
   return {pose * mesh.vertices[corners[0]], pose * mesh.vertices[corners[1]], pose * mesh.vertices[corners[2]]};
 }
 
-/// By testing everything against everything.
+/// Tests every triangle and primitive against every other.
 bool collideByBruteForce(const Shape& a, const Tessellation& surface_a, const Shape& b, const Tessellation& surface_b,
                          const Isometry3d& b_in_a)
 {
@@ -42,11 +42,11 @@ bool collideByBruteForce(const Shape& a, const Tessellation& surface_a, const Sh
       if (trianglesWithin(in_b, triangleOf(*surface_b.mesh, j, Isometry3d::Identity()), 0.0))
         return true;
   }
-  // One primitive around the other body.
+  // One body may contain the other one.
   return !isMesh(a) && (isMesh(b) ? hasVertexInside(*surface_b.mesh, b_in_a, a) : isInside(a, b_in_a.translation()));
 }
 
-/// A mesh whose frame's origin is outside of it.
+/// A mesh that does not contain its frame's origin.
 std::shared_ptr<const Mesh> offCenter(const Mesh& mesh)
 {
   auto moved = std::make_shared<Mesh>(mesh);
@@ -88,7 +88,7 @@ TEST(CpuTraversal, FindsWhatTestingEverythingFindsForAllKindsOfShapes)
   }
 }
 
-/// A shape comes from afar until it touches: there the boxes of the nodes that meet touch, too.
+/// A shape approaches until it touches. The boxes of the nodes in contact then touch too.
 TEST(CpuTraversal, FindsWhatTestingEverythingFindsNearContact)
 {
   const std::uint64_t seed = 4;
@@ -124,7 +124,8 @@ TEST(CpuTraversal, FindsWhatTestingEverythingFindsNearContact)
   }
 }
 
-/// A valid tree, but a bad one: triangles as they come, the second half after the first, each node's box too large.
+/// A valid but inefficient tree: triangles are split at a third in their given order, and all nodes have the same box,
+/// which is too large.
 Forest buildCarelessly(const std::vector<Tessellation>& meshes)
 {
   Forest forest;

@@ -1,4 +1,4 @@
-// Connected components of meshes, and what they are for: shapes that lie inside solids.
+// Connected components of meshes, and their use: containment of shapes in solids.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ std::shared_ptr<const Mesh> twoBalls()
 
 TEST(Components, AreOnePerPartWhateverVerticesAreShared)
 {
-  // Every triangle with vertices of its own, as in an STL file.
+  // Every triangle has separate vertices, as in an STL file.
   const auto balls = twoBalls();
   Mesh soup;
   for (const auto& triangle : balls->triangles)
@@ -51,7 +51,7 @@ TEST(Components, AreOnePerPartWhateverVerticesAreShared)
   }
 }
 
-/// What findComponents says of the first component of a box after a change to its mesh.
+/// Whether findComponents reports the first component of a box as closed after a change of its mesh.
 template <class Change>
 bool closedAfter(const Change& change)
 {
@@ -72,7 +72,7 @@ TEST(Components, AreClosedIfEachEdgeHasTwoTrianglesOfOppositeDirection)
   EXPECT_FALSE(closedAfter([](Mesh& cracked) { cracked.triangles.pop_back(); }));
   EXPECT_FALSE(closedAfter([](Mesh& flipped) { std::swap(flipped.triangles[3][0], flipped.triangles[3][1]); }));
   EXPECT_FALSE(closedAfter([](Mesh& doubled) { doubled.triangles.push_back(doubled.triangles[5]); }));
-  // A triangle that names a place twice bounds nothing.
+  // A triangle with two equal corners does not open the mesh.
   EXPECT_TRUE(closedAfter([](Mesh& needle) { needle.triangles.push_back({0, 1, 1}); }));
 }
 
@@ -86,7 +86,7 @@ TEST_P(Containment, OfOneComponentIsACollision)
   options.traversal = std::get<0>(GetParam());
   const Shape& solid = std::get<1>(GetParam());
   const auto at = [](double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)); };
-  // The first ball inside, the second one inside, none, in both orders of the shapes.
+  // The first ball is inside, then the second ball, then none; in both orders of the shapes.
   EXPECT_EQ(MeshPairChecker(solid, twoBalls(), options).collide({at(0.02), at(-0.28), at(0.4), at(-0.15)}),
             (std::vector<std::uint8_t>{1, 1, 0, 0}));
   EXPECT_EQ(MeshPairChecker(twoBalls(), solid, options).collide({at(-0.02), at(0.28), at(-0.4), at(0.15)}),

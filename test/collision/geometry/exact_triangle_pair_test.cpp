@@ -1,5 +1,5 @@
-// Pairs of triangles at and around contact, of every kind, against distances in 100-digit arithmetic, where the double
-// coordinates of a pair leave no sign in doubt.
+// Pairs of triangles of every kind at and near contact, compared with distances in 100-digit arithmetic. With this
+// precision the signs of all expressions in a pair's double coordinates are certain.
 #include "collision/geometry/triangle_pair.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ Number fromSegment(const Point& p, const Point& a, const Point& b)
 Number ofSegments(const Point& a, const Point& b, const Point& c, const Point& d)
 {
   Number best = std::min({fromSegment(a, c, d), fromSegment(b, c, d), fromSegment(c, a, b), fromSegment(d, a, b)});
-  // The normal equations of |a + s u - c - t v|^2, by Cramer's rule.
+  // The minimum of |a + s u - c - t v|^2, from its normal equations by Cramer's rule.
   const Point u = b - a;
   const Point v = d - c;
   const Point w = c - a;
@@ -70,7 +70,8 @@ Number ofSegments(const Point& a, const Point& b, const Point& c, const Point& d
   return best;
 }
 
-/// Of a segment and a triangle's face: from the end points' feet, and 0 where it passes through.
+/// The smaller of `best` and the squared distance of a segment's end points from a triangle's face; 0 if the segment
+/// passes through the face.
 Number fromFace(const Point& start, const Point& end, const std::array<Point, 3>& t, Number best)
 {
   const Point n = cross(t[1] - t[0], t[2] - t[0]);
@@ -112,7 +113,8 @@ double trueDistance(const Triangle& a, const Triangle& b)
   return static_cast<double>(sqrt(best));
 }
 
-/// The answer is the canonical one in every order of the vertices and of the triangles.
+/// Expects the same answer in every order of the vertices and triangles, and the true answer where the distance is not
+/// too close to the limit.
 void expectCanonical(const Triangle& p, const Triangle& q, double required, const std::string& what)
 {
   constexpr std::array<std::array<int, 3>, 6> kOrders = {
@@ -133,7 +135,7 @@ void expectCanonical(const Triangle& p, const Triangle& q, double required, cons
     ASSERT_EQ(answer, beyond < 0.0) << what << ", by " << beyond;
 }
 
-/// Two triangles that touch at the origin of a frame, on both sides of its plane z = 0, or in it.
+/// Two triangles that touch at the origin. The first lies in or below the plane z = 0, the second in or above it.
 using Contact = std::array<Triangle, 2>;
 
 class Contacts
@@ -157,7 +159,7 @@ class Contacts
         return {face, vertex};
       case 1:
         return {face, edge};
-      case 2:  // two edges, at an angle that may be small
+      case 2:  // two edges at an angle that may be small
         return {edge, turned(edge, thin)};
       case 3:
         return {edge, turned(edge, 1.1)};
@@ -209,7 +211,7 @@ class ContactOfTriangles : public testing::TestWithParam<double>
 {
 };
 
-// The parameter is how thin slivers are and how nearly parallel what is nearly parallel is.
+// The parameter is the thickness of slivers and the angle of nearly parallel edges and planes.
 TEST_P(ContactOfTriangles, IsDecidedByTheTrueDistanceInEveryOrder)
 {
   constexpr std::array<double, 14> kOffsets = {0.0,      1e-3,  -1e-3,    1e-6,    -1e-6,  1e-9,  -1e-9,
@@ -225,7 +227,7 @@ TEST_P(ContactOfTriangles, IsDecidedByTheTrueDistanceInEveryOrder)
     const Eigen::Isometry3d pose = randomPose(contacts.generator(), i % 3 == 0 ? 1000.0 : scale);
     const double required = i % 4 == 1 ? 0.01 : 0.0;
     const Vector3d up(0, 0, required + kOffsets[static_cast<std::size_t>(i) % kOffsets.size()]);
-    // The first lies below the plane or in it; the offset lifts the other.
+    // The first triangle lies in or below the plane. The offset lifts the second one.
     Triangle p;
     Triangle q;
     for (int k = 0; k < 3; ++k)
@@ -287,7 +289,7 @@ TEST(ContactOfTriangles, SizesWhoseSquaresUnderflowAreDecidedByTheDistance)
 
 TEST(ContactOfTriangles, ASliverThatPiercesDeeplyIsAHit)
 {
-  // The needle passes through the middle of a triangle that is 1e-5 m wide, and beside it.
+  // The needle passes through the middle of a triangle that is 1e-5 m wide there, and beside it.
   const Triangle thin = {Vector3d(-1, 0, 0), Vector3d(1, -1e-5, 0), Vector3d(1, 1e-5, 0)};
   const auto needle = [](double y) { return Triangle{Vector3d(0, y, -1), Vector3d(0, y, 1), Vector3d(0, y, 3)}; };
   expectCanonical(thin, needle(0.0), 0.0, "through");

@@ -31,7 +31,7 @@ OrientedBox fit(const std::vector<Triangle>& triangles)
   return fitOrientedBox(spread, triangles.data(), triangles.size());
 }
 
-/// Corners anywhere in a box turned at random, whose sides may be 0.
+/// Triangles with random corners in a randomly rotated box. Sides of the box may be 0.
 std::vector<Triangle> randomTriangles(std::size_t count, const Vector3d& half, const Vector3d& center,
                                       std::mt19937_64& generator)
 {
@@ -56,7 +56,7 @@ void expectValid(const OrientedBox& box, const std::vector<Triangle>& triangles)
       EXPECT_TRUE(box.holds(corner));
       bounds.extend(corner);
     }
-  // What rounding adds on all sides.
+  // The enlargement on all sides that rounding may cause.
   const double rounding = 2e-14 * bounds.min().cwiseAbs().cwiseMax(bounds.max().cwiseAbs()).norm();
   const Vector3d aligned = (0.5 * bounds.sizes()).array() + rounding;
   EXPECT_LE(surfaceMeasure(box.half), surfaceMeasure(aligned));
@@ -135,7 +135,7 @@ TEST(OrientedBoxes, ThatShareAPointOverlap)
   std::uniform_int_distribution<int> side(-1, 1);
   for (int i = 0; i < 20000; ++i)
   {
-    // At a corner, on an edge or a face, or inside; every fourth pair has parallel axes.
+    // The common point is a corner, on an edge, on a face, or inside. Every fourth pair has parallel axes.
     OrientedBox boxes[2];
     const Vector3d point(100.0 * share(generator), share(generator), share(generator));
     for (OrientedBox& box : boxes)

@@ -21,7 +21,7 @@ const Sphere kSphere{0.2};
 const Cylinder kCylinder{0.2, 0.3};
 const Cone kCone{0.2, 0.5};
 
-/// The least value of a convex function on [lower, upper].
+/// The smallest value of a convex function on [lower, upper].
 double minimum(const std::function<double(double)>& function, double lower, double upper)
 {
   for (int i = 0; i < 45; ++i)
@@ -33,7 +33,7 @@ double minimum(const std::function<double(double)>& function, double lower, doub
   return function(0.5 * (lower + upper));
 }
 
-/// By minimising the distance to the solid, which is convex, over the triangle.
+/// The smallest distance to the solid over the triangle. The distance to a convex solid is a convex function.
 double distance(const Triangle& t, const Shape& shape)
 {
   return minimum(
@@ -96,7 +96,7 @@ TEST_P(PrimitiveSolid, MeetsATriangleWhereItsDistanceIsZero)
   constexpr int kTriangles = 300;
   for (int i = 0; i < kTriangles; ++i)
   {
-    // Small triangles at any place, and large ones that may cut through without an edge in the solid.
+    // Small triangles at random places, and large triangles that may cut the solid with no edge in it.
     const double size = std::array<double, 3>{0.1, 0.4, 2.0}[i % 3];
     const Vector3d place = 0.3 * Vector3d(coordinate(generator), coordinate(generator), coordinate(generator));
     Triangle t;
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, PrimitiveSolid,
 
 TEST(PrimitiveSolid, TouchesAtTheTrueSurfaceAndNotBeyond)
 {
-  // Triangles in the plane through `point` with the outward normal there, moved out by `gap`.
+  // A triangle in the tangent plane at `point`, moved outwards by `gap`.
   const auto touches = [](const Shape& shape, const Vector3d& point, const Vector3d& outward, double gap)
   {
     const Vector3d n = outward.normalized();
@@ -149,7 +149,7 @@ TEST(PrimitiveSolid, TouchesAtTheTrueSurfaceAndNotBeyond)
     const Vector3d at = point + gap * n;
     return triangleWithinSolid({at - u - v, at + u - v, at + 1.5 * v}, shape, 0.0);
   };
-  const double angle = 0.7;  // at no vertex of any tessellation
+  const double angle = 0.7;  // not an angle of any vertex of the tessellations
   const Vector3d radial(std::cos(angle), std::sin(angle), 0.0);
   struct Contact
   {

@@ -1,6 +1,6 @@
-// Convex shapes at exactly known distances: a point of one, where n is an outward normal, and a point of the other,
-// where -n is, are brought to a distance d along n. Then two parallel planes d apart have the shapes on either side, so
-// d is their distance, whatever the shapes are.
+// Convex shapes at exactly known distances. A point of the first shape has an outward normal n, and a point of the
+// second has the outward normal -n. The second point is placed at distance d along n from the first. Two parallel
+// planes at distance d then separate the shapes, so d is their distance for all convex shapes.
 
 #include <cmath>
 #include <string>
@@ -23,7 +23,7 @@ struct Feature
 {
   Vector3d point;
   Vector3d normal;
-  bool smooth;  // no other normal there: below the point is the inside
+  bool smooth;  // the normal is unique, so the inside lies directly below the point
 };
 
 class Features
@@ -59,13 +59,13 @@ class Features
       const double first = share();
       return {t[0] + first * ((t[1] - t[0]) + share() * (t[2] - t[1])), sign() * n, false};
     }
-    // Turned about an edge, away from the inside.
+    // A normal at an edge: rotated about the edge, away from the inside.
     const Vector3d edge = (t[1] - t[0]).normalized();
     const Vector3d outward = edge.cross(n);
     const Vector3d normal = std::cos(1.5 * share()) * outward + std::sin(1.5 * share()) * sign() * n;
     if (kind == 1)
       return {t[0] + share() * (t[1] - t[0]), normal.normalized(), false};
-    // A sum of what two edges have as normals is one at their vertex.
+    // The sum of normals of two edges is a normal at their common vertex.
     const Vector3d other = (t[2] - t[1]).normalized().cross(n);
     return {t[1], (outward + share() * other + 0.5 * sign() * n).normalized(), false};
   }
@@ -118,7 +118,7 @@ class Features
   }
 };
 
-/// A right-handed orthonormal basis with `normal` for its z.
+/// A right-handed orthonormal basis whose z axis is `normal`.
 Eigen::Matrix3d basisOf(const Vector3d& normal)
 {
   Eigen::Matrix3d basis;
@@ -128,7 +128,8 @@ Eigen::Matrix3d basisOf(const Vector3d& normal)
   return basis;
 }
 
-/// Brings b's feature to a's, `distance` away along a's normal, with a random turn about it.
+/// The pose of b that places its feature at `distance` along the normal of a's feature, with the rotation `turn` about
+/// the normal.
 Isometry3d placed(const Feature& a, const Feature& b, double distance, double turn)
 {
   Isometry3d pose = Isometry3d::Identity();
@@ -162,8 +163,8 @@ const Value& pick(const std::vector<Value>& values, int i)
   return values[static_cast<std::size_t>(i) % values.size()];
 }
 
-/// A case: the distance along the normal, and whether that is the shapes' distance. Where it is negative they overlap
-/// if one of the surfaces is smooth there and the inside is below.
+/// The distance of the features along the normal. `known`: whether it decides the verdict. With a negative distance the
+/// shapes overlap if one of the surfaces is smooth there and the penetration is small.
 struct Gap
 {
   double required;
@@ -253,7 +254,7 @@ TEST_P(SolidContact, TurnedSolidsOverlapOrNotAsPointsOfThemSay)
     double least = 1.0;
     for (int k = 0; k < 200; ++k)
     {
-      // From the surface of b to a point inside: all of it belongs to b.
+      // A point between b's centre and its surface belongs to b.
       const Vector3d point = features.share() * features.of(b, k % 4).point;
       least = std::min(least, distanceToSolid(solid(), b_in_a * point));
     }
@@ -265,7 +266,8 @@ TEST_P(SolidContact, TurnedSolidsOverlapOrNotAsPointsOfThemSay)
 }
 TEST(BoxContact, ASliverAboveALongThinBoxIsFree)
 {
-  // All corners are at least 2.6e-9 m above the box. The simplices of a search for the distance are nearly flat here.
+  // All corners are at least 2.6e-9 m above the box. The simplices of an iterative distance search are nearly flat
+  // here.
   const std::vector<std::pair<Box, Triangle>> cases = {
       {{{39.811815600992063, 3.5879585704587723e-07, 0.58235358181467145}},
        {Vector3d(7.4944935299905122, 8.5264545792534179e-08, 0.29117679396769786),

@@ -57,13 +57,13 @@ bool originInTetrahedron(const IntPoint& a, const IntPoint& b, const IntPoint& c
            originInTriangle(b, c, d);
   }
   const std::int64_t sign = volume > 0 ? 1 : -1;
-  // The volumes with one corner replaced by the origin.
+  // The signed volumes with one corner replaced by the origin.
   return sign * dot(cross(b, c), d) >= 0 && sign * dot(cross(a, d), c) >= 0 && sign * dot(cross(a, b), d) >= 0 &&
          sign * dot(cross(a, c), b) >= 0;
 }
 
-/// Exact: two convex sets meet if the origin is in the hull of their points' differences (Minkowski), and then it is in
-/// a tetrahedron of four of them (Caratheodory).
+/// An exact test. Two convex sets meet if the origin is in the convex hull of the differences of their points
+/// (Minkowski). The origin is then in a tetrahedron of four of the differences (Caratheodory).
 bool meetExactly(const IntTriangle& p, const IntTriangle& q)
 {
   std::vector<IntPoint> differences;
@@ -122,7 +122,7 @@ class TrianglePair : public testing::TestWithParam<int>
 {
 };
 
-// On a coarse grid a large part of the pairs touch, are coplanar, or have a degenerate triangle.
+// On a coarse grid, many pairs touch, are coplanar, or have a degenerate triangle.
 TEST_P(TrianglePair, AgreesWithExactIntegersOnAGridInEveryPlaceAndSize)
 {
   const std::uint64_t seed = 20261101 + GetParam();
@@ -181,7 +181,7 @@ TEST(TrianglePair, SeesASmallTriangleAtTheBorderOfAHugeOne)
     const auto small_at = [](double x) {
       return Triangle{Vector3d(x, 3.001, -0.005), Vector3d(x + 0.01, 3.0, 0.004), Vector3d(x + 0.01, 3.002, 0.005)};
     };
-    const double crossing = 0.01 * 0.005 / 0.010;  // where the third side passes z = 0, beyond x
+    const double crossing = 0.01 * 0.005 / 0.010;  // distance from x to the place where the third side crosses z = 0
     EXPECT_TRUE(trianglesWithin(ground, small_at(-crossing - overlap), 0.0)) << overlap;
     EXPECT_FALSE(trianglesWithin(ground, small_at(-crossing + overlap), 0.0)) << overlap;
   }

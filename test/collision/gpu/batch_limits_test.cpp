@@ -1,5 +1,5 @@
-// What does not fit - lists, stacks, granted iterations - costs time, never an answer. Two meshes are enough to show
-// it.
+// Overflowing lists and stacks and exhausted iterations cost time, but change no answer. The problem has one mesh, as a
+// link and as three objects.
 
 #include <random>
 
@@ -20,7 +20,7 @@ namespace
 constexpr std::size_t kStates = 300;
 constexpr std::uint64_t kSeed = 23;
 
-/// A wavy closed surface: its inside is hollow, so that answers depend on triangles.
+/// A wavy closed surface that is not convex, so that answers depend on triangles.
 std::shared_ptr<const Mesh> wavySphere()
 {
   auto mesh = std::make_shared<Mesh>(*tessellate(Sphere{0.05}).mesh);
@@ -53,7 +53,7 @@ class BatchLimits : public testing::TestWithParam<Traversal>
       poses_.emplace_back(Eigen::Translation3d(uniform(generator), uniform(generator), uniform(generator)));
   }
 
-  /// The float part alone, with lists of a given length.
+  /// The verdicts of the GPU alone, with lists of given capacities.
   Verdicts verdictsWith(const ListCapacities& capacities)
   {
     EglContext context("auto");
@@ -66,7 +66,7 @@ class BatchLimits : public testing::TestWithParam<Traversal>
     return verdicts;
   }
 
-  /// All of it, with the shaders of folder_.
+  /// The result of the whole checker with the shaders of folder_.
   BatchResult resultWithChangedShaders()
   {
     BatchCheckerOptions options;
@@ -102,7 +102,7 @@ class BatchLimits : public testing::TestWithParam<Traversal>
 TEST_P(BatchLimits, ListsThatOverflowSplitTheBatch)
 {
   const Verdicts roomy = verdictsWith({});
-  // Room for what one state needs, not for what all do.
+  // Room for a single state, but not for all states.
   ListCapacities tight;
   tight.candidates = 16;
   tight.root_pairs = 16;
@@ -112,7 +112,7 @@ TEST_P(BatchLimits, ListsThatOverflowSplitTheBatch)
   std::size_t hits = 0;
   for (std::size_t i = 0; i < kStates; ++i)
   {
-    // Whether a state that is hit was also undecided somewhere depends on the order.
+    // The order of the tests decides whether a state with a hit also has an undecided pair.
     EXPECT_EQ(split.flags[i] & STATE_HIT, roomy.flags[i] & STATE_HIT) << "state " << i;
     EXPECT_EQ(split.flags[i] == 0, roomy.flags[i] == 0) << "state " << i;
     hits += roomy.flags[i] & STATE_HIT;
@@ -164,7 +164,7 @@ TEST_P(BatchLimits, AWalkThroughTheWorldThatTakesTooLongIsUndecided)
 
 TEST_P(BatchLimits, LanesThatTheDeviceEndsEarlyAreNoticed)
 {
-  // Ends every lane before it has done anything, without a word, as llvmpipe does after too many iterations.
+  // Ends every lane silently before it does anything, as llvmpipe ends lanes after too many iterations.
   std::string text = readShader(folder_.path(), "traversal/work_queue.comp");
   const std::string begin = "void main()\n{\n";
   const auto at = text.rfind(begin);

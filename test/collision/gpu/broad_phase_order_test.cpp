@@ -1,4 +1,4 @@
-// The order of the broad phase's queries: learned from hits, and every checked pair is in it once.
+// The order of the broad phase's queries is learned from hits. It contains every checked pair once.
 
 #include <algorithm>
 #include <set>
@@ -14,7 +14,7 @@ namespace
 {
 using Pair = std::array<std::uint32_t, 2>;
 
-/// Robot instances, of which all but the last meet the one object, and all pairs of them.
+/// Robot instances with all self pairs, and one object. All instances but the last are checked with the object.
 CollisionProblem problemOf(std::uint32_t instances)
 {
   CollisionProblem problem;
@@ -68,7 +68,7 @@ TEST(BroadPhaseOrder, BeginsWithWhatCollidesMostOften)
   order.setPairs(problemOf(12));
   EXPECT_EQ(order.queries().hot_self, 0U);
   EXPECT_EQ(order.queries().hot_world, 0U);
-  // Whichever of the two a hit names first; an object, and a half-space, which counts on from the objects.
+  // The two instances of a hit may be in either order. The numbers after the robot are an object and then a half-space.
   for (int i = 0; i < 10; ++i)
     order.count(9, 4);
   order.count(0, 1);
@@ -99,7 +99,7 @@ TEST(BroadPhaseOrder, StaysWhereOnlyTheWorldChanges)
   EXPECT_EQ(pairsOf(queries.self).front(), (Pair{4, 9}));
   ASSERT_EQ(queries.world.size(), 2U);
   EXPECT_EQ(queries.world[0][0], 3U);
-  // Other pairs: all is learned anew.
+  // After a change of the self pairs, everything is learned again.
   problem.self_pairs.pop_back();
   order.setPairs(problem);
   queries = order.queries();

@@ -1,5 +1,5 @@
-// The contract on the GPU, by both traversals: what each required distance, half-space and solid means. The poses keep
-// clear of the thresholds by more than float32 can blur, so that the GPU itself has to answer.
+// The contract on the GPU with both traversals: required distances, half-spaces and solids. The poses are farther from
+// the thresholds than the errors of float32, so the GPU itself must decide.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Isometry3d at(double x, double y = 0.0, double z = 0.0)
   return Isometry3d(Eigen::Translation3d(x, y, z));
 }
 
-/// Adds a shape to a mesh, moved and perhaps inside out.
+/// Adds a shape at `pose` to a mesh; `inverted`: with the triangles' orientation reversed.
 void append(Mesh& mesh, const Shape& shape, const Isometry3d& pose, bool inverted = false)
 {
   const auto part = tessellate(shape).mesh;
@@ -51,7 +51,7 @@ class GpuContract : public testing::TestWithParam<Traversal>
     return options;
   }
 
-  /// A robot of one link with one shape, and the world.
+  /// A problem with a robot of one link with one shape, and an empty world.
   static CollisionProblem problemOf(const Shape& moving)
   {
     CollisionProblem problem;
@@ -78,7 +78,7 @@ class GpuContract : public testing::TestWithParam<Traversal>
         poses.size(), 1, [&](std::size_t row, Isometry3d* pose) { *pose = poses[row]; }, result);
     return result;
   }
-  /// 1 where the moving shape is free at a pose; nothing may be left to the CPU.
+  /// 1 for each pose in which the moving shape is free. Expects that no state is undecided.
   std::vector<int> freeAt(const CollisionProblem& problem, const std::vector<Isometry3d>& poses)
   {
     const BatchResult result = check(problem, poses);
@@ -92,7 +92,8 @@ TEST_P(GpuContract, PaddingIsATrueDistanceOfBothBodies)
   CollisionProblem problem = problemOf(Box{{0.2, 0.2, 0.2}});
   problem.robot[0].padding = 0.03;
   addObject(problem, Box{{0.2, 0.2, 0.2}}, at(1.0), 0.02);
-  // Face to face the distance is along x, corner to corner it is not what moved faces would make of it.
+  // Face to face, the distance is along x. Corner to corner, boxes with faces moved outwards by the padding would
+  // collide too early.
   const double diagonal = 0.2 + 0.05 / std::sqrt(3.0);
   const auto beside = [](double offset) { return at(1.0 - offset, -offset, -offset); };
   EXPECT_EQ(freeAt(problem, {at(0.7499), at(0.7501), at(1.2501), at(1.2499), beside(diagonal - 1e-4),
@@ -136,8 +137,8 @@ TEST_P(GpuContract, AHalfSpaceHoldsAllBelowItsPlane)
 
 TEST_P(GpuContract, NoneOfManyHalfSpacesIsForgotten)
 {
-  // A sheet just above most of the planes: each makes its walk as long as it gets, and a device may limit all of a
-  // lane's walks together.
+  // A sheet just above most of the planes. Each plane makes the traversal as long as possible, and a device may limit
+  // the total iterations of a lane.
   auto sheet = std::make_shared<Mesh>();
   constexpr int kCells = 50;
   for (int i = 0; i <= kCells; ++i)
@@ -168,7 +169,7 @@ TEST_P(GpuContract, WhatIsInsideAClosedMeshCollidesWhicheverWayItFaces)
       CollisionProblem problem = problemOf(inner);
       addObject(problem, meshOf(Box{{0.4, 0.4, 0.4}}, inverted), at(0.5, 0.011, 0.013));
       EXPECT_EQ(freeAt(problem, {at(0.5), at(0.41), at(0.9), at(0.5, 0.0, 0.35)}), (std::vector<int>{0, 0, 1, 1}));
-      // The other way round: the shell moves.
+      // The shapes exchanged: the shell moves.
       CollisionProblem swapped = problemOf(meshOf(Box{{0.4, 0.4, 0.4}}, inverted));
       addObject(swapped, inner, at(0.5, 0.011, 0.013));
       EXPECT_EQ(freeAt(swapped, {at(0.5), at(0.41), at(0.9)}), (std::vector<int>{0, 0, 1}));
@@ -202,8 +203,8 @@ std::shared_ptr<const Mesh> triangleMesh(const Vector3d& a, const Vector3d& b, c
   return mesh;
 }
 
-/// Axes so short that the squares of their entries underflow have a length of 0 in floats; the required distance counts
-/// along them too.
+/// Very short axes have squares that underflow, and thus length 0 in float32. The required distance must still count
+/// along such axes.
 TEST_P(GpuContract, AxesTooShortForFloatsProveNothing)
 {
   for (const double width : {1e-18, 1e-20, 1e-23, 1e-26, 1e-28})
@@ -249,7 +250,7 @@ TEST_P(GpuContract, ADeviceWithOtherArithmeticIsReportedAndAnswersAreRightAllThe
                                                                : row == 1 ? 0.29
                                                                           : 0.35); }, result);
   EXPECT_EQ(result.valid, (std::vector<std::uint8_t>{1, 1, 0}));
-  EXPECT_GE(result.undecided_states, 1U);  // the last one at least
+  EXPECT_GE(result.undecided_states, 1U);  // at least the last state
   EXPECT_EQ(GpuChecker(options()).floatFault(), "");
 }
 

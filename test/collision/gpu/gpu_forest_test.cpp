@@ -1,4 +1,5 @@
-// Trees that the GPU builds: valid for any triangles, and as good as those of a binned SAH build.
+// Trees that the GPU builds are valid for any triangles, and almost as good as trees of the binned SAH build on the
+// CPU.
 
 #include <cmath>
 #include <functional>
@@ -22,7 +23,7 @@ namespace
 {
 using Eigen::Vector3d;
 
-/// Meshes that are hard on a builder, next to ordinary ones, and single triangles between them.
+/// Meshes that are difficult for a tree builder, ordinary meshes, and single triangles between them.
 std::vector<std::shared_ptr<const Mesh>> hardMeshes()
 {
   std::mt19937_64 generator(11);
@@ -64,7 +65,8 @@ class GpuForest : public testing::Test
     return scene_.readForest();
   }
 
-  /// Every triangle of the mesh is in exactly one leaf, boxes hold their triangles and children, the depth is bounded.
+  /// Expects that every triangle of the mesh is in exactly one leaf, that nodes contain the triangles below them, and
+  /// that the depth is bounded.
   void expectValid(const Forest& forest, std::size_t tree)
   {
     const Mesh& mesh = *problem_.trees[tree].mesh;
@@ -146,7 +148,8 @@ TEST_F(GpuForest, RefusesCoordinatesThatDoNotFitIntoFloats)
   }
 }
 
-/// The work of a traversal in random poses near contact, over trees by the GPU and by the CPU's binned SAH build.
+/// Compares the cost of traversals in random poses near contact, for trees of the GPU and of the CPU's binned SAH
+/// build.
 TEST_F(GpuForest, CostsAtMostFifteenPercentMoreToTraverseThanBinnedSah)
 {
   std::vector<std::shared_ptr<const Mesh>> meshes = {hardMeshes()[2], tessellate(Sphere{0.3}).mesh};

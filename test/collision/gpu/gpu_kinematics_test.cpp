@@ -1,4 +1,4 @@
-// The kinematics that is generated for a robot places what the model's own does, to the rounding of a float.
+// The kinematics shader generated for a robot gives the model's poses, up to the rounding of float32.
 
 #include <cmath>
 #include <random>
@@ -20,7 +20,7 @@ namespace
 constexpr std::uint64_t kSeed = 31;
 constexpr std::size_t kStates = 200;
 
-/// Two shapes on each link, turned and moved, relative to an origin.
+/// Two shapes on each link, one of them rotated, relative to an origin.
 CollisionProblem shapesOn(const RobotModel& robot)
 {
   CollisionProblem problem;
@@ -33,7 +33,7 @@ CollisionProblem shapesOn(const RobotModel& robot)
   return problem;
 }
 
-/// Random states; of each variable some at its limits, and some angles many turns away.
+/// Random states. Some variables are at their upper limit, and some values are displaced by up to 1e4.
 std::vector<double> statesOf(const RobotModel& robot)
 {
   std::mt19937_64 generator(kSeed);
@@ -78,7 +78,7 @@ void expectPosesOfTheModel(const std::shared_ptr<const RobotModel>& robot)
       const ShapeInstance& shape = problem.robot[k];
       Eigen::Isometry3d pose = links[static_cast<std::size_t>(shape.link)] * shape.pose;
       pose.translation() -= problem.origin;
-      // Half a unit in the last place of what is stored, and the doubles' own error.
+      // Half a unit in the last place of a float, and the error of the computation in double.
       const double scale = 1.0 + links[static_cast<std::size_t>(shape.link)].translation().norm();
       for (int entry = 0; entry < 12; ++entry)
       {
@@ -125,7 +125,7 @@ TEST(GpuKinematics, AndTheModelTurnByQuaternionsOfAnyLength)
   {
     const std::vector<double> state = {0.0, 0.0, 0.0, 0.0, length, 0.0, length};
     robot->linkPoses(state.data(), links.data());
-    EXPECT_NEAR(links[1].linear()(0, 2), 1.0, 1e-12) << length;  // a quarter turn around y
+    EXPECT_NEAR(links[1].linear()(0, 2), 1.0, 1e-12) << length;  // a quarter turn about y
   }
 }
 

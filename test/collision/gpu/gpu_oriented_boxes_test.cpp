@@ -1,4 +1,4 @@
-// Oriented boxes that the GPU fits: valid for any triangles, and no larger than those of the plain fit.
+// Oriented boxes that the GPU fits are valid for any triangles, and no larger than the boxes that the CPU fits.
 
 #include <cmath>
 #include <functional>
@@ -50,7 +50,7 @@ class GpuOrientedBoxesTest : public testing::Test
     trees_.triangles().buffer().read(corners_.data(), corners_.size() * sizeof(float));
   }
 
-  /// Calls visit(node, the triangles below it) for a node and all below it. Returns its triangles.
+  /// Calls visit(node, triangles below it) for a node and all nodes below it. Returns the triangles below the node.
   using Visit = std::function<void(std::uint32_t, const std::vector<std::uint32_t>&)>;
   std::vector<std::uint32_t> forNodes(std::uint32_t index, const Visit& visit)
   {
@@ -96,7 +96,7 @@ class GpuOrientedBoxesTest : public testing::Test
         for (std::size_t axis = 0; axis < 3; ++axis)
           EXPECT_LE(std::abs(along[static_cast<Eigen::Index>(axis)]), double{box.half[axis]}) << "node " << index;
       }
-    // What rounding outwards adds, and no more.
+    // The box is not larger than the axis-aligned box, except for outward rounding.
     const Vector3d half(node.half[0], node.half[1], node.half[2]);
     const double reach = Vector3d(node.center[0], node.center[1], node.center[2]).cwiseAbs().sum() + 2.0 * half.norm();
     const double added = 64.0 * UNIT_ROUNDOFF * reach + 1e-30;
@@ -134,7 +134,7 @@ TEST_F(GpuOrientedBoxesTest, HoldTheirTrianglesHoweverTheseLie)
 
 TEST_F(GpuOrientedBoxesTest, LieAlongWhatTheyHold)
 {
-  // A thin plate, turned: its oriented box is thin as well, whether one lane fits it or a workgroup.
+  // A thin rotated plate. Its oriented box is thin as well, whether a lane or a work group fits it.
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const auto on_plate = [&]
   { return Vector3d(turn * Vector3d(uniform_(generator_), 0.3 * uniform_(generator_), 0.01 * uniform_(generator_))); };
@@ -174,7 +174,7 @@ TEST_F(GpuOrientedBoxesTest, AreThoseOfThePlainFit)
                ++nodes;
                larger += halfSurface(oriented_[index].half) > 1.02 * surfaceMeasure(plain.half) + 1e-9 ? 1 : 0;
              });
-  // Of two axes that are equally good but for rounding, the two may choose different ones.
+  // If two axes differ only by rounding errors in quality, the two fits may choose different axes.
   EXPECT_LE(larger, nodes / 200) << "of " << nodes;
 }
 }  // namespace

@@ -1,4 +1,4 @@
-// Steps of the shaders against plain C++ in double precision: proofs must be true, and doubt must be rare.
+// Single steps of the shaders, compared with C++ in double: proofs must be true, and undecided results must be rare.
 
 #include <array>
 #include <cmath>
@@ -25,8 +25,7 @@ using Eigen::Vector3d;
 
 constexpr std::uint64_t kSeed = 17;
 
-/// One lane per case: runs one function of the shaders on floats.
-/// For tests of two nodes, each in a tree that is placed somewhere.
+/// Declarations for tests of two nodes, each in a tree with a pose.
 const char* const kPlacedNodes = R"(
 #include "geometry/pose.glsl"
 #include "traversal/root_pairs.glsl"
@@ -51,7 +50,7 @@ std::string vectorAt(int place)
   return "at(" + std::to_string(place) + "u)";
 }
 
-/// A node, and a pose by its rows, of the case's four vectors from a place on.
+/// GLSL of a node, or of a pose by its rows, from four vectors of the case's input that begin at `place`.
 std::string nodeAt(int place)
 {
   return "node(" + vectorAt(place) + ", " + vectorAt(place + 1) + ", " + vectorAt(place + 2) + ", " +
@@ -64,6 +63,7 @@ std::string poseAt(int place)
          vectorAt(place + 3) + ")";
 }
 
+/// Runs one function of the shaders on floats, with one lane for each case.
 class GpuStep : public testing::Test
 {
  protected:
@@ -107,7 +107,7 @@ class GpuStep : public testing::Test
         .normalized()
         .toRotationMatrix();
   }
-  /// Rounds to float and keeps both.
+  /// Rounds a vector to float32, appends it to the input, and returns it.
   static Vector3d put(const Vector3d& v, std::vector<float>& into)
   {
     const Eigen::Vector3f rounded = v.cast<float>();
@@ -123,7 +123,7 @@ class GpuStep : public testing::Test
 
 using Triangles = std::array<Triangle, 2>;
 
-/// Adds error and slack to each pair of triangles.
+/// Appends error and slack to each pair of triangles.
 std::vector<float> withBounds(const std::vector<float>& triangles, float error, float slack)
 {
   std::vector<float> input;
@@ -171,7 +171,7 @@ TEST_F(GpuStep, TrianglePairsAreDecidedAsInDoubleOrLeftUndecided)
   std::vector<Triangles> cases;
   for (std::size_t i = 0; i < kCases; ++i)
   {
-    // Sizes of 1 mm to 1 m, far from and near each other, slivers and degenerate ones among them.
+    // Sizes from 1 mm to 1 m, far from and near each other. Some are slivers or degenerate.
     const double size_a = std::pow(10.0, -1.5 + 1.5 * uniform_(generator_));
     const double size_b = std::pow(10.0, -1.5 + 1.5 * uniform_(generator_));
     const Vector3d center = anyVector(0.5);
@@ -213,7 +213,7 @@ TEST_F(GpuStep, TrianglesWithinTheErrorOrTheSlackAreUndecided)
   constexpr std::size_t kCases = 2000;
   for (std::size_t i = 0; i < kCases; ++i)
   {
-    // A corner of b over the inside of a, 50 micrometres above its plane.
+    // A corner of b is 50 micrometres above the interior of a.
     const Eigen::Matrix3d rotation = anyRotation();
     const Vector3d offset = anyVector(0.3);
     const double height = 5e-5;
@@ -249,7 +249,7 @@ TEST_F(GpuStep, DistancesOfTrianglesAreBoundedOrLeftUndecided)
     for (Triangle& triangle : pair)
       for (Vector3d& corner : triangle)
         corner = put(corner, floats);
-    // Half of them at distances near to what is required.
+    // Half of the pairs have distances near the required distance.
     double low = 0.0;
     double high = 1.0;
     for (int step = 0; step < 40 && i % 2 == 0; ++step)
@@ -267,7 +267,7 @@ TEST_F(GpuStep, DistancesOfTrianglesAreBoundedOrLeftUndecided)
   std::size_t hits = 0;
   for (std::size_t i = 0; i < kCases; ++i)
   {
-    // Claimed for triangles that are a micrometre off, either way.
+    // A proof must hold for triangles that are displaced by up to a micrometre.
     const bool within = trianglesWithin(cases[i][0], cases[i][1], required[i] - 0.9e-6);
     const bool beyond = !trianglesWithin(cases[i][0], cases[i][1], required[i] + 0.9e-6);
     EXPECT_FALSE(result[i] == STATE_HIT && !within) << "case " << i << ", seed " << kSeed;
@@ -280,7 +280,7 @@ TEST_F(GpuStep, DistancesOfTrianglesAreBoundedOrLeftUndecided)
   EXPECT_LT(undecided, kCases / 5);
 }
 
-/// A solid as the shaders have it, and as a shape.
+/// A solid in the shaders' form and as a Shape.
 struct TestSolid
 {
   std::uint32_t kind;
@@ -311,7 +311,7 @@ TEST_F(GpuStep, TrianglesAndSolidsAreDecidedAsTheExactCheckerDoesOrLeftUndecided
   const auto size = [&] { return std::pow(10.0, -1.5 + 1.5 * uniform_(generator_)); };
   for (std::size_t i = 0; i < kCases; ++i)
   {
-    // Plates, rods, needles and discs among them, of 1 mm to 1 m; so are the triangles, some slivers.
+    // Sizes from 1 mm to 1 m, with plates, rods, needles and discs among the solids and slivers among the triangles.
     const std::uint32_t kind = SOLID_BOX + static_cast<std::uint32_t>(i % 4);
     const Vector3d half = Vector3d(size(), size(), size()).cast<float>().cast<double>();
     const TestSolid solid = solidOf(kind, half);
@@ -324,7 +324,7 @@ TEST_F(GpuStep, TrianglesAndSolidsAreDecidedAsTheExactCheckerDoesOrLeftUndecided
       triangle[2] = triangle[0] + 0.4 * (triangle[1] - triangle[0]) + anyVector(1e-5 * length);
     const double distance =
         i / 4 % 2 == 0 ? 0.0 : static_cast<double>(static_cast<float>(0.02 + 0.01 * uniform_(generator_)));
-    // A third of them near to where they just touch, or are just near enough.
+    // A third of the pairs are near contact or near the required distance.
     if (i % 3 == 0)
     {
       const Vector3d out = 10.0 * anyVector(1.0).normalized();
@@ -361,7 +361,7 @@ TEST_F(GpuStep, TrianglesAndSolidsAreDecidedAsTheExactCheckerDoesOrLeftUndecided
   std::array<std::size_t, 3> counts = {};
   for (std::size_t i = 0; i < kCases; ++i)
   {
-    // Claimed for triangles that are a micrometre off, either way.
+    // A proof must hold for triangles that are displaced by up to a micrometre.
     const bool within = triangleWithinSolid(triangles[i], solids[i].shape, std::max(0.0, required[i] - 0.9 * kError));
     const bool beyond = !triangleWithinSolid(triangles[i], solids[i].shape, required[i] + 0.9 * kError);
     EXPECT_FALSE(result[i] == STATE_HIT && !within) << "case " << i << ", seed " << kSeed;
@@ -382,7 +382,7 @@ TEST_F(GpuStep, PointsLieWithinTheirBoundOfWhereExactPosesPutThem)
   std::vector<Vector3d> exact;
   for (std::size_t i = 0; i < kCases; ++i)
   {
-    // Arms of 1 cm to 10 m; every fifth world pose turned not at all.
+    // Translations of 1 cm to 10 m. Every fifth pose of a is not rotated.
     const double size = std::pow(10.0, -0.5 + 1.5 * uniform_(generator_));
     std::array<Eigen::Isometry3d, 2> poses;
     for (Eigen::Isometry3d& pose : poses)
@@ -421,7 +421,7 @@ TEST_F(GpuStep, PointsLieWithinTheirBoundOfWhereExactPosesPutThem)
     EXPECT_LT(share, 1.0) << "case " << i << ", seed " << kSeed;
   }
   std::cout << "at most " << largest << " of the bound, seed " << kSeed << std::endl;
-  EXPECT_GT(largest, 0.02);  // a bound that is far too wide would cost undecided states
+  EXPECT_GT(largest, 0.02);  // a bound that is much too wide would cost undecided states
 }
 
 TEST_F(GpuStep, WhatIsProvenOfPlacedTrianglesHoldsForTheExactPoses)
@@ -431,8 +431,7 @@ TEST_F(GpuStep, WhatIsProvenOfPlacedTrianglesHoldsForTheExactPoses)
   std::vector<bool> meet;
   for (std::size_t i = 0; i < kCases; ++i)
   {
-    // Triangles of 1 mm to 1 m in frames near and far, moved to within nanometres to micrometres of where they begin to
-    // meet.
+    // Triangles of 1 mm to 1 m in frames near and far, between nanometres and micrometres from contact.
     const double arm = std::pow(10.0, 0.75 + 0.75 * uniform_(generator_));
     std::array<Triangle, 2> triangles;
     std::array<Eigen::Isometry3d, 2> poses;
@@ -450,7 +449,7 @@ TEST_F(GpuStep, WhatIsProvenOfPlacedTrianglesHoldsForTheExactPoses)
     };
     const Triangle a = placed(0);
     const auto center = [](const Triangle& t) { return Vector3d((t[0] + t[1] + t[2]) / 3.0); };
-    const Vector3d from = poses[1].translation() + center(a) - center(placed(1));  // there they meet, or nearly
+    const Vector3d from = poses[1].translation() + center(a) - center(placed(1));  // here they meet, or nearly
     const Vector3d way = anyVector(1.0).normalized();
     double low = 0.0;
     double high = 3.0;
@@ -504,7 +503,7 @@ TEST_F(GpuStep, WhatIsProvenOfPlacedTrianglesHoldsForTheExactPoses)
   EXPECT_GT(count[STATE_UNDECIDED], kCases / 10);
 }
 
-/// A box around its own axes, in a shape's frame; the shape is placed by a pose.
+/// An oriented box in a shape's frame. `pose`: pose of the shape.
 struct PlacedBox
 {
   Vector3d center;
@@ -512,7 +511,8 @@ struct PlacedBox
   Eigen::Matrix3d axes;
   Eigen::Isometry3d pose;
 
-  /// In single precision: centre, half edge lengths, quaternion, rows of the pose; what of it is the box's is so then.
+  /// Appends centre, half edge lengths, quaternion and the rows of the pose as float32. Rounds the box's own values
+  /// accordingly.
   void put(std::vector<float>& into)
   {
     const Eigen::Quaternionf q(Eigen::Quaterniond(axes).cast<float>());
@@ -554,13 +554,13 @@ TEST_F(GpuStep, OrientedBoxesThatOverlapAreNeverApart)
       box.pose.linear() = anyRotation();
     }
     auto& [a, b] = boxes;
-    // Parallel boxes too, where products of axes vanish.
+    // Some boxes are parallel, so that cross products of axes vanish.
     if (i % 5 == 0)
       b.axes = b.pose.linear().transpose() * a.pose.linear() * a.axes;
     std::vector<float> placed;
     a.put(placed);
     b.put(placed);
-    // Along a line from a's centre they touch somewhere: there, or a little before or after.
+    // The boxes are placed at, shortly before or shortly after their first contact along a line from a's centre.
     const Vector3d to = anyVector(1.0).normalized();
     const Vector3d together = a.pose * a.center - b.pose.linear() * b.center;
     double low = 0.0;
@@ -576,7 +576,7 @@ TEST_F(GpuStep, OrientedBoxesThatOverlapAreNeverApart)
     a.put(input);
     b.put(input);
     overlapping.push_back(overlap(a, b));
-    // Still apart where all is a thousandth larger.
+    // Whether the boxes are apart even if b is larger by a thousandth of the sizes.
     PlacedBox larger = b;
     larger.half += Vector3d::Constant(1e-3 * (a.half.norm() + b.half.norm()) + 1e-4);
     clearly_apart.push_back(!overlap(a, larger));
@@ -602,11 +602,11 @@ bool placedApart(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b)
   }
   EXPECT_GT(meeting, kCases / 10);
   EXPECT_GT(clear, kCases / 50);
-  // All 15 axes are there: what is clearly apart is found to be.
+  // The test uses all 15 axes, so it finds all pairs that are clearly apart.
   EXPECT_EQ(missed, 0U) << "of " << clear << ", seed " << kSeed;
 }
 
-/// Boxes around a curved solid's box need not be near the solid.
+/// A box that overlaps a curved solid's bounding box need not be near the solid.
 TEST_F(GpuStep, BoxesThatMeetASolidAreNeverBeyondIt)
 {
   constexpr std::size_t kCases = 3000;
@@ -628,7 +628,7 @@ TEST_F(GpuStep, BoxesThatMeetASolidAreNeverBeyondIt)
     box.pose.linear() = anyRotation();
     std::vector<float> rounded;
     box.put(rounded);
-    // Along a line they touch somewhere: there, or a little before or after.
+    // The shapes are placed at, shortly before or shortly after their contact along a line.
     const auto meet = [&](double grown)
     {
       const Eigen::Isometry3d into = of_solid.pose.inverse(Eigen::Isometry) * box.pose *
@@ -685,7 +685,7 @@ bool placedBeyond(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b, vec3
   std::cout << meeting << " meet, " << clear << " apart by 5 mm, " << found << " of these found, seed " << kSeed
             << std::endl;
   EXPECT_GT(meeting, kCases / 4);
-  // One line does not find all.
+  // The test of one line does not find all pairs that are apart.
   EXPECT_GT(found, clear / 3);
 }
 }  // namespace

@@ -1,4 +1,4 @@
-// How many states of a batch go to a device at once, at most, and how many are wanted.
+// The largest number of states of a batch that go to a device at once, and the batch size for a wanted time.
 
 #include "collision/gpu/part_limits.h"
 
@@ -22,7 +22,7 @@ TEST(PartLimits, IsSoSmallThatNoProductOfStatesWrapsInThirtyTwoBits)
     const std::size_t states = mostStatesOfPart(kTextureBytes, instances, self_queries);
     SCOPED_TRACE(instances);
     EXPECT_GE(states, 1u);
-    // A dispatch in two dimensions may begin up to a row of workgroups more lanes than it needs.
+    // A dispatch in two dimensions may have up to one row of work groups more than it needs.
     const std::uint64_t row = std::uint64_t{65535} * GROUP_SIZE;
     const std::uint64_t lanes = std::uint64_t{states} * std::max(instances, self_queries) + row;
     EXPECT_LE(lanes, std::numeric_limits<std::uint32_t>::max());

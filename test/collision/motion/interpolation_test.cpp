@@ -1,5 +1,4 @@
-// Straight motions between states: how they are interpolated, how far joints travel, and into how many segments they
-// are cut.
+// Straight motions between states: their interpolation, the joint travel, and the number of segments.
 
 #include <cmath>
 #include <random>
@@ -15,7 +14,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// A floating base, a planar platform on it, then one joint of each other kind, and a mimic one.
+/// A floating base with a planar platform, then one joint of each other kind, and a mimic joint.
 std::shared_ptr<const RobotModel> movingRobot()
 {
   return robotOf(boxLink("base") + boxLink("platform") + boxLink("wheel") + boxLink("arm") + boxLink("slide") +
@@ -143,7 +142,7 @@ TEST_F(Motions, AreCutSoThatNothingMovesMoreThanItsStepAndNoFiner)
     robot_->randomState(generator, from.data());
     robot_->randomState(generator, to.data());
     const double n = segmentCount(*robot_, from.data(), to.data(), steps);
-    double largest = 0.0;  // of all steps, in units of what is allowed
+    double largest = 0.0;  // largest step, relative to the allowed step
     for (double i = 0.0; i < n; ++i)
     {
       const std::vector<double> before = between(from, to, i / n);

@@ -1,5 +1,5 @@
-// Motions are refused where they collide, also between samples where the bound is asked for, and as far as they are
-// called free they are.
+// Motions that collide are rejected, also between samples under the bound rule. The part of a motion that is reported
+// as free is free.
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +90,7 @@ TEST_F(PointMotions, AreRefusedWhereTheirSamplesDoNotProveThem)
   EXPECT_EQ(given_up.colliding, (BodyPair{-1, -1}));
   EXPECT_GT(given_up.last_valid, 0.3);
   EXPECT_LT(given_up.last_valid, 0.5);
-  // Nearer than any sample can tell from touching.
+  // A gap so small that no sample proves the motion free.
   scene_->objects = {wall(0.5, 0.1, 0.51 + 2e-9, 1.0)};
   EXPECT_FALSE(verdict(checker(MotionRule::Bound, 0.05, 2000000), {0.0, 0.0}, {1.0, 0.0}).valid);
 }
@@ -112,7 +112,7 @@ TEST_F(PointMotions, EndTheirLastValidPartBeforeTheFirstCollision)
   }
 }
 
-/// Collides at the values of the first variable that a test names.
+/// A checker in which a state collides if its first variable has one of the values in hits_.
 class ScriptedChecker : public StateChecker
 {
  public:
@@ -145,7 +145,7 @@ TEST_F(PointMotions, AreJudgedByTheFirstSampleThatCollides)
   const MotionChecker checker(scripted, scene_->robot, "", options);
   const std::vector<double> starts = {0.0, 0.0, 0.0, 1.0};  // two motions of five samples
   const std::vector<double> ends = {0.0, 1.0, 1.0, 1.0};
-  for (unsigned hits = 0; hits < 32; ++hits)  // brute force over the samples that collide
+  for (unsigned hits = 0; hits < 32; ++hits)  // all combinations of colliding samples
   {
     scripted->hits_.clear();
     for (unsigned i = 0; i < 5; ++i)
@@ -177,7 +177,7 @@ TEST_F(PointMotions, AreNotValidWhereTheCallIsStoppedBeforeTheyAreDecided)
 {
   scene_->objects = {wall(0.5, 0.1, 0.5101, 1.0)};
   const std::vector<double> starts = {0.0, 0.0, 0.0, 0.6};
-  const std::vector<double> ends = {1.0, 0.0, 1.0, 0.6};  // the second one collides
+  const std::vector<double> ends = {1.0, 0.0, 1.0, 0.6};  // the second motion collides
   const MotionChecker checking = checker(MotionRule::Bound, 0.05);
   for (const MotionQuery question : {MotionQuery::Valid, MotionQuery::LastValid})
   {
@@ -211,7 +211,8 @@ TEST_F(PointMotions, RefuseStepsThatAreNone)
   EXPECT_EQ(errorOf([] { motionRuleFromName("exact"); }), "the motion rule is 'exact'; it must be samples or bound");
 }
 
-/// An arm of 1 m on a wheel that goes with a crank: the wheel goes round by the crank's way, not by the shorter one.
+/// An arm of 1 m on a wheel that mimics a crank. The wheel turns in the direction of the crank, not in the shorter
+/// direction.
 TEST(MotionsOfFollowers, AreNotFreeWhereAFollowerSweepsThroughAWall)
 {
   const auto robot = robotOf(
@@ -224,7 +225,7 @@ TEST(MotionsOfFollowers, AreNotFreeWhereAFollowerSweepsThroughAWall)
   scene->objects = {wall(0.9, 0.02, 0.0005, 0.001)};
   const auto cpu = std::make_shared<CpuChecker>(scene);
   MotionCheckerOptions options;
-  options.steps = {0.31, 0.31};  // 0 is not among its samples
+  options.steps = {0.31, 0.31};  // 0 is not among the samples
   const MotionChecker checker(cpu, robot, "", options);
   const double from = -3.0;
   const double to = 3.05;

@@ -65,7 +65,7 @@ NamePair sorted(const std::string& a, const std::string& b)
   return a < b ? NamePair(a, b) : NamePair(b, a);
 }
 
-/// The pairs of bodies that are checked, by name.
+/// The names of the checked pairs of bodies.
 std::set<NamePair> checkedPairs(const PlanningScene& scene, const std::string& group = "")
 {
   const CollisionProblem problem = makeProblem(scene, group, nullptr);
@@ -132,10 +132,10 @@ TEST(CheckedPairs, FollowDefaultsOfTheMatrixAsMoveItDoes)
   AllowedCollisionMatrix matrix;
   EXPECT_FALSE(matrix.allowed("a", "b"));
   matrix.setDefault("a", true);
-  EXPECT_TRUE(matrix.allowed("a", "b"));  // one default: that one
+  EXPECT_TRUE(matrix.allowed("a", "b"));  // one default: it decides
   EXPECT_TRUE(matrix.allowed("b", "a"));
   matrix.setDefault("b", false);
-  EXPECT_FALSE(matrix.allowed("a", "b"));  // two: only if both allow
+  EXPECT_FALSE(matrix.allowed("a", "b"));  // two defaults: allowed only if both allow it
   matrix.setDefault("b", true);
   EXPECT_TRUE(matrix.allowed("a", "b"));
   matrix.setEntry("b", "a", false);
@@ -232,7 +232,7 @@ TEST(SceneReport, CountsWhatIsCheckedAndWhatIsLeftOut)
   EXPECT_EQ(2u + 6u, report.unmoved_pairs);
 }
 
-/// "left" on `upper`, which may touch `fore`; "hook", beside it on `upper`; "lamp" on `head`.
+/// "left" is attached to `upper` and may touch `fore`; "hook" is attached to `upper` too; "lamp" is attached to `head`.
 PlanningScene carryingScene(const std::string& srdf)
 {
   PlanningScene scene = sceneOf(srdf);
@@ -260,7 +260,7 @@ TEST(CheckedPairs, OfCarriedObjectsAreThoseThatTheirLinkDoesNotTouch)
   makeProblem(scene, "", &report);
   EXPECT_EQ(3u + 10u, report.self_pairs);
   EXPECT_EQ(7u, report.world_pairs);
-  EXPECT_EQ(3u + 1u + 1u, report.touch_pairs);  // with their links, a touch link, each other on a link
+  EXPECT_EQ(3u + 1u + 1u, report.touch_pairs);  // with their own links, with a touch link, with each other on one link
   EXPECT_EQ(0u, report.unmoved_pairs);
 }
 
@@ -276,7 +276,7 @@ TEST(CheckedPairs, OfCarriedObjectsFollowTheMatrix)
   EXPECT_EQ(1u, pairs.count(sorted("left", "head")));
   SceneReport report;
   makeProblem(scene, "", &report);
-  EXPECT_EQ(3u + 2u, report.allowed_self_pairs);  // three of adjacent links
+  EXPECT_EQ(3u + 2u, report.allowed_self_pairs);  // three pairs of adjacent links
   EXPECT_EQ(1u, report.allowed_world_pairs);
 }
 
@@ -314,7 +314,7 @@ TEST(CollisionProblem, PlacesCarriedObjectsInTheirLink)
                [body](const ShapeInstance& geometry) { return geometry.body == body; });
   ASSERT_EQ(2u, carried.size());
   EXPECT_EQ(upper, carried[1].link);
-  EXPECT_EQ(0.01, carried[1].padding);  // its link's: its own is for when it is in the world
+  EXPECT_EQ(0.01, carried[1].padding);  // of its link: the object's own padding counts only in the world
   EXPECT_TRUE((poses[upper] * carried[1].pose).translation().isApprox(Eigen::Vector3d(2.0, 0.5, 0.25), 1e-15));
   EXPECT_EQ("left", scene.bodyName(body));
 }

@@ -1,4 +1,4 @@
-// A robot of one joint swings a bar through a box: the CPU and the GPU agree on the angles that hit it.
+// A robot of one joint swings a bar through a box. The CPU and the GPU must agree on the angles that hit it.
 #include <cstdio>
 
 #include <gpu_planning_scene/batch_checker.h>
@@ -33,7 +33,7 @@ try
   const auto on_gpu = checker.check(angles, 5).valid;
   std::printf("%s\n", checker.deviceName().c_str());
 #ifdef WITH_MESSAGES
-  // Messages and library have classes of one name, in different namespaces.
+  // Some classes of the messages and of the library have the same name in different namespaces.
   gpu_planning_scene::CheckStatesRequest request;
   request.joint_names.push_back("swing");
   gpu_planning_scene::PlanningScene message;

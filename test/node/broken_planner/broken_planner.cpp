@@ -1,4 +1,4 @@
-// A plugin whose planner cannot be made.
+// A plugin whose planner cannot be created.
 
 #include <ompl/util/Exception.h>
 #include <pluginlib/class_list_macros.hpp>
