@@ -20,7 +20,8 @@ namespace gpu_planning_scene::core::benchmark
 namespace
 {
 constexpr std::size_t kStates = 4096;
-constexpr std::size_t kMostTrianglesOfPeers = 1000000;  // beyond this, FCL's trees need too much memory for small machines
+constexpr std::size_t kMostTrianglesOfPeers =
+    1000000;  // beyond this, FCL's trees need too much memory for small machines
 
 class Growth
 {

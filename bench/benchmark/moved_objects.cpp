@@ -19,8 +19,8 @@ namespace
 {
 constexpr std::size_t kObjects = 1000;
 
-/// The robot of the scene among boxes. Each box has a different size, so each has its own tree. No box is near enough to
-/// collide in every state.
+/// The robot of the scene among boxes. Each box has a different size, so each has its own tree. No box is near enough
+/// to collide in every state.
 TestScene amongBoxes(const TestScene& scene)
 {
   TestScene made = scene;
