@@ -20,8 +20,7 @@ namespace gpu_planning_scene::core::benchmark
 namespace
 {
 constexpr std::size_t kStates = 4096;
-constexpr std::size_t kMostTrianglesOfPeers =
-    1000000;  // beyond this, FCL's trees need too much memory for small machines
+constexpr std::size_t kMostTrianglesOfPeers = 1000000;  // FCL's trees of more need too much memory
 
 class Growth
 {
