@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Sends point clouds to a running planning_scene_node while a client checks states, and prints how many became part of the
-scene, how long after their sending an answer knew them, and how long the checks took. The robot is put into its zero state."""
+"""Sends point clouds to a running planning_scene_node while a client checks states. Prints the number of clouds that
+became part of the scene, the time from sending a cloud to the first answer with it, and the time of the checks. Sets the
+robot to its zero state first."""
 
 import argparse
 import threading
@@ -15,7 +16,7 @@ from sensor_msgs.msg import PointCloud2, PointField
 
 
 def room(points, generator):
-    """What a sensor sees from within: floor and walls of a room of 6 m x 6 m x 3 m, and boxes on the floor; metres."""
+    """Points on the floor and walls of a room of 6 m x 6 m x 3 m, and on boxes in it; metres."""
     share = points // 2
     sides = generator.integers(0, 5, share)
     cloud = generator.uniform([-3, -3, -0.5], [3, 3, 2.5], (share, 3))
@@ -40,7 +41,7 @@ def message_of(points, frame):
 
 
 class Checker(threading.Thread):
-    """Checks all the time; notes when each revision was first answered with."""
+    """Checks states continuously. Records the time of the first answer with each revision."""
 
     def __init__(self, node, names, states):
         super().__init__(daemon=True)

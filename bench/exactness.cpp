@@ -1,4 +1,4 @@
-// exactness: every checker's answers on real robots against the oracle, in random states and in states close to
+// exactness: compares the answers of every checker on real robots with the oracle, in random states and in states near
 // contact; see --help.
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace
 struct Robot
 {
   std::string name;
-  std::string scene;  // of those that the tests share
+  std::string scene;  // name of a scene in test/support/test_scenes.h
   std::size_t states;
   std::size_t near_states;
   std::function<TestScene()> make;
@@ -35,7 +35,7 @@ std::vector<Robot> robots()
           {"ur5_carrying", "ur5_table_pick", 1000, 1000, carryingScene}};
 }
 
-constexpr std::size_t kQuickStates = 1000;  // at most, and a tenth
+constexpr std::size_t kQuickStates = 1000;  // with --quick: a tenth of the states, at most this number
 
 double share(double part, double whole)
 {

@@ -1,6 +1,6 @@
-// bench_tree_build [REPEATS [SCENE...]]: how long the GPU takes to build the trees of a robot, from meshes in host
-// memory to trees that can be traversed, and how long the CPU's binned SAH build takes. The first build includes what
-// the driver compiles for it; the others are the median.
+// bench_tree_build [REPEATS [SCENE...]]: time for building the trees of a robot on the GPU, from meshes in host memory
+// to trees that can be traversed, and time of the binned SAH build on the CPU. The first build includes the compilation
+// by the driver and is printed separately. The other builds give the median.
 
 #include <algorithm>
 #include <chrono>
@@ -42,7 +42,7 @@ double gpuBuild(GpuForestBuilder& builder, const std::vector<const Mesh*>& meshe
   Buffer leaf_order;
   const auto start = std::chrono::steady_clock::now();
   builder.buildTriangles(meshes, region, nodes, leaf_order, triangles);
-  // Reading one node waits for all of it.
+  // Reading one node waits for the whole build.
   Node root{};
   nodes.buffer().read(&root, sizeof(root));
   return secondsSince(start);

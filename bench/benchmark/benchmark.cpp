@@ -1,11 +1,11 @@
 // benchmark: speed and accuracy of the project's methods and of its peers; see --help. Needs no ROS.
 //
-// Robots and scenes that are not part of the project are looked for in one folder, --data DIR or the environment's
-// GPU_PLANNING_SCENE_DATA, else where the build was told (GPS_DART_DATA_DIR, GPS_SHARED_DIR). In such a folder lie
+// Robots and scenes from outside the project are read from one folder: --data DIR, or the environment variable
+// GPU_PLANNING_SCENE_DATA, or the folders of the build (GPS_DART_DATA_DIR, GPS_SHARED_DIR). This folder contains
 //   urdf/KR5, urdf/wam, urdf/drchubo                        as in data/ of Debian's package dart-doc
 //   robots/ur5_robotiq, problems/ur5/SET/scene0001.yaml and request0001.yaml   as in ../shared
-// Any of them may be missing: their scenes are left out, and the program says so. The scenes arm_boxes and arm_shelf
-// need nothing: the project makes their robot itself (test/support/generated_arm).
+// If a robot or problem is missing, the program leaves out its scenes and reports this. The scenes arm_boxes and
+// arm_shelf need no files: test/support/generated_arm generates their robot.
 
 #include <algorithm>
 #include <filesystem>
@@ -50,7 +50,7 @@ std::string join(const std::vector<std::string>& words)
   return text;
 }
 
-/// The words of an option, each of which `known` has; all that are known where it is not given.
+/// The words of an option. Throws UsageError for a word that is not in `known`. Without the option: all known words.
 std::vector<std::string> chosen(const CommandLine& arguments, const std::string& option,
                                 const std::vector<std::string>& known)
 {
@@ -75,7 +75,7 @@ std::vector<double> numbers(const CommandLine& arguments, const std::string& opt
   return result;
 }
 
-/// Those that can be loaded. Scenes that were asked for have to be there.
+/// The scenes that can be loaded. Throws Error if a scene named with --scenes is missing.
 std::vector<std::string> chosenScenes(const CommandLine& arguments)
 {
   const bool named = arguments.has("--scenes");
@@ -144,7 +144,7 @@ std::string processorName()
   return "unknown";
 }
 
-/// What the numbers are of.
+/// Writes the conditions of the run: device, processor, and settings.
 void writeRun(const Settings& settings)
 {
   CsvTable table(settings.out, "run.csv", {"what", "value"});

@@ -1,5 +1,4 @@
-// What it takes to begin, and to follow a scene that changes: loading a robot, building, the first check, moving one
-// object; and the memory of it.
+// Time and memory of the start and of scene changes: loading a robot, building, the first check, moving one object.
 
 #include <algorithm>
 
@@ -16,7 +15,7 @@ namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
-constexpr std::size_t kBatch = 16384;  // states of the check that takes the most memory
+constexpr std::size_t kBatch = 16384;  // states of the check that determines the peak memory
 }  // namespace
 
 std::size_t measureBuilds(const Settings& settings)

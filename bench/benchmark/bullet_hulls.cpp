@@ -1,5 +1,6 @@
-// Bullet as robots' planners use it: each mesh replaced by its convex hull, GJK on pairs whose boxes meet. Hollows are
-// filled by that, so it calls free states colliding; that is the point of showing it.
+// Bullet as motion planners commonly use it: each mesh is replaced by its convex hull, and GJK (Gilbert, Johnson and
+// Keerthi 1988) tests pairs whose axis-aligned boxes overlap. A hull fills the concavities of its mesh, so this method
+// reports some free states as colliding. The benchmark shows this error.
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
@@ -65,7 +66,7 @@ class BulletHulls : public PairwisePeer
     btGjkPairDetector::ClosestPointInput input;
     input.m_transformA = a.pose;
     input.m_transformB = b.pose;
-    // A little more than is asked for: at equality it would not report.
+    // Slightly above `required`: Bullet does not report a pair at exactly the maximum distance.
     const btScalar limit = required + btScalar(1e-4);
     input.m_maximumDistanceSquared = limit * limit;
     btPointCollector found;

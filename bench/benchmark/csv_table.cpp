@@ -10,7 +10,7 @@ namespace gpu_planning_scene::core::benchmark
 {
 Cell::Cell(const std::string& word) : text(word)
 {
-  // Titles have commas.
+  // Titles contain commas.
   if (text.find_first_of(",\"\n") != std::string::npos)
     text = '"' + text + '"';
 }

@@ -7,7 +7,7 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// A cell of a table. Numbers that are not known are left empty.
+/// A cell of a table. A number that is not finite gives an empty cell.
 struct Cell
 {
   Cell(const std::string& word);
@@ -17,13 +17,13 @@ struct Cell
   std::string text;
 };
 
-/// A CSV file with a line of titles. Each row is on disk once it is added.
+/// A CSV file whose first line has the column titles. Each added row is written to disk immediately.
 class CsvTable
 {
  public:
   /// Throws Error if the file cannot be written.
   CsvTable(const std::string& folder, const std::string& name, const std::vector<std::string>& columns);
-  /// As many cells as columns.
+  /// `cells`: one per column. Throws Error if the file cannot be written.
   void add(const std::vector<Cell>& cells);
 
  private:

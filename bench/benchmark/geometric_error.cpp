@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double kFarthest = 1.0;   // metres
 constexpr double kNearest = 1e-12;  // metres
-constexpr double kContract = 1e-9;  // metres: how far off the contract allows answers to be
+constexpr double kContract = 1e-9;  // metres: tolerance of the contract
 constexpr int kHalvings = 12;
 
 std::shared_ptr<const CpuForest> forestOf(const CollisionProblem& problem)
@@ -20,7 +20,7 @@ std::shared_ptr<const CpuForest> forestOf(const CollisionProblem& problem)
   return std::make_shared<const CpuForest>(problem, buildBinnedSah(problem.trees));
 }
 
-/// The problem with no other pairs than those of two bodies.
+/// The problem restricted to the pairs of two bodies.
 std::shared_ptr<const CollisionProblem> restrictedTo(const CollisionProblem& problem, const BodyPair& pair)
 {
   const auto is_pair = [&](std::int32_t a, std::int32_t b) { return BodyPair{std::min(a, b), std::max(a, b)} == pair; };
@@ -37,7 +37,7 @@ std::shared_ptr<const CollisionProblem> restrictedTo(const CollisionProblem& pro
   return restricted;
 }
 
-/// Towards the faces, edges and corners of a cube.
+/// 26 unit vectors towards the faces, edges and corners of a cube.
 std::vector<Vector3d> directions()
 {
   std::vector<Vector3d> all;
@@ -47,7 +47,7 @@ std::vector<Vector3d> directions()
   return all;
 }
 
-/// A colliding pair, of which one body is moved away.
+/// Moves one body of a colliding pair.
 class Separation
 {
  public:
@@ -65,7 +65,7 @@ class Separation
   }
 
  private:
-  /// Of the pair's bodies one at least is the robot's, or is carried.
+  /// The link of a body of the pair. At least one of the two is a link or an attached object.
   static std::size_t linkOf(const CollisionProblem& problem, const BodyPair& pair)
   {
     const auto moved = std::find_if(problem.robot.begin(), problem.robot.end(),
@@ -81,7 +81,7 @@ class Separation
   std::size_t link_;
 };
 
-/// The least way along one of the directions.
+/// Length of the shortest separating translation along one of the directions.
 double depthOf(Separation& pair)
 {
   double least = kFarthest;
@@ -89,7 +89,7 @@ double depthOf(Separation& pair)
   {
     if (!pair.apart(least * direction))
       continue;
-    // From below by doubling, then by halving what is left.
+    // Doubles the length until the bodies are apart, then bisects.
     double touching = 0.0;
     double free = kNearest;
     while (free < least && !pair.apart(free * direction))

@@ -9,22 +9,23 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// How far from the truth a wrong answer is, in metres.
+/// Measures the error of a wrong answer, in metres.
 class GeometricError
 {
  public:
   explicit GeometricError(const PlanningScene& scene);
 
-  /// Whether a state is so near to contact that the contract leaves its answer open: free with a distance of at most
-  /// 1e-9 m above the required one, or colliding by about as little.
+  /// Whether the contract accepts both answers, because the state is very near to contact. Such a state is free with a
+  /// distance of at most 1e-9 m above the required distance, or colliding with a penetration of about 1e-9 m at most.
   bool isOpen(const double* state, bool valid);
 
-  /// Of a free state that was called colliding: the least distance of a checked pair, less its required distance, by
-  /// FCL; at most 1 m.
+  /// For a free state that was reported as colliding: the smallest distance of a checked pair minus its required
+  /// distance, computed by FCL; at most 1 m.
   double clearance(const double* state);
 
-  /// Of a colliding state that was called free: how far the deepest pair has to be moved apart, by the exact checker,
-  /// along the best of 26 directions. The true depth is at most that, and not much less.
+  /// For a colliding state that was reported as free: the penetration of the deepest pair. The exact checker finds the
+  /// shortest separating translation along 26 directions. The result is an upper bound on the true penetration depth
+  /// and little above it.
   double depth(const double* state);
 
  private:

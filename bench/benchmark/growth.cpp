@@ -1,4 +1,4 @@
-// How the time of a state grows with the size of the batch, the triangles of the robot, and the objects of the world.
+// Time per state against the batch size, the number of triangles of the robot, and the number of objects.
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +20,12 @@ namespace gpu_planning_scene::core::benchmark
 namespace
 {
 constexpr std::size_t kStates = 4096;
-constexpr std::size_t kMostTrianglesOfPeers = 1000000;  // FCL's trees of more do not fit into small machines
+constexpr std::size_t kMostTrianglesOfPeers = 1000000;  // FCL's trees of more need too much memory
 
 class Growth
 {
  public:
-  /// `rows`: how many there will be of each method, for the progress bar.
+  /// `rows`: number of rows per method, for the progress bar.
   Growth(const Settings& settings, std::size_t rows)
     : settings_(settings),
       table_(settings.out, "growth.csv",
@@ -35,7 +35,7 @@ class Growth
   {
   }
 
-  /// One scene, calls of `batch` states, for each method.
+  /// Measures each method in one scene. `with`: the quantity that grows; `load`: seconds to load the robot.
   void measure(const std::string& with, std::size_t amount, const TestScene& scene, double load)
   {
     if (CpuChecker(scene.scene).report().always_colliding)
@@ -91,7 +91,8 @@ class Growth
     double build = NAN;
   };
 
-  /// The median of calls that take settings' seconds together, of three at least, with as many states as `truth` has.
+  /// Adds a row with the median of repeated calls, each with as many states as `truth`. The calls repeat for the time
+  /// of the settings, and at least three times.
   void time(const std::string& with, std::size_t amount, const MethodInfo& info, Method& method,
             const std::vector<double>& states, const std::vector<std::uint8_t>& truth, const Once& once,
             const Updates* updates)
@@ -138,15 +139,16 @@ TestScene sceneOf(const std::shared_ptr<const RobotModel>& robot, std::vector<Wo
   return made;
 }
 
-/// As many obstacles in a cubic metre whatever their number: the world grows outwards. None at the generated arm's
-/// base, which would collide whatever the joints.
+/// Obstacles with a constant number per cubic metre: the world grows outwards with the number of objects. There is no
+/// obstacle at the base of the generated arm, because it would collide in every state.
 std::vector<WorldObject> world(std::size_t objects)
 {
   const Eigen::Vector3d center(0.0, 0.0, 0.5);
   const double inner = 0.5;
   const double outer = std::cbrt(inner * inner * inner + 0.16 * static_cast<double>(objects));
-  const double off_base = 0.45;  // from the axis of the base; the longest diagonal of an obstacle is 0.35
-  // Their distances are spread evenly from the inner radius to the outer: as evenly as that over the volume instead.
+  const double off_base = 0.45;  // metres from the axis of the base; the longest diagonal of an obstacle is 0.35 m
+  // generateObstacles distributes the distances uniformly between the two radii. This maps them to a uniform
+  // distribution over the volume.
   std::vector<WorldObject> kept;
   for (WorldObject& object : generateObstacles({2 * objects + 10, center, inner, outer, 0.2}, 1))
   {

@@ -1,5 +1,5 @@
-// How long one call takes: single states and small batches. Methods take turns, in a few rounds of the same calls. The
-// percentiles are of all calls of all rounds; the ratios to FCL compare the least time of each call.
+// Time of one call with a single state or a small batch. Methods take turns in a few rounds of the same calls. The
+// percentiles include all calls of all rounds. The ratios to FCL compare the shortest time of each call.
 
 #include <algorithm>
 #include <limits>
@@ -23,17 +23,17 @@ struct Timed
   const MethodInfo* info;
   std::unique_ptr<Method> method;
   std::vector<double> all = {};    // microseconds
-  std::vector<double> least = {};  // of each call
+  std::vector<double> least = {};  // shortest time of each call
 };
 
-/// How many calls of a size: fewer of the large ones.
+/// Number of calls of a size: fewer calls for larger sizes.
 std::size_t callsOf(std::size_t size, bool quick)
 {
   const std::size_t most = quick ? 20 : 1000;
   return std::max<std::size_t>(quick ? 2 : 20, most / size);
 }
 
-/// Returns wrong answers.
+/// Returns the number of wrong answers.
 std::size_t timeCalls(const TestScene& scene, std::vector<Timed>& methods, const std::vector<double>& states,
                       const std::vector<std::uint8_t>& truth, std::size_t size, int rounds)
 {
@@ -42,7 +42,7 @@ std::size_t timeCalls(const TestScene& scene, std::vector<Timed>& methods, const
   std::map<const MethodInfo*, std::size_t> wrong;
   for (Timed& timed : methods)
   {
-    timed.method->check(states.data(), size);  // what is done once is not to be timed
+    timed.method->check(states.data(), size);  // keeps one-time work out of the timing
     timed.all.clear();
     timed.least.assign(calls, std::numeric_limits<double>::infinity());
   }
@@ -61,7 +61,7 @@ std::size_t timeCalls(const TestScene& scene, std::vector<Timed>& methods, const
   return sum;
 }
 
-/// Of each call; empty if there is no such method.
+/// Ratio of each call to the same call of the method `name`; empty without this method.
 std::vector<double> ratiosTo(const char* name, const Timed& timed, const std::vector<Timed>& methods)
 {
   const auto reference =

@@ -31,8 +31,8 @@ double statusOf(const std::string& name)
 
 HostMemory::HostMemory()
 {
-  malloc_trim(0);                                 // what was freed before is not to hide what comes
-  std::ofstream("/proc/self/clear_refs") << "5";  // the peak so far is forgotten
+  malloc_trim(0);                                 // memory freed earlier must not hide later allocations
+  std::ofstream("/proc/self/clear_refs") << "5";  // resets the peak
   at_first_ = statusOf("VmRSS");
 }
 

@@ -7,24 +7,24 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// How much memory this process came to hold, at its peak, beyond what it held at first; in MiB.
+/// Peak memory of this process since construction, minus its memory at construction; in MiB.
 class HostMemory
 {
  public:
   HostMemory();
-  /// Not a number where the system does not tell.
+  /// NaN if the system does not report it.
   double peak() const;
 
  private:
   double at_first_;
 };
 
-/// What a GPU's driver tells of its memory (GL_NVX_gpu_memory_info).
+/// GPU memory as the driver reports it (GL_NVX_gpu_memory_info).
 class DeviceMemory
 {
  public:
   explicit DeviceMemory(const std::string& device);
-  /// Of all processes, in MiB; not a number where the driver does not tell.
+  /// Memory used by all processes, in MiB; NaN if the driver does not report it.
   double used() const;
 
  private:

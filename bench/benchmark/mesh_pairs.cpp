@@ -1,5 +1,5 @@
 // The experiment of Gress and Zachmann, "Object-Space Interference Detection on Programmable Graphics Hardware" (2003):
-// two meshes, many relative poses at given distances, time against distance.
+// time against distance for two meshes in many relative poses.
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +23,10 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kRadius = 0.5;
-constexpr std::size_t kTriangles = 70000;  // about as many as the bunny has, which such experiments are made with
+constexpr std::size_t kTriangles = 70000;  // about the size of the Stanford bunny, which is common in such experiments
 constexpr std::size_t kQuickTriangles = 2000;
 
-/// A lump with hollows and humps: concave, closed, like a scanned thing.
+/// A closed, concave surface with hollows and humps, similar to a scanned object.
 std::shared_ptr<const Mesh> lump(std::size_t triangles)
 {
   return closedSurface(
@@ -41,7 +41,7 @@ std::shared_ptr<const Mesh> lump(std::size_t triangles)
       });
 }
 
-/// b turned at random, its centre at `distance` from a's in a random direction.
+/// Poses of b with random rotations. The centre of b has `distance` from the centre of a, in a random direction.
 std::vector<Isometry3d> posesAt(double distance, std::size_t count, std::uint64_t seed)
 {
   std::mt19937_64 generator(seed);
@@ -63,7 +63,7 @@ std::vector<Isometry3d> posesAt(double distance, std::size_t count, std::uint64_
   return poses;
 }
 
-/// Link 0 is b, the world is a.
+/// b is link 0. a is the world.
 std::shared_ptr<const CollisionProblem> problemOf(const Shape& a, const Shape& b)
 {
   auto problem = std::make_shared<CollisionProblem>();
@@ -171,7 +171,7 @@ std::size_t measureMeshPairs(const Settings& settings)
     for (const PairMethod& method : methods)
     {
       progress.update(done++);
-      // A slow method is asked about fewer poses.
+      // A slow method gets fewer poses.
       const std::vector<Isometry3d> few(poses.begin(), poses.begin() + std::min<std::size_t>(16, count));
       method.collide(few);
       const double trial = secondsOf([&] { method.collide(few); });
@@ -180,7 +180,7 @@ std::size_t measureMeshPairs(const Settings& settings)
           poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(std::clamp(affordable, few.size(), count)));
       std::vector<double> wall;
       std::vector<double> cpu;
-      std::size_t wrong = 0;  // in the worst repeat
+      std::size_t wrong = 0;  // of the repeat with the most wrong answers
       for (std::size_t repeat = 0; repeat < settings.repeats; ++repeat)
       {
         const Stopwatch watch;

@@ -1,5 +1,5 @@
-// How long it takes until a check knows of a change: one of a thousand objects is moved, the scene is given to the
-// method, and one state is checked. Once for each robot among the scenes, in a world made for this.
+// Time from a scene change to the next answer: one of a thousand objects is moved, the method takes the new scene, and
+// one state is checked. This is measured once per robot of the scenes, in a world that is made for this purpose.
 
 #include <set>
 
@@ -19,8 +19,8 @@ namespace
 {
 constexpr std::size_t kObjects = 1000;
 
-/// The scene's robot among boxes, every one of another size, so that each has a tree of its own. None is so near that
-/// it collides whatever the joints.
+/// The robot of the scene among boxes. Each box has a different size, so each has its own tree. No box is near enough
+/// to collide in every state.
 TestScene amongBoxes(const TestScene& scene)
 {
   TestScene made = scene;

@@ -36,7 +36,7 @@ class CheckerMethod : public Method
   std::size_t undecided_ = 0;
 };
 
-/// The exact checker alone.
+/// Only the exact checker.
 class CpuMethod : public CheckerMethod
 {
  public:
@@ -50,7 +50,7 @@ class CpuMethod : public CheckerMethod
     scene_ = scene;
     return CheckerMethod::update(scene);
   }
-  /// As the checker does it on one core, with the order of pairs learned on the way.
+  /// Counts the work of the checker on one core. The order of pairs is learned during these checks.
   WorkPerState work(const double* states, std::size_t count) override
   {
     const RobotModel& robot = *scene_->robot;
@@ -72,7 +72,7 @@ class CpuMethod : public CheckerMethod
   std::shared_ptr<const PlanningScene> scene_;
 };
 
-/// One on the GPU, or that chooses between it and the CPU.
+/// A BatchChecker: only the GPU, or a choice between GPU and CPU.
 class BatchMethod : public CheckerMethod
 {
  public:
@@ -109,7 +109,7 @@ BatchCheckerOptions batchOptions(const MethodOptions& options)
   return made;
 }
 
-/// The GPU alone, with one traversal.
+/// Only the GPU, with one traversal.
 MethodInfo onGpu(const std::string& name, const std::string& title, Traversal traversal)
 {
   MethodInfo info;
@@ -129,7 +129,7 @@ MethodInfo onGpu(const std::string& name, const std::string& title, Traversal tr
   return info;
 }
 
-/// As a user gets it: the GPU or the CPU, whichever is faster. `millimetres`: the tolerance.
+/// The default for users: the faster of GPU and CPU. `millimetres`: the tolerance.
 MethodInfo automatic(int millimetres)
 {
   MethodInfo info;
@@ -148,8 +148,8 @@ MethodInfo automatic(int millimetres)
   return info;
 }
 
-/// How a check on a GPU is commonly written: the same shaders, but a float is taken for what it says. What is undecided
-/// even so, as it touches to the last bit or took too many steps, is a collision.
+/// A common form of a GPU check: the same shaders with error bounds of 0. Pairs that touch to the last bit or take too
+/// many steps are still undecided. They are reported as collisions.
 class FloatsAlone : public Method
 {
  public:

@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// A peer that puts simpler shapes in the place of meshes, and looks at pair by pair.
+/// A peer that replaces meshes by simpler shapes and checks pair by pair.
 class PairwisePeer : public Peer
 {
  public:
@@ -16,15 +16,15 @@ class PairwisePeer : public Peer
 
   bool collides(const Eigen::Isometry3d* link_poses) override;
 
-  /// Links whose simpler shapes overlap whatever the joints would make every state a collision. So pairs of links are
-  /// left out as MoveIt's Setup Assistant leaves them out: those whose shapes collide in 95 % of random states, and
-  /// those that truly never do. In favour of the peer: the others look at these pairs.
+  /// Leaves out pairs of links as MoveIt's Setup Assistant does: pairs whose simpler shapes collide in at least 95 % of
+  /// random states, and pairs whose true shapes never collide in them. Otherwise links whose simpler shapes overlap in
+  /// every state would make every state a collision. This favours the peer: other methods check these pairs.
   void leaveOutPairs(const RobotModel& robot);
 
  protected:
-  /// What follows is about the robot there.
+  /// Sets the state of the robot for the two functions below.
   virtual void place(const Eigen::Isometry3d* link_poses) = 0;
-  /// Of instances: indices into the problem's `robot` and `world`.
+  /// Arguments are instances: indices into the problem's `robot` and `world`. `required`: metres.
   virtual bool meetsWorld(std::size_t robot, std::size_t world, double required) = 0;
   virtual bool meetsSelf(std::size_t first, std::size_t second) = 0;
 

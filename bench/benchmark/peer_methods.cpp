@@ -9,8 +9,8 @@ namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
-/// A peer on all cores: one copy per thread, which takes states until there are none. A few states stay on the calling
-/// thread.
+/// Runs a peer on all cores, with one copy per thread. Each thread takes chunks of states until no state is left. Few
+/// states stay on the calling thread.
 class OnAllCores : public Method
 {
  public:

@@ -9,25 +9,25 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// What is measured, and how long.
+/// Scope and duration of the measurements.
 struct Settings
 {
-  std::string out;  ///< folder of the tables
+  std::string out;  ///< output folder for the tables
   std::vector<std::string> scenes;
   std::vector<MethodInfo> methods;
   std::vector<std::string> kinds;  ///< of states
-  std::vector<double> paddings;    ///< metres; all but the first with random states alone
+  std::vector<double> paddings;    ///< metres; all except the first only with random states
   std::vector<std::size_t> batches;
   std::size_t states = 0;
   std::size_t repeats = 0;
-  double seconds = 0.0;  ///< of a slow method in a repeat: it gets fewer states
+  double seconds = 0.0;  ///< limit of a repeat; a slower method gets fewer states
   std::uint64_t seed = 1;
   bool quick = false;
   MethodOptions method;
 };
 
-// The parts of the program; each writes its tables.
-// Each returns the wrong answers, timed ones among them, of methods that claim to be exact.
+// The parts of the program. Each part writes its tables and returns the number of wrong answers of exact methods,
+// including answers of timed repeats.
 /// throughput.csv and accuracy.csv
 std::size_t measureThroughput(const Settings& settings);
 /// latency.csv

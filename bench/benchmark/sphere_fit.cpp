@@ -38,7 +38,7 @@ double sixVolumes(const Mesh& mesh)
   return sum;
 }
 
-/// Uniform over the surface.
+/// Samples with a uniform distribution over the surface.
 std::vector<Sample> samplesOf(const Mesh& mesh)
 {
   std::mt19937_64 generator(1);
@@ -50,7 +50,7 @@ std::vector<Sample> samplesOf(const Mesh& mesh)
   {
     normals.push_back(sign *
                       (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]));
-    // So that a mesh without area has samples too.
+    // The small term gives samples also for a mesh without area.
     areas.push_back(normals.back().norm() + 1e-15);
   }
   std::discrete_distribution<std::size_t> pick(areas.begin(), areas.end());
@@ -68,8 +68,8 @@ std::vector<Sample> samplesOf(const Mesh& mesh)
   return samples;
 }
 
-/// Balls that touch the surface at a sample from inside and have no other sample within (Ma, Bae and Choi, "3D medial
-/// axis point approximation using nearest neighbors and the normal field", 2012).
+/// Balls that touch the surface at a sample from inside and contain no other sample (Ma, Bae and Choi, "3D medial axis
+/// point approximation using nearest neighbors and the normal field", 2012).
 std::vector<Candidate> innerBalls(const std::vector<Sample>& samples, double largest)
 {
   std::vector<Candidate> balls;
@@ -89,8 +89,8 @@ std::vector<Candidate> innerBalls(const std::vector<Sample>& samples, double lar
   return balls;
 }
 
-/// Which of the candidates, grown by `more`, cover all samples: always the one that adds most. Empty if more than
-/// `count` are needed.
+/// Greedy set cover: indices of candidates that cover all samples when their radii are enlarged by `more`. Each step
+/// takes the candidate that covers the most uncovered samples. Empty if more than `count` candidates are needed.
 std::vector<std::size_t> cover(const std::vector<Candidate>& candidates, const std::vector<Sample>& samples,
                                double more, std::size_t count)
 {
@@ -121,7 +121,7 @@ std::vector<Ball> fitBalls(const Mesh& mesh, std::size_t count)
   const double size = boundingBall(mesh).radius;
   const std::vector<Candidate> candidates = innerBalls(samples, size);
   double too_little = 0.0;
-  double enough = 4.0 * size;  // with which any one candidate covers all
+  double enough = 4.0 * size;  // a single candidate then covers all samples
   for (int i = 0; i < kHalvings; ++i)
   {
     const double middle = 0.5 * (too_little + enough);

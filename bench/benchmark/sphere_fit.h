@@ -15,11 +15,12 @@ struct Ball
   float radius = 0.0F;
 };
 
-/// At most `count` balls that cover samples of a surface: of the balls inside that touch it on both sides, as many,
-/// each grown by the same length, the least with which they do. After Bradshaw and O'Sullivan, "Adaptive medial-axis
-/// approximation for sphere-tree construction" (2004). The same for the same mesh.
+/// At most `count` balls that cover samples of a surface. The candidates are inner balls that touch the surface on both
+/// sides. All chosen balls are enlarged by the same length, the smallest length with which they cover the samples.
+/// After Bradshaw and O'Sullivan, "Adaptive medial-axis approximation for sphere-tree construction" (2004).
+/// Deterministic.
 std::vector<Ball> fitBalls(const Mesh& mesh, std::size_t count);
 
-/// A ball around all of a mesh, its centre that of the mesh's box.
+/// A bounding ball of a mesh, with the centre of the mesh's bounding box.
 Ball boundingBall(const Mesh& mesh);
 }  // namespace gpu_planning_scene::core::benchmark

@@ -1,5 +1,6 @@
-// Robots made of balls, in float, against primitives by their distance: the idea of VAMP (Thomason, Kingston and
-// Kavraki, "Motions in Microseconds via Vectorized Sampling-Based Planning", 2024), one state at a time.
+// The robot as a set of balls in float32, tested against primitives by their distance. This is the idea of VAMP
+// (Thomason, Kingston and Kavraki, "Motions in Microseconds via Vectorized Sampling-Based Planning", 2024), here with
+// one state at a time.
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,7 @@ namespace
 {
 using Eigen::Vector3f;
 
-/// The ball around all of a shape, then those that it was fitted with.
+/// The bounding ball of a shape, and the balls that were fitted to the shape.
 struct Fitted
 {
   Ball bound;
@@ -25,7 +26,7 @@ float outside(float along, float half)
   return std::max(0.0F, std::abs(along) - half);
 }
 
-/// The distance of a point in the shape's frame from the solid.
+/// Distance of a point to a solid, both in the solid's frame; 0 inside. Metres.
 struct DistanceFrom
 {
   Vector3f p;
@@ -42,7 +43,7 @@ struct DistanceFrom
   }
   float operator()(const Cone& cone) const
   {
-    // In the half-plane through the axis, seen from the apex: the side runs to (radius, -length).
+    // In the half-plane through the axis with its origin at the apex, the cone's side ends at (radius, -length).
     const auto radius = static_cast<float>(cone.radius);
     const auto length = static_cast<float>(cone.length);
     const float away = p.head<2>().norm();
@@ -55,8 +56,8 @@ struct DistanceFrom
     const float on_side = std::clamp(share, 0.0F, 1.0F);
     return std::hypot(away - on_side * radius, below - on_side * length);
   }
-  float operator()(const std::shared_ptr<const Mesh>&) const { return 0.0F; }  // meshes of the world are balls
-  float operator()(const HalfSpace&) const { return 0.0F; }                    // refused
+  float operator()(const std::shared_ptr<const Mesh>&) const { return 0.0F; }  // unused: world meshes are balls
+  float operator()(const HalfSpace&) const { return 0.0F; }                    // unused: half-spaces are refused
 };
 
 bool near(const Ball& a, const Ball& b, float required)
@@ -105,7 +106,7 @@ class Spheres : public PairwisePeer
     const Fitted* fit;
     Eigen::Isometry3f pose = Eigen::Isometry3f::Identity();
     Ball bound = {};
-    bool placed = false;  // whether its balls are where the state has them
+    bool placed = false;  // whether `balls` has the poses of the current state
     std::vector<Ball> balls = {};
   };
 

@@ -10,9 +10,9 @@
 namespace gpu_planning_scene::core::benchmark
 {
 /// "random": uniform in the scene's ranges. "near_contact": within about 1e-10 ... 1e-4 m of contact, one half free.
-/// "motion": straight ways in joint space between random states, 64 states each, as a planner's edges are.
+/// "motion": straight motions in joint space between random states, 64 states each, like the edges of a planner.
 const std::vector<std::string>& stateKinds();
 
-/// `count` rows; the same for the same seed.
+/// Returns `count` rows. Deterministic for a given seed.
 std::vector<double> makeStates(const TestScene& scene, const std::string& kind, std::size_t count, std::uint64_t seed);
 }  // namespace gpu_planning_scene::core::benchmark

@@ -11,7 +11,7 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// The value that `share` of all are not above; not a number if there are none.
+/// The value that a share of `share` of all values does not exceed; NaN without values.
 inline double percentile(std::vector<double> values, double share)
 {
   if (values.empty())
@@ -20,7 +20,7 @@ inline double percentile(std::vector<double> values, double share)
   return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
 }
 
-/// Of an even number of values, the mean of the two in the middle.
+/// For an even number of values, the mean of the two middle values. NaN without values.
 inline double median(std::vector<double> values)
 {
   if (values.empty())
@@ -29,7 +29,7 @@ inline double median(std::vector<double> values)
   return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
-/// Time since it was made: of the clock, and of all cores that this process had.
+/// Time since construction: wall time, and CPU time of the process on all cores.
 class Stopwatch
 {
  public:

@@ -1,5 +1,5 @@
-// States per second, and wrong answers: every method on every scene. The methods take turns within a repeat, so that a
-// change of the machine's speed meets all of them; ratios are medians of the ratios within a repeat.
+// States per second and wrong answers of every method on every scene. The methods take turns within a repeat, so a
+// change of the machine's speed affects all methods. A ratio is the median of the ratios within each repeat.
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +22,8 @@ namespace gpu_planning_scene::core::benchmark
 namespace
 {
 constexpr std::size_t kTrial = 64;            // states of the first trial
-constexpr std::size_t kWorkStates = 4096;     // at most, whose work is counted
-constexpr std::size_t kErrorsMeasured = 100;  // of a method's wrong answers of each kind
+constexpr std::size_t kWorkStates = 4096;     // upper bound on the states whose work is counted
+constexpr std::size_t kErrorsMeasured = 100;  // upper bound, for each kind of wrong answer of a method
 
 /// A method with one batch size.
 struct Run
@@ -33,13 +33,13 @@ struct Run
   std::size_t batch;  // 0: all at once
   std::size_t count = 0;
   std::size_t undecided = 0;
-  std::size_t wrong_timed = 0;  // answers of timed repeats, if the method is to be exact
+  std::size_t wrong_timed = 0;  // wrong answers in timed repeats, if the method claims to be exact
   std::vector<std::uint8_t> answers = {};
   std::vector<double> rates = {};
   std::vector<double> cpu = {};
 };
 
-/// The states that one row of the tables is about.
+/// The states of one row of the tables.
 struct Batch
 {
   const TestScene* scene;
@@ -47,7 +47,7 @@ struct Batch
   double padding;
   std::vector<double> states;
   std::vector<std::uint8_t> truth;
-  std::vector<std::uint8_t> open;  // 1: too near to contact for peers to be wrong
+  std::vector<std::uint8_t> open;  // 1: so near to contact that the contract accepts both answers of a peer
 };
 
 std::vector<Run> makeRuns(const TestScene& scene, double padding, const Settings& settings)
@@ -67,7 +67,7 @@ std::vector<Run> makeRuns(const TestScene& scene, double padding, const Settings
   return runs;
 }
 
-/// In pieces of the run's batch size.
+/// Checks all states in pieces of the run's batch size.
 std::vector<std::uint8_t> checkAll(Run& run, const Batch& batch)
 {
   const std::size_t width = batch.scene->lower.size();
@@ -83,8 +83,8 @@ std::vector<std::uint8_t> checkAll(Run& run, const Batch& batch)
   return answers;
 }
 
-/// As many states as the time allows, by trials of more and more of them. Batches are never cut short: they would be
-/// others then.
+/// Number of states that a method can check in the given time, found by trials with growing numbers of states. A run
+/// with a batch size always gets all states, because a smaller batch would be a different measurement.
 std::size_t affordableStates(const Run& run, const Batch& batch, const Settings& settings)
 {
   const std::size_t all = batch.truth.size();
@@ -100,7 +100,7 @@ std::size_t affordableStates(const Run& run, const Batch& batch, const Settings&
   }
 }
 
-/// What compiles or is learned at first is not to be timed; then the answers.
+/// Runs one-time work (compiling, learning) before the timing. Then records the answers.
 void warmUp(Run& run, const Batch& batch, const Settings& settings)
 {
   run.method->check(batch.states.data(), std::min<std::size_t>(16, batch.truth.size()));
@@ -111,7 +111,7 @@ void warmUp(Run& run, const Batch& batch, const Settings& settings)
   run.answers = checkAll(run, batch);
 }
 
-/// Not a number if the method was not measured.
+/// NaN if the method `name` was not measured.
 double ratioTo(const char* name, const Run& run, const std::vector<Run>& runs)
 {
   const auto reference =
@@ -122,7 +122,7 @@ double ratioTo(const char* name, const Run& run, const std::vector<Run>& runs)
   return median(ratios);
 }
 
-/// Empty for one that has no choice.
+/// Empty for a method without this choice.
 Cell cpuBelow(Method& method)
 {
   const std::optional<std::size_t> below = method.cpuBelow();
@@ -167,7 +167,7 @@ class Tables
   {
   }
 
-  /// `runs`: all of the batch.
+  /// `runs`: all runs of the batch.
   void addThroughput(const Batch& batch, const Run& run, const std::vector<Run>& runs)
   {
     const PlanningScene& scene = *batch.scene->scene;
@@ -200,7 +200,7 @@ class Tables
                      work.root_pairs});
   }
 
-  /// Returns how many answers are wrong.
+  /// Returns the number of wrong answers.
   std::size_t addAccuracy(const Batch& batch, const Run& run, GeometricError& error)
   {
     std::vector<std::size_t> wrong_free;
@@ -209,7 +209,7 @@ class Tables
     for (std::size_t i = 0; i < run.count; ++i)
     {
       open += batch.open[i];
-      // The contract binds the project's own methods to one answer even where it leaves either open.
+      // Near contact the contract accepts both answers, but all methods of the project must give the same answer.
       if (run.answers[i] != batch.truth[i] && (run.info->exact || batch.open[i] == 0))
         (run.answers[i] != 0 ? wrong_free : wrong_collision).push_back(i);
     }
@@ -238,7 +238,7 @@ class Tables
   CsvTable accuracy_;
 };
 
-/// Random states are never that near.
+/// Flags states for which the contract accepts both answers. Random states are never so near to contact.
 std::vector<std::uint8_t> openStates(const Batch& batch, const GeometricError& error)
 {
   std::vector<std::uint8_t> open(batch.truth.size());
@@ -252,7 +252,7 @@ std::vector<std::uint8_t> openStates(const Batch& batch, const GeometricError& e
   return open;
 }
 
-/// Returns the wrong answers of methods that claim to be exact.
+/// Returns the number of wrong answers of methods that claim to be exact.
 std::size_t measureBatch(const Batch& batch, std::vector<Run>& runs, GeometricError& error, const Settings& settings,
                          Tables& tables)
 {

@@ -7,7 +7,7 @@ namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
-constexpr std::size_t kStates = 128;  // compared after each update
+constexpr std::size_t kStates = 128;  // states that are compared after each update
 }
 
 Updates::Updates(const TestScene& scene, std::size_t repeats) : states_(scene.randomStates(kStates, 1))

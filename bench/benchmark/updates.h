@@ -9,21 +9,21 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// Scenes in which one object was moved, and the true answers in them.
+/// Scenes in which one object was moved, and the true answers for these scenes.
 class Updates
 {
  public:
   struct Result
   {
-    std::vector<double> seconds;  ///< of each; none for a method that has to be built anew, or without objects
-    std::size_t wrong = 0;        ///< answers, if the method is to be exact
+    std::vector<double> seconds;  ///< of each update; empty if the method cannot update, or without objects
+    std::size_t wrong = 0;        ///< wrong answers, if the method claims to be exact
   };
 
-  /// `repeats`: updates that are measured, after one that is not.
+  /// `repeats`: number of measured updates. One more update before them is not measured.
   Updates(const TestScene& scene, std::size_t repeats);
 
-  /// How long it takes from giving a method a scene to its answer about one state in that scene; making the scene is
-  /// not counted. Then it is asked about more states, to be compared with the truth.
+  /// Measures the time from the update of the method to its answer for one state of the new scene. The construction of
+  /// the scene is not measured. After each update, the answers for more states are compared with the truth.
   Result measure(const MethodInfo& info, Method& method) const;
 
  private:

@@ -11,16 +11,16 @@ class btTransform;
 
 namespace gpu_planning_scene::core
 {
-/// What Bullet's hull of a mesh is made of: the hull is the same but for Bullet's rounding of its corners. GJK looks at
-/// every point.
+/// The points of Bullet's convex hull shape of a mesh. Both choices give the same hull, except that Bullet rounds the
+/// coordinates of computed corners. GJK looks at every point, so fewer points are faster.
 enum class HullPoints
 {
   AllVertices,
   Corners
 };
 
-/// The shape in Bullet: a mesh as its convex hull, a primitive as Bullet's own, without a margin that would round its
-/// corners. Throws Error for a half-space.
+/// Converts a shape to Bullet: a mesh becomes its convex hull, a primitive becomes Bullet's own primitive. The margin
+/// is 0, because a margin would round the corners. Throws Error for a half-space.
 std::shared_ptr<btConvexShape> bulletShape(const Shape& shape, HullPoints points);
 
 btTransform bulletPose(const Eigen::Isometry3d& pose);

@@ -9,19 +9,20 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// FCL, state by state on the calling thread, where a planner expects one of our checkers: what a user of FCL would
-/// write. Margins are decided by FCL's distances. It is made for one scene and one group. Not thread-safe.
+/// FCL behind the interface of our checkers, so a planner can use it. It checks state by state on the calling thread,
+/// as a typical user of FCL would. Margins are tested with FCL's distances. A checker serves one scene and one group.
+/// Not thread-safe.
 class FclChecker : public StateChecker
 {
  public:
   FclChecker(std::shared_ptr<const PlanningScene> scene, const std::string& group);
 
-  /// Throws std::logic_error: it has its scene.
+  /// Throws std::logic_error: the scene cannot be replaced.
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
-  /// `group` must be the one it was made for.
+  /// Throws std::logic_error if `group` is not the group of the constructor.
   BatchResult check(const double* states, std::size_t count, const std::string& group,
                     const JointNeighbourhood* around) override;
-  /// What is checked is not counted.
+  /// Returns an empty report.
   SceneReport report(const std::string& group) override;
   std::string deviceName() const override { return "FCL"; }
 
@@ -31,6 +32,6 @@ class FclChecker : public StateChecker
   std::shared_ptr<const CollisionProblem> problem_;
   DisplacementBounds displacements_;
   FclPeer fcl_;
-  FclPeer near_;  // with an order of its own for states with margins
+  FclPeer near_;  // for states with margins; learns its own order of pairs
 };
 }  // namespace gpu_planning_scene::core::benchmark

@@ -1,6 +1,7 @@
-// planning_study: plans the problems of ../shared, or of $GPU_PLANNING_SCENE_DATA, with the batch planner, and with
-// OMPL's RRTConnect on this package's validator and on FCL, under both motion rules, with the same seeds, one after the
-// other. Each path is checked again at ten times the resolution by the exact checker. See --help.
+// planning_study: solves the planning problems of ../shared or $GPU_PLANNING_SCENE_DATA under both motion rules. It
+// compares the batch planner, OMPL's RRTConnect with this package's validator, and RRTConnect with FCL. The planners
+// use the same seeds and run one after the other. The exact checker checks each path again at ten times the resolution.
+// See --help.
 
 #include <algorithm>
 #include <filesystem>
@@ -77,12 +78,12 @@ struct Outcome
   double seconds = 0.0;
   double length = 0.0;
   std::size_t waypoints = 0;
-  std::uint64_t states = 0;  // checked
+  std::uint64_t states = 0;  // checked during planning
   std::size_t checked_again = 0;
-  std::size_t colliding = 0;  // of those
+  std::size_t colliding = 0;  // states, of `checked_again`
 };
 
-/// Every path state by state, ten times as finely as it was planned.
+/// Checks a path state by state, at ten times the resolution of the planner.
 void checkAgain(const og::PathGeometric& path, const GroupStateSpace& space, const PlanningProblem& problem,
                 const MotionSteps& steps, CpuChecker& exact, Outcome& outcome)
 {
@@ -124,7 +125,7 @@ class Study
     std::vector<std::string> names = planningProblemNames();
     if (names.empty())
       throw Error("there are no problems in " + planningProblemFolder());
-    // Of each set some, where not all are wanted.
+    // Evenly spread over all problems, so each set has some.
     std::vector<std::string> chosen;
     const std::size_t count = std::min(settings_.problems, names.size());
     for (std::size_t i = 0; i < count; ++i)
@@ -153,7 +154,7 @@ class Study
       exact_->setScene(problem.scene);
     }
     const auto fcl = std::make_shared<FclChecker>(problem.scene, problem.group);
-    // What is done once for a scene is not part of planning.
+    // Keeps the one-time work for a scene out of the planning time.
     ours_->check(problem.start.data(), 1, problem.group);
     ours_->report(problem.group);
     for (std::size_t run = 0; run < settings_.runs; ++run)

@@ -13,7 +13,7 @@
 
 namespace gpu_planning_scene::core::stability
 {
-/// Two placed shapes. `a` belongs to a robot; `b` to the world, or to another link of the robot (`self`).
+/// Two placed shapes. `a` belongs to the robot. `b` belongs to the world, or to another link of the robot if `self`.
 struct Case
 {
   Shape a;
@@ -24,34 +24,34 @@ struct Case
   double padding_a = 0.0;
   double padding_b = 0.0;
   bool self = false;
-  std::optional<double> known;  ///< the distance by construction, where that gives it to 1e-11 m
+  std::optional<double> known;  ///< the distance by construction, if known to 1e-11 m
 };
 
-/// Up to which distance the two collide. Pairs of a robot's own bodies are not padded.
+/// The required distance of the pair, in metres. Padding does not apply between two links.
 inline double requiredDistance(const Case& c)
 {
   return c.self ? 0.0 : c.padding_a + c.padding_b;
 }
 
-/// A kind of cases. Case `index` depends on the seed and the index alone, so that each can be had again.
+/// A family of cases. Case `index` depends only on the seed and the index, so each case can be reproduced.
 struct Family
 {
   std::string name;
   std::function<Case(std::uint64_t seed, std::size_t index)> make;
-  /// Both shapes are triangles, or meshes and boxes: what a plain triangle test can be asked.
+  /// Both shapes are meshes or boxes, so a plain triangle test applies.
   bool triangles = true;
   /// Both shapes are convex bodies.
   bool convex = false;
-  /// Case i and case i + 1 are one pair, in other orders of vertices and arguments, where i / copies is the same.
+  /// All cases with the same value of i / copies are copies of one pair with other orders of vertices and arguments.
   std::size_t copies = 1;
-  /// Near the robot, in the planning frame.
+  /// A point near the robot, in the planning frame; see CollisionProblem::origin.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 };
 
-/// All of them, in the order of the table.
+/// All families, in the order of the table.
 std::vector<Family> allFamilies();
 
-// Its parts.
+// The parts of allFamilies().
 std::vector<Family> triangleFamilies();
 std::vector<Family> contactFamilies();
 std::vector<Family> containmentFamilies();

@@ -1,4 +1,4 @@
-// Closed meshes that touch or overlap, and what a robot carries.
+// Closed meshes that touch or overlap, and attached objects.
 
 #include "stability/case.h"
 #include "stability/placing.h"
@@ -16,7 +16,7 @@ Isometry3d shifted(const Vector3d& by)
   return Isometry3d(Eigen::Translation3d(by));
 }
 
-/// One box on another.
+/// One box on another box.
 Case solidFaces(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
@@ -60,7 +60,7 @@ Case deepOverlap(std::uint64_t seed, std::size_t index)
   return placed(random, a, randomClosed(random), pose);
 }
 
-/// A slab of a metre under a mesh of triangles of ten micrometres, and the other way round.
+/// A slab of one metre and a mesh of ten micrometres on it.
 Case mixedSizes(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
@@ -86,7 +86,7 @@ Case farFromOwnOrigin(std::uint64_t seed, std::size_t index)
                 shifted(from_a) * b_in_a * shifted(-from_b));
 }
 
-/// A box that a link carries, on a table of the world.
+/// An attached box on a table of the world.
 Case attachedOnTable(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
@@ -125,7 +125,7 @@ Case fingerOnHeldBox(std::uint64_t seed, std::size_t index)
   made.link_a = made.pose_b *
                 shifted({side * (0.5 * (finger.x() + held.x()) + offset), random.uniform(-0.01, 0.01), 0.02}) *
                 made.a_in_link.inverse();
-  if (random.coin())  // which does not count between two links
+  if (random.coin())  // padding must have no effect between two links
     made.padding_a = made.padding_b = 0.01;
   made.known = std::max(0.0, offset);
   return made;

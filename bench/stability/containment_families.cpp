@@ -1,4 +1,4 @@
-// Meshes in or near closed, open and hollow meshes, and surfaces that are not as they should be.
+// Meshes in or near closed, open and hollow meshes, and defective surfaces.
 
 #include "stability/case.h"
 #include "stability/placing.h"
@@ -16,14 +16,14 @@ Isometry3d shifted(const Vector3d& by)
   return Isometry3d(Eigen::Translation3d(by));
 }
 
-/// A thing that is up to `size` large.
+/// A mesh with a size of about `size` metres.
 MeshPtr small(Random& random, double size)
 {
   const MeshPtr mesh = random.below(4) == 0 ? randomTriangle(random) : randomClosed(random);
   return scaled(*mesh, size);
 }
 
-/// Something small in or near a large mesh.
+/// A small mesh in or near a large mesh.
 Case inSolid(Random& random, const MeshPtr& outer)
 {
   const double size = random.logUniform(1e-3, 0.2);
@@ -52,7 +52,7 @@ Case inCavity(std::uint64_t seed, std::size_t index)
   return inSolid(random, hollowBox(random.uniform(0.5, 0.9)));
 }
 
-/// Three parts far from each other, or many more, one of them in or near a solid.
+/// Three or 100 separate components, one of them in or near a solid.
 Case oneComponentInside(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
@@ -82,7 +82,8 @@ Case mirroredShell(std::uint64_t seed, std::size_t index)
   return inSolid(random, mirrored(*outer));
 }
 
-/// A box whose walls can be touched from inside: closed, open, hollow or inside out; and how far its walls are.
+/// A box whose walls can be touched from inside: closed, open, hollow or inside out. `wall`: distance of the walls from
+/// the centre, metres.
 struct Room
 {
   MeshPtr mesh;
@@ -104,7 +105,7 @@ Room randomRoom(Random& random)
   }
 }
 
-/// From inside, just not touching a wall, touching it, or a little through it.
+/// A mesh inside a room: just apart from a wall, touching it, or slightly through it.
 Case againstWall(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
@@ -118,7 +119,8 @@ Case againstWall(std::uint64_t seed, std::size_t index)
   return placed(random, room.mesh, inner, pose);
 }
 
-/// Parts whose vertices are in line with edges and vertices of what they are in: rays along an axis meet those.
+/// Meshes whose vertices are aligned with edges and vertices of the outer mesh, so rays along an axis hit these edges
+/// and vertices.
 Case inLine(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
@@ -130,7 +132,7 @@ Case inLine(std::uint64_t seed, std::size_t index)
   return placed(random, room.mesh, inner, shifted({step(), step(), step()}));
 }
 
-/// A required distance, in or near closed, open and hollow meshes.
+/// A required distance above 0, with a mesh in or near closed, open and hollow meshes.
 Case paddedInside(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);

@@ -31,7 +31,8 @@ bool separates(const Eigen::Vector3f& axis, const FloatTriangle& a, const FloatT
   return a_most < b_least || b_most < a_least;
 }
 
-/// The normals, the products of edges, and the edges' normals in each plane.
+/// The separating axis test of two triangles with 17 axes: two normals, nine products of edges, and the in-plane
+/// normals of the six edges.
 bool overlap(const FloatTriangle& a, const FloatTriangle& b)
 {
   const std::array<Eigen::Vector3f, 3> edges_a = {a[1] - a[0], a[2] - a[1], a[0] - a[2]};

@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core::stability
 {
 namespace
 {
-constexpr double kKnownTo = 2e-11;  // metres: roundings of the construction, far from the origin
+constexpr double kKnownTo = 2e-11;  // metres: covers the roundings of the construction far from the origin
 
 struct Judged
 {

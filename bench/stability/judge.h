@@ -17,9 +17,8 @@ struct Failure
   std::string what;
 };
 
-/// Asks every method about cases 0 .. count - 1 of a family and holds the answers against the oracle's. `report` is
-/// told of every wrong answer of the project's own methods. Throws Error if the oracle contradicts a case's
-/// construction.
+/// Runs every method on cases 0 .. count - 1 of a family and compares the answers with the oracle. Calls `report` for
+/// every wrong answer of the project's own methods. Throws Error if the oracle contradicts the construction of a case.
 Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& ours,
           const std::function<void(const Failure&)>& report);
 }  // namespace gpu_planning_scene::core::stability

@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core::stability
 namespace
 {
 constexpr std::size_t kCasesPerProblem = 64;
-constexpr double kFarApart = 1e5;  // metres: more than any case's size
+constexpr double kFarApart = 1e5;  // metres: larger than every case
 
 std::uint32_t treeOf(const Shape& shape, CollisionProblem& problem)
 {
@@ -34,7 +34,7 @@ BatchCheckerOptions engineOptions(const std::string& device, const std::string& 
   return options;
 }
 
-/// Cases begin .. end as one problem. Case i is on link i, and on link count + i where it has two.
+/// `count` cases as one problem. Shape a of case i is on link i. In a `self` case, shape b is on link count + i.
 struct Part
 {
   const Case* cases;

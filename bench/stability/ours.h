@@ -9,8 +9,8 @@
 
 namespace gpu_planning_scene::core::stability
 {
-/// The project's own methods on many cases: some go into one collision problem, on links and objects of their own, and
-/// state i of the problem has the shapes of case i in their places and all others far apart.
+/// Runs the project's own methods on many cases. Several cases form one collision problem, each with its own links and
+/// objects. State i of the problem places the shapes of case i and moves the shapes of all other cases far apart.
 class Ours
 {
  public:
@@ -18,13 +18,13 @@ class Ours
   Ours(const std::string& device, const std::string& shaders);
   ~Ours();
 
-  /// What each method says: 1 for a collision.
+  /// The answers of each method: 1 for a collision.
   struct Answers
   {
     std::vector<std::uint8_t> work_queue;
     std::vector<std::uint8_t> breadth_first;
     std::vector<std::uint8_t> exact;
-    std::size_t undecided = 0;  ///< how many of the cases the work queues left to the CPU
+    std::size_t undecided = 0;  ///< cases that the work queues left undecided
   };
   /// `origin`: see CollisionProblem.
   Answers check(const std::vector<Case>& cases, const Eigen::Vector3d& origin);

@@ -8,7 +8,7 @@ namespace gpu_planning_scene::core::stability
 {
 namespace
 {
-/// In a half-space's case the half-space itself is moved.
+/// Half-spaces have no pose, so the plane itself is moved.
 HalfSpace movedBy(const Eigen::Isometry3d& pose, const HalfSpace& half_space)
 {
   const Eigen::Vector3d normal = (pose.linear() * half_space.normal).normalized();

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 using MakeShape = Shape (*)(Random&);
 
-// Few sizes, so that cases share trees.
+// There are few sizes, so cases share trees.
 double someSize(Random& random)
 {
   constexpr double kSizes[] = {0.25, 0.4, 0.7};
@@ -76,7 +76,7 @@ Shape someShape(Random& random)
   return random.coin() ? someConvex(random) : someMesh(random);
 }
 
-/// Rotations that put faces, rims and axes in line, one time in three; else any.
+/// One of three rotations aligns faces, rims and axes. The others are random.
 Isometry3d someRotation(Random& random)
 {
   constexpr double kPi = 3.14159265358979323846;
@@ -101,7 +101,7 @@ std::function<Case(std::uint64_t, std::size_t)> contacts(MakeShape make_a, MakeS
     Random random(seed, index);
     const Shape a = make_a(random);
     const Shape b = make_b(random);
-    // One case in eight overlaps deeply, or has one shape in the other.
+    // In one of eight cases, the shapes overlap deeply or one is inside the other.
     if (random.below(8) == 0)
     {
       Isometry3d pose = someRotation(random);
@@ -143,7 +143,7 @@ Case primitiveContained(std::uint64_t seed, std::size_t index)
   return placed(random, outer, inner[random.below(4)], pose);
 }
 
-/// One of them a box or curved.
+/// One of the two shapes is a primitive.
 Case anyContact(Random& random, const Place& place)
 {
   const Shape a = someConvex(random);
@@ -200,7 +200,7 @@ Case onHalfSpace(Random& random, double offset)
   const Shape body = someShape(random);
   const Isometry3d start = someRotation(random);
   const Vector3d upwards = Vector3d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 1.0).normalized();
-  // Well below the ground, so that the way up leads through a contact.
+  // The start is well below the ground, so the motion upwards passes through a contact.
   return placed(random, ground, body,
                 justApart(ground, body, Isometry3d(Eigen::Translation3d(0.0, 0.0, -2.0)) * start, upwards, offset));
 }

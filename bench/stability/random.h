@@ -10,7 +10,7 @@
 
 namespace gpu_planning_scene::core::stability
 {
-/// Numbers for one case.
+/// Random numbers for one case.
 class Random
 {
  public:
@@ -46,8 +46,8 @@ class Random
     return pose;
   }
 
-  /// Quarter turns, and a translation in steps of 1/1024 m of up to `distance` along each axis: what is in one plane
-  /// along two axes stays so, in doubles too.
+  /// A rotation by quarter turns, and a translation of up to `distance` along each axis in steps of 1/1024 m. Faces in
+  /// a common plane along two axes remain exactly in a common plane, also in doubles.
   Eigen::Isometry3d alignedMotion(double distance)
   {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

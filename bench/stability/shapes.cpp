@@ -176,7 +176,7 @@ MeshPtr damagedBall(Random& random)
   auto& some = triangles[random.below(static_cast<int>(triangles.size()))];
   switch (random.below(4))
   {
-    case 0:  // its corner is another vertex, some 1e-9 ... 1e-3 m off
+    case 0:  // a crack: one corner becomes a new vertex, 1e-9 ... 1e-3 m away
       vertices.push_back(vertices[some[0]] + random.logUniform(1e-9, 1e-3) * random.direction());
       some[0] = static_cast<std::uint32_t>(vertices.size() - 1);
       break;

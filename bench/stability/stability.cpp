@@ -1,4 +1,4 @@
-// stability: what each method answers where answers are hard to get right. See docs/stability.md.
+// stability: compares the answers of all methods with the oracle in hard cases. See docs/stability.md.
 
 #include <algorithm>
 #include <chrono>
@@ -16,8 +16,8 @@ namespace
 {
 constexpr std::size_t kFullCases = 2048;
 constexpr std::size_t kQuickCases = 64;
-constexpr std::size_t kLeastSets = 4;  // of cases that are copies of each other
-constexpr std::size_t kReported = 5;   // wrong answers of a family that are told one by one
+constexpr std::size_t kLeastSets = 4;  // at least this number of sets of copies
+constexpr std::size_t kReported = 5;   // wrong answers per family that are printed one by one
 
 std::ofstream openFile(const CommandLine& arguments, const std::string& option)
 {
@@ -30,7 +30,7 @@ std::ofstream openFile(const CommandLine& arguments, const std::string& option)
   return file;
 }
 
-/// Those whose name contains the text.
+/// The families whose name contains the text.
 std::vector<Family> chosenFamilies(const std::string& text)
 {
   std::vector<Family> chosen;
@@ -71,7 +71,7 @@ void runStability(const CommandLine& arguments)
         std::cerr << "\n  " << methodNames()[failure.method].name << " is wrong in case " << failure.index << ": "
                   << failure.what;
     };
-    // A set of copies tells more than one case and less than as many.
+    // A set of copies tests more than a single case, but less than the same number of different cases.
     const std::size_t count = family.copies == 1 ? cases : std::max(cases / 8, kLeastSets) * family.copies;
     rows.push_back(judge(family, seed, count, ours, report));
     wrong += failures;

@@ -24,14 +24,14 @@ enum Method : std::size_t
 
 struct MethodName
 {
-  const char* name;  ///< a column's title
+  const char* name;  ///< title of the column
   const char* short_name;
   bool ours;
 };
 const std::array<MethodName, MethodCount>& methodNames();
 
-/// A cell of the table. Where the contract allows both answers, neither is wrong; but the project's own methods agree
-/// with each other there, and on all copies of a case: where they do not, the answer counts as inconsistent.
+/// A cell of the table. If the contract allows both answers, neither is wrong. But then the project's own methods must
+/// agree with each other and on all copies of a case. If they do not, the answer counts as inconsistent.
 struct Cell
 {
   std::size_t cases = 0;  ///< 0: the method does not apply
@@ -44,10 +44,10 @@ struct Cell
 struct Row
 {
   std::string family;
-  std::size_t colliding = 0;  ///< by the oracle
+  std::size_t colliding = 0;  ///< cases, by the oracle
   std::size_t free = 0;
   std::size_t either = 0;
-  std::size_t undecided = 0;  ///< that the GPU left to the CPU, of all cases
+  std::size_t undecided = 0;  ///< cases that the GPU left undecided
   std::array<Cell, MethodCount> cells;
 };
 
@@ -60,8 +60,8 @@ struct Run
   std::string device;
 };
 
-/// What the numbers are of, then a table.
+/// Writes the conditions of the run, then the table.
 void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& rows);
-/// One line for each cell.
+/// Writes one line per cell.
 void writeCsv(std::ostream& out, const std::vector<Row>& rows);
 }  // namespace gpu_planning_scene::core::stability

@@ -1,4 +1,4 @@
-// Pairs of single triangles: surfaces without a solid.
+// Pairs of single triangles. They are surfaces without a solid.
 
 #include "stability/case.h"
 #include "stability/placing.h"
@@ -16,7 +16,7 @@ Isometry3d lifted(double x, double y, double z)
   return Isometry3d(Eigen::Translation3d(x, y, z));
 }
 
-/// In the plane z = 0, around the origin.
+/// A triangle in the plane z = 0, around the origin.
 MeshPtr flatTriangle(Random& random)
 {
   return triangleMesh({random.uniform(-0.6, -0.3), random.uniform(-0.6, -0.3), 0.0},
@@ -58,7 +58,8 @@ Case edgeOnFace(std::uint64_t seed, std::size_t index)
   return made;
 }
 
-/// An edge along x with its triangle on the side of negative y, an edge along z with its triangle beyond y = offset.
+/// An edge along x whose triangle extends to negative y, and an edge along z at y = offset whose triangle extends to
+/// positive y.
 Case edgesCross(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
@@ -74,7 +75,7 @@ Case edgesCross(std::uint64_t seed, std::size_t index)
   return made;
 }
 
-/// A corner on a corner or on an edge, the rest of each triangle on its side of y = 0.
+/// A corner on a corner or on an edge. The rest of each triangle lies on its own side of y = 0.
 Case vertexOnVertexOrEdge(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
@@ -90,7 +91,7 @@ Case vertexOnVertexOrEdge(std::uint64_t seed, std::size_t index)
   return made;
 }
 
-/// Any two triangles, about to touch or just touching.
+/// Two meshes that nearly touch or just touch.
 Case nearContact(Random& random, const MeshPtr& a, const MeshPtr& b, const Place& place = {})
 {
   const Vector3d point_a = innerPoint(random, a);
@@ -98,7 +99,7 @@ Case nearContact(Random& random, const MeshPtr& a, const MeshPtr& b, const Place
   return placed(random, a, b, justApart(random, a, point_a, b, point_b, random.offset()), place);
 }
 
-/// 6 orders of the corners of each triangle, and both argument orders: 72 copies of one pair, all in one place.
+/// 72 copies of one pair in the same place: 6 orders of the corners of each triangle, and both argument orders.
 constexpr std::size_t kOrders = 72;
 
 Case vertexOrders(std::uint64_t seed, std::size_t index)
@@ -160,7 +161,7 @@ Case twoSlivers(std::uint64_t seed, std::size_t index)
   return nearContact(random, a, sliver(random, random.logUniform(1e-7, 1e-3)));
 }
 
-/// A segment (three corners on a line, or two in one place) or a point, against a triangle or its like.
+/// A degenerate triangle: a segment (three corners on a line, or two equal corners) or a point.
 MeshPtr withoutArea(Random& random)
 {
   const Vector3d a = random.inCube(0.5);
@@ -199,7 +200,7 @@ Case inOnePlane(std::uint64_t seed, std::size_t index, bool overlapping)
   return placed(random, a, b, justApart(a, b, turned, direction, std::abs(random.offset())));
 }
 
-/// Two triangles whose planes make an angle of 1e-3 ... 1e-9, crossing or just apart.
+/// Two triangles whose planes form an angle of 1e-3 ... 1e-9 rad, crossing or just apart.
 Case nearlyParallel(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
@@ -211,7 +212,8 @@ Case nearlyParallel(std::uint64_t seed, std::size_t index)
   return placed(random, a, b, justApart(a, b, tilted, Vector3d::UnitZ(), random.offset()));
 }
 
-/// Two triangles that name one edge, or one corner, at any angle, in the same place: rounding does not part them.
+/// Two triangles that share an edge or a corner, at any angle. Both have the same pose, so rounding does not separate
+/// them.
 Case sharing(std::uint64_t seed, std::size_t index, bool edge)
 {
   Random random(seed, index);

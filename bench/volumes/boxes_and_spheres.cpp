@@ -13,8 +13,8 @@ using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
 constexpr int kBallSteps = 50;
-constexpr Eigen::Index kMostSamples = 96;  // points by which an oriented box's axes are chosen
-constexpr std::size_t kTurned = 3;         // of the axes to choose of
+constexpr Eigen::Index kMostSamples = 96;  // points for the choice of an oriented box's axes
+constexpr std::size_t kTurned = 3;         // number of candidate axes that are refined
 constexpr double kPi = 3.14159265358979323846;
 
 Vector3d sizesAlong(const Matrix3d& axes, const Points& points)
@@ -30,7 +30,7 @@ Vector3d sizesAlong(const Matrix3d& axes, const Points& points)
   return upper - lower;
 }
 
-/// Turns the axes in smaller and smaller steps until the box's surface is least.
+/// Rotates the axes in ever smaller steps to a local minimum of the box's surface. Returns the surface.
 double improve(Matrix3d& axes, const Points& points)
 {
   double best = surfaceMeasure(sizesAlong(axes, points));
@@ -54,7 +54,7 @@ double improve(Matrix3d& axes, const Points& points)
   return best;
 }
 
-/// Points come three a triangle.
+/// `points`: three per triangle.
 std::vector<Triangle> trianglesOf(const Points& points)
 {
   std::vector<Triangle> triangles;
@@ -88,7 +88,8 @@ Matrix3Xd sampled(const Points& points)
 }
 }  // namespace
 
-/// After Badoiu and Clarkson, "Smaller Core-Sets for Balls" (2003): step by step towards the farthest point.
+/// After Badoiu and Clarkson, "Smaller Core-Sets for Balls" (2003): each step moves the centre towards the farthest
+/// point.
 Sphere Sphere::fit(const Points& points)
 {
   Vector3d center = AxisBox::fit(points).center;
@@ -135,7 +136,7 @@ TurnedBox TurnedBox::fit(const Points& points)
       best_axes = axes;
     }
   }
-  // Turn upon turn has gathered rounding errors.
+  // Removes the rounding errors of the repeated rotations.
   best_axes = Eigen::Quaterniond(best_axes).normalized().toRotationMatrix();
   return {grown(boxAlong(best_axes, triangles.data(), triangles.size()))};
 }

@@ -11,16 +11,17 @@
 namespace gpu_planning_scene::core::volumes
 {
 /// A bounding volume is a class with
-///   static Volume fit(points)  a volume that holds the points, and kGrowth more on all sides;
-///   holds(point)               whether it does;
-///   size()                     a measure by which the larger of two nodes of its kind is opened;
-///   kBytes                     what a node's volume takes in float32, without links;
-///   Test                       made of the pose of tree b in the frame of tree a, which is the same for all their node
-///                              pairs; overlap(a, b) is true where the volumes overlap, and may be where they do not.
-/// Volumes are in the frames of their trees. All compute in double, as the CPU checker does.
+///   static Volume fit(points)  a volume that contains the points with a margin of kGrowth on all sides;
+///   holds(point)               whether the volume contains the point;
+///   size()                     a measure of size; a traversal may open the larger of two nodes;
+///   kBytes                     size of a node's volume in float32, without links;
+///   Test                       constructed from the pose of tree b in the frame of tree a, which is the same for all
+///                              pairs of their nodes. overlap(a, b) is true if the volumes overlap. It may also be true
+///                              for volumes that are apart.
+/// Volumes are in the frames of their trees. All computations are in double, as in the CPU checker.
 using Points = Eigen::Ref<const Eigen::Matrix3Xd>;
 
-constexpr double kGrowth = 1e-9;  // metres: for rounding, and for the slack within which triangles count as touching
+constexpr double kGrowth = 1e-9;  // metres: covers rounding and the tolerance within which triangles count as touching
 constexpr std::size_t kFloat = 4;
 
 struct Sphere
@@ -49,7 +50,7 @@ struct Sphere
   };
 };
 
-/// A box along the axes of its tree's frame.
+/// A box along the axes of its tree's frame (AABB).
 struct AxisBox
 {
   static constexpr std::size_t kBytes = 6 * kFloat;
@@ -62,7 +63,8 @@ struct AxisBox
   double size() const { return half.squaredNorm(); }
 };
 
-/// Boxes tested along the axes of a (then b's box is taken for the aligned box around it), or along those of a and b.
+/// AABBs that are tested along the axes of a, or along the axes of a and b. The test along a's axes replaces b's box by
+/// its bounding box along these axes.
 template <bool kAxesOfB>
 struct AxisBoxByFaces : AxisBox
 {
@@ -91,7 +93,7 @@ struct AxisBoxByFaces : AxisBox
   };
 };
 
-/// Boxes tested along all 15 axes that can separate them.
+/// AABBs that are tested along all 15 separating axes (Gottschalk, Lin and Manocha 1996, "OBBTree").
 struct AxisBoxByAllAxes : AxisBox
 {
   static AxisBoxByAllAxes fit(const Points& points) { return {AxisBox::fit(points)}; }
@@ -111,7 +113,7 @@ struct AxisBoxByAllAxes : AxisBox
   };
 };
 
-/// A box with axes of its own (OBB), tested along all 15.
+/// An oriented box (OBB), tested along all 15 separating axes.
 struct OwnAxesBox : OrientedBox
 {
   static constexpr std::size_t kBytes = 15 * kFloat;
@@ -132,28 +134,29 @@ struct OwnAxesBox : OrientedBox
   };
 };
 
-/// As the CPU checker fits them.
+/// An oriented box with the fit of the CPU checker.
 struct FittedBox : OwnAxesBox
 {
   static FittedBox fit(const Points& points);
 };
 
-/// Of several boxes, each turned until no small turn makes its surface smaller, the one with the least surface: from
-/// the frame's axes, the main axes of the points, and those of the largest triangle (three points each).
+/// The oriented box with the smallest surface among several candidates. The candidates start with the frame's axes, the
+/// principal axes of the points, and the axes of the largest triangle (three points per triangle). Each is rotated in
+/// small steps until no step makes its surface smaller.
 struct TurnedBox : OwnAxesBox
 {
   static TurnedBox fit(const Points& points);
 };
 
-/// An AABB, and an oriented box where a node has no more triangles than a leaf: tested where both have one, so before
-/// triangles are.
+/// An AABB, and an oriented box for a node with no more triangles than a leaf. Two oriented boxes are tested before the
+/// triangles of their nodes.
 struct AxisBoxOrientedLeaf
 {
   static constexpr std::size_t kBytes = AxisBox::kBytes + OwnAxesBox::kBytes / 2;  // half of a tree's nodes are leaves
 
   AxisBoxByAllAxes box;
   bool leaf;
-  TurnedBox oriented;  // where it is one
+  TurnedBox oriented;  // only of a leaf
 
   static AxisBoxOrientedLeaf fit(const Points& points)
   {

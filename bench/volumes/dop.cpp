@@ -15,7 +15,7 @@ std::size_t indexOf(const Signs& signs)
   return static_cast<std::size_t>(9 * (signs.x() + 1) + 3 * (signs.y() + 1) + signs.z() + 1);
 }
 
-/// 1: an axis, 2: a diagonal of a face, 3: one of the space.
+/// `kind`: 1 for an axis, 2 for a face diagonal, 3 for a space diagonal.
 bool belongs(int kind, int directions)
 {
   return kind == 1 || (kind == 2 && directions != 14) || (kind == 3 && directions != 18);
@@ -27,7 +27,7 @@ DopDirections<kDirections>::DopDirections() : numbers_{}
 {
   unsigned count = 0;
   for (int kind = 1; kind <= 3; ++kind)
-    for (int code = 26; code > 13; --code)  // half of all signs: the others are their opposites
+    for (int code = 26; code > 13; --code)  // half of all sign patterns; the other half are their opposites
     {
       const Signs signs(code / 9 - 1, code / 3 % 3 - 1, code % 3 - 1);
       if (signs.cwiseAbs().sum() != kind || !belongs(kind, kDirections))
@@ -42,7 +42,7 @@ DopDirections<kDirections>::DopDirections() : numbers_{}
 template <int kDirections>
 Cone DopDirections<kDirections>::around(const Vector3d& direction) const
 {
-  // By symmetry as if the components were x >= y >= z >= 0.
+  // By symmetry, the components are sorted to x >= y >= z >= 0.
   std::array<int, 3> order = {0, 1, 2};
   std::sort(order.begin(), order.end(),
             [&direction](int i, int j) { return std::abs(direction[i]) > std::abs(direction[j]); });

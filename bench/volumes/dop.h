@@ -7,15 +7,16 @@
 
 namespace gpu_planning_scene::core::volumes
 {
-/// How far a volume reaches along a direction, from how far it reaches along three directions of a k-DOP.
+/// A direction as a combination of three directions of a k-DOP, with weights of at least 0. The same combination of the
+/// extents is an upper bound on the extent along the direction.
 struct Cone
 {
   std::array<unsigned, 3> directions;
   std::array<double, 3> weights;
 };
 
-/// The directions of a k-DOP: number 2 i + 1 is the opposite of number 2 i. 14: the axes and the diagonals of a cube's
-/// space; 18: the axes and the diagonals of its faces; 26: all these.
+/// The directions of a k-DOP. Direction 2 i + 1 is the opposite of direction 2 i. 14-DOP: the axes and the space
+/// diagonals of a cube. 18-DOP: the axes and the face diagonals. 26-DOP: all of these.
 template <int kDirections>
 class DopDirections
 {
@@ -23,7 +24,7 @@ class DopDirections
   DopDirections();
   const Eigen::Vector3d& operator[](unsigned number) const { return directions_[number]; }
 
-  /// The three directions around `direction` (unit length) and its coordinates in them, none below 0.
+  /// The three directions around `direction` (unit length), and the coordinates of `direction` in them, all at least 0.
   Cone around(const Eigen::Vector3d& direction) const;
 
  private:
@@ -31,12 +32,13 @@ class DopDirections
   std::array<unsigned, 27> numbers_;                     // by the signs of the components
 };
 
-/// A k-DOP: how far the volume reaches along k fixed directions of its tree's frame, after Klosowski et al., "Efficient
-/// Collision Detection Using Bounding Volume Hierarchies of k-DOPs" (1998). Slabs are compared along the directions of
-/// a, and, with kBothSides, along those of b, where the other's slabs are those of a DOP around it that is aligned
-/// anew: Zachmann, "Rapid Collision Detection by Dynamically Aligned DOP-Trees" (1998).
-/// Directions are those that the cube's symmetries map to each other, so that the three around a direction follow from
-/// the order of its components. (FCL's 24-DOP leaves one of the 26-DOP's diagonals out, which breaks that.)
+/// A k-DOP: the extents of a volume along k fixed directions of its tree's frame (Klosowski et al., "Efficient
+/// Collision Detection Using Bounding Volume Hierarchies of k-DOPs", 1998). The test compares slabs along the
+/// directions of a, and with kBothSides also along the directions of b. For the comparison, the other DOP is enclosed
+/// in a DOP that is aligned with these directions (Zachmann, "Rapid Collision Detection by Dynamically Aligned
+/// DOP-Trees", 1998). The symmetries of a cube map the set of directions to itself. So the order of a direction's
+/// components gives the three directions around it. FCL's 24-DOP leaves out one diagonal of the 26-DOP and does not
+/// have this property.
 template <int kDirections, bool kBothSides>
 struct Dop
 {

@@ -10,7 +10,7 @@
 
 namespace gpu_planning_scene::core::volumes
 {
-/// A kind of volume under a scheme of traversal.
+/// A kind of bounding volume with a traversal scheme.
 class Method
 {
  public:
@@ -22,11 +22,11 @@ class Method
 
   const std::string& volume() const { return volume_; }
   const std::string& scheme() const { return scheme_; }
-  std::size_t bytes() const { return bytes_; }  ///< of a node's volume
+  std::size_t bytes() const { return bytes_; }  ///< size of a node's volume
 
-  /// Which of each state's pairs is the first that collides; -1: none. Level by level: 0 if any of them does.
+  /// For each state the index of its first colliding pair, or -1. Breadth-first schemes return 0 for any collision.
   virtual std::vector<int> check(const std::vector<std::size_t>& states, WorkCount& count) = 0;
-  /// The same without counting, for times. Returns how many states collide.
+  /// The same without counting, for timing. Returns the number of colliding states.
   virtual std::size_t run(const std::vector<std::size_t>& states) = 0;
   virtual bool tellsPair() const = 0;
 
@@ -36,6 +36,6 @@ class Method
   std::size_t bytes_;
 };
 
-/// All volumes under all schemes, AABBs first. They keep a reference to `placed`.
+/// All volumes with all schemes, AABBs first. The methods keep a reference to `placed`.
 std::vector<std::unique_ptr<Method>> makeMethods(const PlacedPairs& placed);
 }  // namespace gpu_planning_scene::core::volumes

@@ -12,15 +12,15 @@
 
 namespace gpu_planning_scene::core::volumes
 {
-/// Which of two overlapping nodes is replaced by its children. A leaf stays as it is.
+/// Selects which of two overlapping nodes is replaced by its children. A leaf is never replaced.
 enum class Opening
 {
-  Larger,     ///< by size()
-  Shallower,  ///< the one nearer to its root
+  Larger,     ///< the larger by size()
+  Shallower,  ///< the node nearer to its root
   Both
 };
 
-/// A volume for each node of all trees. Throws Error if one does not hold its node's triangles.
+/// Fits a volume to each node of all trees. Throws Error if a volume does not contain its node's triangles.
 template <class Volume>
 std::vector<std::vector<Volume>> fitVolumes(const PlacedPairs& placed)
 {
@@ -32,7 +32,7 @@ std::vector<std::vector<Volume>> fitVolumes(const PlacedPairs& placed)
     for (std::size_t i = 0; i < tree.triangles.size(); ++i)
       for (int k = 0; k < 3; ++k)
         corners.col(static_cast<Eigen::Index>(3 * i) + k) = tree.triangles[i][k];
-    // A node's triangles lie side by side, as trees are laid out depth first. Children come after their parents.
+    // Trees are laid out depth first, so the triangles of a node are contiguous and children come after their parents.
     std::vector<std::array<std::uint32_t, 2>> ranges(tree.nodes.size());
     for (std::size_t i = tree.nodes.size(); i-- > 0;)
     {
@@ -54,7 +54,8 @@ std::vector<std::vector<Volume>> fitVolumes(const PlacedPairs& placed)
   return volumes;
 }
 
-/// Traverses the pairs of a state by one kind of volume. Keeps its work space from state to state.
+/// Traverses pairs of bounding volume trees for the pairs of a state, depth first or breadth-first (level by level, as
+/// in Gress and Zachmann 2003), with one kind of volume. Reuses its buffers for all states.
 template <class Volume>
 class Traversal
 {
@@ -64,7 +65,8 @@ class Traversal
   {
   }
 
-  /// Pair after pair, each depth first, up to the first hit. Returns which of the state's pairs it is; -1: none.
+  /// Traverses one pair after another, each depth first, up to the first hit. Returns the index of the colliding pair
+  /// within the state, or -1.
   template <class Count>
   int depthFirst(std::size_t state, Count& count)
   {
@@ -75,8 +77,8 @@ class Traversal
     return -1;
   }
 
-  /// All pairs of the state level by level, up to the end of the level that has a hit, as on the GPU. Returns whether
-  /// there is one.
+  /// Traverses all pairs of the state level by level, as on the GPU. Stops after the first level with a hit. Returns
+  /// whether there is a hit.
   template <class Count>
   bool breadthFirst(std::size_t state, Count& count)
   {
@@ -127,7 +129,8 @@ class Traversal
     return false;
   }
 
-  /// Whether two leaves meet. Other nodes that overlap are opened: push(a, b) for each pair of what they become.
+  /// Tests a pair of nodes. Returns whether two leaves collide. If other nodes overlap, calls push(a, b) for each pair
+  /// of children.
   template <class Count, class Push>
   bool visit(const PlacedPair& pair, const typename Volume::Test& test, const Item& item, std::size_t level,
              Count& count, const Push& push) const
@@ -180,7 +183,7 @@ class Traversal
   const PlacedPairs& placed_;
   const std::vector<std::vector<Volume>>& volumes_;
   Opening opening_;
-  std::vector<typename Volume::Test> tests_;  // breadth-first: of each pair
+  std::vector<typename Volume::Test> tests_;  // breadth-first: one per pair
   std::vector<Item> list_;
   std::vector<Item> next_;
 };

@@ -1,5 +1,5 @@
-// volume_study: kinds of bounding volumes and schemes of traversal, which Gress and Zachmann (2003) leave open, by the
-// work that they make and the time that they take; see --help.
+// volume_study: compares the work and the time of different bounding volumes and traversal schemes. Gress and Zachmann
+// (2003) leave this choice open. See --help.
 
 #include <algorithm>
 #include <cstdio>
@@ -20,13 +20,13 @@ using benchmark::Cell;
 
 namespace
 {
-/// The states that are free, or those that collide.
+/// The free states, or the colliding states.
 struct Part
 {
   std::string name;
   std::vector<std::size_t> states;
   WorkCount work;
-  std::vector<double> microseconds;  // a state, of each repeat
+  std::vector<double> microseconds;  // per state, for each repeat
 
   double perState(std::size_t value) const
   {
@@ -77,7 +77,7 @@ std::vector<std::size_t> allOf(std::size_t count)
   return all;
 }
 
-/// What a method finds in each state; throws where it is unlike what another found.
+/// Compares the answers of a method with those of another method (`as`). Throws Error if they differ.
 void compare(const std::string& scene, const Method& method, const std::vector<int>& found, const std::vector<int>& as)
 {
   std::size_t unlike = 0;
@@ -88,8 +88,8 @@ void compare(const std::string& scene, const Method& method, const std::vector<i
                 " answers are unlike those of the AABBs; a test of volumes or a scheme is wrong");
 }
 
-/// The exact checker finds all that these inscribed surfaces do, and what only true curved surfaces and solids do.
-/// Returns in how many states that decides.
+/// Compares with the exact checker, which finds every collision of these inscribed surfaces. It also finds collisions
+/// of the true curved surfaces and solids. Returns the number of states with only such collisions.
 std::size_t compareWithExact(const TestScene& scene, const std::vector<double>& rows, const std::vector<int>& found)
 {
   const BatchResult exact = CpuChecker(scene.scene).check(rows.data(), found.size());
@@ -103,7 +103,7 @@ std::size_t compareWithExact(const TestScene& scene, const std::vector<double>& 
   return others;
 }
 
-/// Brings pairs into the order of how often each is the first that collides. Returns the answers in that order.
+/// Sorts the pairs by how often each is the first colliding pair. Returns the answers in this order.
 std::vector<int> orderPairs(Method& method, PlacedPairs& placed)
 {
   WorkCount ignored;
@@ -134,7 +134,7 @@ void measureTimes(std::vector<Row>& rows, std::size_t repeats)
       }
 }
 
-/// A line for each method that `wanted` is true of.
+/// Prints a line for each method for which `wanted` is true.
 template <class Wanted>
 void printTotals(const std::vector<Row>& rows, const Wanted& wanted)
 {
@@ -158,7 +158,7 @@ void printTotals(const std::vector<Row>& rows, const Wanted& wanted)
   }
 }
 
-/// Volumes are rows, schemes columns; rows come volume by volume.
+/// Prints a table with a row per volume and a column per scheme. `rows` must be grouped by volume.
 void printTimes(const std::vector<Row>& rows)
 {
   std::printf("\nMicroseconds of a free state / of one that collides\n\n| volume |");
@@ -180,7 +180,8 @@ void printTimes(const std::vector<Row>& rows)
   std::printf("\n");
 }
 
-/// Of free states, in which all pairs are traversed to their end: a column for each method that `wanted` is true of.
+/// Prints the work of free states level by level, with a column for each method for which `wanted` is true. In a free
+/// state, all pairs are traversed to the end.
 template <class Wanted>
 void printLevels(const std::vector<Row>& rows, const Wanted& wanted)
 {

@@ -5,11 +5,11 @@
 
 namespace gpu_planning_scene::core::volumes
 {
-/// What was done at one level of the traversal: the number of openings since the roots.
+/// Work at one level of the traversal. The level is the number of openings since the roots.
 struct LevelWork
 {
-  std::size_t tests = 0;     ///< of two volumes
-  std::size_t overlaps = 0;  ///< of these
+  std::size_t tests = 0;     ///< tests of two volumes
+  std::size_t overlaps = 0;  ///< tests whose volumes overlap
   std::size_t leaf_pairs = 0;
   std::size_t triangle_pairs = 0;
 
@@ -56,7 +56,7 @@ class WorkCount
   std::vector<LevelWork> levels_;
 };
 
-/// In place of a WorkCount where time is measured.
+/// Replaces WorkCount when time is measured.
 struct NoCount
 {
   void test(std::size_t, bool) {}
