@@ -59,7 +59,7 @@ lint()
   local list="$temporary/lint" folder="$build/lint" target=gpu_planning_scene_generate_messages_cpp
   files_to_lint > "$list.changed"
   if [[ -s "$list.changed" ]]; then
-    configure_and_build "$folder" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+    configure_and_build "$folder" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
     # The compile commands do not include files of other builds, such as test/install.
     sed "s|^|$repository/|" "$list.changed" |
       while read -r file; do

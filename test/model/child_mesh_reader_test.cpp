@@ -111,7 +111,7 @@ TEST(ChildMeshReader, LargeFilesAndManyTrianglesAreRefused)
 
 TEST(ChildMeshReader, AFileThatNeedsTooMuchMemoryIsRefused)
 {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef GPS_SANITIZED
   GTEST_SKIP() << "the address sanitizer takes more addresses than any limit";
 #endif
   const TemporaryFolder folder;

@@ -15,7 +15,7 @@ namespace
 {
 TEST(MemoryGuard, WhatWasFreedIsNotCountedForGood)
 {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(GPS_SANITIZED) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer keeps what is freed";
 #endif
   constexpr std::size_t kPiece = 4096;
