@@ -17,7 +17,7 @@ namespace
 {
 volatile std::sig_atomic_t stop_requested = 0;
 
-/// A checker whose device is lost in about one of 500 calls.
+/// A checker whose device is lost in about one of 100 calls.
 class FaultyChecker : public StateChecker
 {
  public:
@@ -42,7 +42,7 @@ class FaultyChecker : public StateChecker
  private:
   void fail()
   {
-    constexpr unsigned kCalls = 500;
+    constexpr unsigned kCalls = 100;
     if (random_() % kCalls == 0)
       throw DeviceLost("the device was lost, as this test wants it");
   }

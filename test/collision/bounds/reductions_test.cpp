@@ -13,6 +13,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"
 #include "support/carrying_scene.h"
+#include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
 {
@@ -102,7 +103,7 @@ class ReductionsIn : public testing::TestWithParam<const char*>
 
 TEST_P(ReductionsIn, ChangeNoAnswerOfTheCpu)
 {
-  constexpr std::size_t kStates = 120;
+  constexpr std::size_t kStates = repetitions(60, 120);
   const std::vector<double> states = statesInAndOut(*scene_->robot, kStates);
   CpuChecker whole(scene_, with(kNone.reductions));
   for (const Setting& setting : kEach)
@@ -116,7 +117,7 @@ TEST_P(ReductionsIn, ChangeNoAnswerOfTheCpu)
 
 TEST_P(ReductionsIn, ChangeNoAnswerOfTheGpu)
 {
-  constexpr std::size_t kStates = 120;
+  constexpr std::size_t kStates = repetitions(60, 120);
   const std::vector<double> states = statesInAndOut(*scene_->robot, kStates);
   CpuChecker whole(scene_, with(kNone.reductions));
   for (const Setting& setting : {kNone, kDirect, kAll})
@@ -187,7 +188,7 @@ TEST_P(BoundsIn, LeaveOutOnlyWhatCannotMeetWithinTheLimits)
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   std::vector<double> state(robot.variables().size());
   std::mt19937_64 generator(kSeed);
-  for (int i = 0; i < 2000; ++i)
+  for (int i = 0; i < repetitions(300, 2000); ++i)
   {
     robot.randomState(generator, state.data());
     robot.linkPoses(state.data(), poses.data());

@@ -9,13 +9,14 @@
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "support/fcl_agreement.h"
+#include "support/repetitions.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kStates = 2000;
+constexpr std::size_t kStates = repetitions(400, 2000);
 constexpr std::uint64_t kSeed = 20261121;
 
 using Scene = std::shared_ptr<const PlanningScene>;

@@ -15,12 +15,13 @@
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/interpolation.h"
+#include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kStates = 500;
+constexpr std::size_t kStates = repetitions(200, 500);
 
 class RandomRobots : public testing::TestWithParam<std::uint64_t>
 {
@@ -414,7 +415,7 @@ TEST_P(RandomRobots, AreFreeInAllThatIsFreeAroundAState)
 
 TEST_P(RandomRobots, HaveNoPointThatAMotionTakesFurtherThanItsMargin)
 {
-  constexpr int kRobots = 8;
+  constexpr int kRobots = repetitions(4, 8);
   constexpr int kMotions = 100;
   std::ptrdiff_t followers = 0;
   double fullest = 0.0;
@@ -457,6 +458,6 @@ TEST_P(RandomRobots, AreAsFreeAroundAStateOnTheGpuAsOnTheCpu)
     EXPECT_EQ(checker.check(states.data(), kStates).valid, plain) << "after margins, seed " << GetParam();
   }
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomRobots, testing::Range<std::uint64_t>(0, 16));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomRobots, testing::Range<std::uint64_t>(0, repetitions(3, 16)));
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -13,6 +13,7 @@
 #include "gpu_planning_scene/error.h"
 #include "support/generated_arm.h"
 #include "support/obstacles.h"
+#include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
 {
@@ -243,13 +244,13 @@ TEST(SceneUpdates, OnTheGpuAreAnsweredAsByAFreshChecker)
   BatchCheckerOptions options;
   options.cpu_below = 0;
   BatchChecker checker(anyScene(), options);
-  expectAnswersOfAFreshChecker(checker, 40);
+  expectAnswersOfAFreshChecker(checker, repetitions(15, 40));
 }
 
 TEST(SceneUpdates, OnTheCpuAreAnsweredAsByAFreshChecker)
 {
   CpuChecker checker(anyScene());
-  expectAnswersOfAFreshChecker(checker, 40);
+  expectAnswersOfAFreshChecker(checker, repetitions(15, 40));
 }
 
 TEST(SceneUpdates, WithoutSharedTreesAreAnsweredAsByAFreshChecker)

@@ -13,13 +13,14 @@
 #include "gpu_planning_scene/mesh_pair_checker.h"
 #include "oracle/problem_oracle.h"
 #include "support/carrying_scene.h"
+#include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
 constexpr std::uint64_t kSeed = 23;
-constexpr std::size_t kStates = 800;
+constexpr std::size_t kStates = repetitions(200, 800);
 constexpr std::size_t kMostMeasured = 5;  // by the oracle, which is slow
 
 /// A checker with a tolerance. `method`: "cpu", "breadth_first" or "work_queue".
@@ -103,7 +104,7 @@ TEST_P(ToleranceBy, CountsOnTopOfPaddingForMeshesFromAllSides)
   scene->attach("moving", "l", {}, scene->robot->defaultState().data());
   std::mt19937_64 generator(kSeed);
   std::uniform_real_distribution<double> gaps(0.0, 0.2);
-  constexpr std::size_t kPoses = 4000;
+  constexpr std::size_t kPoses = repetitions(1000, 4000);
   std::vector<double> states;
   std::vector<double> gap;
   for (std::size_t i = 0; i < kPoses; ++i)

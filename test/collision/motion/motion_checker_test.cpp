@@ -13,6 +13,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/motion_checker.h"
 #include "model/model_testing.h"
+#include "support/repetitions.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
@@ -256,11 +257,12 @@ TEST_P(RealMotions, ThatAreProvenAreFreeAtTenTimesTheResolutionAndAsFarAsTheirLa
   const RobotModel& robot = *test.scene->robot;
   const std::size_t width = robot.variables().size();
   const auto cpu = std::make_shared<CpuChecker>(test.scene);
-  const std::vector<double> random = test.randomStates(400, seed);
-  const std::vector<std::uint8_t> free = cpu->check(random.data(), 400).valid;
+  constexpr std::size_t kStates = repetitions(100, 400);
+  const std::vector<double> random = test.randomStates(kStates, seed);
+  const std::vector<std::uint8_t> free = cpu->check(random.data(), kStates).valid;
   std::vector<double> starts;
   std::vector<double> ends;
-  for (std::size_t i = 0; i + 1 < 400; ++i)
+  for (std::size_t i = 0; i + 1 < kStates; ++i)
     if (free[i] != 0)
     {
       starts.insert(starts.end(), &random[i * width], &random[(i + 1) * width]);
