@@ -40,7 +40,7 @@ class Growth
   {
     if (CpuChecker(scene.scene).report().always_colliding)
       throw Error("the scene with " + std::to_string(amount) + " " + with +
-                  " collides whatever the joints: nothing can be measured with it");
+                  " collides in every state, so it cannot be measured");
     const std::size_t count = settings_.quick ? 256 : kStates;
     const std::vector<double> states = scene.randomStates(count, settings_.seed);
     const std::vector<std::uint8_t> truth = Truth(scene.scene).check(states.data(), count);

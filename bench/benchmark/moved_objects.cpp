@@ -52,7 +52,7 @@ std::size_t measureMovedObjects(const Settings& settings)
     const TestScene scene = amongBoxes(testScene(name));
     if (CpuChecker(scene.scene).report().always_colliding)
       throw Error(robot + " among " + std::to_string(kObjects) +
-                  " boxes collides whatever the joints: nothing can be measured with it");
+                  " boxes collides in every state, so it cannot be measured");
     const Updates updates(scene, settings.quick ? 5 : 200);
     for (const MethodInfo& info : settings.methods)
     {

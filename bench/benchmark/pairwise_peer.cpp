@@ -13,7 +13,7 @@ PairwisePeer::PairwisePeer(std::shared_ptr<const CollisionProblem> problem)
   : problem_(std::move(problem)), self_pairs_(problem_->self_pairs)
 {
   if (!problem_->half_spaces.empty())
-    throw Error("Bullet and spheres are not asked about half-spaces; compare with a scene that has none");
+    throw Error("Bullet and spheres do not support half-spaces; use a scene without half-spaces");
 }
 
 bool PairwisePeer::collides(const Eigen::Isometry3d* link_poses)

@@ -121,9 +121,9 @@ void TexelBuffer::reserve(std::size_t size)
     return;
   const std::size_t most = mostBytes();
   if (size > most)
-    throw Error("the device holds at most " + std::to_string(most / kTexelBytes) + " texels in a buffer texture, " +
-                std::to_string((size + kTexelBytes - 1) / kTexelBytes) +
-                " are needed; use fewer triangles or a smaller batch");
+    throw Error("the scene needs " + std::to_string((size + kTexelBytes - 1) / kTexelBytes) +
+                " texels in a buffer texture, but the device holds at most " + std::to_string(most / kTexelBytes) +
+                "; use fewer triangles or a smaller batch");
   buffer_.reserve(size, most);
   if (!texture_)
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);

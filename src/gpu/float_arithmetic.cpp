@@ -61,7 +61,7 @@ const char* faultOf(double x, double y, const Outcome& found)
   if (std::abs(found.dot - (x * y + y * y + x * x)) > 3.0 * UNIT_ROUNDOFF * (std::abs(x * y) + y * y + x * x))
     return "a dot product is off by more than 3 units of 2^-23 of its terms";
   if (found.comparison_holds != 0.0F)
-    return "a comparison with no number holds";
+    return "a comparison with NaN is true";
   return nullptr;
 }
 }  // namespace

@@ -215,7 +215,8 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
   if (answer.late || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM)))
     throw Error(file + "reading it takes longer than " + exact(limits.seconds) + " s (~mesh/seconds)");
   if (answer.too_long)
-    throw Error(file + "the reader says more than a mesh of " + std::to_string(limits.triangles) + " triangles holds");
+    throw Error(file + "the reader sent more data than a mesh of " + std::to_string(limits.triangles) +
+                " triangles has");
   if (WIFSIGNALED(status))
     throw Error(file + "the reader crashed (signal " + std::to_string(WTERMSIG(status)) + ")");
   switch (WEXITSTATUS(status))

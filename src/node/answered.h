@@ -19,7 +19,7 @@ std::string faultOf(Work work)
   }
   catch (const std::bad_alloc&)
   {
-    return "out of memory; send less at once";
+    return "out of memory; send smaller requests";
   }
   catch (const std::exception& error)
   {

@@ -59,7 +59,8 @@ std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions
       throw Error(motion + " has more than " + std::to_string(options.most_samples) +
                   " samples; cut it into several motions, or take larger steps");
     if (all > static_cast<double>(most_samples))
-      throw Error("the motions have more than " + std::to_string(most_samples) + " samples by " + motion +
+      throw Error("the motions up to " + motion + " have more than " + std::to_string(most_samples) +
+                  " samples in total"
                   " (limits/request_states); send fewer motions, or take larger steps");
   }
   return {options, static_cast<std::size_t>(all)};
@@ -168,8 +169,9 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
   const auto colliding = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
   const std::size_t inspected = request.clearance ? valid.size() : colliding;
   if (inspected > options_.most_inspected_states)
-    throw Error("contacts or clearance of " + std::to_string(inspected) + " states are asked for; the limit is " +
-                std::to_string(options_.most_inspected_states) + " (limits/inspected_states): send fewer at once");
+    throw Error("contacts or clearance requested for " + std::to_string(inspected) + " states; the limit is " +
+                std::to_string(options_.most_inspected_states) +
+                " (limits/inspected_states): send fewer states per request");
   if (inspected == 0)
     return;
   const std::shared_ptr<const StateInspector> inspector = inspectorOf(answer.scene);
@@ -187,8 +189,8 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
       for (const Contact& contact : inspector->contacts(state, request.group, most, request.max_contacts_per_pair))
         response.contacts.push_back(messageOf(contact, *answer.scene, i));
       if (response.contacts.size() > options_.most_contacts)
-        throw Error("there are more than " + std::to_string(options_.most_contacts) +
-                    " contacts (limits/contacts): ask for fewer of a state (max_contacts), or about fewer states");
+        throw Error("more than " + std::to_string(options_.most_contacts) +
+                    " contacts (limits/contacts): request fewer per state (max_contacts), or send fewer states");
     }
     if (!request.clearance)
       continue;
@@ -226,7 +228,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
       {
         memory_.require();
         if (request.starts.size() != request.ends.size())
-          throw Error(std::to_string(request.starts.size()) + " numbers in starts and " +
+          throw Error(std::to_string(request.starts.size()) + " values in starts and " +
                       std::to_string(request.ends.size()) + " in ends; give one row of each per motion");
         const Snapshot now = store_.snapshot();
         const RobotModel& robot = *now.scene->robot;

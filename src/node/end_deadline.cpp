@@ -14,7 +14,7 @@ EndDeadline::EndDeadline(double seconds)
           std::unique_lock<std::mutex> lock(mutex_);
           if (wake_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return over_; }))
             return;
-          ROS_FATAL_STREAM("what runs has not ended within " << seconds << " s, and is given up");
+          ROS_FATAL_STREAM("the shutdown took longer than " << seconds << " s; the process exits now");
           std::_Exit(EXIT_FAILURE);
         })
 {

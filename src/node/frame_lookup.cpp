@@ -57,15 +57,15 @@ Eigen::Isometry3d FrameLookup::operator()(const FrameAt& frame, Clock::time_poin
     catch (const tf2::TransformException& error)
     {
       if (stopping_())
-        throw Error("shutting down: frame '" + frame.name + "' is not waited for");
+        throw Error("shutting down: the lookup of frame '" + frame.name + "' was stopped");
       if (!last)
         continue;
       std::string when = "at the latest time";
       if (frame.stamp != 0)
         when = "at " + std::to_string(stamp.toSec()) + " s";
-      throw Error("frame '" + frame.name + "': the scene has no such frame, and within " + std::to_string(timeout_) +
-                  " s (tf_timeout) tf did not know it in the planning frame '" + planning_frame_ + "' " + when + ": " +
-                  reasonOf(error));
+      throw Error("frame '" + frame.name + "': not in the scene, and tf found no transform to the planning frame '" +
+                  planning_frame_ + "' " + when + " within " + std::to_string(timeout_) +
+                  " s (tf_timeout): " + reasonOf(error));
     }
   }
 }

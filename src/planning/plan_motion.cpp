@@ -163,7 +163,7 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
     // If the time is too short for a solution, OMPL's RRTConnect sometimes returns a path that does not begin at the
     // start.
     result_.status = PlanningStatus::NoSolution;
-    result_.message += (exact ? "" : "; ") + planner->getName() + " has answered " + wrong;
+    result_.message += (exact ? "" : "; ") + planner->getName() + " returned " + wrong;
     return;
   }
   if (!exact)
@@ -192,8 +192,7 @@ void Plan::finish(og::PathGeometric& path, const std::string& planner)
     return;
   }
   result_.status = PlanningStatus::NoSolution;
-  result_.message =
-      "the path that " + planner + " found is not valid by the motion rule, or there was no time to prove it";
+  result_.message = "the path of " + planner + " is not valid by the motion rule, or there was no time to prove it";
 }
 
 PlanningResult Plan::run(const PlannerFactory& factory)

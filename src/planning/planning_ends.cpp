@@ -52,7 +52,7 @@ Fault outsideOfProof(const RobotModel& robot, const double* row)
     if (const double value = row[range.variable]; value < range.lower || value > range.upper)
       return {PlanningStatus::OutOfBounds,
               "out of bounds: " + robot.variables()[static_cast<std::size_t>(range.variable)].name + " is " +
-                  std::to_string(value) + ", beyond its limits, where no motion can be proven (motion rule bound)"};
+                  std::to_string(value) + ", beyond its limits; the motion rule \"bound\" proves no motion there"};
   return {};
 }
 

@@ -20,7 +20,7 @@ void SceneChanger::changeAttached(const AttachedChange& change)
   requireNewId(id);
   require(change.object);
   if (change.object.operation == Operation::Move)
-    throw Error("object '" + id + "' cannot be moved where it is attached; attach it again with its shapes");
+    throw Error("attached object '" + id + "' cannot be moved; attach it again with its shapes");
   AttachedObject* const carried = attached_.find(id);
   if (change.object.operation == Operation::Append && carried != nullptr)
     appendToCarried(*carried, change);
@@ -35,7 +35,7 @@ void SceneChanger::attach(const AttachedChange& change)
   const int link = requireLink(change.link, "object '" + id + "' cannot be attached");
   AttachedObject carried = change.object.shapes.empty() ? fromWorld(change, link) : fromShapes(change, link);
   if (hasHalfSpace(carried.object.shapes))
-    throw Error("object '" + id + "' has a half-space and cannot be carried; leave it in the world");
+    throw Error("object '" + id + "' has a half-space and cannot be attached; leave it in the world");
   addTouchLinks(change, carried);
   carried.padding = defaults_.attached_padding;
   result_.scene.scaleCarried(carried);
@@ -58,13 +58,14 @@ AttachedObject SceneChanger::fromWorld(const AttachedChange& change, int link)
   const std::string& id = change.object.id;
   const std::string where = "object '" + id + "' cannot be attached: ";
   if (const AttachedObject* const known = attached_.find(id))
-    throw Error(where + "link '" + linkName(known->link) +
-                "' carries it already; detach it first, or give its shapes to replace it");
+    throw Error(where + "it is attached to link '" + linkName(known->link) +
+                "' already; detach it first, or give its shapes to replace it");
   const WorldObject* const object = objects_.find(id);
   if (object == nullptr)
     throw Error(where + "the scene has no such object; add it first, or give its shapes");
   if (change.object.pose)
-    result_.warnings.push_back("object '" + id + "' is attached where it is in the world, its pose is not used");
+    result_.warnings.push_back("object '" + id +
+                               "' is attached at its place in the world; the pose in the request is not used");
   AttachedObject carried;
   carried.link = link;
   carried.object = *object;
@@ -85,14 +86,14 @@ AttachedObject SceneChanger::fromShapes(const AttachedChange& change, int link)
 void SceneChanger::appendToCarried(AttachedObject& carried, const AttachedChange& change)
 {
   if (!change.link.empty() && requireLink(change.link, "object '" + change.object.id + "'") != carried.link)
-    throw Error("object '" + change.object.id + "' is carried by link '" + linkName(carried.link) + "', not by '" +
+    throw Error("object '" + change.object.id + "' is attached to link '" + linkName(carried.link) + "', not to '" +
                 change.link + "'; name that link, or none, to append to it");
   if (change.object.pose)
     carried.object.pose = poseInLink(*change.object.pose, change.object.frame, carried.link);
   count_.remove(carried.object.shapes);
   appendShapes(change.object, carried.object);
   if (hasHalfSpace(carried.object.shapes))
-    throw Error("object '" + change.object.id + "' is carried and cannot have a half-space");
+    throw Error("object '" + change.object.id + "' is attached and cannot have a half-space");
   count_.add(change.object.id, carried.object.shapes);
   addTouchLinks(change, carried);
   result_.scene.scaleCarried(carried);
@@ -131,9 +132,9 @@ void SceneChanger::detach(const AttachedChange& change)
   }
   const AttachedObject* const carried = attached_.find(id);
   if (carried == nullptr)
-    throw Error(where + "no link carries such an object");
+    throw Error(where + "no such object is attached");
   if (link >= 0 && carried->link != link)
-    throw Error(where + "link '" + linkName(carried->link) + "' carries it, not '" + change.link +
+    throw Error(where + "it is attached to link '" + linkName(carried->link) + "', not to '" + change.link +
                 "'; name that link, or none");
   putBack(id);
 }

@@ -54,7 +54,7 @@ Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* stat
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   robot.linkPoses(state, poses.data());
   if (!poses[static_cast<std::size_t>(link)].matrix().allFinite())
-    throw Error("the robot state is not finite; link '" + name + "' has no pose in it");
+    throw Error("the robot state is not finite, so link '" + name + "' has no pose");
   return poses[static_cast<std::size_t>(link)];
 }
 

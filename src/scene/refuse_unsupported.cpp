@@ -12,6 +12,6 @@ void refuseUnsupported(const YamlValue& scene)
   const YamlValue* tree = octomap ? octomap->find("octomap") : nullptr;
   const YamlValue* data = tree ? tree->find("data") : nullptr;
   if (data && !data->items().empty())
-    data->fail("octomaps are not supported; give the obstacles as objects, or as a point cloud");
+    data->fail("octomaps are not supported; give the obstacles as objects or as a point cloud");
 }
 }  // namespace gpu_planning_scene::core

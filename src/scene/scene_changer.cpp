@@ -124,7 +124,7 @@ void SceneChanger::warnOfAllowedCollisions(const std::string& id)
       (partners.empty() ? "all bodies by default"
                         : "'" + partners.front() + "'" +
                               (partners.size() == 1 ? "" : " and " + std::to_string(partners.size() - 1) + " more")) +
-      "; set the matrix anew if these entries were meant for another object of that id");
+      "; set a new matrix if these entries were meant for an earlier object of that id");
 }
 
 WorldObject SceneChanger::newObject(const ObjectChange& change) const

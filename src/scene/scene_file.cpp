@@ -25,7 +25,7 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
                                                                 "world",
                                                                 "is_diff"};
   if (std::none_of(known_keys.begin(), known_keys.end(), [&](const char* key) { return file.find(key) != nullptr; }))
-    file.fail("not a planning scene: none of 'world', 'robot_state', 'allowed_collision_matrix' is here");
+    file.fail("not a planning scene: it has no 'world', 'robot_state' or 'allowed_collision_matrix'");
   file.warnOfUnknownKeys(known_keys, warnings);
   const YamlValue* is_diff = file.find("is_diff");
   if (is_diff && is_diff->boolean())

@@ -19,7 +19,8 @@ void Admission::enter()
   std::unique_lock<std::mutex> lock(mutex_);
   const std::uint64_t here = came_ - left_;
   if (!stopping_ && here >= most_inside_ + most_waiting_)
-    throw Busy("busy: " + std::to_string(here - most_inside_) + " requests like this are waiting; ask again later");
+    throw Busy("busy: " + std::to_string(here - most_inside_) +
+               " requests of this kind are queued; send the request again later");
   const std::uint64_t number = came_++;
   changed_.wait(lock, [&] { return stopping_ || number < left_ + most_inside_; });
   if (stopping_)

@@ -57,8 +57,8 @@ void ChangeQueue::add(std::string source, SceneChange change, std::size_t bytes)
   const std::size_t changes = making_ + waiting_.size();
   if (changes >= most_changes_ || (changes != 0 && bytes_ + bytes > most_bytes_))
     throw Busy("busy: " + std::to_string(changes) + " changes of " + std::to_string(bytes_) +
-               " bytes are waiting (limits/waiting_changes, limits/message_size); send fewer at "
-               "once, or use apply_planning_scene, which waits");
+               " bytes are queued (limits/waiting_changes, limits/message_size); send changes at a lower "
+               "rate, or use apply_planning_scene, which waits");
   bytes_ += bytes;
   waiting_.push_back({std::move(source), std::move(change), bytes});
   wake_.notify_one();

@@ -107,7 +107,7 @@ std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
   {
     ++statistics_.busy;
     throw Busy("busy: " + std::to_string(waiting_.size()) + " requests with " + std::to_string(waiting_states_) +
-               " states are waiting; ask again later");
+               " states are queued; send the request again later");
   }
   Request request;
   request.job = std::move(job);

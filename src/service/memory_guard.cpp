@@ -57,6 +57,6 @@ void MemoryGuard::require() const
   const std::size_t used = residentMemory();
   if (used > most_)
     throw Error("out of memory: the process uses " + megabytes(used) + ", and the limit is " + megabytes(most_) +
-                " (limits/memory); remove objects, or ask later");
+                " (limits/memory); remove objects, or send the request later");
 }
 }  // namespace gpu_planning_scene::core

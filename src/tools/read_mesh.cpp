@@ -26,7 +26,7 @@ void limit(__rlimit_resource_t resource, rlim_t most)
 {
   const rlimit value{most, most};
   if (setrlimit(resource, &value) != 0)
-    throw Error("the mesh reader cannot limit itself");
+    throw Error("the mesh reader cannot set its limits of memory and time");
 }
 
 void limitThisProcess(unsigned seconds, rlim_t memory)

@@ -244,7 +244,7 @@ TEST_F(Planning, RefusesWhatIsNoRequest)
   expectStatus(wanted, Response::BAD_REQUEST, "crane");
   wanted = request();
   wanted.planner = "geometric::Best";
-  expectStatus(wanted, Response::BAD_REQUEST, "there is no planner 'geometric::Best'");
+  expectStatus(wanted, Response::BAD_REQUEST, "planner 'geometric::Best' is neither in planners.yaml nor a plugin");
   wanted = request();
   wanted.group = "mast";
   wanted.goal_names = {"turn"};

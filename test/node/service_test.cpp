@@ -378,7 +378,7 @@ TEST_F(Service, AMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
   EXPECT_EQ("wall", response.body_2.at(1));
   EXPECT_EQ(5u, response.scene_revision);
   asked.ends.pop_back();
-  EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("4 numbers in starts and 3 in ends"));
+  EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("4 values in starts and 3 in ends"));
 }
 
 TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)

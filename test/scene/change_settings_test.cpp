@@ -101,7 +101,7 @@ TEST_F(ChangeSettings, FixedFramesReplaceAllOthers)
   frames_change.fixed_frames = {{"pole", poseAt(0, 0, 0)}};
   refused("name of a link", frames_change);
   frames_change.fixed_frames = {{"", poseAt(0, 0, 0)}};
-  refused("without a name", frames_change);
+  refused("has no name", frames_change);
   frames_change.fixed_frames = {{"a", poseAt(std::numeric_limits<double>::quiet_NaN(), 0, 0)}};
   refused("not finite", frames_change);
 }

@@ -27,7 +27,7 @@ constexpr double kNudge = 1e-6;  // metres
 void refuseUnsupported(const CollisionProblem& problem, FclTree tree)
 {
   if (!problem.half_spaces.empty())
-    throw Error("the FCL peer knows no half-spaces; compare with a scene that has none");
+    throw Error("the FCL peer does not support half-spaces; use a scene without half-spaces");
   const auto is_padded = [](const ShapeInstance& geometry) { return geometry.padding > 0.0; };
   if (tree != FclTree::Obbrss && tree != FclTree::Kios &&
       (std::any_of(problem.robot.begin(), problem.robot.end(), is_padded) ||

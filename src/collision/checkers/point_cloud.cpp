@@ -171,8 +171,8 @@ WorldObject PointCloudFilter::objectOf(const std::string& id, const std::vector<
   validateStates(*scene.robot, state, 1);
   const std::vector<std::uint64_t> voxels = impl_->voxelsOf(points, rigid(sensor, "the sensor's pose"));
   if (voxels.size() > impl_->options.most_voxels)
-    throw Error("the cloud fills " + std::to_string(voxels.size()) + " voxels, there may be at most " +
-                std::to_string(impl_->options.most_voxels) + "; use larger voxels or a shorter range");
+    throw Error("the cloud fills " + std::to_string(voxels.size()) + " voxels, but at most " +
+                std::to_string(impl_->options.most_voxels) + " are allowed; use larger voxels or a shorter range");
   WorldObject object;
   object.id = id;
   object.shapes.reserve(voxels.size());

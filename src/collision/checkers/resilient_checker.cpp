@@ -105,7 +105,7 @@ void ResilientChecker::Impl::run(const std::function<void()>& job, double second
   device.reset();
   noteFailedRebuild();  // no thread is left that could open the device again
   std::ostringstream message;
-  message << "the device has not answered for " << seconds << " s and is not used any more";
+  message << "the device has not answered for " << seconds << " s and is no longer used";
   throw DeviceLost(message.str());
 }
 

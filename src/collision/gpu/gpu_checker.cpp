@@ -125,7 +125,7 @@ void GpuChecker::prepareMargins()
 void GpuChecker::refuseHalfBuilt() const
 {
   if (!usable_)
-    throw DeviceLost("the GPU failed while its scene was changed, so it has none");
+    throw DeviceLost("the GPU failed while its scene was being changed and holds no usable scene");
 }
 
 void GpuChecker::check(const double* states, std::size_t count, BatchResult& result, const Margins* margins)

@@ -135,8 +135,9 @@ void GpuScene::setProblem(const CollisionProblem& problem)
   if (problem.robot.size() > MAX_ROBOT_INSTANCES ||
       problem.robot.size() + problem.world.size() + problem.half_spaces.size() > MAX_INSTANCES)
     throw Error(std::to_string(problem.robot.size()) + " shapes of the robot and " +
-                std::to_string(problem.world.size()) + " of the world are more than " +
-                std::to_string(MAX_ROBOT_INSTANCES) + " and " + std::to_string(MAX_INSTANCES) + "; merge meshes");
+                std::to_string(problem.world.size()) + " of the world exceed the limits (" +
+                std::to_string(MAX_ROBOT_INSTANCES) + " for the robot, " + std::to_string(MAX_INSTANCES) +
+                " for all shapes and half-spaces together); merge meshes");
   robot_count_ = static_cast<std::uint32_t>(problem.robot.size());
   world_count_ = static_cast<std::uint32_t>(problem.world.size());
   trees_.setShapes(problem.trees);

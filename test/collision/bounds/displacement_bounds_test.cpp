@@ -141,17 +141,18 @@ TEST_F(Displacement, RefusesWaysThatDoNotFit)
   const auto scene = sceneWith(robot, {5.0, 5.0, 5.0}, 1.0);
   JointNeighbourhood around = allWays(*robot);
   around.rows = {1};
-  EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }), "what is around state 0 is row 1 of 1");
+  EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }),
+            "the neighbourhood of state 0 names row 1, but there are 1 rows");
   around.rows = {0, 0};
   EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }),
-            "what is around 1 states of 3 joints is given for 2 states and by 3 ways");
+            "the neighbourhood of 1 states (robot with 3 joints) has 2 row numbers and 3 joint travels");
   around = allWays(*robot);
   around.travel.pop_back();
   EXPECT_NE(errorOf([&] { isFreeAround(scene, around); }), "");
   around = allWays(*robot);
   around.travel[0].angle = -1.0;
   EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }),
-            "a joint's way around a state is 0.000000 m and -1.000000 rad; both must be finite and at least 0");
+            "the travel of a joint around a state is 0.000000 m and -1.000000 rad; both must be finite and at least 0");
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

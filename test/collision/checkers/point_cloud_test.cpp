@@ -94,7 +94,7 @@ TEST(PointCloud, OfTooManyVoxelsOrWithWrongOptionsIsRefused)
   PointCloudFilter filter({0.1, 0.0, 10.0, 2});
   const std::vector<Vector3f> points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   EXPECT_NE(errorOf([&] { filter.objectOf("cloud", points, at(0, 0, 0), scene, kFarAway.data()); })
-                .find("fills 3 voxels, there may be at most 2"),
+                .find("fills 3 voxels, but at most 2 are allowed"),
             std::string::npos);
   EXPECT_THROW(filter.objectOf("cloud", {}, at(std::nan(""), 0, 0), scene, kFarAway.data()), Error);
   EXPECT_THROW(filter.objectOf("cloud", points, at(1e9, 0, 0), scene, kFarAway.data()), Error);

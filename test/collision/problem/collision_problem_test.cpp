@@ -437,12 +437,12 @@ TEST(CollisionProblem, RefusesPaddingAndHalfSpacesThatMeanNothing)
         scene.objects[0].shapes.push_back({HalfSpace{{0.0, 0.0, 2.0}, 0.0}});
       });
   refused(
-      "another object of that name", [](PlanningScene& scene) { scene.attached[0].object.id = "right"; });
+      "another object has the same name", [](PlanningScene& scene) { scene.attached[0].object.id = "right"; });
   refused(
       "a link or another object", [](PlanningScene& scene) { scene.objects[0].id = "base"; });
   refused(
-      "its link is number 5 of 5", [](PlanningScene& scene) { scene.attached[0].link = 5; });
-  refused("touch link is number -1", [](PlanningScene& scene) { scene.attached[0].touch_links = {-1}; });
+      "its link has index 5, but the robot has 5 links", [](PlanningScene& scene) { scene.attached[0].link = 5; });
+  refused("touch link has index -1", [](PlanningScene& scene) { scene.attached[0].touch_links = {-1}; });
 }
 
 TEST(CollisionProblem, TakesTheNearestRotationOfAPoseThatIsAlmostOne)

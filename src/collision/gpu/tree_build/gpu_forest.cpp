@@ -100,8 +100,8 @@ void GpuForestBuilder::build(std::size_t count, const std::vector<std::uint32_t>
 {
   const std::size_t mesh_count = first.size();
   if (count > kMostPrimitives)
-    throw Error(std::to_string(count) + " triangles are more than " + std::to_string(kMostPrimitives) +
-                "; use coarser meshes");
+    throw Error("a mesh has " + std::to_string(count) + " triangles, but at most " + std::to_string(kMostPrimitives) +
+                " are supported; use a coarser mesh");
   region.primitive_count = static_cast<std::uint32_t>(count);
   region.node_count = static_cast<std::uint32_t>(2 * count - mesh_count);
   nodes.reserve((std::size_t{region.first_node} + region.node_count) * sizeof(Node));
@@ -231,8 +231,8 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   rounds_.read(rounds.data(), rounds.size() * kUint);
   const std::uint32_t remaining = rounds[BUILD_ROUNDS * ROUND_STRIDE + ROUND_CLUSTERS];
   if (remaining != mesh_count)
-    throw Error("the GPU left " + std::to_string(remaining) + " subtrees instead of " + std::to_string(mesh_count) +
-                " trees; its compute shaders do not work as OpenGL promises, choose another device");
+    throw Error("the GPU built " + std::to_string(remaining) + " subtrees instead of " + std::to_string(mesh_count) +
+                " trees: its compute shaders do not work as OpenGL specifies; choose another device");
   std::uint32_t merging = 0;
   while (merging < BUILD_ROUNDS && rounds[merging * ROUND_STRIDE + ROUND_PAIRS] > 0)
     ++merging;
