@@ -59,7 +59,7 @@ void printRow(const std::string& label, const Exactness& e)
 {
   std::printf("| %s | %zu | %.1f %% | %zu | %zu | %zu | %zu | %zu | %.3f %%, %.3f %% | %.2f %%, %.2f %% | %.0f |\n",
               label.c_str(), e.states, share(e.valid, e.states), e.false_free, e.false_collision, e.false_pair,
-              e.unlike, e.either, share(e.work_queue.states, e.states), share(e.breadth_first.states, e.states),
+              e.disagreeing, e.either, share(e.work_queue.states, e.states), share(e.breadth_first.states, e.states),
               share(e.work_queue.seconds, e.work_queue.total_seconds),
               share(e.breadth_first.seconds, e.breadth_first.total_seconds),
               static_cast<double>(e.states) / std::max(e.oracle_seconds, 1e-9));

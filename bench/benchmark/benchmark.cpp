@@ -66,12 +66,12 @@ std::vector<std::string> chosen(const CommandLine& arguments, const std::string&
 }
 
 std::vector<double> numbers(const CommandLine& arguments, const std::string& option, const std::string& fallback,
-                            double least, double most)
+                            double min, double max)
 {
   std::vector<double> result;
   for (const std::string& word : split(arguments.value(option, fallback)))
     result.push_back(CommandLine({{option, "X", ""}}, 3, std::array{"", option.c_str(), word.c_str()}.data())
-                         .number(option, 0.0, least, most));
+                         .number(option, 0.0, min, max));
   return result;
 }
 

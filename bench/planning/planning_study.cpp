@@ -257,11 +257,11 @@ class Study
 
 void study(const CommandLine& arguments)
 {
-  constexpr long long kMost = 1000000;
+  constexpr long long kMax = 1000000;
   Settings settings;
   settings.out = arguments.required("--out");
-  settings.problems = static_cast<std::size_t>(arguments.integer("--problems", kMost, 1, kMost));
-  settings.runs = static_cast<std::size_t>(arguments.integer("--runs", 1, 1, kMost));
+  settings.problems = static_cast<std::size_t>(arguments.integer("--problems", kMax, 1, kMax));
+  settings.runs = static_cast<std::size_t>(arguments.integer("--runs", 1, 1, kMax));
   settings.seconds = arguments.number("--seconds", settings.seconds, 1e-3, 1e6);
   settings.device = arguments.value("--device", settings.device);
   std::filesystem::create_directories(settings.out);

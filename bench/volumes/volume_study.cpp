@@ -80,11 +80,11 @@ std::vector<std::size_t> allOf(std::size_t count)
 /// Compares the answers of a method with those of another method (`as`). Throws Error if they differ.
 void compare(const std::string& scene, const Method& method, const std::vector<int>& found, const std::vector<int>& as)
 {
-  std::size_t unlike = 0;
+  std::size_t differing = 0;
   for (std::size_t i = 0; i < as.size(); ++i)
-    unlike += (method.tellsPair() ? found[i] != as[i] : (found[i] >= 0) != (as[i] >= 0)) ? 1 : 0;
-  if (unlike != 0)
-    throw Error(scene + ": " + method.volume() + ", " + method.scheme() + ": " + std::to_string(unlike) +
+    differing += (method.reportsPair() ? found[i] != as[i] : (found[i] >= 0) != (as[i] >= 0)) ? 1 : 0;
+  if (differing != 0)
+    throw Error(scene + ": " + method.volume() + ", " + method.scheme() + ": " + std::to_string(differing) +
                 " answers differ from those of the AABBs; a test of volumes or a scheme is wrong");
 }
 

@@ -139,9 +139,9 @@ std::string readShader(const std::string& folder, const std::string& name)
   return text;
 }
 
-std::size_t groupsFor(std::size_t lanes)
+std::size_t groupsFor(std::size_t invocations)
 {
-  return (lanes + GROUP_SIZE - 1) / GROUP_SIZE;
+  return (invocations + GROUP_SIZE - 1) / GROUP_SIZE;
 }
 
 Program::Program(const std::string& folder, const std::string& name, const std::string& definitions)

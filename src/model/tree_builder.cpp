@@ -210,12 +210,12 @@ class TreeBuilder
                         : joint.type == JointType::Planar   ? 2
                         : joint.type == JointType::Floating ? 3
                                                             : 0;
-      const double most =
+      const double limit =
           std::max(0.0, kLargestLength - std::abs(joint.offset)) / std::max(std::abs(joint.multiplier), 1e-300);
       for (int i = 0; i < count; ++i)
       {
         double& largest = tree_.variables[static_cast<std::size_t>(joint.first_variable + i)].largest;
-        largest = std::min(largest, most);
+        largest = std::min(largest, limit);
       }
     }
   }

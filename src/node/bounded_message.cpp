@@ -16,10 +16,10 @@ void setMessageLimit(std::uint32_t bytes)
 
 void requireMessageSize(std::uint32_t bytes)
 {
-  const std::uint32_t most = message_limit;
-  if (bytes > most)
+  const std::uint32_t limit = message_limit;
+  if (bytes > limit)
     throw std::runtime_error("the message has " + std::to_string(bytes) + " bytes; the limit is " +
-                             std::to_string(most) + " (~limits/message_size)");
+                             std::to_string(limit) + " (~limits/message_size)");
 }
 
 void BoundedStream::next(std::string& text)

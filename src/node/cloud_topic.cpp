@@ -58,7 +58,7 @@ void CloudTopic::take(const sensor_msgs::PointCloud2& message)
   if (!now.allKnown())
     throw Error(
         "the robot's state is not known yet, so points on the robot cannot be removed; publish joint_states first");
-  const FrameAt frame{message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())};
+  const StampedFrame frame{message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())};
   const std::vector<double> state = store_.stateAt(frame.stamp);
   const std::optional<Eigen::Isometry3d> known = now.scene->frame(frame.name, state.data());
   const Eigen::Isometry3d sensor = known ? *known : lookup_(frame);

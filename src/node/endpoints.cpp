@@ -51,7 +51,7 @@ void Endpoints::refuse(const std::string& topic, const std::string& why)
   ROS_WARN_STREAM_THROTTLE(1.0, "message rejected on " << line);
 }
 
-void Endpoints::lose(const std::string& topic, const std::string& why)
+void Endpoints::reportLost(const std::string& topic, const std::string& why)
 {
   const std::string line = topic + ": " + shortLine(why);
   diagnostics_.refused(line);

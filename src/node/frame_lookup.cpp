@@ -39,7 +39,7 @@ FrameLookup::Clock::time_point FrameLookup::deadline() const
 }
 
 /// Polls tf2. The wait of tf2 itself uses ROS time, and never ends if ROS time stands still.
-Eigen::Isometry3d FrameLookup::operator()(const FrameAt& frame, Clock::time_point until) const
+Eigen::Isometry3d FrameLookup::operator()(const StampedFrame& frame, Clock::time_point until) const
 {
   ros::Time stamp;
   stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.stamp)));

@@ -31,7 +31,7 @@ constexpr double kLeastRange = 1e-9;
 constexpr double kWeight = 1.0;
 
 // KPIECE and similar planners keep a grid of projections. With more dimensions, its cells would stay empty.
-constexpr std::size_t kMostDefaultJoints = 3;
+constexpr std::size_t kMaxDefaultJoints = 3;
 
 double rangeOf(const Variable& variable)
 {
@@ -126,7 +126,7 @@ std::vector<const Joint*> jointsByType(const RobotModel& robot, const Group& gro
     if (isPlannedFor(robot, robot.joints()[index]))
       joints.push_back(&robot.joints()[index]);
   for (const Joint* joint : joints)
-    if (joint->type == JointType::Continuous && hasNoPeriod(robot, *joint))
+    if (joint->type == JointType::Continuous && !isPeriodic(robot, *joint))
       throw Error(
           "continuous joint '" + joint->name + "' of group '" + group.name +
           "' cannot be planned for: a joint that mimics it is prismatic or has a multiplier that is not a whole " +
@@ -157,7 +157,7 @@ std::vector<std::string> defaultProjection(const std::vector<const Joint*>& join
 {
   std::vector<std::string> names;
   for (const Joint* joint : joints)
-    if (hasLimits(*joint) && names.size() < kMostDefaultJoints)
+    if (hasLimits(*joint) && names.size() < kMaxDefaultJoints)
       names.push_back(joint->name);
   if (!names.empty())
     return names;

@@ -35,14 +35,14 @@ void PlanningScene::attach(const std::string& object, const std::string& link,
   }
   if (hasHalfSpace(found->shapes))
     throw Error("object '" + object + "' has a half-space and cannot be attached; leave it in the world");
-  AttachedObject carried;
-  carried.link = requireLink(*robot, link, "object '" + object + "' cannot be attached");
+  AttachedObject added;
+  added.link = requireLink(*robot, link, "object '" + object + "' cannot be attached");
   for (const std::string& touch_link : touch_links)
-    carried.touch_links.push_back(requireLink(*robot, touch_link, "touch link of object '" + object + "'"));
-  carried.object = *found;
-  carried.object.pose = linkPose(*robot, carried.link, state).inverse() * found->pose;
-  scaleCarried(carried);
-  attached.push_back(std::move(carried));
+    added.touch_links.push_back(requireLink(*robot, touch_link, "touch link of object '" + object + "'"));
+  added.object = *found;
+  added.object.pose = linkPose(*robot, added.link, state).inverse() * found->pose;
+  scaleAttached(added);
+  attached.push_back(std::move(added));
   objects.erase(found);
 }
 

@@ -25,8 +25,8 @@ void SceneChanger::changeObject(const ObjectChange& change)
     return;
   }
   requireNewId(change.id);
-  if (const AttachedObject* carried = attached_.find(change.id))
-    throw Error("object '" + change.id + "' is attached to link '" + linkName(carried->link) +
+  if (const AttachedObject* attached = attached_.find(change.id))
+    throw Error("object '" + change.id + "' is attached to link '" + linkName(attached->link) +
                 "'; change it as an attached object, or detach it first");
   require(change);
   WorldObject* const known = objects_.find(change.id);
@@ -106,9 +106,9 @@ void SceneChanger::removeObject(const ObjectChange& change)
   }
   if (attached_here_.count(id) != 0)
     return;
-  const AttachedObject* const carried = attached_.find(id);
+  const AttachedObject* const attached = attached_.find(id);
   throw Error("object '" + id + "' cannot be removed: " +
-              (carried != nullptr ? "it is attached to link '" + linkName(carried->link) + "'; detach it first"
-                                  : "the scene has no such object"));
+              (attached != nullptr ? "it is attached to link '" + linkName(attached->link) + "'; detach it first"
+                                   : "the scene has no such object"));
 }
 }  // namespace gpu_planning_scene::core

@@ -12,7 +12,7 @@ void SceneChanger::changeState(const StateChange& change, bool is_full_scene)
 {
   setVariables(change.variables);
   if (!change.is_diff && (is_full_scene || !change.variables.empty()))
-    dropCarried(change);
+    removeReplacedAttached(change);
   for (const AttachedChange& attached : change.attached)
   {
     if (!change.is_diff && attached.object.operation != Operation::Add)
@@ -46,7 +46,7 @@ void SceneChanger::setVariables(const std::map<std::string, double>& variables)
 
 /// As in MoveIt, a robot state whose is_diff is false replaces the attached objects. Clients often leave is_diff unset
 /// by mistake, so each object that is removed gives a warning.
-void SceneChanger::dropCarried(const StateChange& change)
+void SceneChanger::removeReplacedAttached(const StateChange& change)
 {
   for (const std::string& id : attached_.ids())
   {

@@ -70,9 +70,9 @@ std::optional<Eigen::Isometry3d> PlanningScene::frame(const std::string& frame_n
 {
   const auto find_object = [this](const std::string& id) -> std::optional<ObjectFrame>
   {
-    for (const AttachedObject& carried : attached)
-      if (carried.object.id == id)
-        return ObjectFrame{&carried.object.pose, &carried.object.subframes, carried.link};
+    for (const AttachedObject& object : attached)
+      if (object.object.id == id)
+        return ObjectFrame{&object.object.pose, &object.object.subframes, object.link};
     for (const WorldObject& object : objects)
       if (object.id == id)
         return ObjectFrame{&object.pose, &object.subframes};

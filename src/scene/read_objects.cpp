@@ -149,7 +149,7 @@ void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& res
   {
     AttachedObject attached = readAttached(value, reader);
     require_new(attached.object.id, value);
-    result.scaleCarried(attached);
+    result.scaleAttached(attached);
     result.attached.push_back(std::move(attached));
   }
 }

@@ -142,12 +142,12 @@ WorldObject SceneChanger::newObject(const ObjectChange& change) const
   return object;
 }
 
-Eigen::Isometry3d SceneChanger::placed(const Eigen::Isometry3d& pose, const FrameAt& frame)
+Eigen::Isometry3d SceneChanger::placed(const Eigen::Isometry3d& pose, const StampedFrame& frame)
 {
   const auto find_object = [this](const std::string& id) -> std::optional<ObjectFrame>
   {
-    if (const AttachedObject* carried = attached_.find(id))
-      return ObjectFrame{&carried->object.pose, &carried->object.subframes, carried->link};
+    if (const AttachedObject* attached = attached_.find(id))
+      return ObjectFrame{&attached->object.pose, &attached->object.subframes, attached->link};
     if (const WorldObject* object = objects_.find(id))
       return ObjectFrame{&object->pose, &object->subframes};
     return std::nullopt;

@@ -9,6 +9,17 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+/// Refuses the parts of MoveIt's messages that this package does not model. Answers would be for another scene.
+void refuseUnsupported(const YamlValue& scene)
+{
+  const YamlValue* world = scene.find("world");
+  const YamlValue* octomap = world ? world->find("octomap") : nullptr;
+  const YamlValue* tree = octomap ? octomap->find("octomap") : nullptr;
+  const YamlValue* data = tree ? tree->find("data") : nullptr;
+  if (data && !data->items().empty())
+    data->fail("octomaps are not supported; give the obstacles as objects or as a point cloud");
+}
+
 PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                            const PackageResolver& packages, std::vector<std::string>* warnings,
                            const MeshAccess& meshes, const SceneDefaults& defaults)

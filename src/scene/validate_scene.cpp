@@ -17,7 +17,7 @@ namespace
 void validatePose(const Eigen::Isometry3d& pose, const std::string& where)
 {
   if (!isRigid(pose))
-    rigid(pose, where);
+    nearestRigid(pose, where);
 }
 
 void validatePadding(double padding, const std::string& where)
@@ -69,7 +69,7 @@ void validateAttached(const AttachedObject& attached, const RobotModel& robot, c
   const std::vector<double>& scale = robot.linkScale();
   const bool is_scaled = !scale.empty() && scale[static_cast<std::size_t>(attached.link)] != 1.0;
   if (is_scaled != (attached.scaled_shapes != nullptr))
-    throw Error(where + " does not have its link's scale; call PlanningScene::scaleCarried before adding it");
+    throw Error(where + " does not have its link's scale; call PlanningScene::scaleAttached before adding it");
 }
 }  // namespace
 

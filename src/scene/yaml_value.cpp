@@ -46,8 +46,8 @@ class YamlTreeBuilder : public YAML::EventHandler
       makeValue(YamlValue::Kind::Null, mark).fail("an alias refers to the value that contains it");
     // Each use of an alias is a copy. A few lines of aliases of aliases would take all memory.
     copied_ += target->second.size;
-    if (copied_ > kMostCopied)
-      target->second.value.fail("aliases stand for more than " + std::to_string(kMostCopied) + " values");
+    if (copied_ > kMaxCopied)
+      target->second.value.fail("aliases stand for more than " + std::to_string(kMaxCopied) + " values");
     complete(target->second.value, 0, target->second.size);
   }
 
@@ -84,7 +84,7 @@ class YamlTreeBuilder : public YAML::EventHandler
     YamlValue value;
     std::size_t size;
   };
-  static constexpr std::size_t kMostCopied = 1000000;
+  static constexpr std::size_t kMaxCopied = 1000000;
 
   YamlValue makeValue(YamlValue::Kind kind, const YAML::Mark& mark) const
   {

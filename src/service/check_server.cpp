@@ -28,8 +28,8 @@ CheckServer::~CheckServer() = default;
 
 void CheckServer::requireStateCount(std::size_t count) const
 {
-  if (count > options_.most_states)
-    throw Error(std::to_string(count) + " states in one request; the limit is " + std::to_string(options_.most_states) +
+  if (count > options_.max_states)
+    throw Error(std::to_string(count) + " states in one request; the limit is " + std::to_string(options_.max_states) +
                 " (limits/request_states): send fewer states per request");
 }
 

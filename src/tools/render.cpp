@@ -15,8 +15,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kMostContacts = 200;
-constexpr std::size_t kMostContactsOfPair = 5;
+constexpr std::size_t kMaxContacts = 200;
+constexpr std::size_t kMaxContactsOfPair = 5;
 
 std::vector<Option> options()
 {
@@ -97,7 +97,7 @@ void run(const CommandLine& arguments)
   const auto colliding = collidingPairs(scene, state.data());
   std::vector<Eigen::Vector3d> points;
   if (!colliding.empty())
-    for (const Contact& contact : StateInspector(shared).contacts(state.data(), "", kMostContacts, kMostContactsOfPair))
+    for (const Contact& contact : StateInspector(shared).contacts(state.data(), "", kMaxContacts, kMaxContactsOfPair))
       points.push_back(contact.point);
   writePng(render(scene, state.data(), colliding, points, cameraFrom(arguments, scene, state.data()), width, height,
                   arguments.value("--device", "auto")),

@@ -115,7 +115,7 @@ TEST_F(CheckerMaker, DiagnosticsWarnWhileTheCpuStandsInAndTellOfADeviceThatIsNot
 {
   using diagnostic_msgs::DiagnosticStatus;
   resilience_.retry_seconds = 0.1;
-  resilience_.most_losses = 100;
+  resilience_.max_losses = 100;
   const auto retry = [this] { std::this_thread::sleep_for(std::chrono::duration<double>(resilience_.retry_seconds)); };
   ask(1);
   EXPECT_EQ(level(), DiagnosticStatus::OK);

@@ -148,7 +148,7 @@ TEST_F(Messages, FramesAreAskedForAtTheirStamp)
   CollisionObject object = box("a");
   object.header.frame_id = "camera";
   object.header.stamp = ros::Time(12, 34);
-  const FrameAt frame = objectChangeFrom(object).frame;
+  const StampedFrame frame = objectChangeFrom(object).frame;
   EXPECT_EQ("camera", frame.name);
   EXPECT_EQ(12000000034, frame.stamp);
 }

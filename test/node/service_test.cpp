@@ -209,7 +209,7 @@ TEST_F(WaitingInspections, AreToldOfTheEndThoughACheckerHangs)
 TEST_F(Service, TooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
 {
   CheckServerOptions options;
-  options.most_states = 2;
+  options.max_states = 2;
   CheckServer small(
       store, [](auto scene) { return std::make_shared<CpuChecker>(std::move(scene)); }, options);
   CheckServices bounded(store, small, memory, {});

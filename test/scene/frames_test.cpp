@@ -91,7 +91,7 @@ TEST_F(Frames, ThatTheSceneDoesNotKnowAreAskedForOnceEach)
   add("d", "a");
   add("e", "camera");  // the change replaces the fixed frames, and "camera" is no longer one of them
   std::vector<std::string> names;
-  for (const FrameAt& frame : externalFrames(scene_, change))
+  for (const StampedFrame& frame : externalFrames(scene_, change))
     names.push_back(frame.name + " " + std::to_string(frame.stamp));
   EXPECT_EQ((std::vector<std::string>{"camera 0", "hand 0", "sensor 0", "sensor 7"}), names);
 

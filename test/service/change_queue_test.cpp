@@ -50,7 +50,7 @@ SceneChange carried(const std::string& id, Operation operation = Operation::Add)
 class Queue : public testing::Test
 {
  public:
-  ChangeQueue::Maker maker()
+  ChangeQueue::BeginBatch beginBatch()
   {
     return [this]
     {
@@ -67,7 +67,7 @@ class Queue : public testing::Test
       };
     };
   }
-  ChangeQueue::Refuse refuse()
+  ChangeQueue::OnRejected onRejected()
   {
     return [this](const std::string& source, const std::string& why) { refused.push_back(source + ": " + why); };
   }
@@ -107,7 +107,7 @@ void finish(ChangeQueue& queue, std::promise<void>& opened, SceneStore& store)
 
 TEST_F(Queue, WhatWaitsTogetherIsOneChange)
 {
-  ChangeQueue queue(maker(), refuse(), 1000, 1000);
+  ChangeQueue queue(beginBatch(), onRejected(), 1000, 1000);
   closeGate(queue);
   for (int i = 0; i < 100; ++i)
     queue.add("topic", object("box " + std::to_string(i)), 1);
@@ -120,7 +120,7 @@ TEST_F(Queue, WhatWaitsTogetherIsOneChange)
 
 TEST_F(Queue, AWrongChangeTakesNoOtherWithItAndIsFoundQuickly)
 {
-  ChangeQueue queue(maker(), refuse(), 100000, 100000);
+  ChangeQueue queue(beginBatch(), onRejected(), 100000, 100000);
   closeGate(queue);
   for (int i = 0; i < 1000; ++i)
     queue.add("topic " + std::to_string(i), object("box " + std::to_string(i)), 1);
@@ -139,7 +139,7 @@ TEST_F(Queue, TheSceneIsTheSameAsOneByOne)
   const unsigned seed = 5;
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
-  ChangeQueue queue(maker(), refuse(), 100000, 100000);
+  ChangeQueue queue(beginBatch(), onRejected(), 100000, 100000);
   SceneStore one_by_one{PlanningScene(sliderRobot()), {}, {}};
   SceneChange known = diff();
   known.state.variables = {{"slide", 0.5}, {"turn", 0.0}};
@@ -191,7 +191,7 @@ TEST_F(Queue, TheSceneIsTheSameAsOneByOne)
 
 TEST_F(Queue, WhatIsTooMuchIsRefused)
 {
-  ChangeQueue queue(maker(), refuse(), 3, 100);
+  ChangeQueue queue(beginBatch(), onRejected(), 3, 100);
   closeGate(queue);
   queue.add("topic", object("1"), 90);
   EXPECT_THROW(queue.add("topic", object("2"), 11), Busy) << "bytes";
@@ -202,7 +202,7 @@ TEST_F(Queue, WhatIsTooMuchIsRefused)
 
 TEST_F(Queue, ALargeChangeIsTakenWhereNoneWaits)
 {
-  ChangeQueue queue(maker(), refuse(), 3, 100);
+  ChangeQueue queue(beginBatch(), onRejected(), 3, 100);
   closeGate(queue, 1000);
   EXPECT_THROW(queue.add("topic", object("1"), 1), Busy);
   opened.set_value();
@@ -210,7 +210,7 @@ TEST_F(Queue, ALargeChangeIsTakenWhereNoneWaits)
 
 TEST_F(Queue, AStopRefusesWhatWaits)
 {
-  ChangeQueue queue(maker(), refuse(), 100, 100);
+  ChangeQueue queue(beginBatch(), onRejected(), 100, 100);
   closeGate(queue);
   queue.add("topic", object("1"), 1);
   queue.add("topic", object("2"), 1);

@@ -19,9 +19,9 @@ CheckServerOptions options()
 {
   CheckServerOptions options;
   options.small_request = kSmall;
-  options.most_waiting_requests = 5;
-  options.most_waiting_states = 200;
-  options.most_states = 100;
+  options.max_waiting_requests = 5;
+  options.max_waiting_states = 200;
+  options.max_states = 100;
   options.largest_batch = 3 * kSmall;
   return options;
 }
@@ -238,7 +238,7 @@ TEST_F(Server, ASmallRequestDoesNotWaitForALargeOne)
   gate.open();
   EXPECT_EQ(1u, small.get().result.valid.size());
   EXPECT_EQ(kSmall + 1, large.get().result.valid.size());
-  EXPECT_EQ(2u, gate.checkers()) << "each lane has a checker of its own";
+  EXPECT_EQ(2u, gate.checkers()) << "each queue has its own checker";
 }
 
 TEST_F(Server, WhatIsTooMuchIsTurnedAwayAtOnce)

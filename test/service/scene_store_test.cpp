@@ -27,7 +27,7 @@ SceneChange boxIn(const std::string& frame, const std::string& id = "box")
   return change;
 }
 
-Eigen::Isometry3d unknownFrame(const FrameAt& frame)
+Eigen::Isometry3d unknownFrame(const StampedFrame& frame)
 {
   throw Error("no frame '" + frame.name + "'");
 }
@@ -79,7 +79,7 @@ TEST_F(Store, WhatIsWrongChangesNothing)
 TEST_F(Store, FramesThatTheSceneDoesNotKnowAreAskedFor)
 {
   std::vector<std::string> asked;
-  const auto lookup = [&asked](const FrameAt& frame)
+  const auto lookup = [&asked](const StampedFrame& frame)
   {
     asked.push_back(frame.name);
     return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 3.0));
@@ -97,7 +97,7 @@ TEST_F(Store, AFrameThatAnotherChangeTookAwayMeanwhileIsAskedForAgain)
   SceneChange change = boxIn("camera");
   change.objects.push_back(boxIn("table", "cup").objects.front());
   std::vector<std::string> asked;
-  const auto lookup = [&](const FrameAt& frame)
+  const auto lookup = [&](const StampedFrame& frame)
   {
     asked.push_back(frame.name);
     if (frame.name == "camera")

@@ -140,8 +140,8 @@ void GpuScene::setProblem(const CollisionProblem& problem)
                 " for all shapes and half-spaces together); merge meshes");
   robot_count_ = static_cast<std::uint32_t>(problem.robot.size());
   world_count_ = static_cast<std::uint32_t>(problem.world.size());
-  trees_.setShapes(problem.trees);
-  tree_count_ = problem.trees.size();
+  trees_.setShapes(problem.tessellations);
+  tree_count_ = problem.tessellations.size();
   writeWorld(problem);
   tolerance_ = static_cast<float>(problem.tolerance);
   writeInstances(problem);
@@ -158,7 +158,7 @@ void GpuScene::writeInstances(const CollisionProblem& problem)
   for (const std::vector<ShapeInstance>* geometries : {&problem.robot, &problem.world})
     for (const ShapeInstance& geometry : *geometries)
     {
-      const double sagitta = problem.trees[geometry.tree].sagitta;
+      const double sagitta = problem.tessellations[geometry.tree].sagitta;
       InstanceRecord record{};
       const GpuTrees::Tree& tree = trees_.tree(geometry.tree);
       record.root = tree.root;
@@ -224,8 +224,8 @@ void GpuScene::writeWorld(const CollisionProblem& problem)
   {
     const ShapeInstance& object = problem.world[i];
     const Eigen::Isometry3d pose = Eigen::Translation3d(-problem.origin) * object.pose;
-    bounds.push_back(
-        placedBounds(trees_.tree(object.tree).bounds, problem.trees[object.tree].sagitta, pose, object.padding));
+    bounds.push_back(placedBounds(trees_.tree(object.tree).bounds, problem.tessellations[object.tree].sagitta, pose,
+                                  object.padding));
     writePoseRows(pose, &poses[12 * i]);
   }
   object_tree_ = ObjectTree(std::move(bounds), object_tree_);

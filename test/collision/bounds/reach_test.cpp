@@ -51,7 +51,7 @@ std::vector<Eigen::Vector3d> cornersOf(const Link& link)
 bool isHeld(const Region& region, const Eigen::Vector3d& point)
 {
   const auto holds = [&point](const Ball& ball) { return (point - ball.center).norm() <= ball.radius + 1e-12; };
-  return holds(region.all) && std::any_of(region.balls.begin(), region.balls.end(), holds);
+  return holds(region.enclosing) && std::any_of(region.balls.begin(), region.balls.end(), holds);
 }
 
 /// A random state. Each bounded variable is at a limit with probability 1/2.
@@ -92,7 +92,7 @@ void expectBoundsHold(const RobotModel& robot, int states)
     for (const auto& at : posed)
     {
       int frame = static_cast<int>(link);
-      for (const Region& region : body.above)
+      for (const Region& region : body.region_by_level)
       {
         const Eigen::Vector3d& corner = corners[generator() % corners.size()];
         const Eigen::Vector3d in_planning_frame = at[link] * corner;

@@ -149,14 +149,14 @@ TEST_P(BatchLimits, StacksThatAreTooShortSpill)
 
 TEST_P(BatchLimits, WorkThatIsLeftWhenTheIterationsRunOutIsHandedOn)
 {
-  folder_.define("LANE_ITERATIONS", "100");
+  folder_.define("INVOCATION_ITERATIONS", "100");
   folder_.define("QUEUE_MAX_GROUPS", "1");
   EXPECT_EQ(resultWithChangedShaders().valid, validOnCpu());
 }
 
 TEST_P(BatchLimits, AWalkThroughTheWorldThatTakesTooLongIsUndecided)
 {
-  folder_.define("LANE_ITERATIONS", "2");
+  folder_.define("INVOCATION_ITERATIONS", "2");
   const BatchResult result = resultWithChangedShaders();
   EXPECT_EQ(result.valid, validOnCpu());
   EXPECT_GT(result.undecided_states, 0U);
@@ -164,7 +164,7 @@ TEST_P(BatchLimits, AWalkThroughTheWorldThatTakesTooLongIsUndecided)
 
 TEST_P(BatchLimits, LanesThatTheDeviceEndsEarlyAreNoticed)
 {
-  // Ends every lane silently before it does anything, as llvmpipe ends lanes after too many iterations.
+  // Ends every invocation silently before it does anything, as llvmpipe ends invocations after too many iterations.
   std::string text = readShader(folder_.path(), "traversal/work_queue.comp");
   const std::string begin = "void main()\n{\n";
   const auto at = text.rfind(begin);

@@ -63,7 +63,7 @@ std::string poseAt(int place)
          vectorAt(place + 3) + ")";
 }
 
-/// Runs one function of the shaders on floats, with one lane for each case.
+/// Runs one function of the shaders on floats, with one invocation for each case.
 class GpuStep : public testing::Test
 {
  protected:

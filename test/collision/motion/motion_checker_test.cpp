@@ -43,12 +43,12 @@ WorldObject wall(double x, double thickness, double y, double width)
 class PointMotions : public testing::Test
 {
  protected:
-  MotionChecker checker(MotionRule rule, double step, std::size_t most_samples = 20000) const
+  MotionChecker checker(MotionRule rule, double step, std::size_t max_samples = 20000) const
   {
     MotionCheckerOptions options;
     options.rule = rule;
     options.steps = {step, step};
-    options.most_samples = most_samples;
+    options.max_samples = max_samples;
     return {std::make_shared<CpuChecker>(scene_), scene_->robot, "", options};
   }
 

@@ -161,7 +161,7 @@ TEST(CollisionProblem, SharesTheTreesOfEqualShapes)
 {
   const CollisionProblem problem = makeProblem(sceneOf(""), "", nullptr);
   // box of base, box of upper, sphere, torus
-  EXPECT_EQ(4u, problem.trees.size());
+  EXPECT_EQ(4u, problem.tessellations.size());
   EXPECT_EQ(4u, problem.shapes.size());
   EXPECT_EQ(5u, problem.robot.size());
   EXPECT_EQ(4u, problem.world.size());

@@ -1,4 +1,4 @@
-#include "planning/scene_space.h"
+#include "planning/group_space.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "node/end_deadline.h"
+#include "node/shutdown_deadline.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -7,7 +7,7 @@
 
 namespace gpu_planning_scene::core
 {
-EndDeadline::EndDeadline(double seconds)
+ShutdownDeadline::ShutdownDeadline(double seconds)
   : thread_(
         [this, seconds]
         {
@@ -20,7 +20,7 @@ EndDeadline::EndDeadline(double seconds)
 {
 }
 
-EndDeadline::~EndDeadline()
+ShutdownDeadline::~ShutdownDeadline()
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
