@@ -234,7 +234,7 @@ TEST(Benchmark, RunsWithoutAnyRobotOfOthers)
   EXPECT_EQ(readTable(folder.path() + "/throughput.csv").size(), 2U);
 }
 
-TEST(Benchmark, ListsWhatThereIsWhereANameIsWrong)
+TEST(Benchmark, AnUnknownNamePrintsTheList)
 {
   const ProgramOutput scene = runProgram(GPS_BENCHMARK, {"--scenes", "mars"});
   EXPECT_EQ(scene.exit_code, 2);

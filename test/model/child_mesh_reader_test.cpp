@@ -59,7 +59,7 @@ TEST(ChildMeshReader, GivesTheMeshThatThisProcessWouldRead)
   EXPECT_EQ(mesh->name, path);
 }
 
-TEST(ChildMeshReader, WhatTheReaderSaysIsTheError)
+TEST(ChildMeshReader, TheMessageOfTheReaderIsTheError)
 {
   const TemporaryFolder folder;
   const std::string path = folder.write("bad.stl", "solid of nothing");
@@ -91,7 +91,7 @@ TEST(ChildMeshReader, EndlessOutputIsCutOff)
         << path;
 }
 
-TEST(ChildMeshReader, AnAnswerThatLiesOfItsLengthIsRefused)
+TEST(ChildMeshReader, WrongLengthIsRefused)
 {
   for (const char* path : {"/x/lie.stl", "/x/short.stl", "/x/empty.stl"})
     EXPECT_NE(errorOfReading(GPS_FAULTY_MESH_READER, path, quick()), "") << path;

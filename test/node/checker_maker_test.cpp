@@ -111,7 +111,7 @@ TEST_F(CheckerMaker, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
   server().stop();
 }
 
-TEST_F(CheckerMaker, DiagnosticsWarnWhileTheCpuStandsInAndTellOfADeviceThatIsNotToBeHad)
+TEST_F(CheckerMaker, DiagnosticsReportCpuFallbackAndMissingDevice)
 {
   using diagnostic_msgs::DiagnosticStatus;
   resilience_.retry_seconds = 0.1;

@@ -134,7 +134,7 @@ TEST(Markers, BodiesHaveTheColoursOfTheScene)
   }
 }
 
-TEST(Markers, WhatACarriedObjectIsGoesWithItsLink)
+TEST(Markers, AttachedObjectsMoveWithTheirLink)
 {
   PlanningScene scene = fullScene();
   std::vector<double> state = scene.robot->defaultState();

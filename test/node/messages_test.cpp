@@ -352,7 +352,7 @@ TEST_F(Messages, AMatrixThatAllowsNothingComesBackAsOne)
   EXPECT_FALSE(scene_.allowed_collisions.allowed("cart", "pole")) << "an empty matrix would be the SRDF's";
 }
 
-TEST_F(Messages, WhatDoesNotFitIsRefused)
+TEST_F(Messages, InvalidMessagesAreRefused)
 {
   CollisionObject object = box("a");
   object.operation = 4;

@@ -105,7 +105,7 @@ TEST_F(Planning, UsesAPlannerOfAnotherPackage)
   EXPECT_EQ(response.planner, "planner_plugin/BKPIECE");
 }
 
-TEST_F(Planning, SaysThatThePlannerHasFailedWhereTheRequestIsNotToBlame)
+TEST_F(Planning, PlannerFaultsAreNotErrorsOfTheRequest)
 {
   PlanMotion::Request wanted = request();
   wanted.planner = "broken_planner/Broken";
@@ -237,7 +237,7 @@ TEST_F(Planning, TellsAnApproximateSolutionFromASolution)
   EXPECT_NE(response.message.find("the path ends"), std::string::npos) << response.message;
 }
 
-TEST_F(Planning, RefusesWhatIsNoRequest)
+TEST_F(Planning, RefusesInvalidRequests)
 {
   PlanMotion::Request wanted = request();
   wanted.group = "crane";

@@ -175,7 +175,7 @@ class WaitingInspections : public WaitingService
   std::vector<std::future<CheckStates::Response>> answers;
 };
 
-TEST_F(WaitingInspections, AreTurnedAwayWhereTooManyWait)
+TEST_F(WaitingInspections, AreRejectedWhenTheQueueIsFull)
 {
   for (int i = 0; i < 4; ++i)
     ask();
@@ -195,7 +195,7 @@ TEST_F(WaitingInspections, AreTurnedAwayWhereTooManyWait)
   EXPECT_EQ(1, busy);
 }
 
-TEST_F(WaitingInspections, AreToldOfTheEndThoughACheckerHangs)
+TEST_F(WaitingInspections, StopRejectsThemWhileACheckerHangs)
 {
   for (int i = 0; i < 3; ++i)
     ask();

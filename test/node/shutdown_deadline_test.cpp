@@ -12,7 +12,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-TEST(EndDeadlineDeathTest, EndsAProcessThatHangs)
+TEST(ShutdownDeadlineDeathTest, EndsAProcessThatHangs)
 {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(

@@ -171,7 +171,7 @@ TEST_F(ChangeAttached, AnUnusedPoseIsTold)
   EXPECT_TRUE(carried("a").object.pose.isApprox(inPole(poseAt(0, 0, 0)), 1e-15));
 }
 
-TEST_F(ChangeAttached, WhatCannotBeIsRefused)
+TEST_F(ChangeAttached, InvalidChangesAreRefused)
 {
   change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
   change(objectChange(Operation::Add, "floor", {{HalfSpace{Eigen::Vector3d::UnitZ(), 0.0}}}));

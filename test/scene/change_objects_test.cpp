@@ -154,7 +154,7 @@ TEST_F(ChangeObjects, ChangesOfOneMessageFollowEachOther)
   EXPECT_EQ(0.3, std::get<Box>(object("a").shapes[0].shape).size.x());
 }
 
-TEST_F(ChangeObjects, WhatCannotBeIsRefused)
+TEST_F(ChangeObjects, InvalidChangesAreRefused)
 {
   change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
   change(attachedChange(Operation::Add, "held", "pole", {boxAt(0.1)}));

@@ -111,7 +111,7 @@ TEST_F(ChangeState, AFullSceneDoesNotAttachObjectsOfTheSceneBefore)
   refused("no such object", full);
 }
 
-TEST_F(ChangeState, WhatCannotBeIsRefused)
+TEST_F(ChangeState, InvalidChangesAreRefused)
 {
   refused("no joint variable 'gripper'", stateChange(true, {{"gripper", 0.0}}));
   refused("not finite", stateChange(true, {{"slide", std::numeric_limits<double>::infinity()}}));

@@ -70,7 +70,7 @@ TEST_F(Frames, OfLinksNeedTheRobotsState)
   EXPECT_NE(std::string::npos, errorOf([&] { find("pole"); }).find("not finite"));
 }
 
-TEST_F(Frames, ThatTheSceneDoesNotKnowAreAskedForOnceEach)
+TEST_F(Frames, UnknownFramesAreLookedUpOnceEach)
 {
   SceneChange change;
   change.is_diff = true;
@@ -107,7 +107,7 @@ TEST_F(Frames, ThatTheSceneDoesNotKnowAreAskedForOnceEach)
   EXPECT_TRUE(find("held").isApprox(poseAt(2, 0, 0), 1e-15));
 }
 
-TEST_F(Frames, AreAskedForWhateverTheStateIs)
+TEST_F(Frames, LookupsDoNotDependOnTheState)
 {
   scene_.current_state.clear();
   SceneChange change;
@@ -118,7 +118,7 @@ TEST_F(Frames, AreAskedForWhateverTheStateIs)
   EXPECT_EQ(1u, externalFrames(scene_, change).size());
 }
 
-TEST_F(Frames, ThatAreNoPosesAreRefused)
+TEST_F(Frames, InvalidPosesAreRefused)
 {
   ObjectChange object = objectChange(Operation::Add, "a", {boxAt(0.1)});
   object.frame.name = "sensor";

@@ -93,7 +93,7 @@ TEST(ScaledShapes, EqualMeshesStayOneMesh)
   EXPECT_EQ(nullptr, scene.attached[0].scaled_shapes);
 }
 
-TEST(ScaledShapes, WhatIsCarriedWithoutItsLinksScaleIsNoValidScene)
+TEST(ScaledShapes, AttachedObjectsNeedTheScaleOfTheirLink)
 {
   PlanningScene scene(sliderRobot());
   scene.setLinkScale(factors(*scene.robot, "cart", 3.0));

@@ -254,7 +254,7 @@ TEST_F(SceneFile, AnObjectWithoutAPoseIsWhereItsLoneShapeIsAsInMessages)
   EXPECT_TRUE(scene.objects.at(1).shapes.at(1).pose.isApprox(pose(4, 5, 6, 0)));
 }
 
-TEST_F(SceneFile, WhatTheFileDoesNotNameHasItsDefault)
+TEST_F(SceneFile, MissingEntriesHaveTheirDefaults)
 {
   const auto robot = sliderRobot();
   SceneDefaults defaults;
@@ -289,7 +289,7 @@ TEST_F(SceneFile, WhatTheFileDoesNotNameHasItsDefault)
   EXPECT_EQ(0.01, scene.objects.at(0).padding);
 }
 
-TEST_F(SceneFile, WhatTheRobotDoesNotUseOfTheStateGivesWarnings)
+TEST_F(SceneFile, UnusedJointValuesGiveWarnings)
 {
   const PlanningScene scene = load(
       "robot_state: {joint_state: {name: [slide, flag, bolt, gripper, wheel], "

@@ -105,7 +105,7 @@ void finish(ChangeQueue& queue, std::promise<void>& opened, SceneStore& store)
   queue.stop();
 }
 
-TEST_F(Queue, WhatWaitsTogetherIsOneChange)
+TEST_F(Queue, QueuedChangesAreMerged)
 {
   ChangeQueue queue(beginBatch(), onRejected(), 1000, 1000);
   closeGate(queue);
@@ -118,7 +118,7 @@ TEST_F(Queue, WhatWaitsTogetherIsOneChange)
   EXPECT_TRUE(refused.empty());
 }
 
-TEST_F(Queue, AWrongChangeTakesNoOtherWithItAndIsFoundQuickly)
+TEST_F(Queue, AWrongChangeIsRejectedAlone)
 {
   ChangeQueue queue(beginBatch(), onRejected(), 100000, 100000);
   closeGate(queue);
@@ -189,7 +189,7 @@ TEST_F(Queue, TheSceneIsTheSameAsOneByOne)
   expectSameScene(*expected_scene, scene);
 }
 
-TEST_F(Queue, WhatIsTooMuchIsRefused)
+TEST_F(Queue, ChangesBeyondTheBoundsAreRejected)
 {
   ChangeQueue queue(beginBatch(), onRejected(), 3, 100);
   closeGate(queue);
@@ -200,7 +200,7 @@ TEST_F(Queue, WhatIsTooMuchIsRefused)
   opened.set_value();
 }
 
-TEST_F(Queue, ALargeChangeIsTakenWhereNoneWaits)
+TEST_F(Queue, ALargeChangeFitsAnEmptyQueue)
 {
   ChangeQueue queue(beginBatch(), onRejected(), 3, 100);
   closeGate(queue, 1000);
@@ -208,7 +208,7 @@ TEST_F(Queue, ALargeChangeIsTakenWhereNoneWaits)
   opened.set_value();
 }
 
-TEST_F(Queue, AStopRefusesWhatWaits)
+TEST_F(Queue, StopRejectsQueuedChanges)
 {
   ChangeQueue queue(beginBatch(), onRejected(), 100, 100);
   closeGate(queue);

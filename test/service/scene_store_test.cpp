@@ -63,7 +63,7 @@ TEST_F(Store, ClearRemovesWhatTheMatrixAllowsTheObjects)
   EXPECT_TRUE(store.snapshot().scene->allowed_collisions == AllowedCollisionMatrix::fromRobot(*sliderRobot()));
 }
 
-TEST_F(Store, WhatIsWrongChangesNothing)
+TEST_F(Store, RejectedChangesChangeNothing)
 {
   store.apply(boxIn(""), unknownFrame);
   const auto before = store.snapshot().scene;
@@ -91,7 +91,7 @@ TEST_F(Store, FramesThatTheSceneDoesNotKnowAreAskedFor)
   EXPECT_DOUBLE_EQ(3.0, store.snapshot().scene->objects[1].pose.translation().z());
 }
 
-TEST_F(Store, AFrameThatAnotherChangeTookAwayMeanwhileIsAskedForAgain)
+TEST_F(Store, FramesRemovedByAnotherChangeAreLookedUpAgain)
 {
   store.apply(boxIn("", "table"), unknownFrame);
   SceneChange change = boxIn("camera");

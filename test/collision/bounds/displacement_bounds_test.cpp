@@ -90,7 +90,7 @@ TEST_F(Displacement, OfAStretchedArmIsTheSumOfWhatItsJointsMoveTheTip)
   EXPECT_FALSE(isFreeAround(sceneWith(robot, tip, 0.99 * kTravel * 2.0), stiff));
 }
 
-TEST_F(Displacement, CountsWhatAJointMakesOfItsLeadersWay)
+TEST_F(Displacement, CountsTheTravelOfFollowers)
 {
   const auto robot = arm(true);
   std::vector<double> from = robot->defaultState();
@@ -135,7 +135,7 @@ TEST_F(Displacement, HasNoBoundOutsideOfTheLimits)
   EXPECT_EQ(checker.check(state.data(), 1).valid[0], 1);
 }
 
-TEST_F(Displacement, RefusesWaysThatDoNotFit)
+TEST_F(Displacement, RefusesInvalidNeighbourhoods)
 {
   const auto robot = arm();
   const auto scene = sceneWith(robot, {5.0, 5.0, 5.0}, 1.0);

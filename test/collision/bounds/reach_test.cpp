@@ -110,7 +110,7 @@ void expectBoundsHold(const RobotModel& robot, int states)
   }
 }
 
-TEST(Reach, HoldsAllThatJointsOfEveryKindAndMimicsCanDo)
+TEST(Reach, ContainsAllPositionsOfEveryKindOfJoint)
 {
   expectBoundsHold(*oddRobot(), 20000);
 }
@@ -145,7 +145,7 @@ bool rodMayMeetBallAt(double angle, double x, double y)
   return mayMeet(regionOfRod(angle), box, 0.0);
 }
 
-TEST(Reach, IsTightEnoughToTellWhatARodCannotTouch)
+TEST(Reach, IsTightForARod)
 {
   EXPECT_TRUE(rodMayMeetBallAt(0.5, 0.9, 0.4));    // within its angles
   EXPECT_FALSE(rodMayMeetBallAt(0.5, 1.25, 0.0));  // beyond its end

@@ -386,7 +386,7 @@ TEST_P(RandomRobots, HaveTheVerdictsOfTheCpuOnTheGpu)
             << made->objects.size() << " objects, " << std::count(expected.begin(), expected.end(), 1) << " of "
             << kStates << " free" << std::endl;
 }
-TEST_P(RandomRobots, AreFreeInAllThatIsFreeAroundAState)
+TEST_P(RandomRobots, FreeNeighbourhoodsHoldFreeStates)
 {
   constexpr std::size_t kNeighbours = 40;
   const auto made = scene();
@@ -412,7 +412,7 @@ TEST_P(RandomRobots, AreFreeInAllThatIsFreeAroundAState)
             << std::count(proven.begin(), proven.end(), 1) << " with what is around" << std::endl;
 }
 
-TEST_P(RandomRobots, HaveNoPointThatAMotionTakesFurtherThanItsMargin)
+TEST_P(RandomRobots, MotionsStayWithinMargins)
 {
   constexpr int kRobots = 8;
   constexpr int kMotions = 100;

@@ -132,7 +132,7 @@ TEST(Contacts, OfAllKindsOfShapesPointApartAndAreAsDeepAsTheOverlap)
     }
 }
 
-TEST(Contacts, OfOneBodyInsideAnotherAreAtTheInnerOneAsDeepAsTheWayOut)
+TEST(Contacts, OfContainedBodiesHaveTheExitDepth)
 {
   for (const bool inner_held : {true, false})
   {

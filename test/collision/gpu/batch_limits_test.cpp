@@ -162,7 +162,7 @@ TEST_P(BatchLimits, AWalkThroughTheWorldThatTakesTooLongIsUndecided)
   EXPECT_GT(result.undecided_states, 0U);
 }
 
-TEST_P(BatchLimits, LanesThatTheDeviceEndsEarlyAreNoticed)
+TEST_P(BatchLimits, InvocationsThatTheDeviceEndsEarlyAreNoticed)
 {
   // Ends every invocation silently before it does anything, as llvmpipe ends invocations after too many iterations.
   std::string text = readShader(folder_.path(), "traversal/work_queue.comp");

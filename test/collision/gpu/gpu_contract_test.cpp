@@ -160,7 +160,7 @@ TEST_P(GpuContract, NoneOfManyHalfSpacesIsForgotten)
   EXPECT_EQ(check(problem, {at(0.0)}).valid, (std::vector<std::uint8_t>{0}));
 }
 
-TEST_P(GpuContract, WhatIsInsideAClosedMeshCollidesWhicheverWayItFaces)
+TEST_P(GpuContract, ShapesInsideAClosedMeshCollideForBothOrientations)
 {
   for (const bool inverted : {false, true})
     for (const Shape& inner : {Shape(Box{{0.05, 0.06, 0.07}}), Shape(meshOf(Box{{0.05, 0.06, 0.07}})),

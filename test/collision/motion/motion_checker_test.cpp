@@ -61,7 +61,7 @@ class PointMotions : public testing::Test
   std::shared_ptr<PlanningScene> scene_ = std::make_shared<PlanningScene>(pointRobot());
 };
 
-TEST_F(PointMotions, DoNotJumpAWallOfAMillimetreWhereTheBoundIsAskedForAndDoWhereSamplesAre)
+TEST_F(PointMotions, OnlyTheBoundRuleDetectsAThinWall)
 {
   scene_->objects = {wall(0.512, 0.001, 0.0, 1.0)};
   for (const double step : {0.05, 0.2, 2.0})
@@ -247,7 +247,7 @@ class RealMotions : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(RealMotions, ThatAreProvenAreFreeAtTenTimesTheResolutionAndAsFarAsTheirLastValidPart)
+TEST_P(RealMotions, ProvenPartsAreFreeAtTenTimesTheResolution)
 {
   if (!missingFor(GetParam()).empty())
     GTEST_SKIP() << missingFor(GetParam()) << " is missing";
