@@ -60,8 +60,8 @@
 #define SOLID_LEAF (1u << 29)
 // Cost of testing one triangle in a traversal, relative to the cost of testing one box (surface area heuristic).
 #define TRIANGLE_COST 0.4
-// Oriented boxes: one invocation fits a node of up to FIT_INVOCATION_TRIANGLES triangles, a work group fits a node of up
-// to FIT_MAX_TRIANGLES. A larger node keeps its axis-aligned box.
+// Oriented boxes: one invocation fits a node of up to FIT_INVOCATION_TRIANGLES triangles, a work group fits a node of
+// up to FIT_MAX_TRIANGLES. A larger node keeps its axis-aligned box.
 #define FIT_INVOCATION_TRIANGLES 128
 #define FIT_MAX_TRIANGLES 65536
 // Number of elements that one invocation of the sort and of the compaction handles in sequence.

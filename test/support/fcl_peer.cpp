@@ -203,8 +203,8 @@ FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree, 
   impl_->problem = std::move(problem);
   impl_->volumes = tree;
   const CollisionProblem& p = *impl_->problem;
-  for (std::size_t i = 0; i < p.trees.size(); ++i)
-    impl_->geometries.push_back(makeFclGeometry(p.shapes[i], p.trees[i], tree));
+  for (std::size_t i = 0; i < p.tessellations.size(); ++i)
+    impl_->geometries.push_back(makeFclGeometry(p.shapes[i], p.tessellations[i], tree));
   for (const ShapeInstance& geometry : p.robot)
     impl_->robot.push_back({geometry.body, geometry.tree, geometry.pose, {}, geometry.padding, nullptr});
   for (const ShapeInstance& geometry : p.world)

@@ -34,7 +34,7 @@ std::shared_ptr<const CollisionProblem> problem()
   auto made = std::make_shared<CollisionProblem>();
   const auto mesh = wavySphere();
   made->shapes = {mesh};
-  made->trees = {tessellate(mesh)};
+  made->tessellations = {tessellate(mesh)};
   made->robot = {{0, 0, 0, Eigen::Isometry3d::Identity()}};
   for (int i = 0; i < 3; ++i)
     made->world.push_back({0, 1 + i, -1, Eigen::Isometry3d(Eigen::Translation3d(0.11 * i, 0.0, 0.0))});

@@ -198,11 +198,11 @@ TEST(CollisionProblem, HasTheSameTreesAndGeometriesForEveryGroup)
   const auto scene = sceneOf(srdfWith(""));
   const CollisionProblem all = makeProblem(scene, "", nullptr);
   const CollisionProblem arm = makeProblem(scene, "arm", nullptr);
-  ASSERT_EQ(all.trees.size(), arm.trees.size());
+  ASSERT_EQ(all.tessellations.size(), arm.tessellations.size());
   ASSERT_EQ(all.robot.size(), arm.robot.size());
   ASSERT_EQ(all.world.size(), arm.world.size());
-  for (std::size_t i = 0; i < all.trees.size(); ++i)
-    EXPECT_EQ(all.trees[i].mesh->triangles, arm.trees[i].mesh->triangles);
+  for (std::size_t i = 0; i < all.tessellations.size(); ++i)
+    EXPECT_EQ(all.tessellations[i].mesh->triangles, arm.tessellations[i].mesh->triangles);
   for (std::size_t i = 0; i < all.robot.size(); ++i)
   {
     EXPECT_EQ(all.robot[i].tree, arm.robot[i].tree);
