@@ -164,7 +164,7 @@ TEST(Reach, HasNoBoundBeyondJointsWithoutLimits)
   const Reach reach(*robot);
   const SweptBody arm = reach.sweep(robot->links()[2].shapes, Eigen::Isometry3d::Identity(), 2);
   EXPECT_EQ(reach.inPlanningFrame(arm), nullptr);
-  EXPECT_EQ(arm.above.size(), 2U);  // in the frames of the arm and the cart
+  EXPECT_EQ(arm.region_by_level.size(), 2U);  // in the frames of the arm and the cart
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
