@@ -50,8 +50,8 @@ double share(std::size_t part, std::size_t whole)
 void printHead()
 {
   std::printf(
-      "| robot | states | valid | false free | false collision | false pair | unlike | open | undecided: "
-      "work_queue, breadth_first | their time | oracle, states/s |\n"
+      "| robot | states | valid | false free | false collision | false pair | differs from CPU | open | undecided: "
+      "work_queue, breadth_first | time of undecided states | oracle, states/s |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
 }
 
@@ -59,7 +59,7 @@ void printRow(const std::string& label, const Exactness& e)
 {
   std::printf("| %s | %zu | %.1f %% | %zu | %zu | %zu | %zu | %zu | %.3f %%, %.3f %% | %.2f %%, %.2f %% | %.0f |\n",
               label.c_str(), e.states, share(e.valid, e.states), e.false_free, e.false_collision, e.false_pair,
-              e.unlike, e.either, share(e.work_queue.states, e.states), share(e.breadth_first.states, e.states),
+              e.disagreeing, e.either, share(e.work_queue.states, e.states), share(e.breadth_first.states, e.states),
               share(e.work_queue.seconds, e.work_queue.total_seconds),
               share(e.breadth_first.seconds, e.breadth_first.total_seconds),
               static_cast<double>(e.states) / std::max(e.oracle_seconds, 1e-9));
@@ -71,7 +71,7 @@ void printRow(const std::string& label, const Exactness& e)
 void printClearances(const std::array<std::size_t, 8>& counts)
 {
   std::printf(
-      "\nClearance of the free states close to contact, by the oracle:\n\n"
+      "\nClearance of the near-contact states that are free or open, by the oracle:\n\n"
       "| m | < 1e-9 | < 1e-8 | < 1e-7 | < 1e-6 | < 1e-5 | < 1e-4 | < 1e-3 | more |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n| states |");
   for (const std::size_t count : counts)
@@ -124,17 +124,17 @@ int main(int argc, char** argv)
   const Tool tool{
       "exactness",
       "[--quick] [--states N] [--robot NAME] [--seed S]",
-      "Holds the answers of both traversals, at several batch sizes, and of the CPU checker against an oracle in\n"
+      "Compares the answers of both traversals, at several batch sizes, and of the CPU checker with an oracle in\n"
       "quadruple precision: 100,000 random states of kr5, 10,000 of ur5_robotiq, drchubo and wam, 1000 of\n"
-      "ur5_carrying (a box in the gripper, padding, a floor); and of each 10,000 states, of the last 1000, within\n"
-      "about 1e-4 ... 1e-10 m of contact, found by bisection, one half on the free side.\n"
-      "Prints a Markdown table: wrong answers by the contract, verdicts unlike the CPU checker's, states that the\n"
-      "contract leaves open, and the share of states, and of the time, that floats leave undecided.\n"
+      "ur5_carrying (a box in the gripper, padding, a floor); and 10,000 states per robot (1000 of ur5_carrying)\n"
+      "within about 1e-4 ... 1e-10 m of contact. Bisection finds these states; half of them are free.\n"
+      "Prints a Markdown table: wrong answers by the contract, verdicts that differ from the CPU checker's, states\n"
+      "for which the contract allows both answers, and the share of undecided states and of the time for them.\n"
       "Exit code: 0 no wrong answer, 1 a wrong answer or another error, 2 bad usage.",
       {{"--quick", "", "a tenth of the states, at most 1000 of each kind"},
        {"--states", "N", "N states of each kind"},
-       {"--robot", "NAME", "this one alone"},
-       {"--seed", "S", "of the random numbers (default 1)"}},
+       {"--robot", "NAME", "only this robot"},
+       {"--seed", "S", "seed of the random states (default 1)"}},
       run};
   return runTool(tool, argc, argv);
 }

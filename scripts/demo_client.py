@@ -105,7 +105,7 @@ def call(arguments):
             return 1
     seconds, response = sorted(calls, key=lambda call: call[0])[len(calls) // 2]
     where = f"within {arguments.spread} of the scene's state" if around else "within the joints' limits"
-    print(f"states: {len(states)} random ones {where}, seed {arguments.seed}")
+    print(f"states: {len(states)}, random {where}, seed {arguments.seed}")
     print("\n".join(summary(response, len(states), seconds)))
     return 0
 

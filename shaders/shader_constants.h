@@ -2,7 +2,7 @@
 // Constants and buffer layouts that the shaders and the C++ code share. Both read this file, so it holds only
 // preprocessor lines and comments.
 
-// Invocations of a work group (lanes). Work groups of the work queues have QUEUE_LANES instead.
+// Invocations of a work group. Work groups of the work queues have QUEUE_INVOCATIONS instead.
 #define GROUP_SIZE 64
 
 // --- Uniforms ------------------------------------------------------------------------------------------------------
@@ -28,7 +28,7 @@
 #define LOCATION_SERIAL 18
 #define LOCATION_COUNTER 19
 #define LOCATION_CAPACITY 20
-#define LOCATION_LANES 21
+#define LOCATION_INVOCATIONS 21
 #define LOCATION_ARGUMENT_OFFSET 22
 #define LOCATION_CLEARED 23
 #define LOCATION_TRIANGLE_COUNT 24
@@ -60,10 +60,10 @@
 #define SOLID_LEAF (1u << 29)
 // Cost of testing one triangle in a traversal, relative to the cost of testing one box (surface area heuristic).
 #define TRIANGLE_COST 0.4
-// Oriented boxes: one invocation fits a node of up to FIT_LANE_TRIANGLES triangles, a work group fits a node of up to
-// FIT_MOST_TRIANGLES. A larger node keeps its axis-aligned box.
-#define FIT_LANE_TRIANGLES 128
-#define FIT_MOST_TRIANGLES 65536
+// Oriented boxes: one invocation fits a node of up to FIT_INVOCATION_TRIANGLES triangles, a work group fits a node of
+// up to FIT_MAX_TRIANGLES. A larger node keeps its axis-aligned box.
+#define FIT_INVOCATION_TRIANGLES 128
+#define FIT_MAX_TRIANGLES 65536
 // Number of elements that one invocation of the sort and of the compaction handles in sequence.
 #define CHUNK 32
 #define RADIX_BITS 4
@@ -120,8 +120,8 @@
 #define CONTRACT_BAND 1.1e-9
 
 // 0 on a device whose float32 arithmetic failed the self-test. Tests of triangles then prove nothing.
-#ifndef FLOATS_DECIDE
-#define FLOATS_DECIDE 1
+#ifndef FLOAT32_TRUSTED
+#define FLOAT32_TRUSTED 1
 #endif
 
 // 1 in the programs that traverse pairs of a mesh and a solid, 0 in the programs that traverse pairs of meshes.
@@ -173,7 +173,7 @@
 
 // Most invocations that one dispatch of a part may have. Indices of invocations and texels are products in 32 bits,
 // which must not overflow.
-#define MOST_LANES (1 << 30)
+#define MAX_INVOCATIONS (1 << 30)
 
 // One query of the broad phase among links compares a robot instance with up to this many others, 16 bits each.
 // NO_PARTNER marks an unused place.
@@ -194,8 +194,8 @@
 #define COUNTER_ENTRIES_EVEN 4    // node pairs: this list and the next one are read and written in turn
 #define COUNTER_ENTRIES_ODD 5
 #define COUNTER_LEAF_PAIRS 6
-#define COUNTER_LANES_ENDED 7     // work queues: invocations that reached their end
-#define COUNTER_LANES_STARTED 8   // work queues: invocations that were started
+#define COUNTER_INVOCATIONS_ENDED 7    // work queues: invocations that reached their end
+#define COUNTER_INVOCATIONS_STARTED 8  // work queues: invocations that were started
 #define COUNTER_MESH_ENTRIES 9    // root pairs whose shapes are both made of triangles
 #define COUNTER_SOLID_ENTRIES 10  // root pairs with a solid
 #define COUNTER_SCRATCH 11        // never read: for shaders that must clear some counter
@@ -211,11 +211,11 @@
 // Number of leaf pairs whose triangles a work group distributes over its invocations at once.
 #define LEAF_CHUNK 64
 // Work queues.
-#define QUEUE_LANES 32         // invocations of a work group
+#define QUEUE_INVOCATIONS 32   // invocations of a work group
 #define QUEUE_MAX_GROUPS 2048  // most work groups of a dispatch
 #define QUEUE_STEPS 8          // most steps of an invocation between two barriers
 #define QUEUE_STACK 48         // node pairs and leaf pairs that the memory of an invocation holds
 #define QUEUE_FLUSH 32         // number of leaf pairs from which on the work group tests their triangles
 // llvmpipe ends an invocation without an error after 65535 loop iterations. An invocation hands its work on before
 // that.
-#define LANE_ITERATIONS 50000
+#define INVOCATION_ITERATIONS 50000

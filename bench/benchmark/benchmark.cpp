@@ -59,19 +59,19 @@ std::vector<std::string> chosen(const CommandLine& arguments, const std::string&
   std::vector<std::string> words = split(arguments.required(option));
   for (const std::string& word : words)
     if (std::find(known.begin(), known.end(), word) == known.end())
-      throw UsageError(option + ": there is no '" + word + "'; there are: " + join(known));
+      throw UsageError(option + ": there is no '" + word + "'; known names: " + join(known));
   if (words.empty())
-    throw UsageError(option + ": names nothing; there are: " + join(known));
+    throw UsageError(option + ": the list is empty; known names: " + join(known));
   return words;
 }
 
 std::vector<double> numbers(const CommandLine& arguments, const std::string& option, const std::string& fallback,
-                            double least, double most)
+                            double min, double max)
 {
   std::vector<double> result;
   for (const std::string& word : split(arguments.value(option, fallback)))
     result.push_back(CommandLine({{option, "X", ""}}, 3, std::array{"", option.c_str(), word.c_str()}.data())
-                         .number(option, 0.0, least, most));
+                         .number(option, 0.0, min, max));
   return result;
 }
 
@@ -87,9 +87,9 @@ std::vector<std::string> chosenScenes(const CommandLine& arguments)
   {
     const std::string missing = missingFor(name);
     if (named && !missing.empty())
-      throw Error("scene " + name + " needs " + missing + ", which is not there; give its folder with --data");
+      throw Error("scene " + name + " needs " + missing + ", which is missing; give its folder with --data");
     if (!missing.empty())
-      std::cerr << "scene " << name << " is left out: there is no " << missing << '\n';
+      std::cerr << "scene " << name << " is left out, because it needs " << missing << '\n';
     else
       there.push_back(name);
   }
@@ -200,7 +200,7 @@ void run(const CommandLine& arguments)
   }
   std::cout << settings.out << '\n';
   if (wrong > 0)
-    throw Error(std::to_string(wrong) + " wrong answers of methods that are to be exact");
+    throw Error(std::to_string(wrong) + " wrong answers of methods that claim to be exact");
 }
 }  // namespace
 
@@ -211,24 +211,24 @@ int main(int argc, char** argv)
        "[--quick] [--out DIR] [--data DIR] [--scenes A,B] [--methods A,B] ...",
        "Measures states per second, wrong answers and their size, latency, build and update times, memory, work\n"
        "and growth, of this project's methods and of FCL, Bullet and fitted spheres, and writes them as CSV tables.\n"
-       "Work is counted apart from the timing, and only where counting costs nothing: the CPU's node visits a state,\n"
-       "the GPU's candidates and root pairs a state; what the GPU's traversal visits, and the peers, is not counted.\n"
-       "scripts/charts draws them. Exit status 1 if a method that is to be exact gives a wrong answer.\n"
-       "Without the robots of Debian's dart-doc (see --data), those scenes are left out.",
+       "Work is counted outside the timing, and only if counting costs nothing: on the CPU the visited nodes per\n"
+       "state, on the GPU the candidates and root pairs per state. The GPU's traversal and the peers have no counts.\n"
+       "scripts/charts draws the tables. Exit status 1 if a method that claims to be exact gives a wrong answer.\n"
+       "Without the robots of Debian's dart-doc (see --data), their scenes are left out.",
        {{"--quick", "", "all methods, two scenes, few states: under a minute"},
         {"--out", "DIR", "folder for the tables (default benchmark)"},
         {"--data", "DIR", "folder with urdf/KR5, urdf/drchubo, urdf/wam, robots/ur5_robotiq, problems/ur5"},
         {"--parts", "A,B", "of " + join(kParts) + " (default all)"},
         {"--scenes", "A,B", "of " + join(benchmarkSceneNames())},
-        {"--methods", "A,B", "see the error for a name that there is not"},
+        {"--methods", "A,B", "an unknown name prints the list"},
         {"--kinds", "A,B", "of states: " + join(stateKinds())},
-        {"--padding", "X,Y", "metres (default 0,0.01; with --quick 0); all but the first with random states alone"},
+        {"--padding", "X,Y", "metres (default 0,0.01; with --quick 0); values after the first only with random states"},
         {"--batches", "N,M", "sizes of batches of the GPU's methods (default 1024,16384)"},
         {"--max-batch", "N", "states that go to the GPU at once (default: the library's)"},
-        {"--states", "N", "of each kind (default 16384)"},
-        {"--repeats", "N", "(default 5)"},
+        {"--states", "N", "number of states of each kind (default 16384)"},
+        {"--repeats", "N", "number of repeats (default 5)"},
         {"--seconds", "S", "a method that takes longer in a repeat gets fewer states (default 0.5)"},
-        {"--seed", "N", "of the states (default 1)"},
+        {"--seed", "N", "seed of the states (default 1)"},
         {"--device", "D", "auto, software, an index or part of a renderer's name"}},
        run},
       argc, argv);

@@ -51,7 +51,7 @@ std::size_t measureBuilds(const Settings& settings)
       of_this += wrongAnswers(info, answers, truth);
       of_this += wrongAnswers(info, method->check(states.data(), count), truth);
       const Updates::Result update = updates.measure(info, *method);
-      wrong += tellWrong(name + ", build and updates", info, of_this + update.wrong);
+      wrong += reportWrongAnswers(name + ", build and updates", info, of_this + update.wrong);
       table.add({name, scene.scene->robot->triangleCount(), scene.scene->objects.size(), info.name, info.title,
                  info.family, load, build, first, next, median(update.seconds), host.peak(),
                  device.used() - device_before});

@@ -42,11 +42,14 @@ class BulletHulls : public PairwisePeer
     for (const ShapeInstance& geometry : problem().robot)
       robot_.push_back(placed(geometry, link_poses[geometry.link] * geometry.pose));
   }
-  bool meetsWorld(std::size_t robot, std::size_t world, double required) override
+  bool collidesWithWorld(std::size_t robot, std::size_t world, double required) override
   {
     return meet(robot_[robot], world_[world], static_cast<btScalar>(required));
   }
-  bool meetsSelf(std::size_t first, std::size_t second) override { return meet(robot_[first], robot_[second], 0); }
+  bool collidesWithSelf(std::size_t first, std::size_t second) override
+  {
+    return meet(robot_[first], robot_[second], 0);
+  }
 
   Placed placed(const ShapeInstance& geometry, const Eigen::Isometry3d& pose) const
   {

@@ -17,7 +17,7 @@ constexpr int kHalvings = 12;
 
 std::shared_ptr<const CpuForest> forestOf(const CollisionProblem& problem)
 {
-  return std::make_shared<const CpuForest>(problem, buildBinnedSah(problem.trees));
+  return std::make_shared<const CpuForest>(problem, buildBinnedSah(problem.tessellations));
 }
 
 /// The problem restricted to the pairs of two bodies.

@@ -20,7 +20,7 @@ namespace gpu_planning_scene::core::benchmark
 namespace
 {
 constexpr std::size_t kStates = 4096;
-constexpr std::size_t kMostTrianglesOfPeers = 1000000;  // FCL's trees of more need too much memory
+constexpr std::size_t kMaxTrianglesOfPeers = 1000000;  // FCL's trees of more need too much memory
 
 class Growth
 {
@@ -40,7 +40,7 @@ class Growth
   {
     if (CpuChecker(scene.scene).report().always_colliding)
       throw Error("the scene with " + std::to_string(amount) + " " + with +
-                  " collides whatever the joints: nothing can be measured with it");
+                  " collides in every state, so it cannot be measured");
     const std::size_t count = settings_.quick ? 256 : kStates;
     const std::vector<double> states = scene.randomStates(count, settings_.seed);
     const std::vector<std::uint8_t> truth = Truth(scene.scene).check(states.data(), count);
@@ -49,7 +49,7 @@ class Growth
     {
       if (!info.responsive)
         continue;
-      if (with == "triangles" && amount > kMostTrianglesOfPeers && info.family == "FCL")
+      if (with == "triangles" && amount > kMaxTrianglesOfPeers && info.family == "FCL")
       {
         std::cerr << "growth: " << info.title << " is left out with " << amount
                   << " triangles: its trees take too much memory\n";
@@ -112,7 +112,7 @@ class Growth
       wrong += wrongAnswers(info, answers, truth);
     }
     const Updates::Result update = updates != nullptr ? updates->measure(info, method) : Updates::Result();
-    wrong_ += tellWrong("growth, " + std::to_string(amount) + " " + with, info, wrong + update.wrong);
+    wrong_ += reportWrongAnswers("growth, " + std::to_string(amount) + " " + with, info, wrong + update.wrong);
     table_.add({with, amount, info.name, info.title, info.family, batch, median(wall), median(cpu), once.load,
                 once.build, median(update.seconds), validShare(truth)});
     progress_.update(++done_);

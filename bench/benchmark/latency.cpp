@@ -29,8 +29,8 @@ struct Timed
 /// Number of calls of a size: fewer calls for larger sizes.
 std::size_t callsOf(std::size_t size, bool quick)
 {
-  const std::size_t most = quick ? 20 : 1000;
-  return std::max<std::size_t>(quick ? 2 : 20, most / size);
+  const std::size_t limit = quick ? 20 : 1000;
+  return std::max<std::size_t>(quick ? 2 : 20, limit / size);
 }
 
 /// Returns the number of wrong answers.
@@ -57,7 +57,7 @@ std::size_t timeCalls(const TestScene& scene, std::vector<Timed>& methods, const
       }
   std::size_t sum = 0;
   for (const auto& [info, count] : wrong)
-    sum += tellWrong(scene.name + ", latency of " + std::to_string(size) + " states", *info, count);
+    sum += reportWrongAnswers(scene.name + ", latency of " + std::to_string(size) + " states", *info, count);
   return sum;
 }
 

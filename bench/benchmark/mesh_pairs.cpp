@@ -68,7 +68,7 @@ std::shared_ptr<const CollisionProblem> problemOf(const Shape& a, const Shape& b
 {
   auto problem = std::make_shared<CollisionProblem>();
   problem->shapes = {b, a};
-  problem->trees = {tessellate(b), tessellate(a)};
+  problem->tessellations = {tessellate(b), tessellate(a)};
   problem->robot = {{0, 0, 0, Isometry3d::Identity()}};
   problem->world = {{1, 1, -1, Isometry3d::Identity()}};
   problem->world_pairs = {1};
@@ -96,8 +96,8 @@ Collide onGpu(const Shape& a, const Shape& b, const MethodInfo& info, const Sett
 
 Collide exactly(const std::shared_ptr<const CollisionProblem>& problem)
 {
-  auto traversal =
-      std::make_shared<const CpuTraversal>(problem, std::make_shared<const Forest>(buildBinnedSah(problem->trees)));
+  auto traversal = std::make_shared<const CpuTraversal>(
+      problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
   return [traversal](const std::vector<Isometry3d>& poses)
   {
     Answers answers(poses.size());

@@ -52,7 +52,7 @@ std::size_t measureMovedObjects(const Settings& settings)
     const TestScene scene = amongBoxes(testScene(name));
     if (CpuChecker(scene.scene).report().always_colliding)
       throw Error(robot + " among " + std::to_string(kObjects) +
-                  " boxes collides whatever the joints: nothing can be measured with it");
+                  " boxes collides in every state, so it cannot be measured");
     const Updates updates(scene, settings.quick ? 5 : 200);
     for (const MethodInfo& info : settings.methods)
     {
@@ -61,7 +61,8 @@ std::size_t measureMovedObjects(const Settings& settings)
         continue;
       const std::unique_ptr<Method> method = info.make(scene.scene, settings.method);
       const Updates::Result result = updates.measure(info, *method);
-      wrong += tellWrong(robot + ", one of " + std::to_string(kObjects) + " objects moved", info, result.wrong);
+      wrong +=
+          reportWrongAnswers(robot + ", one of " + std::to_string(kObjects) + " objects moved", info, result.wrong);
       std::vector<double> times;
       for (const double seconds : result.seconds)
         times.push_back(1e3 * seconds);

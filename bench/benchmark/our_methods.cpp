@@ -150,10 +150,11 @@ MethodInfo automatic(int millimetres)
 
 /// A common form of a GPU check: the same shaders with error bounds of 0. Pairs that touch to the last bit or take too
 /// many steps are still undecided. They are reported as collisions.
-class FloatsAlone : public Method
+class UnfilteredFloat : public Method
 {
  public:
-  FloatsAlone(const std::shared_ptr<const PlanningScene>& scene, BatchCheckerOptions options) : shaders_(shaderFolder())
+  UnfilteredFloat(const std::shared_ptr<const PlanningScene>& scene, BatchCheckerOptions options)
+    : shaders_(shaderFolder())
   {
     shaders_.define("UNIT_ROUNDOFF", "0.0");
     shaders_.define("CONTRACT_BAND", "0.0");
@@ -198,7 +199,7 @@ std::vector<MethodInfo> ourMethods()
   floats.title = "ours, float32 only";
   floats.family = "float32 only";
   floats.make = [](const auto& scene, const MethodOptions& options)
-  { return std::make_unique<FloatsAlone>(scene, batchOptions(options)); };
+  { return std::make_unique<UnfilteredFloat>(scene, batchOptions(options)); };
   methods.push_back(floats);
   return methods;
 }

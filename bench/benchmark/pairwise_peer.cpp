@@ -13,7 +13,7 @@ PairwisePeer::PairwisePeer(std::shared_ptr<const CollisionProblem> problem)
   : problem_(std::move(problem)), self_pairs_(problem_->self_pairs)
 {
   if (!problem_->half_spaces.empty())
-    throw Error("Bullet and spheres are not asked about half-spaces; compare with a scene that has none");
+    throw Error("Bullet and spheres do not support half-spaces; use a scene without half-spaces");
 }
 
 bool PairwisePeer::collides(const Eigen::Isometry3d* link_poses)
@@ -23,17 +23,17 @@ bool PairwisePeer::collides(const Eigen::Isometry3d* link_poses)
   for (std::size_t i = 0; i < problem_->robot.size(); ++i)
     for (std::size_t k = 0; k < world; ++k)
       if (problem_->world_pairs[i * world + k] != 0 &&
-          meetsWorld(i, k, problem_->robot[i].padding + problem_->world[k].padding))
+          collidesWithWorld(i, k, problem_->robot[i].padding + problem_->world[k].padding))
         return true;
   return std::any_of(self_pairs_.begin(), self_pairs_.end(),
-                     [&](const auto& pair) { return meetsSelf(pair[0], pair[1]); });
+                     [&](const auto& pair) { return collidesWithSelf(pair[0], pair[1]); });
 }
 
-void PairwisePeer::leaveOutPairs(const RobotModel& robot)
+void PairwisePeer::disableDefaultPairs(const RobotModel& robot)
 {
   constexpr std::size_t kStates = 2000;
   constexpr std::size_t kAlways = kStates * 95 / 100;
-  const CpuTraversal exact(problem_, std::make_shared<const Forest>(buildBinnedSah(problem_->trees)));
+  const CpuTraversal exact(problem_, std::make_shared<const Forest>(buildBinnedSah(problem_->tessellations)));
   CpuTraversal::Scratch scratch;
   std::set<BodyPair> truly;
   std::vector<std::size_t> collisions(self_pairs_.size());
@@ -48,7 +48,7 @@ void PairwisePeer::leaveOutPairs(const RobotModel& robot)
       truly.insert(pair);
     place(poses.data());
     for (std::size_t k = 0; k < self_pairs_.size(); ++k)
-      collisions[k] += meetsSelf(self_pairs_[k][0], self_pairs_[k][1]) ? 1 : 0;
+      collisions[k] += collidesWithSelf(self_pairs_[k][0], self_pairs_[k][1]) ? 1 : 0;
   }
   std::vector<std::array<std::uint32_t, 2>> kept;
   for (std::size_t k = 0; k < self_pairs_.size(); ++k)

@@ -19,14 +19,14 @@ class PairwisePeer : public Peer
   /// Leaves out pairs of links as MoveIt's Setup Assistant does: pairs whose simpler shapes collide in at least 95 % of
   /// random states, and pairs whose true shapes never collide in them. Otherwise links whose simpler shapes overlap in
   /// every state would make every state a collision. This favours the peer: other methods check these pairs.
-  void leaveOutPairs(const RobotModel& robot);
+  void disableDefaultPairs(const RobotModel& robot);
 
  protected:
   /// Sets the state of the robot for the two functions below.
   virtual void place(const Eigen::Isometry3d* link_poses) = 0;
   /// Arguments are instances: indices into the problem's `robot` and `world`. `required`: metres.
-  virtual bool meetsWorld(std::size_t robot, std::size_t world, double required) = 0;
-  virtual bool meetsSelf(std::size_t first, std::size_t second) = 0;
+  virtual bool collidesWithWorld(std::size_t robot, std::size_t world, double required) = 0;
+  virtual bool collidesWithSelf(std::size_t first, std::size_t second) = 0;
 
   const CollisionProblem& problem() const { return *problem_; }
 

@@ -105,9 +105,9 @@ MethodInfo peerMethod(const std::string& name, const std::string& title, const s
   return info;
 }
 
-std::unique_ptr<Peer> fitted(std::unique_ptr<PairwisePeer> peer, const RobotModel& robot)
+std::unique_ptr<Peer> withDisabledPairs(std::unique_ptr<PairwisePeer> peer, const RobotModel& robot)
 {
-  peer->leaveOutPairs(robot);
+  peer->disableDefaultPairs(robot);
   return peer;
 }
 }  // namespace
@@ -138,11 +138,12 @@ std::vector<MethodInfo> peerMethods()
   methods[1].responsive = true;
   methods.push_back(peerMethod("bullet_hulls", "Bullet, hulls", "Bullet",
                                [](const auto& problem, const RobotModel& robot)
-                               { return fitted(makeBulletHulls(problem), robot); }));
+                               { return withDisabledPairs(makeBulletHulls(problem), robot); }));
   for (const std::size_t count : {4, 16, 64})
-    methods.push_back(peerMethod(
-        "spheres_" + std::to_string(count), std::to_string(count) + " spheres a link", "spheres",
-        [count](const auto& problem, const RobotModel& robot) { return fitted(makeSpheres(problem, count), robot); }));
+    methods.push_back(peerMethod("spheres_" + std::to_string(count), std::to_string(count) + " spheres a link",
+                                 "spheres",
+                                 [count](const auto& problem, const RobotModel& robot)
+                                 { return withDisabledPairs(makeSpheres(problem, count), robot); }));
   return methods;
 }
 

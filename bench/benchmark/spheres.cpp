@@ -77,9 +77,9 @@ class Spheres : public PairwisePeer
       made_of_balls.push_back(std::holds_alternative<std::shared_ptr<const Mesh>>(shape));
     for (const ShapeInstance& geometry : problem->robot)
       made_of_balls[geometry.tree] = true;
-    for (std::size_t i = 0; i < problem->trees.size(); ++i)
+    for (std::size_t i = 0; i < problem->tessellations.size(); ++i)
     {
-      const Mesh& mesh = *problem->trees[i].mesh;
+      const Mesh& mesh = *problem->tessellations[i].mesh;
       fitted->push_back({boundingBall(mesh), made_of_balls[i] ? fitBalls(mesh, count) : std::vector<Ball>()});
     }
     fitted_ = std::move(fitted);
@@ -149,7 +149,7 @@ class Spheres : public PairwisePeer
     return std::visit(DistanceFrom{obstacle.inverse * ball.center}, *obstacle.shape) <= ball.radius + required;
   }
 
-  bool meetsWorld(std::size_t robot, std::size_t world, double padding) override
+  bool collidesWithWorld(std::size_t robot, std::size_t world, double padding) override
   {
     Part& part = robot_[robot];
     const Obstacle& obstacle = world_[world];
@@ -160,7 +160,7 @@ class Spheres : public PairwisePeer
     return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) { return meets(ball, obstacle, required); });
   }
 
-  bool meetsSelf(std::size_t first, std::size_t second) override
+  bool collidesWithSelf(std::size_t first, std::size_t second) override
   {
     Part& a = robot_[first];
     Part& b = robot_[second];

@@ -281,7 +281,8 @@ std::size_t measureBatch(const Batch& batch, std::vector<Run>& runs, GeometricEr
     tables.addThroughput(batch, run, runs);
     const std::size_t of_this = tables.addAccuracy(batch, run, error);
     if (run.info->exact)
-      wrong += tellWrong(label + ", batches of " + std::to_string(run.batch), *run.info, of_this + run.wrong_timed);
+      wrong +=
+          reportWrongAnswers(label + ", batches of " + std::to_string(run.batch), *run.info, of_this + run.wrong_timed);
   }
   return wrong;
 }

@@ -36,7 +36,7 @@ std::size_t wrongAnswers(const MethodInfo& info, const std::vector<std::uint8_t>
   return wrong;
 }
 
-std::size_t tellWrong(const std::string& where, const MethodInfo& info, std::size_t wrong)
+std::size_t reportWrongAnswers(const std::string& where, const MethodInfo& info, std::size_t wrong)
 {
   if (wrong > 0)
     std::cerr << where << ": " << info.title << " gives " << wrong << " wrong answers\n";

@@ -34,5 +34,5 @@ std::size_t wrongAnswers(const MethodInfo& info, const std::vector<std::uint8_t>
                          const std::vector<std::uint8_t>& truth, std::size_t begin = 0);
 
 /// Prints a line with `where` on stderr if `wrong` is above 0. Returns `wrong`.
-std::size_t tellWrong(const std::string& where, const MethodInfo& info, std::size_t wrong);
+std::size_t reportWrongAnswers(const std::string& where, const MethodInfo& info, std::size_t wrong);
 }  // namespace gpu_planning_scene::core::benchmark

@@ -38,7 +38,7 @@ struct MakeShape
   }
   std::shared_ptr<btConvexShape> operator()(const HalfSpace&) const
   {
-    throw Error("the Bullet peer knows no half-spaces; compare with a scene that has none");
+    throw Error("the Bullet peer does not support half-spaces; use a scene without half-spaces");
   }
   std::shared_ptr<btConvexShape> operator()(const std::shared_ptr<const Mesh>& mesh) const
   {

@@ -27,7 +27,7 @@ BatchResult FclChecker::check(const double* states, std::size_t count, const std
                               const JointNeighbourhood* around)
 {
   if (group != group_)
-    throw std::logic_error("an FclChecker of group " + group_ + " is asked about " + group);
+    throw std::logic_error("an FclChecker of group " + group_ + " got a request for group " + group);
   std::optional<Margins> margins;
   if (around)
     margins = displacements_.margins(*around, states, count);

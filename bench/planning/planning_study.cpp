@@ -257,11 +257,11 @@ class Study
 
 void study(const CommandLine& arguments)
 {
-  constexpr long long kMost = 1000000;
+  constexpr long long kMax = 1000000;
   Settings settings;
   settings.out = arguments.required("--out");
-  settings.problems = static_cast<std::size_t>(arguments.integer("--problems", kMost, 1, kMost));
-  settings.runs = static_cast<std::size_t>(arguments.integer("--runs", 1, 1, kMost));
+  settings.problems = static_cast<std::size_t>(arguments.integer("--problems", kMax, 1, kMax));
+  settings.runs = static_cast<std::size_t>(arguments.integer("--runs", 1, 1, kMax));
   settings.seconds = arguments.number("--seconds", settings.seconds, 1e-3, 1e6);
   settings.device = arguments.value("--device", settings.device);
   std::filesystem::create_directories(settings.out);
@@ -283,9 +283,9 @@ int main(int argc, char** argv)
       "Exit code: 0 no wrong path, 1 a path that was accepted under the bound collides, or another error,\n"
       "2 bad usage.",
       {{"--out", "DIR", "folder for planning.csv, a row for each plan, and planning_summary.csv"},
-       {"--problems", "N", "so many of the problems, of each set some (default: all)"},
-       {"--runs", "N", "each problem so often, with other seeds (default 1)"},
-       {"--seconds", "S", "for each plan (default 10)"},
+       {"--problems", "N", "number of problems, spread over all sets (default: all)"},
+       {"--runs", "N", "runs of each problem with different seeds (default 1)"},
+       {"--seconds", "S", "time limit of each plan (default 10)"},
        {"--device", "D", "\"auto\" (a GPU, else llvmpipe), \"software\", an index, part of a renderer's name"}},
       benchmark::study};
   return runTool(tool, argc, argv);

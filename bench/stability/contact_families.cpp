@@ -30,14 +30,14 @@ Case solidFaces(std::uint64_t seed, std::size_t index)
   return made;
 }
 
-Case solidsAnyhow(std::uint64_t seed, std::size_t index)
+Case solidsRandomContact(std::uint64_t seed, std::size_t index)
 {
   Random random(seed, index);
   const MeshPtr a = random.coin() ? randomTetrahedron(random) : boxMesh(randomSize(random));
   const MeshPtr b = randomTetrahedron(random);
   const Vector3d point_a = innerPoint(random, a);
   const Vector3d point_b = innerPoint(random, b);
-  return placed(random, a, b, justApart(random, a, point_a, b, point_b, random.offset()));
+  return placed(random, a, b, poseNearContact(random, a, point_a, b, point_b, random.offset()));
 }
 
 /// A corner or an edge of one box on a face of another.
@@ -48,7 +48,7 @@ Case solidVertexOrEdge(std::uint64_t seed, std::size_t index)
   const MeshPtr b = boxMesh(randomSize(random));
   const Isometry3d turned = random.coin() ? Isometry3d(random.rotation())
                                           : Isometry3d(Eigen::AngleAxisd(random.uniform(0.1, 1.4), Vector3d::UnitX()));
-  return placed(random, a, b, justApart(a, b, turned, Vector3d::UnitZ(), random.offset()));
+  return placed(random, a, b, poseNearContact(a, b, turned, Vector3d::UnitZ(), random.offset()));
 }
 
 Case deepOverlap(std::uint64_t seed, std::size_t index)
@@ -68,7 +68,7 @@ Case mixedSizes(std::uint64_t seed, std::size_t index)
   const MeshPtr grain = scaled(*(random.coin() ? bumpyBall(random, 4) : randomTetrahedron(random)), 1e-5);
   Isometry3d start(random.rotation());
   start.translation() = Vector3d(random.uniform(-0.49, 0.49), random.uniform(-0.49, 0.49), 0.05);
-  return placed(random, slab, grain, justApart(slab, grain, start, Vector3d::UnitZ(), random.offset()));
+  return placed(random, slab, grain, poseNearContact(slab, grain, start, Vector3d::UnitZ(), random.offset()));
 }
 
 /// The vertices of both are 100 m from the origin of their frames.
@@ -81,7 +81,7 @@ Case farFromOwnOrigin(std::uint64_t seed, std::size_t index)
   const Vector3d from_b = 100.0 * random.direction();
   const Vector3d point_a = innerPoint(random, a);
   const Vector3d point_b = innerPoint(random, b);
-  const Isometry3d b_in_a = justApart(random, a, point_a, b, point_b, random.offset());
+  const Isometry3d b_in_a = poseNearContact(random, a, point_a, b, point_b, random.offset());
   return placed(random, moved(*a, shifted(from_a)), moved(*b, shifted(from_b)),
                 shifted(from_a) * b_in_a * shifted(-from_b));
 }
@@ -137,7 +137,7 @@ std::vector<Family> contactFamilies()
   return {
       {"solids: face on face", solidFaces, true, true},
       {"solids: vertex or edge on face", solidVertexOrEdge, true, true},
-      {"solids: any contact", solidsAnyhow, true, true},
+      {"solids: any contact", solidsRandomContact, true, true},
       {"solids: deep interpenetration", deepOverlap},
       {"triangle sizes 1e5 : 1", mixedSizes},
       {"vertices 100 m from their frame's origin", farFromOwnOrigin},

@@ -152,7 +152,7 @@ Case damagedSurfaces(std::uint64_t seed, std::size_t index)
   const MeshPtr b = random.coin() ? damagedBall(random) : randomTetrahedron(random);
   const Vector3d point_a = innerPoint(random, a);
   const Vector3d point_b = innerPoint(random, b);
-  return placed(random, a, b, justApart(random, a, point_a, b, point_b, random.offset()));
+  return placed(random, a, b, poseNearContact(random, a, point_a, b, point_b, random.offset()));
 }
 
 }  // namespace

@@ -26,9 +26,9 @@ std::vector<FloatTriangle> trianglesOf(const Shape& shape, const Eigen::Isometry
 
 bool separates(const Eigen::Vector3f& axis, const FloatTriangle& a, const FloatTriangle& b)
 {
-  const auto [a_least, a_most] = std::minmax({axis.dot(a[0]), axis.dot(a[1]), axis.dot(a[2])});
-  const auto [b_least, b_most] = std::minmax({axis.dot(b[0]), axis.dot(b[1]), axis.dot(b[2])});
-  return a_most < b_least || b_most < a_least;
+  const auto [a_min, a_max] = std::minmax({axis.dot(a[0]), axis.dot(a[1]), axis.dot(a[2])});
+  const auto [b_min, b_max] = std::minmax({axis.dot(b[0]), axis.dot(b[1]), axis.dot(b[2])});
+  return a_max < b_min || b_max < a_min;
 }
 
 /// The separating axis test of two triangles with 17 axes: two normals, nine products of edges, and the in-plane

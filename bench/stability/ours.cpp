@@ -20,7 +20,7 @@ std::uint32_t treeOf(const Shape& shape, CollisionProblem& problem)
   if (same != problem.shapes.end())
     return static_cast<std::uint32_t>(same - problem.shapes.begin());
   problem.shapes.push_back(shape);
-  problem.trees.push_back(tessellate(shape));
+  problem.tessellations.push_back(tessellate(shape));
   return static_cast<std::uint32_t>(problem.shapes.size() - 1);
 }
 
@@ -112,7 +112,8 @@ struct Ours::Impl
 
   static void appendExact(const Part& part, std::vector<std::uint8_t>& answers)
   {
-    const CpuTraversal traversal(part.problem, std::make_shared<const Forest>(buildBinnedSah(part.problem->trees)));
+    const CpuTraversal traversal(part.problem,
+                                 std::make_shared<const Forest>(buildBinnedSah(part.problem->tessellations)));
     CpuTraversal::Scratch scratch;
     std::vector<Eigen::Isometry3d> poses(part.linkCount());
     for (std::size_t i = 0; i < part.count; ++i)

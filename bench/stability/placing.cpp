@@ -61,8 +61,8 @@ Case withPadding(Random& random, Case made)
   return made;
 }
 
-Eigen::Isometry3d justApart(const Shape& a, const Shape& b, const Eigen::Isometry3d& start,
-                            const Eigen::Vector3d& direction, double offset)
+Eigen::Isometry3d poseNearContact(const Shape& a, const Shape& b, const Eigen::Isometry3d& start,
+                                  const Eigen::Vector3d& direction, double offset)
 {
   const oracle::PreparedShape first(a);
   const oracle::PreparedShape second(b);
@@ -86,12 +86,12 @@ Eigen::Isometry3d justApart(const Shape& a, const Shape& b, const Eigen::Isometr
   return at(free + offset);
 }
 
-Eigen::Isometry3d justApart(Random& random, const Shape& a, const Eigen::Vector3d& point_a, const Shape& b,
-                            const Eigen::Vector3d& point_b, double offset)
+Eigen::Isometry3d poseNearContact(Random& random, const Shape& a, const Eigen::Vector3d& point_a, const Shape& b,
+                                  const Eigen::Vector3d& point_b, double offset)
 {
   Eigen::Isometry3d start(random.rotation());
   start.translation() = point_a - start.linear() * point_b;
-  return justApart(a, b, start, random.direction(), offset);
+  return poseNearContact(a, b, start, random.direction(), offset);
 }
 
 Eigen::Vector3d innerPoint(Random& random, const Shape& shape)

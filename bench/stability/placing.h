@@ -24,12 +24,12 @@ Case withPadding(Random& random, Case made);
 
 /// A pose of b in a's frame near contact. b gets a random rotation, and a point of b is placed on a point of a. Then b
 /// is moved in a random direction until the shapes are just apart, and by `offset` (metres) further.
-Eigen::Isometry3d justApart(Random& random, const Shape& a, const Eigen::Vector3d& point_a, const Shape& b,
-                            const Eigen::Vector3d& point_b, double offset);
+Eigen::Isometry3d poseNearContact(Random& random, const Shape& a, const Eigen::Vector3d& point_a, const Shape& b,
+                                  const Eigen::Vector3d& point_b, double offset);
 
 /// The same with a given start pose and direction.
-Eigen::Isometry3d justApart(const Shape& a, const Shape& b, const Eigen::Isometry3d& start,
-                            const Eigen::Vector3d& direction, double offset);
+Eigen::Isometry3d poseNearContact(const Shape& a, const Shape& b, const Eigen::Isometry3d& start,
+                                  const Eigen::Vector3d& direction, double offset);
 
 /// A point in a triangle of the mesh; the centre of a primitive.
 Eigen::Vector3d innerPoint(Random& random, const Shape& shape);

@@ -91,7 +91,7 @@ Isometry3d nearPlace(Random& random, const Shape& a, const Shape& b, double offs
   const Vector3d point_a = innerPoint(random, a);
   start.translation() = point_a - start.linear() * innerPoint(random, b);
   const Vector3d direction = random.below(3) == 0 ? Vector3d::Unit(random.below(3)).eval() : random.direction();
-  return justApart(a, b, start, direction, offset);
+  return poseNearContact(a, b, start, direction, offset);
 }
 
 std::function<Case(std::uint64_t, std::size_t)> contacts(MakeShape make_a, MakeShape make_b)
@@ -201,8 +201,9 @@ Case onHalfSpace(Random& random, double offset)
   const Isometry3d start = someRotation(random);
   const Vector3d upwards = Vector3d(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), 1.0).normalized();
   // The start is well below the ground, so the motion upwards passes through a contact.
-  return placed(random, ground, body,
-                justApart(ground, body, Isometry3d(Eigen::Translation3d(0.0, 0.0, -2.0)) * start, upwards, offset));
+  return placed(
+      random, ground, body,
+      poseNearContact(ground, body, Isometry3d(Eigen::Translation3d(0.0, 0.0, -2.0)) * start, upwards, offset));
 }
 
 Case halfSpaces(std::uint64_t seed, std::size_t index)

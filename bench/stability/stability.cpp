@@ -26,7 +26,7 @@ std::ofstream openFile(const CommandLine& arguments, const std::string& option)
     return file;
   file.open(arguments.required(option));
   if (!file)
-    throw Error(arguments.required(option) + ": cannot be written; give " + option + " another path");
+    throw Error(arguments.required(option) + ": the file cannot be written; give " + option + " another path");
   return file;
 }
 
@@ -78,7 +78,7 @@ void runStability(const CommandLine& arguments)
     if (failures > kReported)
       std::cerr << "\n  and " << failures - kReported << " more wrong answers";
     std::cerr << (failures > 0 ? "\n  " : ": ") << secondsSince(start) << " s, " << rows.back().undecided
-              << " settled by the CPU" << std::endl;
+              << " decided by the CPU" << std::endl;
   }
   writeMarkdown(markdown.is_open() ? markdown : std::cout, {seed, cases, ours.deviceName()}, rows);
   if (csv.is_open())
@@ -94,15 +94,15 @@ int main(int argc, char** argv)
   return runTool(
       {"stability",
        "[--quick] [--seed N] [--cases N] [--csv FILE] [--markdown FILE] [--device D]",
-       "Holds the answers of this project's methods, and of others, against true distances in quadruple precision, in\n"
-       "cases that are hard to get right. Prints the table of wrong answers (Markdown). Exit status 1 if an answer of\n"
+       "Compares the answers of this project's methods and of others with true distances in quadruple precision, in\n"
+       "hard cases. Prints the table of wrong answers (Markdown). Exit status 1 if an answer of\n"
        "this project is wrong.",
        {{"--quick", "", "64 cases of each family instead of 2048"},
-        {"--seed", "N", "of the random cases (default 1)"},
-        {"--cases", "N", "how many of each family"},
-        {"--family", "TEXT", "only families whose name contains it"},
+        {"--seed", "N", "seed of the random cases (default 1)"},
+        {"--cases", "N", "number of cases of each family (default 2048)"},
+        {"--family", "TEXT", "only families whose name contains TEXT"},
         {"--csv", "FILE", "writes the table for scripts/stability_chart"},
-        {"--markdown", "FILE", "writes the table there instead of printing it"},
+        {"--markdown", "FILE", "writes the table to FILE instead of printing it"},
         {"--device", "D", "auto (default), software, an index, or part of a renderer's name"},
         {"--shaders", "DIR", "a folder of shaders instead of the installed one"}},
        runStability},

@@ -34,8 +34,8 @@ void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& ro
     cases += row.colliding + row.free + row.either;
   out << "# The stability table\n\n"
       << cases << " cases, " << run.cases << " of most families, seed " << run.seed << ", on " << run.device << ".\n\n"
-      << "A cell is *wrong answers: false \"free\" + false \"collision\"*; 0 is none, - that the method has no such "
-         "feature.\n\n"
+      << "A cell is *wrong answers: false \"free\" + false \"collision\"*; 0: no wrong answer; -: the method does not "
+         "support\nthese cases.\n\n"
       << "| cases | colliding / free / either |";
   for (const MethodName& method : methodNames())
     out << ' ' << method.name << " |";

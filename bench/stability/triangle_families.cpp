@@ -96,7 +96,7 @@ Case nearContact(Random& random, const MeshPtr& a, const MeshPtr& b, const Place
 {
   const Vector3d point_a = innerPoint(random, a);
   const Vector3d point_b = innerPoint(random, b);
-  return placed(random, a, b, justApart(random, a, point_a, b, point_b, random.offset()), place);
+  return placed(random, a, b, poseNearContact(random, a, point_a, b, point_b, random.offset()), place);
 }
 
 /// 72 copies of one pair in the same place: 6 orders of the corners of each triangle, and both argument orders.
@@ -197,7 +197,7 @@ Case inOnePlane(std::uint64_t seed, std::size_t index, bool overlapping)
   }
   const double angle = random.uniform(-3.0, 3.0);
   const Vector3d direction(std::cos(angle), std::sin(angle), 0.0);
-  return placed(random, a, b, justApart(a, b, turned, direction, std::abs(random.offset())));
+  return placed(random, a, b, poseNearContact(a, b, turned, direction, std::abs(random.offset())));
 }
 
 /// Two triangles whose planes form an angle of 1e-3 ... 1e-9 rad, crossing or just apart.
@@ -209,7 +209,7 @@ Case nearlyParallel(std::uint64_t seed, std::size_t index)
                                                                       Vector3d(std::cos(angle), std::sin(angle), 0.0));
   const MeshPtr a = flatTriangle(random);
   const MeshPtr b = flatTriangle(random);
-  return placed(random, a, b, justApart(a, b, tilted, Vector3d::UnitZ(), random.offset()));
+  return placed(random, a, b, poseNearContact(a, b, tilted, Vector3d::UnitZ(), random.offset()));
 }
 
 /// Two triangles that share an edge or a corner, at any angle. Both have the same pose, so rounding does not separate

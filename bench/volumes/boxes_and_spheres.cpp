@@ -13,8 +13,8 @@ using Eigen::Matrix3Xd;
 using Eigen::Vector3d;
 
 constexpr int kBallSteps = 50;
-constexpr Eigen::Index kMostSamples = 96;  // points for the choice of an oriented box's axes
-constexpr std::size_t kTurned = 3;         // number of candidate axes that are refined
+constexpr Eigen::Index kMaxSamples = 96;  // points for the choice of an oriented box's axes
+constexpr std::size_t kTurned = 3;        // number of candidate axes that are refined
 constexpr double kPi = 3.14159265358979323846;
 
 Vector3d sizesAlong(const Matrix3d& axes, const Points& points)
@@ -71,16 +71,16 @@ TriangleSpread spreadOf(const std::vector<Triangle>& triangles)
   return spread;
 }
 
-OwnAxesBox grown(OrientedBox box)
+OrientedBoxVolume grown(OrientedBox box)
 {
   box.half.array() += kGrowth;
   return {box};
 }
 
-/// At most kMostSamples of the points.
+/// At most kMaxSamples of the points.
 Matrix3Xd sampled(const Points& points)
 {
-  const Eigen::Index stride = (points.cols() + kMostSamples - 1) / kMostSamples;
+  const Eigen::Index stride = (points.cols() + kMaxSamples - 1) / kMaxSamples;
   Matrix3Xd samples(3, (points.cols() + stride - 1) / stride);
   for (Eigen::Index i = 0; i < samples.cols(); ++i)
     samples.col(i) = points.col(i * stride);
@@ -119,7 +119,7 @@ FittedBox FittedBox::fit(const Points& points)
   return {grown(fitOrientedBox(spreadOf(triangles), triangles.data(), triangles.size()))};
 }
 
-TurnedBox TurnedBox::fit(const Points& points)
+RefinedOrientedBox RefinedOrientedBox::fit(const Points& points)
 {
   const std::vector<Triangle> triangles = trianglesOf(points);
   const AxesChoice choice = axesChoice(spreadOf(triangles));

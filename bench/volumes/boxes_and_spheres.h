@@ -12,7 +12,7 @@ namespace gpu_planning_scene::core::volumes
 {
 /// A bounding volume is a class with
 ///   static Volume fit(points)  a volume that contains the points with a margin of kGrowth on all sides;
-///   holds(point)               whether the volume contains the point;
+///   contains(point)            whether the volume contains the point;
 ///   size()                     a measure of size; a traversal may open the larger of two nodes;
 ///   kBytes                     size of a node's volume in float32, without links;
 ///   Test                       constructed from the pose of tree b in the frame of tree a, which is the same for all
@@ -32,7 +32,7 @@ struct Sphere
   double radius;
 
   static Sphere fit(const Points& points);
-  bool holds(const Eigen::Vector3d& point) const { return (point - center).norm() <= radius; }
+  bool contains(const Eigen::Vector3d& point) const { return (point - center).norm() <= radius; }
   double size() const { return radius; }
 
   class Test
@@ -59,7 +59,10 @@ struct AxisBox
   Eigen::Vector3d half;
 
   static AxisBox fit(const Points& points);
-  bool holds(const Eigen::Vector3d& point) const { return ((point - center).cwiseAbs().array() <= half.array()).all(); }
+  bool contains(const Eigen::Vector3d& point) const
+  {
+    return ((point - center).cwiseAbs().array() <= half.array()).all();
+  }
   double size() const { return half.squaredNorm(); }
 };
 
@@ -114,7 +117,7 @@ struct AxisBoxByAllAxes : AxisBox
 };
 
 /// An oriented box (OBB), tested along all 15 separating axes.
-struct OwnAxesBox : OrientedBox
+struct OrientedBoxVolume : OrientedBox
 {
   static constexpr std::size_t kBytes = 15 * kFloat;
 
@@ -135,7 +138,7 @@ struct OwnAxesBox : OrientedBox
 };
 
 /// An oriented box with the fit of the CPU checker.
-struct FittedBox : OwnAxesBox
+struct FittedBox : OrientedBoxVolume
 {
   static FittedBox fit(const Points& points);
 };
@@ -143,27 +146,31 @@ struct FittedBox : OwnAxesBox
 /// The oriented box with the smallest surface among several candidates. The candidates start with the frame's axes, the
 /// principal axes of the points, and the axes of the largest triangle (three points per triangle). Each is rotated in
 /// small steps until no step makes its surface smaller.
-struct TurnedBox : OwnAxesBox
+struct RefinedOrientedBox : OrientedBoxVolume
 {
-  static TurnedBox fit(const Points& points);
+  static RefinedOrientedBox fit(const Points& points);
 };
 
 /// An AABB, and an oriented box for a node with no more triangles than a leaf. Two oriented boxes are tested before the
 /// triangles of their nodes.
 struct AxisBoxOrientedLeaf
 {
-  static constexpr std::size_t kBytes = AxisBox::kBytes + OwnAxesBox::kBytes / 2;  // half of a tree's nodes are leaves
+  static constexpr std::size_t kBytes =
+      AxisBox::kBytes + OrientedBoxVolume::kBytes / 2;  // half of a tree's nodes are leaves
 
   AxisBoxByAllAxes box;
   bool leaf;
-  TurnedBox oriented;  // only of a leaf
+  RefinedOrientedBox oriented;  // only of a leaf
 
   static AxisBoxOrientedLeaf fit(const Points& points)
   {
     const bool leaf = points.cols() <= 3 * kLeafTriangles;
-    return {AxisBoxByAllAxes::fit(points), leaf, leaf ? TurnedBox::fit(points) : TurnedBox{}};
+    return {AxisBoxByAllAxes::fit(points), leaf, leaf ? RefinedOrientedBox::fit(points) : RefinedOrientedBox{}};
   }
-  bool holds(const Eigen::Vector3d& point) const { return box.holds(point) && (!leaf || oriented.holds(point)); }
+  bool contains(const Eigen::Vector3d& point) const
+  {
+    return box.contains(point) && (!leaf || oriented.contains(point));
+  }
   double size() const { return box.size(); }
 
   class Test
@@ -177,7 +184,7 @@ struct AxisBoxOrientedLeaf
 
    private:
     AxisBoxByAllAxes::Test boxes_;
-    OwnAxesBox::Test leaves_;
+    OrientedBoxVolume::Test leaves_;
   };
 };
 }  // namespace gpu_planning_scene::core::volumes

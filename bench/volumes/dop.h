@@ -60,7 +60,7 @@ struct Dop
     return dop;
   }
 
-  bool holds(const Eigen::Vector3d& point) const
+  bool contains(const Eigen::Vector3d& point) const
   {
     for (unsigned i = 0; i < kDirections; ++i)
       if (directions()[i].dot(point) > reach[i])

@@ -12,15 +12,15 @@ namespace
 struct Scheme
 {
   const char* name;
-  Opening opening;
+  DescentRule descent_rule;
   bool breadth_first;
 };
 
-constexpr std::array<Scheme, 5> kSchemes = {{{"depth first, larger", Opening::Larger, false},
-                                             {"depth first, shallower", Opening::Shallower, false},
-                                             {"depth first, both", Opening::Both, false},
-                                             {"breadth-first, larger", Opening::Larger, true},
-                                             {"breadth-first, both", Opening::Both, true}}};
+constexpr std::array<Scheme, 5> kSchemes = {{{"depth first, larger", DescentRule::Larger, false},
+                                             {"depth first, shallower", DescentRule::Shallower, false},
+                                             {"depth first, both", DescentRule::Both, false},
+                                             {"breadth-first, larger", DescentRule::Larger, true},
+                                             {"breadth-first, both", DescentRule::Both, true}}};
 
 template <class Volume>
 class MethodOf : public Method
@@ -33,7 +33,7 @@ class MethodOf : public Method
     : Method(name, scheme.name, Volume::kBytes),
       breadth_first_(scheme.breadth_first),
       volumes_(std::move(volumes)),
-      traversal_(placed, *volumes_, scheme.opening)
+      traversal_(placed, *volumes_, scheme.descent_rule)
   {
   }
 
@@ -54,7 +54,7 @@ class MethodOf : public Method
     return colliding;
   }
 
-  bool tellsPair() const override { return !breadth_first_; }
+  bool reportsPair() const override { return !breadth_first_; }
 
  private:
   template <class Count>
@@ -87,7 +87,7 @@ std::vector<std::unique_ptr<Method>> makeMethods(const PlacedPairs& placed)
   addMethods<AxisBoxByFaces<false>>("AABB around b's, 3 axes", placed, methods);
   addMethods<Sphere>("sphere", placed, methods);
   addMethods<FittedBox>("OBB as fitted", placed, methods);
-  addMethods<TurnedBox>("OBB, 15 axes", placed, methods);
+  addMethods<RefinedOrientedBox>("OBB, 15 axes", placed, methods);
   addMethods<AxisBoxOrientedLeaf>("AABB, OBB at leaves", placed, methods);
   addMethods<Dop<14, false>>("14-DOP, slabs of a", placed, methods);
   addMethods<Dop<14, true>>("14-DOP, slabs of both", placed, methods);

@@ -28,7 +28,7 @@ class Method
   virtual std::vector<int> check(const std::vector<std::size_t>& states, WorkCount& count) = 0;
   /// The same without counting, for timing. Returns the number of colliding states.
   virtual std::size_t run(const std::vector<std::size_t>& states) = 0;
-  virtual bool tellsPair() const = 0;
+  virtual bool reportsPair() const = 0;
 
  private:
   std::string volume_;

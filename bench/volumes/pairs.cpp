@@ -58,8 +58,8 @@ PlacedPairs placePairs(const TestScene& scene, const std::vector<double>& states
   if (problem.always_colliding || !problem.half_spaces.empty())
     throw Error(scene.name + ": every state collides or there is a half-space; name another scene");
   PlacedPairs placed;
-  placed.forest = CpuForest(problem, buildBinnedSah(problem.trees));
-  placed.trees = problem.trees.size();
+  placed.forest = CpuForest(problem, buildBinnedSah(problem.tessellations));
+  placed.trees = problem.tessellations.size();
   placed.nodes = 0;
   for (std::uint32_t tree = 0; tree < placed.trees; ++tree)
   {

@@ -13,7 +13,7 @@
 namespace gpu_planning_scene::core::volumes
 {
 /// Selects which of two overlapping nodes is replaced by its children. A leaf is never replaced.
-enum class Opening
+enum class DescentRule
 {
   Larger,     ///< the larger by size()
   Shallower,  ///< the node nearer to its root
@@ -47,7 +47,7 @@ std::vector<std::vector<Volume>> fitVolumes(const PlacedPairs& placed)
       const Points points = corners.middleCols(3 * begin, 3 * (end - begin));
       volumes[number].push_back(Volume::fit(points));
       for (Eigen::Index i = 0; i < points.cols(); ++i)
-        if (!volumes[number].back().holds(points.col(i)))
+        if (!volumes[number].back().contains(points.col(i)))
           throw Error("tree " + std::to_string(number) + ": a volume does not hold its node's triangles; mend its fit");
     }
   }
@@ -60,8 +60,8 @@ template <class Volume>
 class Traversal
 {
  public:
-  Traversal(const PlacedPairs& placed, const std::vector<std::vector<Volume>>& volumes, Opening opening)
-    : placed_(placed), volumes_(volumes), opening_(opening)
+  Traversal(const PlacedPairs& placed, const std::vector<std::vector<Volume>>& volumes, DescentRule descent_rule)
+    : placed_(placed), volumes_(volumes), descent_rule_(descent_rule)
   {
   }
 
@@ -149,10 +149,10 @@ class Traversal
     bool open_b = b.count == 0;
     if (!open_a && !open_b)
       return leavesMeet(tree_a, a, tree_b, b, pair.b_in_a, level, count);
-    if (open_a && open_b && opening_ != Opening::Both)
+    if (open_a && open_b && descent_rule_ != DescentRule::Both)
     {
-      open_a = opening_ == Opening::Larger ? volume_a.size() >= volume_b.size()
-                                           : placed_.depths[pair.a][item.a] <= placed_.depths[pair.b][item.b];
+      open_a = descent_rule_ == DescentRule::Larger ? volume_a.size() >= volume_b.size()
+                                                    : placed_.depths[pair.a][item.a] <= placed_.depths[pair.b][item.b];
       open_b = !open_a;
     }
     for (std::uint32_t i = 0; i < (open_a ? 2U : 1U); ++i)
@@ -182,7 +182,7 @@ class Traversal
 
   const PlacedPairs& placed_;
   const std::vector<std::vector<Volume>>& volumes_;
-  Opening opening_;
+  DescentRule descent_rule_;
   std::vector<typename Volume::Test> tests_;  // breadth-first: one per pair
   std::vector<Item> list_;
   std::vector<Item> next_;

@@ -80,12 +80,12 @@ std::vector<std::size_t> allOf(std::size_t count)
 /// Compares the answers of a method with those of another method (`as`). Throws Error if they differ.
 void compare(const std::string& scene, const Method& method, const std::vector<int>& found, const std::vector<int>& as)
 {
-  std::size_t unlike = 0;
+  std::size_t differing = 0;
   for (std::size_t i = 0; i < as.size(); ++i)
-    unlike += (method.tellsPair() ? found[i] != as[i] : (found[i] >= 0) != (as[i] >= 0)) ? 1 : 0;
-  if (unlike != 0)
-    throw Error(scene + ": " + method.volume() + ", " + method.scheme() + ": " + std::to_string(unlike) +
-                " answers are unlike those of the AABBs; a test of volumes or a scheme is wrong");
+    differing += (method.reportsPair() ? found[i] != as[i] : (found[i] >= 0) != (as[i] >= 0)) ? 1 : 0;
+  if (differing != 0)
+    throw Error(scene + ": " + method.volume() + ", " + method.scheme() + ": " + std::to_string(differing) +
+                " answers differ from those of the AABBs; a test of volumes or a scheme is wrong");
 }
 
 /// Compares with the exact checker, which finds every collision of these inscribed surfaces. It also finds collisions
@@ -262,8 +262,9 @@ void study(const TestScene& scene, const Settings& settings, Tables* tables)
   measureTimes(rows, settings.repeats);
 
   std::printf(
-      "\n## %s, %s states, seed %llu\n\n%zu states, %zu of them free, %zu of which the exact checker, that knows true "
-      "curved surfaces and what is inside, finds colliding; %.1f pairs a state; %zu trees with %zu nodes. All methods "
+      "\n## %s, %s states, seed %llu\n\n%zu states, %zu of them free, %zu of which collide for the exact checker, "
+      "which knows "
+      "true curved surfaces and containment; %.1f pairs a state; %zu trees with %zu nodes. All methods "
       "gave the same answers.\n\n",
       scene.name.c_str(), settings.kind.c_str(), static_cast<unsigned long long>(settings.seed), expected.size(),
       free.states.size(), others, static_cast<double>(placed.pairs.size()) / static_cast<double>(placed.states()),
@@ -333,20 +334,21 @@ int main(int argc, char** argv)
       "volume_study",
       "[--scene NAME]... [--kind KIND] [--states N] [--repeats N] [--seed S] [--levels] [--out DIR]",
       "Bounding volumes (spheres, AABBs, OBBs, k-DOPs) in trees of one topology, under several schemes of traversal,\n"
-      "on one core in double: a state's pairs whose boxes around the placed roots overlap, all of them to the end "
-      "where\n"
-      "the state is free, up to the first hit where it collides. All shapes are triangles here, and only surfaces are\n"
+      "on one core in double. The pairs of a state are those whose boxes around the placed roots overlap. A free "
+      "state\n"
+      "traverses all pairs, a colliding state stops at the first hit. All shapes are triangles here, and only surfaces "
+      "are\n"
       "tested. Prints Markdown tables: work a state and microseconds of CPU time, triangle tests included (median of\n"
       "the repeats, in which the methods take turns), for free and for colliding states.\n"
-      "Exit code: 0, 1 if a method's answers are unlike another's or the exact checker's, or another error, 2 bad "
+      "Exit code: 0, 1 if the answers of methods or of the exact checker differ, or another error, 2 bad "
       "usage.",
       {{"--scene", "NAME", "of " + join(benchmarkSceneNames()) + " (default arm_shelf)", true},
        {"--kind", "KIND", "of states: " + join(benchmark::stateKinds()) + " (default random)"},
-       {"--states", "N", "(default 2000)"},
-       {"--repeats", "N", "(default 5)"},
-       {"--seed", "S", "of the random numbers (default 1)"},
+       {"--states", "N", "number of states (default 2000)"},
+       {"--repeats", "N", "number of repeats (default 5)"},
+       {"--seed", "S", "seed of the random states (default 1)"},
        {"--levels", "", "tables of the work level by level, too"},
-       {"--out", "DIR", "volume_totals.csv and volume_levels.csv there: sums over the states"}},
+       {"--out", "DIR", "folder for volume_totals.csv and volume_levels.csv: sums over the states"}},
       run};
   return runTool(tool, argc, argv);
 }

@@ -62,8 +62,11 @@ class AllowedCollisionMatrix
   struct Body
   {
     std::map<std::string, bool> entries;  // by the name of the other body; both bodies store the entry of a pair
-    std::optional<bool> by_default;
-    bool operator==(const Body& other) const { return entries == other.entries && by_default == other.by_default; }
+    std::optional<bool> default_allowed;
+    bool operator==(const Body& other) const
+    {
+      return entries == other.entries && default_allowed == other.default_allowed;
+    }
   };
 
   /// Removes the entry for `other` from `body`. A body without any entry or default is removed too.

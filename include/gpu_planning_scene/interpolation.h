@@ -25,9 +25,9 @@ std::vector<JointTravel> jointTravel(const RobotModel& robot, const double* from
 /// more than its step within a segment. It is a double because it can exceed the range of integers.
 double segmentCount(const RobotModel& robot, const double* from, const double* to, const MotionSteps& steps);
 
-/// True if a whole turn of a continuous joint leads to another robot state. This is the case if a revolute or
-/// continuous joint mimics it with a multiplier that is not a whole number, or if a prismatic joint mimics it.
-bool hasNoPeriod(const RobotModel& robot, const Joint& joint);
+/// True if a whole turn of a continuous joint leads to the same robot state. False if a revolute or continuous joint
+/// mimics it with a multiplier that is not a whole number, or if a prismatic joint mimics it.
+bool isPeriodic(const RobotModel& robot, const Joint& joint);
 
 /// The signed rotation, in radians, from one angle to another in the shorter direction: -pi to pi. It is finite for all
 /// finite angles.
@@ -35,7 +35,7 @@ double shortestAngularDistance(double from, double to);
 
 /// Writes the state at `fraction` (0 to 1) of the straight motion from one state to another. Angles of continuous and
 /// planar joints turn in the shorter direction, quaternions are interpolated by slerp, and all other variables
-/// linearly. A continuous joint that has no period (hasNoPeriod) is interpolated linearly too. At 0 and 1 the result
+/// linearly. A continuous joint that is not periodic (isPeriodic) is interpolated linearly too. At 0 and 1 the result
 /// equals `from` or `to` bit by bit. So an angle that differs by more than half a turn between `from` and `to` jumps by
 /// whole turns at 1, which is the same place.
 void interpolate(const RobotModel& robot, const double* from, const double* to, double fraction, double* state);

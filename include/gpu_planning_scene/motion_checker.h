@@ -32,7 +32,7 @@ struct MotionCheckerOptions
   MotionSteps steps{0.02, 0.02};  ///< largest steps between samples, before any subdivision
   /// Limit for each motion. A motion that has more samples than this is rejected. Under MotionRule::Bound, a motion is
   /// also rejected if this many checks of states, its samples included, do not prove it free.
-  std::size_t most_samples = 20000;
+  std::size_t max_samples = 20000;
 };
 
 struct MotionVerdict

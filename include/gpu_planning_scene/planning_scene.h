@@ -33,7 +33,7 @@ struct AttachedObject
   int link = -1;
   std::vector<int> touch_links = {};  ///< link indices; the link that carries it need not be listed
   double padding = 0.0;               ///< metres, at least 0, added to the link's padding
-  /// The object's shapes at the scale of its link, see PlanningScene::scaleCarried; null: the shapes of `object`,
+  /// The object's shapes at the scale of its link, see PlanningScene::scaleAttached; null: the shapes of `object`,
   /// unscaled.
   std::shared_ptr<const std::vector<PlacedShape>> scaled_shapes = nullptr;
 
@@ -112,7 +112,7 @@ struct PlanningScene
   void setLinkScale(const std::vector<double>& factors);
   /// Scales the shapes of an attached object as its link is scaled. Call it for an AttachedObject that attach() did not
   /// make, before you add it to `attached`. Throws Error if a scaled shape is not valid.
-  void scaleCarried(AttachedObject& carried) const;
+  void scaleAttached(AttachedObject& object) const;
 
   /// Pose of a frame in the planning frame. The name is looked up in this order: the planning frame (also as an empty
   /// name), links, objects and attached objects, subframes (OBJECT/SUBFRAME), fixed frames. A leading slash is

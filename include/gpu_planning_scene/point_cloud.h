@@ -13,10 +13,10 @@ namespace gpu_planning_scene::core
 {
 struct PointCloudOptions
 {
-  double voxel = 0.05;                ///< metres: edge length of a cube
-  double robot_padding = 0.03;        ///< metres: cubes up to this distance from the robot are left out as its own
-  double most_distance = 10.0;        ///< metres: points further from the sensor are left out
-  std::size_t most_voxels = 200'000;  ///< a cloud with more is refused
+  double voxel = 0.05;               ///< metres: edge length of a cube
+  double robot_padding = 0.03;       ///< metres: cubes up to this distance from the robot are left out as its own
+  double max_distance = 10.0;        ///< metres: points further from the sensor are left out
+  std::size_t max_voxels = 200'000;  ///< a cloud with more is refused
 };
 
 /// Turns point clouds into one world object. The space around the planning frame's origin is divided into voxels; the
@@ -25,7 +25,7 @@ struct PointCloudOptions
 class PointCloudFilter
 {
  public:
-  /// Throws Error if an option is negative or not finite, or if `voxel` or `most_distance` is 0.
+  /// Throws Error if an option is negative or not finite, or if `voxel` or `max_distance` is 0.
   explicit PointCloudFilter(const PointCloudOptions& options);
   ~PointCloudFilter();
 
@@ -33,7 +33,7 @@ class PointCloudFilter
   /// value per variable. Points that are not finite are left out, because sensors mark missing measurements with them.
   /// Cubes within `robot_padding` of the robot of `scene` in `state`, or of its attached objects, are left out too. The
   /// exact checker decides this; the paddings of the links do not count. The object has no shapes if no cube is left.
-  /// Throws Error if `state` or `sensor` is not valid, if the cloud fills more than `most_voxels` voxels, or if a point
+  /// Throws Error if `state` or `sensor` is not valid, if the cloud fills more than `max_voxels` voxels, or if a point
   /// is too far from the origin of the planning frame for the size of the voxels.
   WorldObject objectOf(const std::string& id, const std::vector<Eigen::Vector3f>& points,
                        const Eigen::Isometry3d& sensor, const PlanningScene& scene, const double* state);

@@ -26,12 +26,12 @@ enum class Operation
 };
 
 /// The name of a frame and a time in nanoseconds; 0: the latest.
-struct FrameAt
+struct StampedFrame
 {
   std::string name;
   std::int64_t stamp = 0;
 };
-inline bool operator<(const FrameAt& a, const FrameAt& b)
+inline bool operator<(const StampedFrame& a, const StampedFrame& b)
 {
   return std::tie(a.name, a.stamp) < std::tie(b.name, b.stamp);
 }
@@ -41,7 +41,7 @@ struct ObjectChange
 {
   Operation operation = Operation::Add;
   std::string id;
-  FrameAt frame;  ///< see PlanningScene::frame
+  StampedFrame frame;  ///< see PlanningScene::frame
   /// Pose of the object in `frame`; no value: not set. Without a pose, a new object is placed at the origin of the
   /// frame. A new object with a single shape then takes the pose of this shape, and the shape moves to the object's
   /// origin. An object that gets more shapes (Append) stays where it is.
@@ -107,10 +107,10 @@ struct SceneLimits
 };
 
 /// Poses, in the planning frame, of frames that the scene does not know. The caller looks them up before the change.
-using ExternalFrames = std::map<FrameAt, Eigen::Isometry3d>;
+using ExternalFrames = std::map<StampedFrame, Eigen::Isometry3d>;
 
 /// The frames of `change` that neither the scene nor an earlier part of the change knows.
-std::vector<FrameAt> externalFrames(const PlanningScene& scene, const SceneChange& change);
+std::vector<StampedFrame> externalFrames(const PlanningScene& scene, const SceneChange& change);
 
 /// The result of a change.
 struct Change

@@ -28,7 +28,7 @@ uint reachesDown(uint root, vec3 normal, float offset, float error, float distan
   stack[0] = root;
   int top = 1;
   uint found = 0u;
-  for (uint steps = 0u; top > 0 && (found & STATE_HIT) == 0u && steps < uint(LANE_ITERATIONS) / (4u * LEAF_TRIANGLES); ++steps)
+  for (uint steps = 0u; top > 0 && (found & STATE_HIT) == 0u && steps < uint(INVOCATION_ITERATIONS) / (4u * LEAF_TRIANGLES); ++steps)
   {
     const TreeNode node = fetchNode(stack[--top]);
     const float height = dot(normal, node.box.center) - offset;
@@ -49,7 +49,7 @@ uint reachesDown(uint root, vec3 normal, float offset, float error, float distan
       for (int k = 0; k < 3; ++k)
       {
         const float above = dot(normal, corners[k]) - offset;
-        found |= above + error <= distance ? STATE_HIT : (above > gap + error && FLOATS_DECIDE != 0 ? 0u : STATE_UNDECIDED);
+        found |= above + error <= distance ? STATE_HIT : (above > gap + error && FLOAT32_TRUSTED != 0 ? 0u : STATE_UNDECIDED);
       }
     }
   }

@@ -10,7 +10,7 @@ struct PlacedInstance
   Box box;      // of the root, in the shape's frame
   Pose pose;
   vec3 center;  // of the box, relative to the scene's origin
-  float way;    // how far the instance may move against the world (worldMargin)
+  float world_margin;  // how far the instance may move against the world (worldMargin)
   // Slack, band of the contract and rounding.
   float margin;
 };
@@ -21,8 +21,8 @@ PlacedInstance place(uint robot, uint state)
   const Box box = fetchNode(instance.root).box;
   const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
   const vec3 center = apply(pose, box.center);
-  const float way = worldMargin(state, robot);
+  const float world_margin = worldMargin(state, robot);
   const float error = 1e-5 * (abs(center.x) + abs(center.y) + abs(center.z) + length(box.center) + length(box.extent) +
-                              instance.padding + way);
-  return PlacedInstance(instance, box, pose, center, way, instance.slack + CONTRACT_BAND + error);
+                              instance.padding + world_margin);
+  return PlacedInstance(instance, box, pose, center, world_margin, instance.slack + CONTRACT_BAND + error);
 }

@@ -36,7 +36,7 @@ uint containment(Instance inner, Instance solid, Pose pose, float error)
   for (uint i = 0u; i < inner.component_count; ++i)
   {
     const float depth = depthInSolid(solid, apply(pose, componentPoint(inner.first_component + i)));
-    found |= depth > error ? STATE_HIT : (depth < -error && FLOATS_DECIDE != 0 ? 0u : STATE_UNDECIDED);
+    found |= depth > error ? STATE_HIT : (depth < -error && FLOAT32_TRUSTED != 0 ? 0u : STATE_UNDECIDED);
   }
   return found;
 }

@@ -15,5 +15,5 @@ void main()
   if (i >= state_count * robot_count)
     return;
   const PlacedInstance placed = place(rowOf(i), stateOf(i));
-  spheres[i] = vec4(placed.center, length(placed.box.extent) + placed.way + placed.margin);
+  spheres[i] = vec4(placed.center, length(placed.box.extent) + placed.world_margin + placed.margin);
 }

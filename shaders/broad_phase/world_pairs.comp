@@ -33,11 +33,11 @@ void main()
   const PlacedInstance placed = place(robot, state);
   const vec3 center = placed.center;
   const vec3 extent =
-      absolute(placed.pose.rotation) * placed.box.extent + placed.instance.padding + placed.way + placed.margin;
+      absolute(placed.pose.rotation) * placed.box.extent + placed.instance.padding + placed.world_margin + placed.margin;
 
   const uint node_count = max(2u * world_count, 1u) - 1u;
   uint at = 0u;
-  for (uint steps = 0u; at < node_count && steps < LANE_ITERATIONS / 2u; ++steps)
+  for (uint steps = 0u; at < node_count && steps < INVOCATION_ITERATIONS / 2u; ++steps)
   {
     const uvec4 head = texelFetch(object_tree, int(2u * at));
     const uvec4 tail = texelFetch(object_tree, int(2u * at + 1u));

@@ -67,7 +67,7 @@ int crossing(vec3 c[3], float error)
 // if none of the three rays decides, or if `iterations`, which counts down, reaches 0.
 uint insideMesh(uint root, vec3 point, float error, inout uint iterations)
 {
-  for (int axis = 0; axis < 3 * FLOATS_DECIDE; ++axis)
+  for (int axis = 0; axis < 3 * FLOAT32_TRUSTED; ++axis)
   {
     uint stack[BUILD_ROUNDS + 2];
     stack[0] = root;

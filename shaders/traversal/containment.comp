@@ -50,7 +50,7 @@ void main()
     return;
   const Instance a = fetchInstance(pairOther(root_pair.pair));
   const Instance b = fetchInstance(pairRobot(root_pair.pair));
-  uint iterations = LANE_ITERATIONS / (4u * LEAF_TRIANGLES);  // small, because the loops contain short inner loops
+  uint iterations = INVOCATION_ITERATIONS / (4u * LEAF_TRIANGLES);  // small, because the loops contain short inner loops
   uint found = meshContainment(b, a, root_pair.pose, boxError(root_pair.error), iterations);
   if ((found & STATE_HIT) == 0u)
     found |= meshContainment(a, b, inversePose(root_pair.pose), inverseError(root_pair.error, farCorner(fetchNode(a.root).box)), iterations);

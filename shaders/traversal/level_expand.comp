@@ -12,13 +12,13 @@ layout(std430, binding = BINDING_D) writeonly buffer LeafPairs { uvec4 leaf_pair
 
 void main()
 {
-  const uint lane = invocationIndex();
+  const uint invocation = invocationIndex();
   const uint entry_count = min(counters[in_counter], in_capacity);
-  if (lane * LEVEL_CHUNK >= entry_count)
+  if (invocation * LEVEL_CHUNK >= entry_count)
     return;
-  uvec2 at = sums[lane];
-  const uint end = min((lane + 1u) * LEVEL_CHUNK, entry_count);
-  for (uint i = lane * LEVEL_CHUNK; i < end; ++i)
+  uvec2 at = sums[invocation];
+  const uint end = min((invocation + 1u) * LEVEL_CHUNK, entry_count);
+  for (uint i = invocation * LEVEL_CHUNK; i < end; ++i)
   {
     const uint mask = masks[i];
     const uvec4 entry = texelFetch(entries, int(i));

@@ -18,13 +18,13 @@ layout(std430, binding = BINDING_B) writeonly buffer Sums { uvec2 sums[]; };
 
 void main()
 {
-  const uint lane = invocationIndex();
+  const uint invocation = invocationIndex();
   const uint entry_count = min(counters[in_counter], in_capacity);
-  if (lane * LEVEL_CHUNK >= entry_count)
+  if (invocation * LEVEL_CHUNK >= entry_count)
     return;
   uvec2 sum = uvec2(0u);
-  const uint end = min((lane + 1u) * LEVEL_CHUNK, entry_count);
-  for (uint i = lane * LEVEL_CHUNK; i < end; ++i)
+  const uint end = min((invocation + 1u) * LEVEL_CHUNK, entry_count);
+  for (uint i = invocation * LEVEL_CHUNK; i < end; ++i)
   {
     const uvec4 entry = texelFetch(entries, int(i));
     const RootPair root_pair = fetchRootPair(entry.x);
@@ -62,5 +62,5 @@ void main()
     masks[i] = mask;
     sum += uvec2(bitCount(mask & 15u), bitCount(mask >> 4u));
   }
-  sums[lane] = sum;
+  sums[invocation] = sum;
 }

@@ -14,14 +14,15 @@ layout(location = LOCATION_IS_LAST) uniform uint is_last;
 void main()
 {
   const uint count = min(counters[in_counter], in_capacity);
-  if (counters[COUNTER_NEXT_ENTRY] < counters[COUNTER_PASS_ENTRIES] || counters[COUNTER_LANES_ENDED] != counters[COUNTER_LANES_STARTED] ||
+  if (counters[COUNTER_NEXT_ENTRY] < counters[COUNTER_PASS_ENTRIES] ||
+      counters[COUNTER_INVOCATIONS_ENDED] != counters[COUNTER_INVOCATIONS_STARTED] ||
       (is_last != 0u && count != 0u))
     counters[COUNTER_OVERFLOW] = 1u;
-  const uint groups = min((count + QUEUE_LANES - 1u) / QUEUE_LANES, QUEUE_MAX_GROUPS);
+  const uint groups = min((count + QUEUE_INVOCATIONS - 1u) / QUEUE_INVOCATIONS, QUEUE_MAX_GROUPS);
   setGroups(COUNTER_ARGUMENTS, groups);
   counters[COUNTER_PASS_ENTRIES] = is_last != 0u ? 0u : count;
-  counters[COUNTER_LANES_STARTED] = is_last != 0u ? 0u : groups * QUEUE_LANES;
-  counters[COUNTER_LANES_ENDED] = 0u;
+  counters[COUNTER_INVOCATIONS_STARTED] = is_last != 0u ? 0u : groups * QUEUE_INVOCATIONS;
+  counters[COUNTER_INVOCATIONS_ENDED] = 0u;
   counters[COUNTER_NEXT_ENTRY] = 0u;
   counters[out_counter] = 0u;
 }

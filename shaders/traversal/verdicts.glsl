@@ -11,7 +11,7 @@ bool isDecided(uint state)
 // Adds `found` (STATE_* bits) to the verdict of a state. If several pairs collide, any one of them may be kept.
 void report(uint state, uint pair, uint found)
 {
-#if !FLOATS_DECIDE
+#if !FLOAT32_TRUSTED
   found = STATE_UNDECIDED;
 #endif
   if ((found & STATE_HIT) != 0u)

@@ -8,7 +8,7 @@
 // has only one store: the memory of an invocation holds node pairs from below and leaf pairs from above. All other
 // writes happen once a round.
 #include "shader_constants.h"
-layout(local_size_x = QUEUE_LANES) in;
+layout(local_size_x = QUEUE_INVOCATIONS) in;
 #include "common/invocation.glsl"
 #include "traversal/root_pairs.glsl"
 #include "problem/nodes.glsl"
@@ -21,7 +21,7 @@ layout(local_size_x = QUEUE_LANES) in;
 #include "common/counters.glsl"
 #include "traversal/verdicts.glsl"
 // Room for all leaf pairs that the invocations can add before the work group tests triangles.
-#define LEAF_QUEUE (QUEUE_FLUSH + QUEUE_LANES * QUEUE_STEPS)
+#define LEAF_QUEUE (QUEUE_FLUSH + QUEUE_INVOCATIONS * QUEUE_STEPS)
 #include "traversal/leaf_queue.glsl"
 #if TOLERANT
 #include "traversal/tolerance.glsl"
@@ -160,7 +160,7 @@ void main()
         leaf_pair_count = 0u;
     }
     iterations += 1u + (STEP_ITERATIONS + 2u) * QUEUE_STEPS + testLeafPairs(flush ? count : 0u);
-    running = more && iterations < LANE_ITERATIONS;
+    running = more && iterations < INVOCATION_ITERATIONS;
     barrier();
   }
 
@@ -171,5 +171,5 @@ void main()
   for (; waiting > 0u; --waiting)
     spill(root_pair_index, memory[waiting - 1u], root_pair.state);
   // This count reveals a device that ends invocations early.
-  atomicAdd(counters[COUNTER_LANES_ENDED], 1u);
+  atomicAdd(counters[COUNTER_INVOCATIONS_ENDED], 1u);
 }

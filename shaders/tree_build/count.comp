@@ -7,16 +7,16 @@ layout(std430, binding = 4) writeonly buffer Sums { uvec2 sums[]; };  // cluster
 
 void main()
 {
-  const uint lane = invocationIndex();
+  const uint invocation = invocationIndex();
   const uint cluster_count = rounds[round_index * ROUND_STRIDE + ROUND_CLUSTERS];
-  if (lane * CHUNK >= cluster_count)
+  if (invocation * CHUNK >= cluster_count)
     return;
   uvec2 sum = uvec2(0u);
-  const uint end = min((lane + 1u) * CHUNK, cluster_count);
-  for (uint i = lane * CHUNK; i < end; ++i)
+  const uint end = min((invocation + 1u) * CHUNK, cluster_count);
+  for (uint i = invocation * CHUNK; i < end; ++i)
   {
     const uint fate = fateOf(i);
     sum += uvec2(fate == VANISHES ? 0u : 1u, fate == MERGES ? 1u : 0u);
   }
-  sums[lane] = sum;
+  sums[invocation] = sum;
 }

@@ -1,6 +1,6 @@
-// One invocation per node: fits its oriented box (fit.glsl). Nodes of more than FIT_LANE_TRIANGLES triangles are listed
-// for fit_large_boxes.comp. Nodes of more than FIT_MOST_TRIANGLES keep their axis-aligned box, which bounds the work:
-// they are the topmost nodes of few trees.
+// One invocation per node: fits its oriented box (fit.glsl). Nodes of more than FIT_INVOCATION_TRIANGLES triangles are
+// listed for fit_large_boxes.comp. Nodes of more than FIT_MAX_TRIANGLES keep their axis-aligned box, which bounds the
+// work: they are the topmost nodes of few trees.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -33,9 +33,9 @@ void main()
     return;
   const TreeNode node = fetchNode(first_node + i);
   const uvec2 below = trianglesBelow(node);
-  if (below.y > FIT_LANE_TRIANGLES)
+  if (below.y > FIT_INVOCATION_TRIANGLES)
   {
-    if (below.y <= FIT_MOST_TRIANGLES)
+    if (below.y <= FIT_MAX_TRIANGLES)
       large_nodes[atomicAdd(large_count, 1u)] = uvec4(first_node + i, below, 0u);
     else
       writeOriented(first_node + i, node, node.box.center, node.box.extent, vec4(0.0, 0.0, 0.0, 1.0));

@@ -17,20 +17,20 @@ shared vec4 chosen_axes[FIT_BOXES];
 
 void main()
 {
-  const uint lane = gl_LocalInvocationID.x;
+  const uint invocation = gl_LocalInvocationID.x;
   const uvec4 listed = large_nodes[first_listed + min(groupIndex(), listed_count - 1u)];
   const TreeNode node = fetchNode(listed.x);
   const uint end = listed.y + listed.z;
   vec3 corners[3];
   Spread spread = emptySpread(listed.y);
-  for (uint k = listed.y + lane; k < end; k += GROUP_SIZE)
+  for (uint k = listed.y + invocation; k < end; k += GROUP_SIZE)
   {
     fetchAround(k, node.box.center, corners);
     add(spread, corners, k);
   }
-  spreads[lane] = spread;
+  spreads[invocation] = spread;
   barrier();
-  if (lane == 0u)
+  if (invocation == 0u)
   {
     for (uint other = 1u; other < GROUP_SIZE; ++other)
       join(spread, spreads[other]);
@@ -41,14 +41,14 @@ void main()
   for (int box = 0; box < FIT_BOXES; ++box)
     rotations[box] = rotationOf(chosen_axes[box]);
   Extents extents = emptyExtents();
-  for (uint k = listed.y + lane; k < end; k += GROUP_SIZE)
+  for (uint k = listed.y + invocation; k < end; k += GROUP_SIZE)
   {
     fetchAround(k, node.box.center, corners);
     extend(extents, corners, rotations);
   }
-  all_extents[lane] = extents;
+  all_extents[invocation] = extents;
   barrier();
-  if (lane == 0u)
+  if (invocation == 0u)
   {
     for (uint other = 1u; other < GROUP_SIZE; ++other)
       for (int box = 0; box < FIT_BOXES; ++box)

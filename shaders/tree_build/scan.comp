@@ -11,9 +11,9 @@ layout(std430, binding = 4) buffer Sums { uvec2 sums[]; };
 #define SCAN_VALUES sums
 #include "common/prefix_sum.glsl"
 
-void setGroups(uint at, uint lanes)
+void setGroups(uint at, uint invocations)
 {
-  const uint groups = (lanes + GROUP_SIZE - 1u) / GROUP_SIZE;
+  const uint groups = (invocations + GROUP_SIZE - 1u) / GROUP_SIZE;
   const uint rows = (groups + 65534u) / 65535u;
   rounds[at] = rows == 0u ? 0u : (groups + rows - 1u) / rows;
   rounds[at + 1u] = rows;
@@ -34,9 +34,9 @@ void main()
     setGroups(now + ROUND_PAIR_GROUPS, total.y);
     rounds[next + ROUND_CLUSTERS] = remaining;
     rounds[next + ROUND_FIRST_PAIR] = rounds[now + ROUND_FIRST_PAIR] + total.y;
-    const uint lanes = remaining == mesh_count ? 0u : remaining;
-    setGroups(next + ROUND_CLUSTER_GROUPS, lanes);
-    setGroups(next + ROUND_CHUNK_GROUPS, (lanes + CHUNK - 1u) / CHUNK);
+    const uint invocations = remaining == mesh_count ? 0u : remaining;
+    setGroups(next + ROUND_CLUSTER_GROUPS, invocations);
+    setGroups(next + ROUND_CHUNK_GROUPS, (invocations + CHUNK - 1u) / CHUNK);
     // The rounds that follow write no clusters. So this record keeps the buffer to which this round, the last one,
     // writes the roots: 1 for the odd clusters (layout_roots.comp).
     if (!done && remaining == mesh_count)

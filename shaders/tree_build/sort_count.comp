@@ -4,20 +4,20 @@
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/sort_digit.glsl"
-layout(std430, binding = 4) writeonly buffer Counts { uint counts[]; };  // [digit][lane]
+layout(std430, binding = 4) writeonly buffer Counts { uint counts[]; };  // [digit][invocation]
 
 void main()
 {
-  const uint lane = invocationIndex();
-  const uint lanes = (key_count + CHUNK - 1u) / CHUNK;
-  if (lane >= lanes)
+  const uint invocation = invocationIndex();
+  const uint invocations = (key_count + CHUNK - 1u) / CHUNK;
+  if (invocation >= invocations)
     return;
   uint count[RADIX_SIZE];
   for (uint d = 0u; d < RADIX_SIZE; ++d)
     count[d] = 0u;
-  const uint end = min((lane + 1u) * CHUNK, key_count);
-  for (uint i = lane * CHUNK; i < end; ++i)
+  const uint end = min((invocation + 1u) * CHUNK, key_count);
+  for (uint i = invocation * CHUNK; i < end; ++i)
     ++count[digitOf(keys_in[i])];
   for (uint d = 0u; d < RADIX_SIZE; ++d)
-    counts[d * lanes + lane] = count[d];
+    counts[d * invocations + invocation] = count[d];
 }

@@ -9,15 +9,15 @@ layout(std430, binding = 5) writeonly buffer KeysOut { uvec2 keys_out[]; };
 
 void main()
 {
-  const uint lane = invocationIndex();
-  const uint lanes = (key_count + CHUNK - 1u) / CHUNK;
-  if (lane >= lanes)
+  const uint invocation = invocationIndex();
+  const uint invocations = (key_count + CHUNK - 1u) / CHUNK;
+  if (invocation >= invocations)
     return;
   uint next[RADIX_SIZE];
   for (uint d = 0u; d < RADIX_SIZE; ++d)
-    next[d] = counts[d * lanes + lane];
-  const uint end = min((lane + 1u) * CHUNK, key_count);
-  for (uint i = lane * CHUNK; i < end; ++i)
+    next[d] = counts[d * invocations + invocation];
+  const uint end = min((invocation + 1u) * CHUNK, key_count);
+  for (uint i = invocation * CHUNK; i < end; ++i)
   {
     const uvec2 key = keys_in[i];
     keys_out[next[digitOf(key)]++] = key;

@@ -14,14 +14,14 @@ layout(std430, binding = 7) writeonly buffer Pairs { uvec4 pairs[]; };  // four 
 
 void main()
 {
-  const uint lane = invocationIndex();
+  const uint invocation = invocationIndex();
   const uint cluster_count = rounds[round_index * ROUND_STRIDE + ROUND_CLUSTERS];
-  if (lane * CHUNK >= cluster_count)
+  if (invocation * CHUNK >= cluster_count)
     return;
-  uvec2 at = sums[lane];
+  uvec2 at = sums[invocation];
   at.y += rounds[round_index * ROUND_STRIDE + ROUND_FIRST_PAIR];
-  const uint end = min((lane + 1u) * CHUNK, cluster_count);
-  for (uint i = lane * CHUNK; i < end; ++i)
+  const uint end = min((invocation + 1u) * CHUNK, cluster_count);
+  for (uint i = invocation * CHUNK; i < end; ++i)
   {
     const uint fate = fateOf(i);
     if (fate == VANISHES)

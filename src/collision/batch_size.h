@@ -12,23 +12,23 @@ class BatchSize
  public:
   struct Limits
   {
-    double seconds;         ///< wanted duration of a batch
-    std::size_t first;      ///< states of the first batch; its duration is not known before
-    std::size_t least = 1;  ///< states
-    std::size_t most;       ///< states, at least 1
+    double seconds;       ///< wanted duration of a batch
+    std::size_t first;    ///< states of the first batch; its duration is not known before
+    std::size_t min = 1;  ///< states
+    std::size_t max;      ///< states, at least 1
   };
 
   explicit BatchSize(const Limits& limits)
-    : limits_(limits), capacity_(limits.most), size_(std::min(limits.first, limits.most))
+    : limits_(limits), capacity_(limits.max), size_(std::min(limits.first, limits.max))
   {
   }
 
   std::size_t size() const { return size_; }
 
-  /// Changes Limits::most.
-  void setMost(std::size_t most)
+  /// Changes Limits::max.
+  void setMax(std::size_t max)
   {
-    limits_.most = capacity_ = most;
+    limits_.max = capacity_ = max;
     size_ = std::min(size_, capacity_);
   }
 
@@ -38,12 +38,12 @@ class BatchSize
     // A batch that was too large says little about much later batches: the limit that it set is raised again.
     if (++good_batches_ >= kBatchesToForget)
     {
-      capacity_ = std::min(limits_.most, 2 * capacity_);
+      capacity_ = std::min(limits_.max, 2 * capacity_);
       good_batches_ = 0;
     }
     const double wanted = static_cast<double>(count) * limits_.seconds / std::max(seconds, 1e-6);
     if (wanted < static_cast<double>(size_))
-      size_ = std::min(capacity_, std::max(limits_.least, static_cast<std::size_t>(wanted)));
+      size_ = std::min(capacity_, std::max(limits_.min, static_cast<std::size_t>(wanted)));
     else if (count == size_ && wanted >= 2.0 * static_cast<double>(count))
       size_ = std::min(capacity_, 2 * size_);
   }
@@ -61,7 +61,7 @@ class BatchSize
   static constexpr int kBatchesToForget = 8;
 
   Limits limits_;
-  std::size_t capacity_;  // smaller than Limits::most for some time after a batch was too large
+  std::size_t capacity_;  // smaller than Limits::max for some time after a batch was too large
   std::size_t size_;      // at most capacity_
   int good_batches_ = 0;
 };

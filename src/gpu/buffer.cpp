@@ -42,11 +42,11 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept
   return *this;
 }
 
-void Buffer::reserve(std::size_t size, std::size_t most)
+void Buffer::reserve(std::size_t size, std::size_t max_bytes)
 {
   if (size <= size_)
     return;
-  Buffer larger(std::max(size, std::min(most, size_ + size_ / 2)));
+  Buffer larger(std::max(size, std::min(max_bytes, size_ + size_ / 2)));
   if (size_)
     larger.copyFrom(*this, size_);
   *this = std::move(larger);
@@ -108,7 +108,7 @@ TexelBuffer::~TexelBuffer()
     glDeleteTextures(1, &texture_);
 }
 
-std::size_t TexelBuffer::mostBytes()
+std::size_t TexelBuffer::maxBytes()
 {
   GLint texels = 0;
   glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
@@ -119,12 +119,12 @@ void TexelBuffer::reserve(std::size_t size)
 {
   if (size <= buffer_.size() && texture_)
     return;
-  const std::size_t most = mostBytes();
-  if (size > most)
-    throw Error("the device holds at most " + std::to_string(most / kTexelBytes) + " texels in a buffer texture, " +
-                std::to_string((size + kTexelBytes - 1) / kTexelBytes) +
-                " are needed; use fewer triangles or a smaller batch");
-  buffer_.reserve(size, most);
+  const std::size_t max_bytes = maxBytes();
+  if (size > max_bytes)
+    throw Error("the scene needs " + std::to_string((size + kTexelBytes - 1) / kTexelBytes) +
+                " texels in a buffer texture, but the device holds at most " + std::to_string(max_bytes / kTexelBytes) +
+                "; use fewer triangles or a smaller batch");
+  buffer_.reserve(size, max_bytes);
   if (!texture_)
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
   glTextureBuffer(texture_, GL_RGBA32UI, buffer_.id());

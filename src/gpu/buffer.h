@@ -21,8 +21,8 @@ class Buffer
   std::size_t size() const { return size_; }
   std::uint32_t id() const { return id_; }
 
-  /// Grows to at least `size` bytes, with head room up to `most` bytes in all, and keeps the contents.
-  void reserve(std::size_t size, std::size_t most = std::numeric_limits<std::size_t>::max());
+  /// Grows to at least `size` bytes, with head room up to `max_bytes` bytes in all, and keeps the contents.
+  void reserve(std::size_t size, std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
   void write(const void* data, std::size_t size, std::size_t offset = 0);
   void read(void* data, std::size_t size, std::size_t offset = 0) const;
   void clear();  ///< fills the buffer with zeros
@@ -61,7 +61,7 @@ class TexelBuffer
   void reserve(std::size_t size);
   Buffer& buffer() { return buffer_; }
   const Buffer& buffer() const { return buffer_; }
-  static std::size_t mostBytes();  ///< the device's limit
+  static std::size_t maxBytes();  ///< the device's limit
   static constexpr std::size_t kTexelBytes = 16;
   void bindTexture(std::uint32_t unit) const;
 

@@ -57,11 +57,11 @@ const char* faultOf(double x, double y, const Outcome& found)
   if (found.left != 0.0F)
     return "a product and a difference are contracted where `precise` forbids it";
   if (!(std::abs(found.length - length) <= 4.0 * UNIT_ROUNDOFF * length))
-    return "a length is off by more than 2^-21 of itself";
+    return "a length has a relative error above 2^-21";
   if (std::abs(found.dot - (x * y + y * y + x * x)) > 3.0 * UNIT_ROUNDOFF * (std::abs(x * y) + y * y + x * x))
     return "a dot product is off by more than 3 units of 2^-23 of its terms";
   if (found.comparison_holds != 0.0F)
-    return "a comparison with no number holds";
+    return "a comparison with NaN is true";
   return nullptr;
 }
 }  // namespace
@@ -119,7 +119,7 @@ std::string findDoubleFault(const std::string& shader_folder)
     const std::array<double, 4> expected = {x + y, x * y, x / y, std::sqrt(std::abs(x * y))};
     for (std::size_t k = 0; k < 4; ++k)
       if (!(std::abs(results[i][k] - expected[k]) <= kRelative * std::abs(expected[k])))
-        return "double precision: an operation is off by more than 2^-50 of its result; the CPU places the links";
+        return "double precision: an operation has a relative error above 2^-50; the CPU places the links";
     if (!(std::abs(floats[i] - expected[1]) <= (0x1p-24 + kRelative) * std::abs(expected[1])))
       return "double precision: numbers are not rounded to the nearest float; the CPU places the links";
   }

@@ -53,13 +53,13 @@ void refuseLostContext()
     case GL_NO_ERROR:
       return;
     case GL_GUILTY_CONTEXT_RESET:
-      cause = "by what it ran";
+      cause = "because of the work of this program";
       break;
     case GL_INNOCENT_CONTEXT_RESET:
       cause = "by another program";
       break;
     default:
-      cause = "for a cause that the driver does not tell";
+      cause = "for an unknown reason";
   }
   throw DeviceLost(std::string("the GPU was reset ") + cause);
 }

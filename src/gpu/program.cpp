@@ -139,9 +139,9 @@ std::string readShader(const std::string& folder, const std::string& name)
   return text;
 }
 
-std::size_t groupsFor(std::size_t lanes)
+std::size_t groupsFor(std::size_t invocations)
 {
-  return (lanes + GROUP_SIZE - 1) / GROUP_SIZE;
+  return (invocations + GROUP_SIZE - 1) / GROUP_SIZE;
 }
 
 Program::Program(const std::string& folder, const std::string& name, const std::string& definitions)
@@ -160,7 +160,7 @@ Program Program::fromText(const std::string& folder, const std::string& name, co
 
 Program::Program(const Source& source)
 {
-  checkGl(("what came before compiling " + source.name).c_str());
+  checkGl(("an operation before compiling " + source.name).c_str());
   id_ = loadCachedProgram(source.text);
   if (id_ == 0)
   {
@@ -196,7 +196,7 @@ void Program::dispatch(std::size_t groups) const
   const std::size_t columns = (groups + rows - 1) / rows;
   if (rows > kMaxGroups)
     throw Error("a dispatch of " + std::to_string(groups) +
-                " workgroups is more than OpenGL can run; use a smaller batch");
+                " workgroups exceeds the limit of OpenGL; use a smaller batch");
   waitForEarlierDispatches();
   glUseProgram(id_);
   glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);

@@ -16,8 +16,8 @@ std::string shaderFolder();
 /// the name of a missing file.
 std::string readShader(const std::string& folder, const std::string& name);
 
-/// The number of work groups of GROUP_SIZE that hold at least `lanes` invocations.
-std::size_t groupsFor(std::size_t lanes);
+/// The number of work groups of GROUP_SIZE that hold at least `invocations` invocations.
+std::size_t groupsFor(std::size_t invocations);
 
 /// A compute program. Move-only; used on the context's thread.
 class Program

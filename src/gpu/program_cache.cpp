@@ -21,7 +21,7 @@ namespace
 {
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20U;
+constexpr std::uintmax_t kMaxBytes = std::uintmax_t{64} << 20U;
 
 struct Entry
 {
@@ -102,7 +102,7 @@ std::uint64_t checksum(Header header, const std::string& key, const std::vector<
 std::optional<Entry> readEntry(const fs::path& path, const std::string& key)
 {
   std::error_code missing;
-  if (fs::file_size(path, missing) > kMostBytes || missing)
+  if (fs::file_size(path, missing) > kMaxBytes || missing)
     return {};
   std::ifstream file(path, std::ios::binary);
   const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
@@ -148,7 +148,7 @@ void writeEntry(const fs::path& path, const std::string& key, const Entry& entry
     fs::remove(temporary, failed);
 }
 
-/// Removes the files that were used longest ago, until the rest has at most kMostBytes. Temporary files that a killed
+/// Removes the files that were used longest ago, until the rest has at most kMaxBytes. Temporary files that a killed
 /// process left are removed likewise.
 void removeOldest(const fs::path& folder)
 {
@@ -171,7 +171,7 @@ void removeOldest(const fs::path& folder)
     files.push_back(file);
   }
   std::sort(files.begin(), files.end(), [](const File& a, const File& b) { return a.used < b.used; });
-  for (auto file = files.begin(); file != files.end() && bytes > kMostBytes; ++file)
+  for (auto file = files.begin(); file != files.end() && bytes > kMaxBytes; ++file)
   {
     fs::remove(file->path, failed);
     bytes -= file->size;

@@ -37,9 +37,9 @@ void Readback::reserve(std::size_t size)
   glCreateBuffers(1, &id_);
   glNamedBufferStorage(id_, bytes, nullptr, kAccess | GL_CLIENT_STORAGE_BIT);
   words_ = static_cast<const std::uint32_t*>(glMapNamedBufferRange(id_, 0, bytes, kAccess));
-  checkGl("mapping memory for answers");
+  checkGl("mapping a readback buffer");
   if (!words_)
-    throw Error("the GPU failed in mapping " + std::to_string(bytes) + " bytes for answers");
+    throw Error("the GPU failed in mapping a readback buffer of " + std::to_string(bytes) + " bytes");
   size_ = static_cast<std::size_t>(bytes);
 }
 
@@ -51,21 +51,21 @@ void Readback::begin(const Buffer& from, std::size_t size)
   glCopyNamedBufferSubData(from.id(), id_, 0, 0, static_cast<GLsizeiptr>(size));
   fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   glFlush();
-  checkGl("asking for answers");
+  checkGl("starting a readback");
 }
 
 const std::uint32_t* Readback::wait()
 {
   if (!fence_)
-    throw Error("there are no answers to wait for: ask for them first");
+    throw Error("no readback was begun: call begin() before wait()");
   constexpr GLuint64 kNanoseconds = 1000000000;
   GLenum state = GL_TIMEOUT_EXPIRED;
   while (state == GL_TIMEOUT_EXPIRED)
     state = glClientWaitSync(static_cast<GLsync>(fence_), GL_SYNC_FLUSH_COMMANDS_BIT, kNanoseconds);
   dropFence();
-  checkGl("waiting for answers");
+  checkGl("waiting for a readback");
   if (state == GL_WAIT_FAILED)
-    throw Error("the GPU failed in waiting for answers");
+    throw Error("the GPU failed in waiting for a readback");
   return words_;
 }
 }  // namespace gpu_planning_scene::core

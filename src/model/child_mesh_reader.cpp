@@ -25,7 +25,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 using Clock = std::chrono::steady_clock;
-constexpr std::size_t kMostErrorBytes = 4096;
+constexpr std::size_t kMaxErrorBytes = 4096;
 
 /// A text from which the same number is read back.
 std::string exact(double value)
@@ -154,7 +154,7 @@ struct Answer
 };
 
 /// Reads the output of the child until it closes both pipes, the time is over, or it writes more than allowed.
-Answer readAnswer(const Pipe& out, const Pipe& err, Clock::time_point end, std::size_t most)
+Answer readAnswer(const Pipe& out, const Pipe& err, Clock::time_point end, std::size_t max_bytes)
 {
   Answer answer;
   std::array<pollfd, 2> ends{{{out.readEnd(), POLLIN, 0}, {err.readEnd(), POLLIN, 0}}};
@@ -182,7 +182,7 @@ Answer readAnswer(const Pipe& out, const Pipe& err, Clock::time_point end, std::
         continue;
       }
       (i == 0 ? answer.out : answer.err).append(buffer.data(), static_cast<std::size_t>(count));
-      if (answer.out.size() > most || answer.err.size() > kMostErrorBytes)
+      if (answer.out.size() > max_bytes || answer.err.size() > kMaxErrorBytes)
       {
         answer.too_long = true;
         return answer;
@@ -206,7 +206,7 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
               out, err);
   out.closeWriteEnd();
   err.closeWriteEnd();
-  Answer answer = readAnswer(out, err, end, mostMeshBytes(limits.triangles));
+  Answer answer = readAnswer(out, err, end, maxMeshBytes(limits.triangles));
   if (!answer.late && !answer.too_long)
     answer.late = !child.endsBy(end);  // the child may close its pipes and run on
   if (answer.late || answer.too_long)
@@ -215,7 +215,8 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
   if (answer.late || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM)))
     throw Error(file + "reading it takes longer than " + exact(limits.seconds) + " s (~mesh/seconds)");
   if (answer.too_long)
-    throw Error(file + "the reader says more than a mesh of " + std::to_string(limits.triangles) + " triangles holds");
+    throw Error(file + "the reader sent more data than a mesh of " + std::to_string(limits.triangles) +
+                " triangles has");
   if (WIFSIGNALED(status))
     throw Error(file + "the reader crashed (signal " + std::to_string(WTERMSIG(status)) + ")");
   switch (WEXITSTATUS(status))

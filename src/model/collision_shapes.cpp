@@ -31,7 +31,7 @@ Shape toShape(const urdf::Geometry& geometry, const RobotModelOptions& options, 
                          {mesh.scale.x, mesh.scale.y, mesh.scale.z});
     }
   }
-  throw Error("a collision element has a geometry that is not known");
+  throw Error("a collision element has an unknown geometry type");
 }
 }  // namespace
 

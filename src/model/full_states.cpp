@@ -75,7 +75,7 @@ std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& 
     if (!given[i] && !current.known[i])
       missing.push_back(robot.variables()[i].name);
   if (!missing.empty())
-    throw Error("no value for " + joined(missing) + ": neither given nor known from the scene's current state");
+    throw Error("no value for " + joined(missing) + ": neither the request nor the scene's current state has one");
 
   std::vector<double> states(count * width);
   for (std::size_t row = 0; row < count; ++row)

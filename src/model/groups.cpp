@@ -20,7 +20,8 @@ class GroupResolver
       if (by_name_.emplace(group.name, &group).second)
         order_.push_back(&group);
       else
-        warnings_.push_back(group.where + ": group '" + group.name + "' is defined twice, the first definition holds");
+        warnings_.push_back(group.where + ": group '" + group.name +
+                            "' is defined twice; the first definition is used");
   }
 
   std::vector<Group> resolve()

@@ -32,20 +32,20 @@ std::string meshBytes(const Mesh& mesh)
   return bytes;
 }
 
-std::size_t mostMeshBytes(std::size_t triangles)
+std::size_t maxMeshBytes(std::size_t triangles)
 {
   return bytesOf(3 * triangles, triangles);
 }
 
-std::shared_ptr<const Mesh> meshFromBytes(const std::string& bytes, const std::string& path, std::size_t most_triangles)
+std::shared_ptr<const Mesh> meshFromBytes(const std::string& bytes, const std::string& path, std::size_t max_triangles)
 {
   const std::string file = "mesh file '" + path + "': ";
   Counts counts{};
   if (bytes.size() >= sizeof counts)
     std::memcpy(counts.data(), bytes.data(), sizeof counts);
   const auto& [vertices, triangles] = counts;
-  if (triangles > most_triangles)
-    throw Error(file + "it has " + std::to_string(triangles) + " triangles; at most " + std::to_string(most_triangles) +
+  if (triangles > max_triangles)
+    throw Error(file + "it has " + std::to_string(triangles) + " triangles; at most " + std::to_string(max_triangles) +
                 " are allowed");
   // The counts are limited first, so that bytesOf() cannot overflow.
   if (vertices > 3 * triangles || bytes.size() != bytesOf(vertices, triangles))

@@ -14,9 +14,8 @@ namespace gpu_planning_scene::core
 std::string meshBytes(const Mesh& mesh);
 
 /// Largest number of bytes of a mesh with at most this many triangles.
-std::size_t mostMeshBytes(std::size_t triangles);
+std::size_t maxMeshBytes(std::size_t triangles);
 
 /// Reads a mesh from these bytes, which are not trusted. Throws Error that names `path`.
-std::shared_ptr<const Mesh> meshFromBytes(const std::string& bytes, const std::string& path,
-                                          std::size_t most_triangles);
+std::shared_ptr<const Mesh> meshFromBytes(const std::string& bytes, const std::string& path, std::size_t max_triangles);
 }  // namespace gpu_planning_scene::core

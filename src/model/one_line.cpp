@@ -18,14 +18,14 @@ bool continues(char byte)
 }
 
 /// Shortens a text by its middle, because the reason of an error is often at its end.
-std::string withoutMiddle(std::string_view text, std::size_t most)
+std::string withoutMiddle(std::string_view text, std::size_t max_size)
 {
-  if (text.size() <= most)
+  if (text.size() <= max_size)
     return std::string(text);
-  std::size_t from = most / 2;
+  std::size_t from = max_size / 2;
   while (from > 0 && continues(text[from]))
     --from;
-  std::size_t to = text.size() - most / 2;
+  std::size_t to = text.size() - max_size / 2;
   while (to < text.size() && continues(text[to]))
     ++to;
   return std::string(text.substr(0, from)) + "[... " + std::to_string(to - from) + " bytes ...]" +

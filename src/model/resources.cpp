@@ -34,7 +34,7 @@ std::string decodePercents(const std::string& text, const std::string& uri)
     }
   }
   if (decoded.find('\0') != std::string::npos)
-    throw Error("mesh URI '" + uri + "' holds a zero byte");
+    throw Error("mesh URI '" + uri + "' contains a zero byte");
   return decoded;
 }
 
@@ -95,10 +95,7 @@ std::string resolveUri(const std::string& uri, const std::string& base_folder, c
   if (uri[0] == '/')
     return uri;
   if (base_folder.empty())
-  {
-    throw Error("mesh path '" + uri +
-                "' is relative, but it is not known to which folder; write package:// or an absolute path");
-  }
+    throw Error("mesh path '" + uri + "' is relative, and no base folder is set; write package:// or an absolute path");
   return (fs::path(base_folder) / uri).string();
 }
 }  // namespace gpu_planning_scene::core

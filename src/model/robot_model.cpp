@@ -77,7 +77,7 @@ const Group& RobotModel::group(const std::string& name) const
     names += (names.empty() ? "" : ", ") + group.name;
   }
   throw Error("robot '" + name_ + "' has no group '" + name + "'; " +
-              (names.empty() ? "it has no groups, they come from an SRDF" : "its groups: " + names));
+              (names.empty() ? "it has no groups (groups come from an SRDF)" : "its groups: " + names));
 }
 
 std::vector<std::pair<int, int>> RobotModel::adjacentLinks() const

@@ -62,7 +62,7 @@ class RobotModelBuilder
       }
       ignored_joints_.insert(joint.name);
       warnings_.push_back(joint.where + ": virtual joint '" + joint.name + "' is ignored: " +
-                          (fits ? "there is another before it"
+                          (fits ? "a virtual joint was defined before it"
                            : joint.parent_frame.empty()
                                ? "its parent frame is empty"
                                : "its child link '" + joint.child_link + "' is not the root link '" + root + "'"));
@@ -86,7 +86,7 @@ class RobotModelBuilder
   {
     if (srdf.robot_name != model_->name_)
     {
-      warnings_.push_back(srdf.where + ": the SRDF is for robot '" + srdf.robot_name + "', the URDF is of '" +
+      warnings_.push_back(srdf.where + ": the SRDF is for robot '" + srdf.robot_name + "', but the URDF is of robot '" +
                           model_->name_ + "'");
     }
     for (const SrdfName& passive : srdf.passive_joints)

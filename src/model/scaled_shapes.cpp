@@ -21,7 +21,7 @@ struct ScalePrimitive
     return Cylinder{cylinder.radius * factor, cylinder.length * factor};
   }
   Shape operator()(const Cone& cone) const { return Cone{cone.radius * factor, cone.length * factor}; }
-  Shape operator()(const HalfSpace&) const { throw Error("a half-space has no size that could be scaled"); }
+  Shape operator()(const HalfSpace&) const { throw Error("a half-space cannot be scaled"); }
   Shape operator()(const std::shared_ptr<const Mesh>& mesh) const { return mesh; }
 };
 }  // namespace

@@ -46,7 +46,7 @@ struct DimensionCheck
   void operator()(const std::shared_ptr<const Mesh>& mesh) const
   {
     if (!mesh)
-      throw Error(where + ": there is no mesh");
+      throw Error(where + ": the mesh is missing");
     try
     {
       validateMesh(*mesh);

@@ -101,7 +101,7 @@ class TreeBuilder
     if (result.type == JointType::Planar && !urdf_.xml.hasChild("joint", joint.name, "axis"))
     {
       warnings_.push_back(whereJoint(joint.name) +
-                          " is planar and has no <axis>: its normal is x, as the URDF format has it");
+                          " is planar and has no <axis>: its normal is x, the default of the URDF format");
     }
     if (joint.mimic && result.type == JointType::Fixed)
       warnings_.push_back(whereJoint(joint.name) + " is fixed, its <mimic> is ignored");
@@ -129,7 +129,7 @@ class TreeBuilder
       case urdf::Joint::FIXED:
         return JointType::Fixed;
       default:
-        throw Error(whereJoint(joint.name) + " has a type that is not known");
+        throw Error(whereJoint(joint.name) + " has an unknown type");
     }
   }
 
@@ -210,12 +210,12 @@ class TreeBuilder
                         : joint.type == JointType::Planar   ? 2
                         : joint.type == JointType::Floating ? 3
                                                             : 0;
-      const double most =
+      const double limit =
           std::max(0.0, kLargestLength - std::abs(joint.offset)) / std::max(std::abs(joint.multiplier), 1e-300);
       for (int i = 0; i < count; ++i)
       {
         double& largest = tree_.variables[static_cast<std::size_t>(joint.first_variable + i)].largest;
-        largest = std::min(largest, most);
+        largest = std::min(largest, limit);
       }
     }
   }

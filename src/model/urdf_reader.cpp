@@ -76,7 +76,7 @@ std::string joined(const std::vector<std::string>& messages)
   std::string text;
   for (const std::string& message : messages)
     text += (text.empty() ? "" : "; ") + message;
-  return text.empty() ? "urdfdom refused it without saying why" : text;
+  return text.empty() ? "urdfdom refused the text and gave no reason" : text;
 }
 
 void removeChildren(tinyxml2::XMLElement& parent, const char* tag)

@@ -15,15 +15,14 @@ namespace
 {
 std::vector<Option> options()
 {
-  return {
-      {"--object", "ID=FILE[,POSE]",
-       "an STL, DAE, OBJ or PLY file; POSE is x,y,z or\nx,y,z,qx,qy,qz,qw; an object of that name is replaced;\n"
-       "can be repeated",
-       true},
-      {"--frame", "NAME",
-       "what POSE is given in: a link, an object, OBJECT/SUBFRAME,\nor any frame of tf (default: the planning frame)"},
-      {"--node", "NAME", "the node (default /planning_scene)"},
-      {"--wait", "SECONDS", "for the node to come up (default 5)"}};
+  return {{"--object", "ID=FILE[,POSE]",
+           "an STL, DAE, OBJ or PLY file; POSE is x,y,z or\nx,y,z,qx,qy,qz,qw; an object of that name is replaced;\n"
+           "can be repeated",
+           true},
+          {"--frame", "NAME",
+           "the frame of POSE: a link, an object, OBJECT/SUBFRAME,\nor any frame of tf (default: the planning frame)"},
+          {"--node", "NAME", "the node (default /planning_scene)"},
+          {"--wait", "SECONDS", "time to wait for the node (default 5)"}};
 }
 
 shape_msgs::Mesh messageOf(const Mesh& mesh)
@@ -80,7 +79,7 @@ void run(const CommandLine& arguments)
   if (!ros::service::waitForService(name, ros::Duration(arguments.number("--wait", 5.0, 0.0, 1e6))))
     throw Error("there is no service " + name + "; start the node, or name it (--node)");
   if (!ros::service::call(name, service))
-    throw Error("the call of " + name + " failed; see what the node says");
+    throw Error("the call of " + name + " failed; see the log of the node");
   if (!service.response.success)
     throw Error(service.response.message);
   if (!service.response.message.empty())

@@ -16,10 +16,10 @@ void setMessageLimit(std::uint32_t bytes)
 
 void requireMessageSize(std::uint32_t bytes)
 {
-  const std::uint32_t most = message_limit;
-  if (bytes > most)
-    throw std::runtime_error("a message of " + std::to_string(bytes) + " bytes; at most " + std::to_string(most) +
-                             " are taken (~limits/message_size)");
+  const std::uint32_t limit = message_limit;
+  if (bytes > limit)
+    throw std::runtime_error("the message has " + std::to_string(bytes) + " bytes; the limit is " +
+                             std::to_string(limit) + " (~limits/message_size)");
 }
 
 void BoundedStream::next(std::string& text)
@@ -60,6 +60,6 @@ void BoundedStream::copy(void* to, std::size_t bytes)
 void BoundedStream::require(std::size_t bytes) const
 {
   if (static_cast<std::size_t>(end_ - at_) < bytes)
-    throw std::runtime_error("a message ends early, or a length in it is wrong");
+    throw std::runtime_error("the message ends early, or one of its lengths is wrong");
 }
 }  // namespace gpu_planning_scene::core

@@ -91,7 +91,7 @@ void readBounded(const std::uint8_t* data, std::uint32_t size, M& message)
   BoundedStream stream(data, size);
   stream.next(message);
   if (!stream.atEnd())
-    throw std::runtime_error("a message is longer than what it holds");
+    throw std::runtime_error("the message has bytes after its last field");
 }
 
 /// Takes the place of M in services and topics, with the traits of M. `fault`: the reason why the message could not be

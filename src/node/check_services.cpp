@@ -6,21 +6,21 @@
 #include <tuple>
 #include <utility>
 
+#include "collision/checkers/scene_text.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
-#include "node/answered.h"
 #include "node/from_messages.h"
-#include "node/report_text.h"
 #include "node/requested_states.h"
+#include "node/respond.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kInspections = 2;               // at the same time
-constexpr std::chrono::milliseconds kLook{100};       // interval in which a waiting request checks for shutdown
-constexpr std::chrono::milliseconds kPatience{4000};  // longest wait for the checker after the start of the shutdown
+constexpr std::size_t kInspections = 2;                    // at the same time
+constexpr std::chrono::milliseconds kPollInterval{100};    // interval in which a waiting request checks for shutdown
+constexpr std::chrono::milliseconds kShutdownGrace{4000};  // longest wait for the checker during a shutdown
 
 Error shuttingDown()
 {
@@ -36,18 +36,18 @@ std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedColli
 }
 
 /// The options for a request's motions, and the number of samples of all motions. Throws Error for more than
-/// `most_samples`. `starts`, `ends`: one full state per motion.
+/// `max_samples`. `starts`, `ends`: one full state per motion.
 std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions::Request& request,
                                                               const RobotModel& robot, MotionRule default_rule,
                                                               const std::vector<double>& starts,
-                                                              const std::vector<double>& ends, std::size_t most_samples)
+                                                              const std::vector<double>& ends, std::size_t max_samples)
 {
   MotionCheckerOptions options;
   options.rule = request.motion_rule.empty() ? default_rule : motionRuleFromName(request.motion_rule);
   options.steps = {request.resolution, request.translation_resolution};
   validateSteps(options.steps);
   if (options.rule == MotionRule::Samples)
-    options.most_samples = most_samples;
+    options.max_samples = max_samples;
   const std::size_t width = robot.variables().size();
   double all = 0.0;
   for (std::size_t row = 0; row < starts.size(); row += width)
@@ -55,11 +55,12 @@ std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions
     const double samples = segmentCount(robot, &starts[row], &ends[row], options.steps) + 1.0;
     all += samples;
     const std::string motion = "motion " + std::to_string(row / width);
-    if (samples > static_cast<double>(options.most_samples))
-      throw Error(motion + " has more than " + std::to_string(options.most_samples) +
+    if (samples > static_cast<double>(options.max_samples))
+      throw Error(motion + " has more than " + std::to_string(options.max_samples) +
                   " samples; cut it into several motions, or take larger steps");
-    if (all > static_cast<double>(most_samples))
-      throw Error("the motions have more than " + std::to_string(most_samples) + " samples by " + motion +
+    if (all > static_cast<double>(max_samples))
+      throw Error("the motions up to " + motion + " have more than " + std::to_string(max_samples) +
+                  " samples in total"
                   " (limits/request_states); send fewer motions, or take larger steps");
   }
   return {options, static_cast<std::size_t>(all)};
@@ -92,6 +93,36 @@ ContactInformation messageOf(const Contact& contact, const PlanningScene& scene,
   message.state = static_cast<std::uint32_t>(state);
   return message;
 }
+/// Writes the report of `answer`, which must have one, into the response.
+void fillReport(const CheckAnswer& answer, GetReport::Response& response)
+{
+  const SceneReport& report = *answer.report;
+  response.lines = describeScene(*answer.scene, report, answer.device);
+  response.lines.emplace_back("not modelled: octomaps, object types, weights; padding between links");
+  const auto add = [&response](const char* name, std::size_t value)
+  {
+    response.names.emplace_back(name);
+    response.values.push_back(static_cast<double>(value));
+  };
+  add("self_pairs", report.self_pairs);
+  add("world_pairs", report.world_pairs);
+  add("allowed_self_pairs", report.allowed_self_pairs);
+  add("allowed_world_pairs", report.allowed_world_pairs);
+  add("touch_pairs", report.touch_pairs);
+  add("unmoved_pairs", report.unmoved_pairs);
+  add("links_without_shapes", report.links_without_shapes);
+  add("unreachable_self_pairs", report.unreachable_self_pairs);
+  add("unreachable_world_pairs", report.unreachable_world_pairs);
+  add("unreachable_objects", report.unreachable_objects);
+  add("settled_pairs", report.settled_pairs);
+  add("always_colliding", report.always_colliding ? 1 : 0);
+  add("triangles", report.triangles);
+  add("trees", report.trees);
+  add("shared_trees", report.shared_trees);
+  add("objects", answer.scene->objects.size());
+  add("attached_objects", answer.scene->attached.size());
+  response.scene_revision = answer.result.revision;
+}
 }  // namespace
 
 CheckServices::CheckServices(const SceneStore& store, CheckServer& server, const MemoryGuard& memory,
@@ -100,7 +131,7 @@ CheckServices::CheckServices(const SceneStore& store, CheckServer& server, const
     server_(server),
     memory_(memory),
     options_(options),
-    inspections_(kInspections, options.most_waiting_inspections)
+    inspections_(kInspections, options.max_waiting_inspections)
 {
 }
 
@@ -115,10 +146,10 @@ CheckAnswer CheckServices::answerOf(CheckJob job) const
 {
   std::future<CheckAnswer> answer = server_.submit(std::move(job));
   std::chrono::milliseconds waited{0};  // since the start of the shutdown
-  while (answer.wait_for(kLook) != std::future_status::ready)
+  while (answer.wait_for(kPollInterval) != std::future_status::ready)
   {
-    waited += stopping_ ? kLook : std::chrono::milliseconds{0};
-    if (waited >= kPatience)
+    waited += stopping_ ? kPollInterval : std::chrono::milliseconds{0};
+    if (waited >= kShutdownGrace)
       throw shuttingDown();
   }
   return answer.get();
@@ -126,7 +157,7 @@ CheckAnswer CheckServices::answerOf(CheckJob job) const
 
 CheckStates::Response CheckServices::checkStates(const CheckStates::Request& request)
 {
-  return answered<CheckStates::Response>(
+  return respond<CheckStates::Response>(
       [&](CheckStates::Response& response)
       {
         memory_.require();
@@ -167,9 +198,10 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
   const std::vector<std::uint8_t>& valid = answer.result.valid;
   const auto colliding = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
   const std::size_t inspected = request.clearance ? valid.size() : colliding;
-  if (inspected > options_.most_inspected_states)
-    throw Error("contacts or clearance of " + std::to_string(inspected) + " states are asked for; the limit is " +
-                std::to_string(options_.most_inspected_states) + " (limits/inspected_states): send fewer at once");
+  if (inspected > options_.max_inspected_states)
+    throw Error("contacts or clearance requested for " + std::to_string(inspected) + " states; the limit is " +
+                std::to_string(options_.max_inspected_states) +
+                " (limits/inspected_states): send fewer states per request");
   if (inspected == 0)
     return;
   const std::shared_ptr<const StateInspector> inspector = inspectorOf(answer.scene);
@@ -182,13 +214,14 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
     if (!valid[i] && request.max_contacts != 0)
     {
       // One contact above the limit shows that there are too many.
-      const std::size_t most =
-          std::min<std::size_t>(request.max_contacts, options_.most_contacts + 1 - response.contacts.size());
-      for (const Contact& contact : inspector->contacts(state, request.group, most, request.max_contacts_per_pair))
+      const std::size_t max_contacts =
+          std::min<std::size_t>(request.max_contacts, options_.max_contacts + 1 - response.contacts.size());
+      for (const Contact& contact :
+           inspector->contacts(state, request.group, max_contacts, request.max_contacts_per_pair))
         response.contacts.push_back(messageOf(contact, *answer.scene, i));
-      if (response.contacts.size() > options_.most_contacts)
-        throw Error("there are more than " + std::to_string(options_.most_contacts) +
-                    " contacts (limits/contacts): ask for fewer of a state (max_contacts), or about fewer states");
+      if (response.contacts.size() > options_.max_contacts)
+        throw Error("more than " + std::to_string(options_.max_contacts) +
+                    " contacts (limits/contacts): request fewer per state (max_contacts), or send fewer states");
     }
     if (!request.clearance)
       continue;
@@ -221,12 +254,12 @@ std::shared_ptr<const StateInspector> CheckServices::inspectorOf(const std::shar
 
 CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& request)
 {
-  return answered<CheckMotions::Response>(
+  return respond<CheckMotions::Response>(
       [&](CheckMotions::Response& response)
       {
         memory_.require();
         if (request.starts.size() != request.ends.size())
-          throw Error(std::to_string(request.starts.size()) + " numbers in starts and " +
+          throw Error(std::to_string(request.starts.size()) + " values in starts and " +
                       std::to_string(request.ends.size()) + " in ends; give one row of each per motion");
         const Snapshot now = store_.snapshot();
         const RobotModel& robot = *now.scene->robot;
@@ -243,7 +276,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         validateStates(robot, starts.data(), count);
         validateStates(robot, ends.data(), count);
         std::tie(job.motions, job.samples) =
-            requestedMotions(request, robot, options_.motion_rule, starts, ends, options_.most_states);
+            requestedMotions(request, robot, options_.motion_rule, starts, ends, options_.max_states);
         // The full states above serve to count the samples. For the check, the variables that the request does not name
         // come from the checked snapshot, which may be newer than `now`.
         job.states = request.starts;
@@ -268,7 +301,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
 
 GetReport::Response CheckServices::report(const GetReport::Request& request)
 {
-  return answered<GetReport::Response>(
+  return respond<GetReport::Response>(
       [&](GetReport::Response& response)
       {
         CheckJob job;

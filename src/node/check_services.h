@@ -15,10 +15,10 @@ namespace gpu_planning_scene::core
 {
 struct CheckServicesOptions
 {
-  std::size_t most_states = 1000000;           ///< samples of all motions of one request
-  std::size_t most_inspected_states = 10000;   ///< states of one request with contacts or clearance
-  std::size_t most_contacts = 100000;          ///< in one response
-  std::size_t most_waiting_inspections = 64;   ///< queued requests for contacts or clearance
+  std::size_t max_states = 1000000;            ///< samples of all motions of one request
+  std::size_t max_inspected_states = 10000;    ///< states of one request with contacts or clearance
+  std::size_t max_contacts = 100000;           ///< in one response
+  std::size_t max_waiting_inspections = 64;    ///< queued requests for contacts or clearance
   MotionRule motion_rule = MotionRule::Bound;  ///< rule of requests that name none: ~planning/motion_rule
 };
 

@@ -16,19 +16,20 @@ std::size_t offsetOf(const sensor_msgs::PointCloud2& message, const std::string&
     if (field.name == name && field.datatype == sensor_msgs::PointField::FLOAT32 &&
         std::size_t{field.offset} + sizeof(float) <= message.point_step)
       return field.offset;
-  throw Error("a point cloud without a field '" + name + "' of 32-bit floats within each point");
+  throw Error("the point cloud has no FLOAT32 field '" + name + "' inside point_step");
 }
 }  // namespace
 
 std::vector<Eigen::Vector3f> pointsOf(const sensor_msgs::PointCloud2& message)
 {
   if (message.is_bigendian)
-    throw Error("a point cloud of big-endian numbers; send little-endian ones");
+    throw Error("the point cloud has big-endian numbers; send little-endian numbers");
   const std::array<std::size_t, 3> offsets = {{offsetOf(message, "x"), offsetOf(message, "y"), offsetOf(message, "z")}};
   const std::uint64_t row = std::uint64_t{message.width} * message.point_step;
   if (message.row_step < row || message.data.size() < std::uint64_t{message.height} * message.row_step)
-    throw Error("a point cloud of " + std::to_string(message.data.size()) + " bytes is too short for its " +
-                std::to_string(message.height) + " rows of " + std::to_string(message.width) + " points");
+    throw Error("the data of the point cloud (" + std::to_string(message.data.size()) +
+                " bytes) is too short for its " + std::to_string(message.height) + " rows of " +
+                std::to_string(message.width) + " points");
   std::vector<Eigen::Vector3f> points;
   if (row == 0)
     return points;  // without a loop over `height`, which may be any number here
@@ -55,8 +56,9 @@ void CloudTopic::take(const sensor_msgs::PointCloud2& message)
   memory_.require();
   const Snapshot now = store_.snapshot();
   if (!now.allKnown())
-    throw Error("the robot's state is not known yet, so its own points cannot be left out; publish joint_states first");
-  const FrameAt frame{message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())};
+    throw Error(
+        "the robot's state is not known yet, so points on the robot cannot be removed; publish joint_states first");
+  const StampedFrame frame{message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())};
   const std::vector<double> state = store_.stateAt(frame.stamp);
   const std::optional<Eigen::Isometry3d> known = now.scene->frame(frame.name, state.data());
   const Eigen::Isometry3d sensor = known ? *known : lookup_(frame);

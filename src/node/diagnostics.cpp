@@ -80,7 +80,7 @@ DiagnosticStatus Diagnostics::status(const SceneStore& store, const CheckServer&
   if (history.on_cpu)
   {
     status.level = history.rebuild_failed ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN;
-    status.message = "the CPU answers for the device: " + history.last_error;
+    status.message = "the device failed and the CPU is used: " + history.last_error;
   }
   add(status, "device", status.hardware_id);
   add(status, "on_cpu", history.on_cpu ? "true" : "false");

@@ -48,13 +48,13 @@ void Endpoints::refuse(const std::string& topic, const std::string& why)
 {
   const std::string line = topic + ": " + shortLine(why);
   diagnostics_.refused(line);
-  ROS_WARN_STREAM_THROTTLE(1.0, "a message is not used, on " << line);
+  ROS_WARN_STREAM_THROTTLE(1.0, "message rejected on " << line);
 }
 
-void Endpoints::lose(const std::string& topic, const std::string& why)
+void Endpoints::reportLost(const std::string& topic, const std::string& why)
 {
   const std::string line = topic + ": " + shortLine(why);
   diagnostics_.refused(line);
-  ROS_ERROR_STREAM_THROTTLE(1.0, "a message is lost, on " << line);
+  ROS_ERROR_STREAM_THROTTLE(1.0, "message lost on " << line);
 }
 }  // namespace gpu_planning_scene::core

@@ -9,9 +9,9 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
-#include "node/answered.h"
 #include "node/bounded_message.h"
 #include "node/diagnostics.h"
+#include "node/respond.h"
 #include "service/busy.h"
 
 namespace gpu_planning_scene::core
@@ -61,7 +61,7 @@ class Endpoints
                                                   }
                                                   catch (const Busy& error)
                                                   {
-                                                    lose(topic, error.what());
+                                                    reportLost(topic, error.what());
                                                   }
                                                   catch (const std::exception& error)
                                                   {
@@ -86,7 +86,7 @@ class Endpoints
   auto close(const std::string& fault, Response& response, int) -> decltype(response.success, bool())
   {
     if (!fault.empty())
-      response = answered<Response>([&fault](Response&) { throw Error(fault); });
+      response = respond<Response>([&fault](Response&) { throw Error(fault); });
     if (!response.success)
       diagnostics_.refused(response.message);
     return true;
@@ -98,7 +98,7 @@ class Endpoints
       diagnostics_.refused(fault);
     return fault.empty();
   }
-  void lose(const std::string& topic, const std::string& why);
+  void reportLost(const std::string& topic, const std::string& why);
 
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;

@@ -39,7 +39,7 @@ FrameLookup::Clock::time_point FrameLookup::deadline() const
 }
 
 /// Polls tf2. The wait of tf2 itself uses ROS time, and never ends if ROS time stands still.
-Eigen::Isometry3d FrameLookup::operator()(const FrameAt& frame, Clock::time_point until) const
+Eigen::Isometry3d FrameLookup::operator()(const StampedFrame& frame, Clock::time_point until) const
 {
   ros::Time stamp;
   stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.stamp)));
@@ -57,15 +57,15 @@ Eigen::Isometry3d FrameLookup::operator()(const FrameAt& frame, Clock::time_poin
     catch (const tf2::TransformException& error)
     {
       if (stopping_())
-        throw Error("shutting down: frame '" + frame.name + "' is not waited for");
+        throw Error("shutting down: the lookup of frame '" + frame.name + "' was stopped");
       if (!last)
         continue;
       std::string when = "at the latest time";
       if (frame.stamp != 0)
         when = "at " + std::to_string(stamp.toSec()) + " s";
-      throw Error("frame '" + frame.name + "': the scene has no such frame, and within " + std::to_string(timeout_) +
-                  " s (tf_timeout) tf did not know it in the planning frame '" + planning_frame_ + "' " + when + ": " +
-                  reasonOf(error));
+      throw Error("frame '" + frame.name + "': not in the scene, and tf found no transform to the planning frame '" +
+                  planning_frame_ + "' " + when + " within " + std::to_string(timeout_) +
+                  " s (tf_timeout): " + reasonOf(error));
     }
   }
 }

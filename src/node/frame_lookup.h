@@ -23,7 +23,7 @@ class FrameLookup
   /// The deadline of a lookup that starts now.
   Clock::time_point deadline() const;
   /// The pose of the frame at its stamp (0: the latest). Waits for the frame, at most until `until`; then throws Error.
-  Eigen::Isometry3d operator()(const FrameAt& frame, Clock::time_point until) const;
+  Eigen::Isometry3d operator()(const StampedFrame& frame, Clock::time_point until) const;
 
  private:
   const std::string planning_frame_;

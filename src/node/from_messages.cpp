@@ -66,11 +66,11 @@ class StateReader
     const auto add = [&](const char* reason, const std::vector<std::string>& names)
     {
       if (warnings != nullptr && !names.empty())
-        warnings->push_back(std::string("robot_state: not used, ") + reason + ": " + join(names));
+        warnings->push_back(std::string("robot_state: joints ignored because ") + reason + ": " + join(names));
     };
-    add("the robot has no such joints", unknown_);
-    add("these joints are fixed", fixed_);
-    add("these joints follow others", mimic_);
+    add("the robot does not have them", unknown_);
+    add("they are fixed", fixed_);
+    add("they follow other joints", mimic_);
   }
 
  private:
@@ -237,8 +237,8 @@ SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& ro
   {
     if (warnings != nullptr)
       warnings->push_back(
-          "allowed_collision_matrix: not used, as it has default entries alone, which change nothing in " +
-          std::string("a difference (as in MoveIt); give entry_names and entry_values too"));
+          "allowed_collision_matrix: ignored: a difference with only default entries changes nothing "
+          "(as in MoveIt); give entry_names and entry_values too");
   }
   else if (!matrix.entry_names.empty() || !matrix.entry_values.empty() || !matrix.default_entry_names.empty())
     change.matrix = matrixFrom(matrix, limits);

@@ -1,24 +1,24 @@
 #include "node/marker_publisher.h"
 
-#include "node/answered.h"
+#include "node/respond.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kMostContacts = 1000;
+constexpr std::size_t kMaxContacts = 1000;
 }  // namespace
 
-MarkerPublisher::MarkerPublisher(ros::NodeHandle& own, const SceneStore& store, double rate, std::size_t most_triangles)
+MarkerPublisher::MarkerPublisher(ros::NodeHandle& own, const SceneStore& store, double rate, std::size_t max_triangles)
   : store_(store), publisher_(own.advertise<visualization_msgs::MarkerArray>("markers", 1, true))
 {
-  options_.most_triangles = most_triangles;
+  options_.max_triangles = max_triangles;
   timer_ = own.createWallTimer(ros::WallDuration(1.0 / rate), [this](const ros::WallTimerEvent&) { publish(); });
 }
 
 ShowTreeLevel::Response MarkerPublisher::show(const ShowTreeLevel::Request& request)
 {
-  return answered<ShowTreeLevel::Response>(
+  return respond<ShowTreeLevel::Response>(
       [&](ShowTreeLevel::Response&)
       {
         requireTreeLevel(*store_.snapshot().scene, request.level, request.body);
@@ -43,7 +43,7 @@ void MarkerPublisher::publish()
       inspector_ = std::make_unique<const StateInspector>(now.scene, inspector_.get());
     std::vector<BodyPair> colliding;
     std::vector<Eigen::Vector3d> points;
-    for (const Contact& contact : inspector_->contacts(now.state.data(), "", kMostContacts, 0))
+    for (const Contact& contact : inspector_->contacts(now.state.data(), "", kMaxContacts, 0))
     {
       colliding.push_back(contact.bodies);
       points.push_back(contact.point);

@@ -19,7 +19,7 @@ class MarkerPublisher
 {
  public:
   /// `rate`: per second.
-  MarkerPublisher(ros::NodeHandle& own, const SceneStore& store, double rate, std::size_t most_triangles);
+  MarkerPublisher(ros::NodeHandle& own, const SceneStore& store, double rate, std::size_t max_triangles);
 
   /// Throws nothing: the response has the error.
   ShowTreeLevel::Response show(const ShowTreeLevel::Request& request);

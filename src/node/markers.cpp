@@ -57,8 +57,8 @@ std::size_t trianglesOf(const Shape& shape)
 }
 
 /// Triangle count of the largest shape that is drawn with its triangles: the smallest shapes together may have
-/// `most_triangles`.
-std::size_t largestDrawn(const PlanningScene& scene, std::size_t bodies, std::size_t most_triangles)
+/// `max_triangles`.
+std::size_t largestDrawn(const PlanningScene& scene, std::size_t bodies, std::size_t max_triangles)
 {
   std::vector<std::size_t> counts;
   for (std::size_t body = 0; body < bodies; ++body)
@@ -71,7 +71,7 @@ std::size_t largestDrawn(const PlanningScene& scene, std::size_t bodies, std::si
   for (const std::size_t count : counts)
   {
     sum += count;
-    if (sum > most_triangles)
+    if (sum > max_triangles)
       break;
     largest = count;
   }
@@ -95,7 +95,7 @@ class MarkerMaker
 
   void addBodies(const std::set<std::size_t>& colliding)
   {
-    largest_drawn_ = largestDrawn(scene_, poses_.size(), options_.most_triangles);
+    largest_drawn_ = largestDrawn(scene_, poses_.size(), options_.max_triangles);
     for (std::size_t body = 0; body < poses_.size(); ++body)
     {
       lists_.clear();
@@ -200,7 +200,7 @@ class MarkerMaker
   void addMesh(const Mesh& mesh, const Eigen::Isometry3d& pose)
   {
     const std::size_t count = mesh.triangles.size();
-    if (count <= largest_drawn_ && drawn_ + count <= options_.most_triangles)
+    if (count <= largest_drawn_ && drawn_ + count <= options_.max_triangles)
     {
       drawn_ += count;
       addTriangles(mesh, pose);
@@ -246,7 +246,7 @@ class MarkerMaker
           below.push_back(node);  // leaves are kept, so that every level covers the shape
         else
           below.insert(below.end(), {forest.nodes[node].first, forest.nodes[node].first + 1});
-      if (below == level || drawn_ + kTrianglesOfBox * below.size() > options_.most_triangles)
+      if (below == level || drawn_ + kTrianglesOfBox * below.size() > options_.max_triangles)
         break;
       level = std::move(below);
     }

@@ -18,7 +18,7 @@ struct MarkerOptions
   ros::Time stamp;
   /// [~markers/triangles] If meshes and cones together have more triangles, the largest are drawn as boxes. If there is
   /// no room for the boxes of `tree_level`, the boxes of a level nearer to the root are drawn.
-  std::size_t most_triangles = 500000;
+  std::size_t max_triangles = 500000;
   int tree_level = -1;    ///< draws the boxes of this level of the trees; 0: the roots, -1: none
   std::string tree_body;  ///< draws the tree boxes of this body only; empty: of all bodies
 };

@@ -153,10 +153,9 @@ CheckServerOptions serverOptionsFromParameters(const ros::NodeHandle& own)
 {
   CheckServerOptions options;
   options.small_request = countParameter(own, "small_request", options.small_request, 0, kNoLimit);
-  options.most_waiting_requests =
-      countParameter(own, "limits/waiting_requests", options.most_waiting_requests, 1, 1000);
-  options.most_waiting_states = countParameter(own, "limits/waiting_states", options.most_waiting_states, 1, kNoLimit);
-  options.most_states = countParameter(own, "limits/request_states", options.most_states, 1, kNoLimit);
+  options.max_waiting_requests = countParameter(own, "limits/waiting_requests", options.max_waiting_requests, 1, 1000);
+  options.max_waiting_states = countParameter(own, "limits/waiting_states", options.max_waiting_states, 1, kNoLimit);
+  options.max_states = countParameter(own, "limits/request_states", options.max_states, 1, kNoLimit);
   return options;
 }
 
@@ -164,7 +163,7 @@ ResilientOptions resilienceFromParameters(const ros::NodeHandle& own)
 {
   ResilientOptions options;
   options.device_seconds = positiveParameter(own, "device_timeout", options.device_seconds);
-  options.most_losses = countParameter(own, "device_losses", options.most_losses, 1, 1000);
+  options.max_losses = countParameter(own, "device_losses", options.max_losses, 1, 1000);
   options.retry_seconds = positiveParameter(own, "device_retry", options.retry_seconds);
   return options;
 }
@@ -174,20 +173,19 @@ ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own)
   ServiceOptions options;
   options.tf_timeout = lengthParameter(own, "tf_timeout", options.tf_timeout);
   options.full_scene_period = positiveParameter(own, "full_scene_period", options.full_scene_period);
-  options.most_inspected_states =
-      countParameter(own, "limits/inspected_states", options.most_inspected_states, 0, kNoLimit);
-  options.most_contacts = countParameter(own, "limits/contacts", options.most_contacts, 1, kNoLimit);
-  options.most_memory = countParameter(own, "limits/memory", 0, 0, std::size_t{1} << 52);
-  options.most_waiting_changes =
-      countParameter(own, "limits/waiting_changes", options.most_waiting_changes, 1, kNoLimit);
+  options.max_inspected_states =
+      countParameter(own, "limits/inspected_states", options.max_inspected_states, 0, kNoLimit);
+  options.max_contacts = countParameter(own, "limits/contacts", options.max_contacts, 1, kNoLimit);
+  options.max_memory = countParameter(own, "limits/memory", 0, 0, std::size_t{1} << 52);
+  options.max_waiting_changes = countParameter(own, "limits/waiting_changes", options.max_waiting_changes, 1, kNoLimit);
   options.marker_rate = positiveParameter(own, "markers/rate", options.marker_rate);
   options.marker_triangles = countParameter(own, "markers/triangles", options.marker_triangles, 0, kNoLimit);
   options.cloud_topic = textParameter(own, "cloud/topic", options.cloud_topic);
   options.cloud_id = textParameter(own, "cloud/id", options.cloud_id);
   options.cloud.voxel = positiveParameter(own, "cloud/voxel", options.cloud.voxel);
   options.cloud.robot_padding = lengthParameter(own, "cloud/robot_padding", options.cloud.robot_padding);
-  options.cloud.most_distance = positiveParameter(own, "cloud/range", options.cloud.most_distance);
-  options.cloud.most_voxels = countParameter(own, "limits/voxels", options.cloud.most_voxels, 1, kNoLimit);
+  options.cloud.max_distance = positiveParameter(own, "cloud/range", options.cloud.max_distance);
+  options.cloud.max_voxels = countParameter(own, "limits/voxels", options.cloud.max_voxels, 1, kNoLimit);
   options.message_size = static_cast<std::uint32_t>(
       countParameter(own, "limits/message_size", options.message_size, 1, std::size_t{1} << 30));
   return options;

@@ -38,18 +38,18 @@ ResilientOptions resilienceFromParameters(const ros::NodeHandle& own);
 
 struct ServiceOptions
 {
-  double tf_timeout = 0.5;                    ///< seconds: ~tf_timeout
-  double full_scene_period = 10.0;            ///< seconds: ~full_scene_period
-  std::size_t most_inspected_states = 10000;  ///< of one request, for contacts and clearance: ~limits/inspected_states
-  std::size_t most_contacts = 100000;         ///< in one response: ~limits/contacts
-  std::size_t most_memory = 0;                ///< bytes; 0: 80 % of the machine's memory: ~limits/memory
-  std::uint32_t message_size = 256U << 20;    ///< bytes: ~limits/message_size
-  std::size_t most_waiting_changes = 100000;  ///< queued changes from topics: ~limits/waiting_changes
-  double marker_rate = 2.0;                   ///< per second: ~markers/rate
-  std::size_t marker_triangles = 500000;      ///< ~markers/triangles
-  std::string cloud_topic = "cloud";          ///< ~cloud/topic
-  std::string cloud_id = "cloud";             ///< id of the clouds' object: ~cloud/id
-  PointCloudOptions cloud;                    ///< ~cloud/voxel, ~cloud/robot_padding, ~cloud/range, ~limits/voxels
+  double tf_timeout = 0.5;                   ///< seconds: ~tf_timeout
+  double full_scene_period = 10.0;           ///< seconds: ~full_scene_period
+  std::size_t max_inspected_states = 10000;  ///< of one request, for contacts and clearance: ~limits/inspected_states
+  std::size_t max_contacts = 100000;         ///< in one response: ~limits/contacts
+  std::size_t max_memory = 0;                ///< bytes; 0: 80 % of the machine's memory: ~limits/memory
+  std::uint32_t message_size = 256U << 20;   ///< bytes: ~limits/message_size
+  std::size_t max_waiting_changes = 100000;  ///< queued changes from topics: ~limits/waiting_changes
+  double marker_rate = 2.0;                  ///< per second: ~markers/rate
+  std::size_t marker_triangles = 500000;     ///< ~markers/triangles
+  std::string cloud_topic = "cloud";         ///< ~cloud/topic
+  std::string cloud_id = "cloud";            ///< id of the clouds' object: ~cloud/id
+  PointCloudOptions cloud;                   ///< ~cloud/voxel, ~cloud/robot_padding, ~cloud/range, ~limits/voxels
 };
 ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own);
 

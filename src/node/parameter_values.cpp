@@ -51,13 +51,13 @@ double positiveParameter(const ros::NodeHandle& node, const std::string& name, d
   return value;
 }
 
-std::size_t countParameter(const ros::NodeHandle& node, const std::string& name, std::size_t fallback,
-                           std::size_t least, std::size_t most)
+std::size_t countParameter(const ros::NodeHandle& node, const std::string& name, std::size_t fallback, std::size_t min,
+                           std::size_t max)
 {
   const double value = numberParameter(node, name, static_cast<double>(fallback));
-  if (!(value >= static_cast<double>(least) && value <= static_cast<double>(most)) || value != std::floor(value))
-    throw Error("parameter " + node.resolveName(name) + " is not an integer from " + std::to_string(least) + " to " +
-                std::to_string(most));
+  if (!(value >= static_cast<double>(min) && value <= static_cast<double>(max)) || value != std::floor(value))
+    throw Error("parameter " + node.resolveName(name) + " is not an integer from " + std::to_string(min) + " to " +
+                std::to_string(max));
   return static_cast<std::size_t>(value);
 }
 

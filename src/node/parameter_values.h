@@ -16,9 +16,9 @@ std::string textParameter(const ros::NodeHandle& node, const std::string& name, 
 double lengthParameter(const ros::NodeHandle& node, const std::string& name, double fallback);
 /// Finite, and above 0.
 double positiveParameter(const ros::NodeHandle& node, const std::string& name, double fallback);
-/// An integer from `least` to `most`. A floating-point number without a fraction, such as 1e6, counts as an integer.
-std::size_t countParameter(const ros::NodeHandle& node, const std::string& name, std::size_t fallback,
-                           std::size_t least, std::size_t most);
+/// An integer from `min` to `max`. A floating-point number without a fraction, such as 1e6, counts as an integer.
+std::size_t countParameter(const ros::NodeHandle& node, const std::string& name, std::size_t fallback, std::size_t min,
+                           std::size_t max);
 
 /// The full name of a parameter in the handle's namespace or the nearest namespace above it. If no such parameter is
 /// set, the name in the handle's namespace.

@@ -11,7 +11,7 @@ namespace
 {
 // A straight motion in joint space is a curve in the planning frame, so a line has several points per motion.
 constexpr double kStep = 0.05;           // radians and metres between two points of a line
-constexpr double kMostSteps = 200.0;     // per motion
+constexpr double kMaxSteps = 200.0;      // per motion
 constexpr double kLineWidth = 0.005;     // metres
 constexpr double kPointDiameter = 0.02;  // metres
 
@@ -65,7 +65,7 @@ visualization_msgs::MarkerArray pathMarkers(const PlanningScene& scene,
     for (const int link : links)
       points.points.push_back(pointOf(poses[static_cast<std::size_t>(link)]));
     const std::vector<double>& to = waypoints[std::min(i + 1, waypoints.size() - 1)];
-    const double parts = std::min(kMostSteps, segmentCount(robot, from.data(), to.data(), {kStep, kStep}));
+    const double parts = std::min(kMaxSteps, segmentCount(robot, from.data(), to.data(), {kStep, kStep}));
     std::vector<double> state = from;
     for (int k = 0; k < static_cast<int>(parts); ++k)
     {

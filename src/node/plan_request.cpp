@@ -26,7 +26,7 @@ void requirePlannedFor(const std::vector<int>& columns, const GroupStateSpace& s
 }
 /// Refuses parameters that keep a planner busy for hours between two checks of the time, because planners accept any
 /// number. Examples are a count of many millions, and a `range` that is a billionth of the extent of the space.
-void refuseCostly(const std::map<std::string, std::string>& parameters, double extent, std::size_t most)
+void refuseCostly(const std::map<std::string, std::string>& parameters, double extent, std::size_t limit)
 {
   constexpr double kLeastRange = 1e-4;  // fraction of the extent
   for (const auto& [name, text] : parameters)
@@ -34,9 +34,9 @@ void refuseCostly(const std::map<std::string, std::string>& parameters, double e
     const std::optional<double> value = parseNumber(text);
     if (!value)
       continue;
-    if (!(*value >= 0.0 && *value <= static_cast<double>(most)))
-      throw Error("the planner's parameter " + name + " is " + text + "; it must be from 0 to " + std::to_string(most) +
-                  " (limits/planner_parameter)");
+    if (!(*value >= 0.0 && *value <= static_cast<double>(limit)))
+      throw Error("the planner's parameter " + name + " is " + text + "; it must be from 0 to " +
+                  std::to_string(limit) + " (limits/planner_parameter)");
     if (name == "range" && *value > 0.0 && *value < kLeastRange * extent)
       throw Error("the planner's parameter range is " + text +
                   "; it must be 0, for the planner to choose, or at least " + std::to_string(kLeastRange * extent) +
@@ -47,11 +47,11 @@ void refuseCostly(const std::map<std::string, std::string>& parameters, double e
 
 PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own)
 {
-  constexpr std::size_t kMostAtOnce = 64;
+  constexpr std::size_t kMaxAtOnce = 64;
   constexpr std::size_t kNoLimit = std::size_t{1} << 31;
   PlanServiceOptions options;
   options.seconds = positiveParameter(own, "planning/time", options.seconds);
-  options.most_seconds = positiveParameter(own, "limits/planning_time", options.most_seconds);
+  options.max_seconds = positiveParameter(own, "limits/planning_time", options.max_seconds);
   const std::string rule = textParameter(own, "planning/motion_rule", "bound");
   try
   {
@@ -64,10 +64,10 @@ PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own)
   MotionSteps& steps = options.motions.steps;
   steps.revolute = positiveParameter(own, "planning/resolution", steps.revolute);
   steps.prismatic = positiveParameter(own, "planning/translation_resolution", steps.prismatic);
-  options.at_once = countParameter(own, "planning/at_once", options.at_once, 1, kMostAtOnce);
-  options.most_waiting = countParameter(own, "limits/waiting_plans", options.most_waiting, 0, kNoLimit);
-  options.most_goals = countParameter(own, "limits/goals", options.most_goals, 1, kNoLimit);
-  options.most_parameter = countParameter(own, "limits/planner_parameter", options.most_parameter, 1, kNoLimit);
+  options.at_once = countParameter(own, "planning/at_once", options.at_once, 1, kMaxAtOnce);
+  options.max_waiting = countParameter(own, "limits/waiting_plans", options.max_waiting, 0, kNoLimit);
+  options.max_goals = countParameter(own, "limits/goals", options.max_goals, 1, kNoLimit);
+  options.max_parameter = countParameter(own, "limits/planner_parameter", options.max_parameter, 1, kNoLimit);
   return options;
 }
 
@@ -94,8 +94,8 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   }
   const auto few = [&options](std::size_t count)
   {
-    if (count > options.most_goals)
-      throw Error(std::to_string(count) + " goals are more than " + std::to_string(options.most_goals) +
+    if (count > options.max_goals)
+      throw Error(std::to_string(count) + " goals are more than " + std::to_string(options.max_goals) +
                   " (limits/goals)");
   };
   const std::vector<int> columns =
@@ -112,9 +112,9 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
                              rows.begin() + static_cast<std::ptrdiff_t>((i + 1) * query.start.size()));
 
   query.seconds = request.allowed_planning_time == 0.0 ? options.seconds : request.allowed_planning_time;
-  if (query.seconds > options.most_seconds)
+  if (query.seconds > options.max_seconds)
     throw Error("allowed_planning_time is " + std::to_string(query.seconds) + " s; the limit is " +
-                std::to_string(options.most_seconds) + " (limits/planning_time)");
+                std::to_string(options.max_seconds) + " (limits/planning_time)");
   query.simplify = request.simplify;
   query.motions = options.motions;
   if (!request.motion_rule.empty())
@@ -136,7 +136,7 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
       throw Error("parameter '" + parameter.key + "' is given twice");
     query.parameters[parameter.key] = parameter.value;
   }
-  refuseCostly(query.parameters, space.getMaximumExtent(), options.most_parameter);
+  refuseCostly(query.parameters, space.getMaximumExtent(), options.max_parameter);
   query.projection = planners.projection;
   return query;
 }

@@ -13,13 +13,13 @@ namespace gpu_planning_scene::core
 {
 struct PlanServiceOptions
 {
-  double seconds = 5.0;               ///< planning time of a request that names none: ~planning/time
-  double most_seconds = 120.0;        ///< ~limits/planning_time
-  MotionCheckerOptions motions;       ///< ~planning/motion_rule, ~planning/resolution, ~planning/translation_resolution
-  std::size_t at_once = 2;            ///< requests that are planned at the same time: ~planning/at_once
-  std::size_t most_waiting = 16;      ///< queued requests: ~limits/waiting_plans
-  std::size_t most_goals = 1000;      ///< goals of a request: ~limits/goals
-  std::size_t most_parameter = 1000;  ///< largest value of a planner's parameter: ~limits/planner_parameter
+  double seconds = 5.0;              ///< planning time of a request that names none: ~planning/time
+  double max_seconds = 120.0;        ///< ~limits/planning_time
+  MotionCheckerOptions motions;      ///< ~planning/motion_rule, ~planning/resolution, ~planning/translation_resolution
+  std::size_t at_once = 2;           ///< requests that are planned at the same time: ~planning/at_once
+  std::size_t max_waiting = 16;      ///< queued requests: ~limits/waiting_plans
+  std::size_t max_goals = 1000;      ///< goals of a request: ~limits/goals
+  std::size_t max_parameter = 1000;  ///< largest value of a planner's parameter: ~limits/planner_parameter
 };
 
 /// Throws Error, which names the parameter.

@@ -5,8 +5,8 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "gpu_planning_scene/error.h"
-#include "node/answered.h"
 #include "node/path_markers.h"
+#include "node/respond.h"
 #include "service/busy.h"
 
 namespace gpu_planning_scene::core
@@ -61,7 +61,7 @@ class BadRequest : public Error
 
 /// Runs work in which every Error except DeviceLost comes from the request. Rethrows these errors as BadRequest.
 template <class Work>
-auto blamingTheRequest(const Work& work)
+auto asRequestError(const Work& work)
 {
   try
   {
@@ -119,7 +119,7 @@ PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, CheckSer
     options_(options),
     configs_(PlannerConfigs::fromParameters(own)),
     markers_(own.advertise<visualization_msgs::MarkerArray>("plan_markers", 1, true)),
-    admission_(options.at_once, options.most_waiting)
+    admission_(options.at_once, options.max_waiting)
 {
 }
 
@@ -132,7 +132,7 @@ void PlanService::stop()
 PlanMotion::Response PlanService::plan(const PlanMotion::Request& request)
 {
   std::uint8_t fault = Response::FAILED;
-  auto response = answered<Response>(
+  auto response = respond<Response>(
       [&](Response& filled)
       {
         try
@@ -172,7 +172,7 @@ PlanningResult PlanService::plan(const Task& task)
   try
   {
     PlanningResult result =
-        blamingTheRequest([&] { return planMotion(task.scene, lease.checker(), task.query, *task.factory, stop); });
+        asRequestError([&] { return planMotion(task.scene, lease.checker(), task.query, *task.factory, stop); });
     lease.giveBack();
     return result;
   }
@@ -187,7 +187,7 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
 {
   memory_.require();
   const Admission::Pass pass(admission_);
-  const Task task = blamingTheRequest([&] { return taskOf(request); });
+  const Task task = asRequestError([&] { return taskOf(request); });
   const PlanningResult result = plan(task);
   if (stopping_)
     throw Error("shutting down: the request was not answered");

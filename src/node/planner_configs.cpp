@@ -119,7 +119,7 @@ PlannerConfigs PlannerConfigs::fromParameters(const ros::NodeHandle& own)
   if (!own.getParam("planners", planners))
     return result;
   const std::string name = own.resolveName("planners");
-  requireType(planners, XmlRpcValue::TypeStruct, name, "a map, laid out as MoveIt's ompl_planning.yaml");
+  requireType(planners, XmlRpcValue::TypeStruct, name, "a map in the format of MoveIt's ompl_planning.yaml");
   for (auto& [key, value] : planners)
   {
     if (key != "planner_configs")

@@ -50,7 +50,7 @@ std::shared_ptr<const PlannerFactory> PlannerPlugins::find(const std::string& na
       std::string all;
       for (const std::string& one : loader.getDeclaredClasses())
         all += (all.empty() ? "" : ", ") + one;
-      throw Error("there is no planner '" + name + "', neither in planners.yaml nor as a plugin; plugins: " + all);
+      throw Error("planner '" + name + "' is neither in planners.yaml nor a plugin; plugins: " + all);
     }
     const boost::shared_ptr<PlannerFactory> made = loader.createInstance(name);
     const std::shared_ptr<const PlannerFactory> factory(made.get(), [made](const PlannerFactory*) {});

@@ -39,7 +39,7 @@ void ScenePublisher::changed(const std::shared_ptr<const PlanningScene>& before,
   }
   catch (const std::exception& error)
   {
-    ROS_ERROR_STREAM("a change of the scene was made but not published: " << error.what());
+    ROS_ERROR_STREAM("the scene was changed, but the change was not published: " << error.what());
   }
 }
 

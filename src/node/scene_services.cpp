@@ -6,8 +6,8 @@
 
 #include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/error.h"
-#include "node/answered.h"
 #include "node/from_messages.h"
+#include "node/respond.h"
 #include "node/to_messages.h"
 
 namespace gpu_planning_scene::core
@@ -23,7 +23,7 @@ bool takesMemory(const SceneChange& change)
   return !change.fixed_frames.empty() || change.matrix || !change.link_scale.empty() || !change.colors.empty() ||
          std::any_of(change.objects.begin(), change.objects.end(), brings) ||
          std::any_of(attached.begin(), attached.end(),
-                     [&brings](const AttachedChange& carried) { return brings(carried.object); });
+                     [&brings](const AttachedChange& attached) { return brings(attached.object); });
 }
 
 /// Logs the warnings of messages on topics, which have no response.
@@ -48,7 +48,7 @@ SceneStore::Applied SceneServices::apply(const SceneChange& change, const SceneS
 
 ApplyPlanningScene::Response SceneServices::apply(const ApplyPlanningScene::Request& request)
 {
-  return answered<ApplyPlanningScene::Response>(
+  return respond<ApplyPlanningScene::Response>(
       [&](ApplyPlanningScene::Response& response)
       {
         std::vector<std::string> warnings;
@@ -65,7 +65,7 @@ ApplyPlanningScene::Response SceneServices::apply(const ApplyPlanningScene::Requ
 
 Clear::Response SceneServices::clear()
 {
-  return answered<Clear::Response>([&](Clear::Response& response) { response.scene_revision = store_.clear(); });
+  return respond<Clear::Response>([&](Clear::Response& response) { response.scene_revision = store_.clear(); });
 }
 
 GetPlanningScene::Response SceneServices::get(const GetPlanningScene::Request& request) const

@@ -3,14 +3,14 @@
 namespace gpu_planning_scene::core
 {
 SceneTopics::SceneTopics(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneServices& changes,
-                         const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t most_changes,
-                         std::size_t most_bytes)
+                         const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t max_changes,
+                         std::size_t max_bytes)
   : changes_(changes),
     lookup_(lookup),
     topics_(node, own, 1, diagnostics),  // one thread, to keep the order of the messages
-    queue_([this] { return maker(); },
-           [this](const std::string& topic, const std::string& why) { topics_.refuse(topic, why); }, most_changes,
-           most_bytes)
+    queue_([this] { return beginBatch(); },
+           [this](const std::string& topic, const std::string& why) { topics_.refuse(topic, why); }, max_changes,
+           max_bytes)
 {
   subscribe<PlanningSceneMessage>(own, "planning_scene");
   subscribe<CollisionObject>(own, "collision_object");
@@ -45,10 +45,10 @@ void SceneTopics::subscribe(const ros::NodeHandle& own, const std::string& name)
 
 /// Returns the function that makes the changes of one set. They share a deadline for frames: while one change waits for
 /// its frame, the others wait as well.
-ChangeQueue::Make SceneTopics::maker() const
+ChangeQueue::ApplyChange SceneTopics::beginBatch() const
 {
   const auto until = lookup_.deadline();
   return [this, until](const SceneChange& change)
-  { changes_.make(change, [this, until](const FrameAt& frame) { return lookup_(frame, until); }); };
+  { changes_.make(change, [this, until](const StampedFrame& frame) { return lookup_(frame, until); }); };
 }
 }  // namespace gpu_planning_scene::core

@@ -13,10 +13,10 @@ namespace gpu_planning_scene::core
 class SceneTopics
 {
  public:
-  /// The queue holds at most `most_changes` changes, from messages with `most_bytes` bytes in total. All arguments
+  /// The queue holds at most `max_changes` changes, from messages with `max_bytes` bytes in total. All arguments
   /// passed by reference must outlive this object.
   SceneTopics(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneServices& changes,
-              const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t most_changes, std::size_t most_bytes);
+              const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t max_changes, std::size_t max_bytes);
   /// Calls stop().
   ~SceneTopics();
 
@@ -28,7 +28,7 @@ class SceneTopics
  private:
   template <class Message>
   void subscribe(const ros::NodeHandle& own, const std::string& name);
-  ChangeQueue::Make maker() const;
+  ChangeQueue::ApplyChange beginBatch() const;
 
   SceneServices& changes_;
   const FrameLookup& lookup_;

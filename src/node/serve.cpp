@@ -11,7 +11,6 @@
 #include "node/checker_maker.h"
 #include "node/cloud_topic.h"
 #include "node/diagnostics.h"
-#include "node/end_deadline.h"
 #include "node/endpoints.h"
 #include "node/frame_lookup.h"
 #include "node/marker_publisher.h"
@@ -20,6 +19,7 @@
 #include "node/scene_publisher.h"
 #include "node/scene_topics.h"
 #include "node/shutdown_call.h"
+#include "node/shutdown_deadline.h"
 
 namespace gpu_planning_scene::core
 {
@@ -54,7 +54,7 @@ void logScene(CheckServer& server)
 void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_device,
            const std::function<bool()>& stop)
 {
-  std::optional<EndDeadline> deadline;  // declared first, so that it covers the destructors of all objects below
+  std::optional<ShutdownDeadline> deadline;  // declared first, so that it covers the destructors of all objects below
   useOneHeap();
   const ServiceOptions options = serviceOptionsFromParameters(own);
   const CheckServerOptions server_options = serverOptionsFromParameters(own);
@@ -76,14 +76,14 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   CheckServer server(store, make_checker, server_options);
   logScene(server);
 
-  const MemoryGuard memory(options.most_memory);
+  const MemoryGuard memory(options.max_memory);
   std::atomic<bool> stopping{false};
   const FrameLookup lookup(planning_frame, options.tf_timeout, [&stopping] { return stopping || !ros::ok(); });
   CheckServices checks(store, server, memory,
-                       {server_options.most_states, options.most_inspected_states, options.most_contacts,
-                        server_options.most_waiting_requests, plan_options.motions.rule});
+                       {server_options.max_states, options.max_inspected_states, options.max_contacts,
+                        server_options.max_waiting_requests, plan_options.motions.rule});
   PlanService plans(own, store, make_checker, memory, plan_options);
-  const SceneStore::Lookup look_up = [&lookup](const FrameAt& frame) { return lookup(frame, lookup.deadline()); };
+  const SceneStore::Lookup look_up = [&lookup](const StampedFrame& frame) { return lookup(frame, lookup.deadline()); };
   SceneServices changes(store, look_up, memory);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
@@ -99,7 +99,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   scene_requests.advertise<ShowTreeLevel>("show_tree_level",
                                           [&](const ShowTreeLevel::Request& r) { return markers.show(r); });
 
-  SceneTopics scene_topics(node, own, changes, lookup, diagnostics, options.most_waiting_changes, options.message_size);
+  SceneTopics scene_topics(node, own, changes, lookup, diagnostics, options.max_waiting_changes, options.message_size);
   Endpoints cloud_topics(node, own, 1, diagnostics);
   cloud_topics.subscribe<sensor_msgs::PointCloud2>(options.cloud_topic, 1,
                                                    [&](const sensor_msgs::PointCloud2& m) { clouds.take(m); });
@@ -107,14 +107,14 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   state_topics.subscribe<sensor_msgs::JointState>("joint_states", 100,
                                                   [&](const sensor_msgs::JointState& m) { changes.take(m); });
 
-  Endpoints plan_requests(node, own, plan_options.at_once + plan_options.most_waiting + 1, diagnostics);
+  Endpoints plan_requests(node, own, plan_options.at_once + plan_options.max_waiting + 1, diagnostics);
   plan_requests.advertise<PlanMotion>("plan", [&](const PlanMotion::Request& r) { return plans.plan(r); });
 
   // Each waiting request occupies a thread, and a thread must be free to answer "busy" immediately. Up to
-  // most_waiting_requests requests each can be in the running batch of small requests, in the queue of small requests,
+  // max_waiting_requests requests each can be in the running batch of small requests, in the queue of small requests,
   // in the queue of large requests, and in the queue for contacts. check_states is advertised last: when it is there,
   // all other services are.
-  Endpoints check_requests(node, own, 4 * server_options.most_waiting_requests + 8, diagnostics);
+  Endpoints check_requests(node, own, 4 * server_options.max_waiting_requests + 8, diagnostics);
   check_requests.advertise<CheckMotions>(
       "check_motions", [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
   check_requests.advertise<GetReport>(

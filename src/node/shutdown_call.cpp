@@ -22,7 +22,7 @@ ShutdownCall::ShutdownCall() : came_(std::make_shared<std::atomic<bool>>(false))
                   const bool has_reason = parameters.getType() == XmlRpc::XmlRpcValue::TypeArray &&
                                           parameters.size() > 1 &&
                                           parameters[1].getType() == XmlRpc::XmlRpcValue::TypeString;
-                  ROS_WARN_STREAM("asked to shut down: " << (has_reason ? static_cast<std::string&>(parameters[1])
+                  ROS_WARN_STREAM("shutdown requested: " << (has_reason ? static_cast<std::string&>(parameters[1])
                                                                         : "no reason given"));
                   *came = true;
                   result = ros::xmlrpc::responseInt(1, "", 0);

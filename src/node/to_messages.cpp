@@ -186,10 +186,10 @@ AllowedCollisionMatrixMessage messageOf(const AllowedCollisionMatrix& matrix, co
       message.entry_values[i].enabled.push_back(row.allowed(matrix.row(other)) ? 1 : 0);
   }
   for (const std::string& name : matrix.bodies())
-    if (const std::optional<bool> by_default = matrix.defaultOf(name))
+    if (const std::optional<bool> default_allowed = matrix.defaultOf(name))
     {
       message.default_entry_names.push_back(name);
-      message.default_entry_values.push_back(*by_default ? 1 : 0);
+      message.default_entry_values.push_back(*default_allowed ? 1 : 0);
     }
   return message;
 }

@@ -7,9 +7,9 @@
 #include "planning/bulk_validator.h"
 #include "planning/rrt_search.h"
 
-// RRT-Connect that checks motions in batches: OMPL's interface, the inputs and the time. RrtSearch and TwoTrees grow
-// the trees.
-// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
+// RRT-Connect that checks motions in batches: OMPL's interface, the inputs and the time. RrtSearch and
+// BidirectionalTree grow the trees. J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query
+// path planning. ICRA 2000.
 
 namespace gpu_planning_scene::core
 {
@@ -28,7 +28,7 @@ constexpr std::size_t kFirstGoals = 8;
 // Extra time after the end of planning, to prove a path: a fraction of the time so far, within two bounds (seconds).
 constexpr double kProofOfTime = 0.1;
 constexpr double kLeastProof = 0.1;
-constexpr double kMostProof = 1.0;
+constexpr double kMaxProof = 1.0;
 }  // namespace
 
 BatchRrtConnect::BatchRrtConnect(const ob::SpaceInformationPtr& information)
@@ -85,12 +85,12 @@ const ob::State* BatchRrtConnect::firstGoal(const ob::GoalSampleableRegion& goal
 ob::PlannerStatus BatchRrtConnect::takeInputs(const ob::GoalSampleableRegion& goal,
                                               const ob::PlannerTerminationCondition& ptc)
 {
-  TwoTrees& trees = search_->trees();
+  BidirectionalTree& trees = search_->trees();
   while (const ob::State* state = pis_.nextStart())
-    trees.addRoot(TwoTrees::Start, state);
-  if (trees.tree(TwoTrees::Start).size() == 0)
+    trees.addRoot(BidirectionalTree::Start, state);
+  if (trees.tree(BidirectionalTree::Start).size() == 0)
     return ob::PlannerStatus::INVALID_START;
-  if (trees.tree(TwoTrees::Goal).size() != 0)
+  if (trees.tree(BidirectionalTree::Goal).size() != 0)
     return ob::PlannerStatus::EXACT_SOLUTION;
   if (!goal.couldSample())
     return ob::PlannerStatus::INVALID_GOAL;
@@ -99,17 +99,17 @@ ob::PlannerStatus BatchRrtConnect::takeInputs(const ob::GoalSampleableRegion& go
     // A goal region that fills late may have had no state yet.
     return goal.couldSample() && pis_.getSampledGoalsCount() == 0 ? ob::PlannerStatus::TIMEOUT
                                                                   : ob::PlannerStatus::INVALID_GOAL;
-  trees.addRoot(TwoTrees::Goal, state);
+  trees.addRoot(BidirectionalTree::Goal, state);
   return ob::PlannerStatus::EXACT_SOLUTION;
 }
 
 void BatchRrtConnect::takeMoreGoals()
 {
-  TwoTrees& trees = search_->trees();
-  const std::size_t wanted = std::max(kFirstGoals, trees.tree(TwoTrees::Goal).size() / 2);
+  BidirectionalTree& trees = search_->trees();
+  const std::size_t wanted = std::max(kFirstGoals, trees.tree(BidirectionalTree::Goal).size() / 2);
   for (std::size_t i = 0; i < kFirstGoals && pis_.haveMoreGoalStates() && pis_.getSampledGoalsCount() < wanted; ++i)
     if (const ob::State* state = pis_.nextGoal())
-      trees.addRoot(TwoTrees::Goal, state);
+      trees.addRoot(BidirectionalTree::Goal, state);
 }
 
 ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& ptc)
@@ -138,7 +138,7 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
     path = search_->runRound(validator, *goal, branches_, range_, ptc);
   }
   const double spent = ompl::time::seconds(ompl::time::now() - start);
-  const double more = std::clamp(kProofOfTime * spent, kLeastProof, kMostProof);
+  const double more = std::clamp(kProofOfTime * spent, kLeastProof, kMaxProof);
   if (!path)
     path = search_->provenPath(validator, ob::timedPlannerTerminationCondition(more));
   if (path)

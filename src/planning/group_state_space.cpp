@@ -31,7 +31,7 @@ constexpr double kLeastRange = 1e-9;
 constexpr double kWeight = 1.0;
 
 // KPIECE and similar planners keep a grid of projections. With more dimensions, its cells would stay empty.
-constexpr std::size_t kMostDefaultJoints = 3;
+constexpr std::size_t kMaxDefaultJoints = 3;
 
 double rangeOf(const Variable& variable)
 {
@@ -73,9 +73,8 @@ ob::RealVectorBounds translationBounds(const RobotModel& robot, const Joint& joi
   {
     const Variable& variable = robot.variables()[joint.first_variable + i];
     if (rangeOf(variable) < kLeastRange)
-      throw Error("joint '" + joint.name +
-                  "' cannot be planned for, as its translations have no room; load the robot " +
-                  "with an unbounded translation above 0");
+      throw Error("joint '" + joint.name + "' cannot be planned for: its translations have no range; set " +
+                  "unbounded_translation above 0");
     bounds.setLow(i, variable.lower);
     bounds.setHigh(i, variable.upper);
   }
@@ -127,13 +126,14 @@ std::vector<const Joint*> jointsByType(const RobotModel& robot, const Group& gro
     if (isPlannedFor(robot, robot.joints()[index]))
       joints.push_back(&robot.joints()[index]);
   for (const Joint* joint : joints)
-    if (joint->type == JointType::Continuous && hasNoPeriod(robot, *joint))
-      throw Error("continuous joint '" + joint->name + "' of group '" + group.name +
-                  "' cannot be planned for: another joint mimics it by no whole multiple, so that a turn of it leads " +
-                  "elsewhere; give it limits");
+    if (joint->type == JointType::Continuous && !isPeriodic(robot, *joint))
+      throw Error(
+          "continuous joint '" + joint->name + "' of group '" + group.name +
+          "' cannot be planned for: a joint that mimics it is prismatic or has a multiplier that is not a whole " +
+          "number, so a whole turn leads to another state; give it limits");
   if (joints.empty())
-    throw Error("group '" + group.name + "' has no joint to plan for: one that is not fixed, mimic or passive, and " +
-                "whose limits differ");
+    throw Error("group '" + group.name + "' has no joint to plan for: each joint is fixed, mimic or passive, or its " +
+                "limits are equal");
   const auto rank = [](const Joint* joint)
   {
     switch (joint->type)
@@ -157,7 +157,7 @@ std::vector<std::string> defaultProjection(const std::vector<const Joint*>& join
 {
   std::vector<std::string> names;
   for (const Joint* joint : joints)
-    if (hasLimits(*joint) && names.size() < kMostDefaultJoints)
+    if (hasLimits(*joint) && names.size() < kMaxDefaultJoints)
       names.push_back(joint->name);
   if (!names.empty())
     return names;
@@ -270,7 +270,7 @@ std::vector<std::size_t> GroupStateSpace::projectedValues(const std::vector<std:
                            : std::find(variables_.begin(), variables_.end(), robot_->joints()[index].first_variable);
     if (first == variables_.end())
       throw Error("the projection of group '" + group_->name + "' names joint '" + name +
-                  "', which is not planned for in this group");
+                  "', which is not a joint to plan for in this group");
     for (int i = 0; i < translationCount(robot_->joints()[index].type); ++i)
       values.push_back(static_cast<std::size_t>(first - variables_.begin() + i));
   }

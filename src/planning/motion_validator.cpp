@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "planning/scene_space.h"
+#include "planning/group_space.h"
 
 namespace gpu_planning_scene::core
 {

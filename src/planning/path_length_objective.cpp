@@ -12,8 +12,8 @@ PathLengthObjective::PathLengthObjective(const ompl::base::SpaceInformationPtr& 
 }
 
 ompl::base::InformedSamplerPtr PathLengthObjective::allocInformedStateSampler(
-    const ompl::base::ProblemDefinitionPtr& definition, unsigned int most_calls) const
+    const ompl::base::ProblemDefinitionPtr& definition, unsigned int max_calls) const
 {
-  return std::make_shared<ompl::base::RejectionInfSampler>(definition, most_calls);
+  return std::make_shared<ompl::base::RejectionInfSampler>(definition, max_calls);
 }
 }  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "planning/bulk_validator.h"
-#include "planning/direct_runs.h"
+#include "planning/collinear_segments.h"
 
 // A round draws shortcuts between points of the path, checks them in one call, and takes valid shortcuts that do not
 // overlap.
@@ -168,10 +168,10 @@ PathShortcutter::PathShortcutter(const ob::SpaceInformationPtr& information, con
 
 bool PathShortcutter::shorten(PathGeometric& path, const ob::PlannerTerminationCondition& ptc)
 {
-  joinDirectRuns(path, bulkValidatorOf(*information_, "PathShortcutter"), ptc);
+  mergeCollinearSegments(path, bulkValidatorOf(*information_, "PathShortcutter"), ptc);
   bool shorter = false;
   std::size_t idle = 0;
-  for (std::size_t round = 0; round < options_.most_rounds && idle < options_.idle_rounds && !ptc; ++round)
+  for (std::size_t round = 0; round < options_.max_rounds && idle < options_.idle_rounds && !ptc; ++round)
   {
     const double gain = shortenOnce(path, round == 0, ptc);
     shorter = shorter || gain > 0.0;

@@ -15,9 +15,9 @@
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "gpu_planning_scene/planning/state_validity_checker.h"
 #include "model/seconds_since.h"
+#include "planning/checked_endpoints.h"
 #include "planning/counted_checker.h"
 #include "planning/planner_parameters.h"
-#include "planning/planning_ends.h"
 #include "planning/waypoints.h"
 
 namespace gpu_planning_scene::core
@@ -28,7 +28,7 @@ namespace ob = ompl::base;
 namespace og = ompl::geometric;
 using Clock = std::chrono::steady_clock;
 
-void refuseRow(const RobotModel& robot, const std::vector<double>& row, const std::string& what)
+void validateRow(const RobotModel& robot, const std::vector<double>& row, const std::string& what)
 {
   if (row.size() != robot.variables().size())
     throw Error(what + " has " + std::to_string(row.size()) + " values; the robot has " +
@@ -41,26 +41,26 @@ void refuseRow(const RobotModel& robot, const std::vector<double>& row, const st
 /// Refuses angles of very many turns, because doubles resolve them too coarsely.
 void refuseManyTurns(const RobotModel& robot, const std::vector<double>& start)
 {
-  constexpr double kMost = 1e6;  // radians; doubles resolve 1e-10 there
+  constexpr double kMax = 1e6;  // radians; doubles resolve 1e-10 there
   for (const Joint& joint : robot.joints())
   {
     const int angle = joint.mimic ? -1 : wrappedAngle(joint);
-    if (angle >= 0 && std::abs(start[static_cast<std::size_t>(angle)]) > kMost)
+    if (angle >= 0 && std::abs(start[static_cast<std::size_t>(angle)]) > kMax)
       throw Error("the start: " + robot.variables()[static_cast<std::size_t>(angle)].name + " is " +
                   std::to_string(start[static_cast<std::size_t>(angle)]) + " rad; it must be from -1e6 to 1e6");
   }
 }
 
-void refuse(const PlanningScene& scene, const PlanningQuery& query)
+void validateQuery(const PlanningScene& scene, const PlanningQuery& query)
 {
-  refuseRow(*scene.robot, query.start, "the start");
+  validateRow(*scene.robot, query.start, "the start");
   refuseManyTurns(*scene.robot, query.start);
   if (query.goals.empty())
     throw Error("there is no goal; give at least one");
   for (std::size_t i = 0; i < query.goals.size(); ++i)
-    refuseRow(*scene.robot, query.goals[i], "goal " + std::to_string(i));
-  constexpr double kMostSeconds = 1e9;  // OMPL's clock counts nanoseconds in integers
-  if (!(query.seconds > 0.0 && query.seconds <= kMostSeconds))
+    validateRow(*scene.robot, query.goals[i], "goal " + std::to_string(i));
+  constexpr double kMaxSeconds = 1e9;  // OMPL's clock counts nanoseconds in integers
+  if (!(query.seconds > 0.0 && query.seconds <= kMaxSeconds))
     throw Error("the planning time is " + std::to_string(query.seconds) + " s; it must be above 0 and at most 1e9");
 }
 
@@ -163,7 +163,7 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
     // If the time is too short for a solution, OMPL's RRTConnect sometimes returns a path that does not begin at the
     // start.
     result_.status = PlanningStatus::NoSolution;
-    result_.message += (exact ? "" : "; ") + planner->getName() + " has answered " + wrong;
+    result_.message += (exact ? "" : "; ") + planner->getName() + " returned " + wrong;
     return;
   }
   if (!exact)
@@ -192,18 +192,17 @@ void Plan::finish(og::PathGeometric& path, const std::string& planner)
     return;
   }
   result_.status = PlanningStatus::NoSolution;
-  result_.message =
-      "the path that " + planner + " found is not valid by the motion rule, or there was no time to prove it";
+  result_.message = "the path of " + planner + " is not valid by the motion rule, or there was no time to prove it";
 }
 
 PlanningResult Plan::run(const PlannerFactory& factory)
 {
-  const PlanningEnds ends = findEnds(*scene_, *checker_, space_, query_);
-  result_.status = ends.status;
-  result_.message = ends.message;
+  const CheckedEndpoints endpoints = checkEndpoints(*scene_, *checker_, space_, query_);
+  result_.status = endpoints.status;
+  result_.message = endpoints.message;
   result_.planning_seconds = secondsSince(begin_);
-  if (!ends.goals.empty())
-    findPath(factory, ends.goals);
+  if (!endpoints.goals.empty())
+    findPath(factory, endpoints.goals);
   result_.checking_seconds = checker_->seconds();
   result_.states_checked = checker_->states();
   result_.revision = scene_->revision;
@@ -215,7 +214,7 @@ PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,
                           const PlannerFactory& factory, const std::function<bool()>& stop)
 {
-  refuse(*scene, query);
+  validateQuery(*scene, query);
   return Plan(scene, checker, query, stop).run(factory);
 }
 }  // namespace gpu_planning_scene::core

@@ -22,19 +22,19 @@ constexpr std::size_t kVerticesPerBranch = 8;
 constexpr std::size_t kLeastBranches = 2;
 
 /// The vertices from the root to `vertex`.
-std::vector<const RrtTree::Vertex*> wayTo(const RrtTree::Vertex* vertex)
+std::vector<const RrtTree::Vertex*> branchTo(const RrtTree::Vertex* vertex)
 {
-  std::vector<const RrtTree::Vertex*> way;
+  std::vector<const RrtTree::Vertex*> branch;
   for (; vertex; vertex = vertex->parent)
-    way.push_back(vertex);
-  std::reverse(way.begin(), way.end());
-  return way;
+    branch.push_back(vertex);
+  std::reverse(branch.begin(), branch.end());
+  return branch;
 }
 
-RrtSearch::Path pathOf(const ob::SpaceInformationPtr& information, const TwoTrees::Meeting& meeting)
+RrtSearch::Path pathOf(const ob::SpaceInformationPtr& information, const BidirectionalTree::Meeting& meeting)
 {
   auto path = std::make_shared<PathGeometric>(information);
-  for (const RrtTree::Vertex* vertex : wayTo(meeting.start))
+  for (const RrtTree::Vertex* vertex : branchTo(meeting.start))
     path->append(vertex->state);
   for (const RrtTree::Vertex* vertex = meeting.goal; vertex; vertex = vertex->parent)
     path->append(vertex->state);
@@ -44,7 +44,7 @@ RrtSearch::Path pathOf(const ob::SpaceInformationPtr& information, const TwoTree
 
 RrtSearch::RrtSearch(const ob::Planner& planner) : information_(planner.getSpaceInformation()), trees_(planner) {}
 
-void RrtSearch::addCandidate(const ob::GoalSampleableRegion& goal, const TwoTrees::Meeting& meeting)
+void RrtSearch::addCandidate(const ob::GoalSampleableRegion& goal, const BidirectionalTree::Meeting& meeting)
 {
   const ob::State* end = meeting.goal ? meeting.goal->root().state : meeting.start->state;
   if (goal.isStartGoalPairValid(meeting.start->root().state, end))
@@ -55,7 +55,7 @@ void RrtSearch::addCandidate(const ob::GoalSampleableRegion& goal, const TwoTree
 /// the goal tree.
 void RrtSearch::lookAtNewVertices(const ob::GoalSampleableRegion& goal)
 {
-  const auto& vertices = trees_.tree(TwoTrees::Start).vertices();
+  const auto& vertices = trees_.tree(BidirectionalTree::Start).vertices();
   while (distances_.size() < vertices.size())
   {
     const Vertex& vertex = *vertices[distances_.size()];
@@ -68,7 +68,7 @@ void RrtSearch::lookAtNewVertices(const ob::GoalSampleableRegion& goal)
 /// The vertex of the start tree that is closest to the goal; null if there is none.
 const RrtTree::Vertex* RrtSearch::closest() const
 {
-  const auto& vertices = trees_.tree(TwoTrees::Start).vertices();
+  const auto& vertices = trees_.tree(BidirectionalTree::Start).vertices();
   const Vertex* closest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < distances_.size(); ++i)
@@ -82,22 +82,22 @@ const RrtTree::Vertex* RrtSearch::closest() const
 
 /// True if all motions of the path through a meeting are valid by the validator's own rule. Invalid motions are removed
 /// from the trees.
-bool RrtSearch::isProven(const MotionValidator& validator, const TwoTrees::Meeting& meeting,
+bool RrtSearch::isProven(const MotionValidator& validator, const BidirectionalTree::Meeting& meeting,
                          const ob::PlannerTerminationCondition& ptc)
 {
   if (validator.rule() == MotionRule::Samples)
     return true;
   std::vector<MotionValidator::Motion> motions;
-  std::vector<std::pair<TwoTrees::Side, const Vertex*>> ends;  // the later vertex of each motion within a tree
+  std::vector<std::pair<BidirectionalTree::Side, const Vertex*>> ends;  // the later vertex of each motion within a tree
   for (const Vertex* vertex = meeting.start; vertex->parent; vertex = vertex->parent)
   {
     motions.emplace_back(vertex->parent->state, vertex->state);
-    ends.emplace_back(TwoTrees::Start, vertex);
+    ends.emplace_back(BidirectionalTree::Start, vertex);
   }
   for (const Vertex* vertex = meeting.goal; vertex && vertex->parent; vertex = vertex->parent)
   {
     motions.emplace_back(vertex->state, vertex->parent->state);
-    ends.emplace_back(TwoTrees::Goal, vertex);
+    ends.emplace_back(BidirectionalTree::Goal, vertex);
   }
   if (meeting.goal)
     motions.emplace_back(meeting.start->state, meeting.goal->state);
@@ -108,7 +108,7 @@ bool RrtSearch::isProven(const MotionValidator& validator, const TwoTrees::Meeti
   for (std::size_t i = 0; i < ends.size(); ++i)
     if (valid[i] == 0)
       invalid[ends[i].first].push_back(ends[i].second);
-  for (const TwoTrees::Side side : {TwoTrees::Start, TwoTrees::Goal})
+  for (const BidirectionalTree::Side side : {BidirectionalTree::Start, BidirectionalTree::Goal})
     trees_.remove(side, invalid[side]);
   return std::find(valid.begin(), valid.end(), 0) == valid.end();
 }
@@ -137,12 +137,12 @@ RrtSearch::Path RrtSearch::provenPath(const MotionValidator& validator, const ob
 }
 
 RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
-                                    std::size_t most_branches, double range, const ob::PlannerTerminationCondition& ptc)
+                                    std::size_t max_branches, double range, const ob::PlannerTerminationCondition& ptc)
 {
-  const std::size_t size = trees_.tree(TwoTrees::Start).size() + trees_.tree(TwoTrees::Goal).size();
-  const std::size_t branches = std::min(most_branches, std::max(kLeastBranches, size / kVerticesPerBranch));
+  const std::size_t size = trees_.tree(BidirectionalTree::Start).size() + trees_.tree(BidirectionalTree::Goal).size();
+  const std::size_t branches = std::min(max_branches, std::max(kLeastBranches, size / kVerticesPerBranch));
   // The first round has no random branches: it tries the straight motions between the roots.
-  for (const TwoTrees::Meeting& meeting : trees_.grow(validator, is_first_round_ ? 0 : branches, range, ptc))
+  for (const BidirectionalTree::Meeting& meeting : trees_.grow(validator, is_first_round_ ? 0 : branches, range, ptc))
     addCandidate(goal, meeting);
   is_first_round_ = false;
   lookAtNewVertices(goal);
@@ -152,18 +152,18 @@ RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::
 RrtSearch::Path RrtSearch::approximatePath(const MotionValidator& validator,
                                            const ob::PlannerTerminationCondition& ptc) const
 {
-  const std::vector<const Vertex*> way = wayTo(closest());
+  const std::vector<const Vertex*> branch = branchTo(closest());
   std::vector<MotionValidator::Motion> motions;
-  for (std::size_t i = 1; i < way.size(); ++i)
-    motions.emplace_back(way[i - 1]->state, way[i]->state);
+  for (std::size_t i = 1; i < branch.size(); ++i)
+    motions.emplace_back(branch[i - 1]->state, branch[i]->state);
   const std::vector<std::uint8_t> valid = validator.validateMotions(motions, ptc);
   const auto proven = static_cast<std::size_t>(std::find(valid.begin(), valid.end(), 0) - valid.begin());
-  return proven == 0 ? nullptr : pathOf(information_, {way[proven], nullptr});
+  return proven == 0 ? nullptr : pathOf(information_, {branch[proven], nullptr});
 }
 
 void RrtSearch::addTo(ob::PlannerData& data) const
 {
-  for (const auto& vertex : trees_.tree(TwoTrees::Start).vertices())
+  for (const auto& vertex : trees_.tree(BidirectionalTree::Start).vertices())
   {
     if (vertex->removed)
       continue;
@@ -172,7 +172,7 @@ void RrtSearch::addTo(ob::PlannerData& data) const
     else
       data.addStartVertex(ob::PlannerDataVertex(vertex->state, 1));
   }
-  for (const auto& vertex : trees_.tree(TwoTrees::Goal).vertices())
+  for (const auto& vertex : trees_.tree(BidirectionalTree::Goal).vertices())
   {
     if (vertex->removed)
       continue;

@@ -9,7 +9,7 @@
 #include <ompl/geometric/PathGeometric.h>
 
 #include "gpu_planning_scene/planning/motion_validator.h"
-#include "planning/two_trees.h"
+#include "planning/bidirectional_tree.h"
 
 namespace gpu_planning_scene::core
 {
@@ -22,11 +22,11 @@ class RrtSearch
 
   explicit RrtSearch(const ompl::base::Planner& planner);
 
-  TwoTrees& trees() { return trees_; }
+  BidirectionalTree& trees() { return trees_; }
 
   /// Grows the trees by one round. Returns a solution, or null.
   Path runRound(const MotionValidator& validator, const ompl::base::GoalSampleableRegion& goal,
-                std::size_t most_branches, double range, const ompl::base::PlannerTerminationCondition& ptc);
+                std::size_t max_branches, double range, const ompl::base::PlannerTerminationCondition& ptc);
 
   /// Proves the paths through the meetings found so far, shortest first. Returns the first path that is proven before
   /// `ptc` holds, or null. Invalid motions are removed from the trees. Motions without a verdict stay.
@@ -44,22 +44,22 @@ class RrtSearch
   /// A meeting that is not checked yet, and the path through it.
   struct Candidate
   {
-    TwoTrees::Meeting meeting;
+    BidirectionalTree::Meeting meeting;
     Path path;
   };
 
-  void addCandidate(const ompl::base::GoalSampleableRegion& goal, const TwoTrees::Meeting& meeting);
+  void addCandidate(const ompl::base::GoalSampleableRegion& goal, const BidirectionalTree::Meeting& meeting);
   void lookAtNewVertices(const ompl::base::GoalSampleableRegion& goal);
-  bool isProven(const MotionValidator& validator, const TwoTrees::Meeting& meeting,
+  bool isProven(const MotionValidator& validator, const BidirectionalTree::Meeting& meeting,
                 const ompl::base::PlannerTerminationCondition& ptc);
   const Vertex* closest() const;
 
   ompl::base::SpaceInformationPtr information_;
-  TwoTrees trees_;
+  BidirectionalTree trees_;
   bool is_first_round_ = true;
   std::vector<Candidate> candidates_;
   /// Meeting of the last solution. Its goal vertex is null if its start vertex is in the goal region.
-  TwoTrees::Meeting meeting_{nullptr, nullptr};
+  BidirectionalTree::Meeting meeting_{nullptr, nullptr};
   std::vector<double> distances_;  // from the vertices of the start tree to the goal
 };
 }  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 #include <ompl/base/SpaceInformation.h>
 
 #include "gpu_planning_scene/error.h"
-#include "planning/scene_space.h"
+#include "planning/group_space.h"
 
 namespace gpu_planning_scene::core
 {

@@ -43,7 +43,8 @@ Eigen::Matrix4f projection(const Camera& camera, double aspect, double near, dou
   const Eigen::Vector3d back = (camera.eye - camera.target).normalized();
   const Eigen::Vector3d right = camera.up.cross(back).normalized();
   if (!back.allFinite() || !right.allFinite() || right.norm() < 0.5)
-    throw Error("the camera looks along its upward direction, or stands where it looks; choose another --camera");
+    throw Error(
+        "the camera looks along its upward direction, or its eye and its target coincide; choose another --camera");
   Eigen::Matrix4d view = Eigen::Matrix4d::Identity();
   view.block<1, 3>(0, 0) = right;
   view.block<1, 3>(1, 0) = back.cross(right);
@@ -73,7 +74,7 @@ class Target
     glNamedFramebufferRenderbuffer(frame_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
     const bool complete = glCheckNamedFramebufferStatus(frame_, GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     if (!complete)
-      throw Error("the device cannot draw a picture of that size; ask for a smaller one");
+      throw Error("the device cannot draw a picture of that size; choose a smaller size");
     glBindFramebuffer(GL_FRAMEBUFFER, frame_);
     glViewport(0, 0, width, height);
   }
@@ -169,8 +170,8 @@ Image render(const PlanningScene& scene, const double* state, const std::vector<
              const std::string& device)
 {
   if (width < 1 || height < 1 || width > kLargest || height > kLargest)
-    throw Error("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                " pixels; both must be from 1 to " + std::to_string(kLargest));
+    throw Error("the picture has " + std::to_string(width) + "x" + std::to_string(height) +
+                " pixels; width and height must be from 1 to " + std::to_string(kLargest));
   const Drawing drawing = drawingOf(scene, state, colliding, contact_points);
   double far = 0.0;
   for (const DrawnVertex& vertex : drawing.vertices)

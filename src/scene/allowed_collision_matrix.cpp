@@ -31,7 +31,7 @@ void AllowedCollisionMatrix::setEntry(const std::string& body_1, const std::stri
 
 void AllowedCollisionMatrix::setDefault(const std::string& body, bool allowed)
 {
-  bodies_[body].by_default = allowed;
+  bodies_[body].default_allowed = allowed;
 }
 
 void AllowedCollisionMatrix::removeEntry(const std::string& body)
@@ -49,7 +49,7 @@ void AllowedCollisionMatrix::removeHalfOfEntry(const std::string& body, const st
 {
   const auto known = bodies_.find(body);
   known->second.entries.erase(other);
-  if (known->second.entries.empty() && !known->second.by_default)
+  if (known->second.entries.empty() && !known->second.default_allowed)
     bodies_.erase(known);
 }
 
@@ -78,7 +78,7 @@ std::vector<std::string> AllowedCollisionMatrix::bodiesWithEntries() const
 std::optional<bool> AllowedCollisionMatrix::defaultOf(const std::string& body) const
 {
   const auto known = bodies_.find(body);
-  return known == bodies_.end() ? std::nullopt : known->second.by_default;
+  return known == bodies_.end() ? std::nullopt : known->second.default_allowed;
 }
 
 std::vector<std::string> AllowedCollisionMatrix::allowedPartners(const std::string& body) const
@@ -104,8 +104,8 @@ AllowedCollisionMatrix::Row AllowedCollisionMatrix::row(const std::string& body)
 
 bool AllowedCollisionMatrix::Row::allowed(const Row& other) const
 {
-  const std::optional<bool> first = body_ != nullptr ? body_->by_default : std::nullopt;
-  const std::optional<bool> second = other.body_ != nullptr ? other.body_->by_default : std::nullopt;
+  const std::optional<bool> first = body_ != nullptr ? body_->default_allowed : std::nullopt;
+  const std::optional<bool> second = other.body_ != nullptr ? other.body_->default_allowed : std::nullopt;
   if (body_ != nullptr && other.body_ != nullptr)
   {
     const auto entry = body_->entries.find(*other.name_);

@@ -29,20 +29,20 @@ void PlanningScene::attach(const std::string& object, const std::string& link,
   {
     for (const AttachedObject& known : attached)
       if (known.object.id == object)
-        throw Error("object '" + object + "' is carried by link '" + robot->links().at(known.link).name +
+        throw Error("object '" + object + "' is attached to link '" + robot->links().at(known.link).name +
                     "' already; detach it first");
     throw Error("object '" + object + "' cannot be attached: the scene has no such object");
   }
   if (hasHalfSpace(found->shapes))
-    throw Error("object '" + object + "' has a half-space and cannot be carried; leave it in the world");
-  AttachedObject carried;
-  carried.link = requireLink(*robot, link, "object '" + object + "' cannot be attached");
+    throw Error("object '" + object + "' has a half-space and cannot be attached; leave it in the world");
+  AttachedObject added;
+  added.link = requireLink(*robot, link, "object '" + object + "' cannot be attached");
   for (const std::string& touch_link : touch_links)
-    carried.touch_links.push_back(requireLink(*robot, touch_link, "touch link of object '" + object + "'"));
-  carried.object = *found;
-  carried.object.pose = linkPose(*robot, carried.link, state).inverse() * found->pose;
-  scaleCarried(carried);
-  attached.push_back(std::move(carried));
+    added.touch_links.push_back(requireLink(*robot, touch_link, "touch link of object '" + object + "'"));
+  added.object = *found;
+  added.object.pose = linkPose(*robot, added.link, state).inverse() * found->pose;
+  scaleAttached(added);
+  attached.push_back(std::move(added));
   objects.erase(found);
 }
 
@@ -51,7 +51,7 @@ void PlanningScene::detach(const std::string& object, const double* state)
   const auto found = std::find_if(attached.begin(), attached.end(),
                                   [&](const AttachedObject& known) { return known.object.id == object; });
   if (found == attached.end())
-    throw Error("object '" + object + "' cannot be detached: no link carries such an object");
+    throw Error("object '" + object + "' cannot be detached: no such object is attached");
   WorldObject freed = found->object;
   freed.pose = linkPose(*robot, found->link, state) * found->object.pose;
   objects.push_back(std::move(freed));

@@ -25,8 +25,8 @@ void SceneChanger::changeObject(const ObjectChange& change)
     return;
   }
   requireNewId(change.id);
-  if (const AttachedObject* carried = attached_.find(change.id))
-    throw Error("object '" + change.id + "' is carried by link '" + linkName(carried->link) +
+  if (const AttachedObject* attached = attached_.find(change.id))
+    throw Error("object '" + change.id + "' is attached to link '" + linkName(attached->link) +
                 "'; change it as an attached object, or detach it first");
   require(change);
   WorldObject* const known = objects_.find(change.id);
@@ -58,7 +58,7 @@ void SceneChanger::addObject(const ObjectChange& change)
 void SceneChanger::appendToObject(WorldObject& object, const ObjectChange& change)
 {
   const std::string where =
-      "cannot append to object '" + change.id + "': it stays where it is, and poses of shapes are ";
+      "cannot append to object '" + change.id + "': its pose cannot change, and poses of shapes must be ";
   const bool has_pose = change.pose && !change.pose->isApprox(Eigen::Isometry3d::Identity(), 1e-12);
   if (has_pose && !placed(*change.pose, change.frame).isApprox(object.pose, 1e-9))
     throw Error(where + "in its own frame; leave the object's pose out");
@@ -76,7 +76,7 @@ void SceneChanger::moveObject(const ObjectChange& change)
   if (object == nullptr)
     throw Error(where + "the scene has no such object");
   if (!change.shapes.empty())
-    throw Error(where + "a move changes poses alone; leave the shapes out, or add the object to replace it");
+    throw Error(where + "a move changes only poses; leave the shapes out, or add the object to replace it");
   std::vector<PlacedShape>& shapes = object->shapes;
   if (!change.shape_poses.empty() && change.shape_poses.size() != shapes.size())
     throw Error(where + std::to_string(change.shape_poses.size()) + " poses for its " + std::to_string(shapes.size()) +
@@ -106,9 +106,9 @@ void SceneChanger::removeObject(const ObjectChange& change)
   }
   if (attached_here_.count(id) != 0)
     return;
-  const AttachedObject* const carried = attached_.find(id);
+  const AttachedObject* const attached = attached_.find(id);
   throw Error("object '" + id + "' cannot be removed: " +
-              (carried != nullptr ? "link '" + linkName(carried->link) + "' carries it; detach it first"
-                                  : "the scene has no such object"));
+              (attached != nullptr ? "it is attached to link '" + linkName(attached->link) + "'; detach it first"
+                                   : "the scene has no such object"));
 }
 }  // namespace gpu_planning_scene::core

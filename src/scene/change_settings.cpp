@@ -36,7 +36,7 @@ void SceneChanger::changeFixedFrames(const SceneChange& change)
     if (is_planning_frame && !pose.isApprox(Eigen::Isometry3d::Identity(), 1e-12))
       throw Error(where + " is the planning frame; its transform must be the identity");
     if (!is_planning_frame && scene.robot->linkIndex(name) >= 0)
-      throw Error(where + " has the name of a link, whose pose is that of the robot's state");
+      throw Error(where + " has the name of a link; give it another name");
     if (!is_planning_frame)
       scene.fixed_frames[name] = pose;
   }

@@ -12,12 +12,12 @@ void SceneChanger::changeState(const StateChange& change, bool is_full_scene)
 {
   setVariables(change.variables);
   if (!change.is_diff && (is_full_scene || !change.variables.empty()))
-    dropCarried(change);
+    removeReplacedAttached(change);
   for (const AttachedChange& attached : change.attached)
   {
     if (!change.is_diff && attached.object.operation != Operation::Add)
-      throw Error("object '" + attached.object.id + "': a robot state that is no difference can only add attached " +
-                  "objects; set is_diff of the robot_state");
+      throw Error("object '" + attached.object.id + "': a robot state with is_diff false can only add attached " +
+                  "objects; set robot_state.is_diff to true");
     changeAttached(attached);
   }
 }
@@ -46,7 +46,7 @@ void SceneChanger::setVariables(const std::map<std::string, double>& variables)
 
 /// As in MoveIt, a robot state whose is_diff is false replaces the attached objects. Clients often leave is_diff unset
 /// by mistake, so each object that is removed gives a warning.
-void SceneChanger::dropCarried(const StateChange& change)
+void SceneChanger::removeReplacedAttached(const StateChange& change)
 {
   for (const std::string& id : attached_.ids())
   {
@@ -57,8 +57,8 @@ void SceneChanger::dropCarried(const StateChange& change)
     if (comes_back)
       continue;
     forget(id);
-    result_.warnings.push_back("object '" + id + "' is gone: link '" + linkName(dropped.link) +
-                               "' carried it, and robot_state.is_diff is false, which replaces what is attached");
+    result_.warnings.push_back("object '" + id + "' was removed from link '" + linkName(dropped.link) +
+                               "', because robot_state.is_diff is false: this replaces all attached objects");
   }
 }
 }  // namespace gpu_planning_scene::core

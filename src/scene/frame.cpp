@@ -54,7 +54,7 @@ Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* stat
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   robot.linkPoses(state, poses.data());
   if (!poses[static_cast<std::size_t>(link)].matrix().allFinite())
-    throw Error("the robot state is not finite; link '" + name + "' has no pose in it");
+    throw Error("the robot state is not finite, so link '" + name + "' has no pose");
   return poses[static_cast<std::size_t>(link)];
 }
 
@@ -70,9 +70,9 @@ std::optional<Eigen::Isometry3d> PlanningScene::frame(const std::string& frame_n
 {
   const auto find_object = [this](const std::string& id) -> std::optional<ObjectFrame>
   {
-    for (const AttachedObject& carried : attached)
-      if (carried.object.id == id)
-        return ObjectFrame{&carried.object.pose, &carried.object.subframes, carried.link};
+    for (const AttachedObject& object : attached)
+      if (object.object.id == id)
+        return ObjectFrame{&object.object.pose, &object.object.subframes, object.link};
     for (const WorldObject& object : objects)
       if (object.id == id)
         return ObjectFrame{&object.pose, &object.subframes};

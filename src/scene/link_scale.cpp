@@ -8,19 +8,19 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-void scaleCarriedBy(const RobotModel& robot, AttachedObject& carried, ShapeScaler& scaler)
+void scaleAttachedBy(const RobotModel& robot, AttachedObject& object, ShapeScaler& scaler)
 {
   const std::vector<double>& scale = robot.linkScale();
-  const double factor = scale.empty() ? 1.0 : scale.at(static_cast<std::size_t>(carried.link));
+  const double factor = scale.empty() ? 1.0 : scale.at(static_cast<std::size_t>(object.link));
   try
   {
-    carried.scaled_shapes =
+    object.scaled_shapes =
         factor == 1.0 ? nullptr
-                      : std::make_shared<const std::vector<PlacedShape>>(scaler.scaled(carried.object.shapes, factor));
+                      : std::make_shared<const std::vector<PlacedShape>>(scaler.scaled(object.object.shapes, factor));
   }
   catch (const Error& error)
   {
-    throw Error("attached object '" + carried.object.id + "': " + error.what());
+    throw Error("attached object '" + object.object.id + "': " + error.what());
   }
 }
 }  // namespace
@@ -30,17 +30,17 @@ void PlanningScene::setLinkScale(const std::vector<double>& factors)
   const std::shared_ptr<const RobotModel> scaled = robot->scaled(factors);
   if (scaled == robot)
     return;
-  std::vector<AttachedObject> carried = attached;
+  std::vector<AttachedObject> scaled_objects = attached;
   ShapeScaler scaler;
-  for (AttachedObject& object : carried)
-    scaleCarriedBy(*scaled, object, scaler);
+  for (AttachedObject& object : scaled_objects)
+    scaleAttachedBy(*scaled, object, scaler);
   robot = scaled;
-  attached = std::move(carried);
+  attached = std::move(scaled_objects);
 }
 
-void PlanningScene::scaleCarried(AttachedObject& carried) const
+void PlanningScene::scaleAttached(AttachedObject& object) const
 {
   ShapeScaler scaler;
-  scaleCarriedBy(*robot, carried, scaler);
+  scaleAttachedBy(*robot, object, scaler);
 }
 }  // namespace gpu_planning_scene::core

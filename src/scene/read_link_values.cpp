@@ -31,7 +31,7 @@ std::vector<double> readLinkValues(const YamlValue& scene, const SceneReader& re
     const int link = reader.robot.linkIndex(name.text());
     if (link < 0)
     {
-      reader.warn(name.where() + ": " + member + " not used, the robot has no link '" + name.text() + "'");
+      reader.warn(name.where() + ": " + member + " ignored: the robot has no link '" + name.text() + "'");
       continue;
     }
     if (given[static_cast<std::size_t>(link)])

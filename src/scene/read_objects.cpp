@@ -41,7 +41,7 @@ void requireAdd(const YamlValue& object)
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   if (name != "0" && name != "add")
     operation->fail("operation " + operation->text() +
-                    " in a scene file; it describes a full scene, so objects can only " + "be added (0)");
+                    " is not allowed: a scene file describes a full scene, so each object must be added (0)");
 }
 
 std::map<std::string, Eigen::Isometry3d> readSubframes(const YamlValue& object)
@@ -68,7 +68,7 @@ WorldObject readObject(const YamlValue& value, SceneReader& reader)
   WorldObject object;
   object.id = value.at("id").text();
   if (object.id.empty())
-    value.fail("an object without an id");
+    value.fail("the object has no id");
   object.shapes = readShapes(value, reader);
   if (object.shapes.empty())
     value.fail("object '" + object.id + "' has no shapes");
@@ -100,8 +100,8 @@ Eigen::Isometry3d readFrameInLink(const YamlValue* header, int link, const Scene
     return Eigen::Isometry3d::Identity();
   const Eigen::Isometry3d frame_pose = readFrame(header, reader);
   if (reader.state.empty())
-    frame->fail("frame '" + frame->text() + "' is not that of link '" + link_name +
-                "', so the file must give the robot_state in which the link carries the object there");
+    frame->fail("frame '" + frame->text() + "' is not the frame of link '" + link_name +
+                "'; give the robot_state in which the object is attached");
   std::vector<Eigen::Isometry3d> poses(reader.robot.links().size());
   reader.robot.linkPoses(reader.state.data(), poses.data());
   return poses[link].inverse() * frame_pose;
@@ -116,7 +116,7 @@ AttachedObject readAttached(const YamlValue& value, SceneReader& reader)
   attached.object = readObject(object, reader);
   attached.padding = reader.defaults.attached_padding;
   if (hasHalfSpace(attached.object.shapes))
-    object.at("planes").fail("a plane cannot be carried; object '" + attached.object.id + "' belongs into the world");
+    object.at("planes").fail("a plane cannot be attached; put object '" + attached.object.id + "' into the world");
   attached.object.pose = readFrameInLink(object.find("header"), attached.link, reader) * attached.object.pose;
   if (const YamlValue* links = value.find("touch_links"))
     for (const YamlValue& link : links->items())
@@ -149,7 +149,7 @@ void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& res
   {
     AttachedObject attached = readAttached(value, reader);
     require_new(attached.object.id, value);
-    result.scaleCarried(attached);
+    result.scaleAttached(attached);
     result.attached.push_back(std::move(attached));
   }
 }

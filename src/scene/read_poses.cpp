@@ -14,7 +14,7 @@ Eigen::Quaterniond readOrientation(const YamlValue& value)
                                          : Eigen::Vector4d(value.numbers(4).data());
   const double norm = components.stableNorm();
   if (norm == 0.0)
-    value.fail("the quaternion is zero; no rotation is [0, 0, 0, 1]");
+    value.fail("the quaternion is zero; the identity is [0, 0, 0, 1]");
   // The components are divided first, so that squares of large components do not overflow.
   return Eigen::Quaterniond(Eigen::Vector4d(components / norm)).normalized();
 }
@@ -83,7 +83,7 @@ Eigen::Isometry3d readFrame(const YamlValue* header, const SceneReader& reader)
     if (link < 0)
       continue;
     if (reader.state.empty())
-      value->fail("frame '" + frame + "' is a link, so the file must give the robot_state that it is meant for");
+      value->fail("frame '" + frame + "' is a link; the file must give the robot_state that places this link");
     std::vector<Eigen::Isometry3d> poses(reader.robot.links().size());
     reader.robot.linkPoses(reader.state.data(), poses.data());
     return poses[link];

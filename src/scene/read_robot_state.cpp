@@ -126,11 +126,11 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
 
   const std::string start = value.where() + ": robot_state: ";
   if (!state.unknown_joints.empty())
-    reader.warn(start + "not used, the robot has no such joints: " + join(state.unknown_joints));
+    reader.warn(start + "joints ignored because the robot does not have them: " + join(state.unknown_joints));
   if (!state.fixed_joints.empty())
-    reader.warn(start + "not used, these joints are fixed: " + join(state.fixed_joints));
+    reader.warn(start + "joints ignored because they are fixed: " + join(state.fixed_joints));
   if (!state.mimic_joints.empty())
-    reader.warn(start + "not used, these joints follow others: " + join(state.mimic_joints));
+    reader.warn(start + "joints ignored because they follow other joints: " + join(state.mimic_joints));
 
   std::vector<std::string> missing;
   for (std::size_t i = 0; i < state.given.size(); ++i)
@@ -139,7 +139,7 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
   if (missing.size() == state.values.size())
     return {};
   if (!missing.empty())
-    reader.warn(start + "not given, so the default is taken: " + join(missing));
+    reader.warn(start + "joints without a value get their default: " + join(missing));
   return state.values;
 }
 }  // namespace gpu_planning_scene::core

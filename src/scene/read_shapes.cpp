@@ -90,7 +90,7 @@ std::shared_ptr<const Mesh> readMesh(const YamlValue& value, SceneReader& reader
     return readInlineMesh(value, reader);
   for (const char* key : {"vertices", "triangles"})
     if (const YamlValue* surplus = value.find(key))
-      surplus->fail(std::string("a mesh has either a 'resource' or '") + key + "'");
+      surplus->fail(std::string("a mesh must not have both 'resource' and '") + key + "'");
   const YamlValue* scale = value.find("scale");
   if (!scale)
     scale = value.find("dimensions");

@@ -31,7 +31,7 @@ bool isRigid(const Eigen::Isometry3d& pose)
   return excessOf(pose) <= kTolerance;
 }
 
-Eigen::Isometry3d rigid(const Eigen::Isometry3d& pose, const std::string& where)
+Eigen::Isometry3d nearestRigid(const Eigen::Isometry3d& pose, const std::string& where)
 {
   const double excess = excessOf(pose);
   if (excess > kTolerance)
@@ -48,6 +48,6 @@ Eigen::Isometry3d rigidProduct(const Eigen::Isometry3d& body, const Eigen::Isome
 {
   static const std::string of_body = "a body's pose";
   static const std::string of_shape = "a shape's pose";
-  return rigid(body, of_body) * rigid(shape, of_shape);
+  return nearestRigid(body, of_body) * nearestRigid(shape, of_shape);
 }
 }  // namespace gpu_planning_scene::core

@@ -15,7 +15,7 @@ namespace
 /// long.
 bool namesNoOtherFrames(const RobotModel& robot, const SceneChange& change)
 {
-  const auto is_robots = [&robot](const FrameAt& frame)
+  const auto is_robots = [&robot](const StampedFrame& frame)
   { return frame.name.empty() || frame.name == robot.planningFrame() || robot.linkIndex(frame.name) >= 0; };
   return std::all_of(change.objects.begin(), change.objects.end(),
                      [&](const ObjectChange& object) { return is_robots(object.frame); }) &&
@@ -27,7 +27,7 @@ bool namesNoOtherFrames(const RobotModel& robot, const SceneChange& change)
 Change applyChange(const PlanningScene& scene, const std::vector<double>& state, const SceneChange& change,
                    const SceneDefaults& defaults, const SceneLimits& limits, const ExternalFrames& frames)
 {
-  const auto lookup = [&](const FrameAt& frame)
+  const auto lookup = [&](const StampedFrame& frame)
   {
     const auto found = frames.find(frame);
     if (found == frames.end())
@@ -47,12 +47,12 @@ Change applyChange(const PlanningScene& scene, const std::vector<double>& state,
 
 /// Tries the change with some state of the robot, and some pose for each unknown frame. The names that are unknown
 /// depend on neither. Errors are ignored here; applyChange reports them.
-std::vector<FrameAt> externalFrames(const PlanningScene& scene, const SceneChange& change)
+std::vector<StampedFrame> externalFrames(const PlanningScene& scene, const SceneChange& change)
 {
   if (namesNoOtherFrames(*scene.robot, change))
     return {};
-  std::set<FrameAt> unknown;
-  const auto lookup = [&unknown](const FrameAt& frame)
+  std::set<StampedFrame> unknown;
+  const auto lookup = [&unknown](const StampedFrame& frame)
   {
     unknown.insert(frame);
     return Eigen::Isometry3d::Identity();

@@ -124,7 +124,7 @@ void SceneChanger::warnOfAllowedCollisions(const std::string& id)
       (partners.empty() ? "all bodies by default"
                         : "'" + partners.front() + "'" +
                               (partners.size() == 1 ? "" : " and " + std::to_string(partners.size() - 1) + " more")) +
-      "; set the matrix anew if these entries were meant for another object of that id");
+      "; set a new matrix if these entries were meant for an earlier object of that id");
 }
 
 WorldObject SceneChanger::newObject(const ObjectChange& change) const
@@ -142,12 +142,12 @@ WorldObject SceneChanger::newObject(const ObjectChange& change) const
   return object;
 }
 
-Eigen::Isometry3d SceneChanger::placed(const Eigen::Isometry3d& pose, const FrameAt& frame)
+Eigen::Isometry3d SceneChanger::placed(const Eigen::Isometry3d& pose, const StampedFrame& frame)
 {
   const auto find_object = [this](const std::string& id) -> std::optional<ObjectFrame>
   {
-    if (const AttachedObject* carried = attached_.find(id))
-      return ObjectFrame{&carried->object.pose, &carried->object.subframes, carried->link};
+    if (const AttachedObject* attached = attached_.find(id))
+      return ObjectFrame{&attached->object.pose, &attached->object.subframes, attached->link};
     if (const WorldObject* object = objects_.find(id))
       return ObjectFrame{&object->pose, &object->subframes};
     return std::nullopt;

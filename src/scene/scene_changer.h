@@ -19,7 +19,7 @@ class SceneChanger
 {
  public:
   /// The pose in the planning frame of a frame that the scene does not know. Throws Error if it is unknown here too.
-  using Lookup = std::function<Eigen::Isometry3d(const FrameAt&)>;
+  using Lookup = std::function<Eigen::Isometry3d(const StampedFrame&)>;
 
   SceneChanger(const PlanningScene& scene, const std::vector<double>& state, const SceneDefaults& defaults,
                const SceneLimits& limits, Lookup lookup);
@@ -38,18 +38,18 @@ class SceneChanger
   // change_state.cpp
   void changeState(const StateChange& change, bool is_full_scene);
   void setVariables(const std::map<std::string, double>& variables);
-  void dropCarried(const StateChange& change);
+  void removeReplacedAttached(const StateChange& change);
 
   // change_attached.cpp
   void changeAttached(const AttachedChange& change);
   void attach(const AttachedChange& change);
   AttachedObject fromWorld(const AttachedChange& change, int link);
   AttachedObject fromShapes(const AttachedChange& change, int link);
-  void appendToCarried(AttachedObject& carried, const AttachedChange& change);
+  void appendToAttached(AttachedObject& attached, const AttachedChange& change);
   void detach(const AttachedChange& change);
-  void putBack(const std::string& id);
-  void addTouchLinks(const AttachedChange& change, AttachedObject& carried) const;
-  Eigen::Isometry3d poseInLink(const Eigen::Isometry3d& pose, const FrameAt& frame, int link);
+  void detachToWorld(const std::string& id);
+  void addTouchLinks(const AttachedChange& change, AttachedObject& attached) const;
+  Eigen::Isometry3d poseInLink(const Eigen::Isometry3d& pose, const StampedFrame& frame, int link);
 
   // change_objects.cpp
   void clearWorld();
@@ -72,7 +72,7 @@ class SceneChanger
   /// The object that an Add describes. Its pose is in the frame of the change.
   WorldObject newObject(const ObjectChange& change) const;
   /// Transforms a pose in `frame` to the planning frame.
-  Eigen::Isometry3d placed(const Eigen::Isometry3d& pose, const FrameAt& frame);
+  Eigen::Isometry3d placed(const Eigen::Isometry3d& pose, const StampedFrame& frame);
   const std::string& linkName(int link) const
   {
     return result_.scene.robot->links()[static_cast<std::size_t>(link)].name;

@@ -13,8 +13,8 @@ namespace
 void requireAtMost(std::size_t count, std::size_t limit, const std::string& what, const char* parameter)
 {
   if (limit != 0 && count > limit)
-    throw Error(what + " " + std::to_string(count) + ", more than the " + std::to_string(limit) +
-                " of the parameter limits/" + parameter);
+    throw Error(what + " " + std::to_string(count) + "; the parameter limits/" + parameter + " allows " +
+                std::to_string(limit));
 }
 
 const Mesh* meshOf(const PlacedShape& placed)
@@ -89,10 +89,10 @@ void SceneCount::requireFramesAndColors(const PlanningScene& scene) const
 void SceneCount::requireName(const std::string& name, const std::string& what) const
 {
   if (name.empty())
-    throw Error("a " + what + " without a name; give it one");
+    throw Error("a " + what + " has no name; give it a name");
   requireAtMost(name.size(), limits_.name_length, "the length of a name (" + what + ") is", "name_length");
   if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }))
-    throw Error("the name of a " + what + " has a line break or another control character in it; leave it out");
+    throw Error("the name of a " + what + " contains a line break or another control character; remove it");
 }
 
 void SceneCount::requireMatrix(const AllowedCollisionMatrix& matrix) const

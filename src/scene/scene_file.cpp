@@ -9,6 +9,17 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+/// Refuses the parts of MoveIt's messages that this package does not model. Answers would be for another scene.
+void refuseUnsupported(const YamlValue& scene)
+{
+  const YamlValue* world = scene.find("world");
+  const YamlValue* octomap = world ? world->find("octomap") : nullptr;
+  const YamlValue* tree = octomap ? octomap->find("octomap") : nullptr;
+  const YamlValue* data = tree ? tree->find("data") : nullptr;
+  if (data && !data->items().empty())
+    data->fail("octomaps are not supported; give the obstacles as objects or as a point cloud");
+}
+
 PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                            const PackageResolver& packages, std::vector<std::string>* warnings,
                            const MeshAccess& meshes, const SceneDefaults& defaults)
@@ -25,7 +36,7 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
                                                                 "world",
                                                                 "is_diff"};
   if (std::none_of(known_keys.begin(), known_keys.end(), [&](const char* key) { return file.find(key) != nullptr; }))
-    file.fail("not a planning scene: none of 'world', 'robot_state', 'allowed_collision_matrix' is here");
+    file.fail("not a planning scene: it has no 'world', 'robot_state' or 'allowed_collision_matrix'");
   file.warnOfUnknownKeys(known_keys, warnings);
   const YamlValue* is_diff = file.find("is_diff");
   if (is_diff && is_diff->boolean())

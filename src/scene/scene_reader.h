@@ -64,7 +64,4 @@ std::vector<double> readLinkScale(const YamlValue& scene, const SceneReader& rea
 
 /// `object_colors`.
 std::map<std::string, Color> readColors(const YamlValue& scene, const SceneReader& reader);
-
-/// Throws Error if the scene has an octomap.
-void refuseUnsupported(const YamlValue& scene);
 }  // namespace gpu_planning_scene::core

@@ -46,7 +46,7 @@ class SceneTextReader
     object.padding = object_padding_;
     object.id = tokens_.restOfLine();
     if (object.id.empty())
-      tokens_.fail("an object without a name");
+      tokens_.fail("the object has no name");
     if (!ids_.insert(object.id).second)
       tokens_.fail("object '" + object.id + "' is given twice");
     if (scene_.robot->linkIndex(object.id) >= 0)

@@ -86,7 +86,7 @@ std::size_t TextTokens::count(const char* what)
 {
   const std::size_t value = index(what);
   if (value > text_.size() - at_)
-    fail(std::string(what) + " is " + std::to_string(value) + ", more than the rest of the file can hold");
+    fail(std::string(what) + " is " + std::to_string(value) + ", but the rest of the file is shorter");
   return value;
 }
 
@@ -106,7 +106,7 @@ Eigen::Isometry3d TextTokens::pose()
     component = number("an orientation (x y z w)");
   const double norm = components.stableNorm();
   if (norm == 0.0)
-    fail("the quaternion is zero; no rotation is 0 0 0 1");
+    fail("the quaternion is zero; the identity is 0 0 0 1");
   return Eigen::Translation3d(position) * Eigen::Quaterniond(Eigen::Vector4d(components / norm)).normalized();
 }
 }  // namespace gpu_planning_scene::core

@@ -17,7 +17,7 @@ namespace
 void validatePose(const Eigen::Isometry3d& pose, const std::string& where)
 {
   if (!isRigid(pose))
-    rigid(pose, where);
+    nearestRigid(pose, where);
 }
 
 void validatePadding(double padding, const std::string& where)
@@ -57,19 +57,19 @@ void validateAttached(const AttachedObject& attached, const RobotModel& robot, c
   const auto require_link = [&](int link, const char* role)
   {
     if (link < 0 || link >= links)
-      throw Error(where + ": its " + role + " is number " + std::to_string(link) + " of " + std::to_string(links) +
-                  "; name a link of the robot by its index");
+      throw Error(where + ": its " + role + " has index " + std::to_string(link) + ", but the robot has " +
+                  std::to_string(links) + " links; name a link of the robot by its index");
   };
   require_link(attached.link, "link");
   for (const int link : attached.touch_links)
     require_link(link, "touch link");
   if (hasHalfSpace(attached.object.shapes))
-    throw Error(where + " has a half-space, which cannot be carried; leave it in the world");
+    throw Error(where + " has a half-space, which cannot be attached; leave it in the world");
   validatePadding(attached.padding, where);
   const std::vector<double>& scale = robot.linkScale();
   const bool is_scaled = !scale.empty() && scale[static_cast<std::size_t>(attached.link)] != 1.0;
   if (is_scaled != (attached.scaled_shapes != nullptr))
-    throw Error(where + " does not have its link's scale; call PlanningScene::scaleCarried before adding it");
+    throw Error(where + " does not have its link's scale; call PlanningScene::scaleAttached before adding it");
 }
 }  // namespace
 
@@ -105,7 +105,7 @@ void SceneValidator::validate(const PlanningScene& scene)
   const auto require_new = [&ids](const std::string& id)
   {
     if (!ids.insert(id).second)
-      throw Error("object '" + id + "': there is a link or another object of that name; give each its own");
+      throw Error("object '" + id + "': a link or another object has the same name; give it another name");
   };
   for (const WorldObject& object : scene.objects)
   {

@@ -29,7 +29,7 @@ class YamlTreeBuilder : public YAML::EventHandler
     document_ = makeValue(YamlValue::Kind::Null, mark);
     // On some broken texts the parser returns one empty document after the other and never ends.
     if (mark.pos == document_start_)
-      document_.fail("not YAML: the document ends where it begins");
+      document_.fail("not YAML: the document is empty");
     document_start_ = mark.pos;
   }
   void OnDocumentEnd() override { anchors_.clear(); }
@@ -43,11 +43,11 @@ class YamlTreeBuilder : public YAML::EventHandler
   {
     const auto target = anchors_.find(anchor);
     if (target == anchors_.end())
-      makeValue(YamlValue::Kind::Null, mark).fail("an alias inside the value that it stands for");
+      makeValue(YamlValue::Kind::Null, mark).fail("an alias refers to the value that contains it");
     // Each use of an alias is a copy. A few lines of aliases of aliases would take all memory.
     copied_ += target->second.size;
-    if (copied_ > kMostCopied)
-      target->second.value.fail("aliases stand for more than " + std::to_string(kMostCopied) + " values");
+    if (copied_ > kMaxCopied)
+      target->second.value.fail("aliases stand for more than " + std::to_string(kMaxCopied) + " values");
     complete(target->second.value, 0, target->second.size);
   }
 
@@ -84,7 +84,7 @@ class YamlTreeBuilder : public YAML::EventHandler
     YamlValue value;
     std::size_t size;
   };
-  static constexpr std::size_t kMostCopied = 1000000;
+  static constexpr std::size_t kMaxCopied = 1000000;
 
   YamlValue makeValue(YamlValue::Kind kind, const YAML::Mark& mark) const
   {
@@ -121,7 +121,7 @@ class YamlTreeBuilder : public YAML::EventHandler
     if (!parent.key)
     {
       if (value.kind_ != YamlValue::Kind::Scalar)
-        value.fail("a key that is not plain text");
+        value.fail("a key must be plain text");
       for (const auto& member : parent.value.members_)
         if (member.first == value.scalar_)
           value.fail("key '" + value.scalar_ + "' is given twice");
@@ -157,7 +157,7 @@ YamlValue YamlValue::loadFile(const std::string& path)
       if (next.kind_ == Kind::Null)
         continue;
       if (document.kind_ != Kind::Null)
-        next.fail("a second document; give one per file");
+        next.fail("the file has a second document; give one document per file");
       document = std::move(next);
     }
   }

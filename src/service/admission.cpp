@@ -13,15 +13,17 @@ void Admission::stop()
   changed_.notify_all();
 }
 
-/// Callers are numbered and admitted in the order of their arrival: number n is admitted when n < left_ + most_inside_.
+/// Callers are numbered and admitted in the order of their arrival: number n is admitted when n < departed_ +
+/// max_inside_.
 void Admission::enter()
 {
   std::unique_lock<std::mutex> lock(mutex_);
-  const std::uint64_t here = came_ - left_;
-  if (!stopping_ && here >= most_inside_ + most_waiting_)
-    throw Busy("busy: " + std::to_string(here - most_inside_) + " requests like this are waiting; ask again later");
-  const std::uint64_t number = came_++;
-  changed_.wait(lock, [&] { return stopping_ || number < left_ + most_inside_; });
+  const std::uint64_t here = arrived_ - departed_;
+  if (!stopping_ && here >= max_inside_ + max_waiting_)
+    throw Busy("busy: " + std::to_string(here - max_inside_) +
+               " requests of this kind are queued; send the request again later");
+  const std::uint64_t number = arrived_++;
+  changed_.wait(lock, [&] { return stopping_ || number < departed_ + max_inside_; });
   if (stopping_)
     throw Error("shutting down: the request was not answered");
 }
@@ -29,7 +31,7 @@ void Admission::enter()
 void Admission::leave()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++left_;
+  ++departed_;
   changed_.notify_all();
 }
 }  // namespace gpu_planning_scene::core

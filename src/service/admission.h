@@ -7,14 +7,12 @@
 
 namespace gpu_planning_scene::core
 {
-/// Admits at most `most_inside` callers at a time, in the order of their arrival. At most `most_waiting` further
+/// Admits at most `max_inside` callers at a time, in the order of their arrival. At most `max_waiting` further
 /// callers wait; all others are rejected.
 class Admission
 {
  public:
-  Admission(std::size_t most_inside, std::size_t most_waiting) : most_inside_(most_inside), most_waiting_(most_waiting)
-  {
-  }
+  Admission(std::size_t max_inside, std::size_t max_waiting) : max_inside_(max_inside), max_waiting_(max_waiting) {}
 
   /// The owner of a pass is admitted until the pass is destroyed.
   class Pass
@@ -37,12 +35,12 @@ class Admission
   void enter();
   void leave();
 
-  const std::size_t most_inside_;
-  const std::size_t most_waiting_;
+  const std::size_t max_inside_;
+  const std::size_t max_waiting_;
   std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
-  std::uint64_t came_ = 0;
-  std::uint64_t left_ = 0;
+  std::uint64_t arrived_ = 0;
+  std::uint64_t departed_ = 0;
   bool stopping_ = false;
 };
 }  // namespace gpu_planning_scene::core

@@ -35,11 +35,11 @@ void append(const SceneChange& second, SceneChange& first)
 }
 }  // namespace
 
-ChangeQueue::ChangeQueue(Maker maker, Refuse refuse, std::size_t most_changes, std::size_t most_bytes)
-  : maker_(std::move(maker)),
-    refuse_(std::move(refuse)),
-    most_changes_(most_changes),
-    most_bytes_(most_bytes),
+ChangeQueue::ChangeQueue(BeginBatch begin_batch, OnRejected on_rejected, std::size_t max_changes, std::size_t max_bytes)
+  : begin_batch_(std::move(begin_batch)),
+    on_rejected_(std::move(on_rejected)),
+    max_changes_(max_changes),
+    max_bytes_(max_bytes),
     thread_([this] { run(); })
 {
 }
@@ -55,10 +55,10 @@ void ChangeQueue::add(std::string source, SceneChange change, std::size_t bytes)
   if (stopping_)
     throw Error("shutting down: the change was not made");
   const std::size_t changes = making_ + waiting_.size();
-  if (changes >= most_changes_ || (changes != 0 && bytes_ + bytes > most_bytes_))
+  if (changes >= max_changes_ || (changes != 0 && bytes_ + bytes > max_bytes_))
     throw Busy("busy: " + std::to_string(changes) + " changes of " + std::to_string(bytes_) +
-               " bytes are waiting (limits/waiting_changes, limits/message_size); send fewer at "
-               "once, or use apply_planning_scene, which waits");
+               " bytes are queued (limits/waiting_changes, limits/message_size); send changes at a lower "
+               "rate, or use apply_planning_scene, which waits");
   bytes_ += bytes;
   waiting_.push_back({std::move(source), std::move(change), bytes});
   wake_.notify_one();
@@ -106,18 +106,18 @@ void ChangeQueue::run()
 
 void ChangeQueue::makeAll(const Changes& changes)
 {
-  const Make make_one = maker_();
+  const ApplyChange apply_change = begin_batch_();
   for (std::size_t begin = 0, end = 0; begin < changes.size(); begin = end)
   {
     for (end = begin + 1; end < changes.size() && canBeOne(changes[end - 1].change, changes[end].change);)
       ++end;
-    make(make_one, changes, begin, end);
+    make(apply_change, changes, begin, end);
   }
 }
 
 /// Makes the changes from `begin` to `end`, which can be merged. If the merged change is rejected, each half is tried
 /// (bisection). So one wrong change among thousands is found, and all others are made, with few copies of the scene.
-void ChangeQueue::make(const Make& make_one, const Changes& changes, std::size_t begin, std::size_t end)
+void ChangeQueue::make(const ApplyChange& apply_change, const Changes& changes, std::size_t begin, std::size_t end)
 {
   try
   {
@@ -125,24 +125,24 @@ void ChangeQueue::make(const Make& make_one, const Changes& changes, std::size_t
       throw Error("shutting down: the change was not made");
     if (end == begin + 1)
     {
-      make_one(changes[begin].change);
+      apply_change(changes[begin].change);
       return;
     }
     SceneChange all = changes[begin].change;
     for (std::size_t i = begin + 1; i < end; ++i)
       append(changes[i].change, all);
-    make_one(all);
+    apply_change(all);
   }
   catch (const std::exception& error)
   {
     if (end == begin + 1)
     {
-      refuse_(changes[begin].source, error.what());
+      on_rejected_(changes[begin].source, error.what());
       return;
     }
     const std::size_t middle = begin + (end - begin) / 2;
-    make(make_one, changes, begin, middle);
-    make(make_one, changes, middle, end);
+    make(apply_change, changes, begin, middle);
+    make(apply_change, changes, middle, end);
   }
 }
 }  // namespace gpu_planning_scene::core

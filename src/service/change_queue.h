@@ -19,15 +19,15 @@ class ChangeQueue
 {
  public:
   /// Makes a change. If it throws, nothing has changed.
-  using Make = std::function<void(const SceneChange& change)>;
+  using ApplyChange = std::function<void(const SceneChange& change)>;
   /// Called once before each set of queued changes is made.
-  using Maker = std::function<Make()>;
+  using BeginBatch = std::function<ApplyChange()>;
   /// Called on the queue's thread for each change that was not made.
-  using Refuse = std::function<void(const std::string& source, const std::string& why)>;
+  using OnRejected = std::function<void(const std::string& source, const std::string& why)>;
 
-  /// The queue holds at most `most_changes` changes with `most_bytes` bytes in total (see add()). One change always
+  /// The queue holds at most `max_changes` changes with `max_bytes` bytes in total (see add()). One change always
   /// fits, whatever its size.
-  ChangeQueue(Maker maker, Refuse refuse, std::size_t most_changes, std::size_t most_bytes);
+  ChangeQueue(BeginBatch begin_batch, OnRejected on_rejected, std::size_t max_changes, std::size_t max_bytes);
   /// Calls stop().
   ~ChangeQueue();
 
@@ -49,13 +49,13 @@ class ChangeQueue
 
   void run();
   void makeAll(const Changes& changes);
-  void make(const Make& make_one, const Changes& changes, std::size_t begin, std::size_t end);
+  void make(const ApplyChange& apply_change, const Changes& changes, std::size_t begin, std::size_t end);
   bool isStopping() const;
 
-  const Maker maker_;
-  const Refuse refuse_;
-  const std::size_t most_changes_;
-  const std::size_t most_bytes_;
+  const BeginBatch begin_batch_;
+  const OnRejected on_rejected_;
+  const std::size_t max_changes_;
+  const std::size_t max_bytes_;
 
   mutable std::mutex mutex_;  // guards the members below
   std::condition_variable wake_;

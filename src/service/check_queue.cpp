@@ -102,12 +102,12 @@ std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stopping_)
     std::rethrow_exception(shuttingDown());
-  if (waiting_.size() >= options_.most_waiting_requests ||
-      (!waiting_.empty() && waiting_states_ + count > options_.most_waiting_states))
+  if (waiting_.size() >= options_.max_waiting_requests ||
+      (!waiting_.empty() && waiting_states_ + count > options_.max_waiting_states))
   {
     ++statistics_.busy;
     throw Busy("busy: " + std::to_string(waiting_.size()) + " requests with " + std::to_string(waiting_states_) +
-               " states are waiting; ask again later");
+               " states are queued; send the request again later");
   }
   Request request;
   request.job = std::move(job);

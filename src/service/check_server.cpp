@@ -28,19 +28,20 @@ CheckServer::~CheckServer() = default;
 
 void CheckServer::requireStateCount(std::size_t count) const
 {
-  if (count > options_.most_states)
-    throw Error(std::to_string(count) + " states in one request; the limit is " + std::to_string(options_.most_states) +
-                " (limits/request_states): send fewer at once");
+  if (count > options_.max_states)
+    throw Error(std::to_string(count) + " states in one request; the limit is " + std::to_string(options_.max_states) +
+                " (limits/request_states): send fewer states per request");
 }
 
 std::future<CheckAnswer> CheckServer::submit(CheckJob job)
 {
   const std::size_t width = job.columns.empty() ? small_->stateWidth() : job.columns.size();
   if (width == 0 ? !job.states.empty() : job.states.size() % width != 0)
-    throw Error(std::to_string(job.states.size()) + " numbers are not rows of " + std::to_string(width) + " variables");
+    throw Error(std::to_string(job.states.size()) + " values do not make rows of " + std::to_string(width) +
+                " variables");
   const std::size_t rows = width == 0 ? 0 : job.states.size() / width;
   if (job.motions && rows % 2 != 0)
-    throw Error(std::to_string(rows) + " states are not the starts and the ends of motions");
+    throw Error(std::to_string(rows) + " states: motions need as many ends as starts");
   const std::size_t count = job.motions ? job.samples : rows;
   requireStateCount(count);
   CheckQueue& queue = count <= options_.small_request && isSmall(job) ? *small_ : *large_;

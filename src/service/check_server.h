@@ -18,11 +18,11 @@ namespace gpu_planning_scene::core
 {
 struct CheckServerOptions
 {
-  std::size_t small_request = 1024;           ///< states; larger requests go to the queue of large requests
-  std::size_t most_waiting_requests = 64;     ///< in each queue
-  std::size_t most_waiting_states = 4000000;  ///< in each queue; one request always fits
-  std::size_t most_states = 1000000;          ///< in one request
-  std::size_t largest_batch = 16384;          ///< states that are checked at once
+  std::size_t small_request = 1024;          ///< states; larger requests go to the queue of large requests
+  std::size_t max_waiting_requests = 64;     ///< in each queue
+  std::size_t max_waiting_states = 4000000;  ///< in each queue; one request always fits
+  std::size_t max_states = 1000000;          ///< in one request
+  std::size_t largest_batch = 16384;         ///< states that are checked at once
 };
 
 /// A request to check states or motions. States are rows of values for some of the robot's variables. The other

@@ -37,11 +37,11 @@ std::size_t residentMemory()
   return resident * pageSize();
 }
 
-MemoryGuard::MemoryGuard(std::size_t most_bytes) : most_(most_bytes != 0 ? most_bytes : machineMemory() / 5 * 4) {}
+MemoryGuard::MemoryGuard(std::size_t max_bytes) : max_(max_bytes != 0 ? max_bytes : machineMemory() / 5 * 4) {}
 
 void MemoryGuard::require() const
 {
-  if (residentMemory() <= most_)
+  if (residentMemory() <= max_)
     return;
   {
     // malloc_trim takes long on a fragmented heap, so it gets at most about a tenth of the time.
@@ -55,8 +55,8 @@ void MemoryGuard::require() const
     }
   }
   const std::size_t used = residentMemory();
-  if (used > most_)
-    throw Error("out of memory: the process uses " + megabytes(used) + ", and the limit is " + megabytes(most_) +
-                " (limits/memory); remove objects, or ask later");
+  if (used > max_)
+    throw Error("out of memory: the process uses " + megabytes(used) + ", and the limit is " + megabytes(max_) +
+                " (limits/memory); remove objects, or send the request later");
 }
 }  // namespace gpu_planning_scene::core

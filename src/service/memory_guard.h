@@ -15,15 +15,15 @@ std::size_t residentMemory();
 class MemoryGuard
 {
  public:
-  /// `most_bytes`: the bound; 0: 80 % of the machine's memory.
-  explicit MemoryGuard(std::size_t most_bytes);
+  /// `max_bytes`: the bound; 0: 80 % of the machine's memory.
+  explicit MemoryGuard(std::size_t max_bytes);
   /// Throws Error if the process uses more than the bound.
   void require() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  const std::size_t most_;
+  const std::size_t max_;
   mutable std::mutex mutex_;                 // guards next_return_
   mutable Clock::time_point next_return_{};  // earliest time to return free memory again
 };

@@ -13,15 +13,15 @@ namespace
 void findFrames(const PlanningScene& scene, const SceneChange& change, const SceneStore::Lookup& lookup,
                 ExternalFrames& frames)
 {
-  for (const FrameAt& frame : externalFrames(scene, change))
+  for (const StampedFrame& frame : externalFrames(scene, change))
     if (frames.count(frame) == 0)
       frames.emplace(frame, lookup(frame));
 }
 
-bool hasAll(const ExternalFrames& frames, const std::vector<FrameAt>& wanted)
+bool hasAll(const ExternalFrames& frames, const std::vector<StampedFrame>& wanted)
 {
   return std::all_of(
-      wanted.begin(), wanted.end(), [&](const FrameAt& frame) { return frames.count(frame) != 0; });
+      wanted.begin(), wanted.end(), [&](const StampedFrame& frame) { return frames.count(frame) != 0; });
 }
 
 /// The robot's state before the change. Empty if a variable is neither known nor set by the change.
@@ -90,8 +90,8 @@ std::uint64_t SceneStore::clear()
   PlanningScene scene = *snapshot().scene;
   for (const WorldObject& object : scene.objects)
     scene.allowed_collisions.removeEntry(object.id);
-  for (const AttachedObject& carried : scene.attached)
-    scene.allowed_collisions.removeEntry(carried.object.id);
+  for (const AttachedObject& attached : scene.attached)
+    scene.allowed_collisions.removeEntry(attached.object.id);
   scene.objects.clear();
   scene.attached.clear();
   scene.colors.clear();

@@ -43,7 +43,7 @@ class SceneStore
   };
   /// Returns the pose of a frame that the scene does not have. It may wait, because no lock is held. Throws Error if it
   /// does not find the frame.
-  using Lookup = std::function<Eigen::Isometry3d(const FrameAt&)>;
+  using Lookup = std::function<Eigen::Isometry3d(const StampedFrame&)>;
   /// Calls applyChange. Changes are made one after the other. Each change increases the revision by 1. If it throws,
   /// nothing has changed.
   Applied apply(const SceneChange& change, const Lookup& lookup);

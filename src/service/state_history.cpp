@@ -38,7 +38,7 @@ const std::vector<double>* StateHistory::nearest(std::int64_t stamp) const
   {
     if (forgot_ && after->stamp != stamp)
       throw Error("the robot's state of " + std::to_string((states_.back().stamp - stamp) / 1'000'000'000) +
-                  " s ago is asked for, and no more than " + std::to_string(kKept / 1'000'000'000) + " s are kept");
+                  " s ago is not available; the last " + std::to_string(kKept / 1'000'000'000) + " s are kept");
     return &after->state;
   }
   const auto before = std::prev(after);

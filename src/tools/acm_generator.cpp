@@ -35,7 +35,7 @@ class PairSampler
     PlanningScene scene(robot_);
     scene.allowed_collisions = AllowedCollisionMatrix();  // check every pair
     const auto problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
-    const auto forest = std::make_shared<const Forest>(buildBinnedSah(problem->trees));
+    const auto forest = std::make_shared<const Forest>(buildBinnedSah(problem->tessellations));
     traversal_ = std::make_unique<const CpuTraversal>(problem, forest);
   }
 

@@ -27,7 +27,7 @@ std::vector<Option> options()
   all.push_back({"--group", "NAME", "check only pairs with a link that this group moves"});
   for (const Option& option : deviceOptions())
     all.push_back(option);
-  all.push_back({"--out", "FILE", "where the answers go (default: the standard output)"});
+  all.push_back({"--out", "FILE", "file for the answers (default: the standard output)"});
   return all;
 }
 
@@ -91,7 +91,7 @@ void printSummary(const PlanningScene& scene, const SceneReport& report, const S
   std::snprintf(line, sizeof line, "valid: %.1f %%\n", 100.0 * static_cast<double>(valid) / static_cast<double>(count));
   std::cerr << line;
   if (result.undecided_states != 0)
-    std::cerr << "settled on the CPU: " << counted(result.undecided_states, "state") << "\n";
+    std::cerr << "decided by the exact checker: " << counted(result.undecided_states, "state") << "\n";
   PairCounts pairs;
   pairs.add(result);
   const auto commonest = pairs.commonest(scene, 5);

@@ -71,25 +71,25 @@ std::vector<std::string> CommandLine::values(const std::string& name) const
   return has(name) ? values_.at(name) : std::vector<std::string>();
 }
 
-long long CommandLine::integer(const std::string& name, long long fallback, long long least, long long most) const
+long long CommandLine::integer(const std::string& name, long long fallback, long long min, long long max) const
 {
   if (!has(name))
     return fallback;
   const auto result = parseInteger(required(name));
-  if (!result || *result < least || *result > most)
-    throw UsageError(name + ": '" + required(name) + "' is not an integer from " + std::to_string(least) + " to " +
-                     std::to_string(most));
+  if (!result || *result < min || *result > max)
+    throw UsageError(name + ": '" + required(name) + "' is not an integer from " + std::to_string(min) + " to " +
+                     std::to_string(max));
   return *result;
 }
 
-double CommandLine::number(const std::string& name, double fallback, double least, double most) const
+double CommandLine::number(const std::string& name, double fallback, double min, double max) const
 {
   if (!has(name))
     return fallback;
   const auto result = parseNumber(required(name));
-  if (!result || !(*result >= least && *result <= most))
-    throw UsageError(name + ": '" + required(name) + "' is not a number from " + std::to_string(least) + " to " +
-                     std::to_string(most));
+  if (!result || !(*result >= min && *result <= max))
+    throw UsageError(name + ": '" + required(name) + "' is not a number from " + std::to_string(min) + " to " +
+                     std::to_string(max));
   return *result;
 }
 

@@ -36,10 +36,10 @@ class CommandLine
   const std::string& required(const std::string& name) const;
   std::string value(const std::string& name, const std::string& fallback) const;
   std::vector<std::string> values(const std::string& name) const;
-  /// Throws UsageError unless it is an integer from `least` to `most`.
-  long long integer(const std::string& name, long long fallback, long long least, long long most) const;
-  /// Throws UsageError unless it is a number from `least` to `most`.
-  double number(const std::string& name, double fallback, double least, double most) const;
+  /// Throws UsageError unless it is an integer from `min` to `max`.
+  long long integer(const std::string& name, long long fallback, long long min, long long max) const;
+  /// Throws UsageError unless it is a number from `min` to `max`.
+  double number(const std::string& name, double fallback, double min, double max) const;
 
  private:
   std::map<std::string, std::vector<std::string>> values_;

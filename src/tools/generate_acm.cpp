@@ -24,9 +24,10 @@ std::vector<Option> options()
     if (option.name != "--urdf" && option.name != "--srdf")
       all.push_back(option);
   all.push_back({"--samples", "N", "random states (default 10000)"});
-  all.push_back({"--seed", "S", "their seed (default 0)"});
-  all.push_back({"--always-share", "P", "a pair that collides in this share of them is Always (default 0.95)"});
-  all.push_back({"--out", "FILE", "where the SRDF goes (default: the standard output)"});
+  all.push_back({"--seed", "S", "seed of the random states (default 0)"});
+  all.push_back(
+      {"--always-share", "P", "pairs that collide in at least this share of the states\nare Always (default 0.95)"});
+  all.push_back({"--out", "FILE", "the SRDF to write (default: the standard output)"});
   return all;
 }
 
@@ -84,8 +85,8 @@ int main(int argc, char** argv)
   const Tool tool{"generate_acm", "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [options]",
                   "Finds the pairs of a robot's links that need not be checked for collision, as MoveIt's Setup\n"
                   "Assistant does, and writes them as disable_collisions of an SRDF: Adjacent (a joint joins them),\n"
-                  "Default (they collide in the default state), Always and Never (in nearly all and in none of many\n"
-                  "random states). Runs on the CPU, on all cores, in double precision.\n"
+                  "Default (they collide in the default state), Always (in nearly all of many random states) and\n"
+                  "Never (in none of them). Runs on the CPU, on all cores, in double precision.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",
                   options(), run};
   return runTool(tool, argc, argv);

@@ -22,11 +22,11 @@ namespace
 {
 using namespace gpu_planning_scene::core;
 
-void limit(__rlimit_resource_t resource, rlim_t most)
+void limit(__rlimit_resource_t resource, rlim_t max)
 {
-  const rlimit value{most, most};
+  const rlimit value{max, max};
   if (setrlimit(resource, &value) != 0)
-    throw Error("the mesh reader cannot limit itself");
+    throw Error("the mesh reader cannot set its limits of memory and time");
 }
 
 void limitThisProcess(unsigned seconds, rlim_t memory)
@@ -58,17 +58,17 @@ void read(const char* const* arguments)
   const std::string path = arguments[1];
   const Eigen::Vector3d scale(std::atof(arguments[2]), std::atof(arguments[3]), std::atof(arguments[4]));
   limitThisProcess(static_cast<unsigned>(number(arguments[5])), number(arguments[6]));
-  const std::size_t most_bytes = number(arguments[7]);
-  const std::size_t most_triangles = number(arguments[8]);
+  const std::size_t max_bytes = number(arguments[7]);
+  const std::size_t max_triangles = number(arguments[8]);
   std::error_code none;
   const auto bytes = std::filesystem::file_size(path, none);
-  if (!none && bytes > most_bytes)
+  if (!none && bytes > max_bytes)
     throw Error("mesh file '" + path + "': it has " + std::to_string(bytes) + " bytes; at most " +
-                std::to_string(most_bytes) + " are allowed (~mesh/file_size)");
+                std::to_string(max_bytes) + " are allowed (~mesh/file_size)");
   const auto mesh = MeshCache().load(path, scale);
-  if (mesh->triangles.size() > most_triangles)
+  if (mesh->triangles.size() > max_triangles)
     throw Error("mesh file '" + path + "': it has " + std::to_string(mesh->triangles.size()) + " triangles; at most " +
-                std::to_string(most_triangles) + " are allowed (~limits/triangles_of_mesh)");
+                std::to_string(max_triangles) + " are allowed (~limits/triangles_of_mesh)");
   write(meshBytes(*mesh));
 }
 }  // namespace

@@ -15,8 +15,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kMostContacts = 200;
-constexpr std::size_t kMostContactsOfPair = 5;
+constexpr std::size_t kMaxContacts = 200;
+constexpr std::size_t kMaxContactsOfPair = 5;
 
 std::vector<Option> options()
 {
@@ -24,11 +24,11 @@ std::vector<Option> options()
   for (const Option& option : sceneOptions())
     all.push_back(option);
   all.push_back({"--state", "NAME=VALUE,...",
-                 "values of variables; the others have those of the scene's\nstate, or their defaults"});
+                 "values of variables; other variables have the values of\nthe scene's state, or their defaults"});
   all.push_back({"--random", "SEED", "a random state instead, within the joints' limits"});
   all.push_back({"--camera", "X,Y,Z[,X,Y,Z]",
-                 "where it stands, and what it looks at; without it, all that\nis near the robot is in the picture"});
-  all.push_back({"--up", "X,Y,Z", "which way is up (default 0,0,1)"});
+                 "camera position and target; default: a view of the\nrobot and the objects near it"});
+  all.push_back({"--up", "X,Y,Z", "upward direction (default 0,0,1)"});
   all.push_back({"--size", "WxH", "pixels (default 960x720)"});
   all.push_back({"--device", "DEVICE", "auto (default), software, an index, or part of a renderer's name"});
   all.push_back({"--out", "FILE", "the PNG file to write"});
@@ -61,7 +61,7 @@ Camera cameraFrom(const CommandLine& arguments, const PlanningScene& scene, cons
   const std::vector<double> up = numbersFrom("--up", arguments.value("--up", "0,0,1"), 3);
   const Eigen::Vector3d upward(up.data());
   if (upward.norm() == 0.0)
-    throw UsageError("--up: a vector of length 0");
+    throw UsageError("--up: the vector has length 0");
   Camera camera = cameraFor(scene, state, upward.normalized());
   if (!arguments.has("--camera"))
     return camera;
@@ -97,7 +97,7 @@ void run(const CommandLine& arguments)
   const auto colliding = collidingPairs(scene, state.data());
   std::vector<Eigen::Vector3d> points;
   if (!colliding.empty())
-    for (const Contact& contact : StateInspector(shared).contacts(state.data(), "", kMostContacts, kMostContactsOfPair))
+    for (const Contact& contact : StateInspector(shared).contacts(state.data(), "", kMaxContacts, kMaxContactsOfPair))
       points.push_back(contact.point);
   writePng(render(scene, state.data(), colliding, points, cameraFrom(arguments, scene, state.data()), width, height,
                   arguments.value("--device", "auto")),
@@ -117,7 +117,7 @@ int main(int argc, char** argv)
                   "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
                   "              [--state NAME=VALUE,...] --out FILE.png [options]",
                   "Draws a robot in its scene: links grey, objects in colours, bodies that collide red,\ncontact "
-                  "points yellow. Needs an OpenGL device, a software one too, and no window system.\n"
+                  "points yellow. Needs an OpenGL device (a software device works too), but no window system.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",
                   options(), run};
   return runTool(tool, argc, argv);

@@ -6,25 +6,24 @@ namespace gpu_planning_scene::core
 {
 std::vector<Option> robotOptions()
 {
-  return {
-      {"--urdf", "FILE", "the robot"},
-      {"--srdf", "FILE", "its groups and the pairs of links that are not checked;\nwithout it, adjacent links are not"},
-      {"--package", "NAME=DIR", "where package://NAME/... is; can be repeated", true},
-      {"--unbounded-translation", "METRES",
-       "planar and floating joints without limits: random positions\nare from -METRES to METRES (default 1)"}};
+  return {{"--urdf", "FILE", "the robot"},
+          {"--srdf", "FILE",
+           "groups, and pairs of links that are not checked;\nwithout it, adjacent links are not checked"},
+          {"--package", "NAME=DIR", "the folder of package://NAME/...; can be repeated", true},
+          {"--unbounded-translation", "METRES",
+           "planar and floating joints without limits: random positions\nare from -METRES to METRES (default 1)"}};
 }
 
 std::vector<Option> deviceOptions()
 {
   return {{"--device", "DEVICE",
            "auto (default): a GPU, else a software device;\nsoftware; an index; part of a renderer's name;\n"
-           "or cpu: no GL device at all, in double precision"},
+           "or cpu: double precision without a GL device"},
           {"--traversal", "NAME", "work_queue (default) or breadth_first; cpu has its own"},
           {"--max-batch", "N", "states that go to the device at once (default 16384)"},
           {"--tolerance", "METRES",
-           "0 (default): exact; else bodies that are no further apart than\nthis (and their padding) may be called "
-           "colliding, "
-           "to save time"}};
+           "0 (default): exact. Above 0: to save time, bodies within this\ndistance (beyond their padding) may be "
+           "reported as colliding"}};
 }
 
 PackageResolver packagesFrom(const CommandLine& arguments)

@@ -11,10 +11,12 @@ namespace gpu_planning_scene::core
 {
 std::vector<Option> sceneOptions()
 {
-  return {{"--scene", "FILE", "the planning scene, YAML in MoveIt's field names;\nwithout it, the robot is alone"},
-          {"--object", "ID=FILE[,POSE]",
-           "a mesh file as one more object; POSE is x,y,z or\nx,y,z,qx,qy,qz,qw in the planning frame; can be repeated",
-           true}};
+  return {
+      {"--scene", "FILE",
+       "the planning scene, YAML with MoveIt's field names;\nwithout it, the scene has only the robot"},
+      {"--object", "ID=FILE[,POSE]",
+       "a mesh file as a further object; POSE is x,y,z or\nx,y,z,qx,qy,qz,qw in the planning frame; can be repeated",
+       true}};
 }
 
 std::vector<double> numbersFrom(const std::string& option, const std::string& text, std::size_t count)
@@ -29,7 +31,7 @@ std::vector<double> numbersFrom(const std::string& option, const std::string& te
     numbers.push_back(*number);
   }
   if (numbers.size() != count)
-    throw UsageError(option + ": '" + text + "' should be " + std::to_string(count) + " numbers with commas between");
+    throw UsageError(option + ": '" + text + "' must be " + std::to_string(count) + " numbers, separated by commas");
   return numbers;
 }
 
@@ -51,7 +53,7 @@ WorldObject objectFrom(const std::string& text)
     {
       const Eigen::Quaterniond rotation(values[6], values[3], values[4], values[5]);
       if (rotation.norm() == 0.0)
-        throw UsageError("--object: the quaternion is zero; no rotation is 0,0,0,1");
+        throw UsageError("--object: the quaternion is zero; the identity is 0,0,0,1");
       object.pose.linear() = rotation.normalized().toRotationMatrix();
     }
   }

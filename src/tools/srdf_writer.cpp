@@ -25,10 +25,10 @@ std::string commentText(const GeneratedMatrix& matrix, const RobotModel& robot, 
        << options.seed
        << ".\n    Adjacent: a joint joins the links. Default: they collide where every variable is 0, or "
        << "in the middle of its\n    limits where 0 is outside. Always: they collide in at least "
-       << 100.0 * options.always_share << " % of the states. Never: they collide in none\n    of them, which says with "
-       << "95 % confidence, for each pair, that fewer than " << 100.0 * bound
-       << " % of random states collide;\n    it is "
-       << "no proof that none does. " << matrix.remaining_pairs << " pairs of links remain to be checked. ";
+       << 100.0 * options.always_share << " % of the states. Never: they collide in none\n    of them; so with "
+       << "95 % confidence, for each pair, fewer than " << 100.0 * bound
+       << " % of random states collide,\n    but this is "
+       << "no proof that none collides. " << matrix.remaining_pairs << " pairs of links remain to be checked. ";
   std::string comment = text.str();
   // XML comments must not contain two hyphens in a row, but a robot's name may.
   for (std::size_t at = comment.find("--"); at != std::string::npos; at = comment.find("--"))

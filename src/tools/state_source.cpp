@@ -82,9 +82,9 @@ class StatesOfFile : public StateSource
 std::vector<Option> stateOptions()
 {
   return {{"--states", "FILE",
-           "CSV: a header of variable names, then one state a row; variables\nthat it does not name take the scene's "
+           "CSV: a header of variable names, then one state per row; variables\nwithout a column take the scene's "
            "robot_state"},
-          {"--random", "N", "N random states within the limits instead; all variables are drawn"},
+          {"--random", "N", "instead: N random states within the limits, with random values\nof all variables"},
           {"--seed", "S", "the seed of the random states (default 0)"}};
 }
 
@@ -95,7 +95,7 @@ std::unique_ptr<StateSource> stateSourceFrom(const CommandLine& arguments, const
   if (arguments.has("--states"))
   {
     if (arguments.has("--seed"))
-      throw UsageError("--seed goes with --random");
+      throw UsageError("--seed needs --random");
     return std::make_unique<StatesOfFile>(scene, arguments.required("--states"));
   }
   const long long count = arguments.integer("--random", 0, 1, 1000000000);

@@ -32,7 +32,7 @@ std::vector<std::string> splitRow(const std::string& line, const std::string& wh
     else
       cells.back() += line[i];
   if (quoted)
-    throw Error(where + ": a quote that is not closed");
+    throw Error(where + ": a quotation mark is not closed");
   for (std::string& cell : cells)
     cell = trimmed(cell);
   return cells;

@@ -153,7 +153,7 @@ TEST(Benchmark, FailsWhereAnExactMethodIsWrong)
   unsetenv("GPU_PLANNING_SCENE_SHADERS");
   EXPECT_EQ(output.exit_code, 1);
   EXPECT_NE(output.err.find("ours, work queues"), std::string::npos) << output.err;
-  EXPECT_NE(output.err.find("wrong answers of methods that are to be exact"), std::string::npos) << output.err;
+  EXPECT_NE(output.err.find("wrong answers of methods that claim to be exact"), std::string::npos) << output.err;
 }
 
 /// With these shaders every pair in the narrow phase is free. The timed answers must reveal this.
@@ -168,7 +168,7 @@ TEST(Benchmark, FailsWhereATimedAnswerIsWrong)
     const ProgramOutput output =
         runBenchmark(folder.path(), {"--parts", part, "--scenes", "arm_boxes", "--methods", "ours_work_queue"});
     EXPECT_EQ(output.exit_code, 1) << part;
-    EXPECT_NE(output.err.find("wrong answers of methods that are to be exact"), std::string::npos) << output.err;
+    EXPECT_NE(output.err.find("wrong answers of methods that claim to be exact"), std::string::npos) << output.err;
   }
   unsetenv("GPU_PLANNING_SCENE_SHADERS");
 }
@@ -234,7 +234,7 @@ TEST(Benchmark, RunsWithoutAnyRobotOfOthers)
   EXPECT_EQ(readTable(folder.path() + "/throughput.csv").size(), 2U);
 }
 
-TEST(Benchmark, ListsWhatThereIsWhereANameIsWrong)
+TEST(Benchmark, AnUnknownNamePrintsTheList)
 {
   const ProgramOutput scene = runProgram(GPS_BENCHMARK, {"--scenes", "mars"});
   EXPECT_EQ(scene.exit_code, 2);

@@ -11,7 +11,7 @@ void requireOneLine(const std::string& text, bool must_say)
 {
   if (text.find('\n') == std::string::npos && !(must_say && text.empty()))
     return;
-  std::fprintf(stderr, "not one line of text: '%s'\n", text.c_str());
+  std::fprintf(stderr, "expected one line of text, found: '%s'\n", text.c_str());
   std::abort();
 }
 

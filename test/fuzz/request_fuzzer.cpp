@@ -11,13 +11,13 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
-#include "node/answered.h"
 #include "node/bounded_message.h"
 #include "node/check_services.h"
 #include "node/cloud_topic.h"
 #include "node/from_messages.h"
 #include "node/markers.h"
 #include "node/plan_request.h"
+#include "node/respond.h"
 #include "node/scene_services.h"
 #include "node/to_messages.h"
 #include "scene/slider_robot.h"
@@ -26,7 +26,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kMostStates = 200;
+constexpr std::size_t kMaxStates = 200;
 
 SceneLimits fewThings()
 {
@@ -43,21 +43,21 @@ CheckServerOptions fewStates()
 {
   CheckServerOptions options;
   options.small_request = 64;
-  options.most_states = kMostStates;
+  options.max_states = kMaxStates;
   return options;
 }
 
 PointCloudOptions fewVoxels()
 {
   PointCloudOptions options;
-  options.most_voxels = 50;
+  options.max_voxels = 50;
   return options;
 }
 
 PlanServiceOptions fewGoals()
 {
   PlanServiceOptions options;
-  options.most_goals = 20;
+  options.max_goals = 20;
   return options;
 }
 
@@ -74,7 +74,7 @@ GroupPlanners plannersOf(const std::string& group)
 }
 
 /// Replaces tf. It knows one frame.
-Eigen::Isometry3d frameOfTf(const FrameAt& frame)
+Eigen::Isometry3d frameOfTf(const StampedFrame& frame)
 {
   if (frame.name != "tf")
     throw Error("frame '" + frame.name + "' is not known");
@@ -92,7 +92,7 @@ class Handlers
           store_,
           [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
           fewStates()),
-      checks_(store_, server_, memory_, {kMostStates, 10}),
+      checks_(store_, server_, memory_, {kMaxStates, 10}),
       scenes_(store_, frameOfTf, memory_),
       clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
   {
@@ -157,7 +157,7 @@ class Handlers
     ros::serialization::deserialize(stream, bounded);
     if (!bounded.fault.empty())
       return requireOneLine(bounded.fault, true);
-    requireOneLine(faultOf([&] { handler(bounded.message); }), false);
+    requireOneLine(errorOf([&] { handler(bounded.message); }), false);
   }
 
   GetReport::Response report(const GetReport::Request& request)
@@ -174,7 +174,7 @@ class Handlers
   void requireReadable(const PlanningSceneMessage& message) const
   {
     if (const std::string fault =
-            faultOf([&] { changeFrom(message, *store_.snapshot().scene->robot, store_.limits(), nullptr); });
+            errorOf([&] { changeFrom(message, *store_.snapshot().scene->robot, store_.limits(), nullptr); });
         !fault.empty())
     {
       std::fprintf(stderr, "a scene that the node sent is refused: %s\n", fault.c_str());
@@ -187,7 +187,7 @@ class Handlers
     const Snapshot now = store_.snapshot();
     requireTreeLevel(*now.scene, request.level, request.body);
     MarkerOptions options;
-    options.most_triangles = 100;
+    options.max_triangles = 100;
     options.tree_level = request.level;
     options.tree_body = request.body;
     markersOf(*now.scene, now.state.data(), {}, {}, options);

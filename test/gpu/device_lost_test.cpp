@@ -40,7 +40,7 @@ std::string lossIn(GlThread& thread, const std::function<void()>& job)
   return {};
 }
 
-TEST(DeviceLost, IsAResetContextWhateverTheJobMadeOfIt)
+TEST(DeviceLost, ReportsAResetContextEvenIfTheJobThrows)
 {
   GlThread thread("auto");
   int ran = 0;
@@ -68,7 +68,7 @@ TEST(DeviceLost, IsAnErrorOfOpenGl)
   EXPECT_EQ(error, "the GPU failed in a wrong call: GL_INVALID_ENUM");
 }
 
-TEST(DeviceLost, IsNotWhatASceneCanCause)
+TEST(DeviceLost, TooLargeBuffersAreNotALoss)
 {
   GlThread thread("auto");
   // No device has this much memory.

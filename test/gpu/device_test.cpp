@@ -47,7 +47,7 @@ TEST(Device, AutoPrefersHardware)
   EXPECT_EQ(EglContext("auto").device().software, !has_hardware);
 }
 
-TEST(Device, OneThatIsNotThereIsRefusedWithAListOfThoseThatAre)
+TEST(Device, UnknownDeviceIsRefusedWithAListOfDevices)
 {
   for (const std::string selector : {"no such renderer", "999", "99999999999999999999"})
   {

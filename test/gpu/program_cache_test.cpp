@@ -88,7 +88,7 @@ class ProgramCacheTest : public testing::Test
   fs::path home_;
 };
 
-TEST_F(ProgramCacheTest, HasWhatWasCompiledBeforeAndNothingElse)
+TEST_F(ProgramCacheTest, HoldsOnlyProgramsThatWereCompiledBefore)
 {
   EXPECT_FALSE(isCached());
   expectSeven();

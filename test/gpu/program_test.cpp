@@ -35,7 +35,7 @@ class ProgramTest : public testing::Test
   ShaderFolder folder_;
 };
 
-TEST_F(ProgramTest, ThatDoesNotCompileIsNamedWithTheCompilersLog)
+TEST_F(ProgramTest, CompileErrorsNameTheShader)
 {
   folder_.write("bad.comp", "layout(local_size_x = 1) in;\nvoid main() { undeclared_thing = 1; }\n");
   const std::string error = errorOf("bad.comp");
@@ -43,7 +43,7 @@ TEST_F(ProgramTest, ThatDoesNotCompileIsNamedWithTheCompilersLog)
   EXPECT_NE(error.find("undeclared_thing"), std::string::npos) << error;
 }
 
-TEST_F(ProgramTest, ThatIncludesAMissingFileNamesTheFile)
+TEST_F(ProgramTest, MissingIncludesAreNamed)
 {
   folder_.write("lonely.comp", "#include \"not_there.glsl\"\n");
   EXPECT_NE(errorOf("lonely.comp").find("not_there.glsl"), std::string::npos);

@@ -59,7 +59,7 @@ TEST(ChildMeshReader, GivesTheMeshThatThisProcessWouldRead)
   EXPECT_EQ(mesh->name, path);
 }
 
-TEST(ChildMeshReader, WhatTheReaderSaysIsTheError)
+TEST(ChildMeshReader, TheMessageOfTheReaderIsTheError)
 {
   const TemporaryFolder folder;
   const std::string path = folder.write("bad.stl", "solid of nothing");
@@ -86,12 +86,12 @@ TEST(ChildMeshReader, AReaderThatHangsIsStopped)
 TEST(ChildMeshReader, EndlessOutputIsCutOff)
 {
   for (const char* path : {"/x/babble.stl", "/x/complain.stl"})
-    EXPECT_NE(errorOfReading(GPS_FAULTY_MESH_READER, path, quick()).find("more than a mesh of 1000 triangles"),
+    EXPECT_NE(errorOfReading(GPS_FAULTY_MESH_READER, path, quick()).find("more data than a mesh of 1000 triangles"),
               std::string::npos)
         << path;
 }
 
-TEST(ChildMeshReader, AnAnswerThatLiesOfItsLengthIsRefused)
+TEST(ChildMeshReader, WrongLengthIsRefused)
 {
   for (const char* path : {"/x/lie.stl", "/x/short.stl", "/x/empty.stl"})
     EXPECT_NE(errorOfReading(GPS_FAULTY_MESH_READER, path, quick()), "") << path;

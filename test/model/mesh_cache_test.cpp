@@ -155,7 +155,7 @@ TEST(MeshCache, AFileWithTheSameScaleIsLoadedOnce)
   EXPECT_EQ(cache.load(file, {1, 1, 1}), mesh);
 }
 
-TEST(MeshCache, WhatIsWrongWithAFileIsSaid)
+TEST(MeshCache, ErrorsNameTheFileAndTheFault)
 {
   const TemporaryFolder folder;
   Mesh empty = brick();

@@ -13,7 +13,7 @@ TEST(OneLine, ACommonMessageStaysAsItIs)
     EXPECT_EQ(shortLine(text), text);
 }
 
-TEST(OneLine, ALongNameIsToldByItsBeginningAndEndAndTheRestOfTheMessageStays)
+TEST(OneLine, LongNamesAreShortenedInTheMiddle)
 {
   // NOLINTNEXTLINE(bugprone-string-constructor): so long on purpose
   const std::string name = "first" + std::string(20000000, 'x') + "last";

@@ -63,7 +63,7 @@ TEST(Uri, UnknownPackagesAreNamedWithTheRemedy)
   EXPECT_NE(errorOf([] { resolveUri("package://arm/a.stl", "", PackageResolver()); }), "");
 }
 
-TEST(Uri, WhatCannotBeResolvedIsAnError)
+TEST(Uri, UnresolvableUrisAreErrors)
 {
   for (const char* uri : {"", "package://", "package://arm", "package://arm/", "package:///a.stl",
                           "http://example.com/a.stl", "model://arm/a.stl", "package://arm/a%00.stl"})

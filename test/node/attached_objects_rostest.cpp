@@ -118,7 +118,7 @@ TEST_F(AttachedObjects, ARemoveWithoutANamePutsAllBack)
   EXPECT_EQ(2u, scene().world.collision_objects.size());
 }
 
-TEST_F(AttachedObjects, WhatIsWrongIsRefusedAndChangesNothing)
+TEST_F(AttachedObjects, WrongChangesAreRefusedAndChangeNothing)
 {
   AttachedCollisionObject wrong = attach(boxObject("box", tipPoint(), 0.02));
   wrong.link_name = "no such link";

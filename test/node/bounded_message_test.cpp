@@ -121,7 +121,7 @@ TEST_F(BoundedMessage, EveryTruncatedMessageIsRefused)
   EXPECT_NE(faultOf(longer, request), "");
 }
 
-TEST_F(BoundedMessage, LengthsThatLieTakeNoMemory)
+TEST_F(BoundedMessage, WrongLengthsAllocateNoMemory)
 {
   const Bytes bytes = bytesOf(fullRequest());
   std::size_t refused = 0;

@@ -111,11 +111,11 @@ TEST_F(CheckerMaker, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
   server().stop();
 }
 
-TEST_F(CheckerMaker, DiagnosticsWarnWhileTheCpuStandsInAndTellOfADeviceThatIsNotToBeHad)
+TEST_F(CheckerMaker, DiagnosticsReportCpuFallbackAndMissingDevice)
 {
   using diagnostic_msgs::DiagnosticStatus;
   resilience_.retry_seconds = 0.1;
-  resilience_.most_losses = 100;
+  resilience_.max_losses = 100;
   const auto retry = [this] { std::this_thread::sleep_for(std::chrono::duration<double>(resilience_.retry_seconds)); };
   ask(1);
   EXPECT_EQ(level(), DiagnosticStatus::OK);

@@ -48,7 +48,7 @@ TEST_F(Fault, DiagnosticsTellThatTheCpuHasTakenOver)
   }
   EXPECT_EQ(DiagnosticStatus::WARN, level());
   const std::lock_guard<std::mutex> lock(mutex);
-  EXPECT_EQ(0u, latest.message.find("the CPU answers for the device: ")) << latest.message;
+  EXPECT_EQ(0u, latest.message.find("the device failed and the CPU is used: ")) << latest.message;
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

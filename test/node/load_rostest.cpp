@@ -100,7 +100,7 @@ TEST_F(Load, ObjectsThatAreTooManyAreCountedAsRefused)
   EXPECT_GT(refused, 0);
 }
 
-TEST_F(Load, WhatIsTooMuchIsToldBusyAtOnceAndTheRestIsAnswered)
+TEST_F(Load, OverloadAnswersBusyAtOnce)
 {
   const ChildNode node("hurried_node", {"_device:=cpu", "_limits/waiting_requests:=1", "_small_request:=1"});
   std::atomic<int> right{0}, busy{0}, other{0};

@@ -134,7 +134,7 @@ TEST(Markers, BodiesHaveTheColoursOfTheScene)
   }
 }
 
-TEST(Markers, WhatACarriedObjectIsGoesWithItsLink)
+TEST(Markers, AttachedObjectsMoveWithTheirLink)
 {
   PlanningScene scene = fullScene();
   std::vector<double> state = scene.robot->defaultState();
@@ -154,7 +154,7 @@ TEST(Markers, WhatACarriedObjectIsGoesWithItsLink)
 TEST(Markers, TooManyTrianglesBecomeBoxes)
 {
   MarkerOptions options;
-  options.most_triangles = 199;
+  options.max_triangles = 199;
   const MarkerArray array = markers(fullScene(), {}, {}, options);
   EXPECT_EQ(countOf(array, "objects", Marker::TRIANGLE_LIST), 1u) << "the cone alone";
   EXPECT_EQ(countOf(array, "objects", Marker::CUBE), 2u) << "the floor and the sheet's box";
@@ -173,14 +173,14 @@ TEST(Markers, NoMoreTrianglesAreDrawnThanTheLimitWhereMeshesAreEqual)
     scene.objects.back().id += std::to_string(i);
   }
   MarkerOptions options;
-  options.most_triangles = 1000;
+  options.max_triangles = 1000;
   options.tree_level = 1000;
   std::size_t points = 0;
   for (const Marker& marker : markers(scene, {}, {}, options).markers)
     points += marker.type == Marker::TRIANGLE_LIST || marker.type == Marker::LINE_LIST ? marker.points.size() : 0;
   // The boxes of the roots are always drawn.
-  EXPECT_LE(points, 3 * options.most_triangles + std::size_t{24} * 80);
-  EXPECT_GT(points, 2 * options.most_triangles);
+  EXPECT_LE(points, 3 * options.max_triangles + std::size_t{24} * 80);
+  EXPECT_GT(points, 2 * options.max_triangles);
 }
 
 TEST(Markers, ATreeLevelHasItsBoxes)

@@ -148,7 +148,7 @@ TEST_F(Messages, FramesAreAskedForAtTheirStamp)
   CollisionObject object = box("a");
   object.header.frame_id = "camera";
   object.header.stamp = ros::Time(12, 34);
-  const FrameAt frame = objectChangeFrom(object).frame;
+  const StampedFrame frame = objectChangeFrom(object).frame;
   EXPECT_EQ("camera", frame.name);
   EXPECT_EQ(12000000034, frame.stamp);
 }
@@ -197,8 +197,8 @@ TEST_F(Messages, JointsAreSetByName)
   applyMessage(message);
   EXPECT_EQ((std::vector<double>{0.5, 0.25}), state_);
   const std::string warnings_text = ::testing::PrintToString(message_warnings_);
-  EXPECT_NE(std::string::npos, warnings_text.find("no such joints: gripper")) << warnings_text;
-  EXPECT_NE(std::string::npos, warnings_text.find("follow others: flag")) << warnings_text;
+  EXPECT_NE(std::string::npos, warnings_text.find("does not have them: gripper")) << warnings_text;
+  EXPECT_NE(std::string::npos, warnings_text.find("follow other joints: flag")) << warnings_text;
   EXPECT_NE(std::string::npos, warnings_text.find("fixed: bolt")) << warnings_text;
   message.robot_state.joint_state.position.pop_back();
   refusedMessage("3 values for 4 names", message);
@@ -251,7 +251,7 @@ TEST_F(Messages, AttachedObjectsFollowMoveItsRulesOfIsDiff)
   trap.robot_state.joint_state.position = {0.0};
   applyMessage(trap);
   EXPECT_TRUE(scene_.attached.empty());
-  EXPECT_TRUE(warned("object 'a' is gone"));
+  EXPECT_TRUE(warned("object 'a' was removed"));
 }
 
 TEST_F(Messages, AMatrixIsTakenAsItIsWrittenAndAnEmptyOneIsNone)
@@ -289,7 +289,7 @@ TEST_F(Messages, AMatrixOfDefaultsAloneChangesNothingInADifference)
   applyMessage(message);
   EXPECT_TRUE(scene_.allowed_collisions == AllowedCollisionMatrix::fromRobot(*scene_.robot));
   ASSERT_EQ(1u, message_warnings_.size());
-  EXPECT_NE(std::string::npos, message_warnings_[0].find("not used, as it has default entries alone"));
+  EXPECT_NE(std::string::npos, message_warnings_[0].find("ignored: a difference with only default entries"));
   message.is_diff = false;
   applyMessage(message);
   EXPECT_TRUE(scene_.allowed_collisions.allowed("lamp", "drum")) << "a full scene has no matrix before it";
@@ -352,7 +352,7 @@ TEST_F(Messages, AMatrixThatAllowsNothingComesBackAsOne)
   EXPECT_FALSE(scene_.allowed_collisions.allowed("cart", "pole")) << "an empty matrix would be the SRDF's";
 }
 
-TEST_F(Messages, WhatDoesNotFitIsRefused)
+TEST_F(Messages, InvalidMessagesAreRefused)
 {
   CollisionObject object = box("a");
   object.operation = 4;

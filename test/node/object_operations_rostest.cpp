@@ -147,7 +147,7 @@ TEST_F(ObjectOperations, AMeshFileIsAddedFromTheCommandLine)
   EXPECT_NE(std::string::npos, refused.err.find("no such frame")) << refused.err;
 }
 
-TEST_F(ObjectOperations, WhatIsWrongIsRefusedAndChangesNothing)
+TEST_F(ObjectOperations, WrongChangesAreRefusedAndChangeNothing)
 {
   apply(diffWith(boxObject("box", farAway(), 0.02)));
   expectRefusal(diffWith(objectOperation("no such object", CollisionObject::REMOVE)), "no such object");

@@ -78,7 +78,7 @@ TEST_F(Parameters, CarriedObjectsHaveTheirLinksPaddingAndTheirOwn)
   EXPECT_FALSE(isFreeAt(0.99 - 0.25 - 0.15 + 0.001));
 }
 
-TEST_F(Parameters, WhatIsOverALimitIsRefusedByItsName)
+TEST_F(Parameters, ExceededLimitsAreNamed)
 {
   const auto response = call<CheckStates>("check_states", stateRequest(std::vector<double>(202, 0.0)));
   EXPECT_FALSE(response.success);

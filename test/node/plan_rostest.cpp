@@ -105,7 +105,7 @@ TEST_F(Planning, UsesAPlannerOfAnotherPackage)
   EXPECT_EQ(response.planner, "planner_plugin/BKPIECE");
 }
 
-TEST_F(Planning, SaysThatThePlannerHasFailedWhereTheRequestIsNotToBlame)
+TEST_F(Planning, PlannerFaultsAreNotErrorsOfTheRequest)
 {
   PlanMotion::Request wanted = request();
   wanted.planner = "broken_planner/Broken";
@@ -237,14 +237,14 @@ TEST_F(Planning, TellsAnApproximateSolutionFromASolution)
   EXPECT_NE(response.message.find("the path ends"), std::string::npos) << response.message;
 }
 
-TEST_F(Planning, RefusesWhatIsNoRequest)
+TEST_F(Planning, RefusesInvalidRequests)
 {
   PlanMotion::Request wanted = request();
   wanted.group = "crane";
   expectStatus(wanted, Response::BAD_REQUEST, "crane");
   wanted = request();
   wanted.planner = "geometric::Best";
-  expectStatus(wanted, Response::BAD_REQUEST, "there is no planner 'geometric::Best'");
+  expectStatus(wanted, Response::BAD_REQUEST, "planner 'geometric::Best' is neither in planners.yaml nor a plugin");
   wanted = request();
   wanted.group = "mast";
   wanted.goal_names = {"turn"};

@@ -175,7 +175,7 @@ class WaitingInspections : public WaitingService
   std::vector<std::future<CheckStates::Response>> answers;
 };
 
-TEST_F(WaitingInspections, AreTurnedAwayWhereTooManyWait)
+TEST_F(WaitingInspections, AreRejectedWhenTheQueueIsFull)
 {
   for (int i = 0; i < 4; ++i)
     ask();
@@ -195,7 +195,7 @@ TEST_F(WaitingInspections, AreTurnedAwayWhereTooManyWait)
   EXPECT_EQ(1, busy);
 }
 
-TEST_F(WaitingInspections, AreToldOfTheEndThoughACheckerHangs)
+TEST_F(WaitingInspections, StopRejectsThemWhileACheckerHangs)
 {
   for (int i = 0; i < 3; ++i)
     ask();
@@ -209,7 +209,7 @@ TEST_F(WaitingInspections, AreToldOfTheEndThoughACheckerHangs)
 TEST_F(Service, TooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
 {
   CheckServerOptions options;
-  options.most_states = 2;
+  options.max_states = 2;
   CheckServer small(
       store, [](auto scene) { return std::make_shared<CpuChecker>(std::move(scene)); }, options);
   CheckServices bounded(store, small, memory, {});
@@ -378,7 +378,7 @@ TEST_F(Service, AMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
   EXPECT_EQ("wall", response.body_2.at(1));
   EXPECT_EQ(5u, response.scene_revision);
   asked.ends.pop_back();
-  EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("4 numbers in starts and 3 in ends"));
+  EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("4 values in starts and 3 in ends"));
 }
 
 TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)

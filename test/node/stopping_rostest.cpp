@@ -24,7 +24,7 @@ class Stopping : public RunningNode
 };
 
 /// The simulation is paused or has not started: nobody publishes /clock.
-TEST_F(Stopping, AClockThatStandsStillHoldsUpNoChangeAndNoAnswer)
+TEST_F(Stopping, WorksWithoutAClock)
 {
   ros::param::set("/use_sim_time", true);
   ChildNode node("node_without_clock", {"_device:=cpu", "_tf_timeout:=0.2"});

@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core::oracle
 {
 namespace
 {
-constexpr int kMostSteps = 2000;
+constexpr int kMaxSteps = 2000;
 
 Quad signedHalf(double size, Quad direction)
 {
@@ -158,7 +158,7 @@ Bounds convexDistance(const Convex& a, const Motion& pose_a, const Convex& b, co
   Simplex simplex = {farthest(pose_b.translation - pose_a.translation + Vector(1, 0, 0))};
   Vector nearest = simplex[0];
   Bounds bounds{0, 0};
-  for (int step = 0; step < kMostSteps; ++step)
+  for (int step = 0; step < kMaxSteps; ++step)
   {
     const Quad core = length(nearest);
     bounds.upper = std::max(Quad(0), core - radii);

@@ -98,7 +98,7 @@ bool componentInside(const PreparedMesh& outer, const PreparedMesh& inner, const
   return outer.hasSolid() &&
          std::any_of(
              inner.componentPoints().begin(), inner.componentPoints().end(),
-             [&](const Eigen::Vector3d& p) { return outer.solidHolds(inner_in_outer * Vector(p)); });
+             [&](const Eigen::Vector3d& p) { return outer.solidContains(inner_in_outer * Vector(p)); });
 }
 
 Quad distanceOf(const PreparedMesh& a, const PreparedMesh& b, const Motion& b_in_a, const Range& range)
@@ -130,7 +130,7 @@ Quad distanceOf(const PreparedMesh& mesh, const PreparedShape::Impl& solid, cons
     open.push_back(node.child);
     open.push_back(node.child + 1);
   }
-  return best > range.required && mesh.solidHolds(solid_in_mesh.translation) ? Quad(0) : best;
+  return best > range.required && mesh.solidContains(solid_in_mesh.translation) ? Quad(0) : best;
 }
 
 Quad distanceOf(const PreparedShape::Impl& shape, const HalfSpace& half_space, const Motion& shape_in_half_space)

@@ -188,7 +188,7 @@ void PreparedMesh::findComponents(const Mesh& mesh)
   }
 }
 
-bool PreparedMesh::solidHolds(const Vector& point) const
+bool PreparedMesh::solidContains(const Vector& point) const
 {
   const Eigen::Vector3d rounded = point.toDouble();
   if (solid_triangles_.empty() || solid_box_.exteriorDistance(rounded) > kSlack * rounded.norm())

@@ -46,7 +46,7 @@ class PreparedMesh
 
   /// Whether the winding number of the closed components around the point is not 0. A point on the surface may count as
   /// inside or outside.
-  bool solidHolds(const Vector& point) const;
+  bool solidContains(const Vector& point) const;
 
  private:
   void findComponents(const Mesh& mesh);

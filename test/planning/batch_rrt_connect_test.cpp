@@ -143,7 +143,7 @@ TEST(BatchRrtConnect, ApproachesAGoalThatIsOutOfReach)
   EXPECT_NEAR(planning.problem->getSolutionDifference(), std::hypot(1.0 - end.first, end.second), 1e-9);
 }
 
-TEST(BatchRrtConnect, HasNothingToOfferWhereItCannotMove)
+TEST(BatchRrtConnect, TimesOutWithoutASolutionInAClosedChamber)
 {
   // A chamber with a millimetre of free space. No random branch stays within it.
   Planning planning(

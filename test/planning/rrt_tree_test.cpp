@@ -53,7 +53,7 @@ class Trees : public testing::Test
   RrtTree tree_{planner_};
 };
 
-TEST_F(Trees, FindTheNearestOfWhatIsLeft)
+TEST_F(Trees, FindTheNearestRemainingVertex)
 {
   SCOPED_TRACE("seed " + std::to_string(seed_));
   add(nullptr);

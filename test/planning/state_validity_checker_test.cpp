@@ -287,9 +287,9 @@ TEST(StateValidityChecker, SpacesOfOtherKindsAndRobotsAreRefused)
   };
   const auto plain = std::make_shared<ob::RealVectorStateSpace>(2);
   plain->setName("plain");
-  EXPECT_NE(refusal(plain).find("'plain' is none of a planning group"), std::string::npos) << refusal(plain);
+  EXPECT_NE(refusal(plain).find("'plain' is not a GroupStateSpace"), std::string::npos) << refusal(plain);
   const auto other = std::make_shared<GroupStateSpace>(sliderRobot(), "drive");
-  EXPECT_NE(refusal(other).find("'drive' is not of the scene's robot"), std::string::npos) << refusal(other);
+  EXPECT_NE(refusal(other).find("'drive' is for another robot"), std::string::npos) << refusal(other);
   EXPECT_EQ(refusal(std::make_shared<GroupStateSpace>(scene->robot, "drive")), "");
 }
 }  // namespace

@@ -107,7 +107,7 @@ TEST(Render, AHalfSpaceIsAPlaneBelowTheRobot)
   EXPECT_LT(shareOf(pictureOf(scene, state), isBackground), without - 0.03);
 }
 
-TEST(Render, WhatIsNearerHidesWhatIsBehind)
+TEST(Render, NearBodiesHideFarBodies)
 {
   const PlanningScene scene = sceneWithWall();
   const std::vector<double> state = cartAt(scene, 0.9);

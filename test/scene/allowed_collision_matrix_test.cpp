@@ -93,7 +93,7 @@ TEST_F(AllowedObject, LosesThemWhenItIsDroppedByTheLinkThatCarriesIt)
   replace.state.is_diff = false;
   replace.state.variables["slide"] = 0.0;
   apply(replace);
-  EXPECT_TRUE(warned("object 'big' is gone"));
+  EXPECT_TRUE(warned("object 'big' was removed"));
   change(objectChange(Operation::Add, "big", {boxAt(0.1)}));
   EXPECT_FALSE(isAllowed());
 }

@@ -95,7 +95,7 @@ TEST(Attach, RefusesWhatItDoesNotKnowAndChangesNothing)
   refused(
       "no such object", [&] { scene.attach("drum", "pole", {}, state); });
   refused(
-      "carried by link 'cart' already", [&] { scene.attach("right", "pole", {}, state); });
+      "attached to link 'cart' already", [&] { scene.attach("right", "pole", {}, state); });
   refused(
       "no link 'crane'", [&] { scene.attach("left", "crane", {}, state); });
   refused(
@@ -108,9 +108,9 @@ TEST(Attach, RefusesWhatItDoesNotKnowAndChangesNothing)
   refused(
       "not finite", [&] { scene.attach("left", "pole", {}, not_finite.data()); });
   refused(
-      "no link carries", [&] { scene.detach("left", state); });
+      "no such object is attached", [&] { scene.detach("left", state); });
   refused(
-      "no link carries", [&] { scene.detach("drum", state); });
+      "no such object is attached", [&] { scene.detach("drum", state); });
   refused("not finite", [&] { scene.detach("right", not_finite.data()); });
 }
 }  // namespace

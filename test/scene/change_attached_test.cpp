@@ -97,7 +97,7 @@ TEST_F(ChangeAttached, AppendAddsShapesSubframesAndTouchLinks)
   change(attach);
   EXPECT_TRUE(carried("a").object.pose.isApprox(poseAt(0, 0, 0)));
   attach.link = "cart";
-  refused("carried by link 'pole'", attach);
+  refused("attached to link 'pole'", attach);
 }
 
 TEST_F(ChangeAttached, RemoveWithoutAnIdPutsBackAllOfTheLinkOrOfAll)
@@ -167,11 +167,11 @@ TEST_F(ChangeAttached, AnUnusedPoseIsTold)
   AttachedChange attach = attachedChange(Operation::Add, "a", "pole");
   attach.object.pose = poseAt(9, 9, 9);
   change(attach);
-  EXPECT_TRUE(warned("its pose is not used"));
+  EXPECT_TRUE(warned("the pose in the request is not used"));
   EXPECT_TRUE(carried("a").object.pose.isApprox(inPole(poseAt(0, 0, 0)), 1e-15));
 }
 
-TEST_F(ChangeAttached, WhatCannotBeIsRefused)
+TEST_F(ChangeAttached, InvalidChangesAreRefused)
 {
   change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
   change(objectChange(Operation::Add, "floor", {{HalfSpace{Eigen::Vector3d::UnitZ(), 0.0}}}));
@@ -179,14 +179,14 @@ TEST_F(ChangeAttached, WhatCannotBeIsRefused)
   refused("no link 'crane'", attachedChange(Operation::Add, "a", "crane"));
   refused("no link ''", attachedChange(Operation::Add, "a", ""));
   refused("no such object", attachedChange(Operation::Add, "b", "pole"));
-  refused("link 'pole' carries it already", attachedChange(Operation::Add, "held", "cart"));
+  refused("attached to link 'pole' already", attachedChange(Operation::Add, "held", "cart"));
   refused("name of a link", attachedChange(Operation::Add, "cart", "pole", {boxAt(0.1)}));
   refused("half-space", attachedChange(Operation::Add, "floor", "pole"));
   refused("half-space",
           attachedChange(Operation::Append, "held", "pole", {{HalfSpace{Eigen::Vector3d::UnitZ(), 0.0}}}));
   refused("cannot be moved", attachedChange(Operation::Move, "held", "pole"));
-  refused("no link carries", attachedChange(Operation::Remove, "a", "pole"));
-  refused("link 'pole' carries it, not 'cart'", attachedChange(Operation::Remove, "held", "cart"));
+  refused("no such object is attached", attachedChange(Operation::Remove, "a", "pole"));
+  refused("attached to link 'pole', not to 'cart'", attachedChange(Operation::Remove, "held", "cart"));
   refused("no link 'crane'", attachedChange(Operation::Remove, "", "crane"));
   refused("radius", attachedChange(Operation::Add, "a", "pole", {{Sphere{-1.0}}}));
   AttachedChange touching = attachedChange(Operation::Add, "a", "pole");

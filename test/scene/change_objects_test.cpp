@@ -154,13 +154,13 @@ TEST_F(ChangeObjects, ChangesOfOneMessageFollowEachOther)
   EXPECT_EQ(0.3, std::get<Box>(object("a").shapes[0].shape).size.x());
 }
 
-TEST_F(ChangeObjects, WhatCannotBeIsRefused)
+TEST_F(ChangeObjects, InvalidChangesAreRefused)
 {
   change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
   change(attachedChange(Operation::Add, "held", "pole", {boxAt(0.1)}));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refused("has no shapes", objectChange(Operation::Add, "b"));
-  refused("without a name", objectChange(Operation::Add, "", {boxAt(0.1)}));
+  refused("has no name", objectChange(Operation::Add, "", {boxAt(0.1)}));
   refused("name of a link", objectChange(Operation::Add, "pole", {boxAt(0.1)}));
   refused("line break", objectChange(Operation::Add, "a\nb", {boxAt(0.1)}));
   for (const Operation operation : {Operation::Add, Operation::Append, Operation::Move, Operation::Remove})

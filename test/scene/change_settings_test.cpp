@@ -27,7 +27,7 @@ class ChangeSettings : public SceneChanges
   }
 };
 
-TEST_F(ChangeSettings, WhatADifferenceDoesNotNameStays)
+TEST_F(ChangeSettings, DiffsKeepUnnamedSettings)
 {
   SceneChange first = diff();
   first.name = "hall";
@@ -57,7 +57,7 @@ TEST_F(ChangeSettings, WhatADifferenceDoesNotNameStays)
   EXPECT_FALSE(scene_.allowed_collisions.allowed("cart", "pole")) << "a matrix replaces all of the SRDF's";
 }
 
-TEST_F(ChangeSettings, WhatAFullSceneDoesNotNameIsAsInANewOne)
+TEST_F(ChangeSettings, FullScenesResetUnnamedSettings)
 {
   SceneChange first = diff();
   first.name = "hall";
@@ -101,7 +101,7 @@ TEST_F(ChangeSettings, FixedFramesReplaceAllOthers)
   frames_change.fixed_frames = {{"pole", poseAt(0, 0, 0)}};
   refused("name of a link", frames_change);
   frames_change.fixed_frames = {{"", poseAt(0, 0, 0)}};
-  refused("without a name", frames_change);
+  refused("has no name", frames_change);
   frames_change.fixed_frames = {{"a", poseAt(std::numeric_limits<double>::quiet_NaN(), 0, 0)}};
   refused("not finite", frames_change);
 }
@@ -121,7 +121,7 @@ TEST_F(ChangeSettings, ObjectsComeAfterEverythingElse)
   EXPECT_EQ(2.0, object("b").pose.translation().x());
 }
 
-TEST_F(ChangeSettings, WhatCannotBeIsRefused)
+TEST_F(ChangeSettings, InvalidChangesAreRefused)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused_where = [&](const std::string& fragment, const std::function<void(SceneChange&)>& edit)

@@ -59,7 +59,7 @@ TEST_F(ChangeState, WithJointsAndNoDifferenceItReplacesWhatIsAttached)
   EXPECT_NO_THROW(carried("c"));
   EXPECT_TRUE(scene_.objects.empty()) << "what is dropped does not go back into the world";
   ASSERT_EQ(1u, warnings_.size());
-  EXPECT_TRUE(warned("object 'b' is gone"));
+  EXPECT_TRUE(warned("object 'b' was removed"));
 }
 
 TEST_F(ChangeState, WithoutJointsAndNoDifferenceItOnlyAdds)
@@ -84,7 +84,7 @@ TEST_F(ChangeState, AFullSceneReplacesWhatIsAttachedWithAWarning)
   ASSERT_EQ(2u, scene_.attached.size());
   EXPECT_NO_THROW(carried("c"));
   ASSERT_EQ(1u, warnings_.size());
-  EXPECT_TRUE(warned("object 'b' is gone"));
+  EXPECT_TRUE(warned("object 'b' was removed"));
   EXPECT_EQ((std::vector<double>{0.5, M_PI_2}), state_) << "joints that it does not name stay";
 }
 
@@ -111,7 +111,7 @@ TEST_F(ChangeState, AFullSceneDoesNotAttachObjectsOfTheSceneBefore)
   refused("no such object", full);
 }
 
-TEST_F(ChangeState, WhatCannotBeIsRefused)
+TEST_F(ChangeState, InvalidChangesAreRefused)
 {
   refused("no joint variable 'gripper'", stateChange(true, {{"gripper", 0.0}}));
   refused("not finite", stateChange(true, {{"slide", std::numeric_limits<double>::infinity()}}));

@@ -11,7 +11,7 @@ namespace
 class RandomChanges : public SceneChanges
 {
  protected:
-  std::size_t upTo(std::size_t most) { return random_() % (most + 1); }
+  std::size_t upTo(std::size_t max) { return random_() % (max + 1); }
   bool chance() { return random_() % 2 == 0; }
   double number() { return static_cast<double>(random_() % 2001) / 1000.0 - 1.0; }
   Eigen::Isometry3d pose() { return poseAt(number(), number(), number(), number()); }

@@ -70,7 +70,7 @@ TEST_F(Frames, OfLinksNeedTheRobotsState)
   EXPECT_NE(std::string::npos, errorOf([&] { find("pole"); }).find("not finite"));
 }
 
-TEST_F(Frames, ThatTheSceneDoesNotKnowAreAskedForOnceEach)
+TEST_F(Frames, UnknownFramesAreLookedUpOnceEach)
 {
   SceneChange change;
   change.is_diff = true;
@@ -91,7 +91,7 @@ TEST_F(Frames, ThatTheSceneDoesNotKnowAreAskedForOnceEach)
   add("d", "a");
   add("e", "camera");  // the change replaces the fixed frames, and "camera" is no longer one of them
   std::vector<std::string> names;
-  for (const FrameAt& frame : externalFrames(scene_, change))
+  for (const StampedFrame& frame : externalFrames(scene_, change))
     names.push_back(frame.name + " " + std::to_string(frame.stamp));
   EXPECT_EQ((std::vector<std::string>{"camera 0", "hand 0", "sensor 0", "sensor 7"}), names);
 
@@ -107,7 +107,7 @@ TEST_F(Frames, ThatTheSceneDoesNotKnowAreAskedForOnceEach)
   EXPECT_TRUE(find("held").isApprox(poseAt(2, 0, 0), 1e-15));
 }
 
-TEST_F(Frames, AreAskedForWhateverTheStateIs)
+TEST_F(Frames, LookupsDoNotDependOnTheState)
 {
   scene_.current_state.clear();
   SceneChange change;
@@ -118,7 +118,7 @@ TEST_F(Frames, AreAskedForWhateverTheStateIs)
   EXPECT_EQ(1u, externalFrames(scene_, change).size());
 }
 
-TEST_F(Frames, ThatAreNoPosesAreRefused)
+TEST_F(Frames, InvalidPosesAreRefused)
 {
   ObjectChange object = objectChange(Operation::Add, "a", {boxAt(0.1)});
   object.frame.name = "sensor";

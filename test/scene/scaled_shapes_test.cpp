@@ -40,7 +40,7 @@ TEST(ScaledShapes, EachKindOfShapeIsScaledInAllItsSizes)
   carried.object.id = "a";
   carried.object.shapes = {
       {Sphere{1.0}}, {Cylinder{1.0, 2.0}}, {Cone{2.0, 3.0}}, {std::make_shared<const Mesh>(mesh), poseAt(5, 0, 0)}};
-  scene.scaleCarried(carried);
+  scene.scaleAttached(carried);
   const std::vector<PlacedShape>& shapes = carried.shapes();
   EXPECT_EQ(3.0, std::get<Sphere>(shapes[0].shape).radius);
   EXPECT_EQ(3.0, std::get<Cylinder>(shapes[1].shape).radius);
@@ -93,7 +93,7 @@ TEST(ScaledShapes, EqualMeshesStayOneMesh)
   EXPECT_EQ(nullptr, scene.attached[0].scaled_shapes);
 }
 
-TEST(ScaledShapes, WhatIsCarriedWithoutItsLinksScaleIsNoValidScene)
+TEST(ScaledShapes, AttachedObjectsNeedTheScaleOfTheirLink)
 {
   PlanningScene scene(sliderRobot());
   scene.setLinkScale(factors(*scene.robot, "cart", 3.0));
@@ -102,8 +102,8 @@ TEST(ScaledShapes, WhatIsCarriedWithoutItsLinksScaleIsNoValidScene)
   carried.object.id = "a";
   carried.object.shapes = {boxAt(0.1)};
   scene.attached = {carried};
-  EXPECT_NE(std::string::npos, errorOf([&] { validateScene(scene); }).find("scaleCarried"));
-  scene.scaleCarried(scene.attached[0]);
+  EXPECT_NE(std::string::npos, errorOf([&] { validateScene(scene); }).find("scaleAttached"));
+  scene.scaleAttached(scene.attached[0]);
   EXPECT_NO_THROW(validateScene(scene));
 }
 

@@ -85,7 +85,7 @@ const std::vector<WrongScene>& wrongScenes()
       {"ObjectsAreAMap", "world:\n  collision_objects: {a: b}\n", 2, "expected a list"},
 
       {"NoId", "world:\n  collision_objects:\n    - primitives: []\n", 3, "'id' is missing"},
-      {"EmptyId", "world:\n  collision_objects:\n    - id: ''\n", 3, "without an id"},
+      {"EmptyId", "world:\n  collision_objects:\n    - id: ''\n", 3, "has no id"},
       {"NoShapes", object("      primitives: []\n"), 3, "no shapes"},
       {"IdTwice", sphereAnd("    - {id: a, primitives: [{type: sphere, dimensions: [1]}]}\n"), 5, "given twice"},
       {"IdOfALink", "world: {collision_objects: [{id: cart, primitives: [{type: sphere, dimensions: [1]}]}]}", 1,
@@ -134,7 +134,7 @@ const std::vector<WrongScene>& wrongScenes()
       {"MeshVertexOfTwo", mesh("vertices: [[0, 0]], triangles: [[0, 0, 0]]"), 4, "list of 3 numbers"},
       {"MeshFileMissing", mesh("resource: no/such.stl"), 4, "such.stl"},
       {"MeshPackageUnknown", mesh("resource: 'package://nowhere/a.stl'"), 4, "nowhere"},
-      {"MeshFileAndVertices", mesh("resource: a.stl, vertices: []"), 4, "either a 'resource' or 'vertices'"},
+      {"MeshFileAndVertices", mesh("resource: a.stl, vertices: []"), 4, "both 'resource' and 'vertices'"},
 
       {"MatrixRowsMissing", matrix("  entry_names: [a, b]\n  entry_values: [[true, true]]\n"), 2,
        "1 entry_values for 2"},
@@ -164,7 +164,8 @@ const std::vector<WrongScene>& wrongScenes()
       {"AttachedIdOfAnObject",
        "world: {collision_objects: [" + ball("a") + "]}\n" + attached("      link_name: cart\n"), 5, "given twice"},
       {"AttachedRemoved", attached("      link_name: cart\n", "{id: a, operation: 1}"), 5, "operation 1"},
-      {"AttachedPlane", attached("      link_name: cart\n", "{id: a, planes: [[0, 0, 1, 0]]}"), 5, "cannot be carried"},
+      {"AttachedPlane", attached("      link_name: cart\n", "{id: a, planes: [[0, 0, 1, 0]]}"), 5,
+       "cannot be attached"},
       {"AttachedInUnknownFrame",
        attached("      link_name: cart\n", "{id: a, header: {frame_id: moon}, " + sphere() + "}"), 5,
        "unknown frame 'moon'"},

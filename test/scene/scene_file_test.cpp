@@ -254,7 +254,7 @@ TEST_F(SceneFile, AnObjectWithoutAPoseIsWhereItsLoneShapeIsAsInMessages)
   EXPECT_TRUE(scene.objects.at(1).shapes.at(1).pose.isApprox(pose(4, 5, 6, 0)));
 }
 
-TEST_F(SceneFile, WhatTheFileDoesNotNameHasItsDefault)
+TEST_F(SceneFile, MissingEntriesHaveTheirDefaults)
 {
   const auto robot = sliderRobot();
   SceneDefaults defaults;
@@ -289,16 +289,16 @@ TEST_F(SceneFile, WhatTheFileDoesNotNameHasItsDefault)
   EXPECT_EQ(0.01, scene.objects.at(0).padding);
 }
 
-TEST_F(SceneFile, WhatTheRobotDoesNotUseOfTheStateGivesWarnings)
+TEST_F(SceneFile, UnusedJointValuesGiveWarnings)
 {
   const PlanningScene scene = load(
       "robot_state: {joint_state: {name: [slide, flag, bolt, gripper, wheel], "
       "position: [1, 2, 3, 4, 5]}}");
   EXPECT_EQ((std::vector<double>{1.0, 0.0}), scene.current_state);
-  EXPECT_TRUE(warned("no such joints: gripper, wheel"));
+  EXPECT_TRUE(warned("does not have them: gripper, wheel"));
   EXPECT_TRUE(warned("fixed: bolt"));
-  EXPECT_TRUE(warned("follow others: flag"));
-  EXPECT_TRUE(warned("default is taken: turn"));
+  EXPECT_TRUE(warned("follow other joints: flag"));
+  EXPECT_TRUE(warned("get their default: turn"));
 }
 
 TEST_F(SceneFile, WithoutJointValuesThereIsNoState)
@@ -317,7 +317,7 @@ TEST_F(SceneFile, MultiDofJointsTakeTransforms)
   const auto at_height = [&](const char* z) { return std::string(yaml).replace(yaml.find('Z'), 1, z); };
   const auto planar = sliderRobotOnFloor("planar");
   const PlanningScene on_floor = load(at_height("0"), planar);
-  EXPECT_TRUE(warned("no such joints: boat"));
+  EXPECT_TRUE(warned("does not have them: boat"));
   EXPECT_EQ(3.0, on_floor.current_state.at(planar->variableIndex("floor/x")));
   EXPECT_EQ(4.0, on_floor.current_state.at(planar->variableIndex("floor/y")));
   EXPECT_NEAR(M_PI_2, on_floor.current_state.at(planar->variableIndex("floor/theta")), 1e-15);

@@ -141,12 +141,12 @@ TEST_F(SceneText, FaultsAreSaidWithTheirLine)
   refused("a\n", 2, "the file ends");
   refused("a\n* b\n1\n" + sphere, 9, "the file ends");
   refused("a\n+ b\n.\n", 2, "expected '*'");
-  refused("a\n*\n1\n" + sphere + ".\n", 3, "without a name");
+  refused("a\n*\n1\n" + sphere + ".\n", 3, "has no name");
   refused("a\n* cart\n1\n" + sphere + ".\n", 3, "name of a link");
   refused("a\n* b\n1\n" + sphere + "* b\n1\n" + sphere + ".\n", 10, "given twice");
   refused("a\n* b\n0\n.\n", 3, "no shapes");
   refused("a\n* b\n-1\n.\n", 3, "whole number");
-  refused("a\n* b\n1000000\n.\n", 3, "more than the rest of the file");
+  refused("a\n* b\n1000000\n.\n", 3, "the rest of the file is shorter");
   refused("a\n* b\n1\ntorus\n", 4, "unknown shape 'torus'");
   refused("a\n* b\n1\nsphere\n-1\n.\n", 5, "radius");
   refused("a\n* b\n1\nsphere\nnan\n.\n", 5, "finite number");
@@ -154,7 +154,7 @@ TEST_F(SceneText, FaultsAreSaidWithTheirLine)
   refused("a\n* b\n1\nsphere\n1\n0 0 0\n0 0 0 1\n2 0 0 0\n", 8, "from 0 to 1");
   refused("a\n* b\n1\nplane\n0 0 0 1\n", 5, "no direction");
   refused("a\n* b\n1\nmesh\n3 1\n0 0 0\n0 0 1\n0 1 0\n0 1 3\n", 9, "out of range");
-  refused("a\n* b\n1\nmesh\n4000000000 1\n", 5, "more than the rest of the file");
+  refused("a\n* b\n1\nmesh\n4000000000 1\n", 5, "the rest of the file is shorter");
   refused("a\n* b\n1\n" + sphere + "2\ntip\n0 0 0\n0 0 0 1\ntip\n0 0 0\n0 0 0 1\n.\n", 15,
           "subframe 'tip' is given twice");
   EXPECT_NE(std::string::npos,

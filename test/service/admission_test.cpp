@@ -42,7 +42,7 @@ TEST(Admission, NoMoreThanAFewAreInsideAndAllGetIn)
   EXPECT_LE(most, 2);
 }
 
-TEST(Admission, WhoIsTooManyIsTurnedAwayAtOnceAndComesInLater)
+TEST(Admission, RejectsAtOnceWhenFull)
 {
   Admission admission(1, 0);
   {
@@ -52,7 +52,7 @@ TEST(Admission, WhoIsTooManyIsTurnedAwayAtOnceAndComesInLater)
   EXPECT_NO_THROW(Admission::Pass later(admission));
 }
 
-TEST(Admission, WhoWaitsIsToldOfTheEnd)
+TEST(Admission, StopRejectsQueuedRequests)
 {
   Admission admission(1, 1);
   const Admission::Pass inside(admission);

@@ -50,7 +50,7 @@ SceneChange carried(const std::string& id, Operation operation = Operation::Add)
 class Queue : public testing::Test
 {
  public:
-  ChangeQueue::Maker maker()
+  ChangeQueue::BeginBatch beginBatch()
   {
     return [this]
     {
@@ -67,7 +67,7 @@ class Queue : public testing::Test
       };
     };
   }
-  ChangeQueue::Refuse refuse()
+  ChangeQueue::OnRejected onRejected()
   {
     return [this](const std::string& source, const std::string& why) { refused.push_back(source + ": " + why); };
   }
@@ -105,9 +105,9 @@ void finish(ChangeQueue& queue, std::promise<void>& opened, SceneStore& store)
   queue.stop();
 }
 
-TEST_F(Queue, WhatWaitsTogetherIsOneChange)
+TEST_F(Queue, QueuedChangesAreMerged)
 {
-  ChangeQueue queue(maker(), refuse(), 1000, 1000);
+  ChangeQueue queue(beginBatch(), onRejected(), 1000, 1000);
   closeGate(queue);
   for (int i = 0; i < 100; ++i)
     queue.add("topic", object("box " + std::to_string(i)), 1);
@@ -118,9 +118,9 @@ TEST_F(Queue, WhatWaitsTogetherIsOneChange)
   EXPECT_TRUE(refused.empty());
 }
 
-TEST_F(Queue, AWrongChangeTakesNoOtherWithItAndIsFoundQuickly)
+TEST_F(Queue, AWrongChangeIsRejectedAlone)
 {
-  ChangeQueue queue(maker(), refuse(), 100000, 100000);
+  ChangeQueue queue(beginBatch(), onRejected(), 100000, 100000);
   closeGate(queue);
   for (int i = 0; i < 1000; ++i)
     queue.add("topic " + std::to_string(i), object("box " + std::to_string(i)), 1);
@@ -139,7 +139,7 @@ TEST_F(Queue, TheSceneIsTheSameAsOneByOne)
   const unsigned seed = 5;
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
-  ChangeQueue queue(maker(), refuse(), 100000, 100000);
+  ChangeQueue queue(beginBatch(), onRejected(), 100000, 100000);
   SceneStore one_by_one{PlanningScene(sliderRobot()), {}, {}};
   SceneChange known = diff();
   known.state.variables = {{"slide", 0.5}, {"turn", 0.0}};
@@ -189,9 +189,9 @@ TEST_F(Queue, TheSceneIsTheSameAsOneByOne)
   expectSameScene(*expected_scene, scene);
 }
 
-TEST_F(Queue, WhatIsTooMuchIsRefused)
+TEST_F(Queue, ChangesBeyondTheBoundsAreRejected)
 {
-  ChangeQueue queue(maker(), refuse(), 3, 100);
+  ChangeQueue queue(beginBatch(), onRejected(), 3, 100);
   closeGate(queue);
   queue.add("topic", object("1"), 90);
   EXPECT_THROW(queue.add("topic", object("2"), 11), Busy) << "bytes";
@@ -200,17 +200,17 @@ TEST_F(Queue, WhatIsTooMuchIsRefused)
   opened.set_value();
 }
 
-TEST_F(Queue, ALargeChangeIsTakenWhereNoneWaits)
+TEST_F(Queue, ALargeChangeFitsAnEmptyQueue)
 {
-  ChangeQueue queue(maker(), refuse(), 3, 100);
+  ChangeQueue queue(beginBatch(), onRejected(), 3, 100);
   closeGate(queue, 1000);
   EXPECT_THROW(queue.add("topic", object("1"), 1), Busy);
   opened.set_value();
 }
 
-TEST_F(Queue, AStopRefusesWhatWaits)
+TEST_F(Queue, StopRejectsQueuedChanges)
 {
-  ChangeQueue queue(maker(), refuse(), 100, 100);
+  ChangeQueue queue(beginBatch(), onRejected(), 100, 100);
   closeGate(queue);
   queue.add("topic", object("1"), 1);
   queue.add("topic", object("2"), 1);

@@ -19,9 +19,9 @@ CheckServerOptions options()
 {
   CheckServerOptions options;
   options.small_request = kSmall;
-  options.most_waiting_requests = 5;
-  options.most_waiting_states = 200;
-  options.most_states = 100;
+  options.max_waiting_requests = 5;
+  options.max_waiting_states = 200;
+  options.max_states = 100;
   options.largest_batch = 3 * kSmall;
   return options;
 }
@@ -187,7 +187,7 @@ TEST_F(Server, ALargeMatrixMakesALargeRequest)
   EXPECT_EQ(1u, small.get().result.valid.size());
 }
 
-TEST_F(Server, WhatARequestLeavesOutIsOfTheSameInstantAsTheScene)
+TEST_F(Server, MissingVariablesComeFromTheSnapshotOfTheScene)
 {
   slideTo(1.0);
   std::future<CheckAnswer> first = blocked();
@@ -202,7 +202,7 @@ TEST_F(Server, WhatARequestLeavesOutIsOfTheSameInstantAsTheScene)
   EXPECT_EQ((std::vector<std::size_t>{1, 3}), gate.batches()) << "they are still answered together";
 }
 
-TEST_F(Server, WhatIsNeitherGivenNorKnownIsAnErrorOfItsRequestAlone)
+TEST_F(Server, MissingVariablesFailOnlyTheirRequest)
 {
   std::future<CheckAnswer> first = blocked();
   std::future<CheckAnswer> wrong = server.submit(jobWithoutSlide(1));
@@ -238,10 +238,10 @@ TEST_F(Server, ASmallRequestDoesNotWaitForALargeOne)
   gate.open();
   EXPECT_EQ(1u, small.get().result.valid.size());
   EXPECT_EQ(kSmall + 1, large.get().result.valid.size());
-  EXPECT_EQ(2u, gate.checkers()) << "each lane has a checker of its own";
+  EXPECT_EQ(2u, gate.checkers()) << "each queue has its own checker";
 }
 
-TEST_F(Server, WhatIsTooMuchIsTurnedAwayAtOnce)
+TEST_F(Server, FullQueueRejectsAtOnce)
 {
   std::future<CheckAnswer> first = blocked();
   std::vector<std::future<CheckAnswer>> waiting;
@@ -328,7 +328,7 @@ TEST_F(Server, AReportComesWithTheSceneThatItIsOf)
   EXPECT_EQ("gate", answer.device);
 }
 
-TEST_F(Server, AStopAnswersWhatRunsAndTellsTheOthers)
+TEST_F(Server, StopAnswersRunningAndRejectsQueued)
 {
   std::future<CheckAnswer> running = blocked();
   std::future<CheckAnswer> waiting = server.submit(job(1));
@@ -353,7 +353,7 @@ TEST_F(Server, ALargeRequestIsCheckedInSlices)
   EXPECT_EQ((std::vector<std::size_t>{24, 24, 24, 24, 4}), gate.batches());
 }
 
-TEST_F(Server, AStopEndsALargeRequestAfterTheSliceThatRuns)
+TEST_F(Server, StopEndsALargeRequestAfterItsCurrentSlice)
 {
   std::future<CheckAnswer> running = blocked(100);
   std::future<CheckAnswer> waiting = server.submit(job(100));

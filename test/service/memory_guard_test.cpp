@@ -13,7 +13,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-TEST(MemoryGuard, WhatWasFreedIsNotCountedForGood)
+TEST(MemoryGuard, FreedMemoryDoesNotCount)
 {
 #if defined(GPS_SANITIZED) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer keeps what is freed";

@@ -27,7 +27,7 @@ SceneChange boxIn(const std::string& frame, const std::string& id = "box")
   return change;
 }
 
-Eigen::Isometry3d unknownFrame(const FrameAt& frame)
+Eigen::Isometry3d unknownFrame(const StampedFrame& frame)
 {
   throw Error("no frame '" + frame.name + "'");
 }
@@ -63,7 +63,7 @@ TEST_F(Store, ClearRemovesWhatTheMatrixAllowsTheObjects)
   EXPECT_TRUE(store.snapshot().scene->allowed_collisions == AllowedCollisionMatrix::fromRobot(*sliderRobot()));
 }
 
-TEST_F(Store, WhatIsWrongChangesNothing)
+TEST_F(Store, RejectedChangesChangeNothing)
 {
   store.apply(boxIn(""), unknownFrame);
   const auto before = store.snapshot().scene;
@@ -79,7 +79,7 @@ TEST_F(Store, WhatIsWrongChangesNothing)
 TEST_F(Store, FramesThatTheSceneDoesNotKnowAreAskedFor)
 {
   std::vector<std::string> asked;
-  const auto lookup = [&asked](const FrameAt& frame)
+  const auto lookup = [&asked](const StampedFrame& frame)
   {
     asked.push_back(frame.name);
     return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 3.0));
@@ -91,13 +91,13 @@ TEST_F(Store, FramesThatTheSceneDoesNotKnowAreAskedFor)
   EXPECT_DOUBLE_EQ(3.0, store.snapshot().scene->objects[1].pose.translation().z());
 }
 
-TEST_F(Store, AFrameThatAnotherChangeTookAwayMeanwhileIsAskedForAgain)
+TEST_F(Store, FramesRemovedByAnotherChangeAreLookedUpAgain)
 {
   store.apply(boxIn("", "table"), unknownFrame);
   SceneChange change = boxIn("camera");
   change.objects.push_back(boxIn("table", "cup").objects.front());
   std::vector<std::string> asked;
-  const auto lookup = [&](const FrameAt& frame)
+  const auto lookup = [&](const StampedFrame& frame)
   {
     asked.push_back(frame.name);
     if (frame.name == "camera")

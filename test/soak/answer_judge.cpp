@@ -58,7 +58,7 @@ bool fits(const CheckStates& call, std::size_t count)
 }  // namespace
 
 AnswerJudge::AnswerJudge(SceneHistory& history, std::size_t oracle_samples_wanted)
-  : history_(history), most_samples_(oracle_samples_wanted), thread_([this] { run(); })
+  : history_(history), max_samples_(oracle_samples_wanted), thread_([this] { run(); })
 {
 }
 
@@ -85,7 +85,7 @@ void AnswerJudge::finish()
   }
   thread_.join();
   for (const Sample& sample : samples_)
-    askOracle(sample);
+    checkWithOracle(sample);
 }
 
 void AnswerJudge::run()
@@ -136,12 +136,12 @@ void AnswerJudge::judge(const Answer& answer)
 
   // The first state of every 20th answer.
   constexpr std::size_t kAnswersPerSample = 20;
-  if (answers % kAnswersPerSample == 1 && samples_.size() < most_samples_ && count != 0)
+  if (answers % kAnswersPerSample == 1 && samples_.size() < max_samples_ && count != 0)
     samples_.push_back(
         {{asked.begin(), asked.begin() + static_cast<std::ptrdiff_t>(width)}, response.valid[0] != 0, scene});
 }
 
-void AnswerJudge::askOracle(const Sample& sample)
+void AnswerJudge::checkWithOracle(const Sample& sample)
 {
   const oracle::ProblemOracle judge_of_scene(
       std::make_shared<const CollisionProblem>(makeProblem(*sample.scene, "", nullptr)));

@@ -48,10 +48,10 @@ class AnswerJudge
   };
   void run();
   void judge(const Answer& answer);
-  void askOracle(const Sample& sample);
+  void checkWithOracle(const Sample& sample);
 
   SceneHistory& history_;
-  const std::size_t most_samples_;
+  const std::size_t max_samples_;
   std::unique_ptr<class CpuChecker> checker_;
   std::shared_ptr<const PlanningScene> checked_;
   std::vector<Sample> samples_;

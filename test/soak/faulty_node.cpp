@@ -44,7 +44,7 @@ class FaultyChecker : public StateChecker
   {
     constexpr unsigned kCalls = 100;
     if (random_() % kCalls == 0)
-      throw DeviceLost("the device was lost, as this test wants it");
+      throw DeviceLost("simulated loss of the device");
   }
 
   std::unique_ptr<StateChecker> checker_;

@@ -9,7 +9,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kMostScenes = 20000;
+constexpr std::size_t kMaxScenes = 20000;
 
 std::shared_ptr<const PlanningScene> changed(const PlanningScene& scene, const PlanningSceneMessage& message)
 {
@@ -51,7 +51,7 @@ void SceneHistory::follow(const PlanningSceneMessage& message)
   if (last->first != message.previous_revision)
     ++gaps_;
   scenes_[message.scene_revision] = changed(*last->second, message);
-  if (scenes_.size() > kMostScenes)
+  if (scenes_.size() > kMaxScenes)
     scenes_.erase(scenes_.begin());
   changed_.notify_all();
 }

@@ -48,13 +48,13 @@ class Soak : public RunningNode
     return false;
   }
 
-  void checkStates(std::size_t most_states, std::uint64_t seed)
+  void checkStates(std::size_t max_states, std::uint64_t seed)
   {
     std::mt19937_64 generator(seed);
     while (!done)
     {
       CheckStates check;
-      check.request = stateRequest(randomStates(1 + generator() % most_states, generator));
+      check.request = stateRequest(randomStates(1 + generator() % max_states, generator));
       if (generator() % 4 == 0)
         leaveOutFirstJoint(check.request);
       if (check.request.positions.size() < 200 && generator() % 8 == 0)

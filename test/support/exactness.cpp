@@ -125,9 +125,10 @@ void ExactnessCheck::compareSizes(StateChecker& checker, const std::string& name
                                   const std::vector<std::uint8_t>& expected, Exactness& exactness) const
 {
   const std::size_t width = scene_.lower.size();
-  for (const auto& [size, most] : {std::pair<std::size_t, std::size_t>{1, 50}, {7, 350}, {64, 2000}, {1024, 20480}})
+  for (const auto& [size, max_count] :
+       {std::pair<std::size_t, std::size_t>{1, 50}, {7, 350}, {64, 2000}, {1024, 20480}})
   {
-    const std::size_t count = std::min(most, expected.size());
+    const std::size_t count = std::min(max_count, expected.size());
     for (std::size_t begin = 0; begin < count; begin += size)
     {
       const std::size_t part = std::min(size, count - begin);
@@ -136,7 +137,7 @@ void ExactnessCheck::compareSizes(StateChecker& checker, const std::string& name
       {
         if (result.valid[i] == expected[begin + i])
           continue;
-        ++exactness.unlike;
+        ++exactness.disagreeing;
         if (exactness.failures.size() < kFailuresKept)
           exactness.failures.push_back(name + " in calls of " + std::to_string(size) +
                                        " states is not the CPU's: " + describe(&states[(begin + i) * width], width));
@@ -207,7 +208,7 @@ Exactness ExactnessCheck::compare(const std::vector<double>& states, bool cleara
         fail("free, but collides");
       if (!valid && judgement.verdict == Verdict::Free && ++exactness.false_collision)
         fail("collision, but free");
-      if (results[method].valid[i] != on_cpu.valid[i] && ++exactness.unlike)
+      if (results[method].valid[i] != on_cpu.valid[i] && ++exactness.disagreeing)
         fail("not the CPU's verdict");
     }
   }

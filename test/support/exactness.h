@@ -24,7 +24,7 @@ struct Exactness
   std::size_t false_collision = 0;  ///< the checker answers collision, the oracle finds the state free
   std::size_t false_pair = 0;       ///< a reported pair is free, or is not a checked pair
   std::size_t either = 0;           ///< states for which the contract allows both answers
-  std::size_t unlike = 0;           ///< verdicts of some traversal or batch size that differ from the CPU checker's
+  std::size_t disagreeing = 0;      ///< verdicts of some traversal or batch size that differ from the CPU checker's
   double oracle_seconds = 0.0;
 
   /// The undecided states of a BatchChecker with one traversal. All states are checked in one call.
@@ -43,7 +43,7 @@ struct Exactness
 
   std::vector<std::string> failures;  ///< one line for each of the first failures
 
-  bool good() const { return false_free + false_collision + false_pair + unlike == 0; }
+  bool good() const { return false_free + false_collision + false_pair + disagreeing == 0; }
 };
 
 /// Compares the answers of all checkers in a scene with the oracle. The oracle runs on all cores.

@@ -24,12 +24,12 @@ using Eigen::Vector3d;
 constexpr double kNudge = 1e-6;  // metres
 
 /// FCL would solve a different problem, so a comparison would mean nothing.
-void refuseUnsupported(const CollisionProblem& problem, FclTree tree)
+void refuseUnsupported(const CollisionProblem& problem, FclTree kind)
 {
   if (!problem.half_spaces.empty())
-    throw Error("the FCL peer knows no half-spaces; compare with a scene that has none");
+    throw Error("the FCL peer does not support half-spaces; use a scene without half-spaces");
   const auto is_padded = [](const ShapeInstance& geometry) { return geometry.padding > 0.0; };
-  if (tree != FclTree::Obbrss && tree != FclTree::Kios &&
+  if (kind != FclTree::Obbrss && kind != FclTree::Kios &&
       (std::any_of(problem.robot.begin(), problem.robot.end(), is_padded) ||
        std::any_of(problem.world.begin(), problem.world.end(), is_padded)))
     throw Error("FCL finds distances with trees of OBBRSS and kIOS only; compare with a scene without padding");
@@ -150,7 +150,7 @@ struct FclPeer::Impl
   }
 
   /// Makes a copy of the data that queries change. Each peer needs its own.
-  void makeOwn()
+  void copyMutableState()
   {
     if (order)
     {
@@ -164,7 +164,7 @@ struct FclPeer::Impl
     }
     for (std::vector<Placed>* all : {&robot, &world})
       for (Placed& placed : *all)
-        placed.moved = makeFclMovedTree(problem->shapes[placed.tree], problem->trees[placed.tree], volumes);
+        placed.moved = makeFclMovedTree(problem->shapes[placed.tree], problem->tessellations[placed.tree], volumes);
   }
 
   /// Calls visit(a, b, whether the pair is padded) for the checked pairs of instances until it returns true.
@@ -203,8 +203,8 @@ FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree, 
   impl_->problem = std::move(problem);
   impl_->volumes = tree;
   const CollisionProblem& p = *impl_->problem;
-  for (std::size_t i = 0; i < p.trees.size(); ++i)
-    impl_->geometries.push_back(makeFclGeometry(p.shapes[i], p.trees[i], tree));
+  for (std::size_t i = 0; i < p.tessellations.size(); ++i)
+    impl_->geometries.push_back(makeFclGeometry(p.shapes[i], p.tessellations[i], tree));
   for (const ShapeInstance& geometry : p.robot)
     impl_->robot.push_back({geometry.body, geometry.tree, geometry.pose, {}, geometry.padding, nullptr});
   for (const ShapeInstance& geometry : p.world)
@@ -214,12 +214,12 @@ FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree, 
   }
   if (order == FclOrder::Learned)
     impl_->order.emplace(p.robot.size() + p.self_pairs.size());
-  impl_->makeOwn();
+  impl_->copyMutableState();
 }
 
 FclPeer::FclPeer(const FclPeer& other) : impl_(std::make_unique<Impl>(*other.impl_))
 {
-  impl_->makeOwn();
+  impl_->copyMutableState();
 }
 
 FclPeer::~FclPeer() = default;
@@ -324,7 +324,7 @@ bool FclPeer::oneInsideTheOther(const BodyPair& pair) const
                       [&](const Impl::Placed& a, const Impl::Placed& b, bool /*padded*/)
                       {
                         const auto& shapes = impl_->problem->shapes;
-                        const auto& trees = impl_->problem->trees;
+                        const auto& trees = impl_->problem->tessellations;
                         const Isometry3d b_in_a = a.pose.inverse() * b.pose;
                         found = found || hasVertexInside(*trees[b.tree].mesh, b_in_a, shapes[a.tree]) ||
                                 hasVertexInside(*trees[a.tree].mesh, b_in_a.inverse(), shapes[b.tree]);

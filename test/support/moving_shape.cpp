@@ -8,9 +8,9 @@ MovingShape::MovingShape(const Shape& moving, const std::vector<PlacedShape>& ob
   auto problem = std::make_shared<CollisionProblem>();
   const auto add_tree = [&problem](const Shape& shape)
   {
-    problem->trees.push_back(tessellate(shape));
+    problem->tessellations.push_back(tessellate(shape));
     problem->shapes.push_back(shape);
-    return static_cast<std::uint32_t>(problem->trees.size() - 1);
+    return static_cast<std::uint32_t>(problem->tessellations.size() - 1);
   };
   problem->robot.push_back({add_tree(moving), 0, 0, Eigen::Isometry3d::Identity(), padding.moving});
   for (std::size_t k = 0; k < objects.size(); ++k)
@@ -27,7 +27,7 @@ MovingShape::MovingShape(const Shape& moving, const std::vector<PlacedShape>& ob
   }
   problem->world_pairs.assign(problem->world.size(), 1);
   problem->half_space_pairs.assign(problem->half_spaces.size(), 1);
-  trees_ = problem->trees;
+  trees_ = problem->tessellations;
   traversal_ = std::make_unique<CpuTraversal>(
       problem, std::make_shared<const Forest>(build ? build(trees_) : buildBinnedSah(trees_)));
 }

@@ -15,7 +15,7 @@ constexpr double kReach = 0.1;  // metres: approximate relative displacement of 
 constexpr int kHalvings = 52;
 
 /// A segment from a free to a colliding state. Positions on it run from 0 to 1.
-struct Way
+struct Segment
 {
   const double* from;
   const double* to;
@@ -38,8 +38,8 @@ struct Way
 };
 
 /// Segments between random pairs of a free and a colliding state of `states`.
-std::vector<Way> makeWays(const std::vector<double>& states, const std::vector<std::uint8_t>& valid, std::size_t count,
-                          std::mt19937_64& generator)
+std::vector<Segment> makeSegments(const std::vector<double>& states, const std::vector<std::uint8_t>& valid,
+                                  std::size_t count, std::mt19937_64& generator)
 {
   const std::size_t width = states.size() / valid.size();
   std::vector<const double*> free;
@@ -49,10 +49,10 @@ std::vector<Way> makeWays(const std::vector<double>& states, const std::vector<s
   if (free.empty() || colliding.empty())
     throw Error("no contact to be found: of " + std::to_string(valid.size()) + " random states " +
                 std::to_string(free.size()) + " are free");
-  std::vector<Way> ways;
+  std::vector<Segment> segments;
   for (std::size_t i = 0; i < count; ++i)
-    ways.push_back({free[generator() % free.size()], colliding[generator() % colliding.size()]});
-  return ways;
+    segments.push_back({free[generator() % free.size()], colliding[generator() % colliding.size()]});
+  return segments;
 }
 }  // namespace
 
@@ -63,23 +63,23 @@ std::vector<double> nearContactStates(const TestScene& scene, std::size_t count,
   std::mt19937_64 generator(seed);
   CpuChecker checker(scene.scene);
   const std::vector<double> ends = scene.randomStates(drawn, seed);
-  std::vector<Way> ways = makeWays(ends, checker.check(ends.data(), drawn).valid, count, generator);
+  std::vector<Segment> segments = makeSegments(ends, checker.check(ends.data(), drawn).valid, count, generator);
   for (int i = 0; i < kHalvings; ++i)
   {
     std::vector<double> middles;
-    for (const Way& way : ways)
-      way.appendState((way.free + way.colliding) / 2.0, width, middles);
+    for (const Segment& segment : segments)
+      segment.appendState((segment.free + segment.colliding) / 2.0, width, middles);
     const BatchResult result = checker.check(middles.data(), count);
     for (std::size_t k = 0; k < count; ++k)
-      (result.valid[k] ? ways[k].free : ways[k].colliding) = (ways[k].free + ways[k].colliding) / 2.0;
+      (result.valid[k] ? segments[k].free : segments[k].colliding) = (segments[k].free + segments[k].colliding) / 2.0;
   }
   std::uniform_real_distribution<double> exponent(-10.0, -4.0);
   std::vector<double> states;
   for (std::size_t k = 0; k < count; ++k)
   {
-    const double step = std::pow(10.0, exponent(generator)) / ways[k].length(width);
-    const double position = k % 2 == 0 ? ways[k].free - step : ways[k].colliding + step;
-    ways[k].appendState(std::clamp(position, 0.0, 1.0), width, states);
+    const double step = std::pow(10.0, exponent(generator)) / segments[k].length(width);
+    const double position = k % 2 == 0 ? segments[k].free - step : segments[k].colliding + step;
+    segments[k].appendState(std::clamp(position, 0.0, 1.0), width, states);
   }
   return states;
 }

@@ -270,7 +270,7 @@ TEST_F(CheckStates, BadInputEndsWithOne)
   expectError(checkCsv("slide,turn\nnan,0\n"), 1, "states.csv:2: column 1 (slide): 'nan'");
   expectError(checkCsv("slide,turn\n0,-inf\n"), 1, "states.csv:2: column 2 (turn): '-inf'");
   expectError(checkCsv("slide,turn\n0,0\n\n0,0\n"), 1, "states.csv:3: an empty line");
-  expectError(checkCsv("slide,turn\n\"0,0\n"), 1, "states.csv:2: a quote");
+  expectError(checkCsv("slide,turn\n\"0,0\n"), 1, "states.csv:2: a quotation mark");
   expectError(check({"--random", "1", "--device", "no such renderer"}), 1, "no such renderer");
 }
 }  // namespace

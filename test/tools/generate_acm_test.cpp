@@ -96,7 +96,7 @@ TEST_F(GenerateAcm, TheCommentSaysWhatNeverMeans)
   ASSERT_EQ(0, generate({"--samples", "3000", "--seed", "42"}).exit_code);
   const std::string srdf = contentOf(out);
   EXPECT_NE(std::string::npos, srdf.find("3000 random states, seed 42")) << srdf;
-  EXPECT_NE(std::string::npos, srdf.find("95 % confidence, for each pair, that fewer than 0.1 % of random")) << srdf;
+  EXPECT_NE(std::string::npos, srdf.find("95 % confidence, for each pair, fewer than 0.1 % of random")) << srdf;
   // XML allows no two hyphens in a comment, but the robot's name contains them.
   const std::size_t comment = srdf.find("<!--") + 4;
   EXPECT_EQ(srdf.find("-->"), srdf.find("--", comment)) << srdf;

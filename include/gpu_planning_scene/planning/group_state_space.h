@@ -25,7 +25,7 @@ class GroupStateSpace : public ompl::base::CompoundStateSpace
 {
  public:
   /// The space has the name of the group. Throws Error if the group is unknown or has no joint to plan for, if a planar
-  /// or floating joint has no range for its translations, or if a continuous joint has no period (hasNoPeriod).
+  /// or floating joint has no range for its translations, or if a continuous joint is not periodic (isPeriodic).
   GroupStateSpace(std::shared_ptr<const RobotModel> robot, const std::string& group);
 
   const std::shared_ptr<const RobotModel>& robot() const { return robot_; }

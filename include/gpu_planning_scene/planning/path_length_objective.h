@@ -13,6 +13,6 @@ class PathLengthObjective : public ompl::base::PathLengthOptimizationObjective
   explicit PathLengthObjective(const ompl::base::SpaceInformationPtr& information);
 
   ompl::base::InformedSamplerPtr allocInformedStateSampler(const ompl::base::ProblemDefinitionPtr& definition,
-                                                           unsigned int most_calls) const override;
+                                                           unsigned int max_calls) const override;
 };
 }  // namespace gpu_planning_scene::core

@@ -12,10 +12,10 @@ namespace gpu_planning_scene::core
 /// Options of PathShortcutter.
 struct ShortcutterOptions
 {
-  std::size_t candidates = 16;   ///< shortcuts that are checked in one call (a round)
-  std::size_t most_rounds = 64;  ///< the shortcutter stops after this many rounds
-  std::size_t idle_rounds = 2;   ///< it also stops after this many rounds in a row that gain less than least_gain
-  double least_gain = 1e-2;      ///< least gain of a round, as a fraction of the path's length
+  std::size_t candidates = 16;  ///< shortcuts that are checked in one call (a round)
+  std::size_t max_rounds = 64;  ///< the shortcutter stops after this many rounds
+  std::size_t idle_rounds = 2;  ///< it also stops after this many rounds in a row that gain less than least_gain
+  double least_gain = 1e-2;     ///< least gain of a round, as a fraction of the path's length
 };
 
 /// Shortens paths with a MotionValidator, which checks many motions in little more time than one motion. First, one

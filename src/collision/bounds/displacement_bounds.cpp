@@ -56,7 +56,8 @@ DisplacementBounds::DisplacementBounds(const RobotModel& robot, const CollisionP
       {
         const Joint& joint = robot.joints()[static_cast<std::size_t>(number)];
         if (joint.type != JointType::Fixed)
-          term = {number, 1.0, above < body.above.size() ? armOf(joint, body.above[above]) : kUnbounded};
+          term = {number, 1.0,
+                  above < body.region_by_level.size() ? armOf(joint, body.region_by_level[above]) : kUnbounded};
       }
       chain.push_back({link, term});
       link = number < 0 ? -1 : robot.joints()[static_cast<std::size_t>(number)].parent_link;

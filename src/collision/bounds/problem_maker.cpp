@@ -46,9 +46,9 @@ CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::strin
   problem.tolerance = options_.tolerance;
   problem.always_colliding = counts.always_colliding;
   problem.ranges = std::move(ranges);
-  counts.trees = problem.trees.size();
-  counts.shared_trees = problem.robot.size() + problem.world.size() - problem.trees.size();
-  for (const Tessellation& tree : problem.trees)
+  counts.trees = problem.tessellations.size();
+  counts.shared_trees = problem.robot.size() + problem.world.size() - problem.tessellations.size();
+  for (const Tessellation& tree : problem.tessellations)
     counts.triangles += tree.mesh->triangles.size();
   if (report != nullptr)
     *report = counts;

@@ -8,7 +8,7 @@
 #include "scene/rigid_pose.h"
 
 // Covers each shape with balls, and sweeps the balls through the joints from the link up to the planning frame. After
-// each joint, neighbouring balls are merged until kMostBalls remain.
+// each joint, neighbouring balls are merged until kMaxBalls remain.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -32,11 +32,11 @@ constexpr double kLargestAngle = 100.0;  // radians
 constexpr double kReachRounding = 1e-12;  // relative to the distance from the origin plus the radius
 
 // More balls and parts give tighter bounds, but loading a robot takes longer.
-constexpr std::size_t kMostBalls = 48;  // balls in a region
-constexpr int kMostParts = 12;          // parts of a joint's interval, for each ball
-constexpr int kMostPieces = 6;          // pieces along an edge of a shape's bounding box
+constexpr std::size_t kMaxBalls = 48;  // balls in a region
+constexpr int kMaxParts = 12;          // parts of a joint's interval, for each ball
+constexpr int kMaxPieces = 6;          // pieces along an edge of a shape's bounding box
 // The bounds of longer chains are too wide to exclude a pair.
-constexpr int kMostMovingJoints = 16;
+constexpr int kMaxMovingJoints = 16;
 
 Ball rounded(const Vector3d& center, double radius)
 {
@@ -55,17 +55,17 @@ Ball enclosing(const Ball* begin, const Ball* end)
   return rounded(middle, radius);
 }
 
-/// Splits a set of balls at the median of its longest side, recursively, into at most `most` parts. Adds a ball for
-/// each part that contains the part's balls.
-void cluster(Ball* begin, Ball* end, std::size_t most, std::vector<Ball>& result)
+/// Splits a set of balls at the median of its longest side, recursively, into at most `max_parts` parts. Adds a ball
+/// for each part that contains the part's balls.
+void cluster(Ball* begin, Ball* end, std::size_t max_parts, std::vector<Ball>& result)
 {
   const auto count = static_cast<std::size_t>(end - begin);
-  if (count <= most)
+  if (count <= max_parts)
   {
     result.insert(result.end(), begin, end);
     return;
   }
-  if (most == 1)
+  if (max_parts == 1)
   {
     result.push_back(enclosing(begin, end));
     return;
@@ -78,25 +78,25 @@ void cluster(Ball* begin, Ball* end, std::size_t most, std::vector<Ball>& result
   Ball* const middle = begin + count / 2;
   std::nth_element(begin, middle, end,
                    [axis](const Ball& a, const Ball& b) { return a.center[axis] < b.center[axis]; });
-  cluster(begin, middle, most / 2, result);
-  cluster(middle, end, most - most / 2, result);
+  cluster(begin, middle, max_parts / 2, result);
+  cluster(middle, end, max_parts - max_parts / 2, result);
 }
 
 Region regionOf(std::vector<Ball> balls)
 {
   Region region;
-  cluster(balls.data(), balls.data() + balls.size(), kMostBalls, region.balls);
-  region.all = enclosing(region.balls.data(), region.balls.data() + region.balls.size());
+  cluster(balls.data(), balls.data() + balls.size(), kMaxBalls, region.balls);
+  region.enclosing = enclosing(region.balls.data(), region.balls.data() + region.balls.size());
   return region;
 }
 
 /// Cuts a box into pieces that are roughly cubes, and adds a ball around each piece.
 void cover(const AlignedBox3d& box, const Isometry3d& pose, std::vector<Ball>& balls)
 {
-  const double edge = std::max(box.sizes().minCoeff(), box.sizes().maxCoeff() / kMostPieces);
+  const double edge = std::max(box.sizes().minCoeff(), box.sizes().maxCoeff() / kMaxPieces);
   Eigen::Array3i pieces = Eigen::Array3i::Ones();
   for (int i = 0; i < 3 && edge > 0.0; ++i)
-    pieces[i] = std::clamp(static_cast<int>(std::ceil(box.sizes()[i] / edge)), 1, kMostPieces);
+    pieces[i] = std::clamp(static_cast<int>(std::ceil(box.sizes()[i] / edge)), 1, kMaxPieces);
   const Vector3d size = box.sizes().array() / pieces.cast<double>();
   for (int x = 0; x < pieces.x(); ++x)
     for (int y = 0; y < pieces.y(); ++y)
@@ -111,7 +111,7 @@ void cover(const AlignedBox3d& box, const Isometry3d& pose, std::vector<Ball>& b
 /// The number of parts for an interval that moves a ball's centre by up to `travel` in each direction.
 int partsFor(double travel, double radius)
 {
-  return std::clamp(static_cast<int>(std::ceil(travel / std::max(0.5 * radius, 0.02))), 1, kMostParts);
+  return std::clamp(static_cast<int>(std::ceil(travel / std::max(0.5 * radius, 0.02))), 1, kMaxParts);
 }
 
 /// Covers a ball that turns about an axis through the origin by the angles from `lower` to `upper`, which are at most
@@ -161,8 +161,8 @@ bool near(const Ball& ball, const Obstacle& obstacle, double distance)
     return !(half_space->normal.dot(ball.center) - half_space->offset > reach);
   const PlacedBox& box = std::get<PlacedBox>(obstacle);
   const Vector3d from_box = ball.center - box.pose.translation();
-  const double most = reach + box.radius + box.rounding;
-  if (from_box.squaredNorm() > most * most)
+  const double farthest = reach + box.radius + box.rounding;
+  if (from_box.squaredNorm() > farthest * farthest)
     return false;
   const Vector3d center = box.pose.linear().transpose() * from_box;
   return !((center.cwiseAbs() - box.half).cwiseMax(0.0).norm() > reach + box.rounding);
@@ -171,7 +171,7 @@ bool near(const Ball& ball, const Obstacle& obstacle, double distance)
 /// Whether the coordinates of a region are small enough for the margins. False if one of them is NaN.
 bool isBound(const Region& region)
 {
-  return region.all.center.norm() + region.all.radius <= kFarthest;
+  return region.enclosing.center.norm() + region.enclosing.radius <= kFarthest;
 }
 }  // namespace
 
@@ -268,17 +268,18 @@ SweptBody Reach::sweep(const std::vector<PlacedShape>& shapes, const Isometry3d&
   for (const PlacedShape& placed : shapes)
     cover(boundsOf(placed.shape), rigidProduct(pose, placed.pose), balls);
   SweptBody body{link, {regionOf(std::move(balls))}};
-  if (!isBound(body.above.front()))
-    body.above.clear();
+  if (!isBound(body.region_by_level.front()))
+    body.region_by_level.clear();
   int moving_joints = 0;
-  for (int at = link; at >= 0 && !body.above.empty(); at = parent(at))
+  for (int at = link; at >= 0 && !body.region_by_level.empty(); at = parent(at))
   {
     const Joint& joint = parent_joints_[static_cast<std::size_t>(at)];
     moving_joints += joint.type == JointType::Fixed ? 0 : 1;
-    std::optional<Region> above = moving_joints > kMostMovingJoints ? std::nullopt : swept(body.above.back(), joint);
+    std::optional<Region> above =
+        moving_joints > kMaxMovingJoints ? std::nullopt : swept(body.region_by_level.back(), joint);
     if (!above || !isBound(*above))
       break;
-    body.above.push_back(std::move(*above));
+    body.region_by_level.push_back(std::move(*above));
   }
   return body;
 }
@@ -286,7 +287,7 @@ SweptBody Reach::sweep(const std::vector<PlacedShape>& shapes, const Isometry3d&
 const Region* Reach::inPlanningFrame(const SweptBody& body) const
 {
   const auto above = static_cast<std::size_t>(depth(body.link)) + 1;
-  return above < body.above.size() ? &body.above[above] : nullptr;
+  return above < body.region_by_level.size() ? &body.region_by_level[above] : nullptr;
 }
 
 /// Compares the regions in the frame of the last link that is above both bodies. Only a mimicked variable can move both
@@ -299,14 +300,14 @@ bool Reach::mayMeet(const SweptBody& a, const SweptBody& b, double distance) con
     (depth(link_a) >= depth(link_b) ? link_a : link_b) = parent(depth(link_a) >= depth(link_b) ? link_a : link_b);
   const auto above_a = static_cast<std::size_t>(depth(a.link) - depth(link_a));
   const auto above_b = static_cast<std::size_t>(depth(b.link) - depth(link_b));
-  if (above_a >= a.above.size() || above_b >= b.above.size())
+  if (above_a >= a.region_by_level.size() || above_b >= b.region_by_level.size())
     return true;
-  const Region& region_a = a.above[above_a];
-  const Region& region_b = b.above[above_b];
-  if (!near(region_a.all, region_b.all, distance))
+  const Region& region_a = a.region_by_level[above_a];
+  const Region& region_b = b.region_by_level[above_b];
+  if (!near(region_a.enclosing, region_b.enclosing, distance))
     return false;
   for (const Ball& ball_a : region_a.balls)
-    if (near(ball_a, region_b.all, distance))
+    if (near(ball_a, region_b.enclosing, distance))
       for (const Ball& ball_b : region_b.balls)
         if (near(ball_a, ball_b, distance))
           return true;
@@ -315,8 +316,9 @@ bool Reach::mayMeet(const SweptBody& a, const SweptBody& b, double distance) con
 
 bool mayMeet(const Region& region, const Obstacle& obstacle, double distance)
 {
-  return near(region.all, obstacle, distance) && std::any_of(
-                                                     region.balls.begin(), region.balls.end(),
-                                                     [&](const Ball& ball) { return near(ball, obstacle, distance); });
+  return near(region.enclosing, obstacle, distance) &&
+         std::any_of(
+             region.balls.begin(), region.balls.end(),
+             [&](const Ball& ball) { return near(ball, obstacle, distance); });
 }
 }  // namespace gpu_planning_scene::core

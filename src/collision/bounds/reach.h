@@ -21,7 +21,7 @@ struct Ball
 struct Region
 {
   std::vector<Ball> balls;
-  Ball all;
+  Ball enclosing;
 };
 
 /// The regions of a body in the frame of its link, of the parent link, and so on up to the planning frame. The list
@@ -29,7 +29,7 @@ struct Region
 struct SweptBody
 {
   int link;
-  std::vector<Region> above;  ///< index i: the frame i links above `link`
+  std::vector<Region> region_by_level;  ///< index i: the frame i links above `link`
 };
 
 /// The limits of the robot's revolute and prismatic joints, slightly enlarged. The reach bounds hold for states within

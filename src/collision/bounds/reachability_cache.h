@@ -46,7 +46,7 @@ class ReachabilityCache
 
   /// Whether the two bodies may come near each other. Calls ask() only if the answer is not cached.
   template <class Ask>
-  bool perhaps(std::size_t row, std::size_t column, const Ask& ask)
+  bool mayBeNear(std::size_t row, std::size_t column, const Ask& ask)
   {
     Near& cell = cells_[row * columns_ + column];
     if (cell == Near::Unknown)

@@ -194,7 +194,7 @@ std::vector<VariableRange> ReachabilityFilter::leaveOutUnreachable(const Plannin
                     const std::size_t b = movers[pair.other];
                     const auto may_meet = [&]
                     { return reach_->mayMeet(sweptBody(bodies[pair.body], a), sweptBody(bodies[pair.other], b), 0.0); };
-                    const bool leaves = !near_movers_.perhaps(a, b, may_meet);
+                    const bool leaves = !near_movers_.mayBeNear(a, b, may_meet);
                     report.unreachable_self_pairs += leaves && pair.moved ? 1 : 0;
                     return leaves;
                   });
@@ -205,7 +205,7 @@ std::vector<VariableRange> ReachabilityFilter::leaveOutUnreachable(const Plannin
                   [&](const CheckedPair& pair)
                   {
                     const std::size_t mover = movers[pair.body];
-                    const bool leaves = !near_objects_.perhaps(
+                    const bool leaves = !near_objects_.mayBeNear(
                         pair.other, mover, [&] { return mayMeet(scene, bodies[pair.body], mover, pair.other); });
                     report.unreachable_world_pairs += leaves && pair.moved ? 1 : 0;
                     before.add(pair, true);

@@ -69,7 +69,7 @@ AbandonableThread::~AbandonableThread()
 bool AbandonableThread::run(std::function<void()> job, double seconds)
 {
   if (givenUp())
-    throw std::logic_error("a job for a thread that was given up");
+    throw std::logic_error("the thread has been given up and takes no more jobs");
   std::unique_lock<std::mutex> lock(queue_->mutex);
   queue_->job = std::move(job);
   queue_->done = false;

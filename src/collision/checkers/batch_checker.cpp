@@ -90,7 +90,7 @@ void BatchChecker::Impl::check(const double* states, std::size_t count, const st
     return on_cpu.check(states, count, group, result);
   std::vector<std::size_t> rows[2];  // [0]: states for the GPU, [1]: states for the CPU
   for (std::size_t i = 0; i < count; ++i)
-    rows[holdsFor(problem, states + i * width()) ? 0 : 1].push_back(i);
+    rows[isValidFor(problem, states + i * width()) ? 0 : 1].push_back(i);
   if (rows[1].empty())
     return checkOnGpu(states, count, group, result);
   result.valid.resize(count);
@@ -152,13 +152,13 @@ std::size_t BatchChecker::Impl::measure(const std::string& group, const double* 
 {
   const RobotModel& robot = *on_cpu.scene()->robot;
   const CollisionProblem& problem = *on_cpu.problem(group);
-  std::vector<double> sample(kMostTimed * width());
+  std::vector<double> sample(kMaxTimed * width());
   std::mt19937_64 generator;
-  for (std::size_t i = 0; i < kMostTimed; ++i)
+  for (std::size_t i = 0; i < kMaxTimed; ++i)
   {
     double* row = &sample[i * width()];
     const double* own = states + (count == 0 ? 0 : i % count) * width();
-    if (count >= kEnough && holdsFor(problem, own))
+    if (count >= kEnough && isValidFor(problem, own))
       std::copy(own, own + width(), row);
     else
       robot.randomState(generator, row);

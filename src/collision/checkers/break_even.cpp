@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 // The timed sizes. Timing stops when one of the two takes kLong, but not before the second size.
-constexpr std::size_t kSizes[] = {1, 16, 64, 256, kMostTimed};
+constexpr std::size_t kSizes[] = {1, 16, 64, 256, kMaxTimed};
 constexpr double kLong = 0.005;    // seconds
 constexpr int kRepeats = 3;        // the fastest run counts, because disturbances only slow a run down
 constexpr int kConfirmations = 5;  // runs before `bulk` is accepted as faster, even if they are long

@@ -64,8 +64,8 @@ void CpuScene::checkRow(const double* state, std::size_t row, const Group& group
   scene_->robot->linkPoses(state, scratch.poses.data());
   const Eigen::Isometry3d* const poses = scratch.poses.data();
   const auto pair = margins ? group.within->firstCollision(poses, scratch.near, margins->of(row))
-                    : holdsFor(*group.problem, state) ? group.within->firstCollision(poses, scratch.within)
-                                                      : group.outside->firstCollision(poses, scratch.outside);
+                    : isValidFor(*group.problem, state) ? group.within->firstCollision(poses, scratch.within)
+                                                        : group.outside->firstCollision(poses, scratch.outside);
   if (pair)
   {
     result.valid[row] = 0;
@@ -98,7 +98,7 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
   prepare(group);
   const std::size_t width = scene_->robot->variables().size();
   for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)
-    if (!holdsFor(*group.problem, states + i * width))
+    if (!isValidFor(*group.problem, states + i * width))
       prepareOutside(name, group);
   if (count <= kFewStates)
   {

@@ -21,7 +21,7 @@ std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape&
   auto problem = std::make_shared<CollisionProblem>();
   problem->tolerance = tolerance;
   problem->shapes = {b};
-  problem->trees = {tessellate(b)};
+  problem->tessellations = {tessellate(b)};
   problem->robot = {{0, 0, 0, Eigen::Isometry3d::Identity()}};
   if (const auto* half_space = std::get_if<HalfSpace>(&a))
   {
@@ -30,7 +30,7 @@ std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape&
     return problem;
   }
   problem->shapes.push_back(a);
-  problem->trees.push_back(tessellate(a));
+  problem->tessellations.push_back(tessellate(a));
   problem->world = {{1, 1, -1, Eigen::Isometry3d::Identity()}};
   problem->world_pairs = {1};
   return problem;
@@ -41,7 +41,7 @@ std::vector<Eigen::Isometry3d> rigidPoses(const std::vector<Eigen::Isometry3d>& 
   std::vector<Eigen::Isometry3d> result;
   result.reserve(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i)
-    result.push_back(rigid(poses[i], "pose " + std::to_string(i)));
+    result.push_back(nearestRigid(poses[i], "pose " + std::to_string(i)));
   return result;
 }
 }  // namespace

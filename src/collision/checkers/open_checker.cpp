@@ -19,7 +19,7 @@ std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> s
   {
     if (!listDevices().empty())
       throw;
-    throw Error(std::string(error.what()) + "; or choose the device 'cpu', which needs none");
+    throw Error(std::string(error.what()) + "; or choose the device 'cpu', which needs no GPU");
   }
 }
 }  // namespace gpu_planning_scene::core

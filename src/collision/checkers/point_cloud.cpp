@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 
 // A key of 63 bits holds the three indices of a voxel, with 21 bits each.
 constexpr int kBits = 21;
-constexpr std::int64_t kMostIndex = (std::int64_t{1} << (kBits - 1)) - 1;
+constexpr std::int64_t kMaxIndex = (std::int64_t{1} << (kBits - 1)) - 1;
 
 // The culling boxes are enlarged by this margin, which exceeds their rounding error.
 constexpr double kCubeMargin = 1e-6;  // metres
@@ -33,7 +33,7 @@ std::uint64_t keyOf(const Vector3d& index)
 {
   std::uint64_t key = 0;
   for (const int axis : {2, 1, 0})
-    key = key << kBits | static_cast<std::uint64_t>(static_cast<std::int64_t>(index[axis]) + kMostIndex);
+    key = key << kBits | static_cast<std::uint64_t>(static_cast<std::int64_t>(index[axis]) + kMaxIndex);
   return key;
 }
 
@@ -42,8 +42,7 @@ Vector3d centerOfVoxel(std::uint64_t key, double size)
   Vector3d center;
   for (const int axis : {0, 1, 2})
   {
-    const auto index =
-        static_cast<std::int64_t>(key >> (axis * kBits) & ((std::uint64_t{1} << kBits) - 1)) - kMostIndex;
+    const auto index = static_cast<std::int64_t>(key >> (axis * kBits) & ((std::uint64_t{1} << kBits) - 1)) - kMaxIndex;
     center[axis] = (static_cast<double>(index) + 0.5) * size;
   }
   return center;
@@ -85,11 +84,11 @@ std::vector<std::uint64_t> PointCloudFilter::Impl::voxelsOf(const std::vector<Ei
   for (const Eigen::Vector3f& point : points)
   {
     const Vector3d local = point.cast<double>();
-    if (!local.allFinite() || local.norm() > options.most_distance)
+    if (!local.allFinite() || local.norm() > options.max_distance)
       continue;
     const Vector3d index = ((sensor * local) / options.voxel).array().floor();
-    if (index.cwiseAbs().maxCoeff() > static_cast<double>(kMostIndex))
-      throw Error("a point of the cloud is more than " + std::to_string(kMostIndex) +
+    if (index.cwiseAbs().maxCoeff() > static_cast<double>(kMaxIndex))
+      throw Error("a point of the cloud is more than " + std::to_string(kMaxIndex) +
                   " voxels from the planning frame's origin; use larger voxels or a nearer planning frame");
     keys.push_back(keyOf(index));
   }
@@ -133,11 +132,11 @@ void PointCloudFilter::Impl::removeRobot(const PlanningScene& scene, const doubl
   among.allowed_collisions = {};
   among.link_padding.assign(link_poses.size(), options.robot_padding);
   among.attached = scene.attached;
-  for (AttachedObject& carried : among.attached)
-    carried.padding = 0.0;
+  for (AttachedObject& attached : among.attached)
+    attached.padding = 0.0;
   among.objects.push_back({"cloud", Isometry3d::Identity(), {}, 0.0});
-  for (const AttachedObject& carried : among.attached)  // a unique name: it contains the names of all attached objects
-    among.objects[0].id += carried.object.id;
+  for (const AttachedObject& attached : among.attached)  // a unique name: it contains the names of all attached objects
+    among.objects[0].id += attached.object.id;
   for (const std::size_t cube : near)
     among.objects[0].shapes.push_back(cubes[cube]);
   auto problem = maker.make(among, "", nullptr);
@@ -159,7 +158,7 @@ PointCloudFilter::PointCloudFilter(const PointCloudOptions& options) : impl_(std
 {
   refuseOption(options.voxel > 0.0, options.voxel, "the voxel size");
   refuseOption(options.robot_padding >= 0.0, options.robot_padding, "the robot's padding");
-  refuseOption(options.most_distance > 0.0, options.most_distance, "the range");
+  refuseOption(options.max_distance > 0.0, options.max_distance, "the range");
   impl_->options = options;
 }
 
@@ -169,10 +168,10 @@ WorldObject PointCloudFilter::objectOf(const std::string& id, const std::vector<
                                        const Isometry3d& sensor, const PlanningScene& scene, const double* state)
 {
   validateStates(*scene.robot, state, 1);
-  const std::vector<std::uint64_t> voxels = impl_->voxelsOf(points, rigid(sensor, "the sensor's pose"));
-  if (voxels.size() > impl_->options.most_voxels)
-    throw Error("the cloud fills " + std::to_string(voxels.size()) + " voxels, there may be at most " +
-                std::to_string(impl_->options.most_voxels) + "; use larger voxels or a shorter range");
+  const std::vector<std::uint64_t> voxels = impl_->voxelsOf(points, nearestRigid(sensor, "the sensor's pose"));
+  if (voxels.size() > impl_->options.max_voxels)
+    throw Error("the cloud fills " + std::to_string(voxels.size()) + " voxels, but at most " +
+                std::to_string(impl_->options.max_voxels) + " are allowed; use larger voxels or a shorter range");
   WorldObject object;
   object.id = id;
   object.shapes.reserve(voxels.size());

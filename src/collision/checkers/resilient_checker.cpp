@@ -55,7 +55,7 @@ struct ResilientChecker::Impl
     std::unique_ptr<StateChecker> checker;
   };
   template <class Result>
-  using Question = std::function<Result(StateChecker&)>;  // must own all objects that it uses, see AbandonableThread
+  using Request = std::function<Result(StateChecker&)>;  // must own all objects that it uses, see AbandonableThread
 
   Impl(Make make_the_device, Make make_the_cpu, const ResilientOptions& the_options)
     : make_device(std::move(make_the_device)), make_cpu(std::move(make_the_cpu)), options(the_options)
@@ -63,7 +63,7 @@ struct ResilientChecker::Impl
   }
 
   template <class Result>
-  Result ask(const Scene& scene, const Question<Result>& question);
+  Result request(const Scene& scene, const Request<Result>& work);
   bool placeOnDevice(const Scene& scene);
   void placeOnCpu(const Scene& scene);
   void openDevice(const Scene& scene, double seconds);
@@ -83,7 +83,7 @@ struct ResilientChecker::Impl
   Scene device_scene;
   std::unique_ptr<StateChecker> cpu;
   Scene cpu_scene;
-  bool asked_cpu = false;  // the CPU answered the last request
+  bool answered_by_cpu = false;  // the CPU answered the last request
   bool opened_before = false;
   bool lost = false;  // the device was lost and has not been reopened
   double seconds_per_call = 0.0;
@@ -105,7 +105,7 @@ void ResilientChecker::Impl::run(const std::function<void()>& job, double second
   device.reset();
   noteFailedRebuild();  // no thread is left that could open the device again
   std::ostringstream message;
-  message << "the device has not answered for " << seconds << " s and is not used any more";
+  message << "the device has not answered for " << seconds << " s and is no longer used";
   throw DeviceLost(message.str());
 }
 
@@ -186,7 +186,7 @@ void ResilientChecker::Impl::noteLoss(const std::string& error)
   losses.push_back(now);
   while (losses.front() < now - duration(options.loss_window))
     losses.pop_front();
-  if (losses.size() >= options.most_losses)
+  if (losses.size() >= options.max_losses)
     useCpu(error);
 }
 
@@ -235,11 +235,11 @@ void ResilientChecker::Impl::placeOnCpu(const Scene& the_scene)
 }
 
 template <class Result>
-Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result>& question)
+Result ResilientChecker::Impl::request(const Scene& the_scene, const Request<Result>& work)
 {
   const auto answered_by = [this](bool by_cpu)
   {
-    asked_cpu = by_cpu;
+    answered_by_cpu = by_cpu;
     const std::lock_guard<std::mutex> lock(status_mutex);
     history.on_cpu = by_cpu;
   };
@@ -251,7 +251,7 @@ Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result
       if (!placeOnDevice(the_scene))
         break;
       const auto result = std::make_shared<Result>();
-      run([slot = device, result, question] { *result = question(*slot->checker); }, seconds_per_call);
+      run([slot = device, result, work] { *result = work(*slot->checker); }, seconds_per_call);
       cpu.reset();
       answered_by(false);
       return std::move(*result);
@@ -274,7 +274,7 @@ Result ResilientChecker::Impl::ask(const Scene& the_scene, const Question<Result
   }
   placeOnCpu(the_scene);
   answered_by(true);
-  return question(*cpu);
+  return work(*cpu);
 }
 
 ResilientChecker::ResilientChecker(std::shared_ptr<const PlanningScene> scene, Make device, Make cpu,
@@ -286,7 +286,7 @@ ResilientChecker::ResilientChecker(std::shared_ptr<const PlanningScene> scene, M
   if (opening == Opening::AtStart)
     impl_->openDevice(scene, kNoLimit);
   else
-    impl_->ask<bool>(scene, [](StateChecker&) { return true; });
+    impl_->request<bool>(scene, [](StateChecker&) { return true; });
   impl_->scene = std::move(scene);
 }
 
@@ -299,7 +299,7 @@ void ResilientChecker::setScene(std::shared_ptr<const PlanningScene> scene)
 {
   requireRobot(scene);
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  impl_->ask<bool>(scene, [](StateChecker&) { return true; });
+  impl_->request<bool>(scene, [](StateChecker&) { return true; });
   impl_->scene = std::move(scene);
 }
 
@@ -315,9 +315,9 @@ BatchResult ResilientChecker::check(const double* states, std::size_t count, con
   const auto rows = std::make_shared<const std::vector<double>>(states, states + count * robot.variables().size());
   const auto neighbourhood = around ? std::make_shared<const JointNeighbourhood>(*around) : nullptr;
   BatchResult result =
-      impl_->ask<BatchResult>(impl_->scene, [=](StateChecker& checker)
-                              { return checker.check(rows->data(), count, group, neighbourhood.get()); });
-  if (impl_->asked_cpu)
+      impl_->request<BatchResult>(impl_->scene, [=](StateChecker& checker)
+                                  { return checker.check(rows->data(), count, group, neighbourhood.get()); });
+  if (impl_->answered_by_cpu)
   {
     const std::lock_guard<std::mutex> status_lock(impl_->status_mutex);
     ++impl_->history.batches_on_cpu;
@@ -328,7 +328,7 @@ BatchResult ResilientChecker::check(const double* states, std::size_t count, con
 SceneReport ResilientChecker::report(const std::string& group)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  return impl_->ask<SceneReport>(impl_->scene, [group](StateChecker& checker) { return checker.report(group); });
+  return impl_->request<SceneReport>(impl_->scene, [group](StateChecker& checker) { return checker.report(group); });
 }
 
 std::string ResilientChecker::deviceName() const

@@ -27,7 +27,7 @@ struct ResilientOptions
   /// enough to take far less. The limit grows by the same amount for each million triangles of the scene, because their
   /// trees are built within the call.
   double device_seconds = 30.0;
-  std::size_t most_losses = 3;  ///< after this many losses within loss_window seconds, the CPU answers
+  std::size_t max_losses = 3;  ///< after this many losses within loss_window seconds, the CPU answers
   double loss_window = 60.0;
   double retry_seconds = 60.0;  ///< time after which the device is tried again
 };

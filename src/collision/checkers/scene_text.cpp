@@ -42,33 +42,36 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
   lines.push_back("robot: " + robot.name() + ", " + counted(robot.links().size(), "link") + ", " +
                   counted(robot.variables().size(), "variable") + ", planning frame " + robot.planningFrame());
   lines.push_back("scene: " + counted(scene.objects.size(), "object") +
-                  (scene.attached.empty() ? std::string() : ", " + counted(scene.attached.size(), "carried object")));
-  lines.push_back(
-      "triangles: " + std::to_string(robot.triangleCount()) + " of the robot, " + std::to_string(report.triangles) +
-      " in " + counted(report.trees, "tree") + " with the scene's" +
-      (report.shared_trees ? ", " + counted(report.shared_trees, "more shape") + " equal to one of them" : ""));
+                  (scene.attached.empty() ? std::string() : ", " + counted(scene.attached.size(), "attached object")));
+  lines.push_back("triangles: " + std::to_string(robot.triangleCount()) + " in the robot, " +
+                  std::to_string(report.triangles) + " in the " + counted(report.trees, "tree") +
+                  " of robot and scene" +
+                  (report.shared_trees ? ", " + counted(report.shared_trees, "further shape") +
+                                             (report.shared_trees == 1 ? " shares" : " share") + " these trees"
+                                       : ""));
   lines.push_back("checked pairs: " + std::to_string(report.self_pairs) + " of links, " +
                   std::to_string(report.world_pairs) + " of a link and an object");
   lines.push_back("left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") + " that " +
                   matrixText(scene.matrix_source) + ", " + counted(report.links_without_shapes, "link") +
                   " without collision shapes" +
-                  (report.touch_pairs
-                       ? ", " + counted(report.touch_pairs, "pair") + " of a carried object and what it may touch"
-                       : std::string()) +
+                  (report.touch_pairs ? ", " + counted(report.touch_pairs, "pair") +
+                                            " of an attached object and a body that it may touch"
+                                      : std::string()) +
                   (report.unmoved_pairs ? ", " + counted(report.unmoved_pairs, "pair") + " that the group does not move"
                                         : std::string()));
   if (report.unreachable_self_pairs + report.unreachable_world_pairs != 0)
     lines.push_back("out of reach: " + counted(report.unreachable_self_pairs, "pair") + " of links, " +
                     counted(report.unreachable_world_pairs, "pair") + " of a link and an object" +
-                    (report.unreachable_objects ? ", and with them " + counted(report.unreachable_objects, "object")
+                    (report.unreachable_objects ? ", which leaves out " + counted(report.unreachable_objects, "object")
                                                 : std::string()));
   if (report.settled_pairs != 0)
-    lines.push_back("decided once, as no joint moves them: " + counted(report.settled_pairs, "pair"));
+    lines.push_back("decided once, because no joint moves their bodies relative to each other: " +
+                    counted(report.settled_pairs, "pair"));
   if (report.always_colliding)
     lines.push_back("in collision in every state: " + scene.bodyName((*report.always_colliding)[0]) + " - " +
                     scene.bodyName((*report.always_colliding)[1]));
   if (report.cpu_below && *report.cpu_below != 0)
-    lines.push_back("on the CPU, which is faster there: " + batchesText(*report.cpu_below));
+    lines.push_back("checked on the CPU, because it is faster: " + batchesText(*report.cpu_below));
   std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
   return lines;
 }

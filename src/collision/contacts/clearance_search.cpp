@@ -40,7 +40,7 @@ struct Nearest
         return;
       upper = clearance;
     }
-    clearance = collides(0.0) ? 0.0 : leastFor(std::max(0.0, lower), std::max(0.0, upper), collides);
+    clearance = collides(0.0) ? 0.0 : bisectLeast(std::max(0.0, lower), std::max(0.0, upper), collides);
     bodies = {std::min(a, b), std::max(a, b)};
   }
 };
@@ -52,7 +52,7 @@ double leastDistance(const AlignedBox3d& a, const AlignedBox3d& b)
 }
 
 /// Upper bound of the distance between the contents of two boxes.
-double mostDistance(const AlignedBox3d& a, const AlignedBox3d& b)
+double maxDistance(const AlignedBox3d& a, const AlignedBox3d& b)
 {
   return (a.max() - b.min()).cwiseAbs().cwiseMax((b.max() - a.min()).cwiseAbs()).norm() + kDistanceMargin;
 }
@@ -90,7 +90,7 @@ class Search
       const auto [i, j] = pair;
       const ShapeInstance& a = problem_.robot[i];
       const ShapeInstance& b = problem_.robot[j];
-      nearest.consider(lower, mostDistance(bounds_[i], bounds_[j]), a.body, b.body,
+      nearest.consider(lower, maxDistance(bounds_[i], bounds_[j]), a.body, b.body,
                        [&, i = i, j = j](double distance)
                        { return pair_.collide(a.tree, poses_[i], b.tree, poses_[j], distance, scratch_); });
     }
@@ -151,7 +151,7 @@ class Search
     const ShapeInstance& b = problem_.world[object];
     const double required = a.padding + b.padding;
     nearest.consider(leastDistance(bounds_[instance], world_bounds_[object]) - required,
-                     mostDistance(bounds_[instance], world_bounds_[object]) - required, a.body, b.body,
+                     maxDistance(bounds_[instance], world_bounds_[object]) - required, a.body, b.body,
                      [&](double distance) {
                        return pair_.collide(a.tree, poses_[instance], b.tree, b.pose, required + distance, scratch_);
                      });

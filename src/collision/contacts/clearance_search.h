@@ -35,7 +35,7 @@ class ClearanceSearch
 /// Bisection for the least x in [low, high] with holds(x). `holds` must be true for `high` and for all values above the
 /// least one. The result is at most 1e-6 m below the least x, and never above it.
 template <class Predicate>
-double leastFor(double low, double high, const Predicate& holds)
+double bisectLeast(double low, double high, const Predicate& holds)
 {
   constexpr double kResolution = 1e-6;  // metres
   while (high - low > kResolution)

@@ -23,7 +23,7 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostOfPair = 256;
+constexpr std::size_t kMaxOfPair = 256;
 
 // Tolerance for points on the border of a box.
 constexpr double kContactMargin = 1e-6;  // metres
@@ -49,15 +49,15 @@ std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, cons
   fcl::CollisionResultd result;
   try
   {
-    fcl::collide(a.model.get(), a.pose, b.model.get(), b.pose, fcl::CollisionRequestd(kMostOfPair, true), result);
+    fcl::collide(a.model.get(), a.pose, b.model.get(), b.pose, fcl::CollisionRequestd(kMaxOfPair, true), result);
   }
   catch (const std::exception&)
   {
     return {};
   }
   const AlignedBox3d grown(overlap.min().array() - kContactMargin, overlap.max().array() + kContactMargin);
-  const Vector3d ways = (box_a.max() - box_b.min()).cwiseMin(box_b.max() - box_a.min());
-  const double deepest = std::max(0.0, ways.minCoeff());
+  const Vector3d translations = (box_a.max() - box_b.min()).cwiseMin(box_b.max() - box_a.min());
+  const double deepest = std::max(0.0, translations.minCoeff());
   std::vector<ShapeContact> contacts;
   std::vector<ShapeContact> too_deep;
   for (std::size_t i = 0; i < result.numContacts(); ++i)
@@ -98,8 +98,8 @@ std::optional<std::array<Vector3d, 2>> fclNearestPoints(const FclShape& a, const
 /// The direction from the centre of box a to the centre of box b; an arbitrary one if the centres coincide.
 Vector3d directionBetween(const AlignedBox3d& a, const AlignedBox3d& b)
 {
-  const Vector3d way = b.center() - a.center();
-  return way.norm() > 1e-9 ? Vector3d(way.normalized()) : Vector3d::UnitZ();
+  const Vector3d translation = b.center() - a.center();
+  return translation.norm() > 1e-9 ? Vector3d(translation.normalized()) : Vector3d::UnitZ();
 }
 
 /// The contact of two shapes that do not touch, but are within the required distance.
@@ -109,9 +109,10 @@ ShapeContact contactApart(const FclShape& a, const FclShape& b, const AlignedBox
   const auto nearest = fclNearestPoints(a, b, distance);
   if (!nearest)
     return {0.5 * (box_a.center() + box_b.center()), directionBetween(box_a, box_b), required - distance};
-  const Vector3d way = (*nearest)[1] - (*nearest)[0];
+  const Vector3d translation = (*nearest)[1] - (*nearest)[0];
   return {0.5 * ((*nearest)[0] + (*nearest)[1]),
-          way.norm() > 1e-9 ? Vector3d(way.normalized()) : directionBetween(box_a, box_b), required - distance};
+          translation.norm() > 1e-9 ? Vector3d(translation.normalized()) : directionBetween(box_a, box_b),
+          required - distance};
 }
 
 /// The contact of two shapes that touch, or of which one is inside the other.
@@ -119,15 +120,16 @@ ShapeContact contactWithin(const FclShape& a, const FclShape& b, const AlignedBo
                            double required, const CpuShapePair& exact, CpuShapePair::Scratch& scratch)
 {
   const Vector3d direction = directionBetween(box_a, box_b);
-  const auto moved = [&](double way)
+  const auto moved = [&](double translation)
   {
     FclShape shape = b;
-    shape.pose.pretranslate(way * direction);
+    shape.pose.pretranslate(translation * direction);
     return shape;
   };
-  const auto apart = [&](double way) { return !exact.collide(a.tree, a.pose, b.tree, moved(way).pose, 0.0, scratch); };
+  const auto apart = [&](double translation)
+  { return !exact.collide(a.tree, a.pose, b.tree, moved(translation).pose, 0.0, scratch); };
   // After this translation, the spheres around the two boxes do not overlap.
-  const double depth = leastFor(0.0, box_a.diagonal().norm() + box_b.diagonal().norm(), apart);
+  const double depth = bisectLeast(0.0, box_a.diagonal().norm() + box_b.diagonal().norm(), apart);
   Vector3d point = box_a.intersection(box_b).center();  // one inside the other: centre of the inner box
   if (depth < kNearEnough)
     if (const auto nearest = fclNearestPoints(a, moved(depth + kNearEnough), kNearEnough))
@@ -144,7 +146,7 @@ std::vector<ShapeContact> contactsOf(const FclShape& a, const FclShape& b, doubl
   const AlignedBox3d box_a = boundsOf(forest.tree(a.tree), a.pose);
   const AlignedBox3d box_b = boundsOf(forest.tree(b.tree), b.pose);
   if (required > 0.0 && !collides(0.0))
-    return {contactApart(a, b, box_a, box_b, leastFor(0.0, required, collides), required)};
+    return {contactApart(a, b, box_a, box_b, bisectLeast(0.0, required, collides), required)};
   std::vector<ShapeContact> contacts = fclContacts(a, b, box_a, box_b, required);
   if (contacts.empty())
     contacts.push_back(contactWithin(a, b, box_a, box_b, required, exact, scratch));

@@ -27,9 +27,9 @@ struct Models
 {
   FclGeometry modelOf(const CollisionProblem& problem, std::uint32_t tree)
   {
-    FclGeometry& model = fcl[problem.trees[tree].mesh];
+    FclGeometry& model = fcl[problem.tessellations[tree].mesh];
     if (!model)
-      model = makeFclSolid(problem.shapes[tree], problem.trees[tree]);
+      model = makeFclSolid(problem.shapes[tree], problem.tessellations[tree]);
     return model;
   }
 
@@ -89,8 +89,8 @@ class NearPoints
   std::map<Cell, std::vector<Eigen::Vector3d>> cells_;
 };
 
-/// At most `most` contacts, the deepest first. Of contacts at the same place only the deepest is kept.
-std::vector<Contact> deepest(std::vector<Contact> contacts, std::size_t most)
+/// At most `max_contacts` contacts, the deepest first. Of contacts at the same place only the deepest is kept.
+std::vector<Contact> deepest(std::vector<Contact> contacts, std::size_t max_contacts)
 {
   std::stable_sort(contacts.begin(), contacts.end(),
                    [](const Contact& a, const Contact& b) { return a.depth > b.depth; });
@@ -98,7 +98,7 @@ std::vector<Contact> deepest(std::vector<Contact> contacts, std::size_t most)
   std::vector<Contact> kept;
   for (const Contact& contact : contacts)
   {
-    if (kept.size() == most)
+    if (kept.size() == max_contacts)
       break;
     if (points.add(contact.point))
       kept.push_back(contact);
@@ -201,12 +201,12 @@ const std::shared_ptr<const PlanningScene>& StateInspector::scene() const
   return impl_->scene;
 }
 
-std::vector<Contact> StateInspector::contacts(const double* state, const std::string& group, std::size_t most,
-                                              std::size_t most_per_pair) const
+std::vector<Contact> StateInspector::contacts(const double* state, const std::string& group, std::size_t max_contacts,
+                                              std::size_t max_per_pair) const
 {
   const Inspected& inspected = impl_->inspected(group);
   const std::vector<Eigen::Isometry3d> poses = impl_->linkPoses(state);
-  if (most == 0)
+  if (max_contacts == 0)
     return {};
   CpuTraversal::Scratch placed;
   CpuShapePair::Scratch scratch;
@@ -217,7 +217,8 @@ std::vector<Contact> StateInspector::contacts(const double* state, const std::st
   std::vector<Contact> others;
   for (const auto& [bodies, contacts] : by_pair)
   {
-    const std::vector<Contact> kept = deepest(contacts, most_per_pair == 0 ? most : std::min(most, most_per_pair));
+    const std::vector<Contact> kept =
+        deepest(contacts, max_per_pair == 0 ? max_contacts : std::min(max_contacts, max_per_pair));
     firsts.push_back(kept.front());
     others.insert(others.end(), kept.begin() + 1, kept.end());
   }
@@ -225,7 +226,7 @@ std::vector<Contact> StateInspector::contacts(const double* state, const std::st
   std::stable_sort(firsts.begin(), firsts.end(), deeper);
   std::stable_sort(others.begin(), others.end(), deeper);
   firsts.insert(firsts.end(), others.begin(), others.end());
-  firsts.resize(std::min(firsts.size(), most));
+  firsts.resize(std::min(firsts.size(), max_contacts));
   return firsts;
 }
 

@@ -15,7 +15,7 @@ namespace
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-constexpr int kMostBins = 32;
+constexpr int kMaxBins = 32;
 constexpr int kMaxSahDepth = 64;    // deeper nodes are split into halves of equal count, which bounds the depth
 constexpr double kVisitCost = 1.5;  // cost of visiting a node, relative to the cost of a leaf's item
 
@@ -95,7 +95,7 @@ class Builder
   }
 
   /// Most nodes have few items, and more bins than twice the items would hardly separate more of them.
-  static int binsFor(std::uint32_t count) { return count < kMostBins / 2 ? 2 * static_cast<int>(count) : kMostBins; }
+  static int binsFor(std::uint32_t count) { return count < kMaxBins / 2 ? 2 * static_cast<int>(count) : kMaxBins; }
 
   int binOf(std::uint32_t item, int axis, int bins, const AlignedBox3d& centers) const
   {
@@ -112,15 +112,15 @@ class Builder
     {
       if (!(centers.max()[axis] > centers.min()[axis]))
         continue;
-      std::array<AlignedBox3d, kMostBins> bounds;
-      std::array<std::uint32_t, kMostBins> counts = {};
+      std::array<AlignedBox3d, kMaxBins> bounds;
+      std::array<std::uint32_t, kMaxBins> counts = {};
       for (std::uint32_t i = begin; i < end; ++i)
       {
         const int bin = binOf(tree_.order[i], axis, bins, centers);
         bounds[bin].extend(boxes_[tree_.order[i]]);
         ++counts[bin];
       }
-      std::array<double, kMostBins> upper_costs;  // cost of all bins from this one on
+      std::array<double, kMaxBins> upper_costs;  // cost of all bins from this one on
       AlignedBox3d upper;
       std::uint32_t upper_count = 0;
       for (int bin = bins - 1; bin > 0; --bin)

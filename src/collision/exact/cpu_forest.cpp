@@ -47,7 +47,7 @@ void copyTree(const Forest& forest, std::size_t number, const Mesh& mesh, CpuTre
       const std::uint32_t triangle = forest.leaf_triangles[place] - forest.first_triangle[number];
       const auto& corners = mesh.triangles[triangle];
       tree.triangles.push_back({mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]});
-      tree.bounds_solid.push_back(tree.mesh ? tree.parts.bounds_solid[triangle] : 0);
+      tree.bounds_solid.push_back(tree.mesh ? tree.components.bounds_solid[triangle] : 0);
     }
   }
 }
@@ -92,8 +92,8 @@ std::shared_ptr<const CpuTree> makeTree(const Shape& shape, const Mesh& mesh, co
     const Node& root = forest.nodes[forest.roots[number]];
     tree->center = centerOf(root);
     tree->half = halfOf(root);
-    tree->parts = findComponents(mesh);
-    for (const Component& component : tree->parts.components)
+    tree->components = findComponents(mesh);
+    for (const Component& component : tree->components.components)
       if (component.closed)
         tree->solid_bounds.extend(component.bounds);
   }
@@ -109,14 +109,14 @@ std::shared_ptr<const CpuTree> makeTree(const Shape& shape, const Mesh& mesh, co
 }
 }  // namespace
 
-CpuForest::CpuForest(const CollisionProblem& problem, const Forest& forest) : shapes_(problem.trees)
+CpuForest::CpuForest(const CollisionProblem& problem, const Forest& forest) : shapes_(problem.tessellations)
 {
   for (std::size_t i = 0; i < shapes_.size(); ++i)
     trees_.push_back(makeTree(problem.shapes[i], *shapes_[i].mesh, forest, i));
 }
 
 CpuForest::CpuForest(const CollisionProblem& problem, const CpuForest& previous, const Build& build)
-  : trees_(problem.trees.size()), shapes_(problem.trees)
+  : trees_(problem.tessellations.size()), shapes_(problem.tessellations)
 {
   std::unordered_map<const Mesh*, std::size_t> known;
   for (std::size_t i = 0; i < previous.shapes_.size(); ++i)

@@ -34,7 +34,7 @@ struct CpuTree
   Eigen::Vector3d center;  ///< centre of an axis-aligned box that contains the exact shape, not only its tessellation
   Eigen::Vector3d half;
   OrientedBox box;                   ///< oriented box that contains the exact shape
-  MeshComponents parts;              ///< connected components, meshes only
+  MeshComponents components;         ///< connected components, meshes only
   Eigen::AlignedBox3d solid_bounds;  ///< bounds of all closed components together; empty if there are none
 
   std::vector<CpuNode> nodes;              ///< node 0 is the root; children come after their parents

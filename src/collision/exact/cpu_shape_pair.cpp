@@ -51,14 +51,14 @@ bool leavesMeet(const CpuTree& tree_a, const CpuNode& a, const CpuTree& tree_b, 
 
 /// Whether a component of one mesh lies inside the solid of the other. The surfaces must not meet. Then each point of a
 /// component gives the same answer, so one point suffices.
-bool holdsComponent(const CpuTree& outer, const CpuTree& inner, const Isometry3d& inner_in_outer,
-                    std::vector<std::uint32_t>& stack)
+bool containsComponent(const CpuTree& outer, const CpuTree& inner, const Isometry3d& inner_in_outer,
+                       std::vector<std::uint32_t>& stack)
 {
   const AlignedBox3d& bounds = outer.solid_bounds;
   if (bounds.isEmpty())
     return false;
   const double diagonal = bounds.diagonal().norm() + kBoxMargin;
-  for (const Component& component : inner.parts.components)
+  for (const Component& component : inner.components.components)
   {
     // Each side of the component's box is the distance of two of its points along an axis. If a side exceeds the
     // diagonal of the solid's bounds, the component does not fit into the solid.
@@ -88,8 +88,8 @@ bool CpuShapePair::collide(std::uint32_t a, const Isometry3d& pose_a, std::uint3
   if (tree_a.mesh && tree_b.mesh)
   {
     return surfacesMeet(tree_a, tree_b, b_in_a, required, scratch) ||
-           holdsComponent(tree_a, tree_b, b_in_a, scratch.nodes) ||
-           holdsComponent(tree_b, tree_a, b_in_a.inverse(), scratch.nodes);
+           containsComponent(tree_a, tree_b, b_in_a, scratch.nodes) ||
+           containsComponent(tree_b, tree_a, b_in_a.inverse(), scratch.nodes);
   }
   if (!tree_a.mesh && !tree_b.mesh)
   {

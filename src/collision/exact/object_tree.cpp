@@ -9,7 +9,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 /// If the nodes' areas have grown by more than this factor, building a new tree pays off.
-constexpr double kMostGrowth = 1.2;
+constexpr double kMaxGrowth = 1.2;
 
 double areaOf(const std::vector<Node>& nodes)
 {
@@ -32,7 +32,7 @@ ObjectTree::ObjectTree(std::vector<Eigen::AlignedBox3d> boxes, const ObjectTree&
     tree_ = previous.tree_;
     area_when_built_ = previous.area_when_built_;
     refit();
-    if (areaOf(tree_.nodes) <= kMostGrowth * area_when_built_)
+    if (areaOf(tree_.nodes) <= kMaxGrowth * area_when_built_)
       return;
   }
   tree_ = buildBinnedSah(boxes_, 1);

@@ -142,6 +142,6 @@ bool isInsideSolid(const CpuTree& tree, const Vector3d& point, std::vector<std::
     if (sum)
       return *sum != 0;
   }
-  throw std::logic_error("the winding number of a mesh was asked for at a point of its surface");
+  throw std::logic_error("the winding number was requested at a point on the surface of the mesh");
 }
 }  // namespace gpu_planning_scene::core

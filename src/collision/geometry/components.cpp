@@ -52,7 +52,7 @@ std::vector<std::uint32_t> weldedVertices(const Mesh& mesh)
 using Corners = std::array<std::uint32_t, 3>;
 
 /// Whether the corners are three different places. They may lie on a line.
-bool hasArea(const Corners& c)
+bool hasDistinctCorners(const Corners& c)
 {
   return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
 }
@@ -73,7 +73,7 @@ void visitUnpaired(const std::vector<Corners>& triangles, std::size_t places, co
   const auto for_edges = [&](const auto& each)
   {
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
-      for (std::size_t i = 0; i < 3 && hasArea(triangles[t]); ++i)
+      for (std::size_t i = 0; i < 3 && hasDistinctCorners(triangles[t]); ++i)
         each(t, triangles[t][i], triangles[t][(i + 1) % 3]);
   };
   for_edges([&](std::uint32_t, std::uint32_t a, std::uint32_t b) { ++begin[std::min(a, b) + 1]; });
@@ -133,7 +133,7 @@ MeshComponents findComponents(const Mesh& mesh)
       found.components.push_back({mesh.vertices[mesh.triangles[t][0]], {}, false});
     }
     Component& component = found.components[number];
-    component.closed = component.closed || hasArea(triangles[t]);
+    component.closed = component.closed || hasDistinctCorners(triangles[t]);
     for (const std::uint32_t vertex : mesh.triangles[t])
       component.bounds.extend(mesh.vertices[vertex]);
   }
@@ -142,7 +142,7 @@ MeshComponents findComponents(const Mesh& mesh)
 
   found.bounds_solid.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
-    found.bounds_solid.push_back(hasArea(triangles[t]) && found.components[component_of(t)].closed ? 1 : 0);
+    found.bounds_solid.push_back(hasDistinctCorners(triangles[t]) && found.components[component_of(t)].closed ? 1 : 0);
   return found;
 }
 }  // namespace gpu_planning_scene::core

@@ -22,10 +22,10 @@ constexpr int kMaxIterations = 48;
 constexpr double kGapAccuracy = 1e-13;  // metres
 
 /// The Minkowski difference a - b. Its distance from the origin is the distance between a and b.
-class Difference
+class MinkowskiDifference
 {
  public:
-  Difference(const Convex& a, const Convex& b)
+  MinkowskiDifference(const Convex& a, const Convex& b)
     : a_(a), b_(b), center_(a.center() - b.center()), radius_(a.radius() + b.radius())
   {
     size_ = radius_ + a.center().norm() + b.center().norm();
@@ -58,7 +58,8 @@ enum class ConvexVerdict
 /// Sets `nearest` to the nearest point of the difference that was found. Within and Apart are both proven: by a point
 /// of the difference within `distance` of the origin, or by a plane that separates the difference from the origin by
 /// more.
-ConvexVerdict decideByDescent(const Difference& difference, double distance, const Vector3d& guess, Vector3d& nearest)
+ConvexVerdict decideByDescent(const MinkowskiDifference& difference, double distance, const Vector3d& guess,
+                              Vector3d& nearest)
 {
   const double rounding = difference.rounding();
   nearest = difference.nearestAlong(guess);
@@ -88,7 +89,9 @@ ConvexVerdict decideByDescent(const Difference& difference, double distance, con
 class DirectionSearch
 {
  public:
-  DirectionSearch(const Difference& difference, double distance) : difference_(difference), distance_(distance) {}
+  DirectionSearch(const MinkowskiDifference& difference, double distance) : difference_(difference), distance_(distance)
+  {
+  }
 
   bool separates(const Vector3d& m, const Vector3d& u, const Vector3d& v, double reach)
   {
@@ -137,13 +140,13 @@ class DirectionSearch
     return std::max(at_left, at_right);
   }
 
-  const Difference& difference_;
+  const MinkowskiDifference& difference_;
   double distance_;
 };
 
 /// `near` is a point of the difference; its distance from the origin is more than `distance`, up to rounding. Each
 /// separating direction n fulfils n . near > distance |n|.
-bool isSeparable(const Difference& difference, double distance, const Vector3d& near)
+bool isSeparable(const MinkowskiDifference& difference, double distance, const Vector3d& near)
 {
   DirectionSearch search(difference, distance);
   const double length = near.norm();
@@ -180,7 +183,7 @@ bool isSeparable(const Difference& difference, double distance, const Vector3d& 
 
 bool convexWithin(const Convex& a, const Convex& b, double distance, const Vector3d& from_b)
 {
-  const Difference difference(a, b);
+  const MinkowskiDifference difference(a, b);
   if (difference.center().norm() > difference.radius() + distance + difference.rounding())
     return false;
   Vector3d nearest;

@@ -16,7 +16,7 @@ struct OrientedBox
   Eigen::Vector3d center;
   Eigen::Vector3d half;  ///< half lengths along the axes
 
-  bool holds(const Eigen::Vector3d& point) const
+  bool contains(const Eigen::Vector3d& point) const
   {
     return ((axes.transpose() * (point - center)).cwiseAbs().array() <= half.array()).all();
   }
@@ -65,7 +65,7 @@ struct AxesChoice
 AxesChoice axesChoice(const TriangleSpread& spread);
 
 /// The smallest box with the given axes that contains the corners of `count` triangles (at least 1). The box is
-/// enlarged by the possible rounding error, so OrientedBox::holds is true for each corner.
+/// enlarged by the possible rounding error, so OrientedBox::contains is true for each corner.
 OrientedBox boxAlong(const Eigen::Matrix3d& axes, const Triangle* triangles, std::size_t count);
 
 /// The box of least surface among the boxes along axesChoice(spread). `spread` must belong to these triangles.

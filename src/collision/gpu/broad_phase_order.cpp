@@ -5,14 +5,14 @@
 #include "shader_constants.h"
 
 // Counts the reported collisions per query and sorts the queries by these counts. A new order is due when the number of
-// states has doubled, and at least every kMostStatesPerOrder states.
+// states has doubled, and at least every kMaxStatesPerOrder states.
 namespace gpu_planning_scene::core
 {
 namespace
 {
 /// The first queries of a kind that have this share of the kind's hits run before the rest of the other kind.
 constexpr double kHotShare = 0.9;
-constexpr std::size_t kMostStatesPerOrder = std::size_t{1} << 20U;
+constexpr std::size_t kMaxStatesPerOrder = std::size_t{1} << 20U;
 
 std::uint64_t keyOf(std::uint32_t low, std::uint32_t high)
 {
@@ -85,7 +85,7 @@ bool BroadPhaseOrder::endBatch(std::size_t states)
   states_ += states;
   if (states_ < next_order_)
     return false;
-  next_order_ = states_ + std::min(states_, kMostStatesPerOrder);
+  next_order_ = states_ + std::min(states_, kMaxStatesPerOrder);
   return true;
 }
 

@@ -97,8 +97,8 @@ void GpuChecker::apply(const CollisionProblem& problem, const std::shared_ptr<co
 {
   pairs_->setProblem(problem);
   // The time to compile the shader grows with the square of the number of links.
-  constexpr std::size_t kMostLinks = 120;
-  if (!robot || !double_fault_.empty() || robot->links().size() > kMostLinks)
+  constexpr std::size_t kMaxLinks = 120;
+  if (!robot || !double_fault_.empty() || robot->links().size() > kMaxLinks)
   {
     kinematics_.reset();
     return;
@@ -110,7 +110,7 @@ void GpuChecker::apply(const CollisionProblem& problem, const std::shared_ptr<co
 
 void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
 {
-  refuseHalfBuilt();
+  requireUsableScene();
   gl_.run([&] { pairs_->selectPairs(*problem); });
   problem_ = std::move(problem);
   on_cpu_.reset();
@@ -118,14 +118,14 @@ void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
 
 void GpuChecker::prepareMargins()
 {
-  refuseHalfBuilt();
+  requireUsableScene();
   gl_.run([&] { pairs_->prepareMargins(); });
 }
 
-void GpuChecker::refuseHalfBuilt() const
+void GpuChecker::requireUsableScene() const
 {
   if (!usable_)
-    throw DeviceLost("the GPU failed while its scene was changed, so it has none");
+    throw DeviceLost("the GPU failed while its scene was being changed and holds no usable scene");
 }
 
 void GpuChecker::check(const double* states, std::size_t count, BatchResult& result, const Margins* margins)
@@ -159,7 +159,7 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
   const std::vector<ShapeInstance>& robot = problem_->robot;
   result.valid.assign(count, 1);
   result.colliding.assign(count, {-1, -1});
-  refuseHalfBuilt();
+  requireUsableScene();
   Verdicts verdicts;
   try
   {

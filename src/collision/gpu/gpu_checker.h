@@ -59,7 +59,7 @@ class GpuChecker
   using LinkPoses = UploadedPoses::LinkPoses;
   void release();
   void restore();
-  void refuseHalfBuilt() const;
+  void requireUsableScene() const;
   void apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot);
   void check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
              const Margins* margins, BatchResult& result);

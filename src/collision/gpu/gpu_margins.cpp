@@ -30,9 +30,9 @@ void GpuMargins::setPairs(const CollisionProblem& problem)
   numbers_.clear();
 }
 
-std::size_t GpuMargins::mostStates() const
+std::size_t GpuMargins::maxStates() const
 {
-  const std::size_t words = TexelBuffer::mostBytes() / sizeof(std::uint32_t);
+  const std::size_t words = TexelBuffer::maxBytes() / sizeof(std::uint32_t);
   const std::size_t numbers = robots_ * robots_;
   return words < numbers ? 0 : (words - numbers) / (1 + robots_ + self_pairs_.size());
 }

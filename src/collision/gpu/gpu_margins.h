@@ -19,7 +19,7 @@ class GpuMargins
 
   /// The largest number of states whose margins fit into the device at once, if each state has its own row and the rows
   /// are in the order of the states.
-  std::size_t mostStates() const;
+  std::size_t maxStates() const;
 
   /// Uploads and binds the margins of the states [begin, begin + count).
   void write(const Margins& margins, std::size_t begin, std::size_t count);

@@ -15,7 +15,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 /// The order of queries is learned from about this many states of a batch.
-constexpr std::size_t kMostCounted = 16384;
+constexpr std::size_t kMaxCounted = 16384;
 
 /// Wanted duration of a part. Some devices abort work that takes seconds, and other users of the device wait meanwhile.
 constexpr double kPartSeconds = 0.05;
@@ -64,7 +64,7 @@ GpuPairChecker::Programs::Programs(const std::string& folder, const std::string&
 GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, std::size_t max_states,
                                const ListCapacities& capacities)
   : float_fault_(findFloatFault(folder)),
-    definitions_(float_fault_.empty() ? "" : "#define FLOATS_DECIDE 0\n"),
+    definitions_(float_fault_.empty() ? "" : "#define FLOAT32_TRUSTED 0\n"),
     scene_(folder),
     max_states_(std::max<std::size_t>(1, max_states)),
     plain_parts_({kPartSeconds, kFirstPart, 1, max_states_}),
@@ -104,10 +104,10 @@ void GpuPairChecker::selectPairs(const CollisionProblem& problem)
 void GpuPairChecker::prepare()
 {
   writeQueries();
-  const std::size_t room = mostStatesOfPart(TexelBuffer::mostBytes(), scene_.robotCount(),
-                                            std::max(queries_.world.size(), queries_.self.size()));
-  plain_parts_.setMost(std::min(max_states_, room));
-  parts_with_margins_.setMost(std::max<std::size_t>(1, std::min({max_states_, room, margins_.mostStates()})));
+  const std::size_t room = maxStatesOfPart(TexelBuffer::maxBytes(), scene_.robotCount(),
+                                           std::max(queries_.world.size(), queries_.self.size()));
+  plain_parts_.setMax(std::min(max_states_, room));
+  parts_with_margins_.setMax(std::max<std::size_t>(1, std::min({max_states_, room, margins_.maxStates()})));
   traversal_->prepare(task(false, scene_.isPadded()));
   if (scene_.solidNodes() != 0)
     traversal_->prepare(task(true, scene_.isPadded()));
@@ -163,7 +163,7 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
 
 void GpuPairChecker::learnOrder(const Verdicts& verdicts)
 {
-  const std::size_t stride = 1 + verdicts.flags.size() / kMostCounted;
+  const std::size_t stride = 1 + verdicts.flags.size() / kMaxCounted;
   for (std::size_t i = 0; i < verdicts.flags.size(); i += stride)
     if (verdicts.flags[i] & STATE_HIT)
     {

@@ -135,12 +135,13 @@ void GpuScene::setProblem(const CollisionProblem& problem)
   if (problem.robot.size() > MAX_ROBOT_INSTANCES ||
       problem.robot.size() + problem.world.size() + problem.half_spaces.size() > MAX_INSTANCES)
     throw Error(std::to_string(problem.robot.size()) + " shapes of the robot and " +
-                std::to_string(problem.world.size()) + " of the world are more than " +
-                std::to_string(MAX_ROBOT_INSTANCES) + " and " + std::to_string(MAX_INSTANCES) + "; merge meshes");
+                std::to_string(problem.world.size()) + " of the world exceed the limits (" +
+                std::to_string(MAX_ROBOT_INSTANCES) + " for the robot, " + std::to_string(MAX_INSTANCES) +
+                " for all shapes and half-spaces together); merge meshes");
   robot_count_ = static_cast<std::uint32_t>(problem.robot.size());
   world_count_ = static_cast<std::uint32_t>(problem.world.size());
-  trees_.setShapes(problem.trees);
-  tree_count_ = problem.trees.size();
+  trees_.setShapes(problem.tessellations);
+  tree_count_ = problem.tessellations.size();
   writeWorld(problem);
   tolerance_ = static_cast<float>(problem.tolerance);
   writeInstances(problem);
@@ -157,7 +158,7 @@ void GpuScene::writeInstances(const CollisionProblem& problem)
   for (const std::vector<ShapeInstance>* geometries : {&problem.robot, &problem.world})
     for (const ShapeInstance& geometry : *geometries)
     {
-      const double sagitta = problem.trees[geometry.tree].sagitta;
+      const double sagitta = problem.tessellations[geometry.tree].sagitta;
       InstanceRecord record{};
       const GpuTrees::Tree& tree = trees_.tree(geometry.tree);
       record.root = tree.root;
@@ -223,8 +224,8 @@ void GpuScene::writeWorld(const CollisionProblem& problem)
   {
     const ShapeInstance& object = problem.world[i];
     const Eigen::Isometry3d pose = Eigen::Translation3d(-problem.origin) * object.pose;
-    bounds.push_back(
-        placedBounds(trees_.tree(object.tree).bounds, problem.trees[object.tree].sagitta, pose, object.padding));
+    bounds.push_back(placedBounds(trees_.tree(object.tree).bounds, problem.tessellations[object.tree].sagitta, pose,
+                                  object.padding));
     writePoseRows(pose, &poses[12 * i]);
   }
   object_tree_ = ObjectTree(std::move(bounds), object_tree_);

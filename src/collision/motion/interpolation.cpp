@@ -34,7 +34,7 @@ void forParts(const RobotModel& robot, const Joint& joint, const Visit& visit)
       visit(Part::Angle, first, 1);
       break;
     case JointType::Continuous:
-      visit(hasNoPeriod(robot, joint) ? Part::Angle : Part::WrappedAngle, first, 1);
+      visit(isPeriodic(robot, joint) ? Part::WrappedAngle : Part::Angle, first, 1);
       break;
     case JointType::Prismatic:
       visit(Part::Length, first, 1);
@@ -102,9 +102,9 @@ double shortestAngularDistance(double from, double to)
   return std::remainder(std::remainder(to, kTurn) - std::remainder(from, kTurn), kTurn);
 }
 
-bool hasNoPeriod(const RobotModel& robot, const Joint& joint)
+bool isPeriodic(const RobotModel& robot, const Joint& joint)
 {
-  return std::any_of(
+  return std::none_of(
       robot.joints().begin(), robot.joints().end(),
       [&joint](const Joint& other)
       {

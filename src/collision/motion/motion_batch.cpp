@@ -17,7 +17,7 @@ constexpr std::size_t kFirstSamples = 3;
 constexpr std::size_t kGrowth = 4;
 
 // If a motion cannot be proven to be free even for this joint travel around a sample, it is rejected there.
-constexpr double kLeastWay = 1e-7;  // radians and metres
+constexpr double kLeastTravel = 1e-7;  // radians and metres
 
 /// The numbers n and 0, then the middles of the segments in between, level by level.
 std::vector<std::size_t> bisectionOrder(std::size_t n)
@@ -54,7 +54,7 @@ MotionBatch::MotionBatch(StateChecker& checker, const RobotModel& robot, const s
 void MotionBatch::add(const double* from, const double* to)
 {
   const double parts = segmentCount(robot_, from, to, options_.steps);
-  const bool is_too_long = parts >= static_cast<double>(options_.most_samples);
+  const bool is_too_long = parts >= static_cast<double>(options_.max_samples);
   Motion motion{from, to, is_too_long ? 1 : static_cast<std::size_t>(parts), {}, {}};
   if (is_too_long)
     motion.reject();
@@ -70,7 +70,7 @@ void MotionBatch::add(const double* from, const double* to)
 }
 
 template <class Visit>
-void MotionBatch::ask(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit)
+void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit)
 {
   const std::size_t width = robot_.variables().size();
   std::vector<double> states;
@@ -125,12 +125,12 @@ void MotionBatch::checkSamples()
       for (std::size_t k = begin; motion.valid && k < std::min(end, motion.order.size()); ++k)
         intervals.push_back({i, motion.fraction(motion.order[k]), 1.0 / static_cast<double>(motion.parts)});
     }
-    ask(intervals, false,
-        [this](const Interval& interval, bool free, const BodyPair& colliding)
-        {
-          if (!free)
-            fail(interval, colliding);
-        });
+    checkMiddles(intervals, false,
+                 [this](const Interval& interval, bool free, const BodyPair& colliding)
+                 {
+                   if (!free)
+                     fail(interval, colliding);
+                 });
   }
 }
 
@@ -156,7 +156,7 @@ std::vector<MotionBatch::Interval> MotionBatch::halves(const std::vector<Interva
 {
   for (const Interval& interval : intervals)
     if (const Motion& motion = motions_[interval.motion];
-        motion.samples >= options_.most_samples || motion.longest_travel * interval.half < kLeastWay)
+        motion.samples >= options_.max_samples || motion.longest_travel * interval.half < kLeastTravel)
       fail(interval, {-1, -1});
   std::vector<Interval> result;
   for (const Interval& interval : intervals)
@@ -177,19 +177,19 @@ void MotionBatch::prove()
   for (bool are_free = true; !open.empty(); are_free = false)
   {
     std::vector<Interval> near;
-    ask(open, true,
-        [&near](const Interval& interval, bool free, const BodyPair&)
-        {
-          if (!free)
-            near.push_back(interval);
-        });
+    checkMiddles(open, true,
+                 [&near](const Interval& interval, bool free, const BodyPair&)
+                 {
+                   if (!free)
+                     near.push_back(interval);
+                 });
     if (!are_free)
-      ask(near, false,
-          [this](const Interval& interval, bool free, const BodyPair& colliding)
-          {
-            if (!free)
-              fail(interval, colliding);
-          });
+      checkMiddles(near, false,
+                   [this](const Interval& interval, bool free, const BodyPair& colliding)
+                   {
+                     if (!free)
+                       fail(interval, colliding);
+                   });
     open = halves(near);
   }
 }

@@ -89,7 +89,7 @@ class MotionBatch
   /// Checks the middles of the intervals, with or without margins, and calls visit(interval, free, colliding pair) for
   /// each. After the call has been stopped, `free` is false.
   template <class Visit>
-  void ask(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit);
+  void checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit);
   std::vector<Interval> firstIntervals() const;
   std::vector<Interval> halves(const std::vector<Interval>& intervals);
 

@@ -22,17 +22,17 @@ class TreeTable
     : problem_(problem), share_(share), tessellations_(tessellations)
   {
     trees_.reserve(shapes);
-    problem.trees.reserve(shapes);
+    problem.tessellations.reserve(shapes);
     problem.shapes.reserve(shapes);
   }
 
   std::uint32_t treeOf(const Shape& shape)
   {
-    const auto next = static_cast<std::uint32_t>(problem_.trees.size());
+    const auto next = static_cast<std::uint32_t>(problem_.tessellations.size());
     const auto [entry, is_new] = trees_.try_emplace(ShapeKey(shape), next);
     if (is_new || !share_)
     {
-      problem_.trees.push_back(is_new ? tessellations_.of(shape) : problem_.trees[entry->second]);
+      problem_.tessellations.push_back(is_new ? tessellations_.of(shape) : problem_.tessellations[entry->second]);
       problem_.shapes.push_back(shape);
     }
     return share_ ? entry->second : next;

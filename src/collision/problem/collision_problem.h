@@ -18,7 +18,7 @@ namespace gpu_planning_scene::core
 /// An instance of a tree: one shape of a body.
 struct ShapeInstance
 {
-  std::uint32_t tree;      ///< index into CollisionProblem::trees
+  std::uint32_t tree;      ///< index into CollisionProblem::tessellations
   std::int32_t body;       ///< body index of the planning scene
   std::int32_t link;       ///< robot: the link that the instance moves with (also for attached objects); world: -1
   Eigen::Isometry3d pose;  ///< robot: in the link's frame; world: in the planning frame
@@ -46,7 +46,7 @@ struct VariableRange
 /// too.
 struct CollisionProblem
 {
-  std::vector<Tessellation> trees;                       ///< distinct shapes; instances share them
+  std::vector<Tessellation> tessellations;               ///< distinct shapes; instances share them
   std::vector<Shape> shapes;                             ///< the exact shape of each tree
   std::vector<ShapeInstance> robot;                      ///< instances that move with their link
   std::vector<ShapeInstance> world;                      ///< instances that are fixed in the planning frame
@@ -79,7 +79,7 @@ bool sameShape(const Shape& a, const Shape& b);
 bool withinRanges(const std::vector<VariableRange>& ranges, const double* state);
 
 /// Whether the problem contains every pair that can collide in this state, see CollisionProblem::ranges.
-inline bool holdsFor(const CollisionProblem& problem, const double* state)
+inline bool isValidFor(const CollisionProblem& problem, const double* state)
 {
   return withinRanges(problem.ranges, state);
 }

@@ -23,7 +23,7 @@ std::string text(double value)
 void requireRobot(const std::shared_ptr<const PlanningScene>& scene)
 {
   if (!scene || !scene->robot)
-    throw Error("there is no planning scene, or it has no robot");
+    throw Error("no planning scene was given, or the scene has no robot");
 }
 
 void validateNeighbourhood(const RobotModel& robot, const JointNeighbourhood& around, std::size_t count)
@@ -31,17 +31,17 @@ void validateNeighbourhood(const RobotModel& robot, const JointNeighbourhood& ar
   const std::size_t joints = robot.joints().size();
   const std::size_t rows = joints == 0 ? 0 : around.travel.size() / joints;
   if (around.rows.size() != count || rows * joints != around.travel.size())
-    throw Error("what is around " + std::to_string(count) + " states of " + std::to_string(joints) +
-                " joints is given for " + std::to_string(around.rows.size()) + " states and by " +
-                std::to_string(around.travel.size()) + " ways");
+    throw Error("the neighbourhood of " + std::to_string(count) + " states (robot with " + std::to_string(joints) +
+                " joints) has " + std::to_string(around.rows.size()) + " row numbers and " +
+                std::to_string(around.travel.size()) + " joint travels");
   for (std::size_t i = 0; i < count; ++i)
     if (around.rows[i] >= rows)
-      throw Error("what is around state " + std::to_string(i) + " is row " + std::to_string(around.rows[i]) + " of " +
-                  std::to_string(rows));
-  for (const JointTravel& way : around.travel)
-    if (!(way.length >= 0.0 && way.angle >= 0.0 && std::isfinite(way.length) && std::isfinite(way.angle)))
-      throw Error("a joint's way around a state is " + std::to_string(way.length) + " m and " +
-                  std::to_string(way.angle) + " rad; both must be finite and at least 0");
+      throw Error("the neighbourhood of state " + std::to_string(i) + " names row " + std::to_string(around.rows[i]) +
+                  ", but there are " + std::to_string(rows) + " rows");
+  for (const JointTravel& travel : around.travel)
+    if (!(travel.length >= 0.0 && travel.angle >= 0.0 && std::isfinite(travel.length) && std::isfinite(travel.angle)))
+      throw Error("the travel of a joint around a state is " + std::to_string(travel.length) + " m and " +
+                  std::to_string(travel.angle) + " rad; both must be finite and at least 0");
 }
 
 void validateStates(const RobotModel& robot, const double* states, std::size_t count)
@@ -52,7 +52,7 @@ void validateStates(const RobotModel& robot, const double* states, std::size_t c
       if (!(std::abs(states[i]) <= variables[i].largest))
         throw Error("state " + std::to_string(row) + ": the value of variable '" + variables[i].name + "' is " +
                     (std::isfinite(states[i]) ? text(states[i]) + "; it must be within " + text(variables[i].largest) +
-                                                    ", as no joint can be moved by more than 1000 km"
+                                                    ", because no joint can move by more than 1000 km"
                                               : "not a finite number"));
 }
 }  // namespace gpu_planning_scene::core

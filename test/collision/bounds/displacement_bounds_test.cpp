@@ -15,8 +15,8 @@ namespace
 {
 constexpr char kTurns[] = "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/>";
 constexpr char kSlides[] = "<axis xyz='0 1 0'/><limit lower='-0.02' upper='0.02' effort='1' velocity='1'/>";
-constexpr double kWay = 0.01;   // radians or metres: travel of each joint
-constexpr double kBall = 0.01;  // metres: radius of the ball at the tip
+constexpr double kTravel = 0.01;  // radians or metres: travel of each joint
+constexpr double kBall = 0.01;    // metres: radius of the ball at the tip
 
 std::string ballLink(const std::string& name, double radius)
 {
@@ -57,12 +57,12 @@ class Displacement : public testing::Test
     return scene;
   }
 
-  static JointNeighbourhood allWays(const RobotModel& robot)
+  static JointNeighbourhood allTravel(const RobotModel& robot)
   {
     JointNeighbourhood around;
     for (const Joint& joint : robot.joints())
-      around.travel.push_back(joint.type == JointType::Prismatic  ? JointTravel{kWay, 0.0}
-                              : joint.type == JointType::Revolute ? JointTravel{0.0, kWay}
+      around.travel.push_back(joint.type == JointType::Prismatic  ? JointTravel{kTravel, 0.0}
+                              : joint.type == JointType::Revolute ? JointTravel{0.0, kTravel}
                                                                   : JointTravel{});
     around.rows = {0};
     return around;
@@ -78,8 +78,8 @@ class Displacement : public testing::Test
 TEST_F(Displacement, OfAStretchedArmIsTheSumOfWhatItsJointsMoveTheTip)
 {
   const auto robot = arm();
-  const JointNeighbourhood around = allWays(*robot);
-  const double reached = kWay * (1.0 + 0.5 + 1.0);  // shoulder, elbow, slide
+  const JointNeighbourhood around = allTravel(*robot);
+  const double reached = kTravel * (1.0 + 0.5 + 1.0);  // shoulder, elbow, slide
   const Eigen::Vector3d tip(1.0, 0.0, 0.0);
   EXPECT_FALSE(isFreeAround(sceneWith(robot, tip, 0.99 * reached), around));
   EXPECT_TRUE(isFreeAround(sceneWith(robot, tip, 1.05 * reached), around));
@@ -87,18 +87,18 @@ TEST_F(Displacement, OfAStretchedArmIsTheSumOfWhatItsJointsMoveTheTip)
   JointNeighbourhood stiff = around;
   stiff.travel[1] = {};
   EXPECT_TRUE(isFreeAround(sceneWith(robot, tip, 0.99 * reached), stiff));
-  EXPECT_FALSE(isFreeAround(sceneWith(robot, tip, 0.99 * kWay * 2.0), stiff));
+  EXPECT_FALSE(isFreeAround(sceneWith(robot, tip, 0.99 * kTravel * 2.0), stiff));
 }
 
-TEST_F(Displacement, CountsWhatAJointMakesOfItsLeadersWay)
+TEST_F(Displacement, CountsTheTravelOfFollowers)
 {
   const auto robot = arm(true);
   std::vector<double> from = robot->defaultState();
   std::vector<double> to = from;
-  to[0] += kWay;
+  to[0] += kTravel;
   const JointNeighbourhood around{jointTravel(*robot, from.data(), to.data()), {0}};
   const Eigen::Vector3d fingertip(1.25, 0.2, 0.0);
-  const double reached = kWay * (fingertip.norm() + 4.0 * 0.25);
+  const double reached = kTravel * (fingertip.norm() + 4.0 * 0.25);
   EXPECT_FALSE(isFreeAround(sceneWith(robot, fingertip, 0.95 * reached), around));
   EXPECT_TRUE(isFreeAround(sceneWith(robot, fingertip, 1.2 * reached), around));
 }
@@ -108,7 +108,7 @@ TEST_F(Displacement, OfTwoLinksIsThatOfOneAgainstTheOther)
   // The shoulder moves the fingertip and the tip together. Only the bend, which is at rest here, moves them relative to
   // each other.
   const auto robot = arm(true);
-  JointNeighbourhood around = allWays(*robot);
+  JointNeighbourhood around = allTravel(*robot);
   auto scene = std::make_shared<PlanningScene>(robot);
   const std::vector<double> state = robot->defaultState();
   CpuChecker checker(scene);
@@ -126,7 +126,7 @@ TEST_F(Displacement, HasNoBoundOutsideOfTheLimits)
 {
   const auto robot = arm();
   const auto scene = sceneWith(robot, {5.0, 5.0, 5.0}, 1.0);
-  const JointNeighbourhood around = allWays(*robot);
+  const JointNeighbourhood around = allTravel(*robot);
   std::vector<double> state = robot->defaultState();
   CpuChecker checker(scene);
   EXPECT_EQ(checker.check(state.data(), 1, "", &around).valid[0], 1);
@@ -135,23 +135,24 @@ TEST_F(Displacement, HasNoBoundOutsideOfTheLimits)
   EXPECT_EQ(checker.check(state.data(), 1).valid[0], 1);
 }
 
-TEST_F(Displacement, RefusesWaysThatDoNotFit)
+TEST_F(Displacement, RefusesInvalidNeighbourhoods)
 {
   const auto robot = arm();
   const auto scene = sceneWith(robot, {5.0, 5.0, 5.0}, 1.0);
-  JointNeighbourhood around = allWays(*robot);
+  JointNeighbourhood around = allTravel(*robot);
   around.rows = {1};
-  EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }), "what is around state 0 is row 1 of 1");
+  EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }),
+            "the neighbourhood of state 0 names row 1, but there are 1 rows");
   around.rows = {0, 0};
   EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }),
-            "what is around 1 states of 3 joints is given for 2 states and by 3 ways");
-  around = allWays(*robot);
+            "the neighbourhood of 1 states (robot with 3 joints) has 2 row numbers and 3 joint travels");
+  around = allTravel(*robot);
   around.travel.pop_back();
   EXPECT_NE(errorOf([&] { isFreeAround(scene, around); }), "");
-  around = allWays(*robot);
+  around = allTravel(*robot);
   around.travel[0].angle = -1.0;
   EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }),
-            "a joint's way around a state is 0.000000 m and -1.000000 rad; both must be finite and at least 0");
+            "the travel of a joint around a state is 0.000000 m and -1.000000 rad; both must be finite and at least 0");
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

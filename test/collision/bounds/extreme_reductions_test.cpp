@@ -129,7 +129,7 @@ TEST(ExtremeReductions, DecideWeldedLinksWhereverTheJointsBeforeThemAre)
 
 /// A link carries a box with a corner up. An object's frame is slightly off rigid, and its shape lies far from the
 /// frame's origin. The box touches the shape only if the frame's rotation is replaced by the nearest true rotation.
-TEST(ExtremeReductions, TakePosesALittleOffRigidForTheNearestTrueOnes)
+TEST(ExtremeReductions, UseTheNearestRigidPose)
 {
   const double half = 0.1;
   const Eigen::Quaterniond corner_up =

@@ -51,7 +51,7 @@ std::vector<Eigen::Vector3d> cornersOf(const Link& link)
 bool isHeld(const Region& region, const Eigen::Vector3d& point)
 {
   const auto holds = [&point](const Ball& ball) { return (point - ball.center).norm() <= ball.radius + 1e-12; };
-  return holds(region.all) && std::any_of(region.balls.begin(), region.balls.end(), holds);
+  return holds(region.enclosing) && std::any_of(region.balls.begin(), region.balls.end(), holds);
 }
 
 /// A random state. Each bounded variable is at a limit with probability 1/2.
@@ -92,7 +92,7 @@ void expectBoundsHold(const RobotModel& robot, int states)
     for (const auto& at : posed)
     {
       int frame = static_cast<int>(link);
-      for (const Region& region : body.above)
+      for (const Region& region : body.region_by_level)
       {
         const Eigen::Vector3d& corner = corners[generator() % corners.size()];
         const Eigen::Vector3d in_planning_frame = at[link] * corner;
@@ -110,7 +110,7 @@ void expectBoundsHold(const RobotModel& robot, int states)
   }
 }
 
-TEST(Reach, HoldsAllThatJointsOfEveryKindAndMimicsCanDo)
+TEST(Reach, ContainsAllPositionsOfEveryKindOfJoint)
 {
   expectBoundsHold(*oddRobot(), 20000);
 }
@@ -145,7 +145,7 @@ bool rodMayMeetBallAt(double angle, double x, double y)
   return mayMeet(regionOfRod(angle), box, 0.0);
 }
 
-TEST(Reach, IsTightEnoughToTellWhatARodCannotTouch)
+TEST(Reach, IsTightForARod)
 {
   EXPECT_TRUE(rodMayMeetBallAt(0.5, 0.9, 0.4));    // within its angles
   EXPECT_FALSE(rodMayMeetBallAt(0.5, 1.25, 0.0));  // beyond its end
@@ -164,7 +164,7 @@ TEST(Reach, HasNoBoundBeyondJointsWithoutLimits)
   const Reach reach(*robot);
   const SweptBody arm = reach.sweep(robot->links()[2].shapes, Eigen::Isometry3d::Identity(), 2);
   EXPECT_EQ(reach.inPlanningFrame(arm), nullptr);
-  EXPECT_EQ(arm.above.size(), 2U);  // in the frames of the arm and the cart
+  EXPECT_EQ(arm.region_by_level.size(), 2U);  // in the frames of the arm and the cart
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -82,7 +82,7 @@ void expectProblemsOfANewMaker(PlanningScene scene, const std::vector<Step>& ste
   }
 }
 
-TEST(ReachUpdates, OfWhatIsCarriedAreNoticed)
+TEST(ReachUpdates, OfAttachedObjectsAreNoticed)
 {
   constexpr int kArm = 1;
   constexpr int kTail = 2;

@@ -182,7 +182,7 @@ TEST_P(BoundsIn, LeaveOutOnlyWhatCannotMeetWithinTheLimits)
   const CollisionProblem whole = makeProblem(*scene_, "", nullptr);
   const auto left_out = std::make_shared<const CollisionProblem>(withoutPairs(whole, bodyPairs(reduced)));
   EXPECT_EQ(bodyPairs(*left_out).size(), report.unreachable_self_pairs + report.unreachable_world_pairs);
-  const CpuTraversal traversal(left_out, std::make_shared<const Forest>(buildBinnedSah(left_out->trees)));
+  const CpuTraversal traversal(left_out, std::make_shared<const Forest>(buildBinnedSah(left_out->tessellations)));
   CpuTraversal::Scratch scratch;
   const RobotModel& robot = *scene_->robot;
   std::vector<Eigen::Isometry3d> poses(robot.links().size());

@@ -47,7 +47,7 @@ class Exact : public testing::TestWithParam<Slice>
     EXPECT_EQ(0u, exactness.false_free);
     EXPECT_EQ(0u, exactness.false_collision);
     EXPECT_EQ(0u, exactness.false_pair);
-    EXPECT_EQ(0u, exactness.unlike);
+    EXPECT_EQ(0u, exactness.disagreeing);
     for (const std::string& failure : exactness.failures)
       ADD_FAILURE() << failure;
     // Otherwise little was compared.

@@ -72,9 +72,9 @@ class MoveitBehaviours : public testing::TestWithParam<std::tuple<const char*, S
     return *last;
   }
 
-  std::vector<Contact> contacts(std::size_t most, std::size_t per_pair = 0) const
+  std::vector<Contact> contacts(std::size_t max_contacts, std::size_t per_pair = 0) const
   {
-    return inspector().contacts(state_.data(), "", most, per_pair);
+    return inspector().contacts(state_.data(), "", max_contacts, per_pair);
   }
 
   Isometry3d tipPose(const std::vector<double>& state) const
@@ -154,10 +154,10 @@ TEST_P(MoveitBehaviours, ContactsAreAsManyAsAskedForAndWhereTheBoxIs)
 {
   const Vector3d place = atTip();
   add("box", Box{{0.1, 0.1, 0.1}}, place);
-  for (const std::size_t most : {1u, 2u, 5u})
+  for (const std::size_t max_contacts : {1u, 2u, 5u})
   {
-    const auto found = contacts(most);
-    EXPECT_LE(found.size(), most);
+    const auto found = contacts(max_contacts);
+    EXPECT_LE(found.size(), max_contacts);
     EXPECT_GE(found.size(), 1u);
   }
   for (const Contact& contact : contacts(100))

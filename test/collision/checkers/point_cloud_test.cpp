@@ -76,7 +76,7 @@ TEST(PointCloud, HoldsItsPointsWhereverTheSensorIs)
   }
 }
 
-TEST(PointCloud, LeavesOutWhatIsNotFiniteOrTooFarFromTheSensor)
+TEST(PointCloud, LeavesOutPointsThatAreNotFiniteOrOutOfRange)
 {
   PointCloudFilter filter({0.1, 0.0, 2.0});
   const PlanningScene scene = farRobot();
@@ -94,7 +94,7 @@ TEST(PointCloud, OfTooManyVoxelsOrWithWrongOptionsIsRefused)
   PointCloudFilter filter({0.1, 0.0, 10.0, 2});
   const std::vector<Vector3f> points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   EXPECT_NE(errorOf([&] { filter.objectOf("cloud", points, at(0, 0, 0), scene, kFarAway.data()); })
-                .find("fills 3 voxels, there may be at most 2"),
+                .find("fills 3 voxels, but at most 2 are allowed"),
             std::string::npos);
   EXPECT_THROW(filter.objectOf("cloud", {}, at(std::nan(""), 0, 0), scene, kFarAway.data()), Error);
   EXPECT_THROW(filter.objectOf("cloud", points, at(1e9, 0, 0), scene, kFarAway.data()), Error);
@@ -123,7 +123,7 @@ std::vector<Vector3f> pointsOn(const std::vector<PlacedShape>& shapes, const Iso
   return points;
 }
 
-TEST(PointCloud, OfTheRobotItselfAndWhatItCarriesIsTakenOut)
+TEST(PointCloud, PointsOnTheRobotAndItsAttachedObjectsAreRemoved)
 {
   const TestScene& test = testScene("arm_boxes");
   PlanningScene scene = *test.scene;
@@ -158,7 +158,7 @@ TEST(PointCloud, OfTheRobotItselfAndWhatItCarriesIsTakenOut)
   }
 }
 
-TEST(PointCloud, NearTheRobotIsTakenOutUpToThePaddingAndNoFurther)
+TEST(PointCloud, PointsAreRemovedOnlyWithinTheRobotsPadding)
 {
   const PlanningScene scene = farRobot();  // with a box link of 1 m
   const std::vector<double> state = {0, 0, 0, 0, 0, 0, 1};

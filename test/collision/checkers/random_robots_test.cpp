@@ -159,16 +159,16 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
   }
 
   /// Sets the travel of mimic joints to the travel that follows from their leaders.
-  static void follow(const RobotModel& robot, JointTravel* ways)
+  static void follow(const RobotModel& robot, JointTravel* travel)
   {
     const std::vector<Joint>& joints = robot.joints();
     for (std::size_t i = 0; i < joints.size(); ++i)
       for (std::size_t k = 0; k < joints.size(); ++k)
         if (joints[i].mimic && !joints[k].mimic && joints[i].first_variable == joints[k].first_variable)
         {
-          const double moved = joints[k].type == JointType::Prismatic ? ways[k].length : ways[k].angle;
-          const double way = std::abs(joints[i].multiplier) * moved;
-          ways[i] = joints[i].type == JointType::Prismatic ? JointTravel{way, 0.0} : JointTravel{0.0, way};
+          const double moved = joints[k].type == JointType::Prismatic ? travel[k].length : travel[k].angle;
+          const double own = std::abs(joints[i].multiplier) * moved;
+          travel[i] = joints[i].type == JointType::Prismatic ? JointTravel{own, 0.0} : JointTravel{0.0, own};
         }
   }
 
@@ -194,7 +194,7 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
   Eigen::Vector3d direction() { return Eigen::Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized(); }
 
   /// Moves each joint by up to its travel, within its limits.
-  void moveWithin(const RobotModel& robot, const JointTravel* ways, double* state)
+  void moveWithin(const RobotModel& robot, const JointTravel* travel, double* state)
   {
     const auto move = [&](int variable, double by)
     {
@@ -209,9 +209,9 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
       if (joint.mimic)
         continue;
       const int first = joint.first_variable;
-      const double angle = below(2) == 0 ? ways[i].angle : uniform(0.0, ways[i].angle);
+      const double angle = below(2) == 0 ? travel[i].angle : uniform(0.0, travel[i].angle);
       const double side = below(2) == 0 ? 1.0 : -1.0;
-      const Eigen::Vector3d by = (below(2) == 0 ? 1.0 : uniform(0.0, 1.0)) * ways[i].length * direction();
+      const Eigen::Vector3d by = (below(2) == 0 ? 1.0 : uniform(0.0, 1.0)) * travel[i].length * direction();
       switch (joint.type)
       {
         case JointType::Revolute:
@@ -283,7 +283,7 @@ class PlacedPoints
   double furthest(const PlacedPoints& other, std::uint32_t shape, int viewer) const
   {
     constexpr std::size_t kPoints = 24;
-    const std::vector<Eigen::Vector3d>& points = problem_.trees[problem_.robot[shape].tree].mesh->vertices;
+    const std::vector<Eigen::Vector3d>& points = problem_.tessellations[problem_.robot[shape].tree].mesh->vertices;
     const Eigen::Isometry3d here = poseOf(shape, viewer);
     const Eigen::Isometry3d there = other.poseOf(shape, viewer);
     double most = 0.0;
@@ -387,7 +387,7 @@ TEST_P(RandomRobots, HaveTheVerdictsOfTheCpuOnTheGpu)
             << made->objects.size() << " objects, " << std::count(expected.begin(), expected.end(), 1) << " of "
             << kStates << " free" << std::endl;
 }
-TEST_P(RandomRobots, AreFreeInAllThatIsFreeAroundAState)
+TEST_P(RandomRobots, FreeNeighbourhoodsHoldFreeStates)
 {
   constexpr std::size_t kNeighbours = 40;
   const auto made = scene();
@@ -413,7 +413,7 @@ TEST_P(RandomRobots, AreFreeInAllThatIsFreeAroundAState)
             << std::count(proven.begin(), proven.end(), 1) << " with what is around" << std::endl;
 }
 
-TEST_P(RandomRobots, HaveNoPointThatAMotionTakesFurtherThanItsMargin)
+TEST_P(RandomRobots, MotionsStayWithinMargins)
 {
   constexpr int kRobots = repetitions(4, 8);
   constexpr int kMotions = 100;

@@ -169,7 +169,7 @@ class Resilient : public testing::Test
   std::unique_ptr<ResilientChecker> checker_;
 };
 
-TEST_F(Resilient, LostInACheckItIsMadeAnewWithTheCurrentSceneAndAskedAgain)
+TEST_F(Resilient, ALossInACheckRebuildsTheDeviceAndRepeatsTheCheck)
 {
   EXPECT_EQ(ask(), 1u);
   checker().setScene(scene(2));
@@ -186,7 +186,7 @@ TEST_F(Resilient, LostInACheckItIsMadeAnewWithTheCurrentSceneAndAskedAgain)
   EXPECT_FALSE(history.on_cpu);
 }
 
-TEST_F(Resilient, LostInAChangeOfTheSceneItAnswersFromTheNewScene)
+TEST_F(Resilient, ALossInASceneChangeKeepsTheNewScene)
 {
   EXPECT_EQ(ask(), 1u);
   device_->scenes = {lost};
@@ -197,7 +197,7 @@ TEST_F(Resilient, LostInAChangeOfTheSceneItAnswersFromTheNewScene)
   EXPECT_EQ(checker().history().losses, 1u);
 }
 
-TEST_F(Resilient, LostTwiceTheCpuAnswersUntilTheDeviceIsTriedAgain)
+TEST_F(Resilient, AfterTwoLossesTheCpuAnswersUntilTheRetry)
 {
   options_.retry_seconds = 0.2;
   checker().setScene(scene(2));
@@ -221,7 +221,7 @@ TEST_F(Resilient, LostTwiceTheCpuAnswersUntilTheDeviceIsTriedAgain)
   EXPECT_EQ(cpu_->alive, 0) << "kept the CPU's trees of an old scene";
 }
 
-TEST_F(Resilient, ThatIsLostTooOftenIsNotTried)
+TEST_F(Resilient, ADeviceThatIsLostTooOftenIsNotRebuilt)
 {
   for (int i = 0; i < 3; ++i)
   {
@@ -236,7 +236,7 @@ TEST_F(Resilient, ThatIsLostTooOftenIsNotTried)
   EXPECT_EQ(device_->made, made);
 }
 
-TEST_F(Resilient, ThatCannotBeMadeAgainIsReplacedByTheCpu)
+TEST_F(Resilient, TheCpuReplacesADeviceThatCannotBeRebuilt)
 {
   options_.retry_seconds = 0.2;
   for (const auto fail : {+[] { throw Error("no usable device"); }, +[] { throw DeviceLost("no usable device"); }})
@@ -255,7 +255,7 @@ TEST_F(Resilient, ThatCannotBeMadeAgainIsReplacedByTheCpu)
   }
 }
 
-TEST_F(Resilient, ThatCannotBeMadeAtFirstIsSaid)
+TEST_F(Resilient, FailureToOpenAtTheStartIsAnError)
 {
   device_->makes = {[] { throw Error("no usable device"); }};
   EXPECT_THROW(checker(), Error);
@@ -271,7 +271,7 @@ TEST_F(Resilient, OpenedLaterItIsTheDevices)
   EXPECT_EQ(checker().history().rebuilds, 0u);
 }
 
-TEST_F(Resilient, ThatCannotBeMadeLaterIsReplacedByTheCpuUntilItIsTriedAgain)
+TEST_F(Resilient, TheCpuAnswersUntilALaterDeviceOpens)
 {
   opening_ = ResilientChecker::Opening::Later;
   options_.retry_seconds = 0.2;
@@ -290,7 +290,7 @@ TEST_F(Resilient, ThatCannotBeMadeLaterIsReplacedByTheCpuUntilItIsTriedAgain)
   }
 }
 
-TEST_F(Resilient, ThatHangsWhenItIsMadeLaterIsLeftBehind)
+TEST_F(Resilient, ADeviceThatHangsWhileItOpensLaterIsAbandoned)
 {
   opening_ = ResilientChecker::Opening::Later;
   options_.device_seconds = 0.05;
@@ -302,14 +302,14 @@ TEST_F(Resilient, ThatHangsWhenItIsMadeLaterIsLeftBehind)
   gate->set_value();
 }
 
-TEST_F(Resilient, ASceneThatNobodyTakesIsRefusedByOneThatIsMadeLaterToo)
+TEST_F(Resilient, ASceneThatBothCheckersRejectIsRefusedAlsoIfOpenedLater)
 {
   opening_ = ResilientChecker::Opening::Later;
   device_->takes = cpu_->takes = [](const PlanningScene&) { return false; };
   EXPECT_EQ(errorOf([&] { checker(); }), "revision 1 does not fit");
 }
 
-TEST_F(Resilient, ThatHangsIsLeftBehindAndTheCpuAnswersForGood)
+TEST_F(Resilient, ADeviceThatHangsIsAbandonedForGood)
 {
   options_.device_seconds = 0.05;
   options_.retry_seconds = 0.0;
@@ -342,7 +342,7 @@ TEST_F(Resilient, ThatHangsIsLeftBehindAndTheCpuAnswersForGood)
   FAIL() << "nobody destroyed the checker of the thread that came back";
 }
 
-TEST_F(Resilient, ThatHangsInAChangeOfTheSceneIsLeftBehind)
+TEST_F(Resilient, ADeviceThatHangsInASceneChangeIsAbandoned)
 {
   options_.device_seconds = 0.05;
   checker();
@@ -361,7 +361,7 @@ TEST_F(Resilient, AWrongRequestIsTheCallersAndLosesNoDevice)
   EXPECT_EQ(device_->made, 1);
 }
 
-TEST_F(Resilient, ASceneThatNobodyTakesIsRefusedAndTheOldOneStays)
+TEST_F(Resilient, ASceneThatBothCheckersRejectIsRefused)
 {
   checker();
   device_->takes = cpu_->takes = [](const PlanningScene& scene) { return scene.revision != 2; };
@@ -401,7 +401,7 @@ TEST_F(Resilient, TheCpuAnswersACallForWhichTheDeviceIsLostTwice)
   EXPECT_NE(errorOf([&] { checker().check(states.data(), kCount); }).find("state 999:"), std::string::npos);
 }
 
-TEST_F(Resilient, PassesOnWhatIsAroundTheStates)
+TEST_F(Resilient, PassesOnTheNeighbourhoodsOfStates)
 {
   const RobotModel& robot = *scene(1)->robot;
   const std::size_t width = robot.variables().size();

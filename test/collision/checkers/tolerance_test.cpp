@@ -21,7 +21,7 @@ namespace
 {
 constexpr std::uint64_t kSeed = 23;
 constexpr std::size_t kStates = repetitions(200, 800);
-constexpr std::size_t kMostMeasured = 5;  // by the oracle, which is slow
+constexpr std::size_t kMaxMeasured = 5;  // by the oracle, which is slow
 
 /// A checker with a tolerance. `method`: "cpu", "breadth_first" or "work_queue".
 std::unique_ptr<StateChecker> checkerWith(double tolerance, const std::string& method,
@@ -63,7 +63,7 @@ TEST_P(ToleranceIn, FindsAllCollisionsAndAddsOnlyWhatIsWithinIt)
     for (std::size_t i = 0; i < kStates; ++i)
     {
       EXPECT_LE(valid[i], before[i]) << "state " << i << " is free at " << tolerance << ", not at less, seed " << kSeed;
-      if (exact[i] && !valid[i] && measured.size() < kMostMeasured)
+      if (exact[i] && !valid[i] && measured.size() < kMaxMeasured)
         measured.push_back(i);
     }
     std::vector<double> clearances(measured.size());

@@ -116,7 +116,7 @@ TEST_F(ClearanceTest, IsFoundAlsoWhereDoublesHaveNoMicrometres)
 {
   for (const double distance : {1e12, 1e30, 1e100})
   {
-    const double found = leastFor(0.0, 2.0 * distance, [distance](double x) { return x >= distance; });
+    const double found = bisectLeast(0.0, 2.0 * distance, [distance](double x) { return x >= distance; });
     EXPECT_LE(found, distance);
     EXPECT_GE(found, distance * (1.0 - 1e-12));
   }

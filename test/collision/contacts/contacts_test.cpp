@@ -47,9 +47,10 @@ class Held
 
   static std::vector<double> state(const Vector3d& place) { return {place.x(), place.y(), place.z(), 0, 0, 0, 1}; }
 
-  std::vector<Contact> contacts(const Vector3d& place, std::size_t most = 1000, std::size_t most_per_pair = 0) const
+  std::vector<Contact> contacts(const Vector3d& place, std::size_t max_contacts = 1000,
+                                std::size_t max_per_pair = 0) const
   {
-    return inspector().contacts(state(place).data(), "", most, most_per_pair);
+    return inspector().contacts(state(place).data(), "", max_contacts, max_per_pair);
   }
   StateInspector inspector() const { return StateInspector(std::make_shared<const PlanningScene>(scene_)); }
   const PlanningScene& scene() const { return scene_; }
@@ -87,10 +88,10 @@ TEST(Contacts, OfABoxInATableAreInTheirOverlapAndAsManyAsAskedFor)
     EXPECT_GE(contact.point.z(), 0.04 - 1e-6);
     EXPECT_LE(contact.point.z(), 0.05 + 1e-6);
   }
-  for (const std::size_t most : {1u, 2u, 3u})
+  for (const std::size_t max_contacts : {1u, 2u, 3u})
   {
-    EXPECT_EQ(held.contacts(place, most).size(), most);
-    EXPECT_EQ(held.contacts(place, 100, most).size(), most);
+    EXPECT_EQ(held.contacts(place, max_contacts).size(), max_contacts);
+    EXPECT_EQ(held.contacts(place, 100, max_contacts).size(), max_contacts);
   }
   EXPECT_TRUE(held.contacts(place, 0).empty());
 }
@@ -131,7 +132,7 @@ TEST(Contacts, OfAllKindsOfShapesPointApartAndAreAsDeepAsTheOverlap)
     }
 }
 
-TEST(Contacts, OfOneBodyInsideAnotherAreAtTheInnerOneAsDeepAsTheWayOut)
+TEST(Contacts, OfContainedBodiesHaveTheExitDepth)
 {
   for (const bool inner_held : {true, false})
   {

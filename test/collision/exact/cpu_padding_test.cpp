@@ -79,10 +79,10 @@ TEST(CpuPadding, DoesNotCountBetweenLinks)
 {
   auto problem = std::make_shared<CollisionProblem>();
   problem->shapes = {Box{{1, 1, 1}}};
-  problem->trees = {tessellate(problem->shapes[0])};
+  problem->tessellations = {tessellate(problem->shapes[0])};
   problem->robot = {{0, 0, 0, Eigen::Isometry3d::Identity(), 0.1}, {0, 1, 1, Eigen::Isometry3d::Identity(), 0.1}};
   problem->self_pairs = {{0, 1}};
-  const CpuTraversal traversal(problem, std::make_shared<const Forest>(buildBinnedSah(problem->trees)));
+  const CpuTraversal traversal(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
   CpuTraversal::Scratch scratch;
   // The links are rotated, so that their axis-aligned boxes overlap.
   const Eigen::Isometry3d turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));

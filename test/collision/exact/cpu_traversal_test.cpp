@@ -201,7 +201,7 @@ TEST(CpuTraversal, TouchingCollidesAndANanometreOfClearanceDoesNot)
   }
 }
 
-TEST(CpuTraversal, WhatIsInsideAPrimitiveCollides)
+TEST(CpuTraversal, ShapesInsideAPrimitiveCollide)
 {
   for (const Shape& small : {Shape(Box{{0.01, 0.01, 0.01}}), Shape(Sphere{0.01}), Shape(Cylinder{0.01, 0.02}),
                              Shape(Cone{0.01, 0.02}), Shape(torusMesh(0.01, 0.002))})

@@ -53,7 +53,7 @@ void expectValid(const OrientedBox& box, const std::vector<Triangle>& triangles)
   for (const Triangle& triangle : triangles)
     for (const Vector3d& corner : triangle)
     {
-      EXPECT_TRUE(box.holds(corner));
+      EXPECT_TRUE(box.contains(corner));
       bounds.extend(corner);
     }
   // The enlargement on all sides that rounding may cause.

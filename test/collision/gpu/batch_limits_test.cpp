@@ -34,7 +34,7 @@ std::shared_ptr<const CollisionProblem> problem()
   auto made = std::make_shared<CollisionProblem>();
   const auto mesh = wavySphere();
   made->shapes = {mesh};
-  made->trees = {tessellate(mesh)};
+  made->tessellations = {tessellate(mesh)};
   made->robot = {{0, 0, 0, Eigen::Isometry3d::Identity()}};
   for (int i = 0; i < 3; ++i)
     made->world.push_back({0, 1 + i, -1, Eigen::Isometry3d(Eigen::Translation3d(0.11 * i, 0.0, 0.0))});
@@ -149,22 +149,22 @@ TEST_P(BatchLimits, StacksThatAreTooShortSpill)
 
 TEST_P(BatchLimits, WorkThatIsLeftWhenTheIterationsRunOutIsHandedOn)
 {
-  folder_.define("LANE_ITERATIONS", "100");
+  folder_.define("INVOCATION_ITERATIONS", "100");
   folder_.define("QUEUE_MAX_GROUPS", "1");
   EXPECT_EQ(resultWithChangedShaders().valid, validOnCpu());
 }
 
 TEST_P(BatchLimits, AWalkThroughTheWorldThatTakesTooLongIsUndecided)
 {
-  folder_.define("LANE_ITERATIONS", "2");
+  folder_.define("INVOCATION_ITERATIONS", "2");
   const BatchResult result = resultWithChangedShaders();
   EXPECT_EQ(result.valid, validOnCpu());
   EXPECT_GT(result.undecided_states, 0U);
 }
 
-TEST_P(BatchLimits, LanesThatTheDeviceEndsEarlyAreNoticed)
+TEST_P(BatchLimits, InvocationsThatTheDeviceEndsEarlyAreNoticed)
 {
-  // Ends every lane silently before it does anything, as llvmpipe ends lanes after too many iterations.
+  // Ends every invocation silently before it does anything, as llvmpipe ends invocations after too many iterations.
   std::string text = readShader(folder_.path(), "traversal/work_queue.comp");
   const std::string begin = "void main()\n{\n";
   const auto at = text.rfind(begin);

@@ -56,14 +56,14 @@ class GpuContract : public testing::TestWithParam<Traversal>
   {
     CollisionProblem problem;
     problem.shapes = {moving};
-    problem.trees = {tessellate(moving)};
+    problem.tessellations = {tessellate(moving)};
     problem.robot = {{0, 0, 0, Isometry3d::Identity()}};
     return problem;
   }
   static void addObject(CollisionProblem& problem, const Shape& shape, const Isometry3d& pose, double padding = 0.0)
   {
     problem.shapes.push_back(shape);
-    problem.trees.push_back(tessellate(shape));
+    problem.tessellations.push_back(tessellate(shape));
     const auto number = static_cast<std::uint32_t>(problem.world.size() + 1);
     problem.world.push_back({number, static_cast<std::int32_t>(number), -1, pose, padding});
     problem.world_pairs.push_back(1);
@@ -138,7 +138,7 @@ TEST_P(GpuContract, AHalfSpaceHoldsAllBelowItsPlane)
 TEST_P(GpuContract, NoneOfManyHalfSpacesIsForgotten)
 {
   // A sheet just above most of the planes. Each plane makes the traversal as long as possible, and a device may limit
-  // the total iterations of a lane.
+  // the total iterations of an invocation.
   auto sheet = std::make_shared<Mesh>();
   constexpr int kCells = 50;
   for (int i = 0; i <= kCells; ++i)
@@ -160,7 +160,7 @@ TEST_P(GpuContract, NoneOfManyHalfSpacesIsForgotten)
   EXPECT_EQ(check(problem, {at(0.0)}).valid, (std::vector<std::uint8_t>{0}));
 }
 
-TEST_P(GpuContract, WhatIsInsideAClosedMeshCollidesWhicheverWayItFaces)
+TEST_P(GpuContract, ShapesInsideAClosedMeshCollideForBothOrientations)
 {
   for (const bool inverted : {false, true})
     for (const Shape& inner : {Shape(Box{{0.05, 0.06, 0.07}}), Shape(meshOf(Box{{0.05, 0.06, 0.07}})),

@@ -54,11 +54,11 @@ class GpuForest : public testing::Test
     for (const auto* meshes : {&robot, &world})
       for (const auto& mesh : *meshes)
       {
-        problem_.trees.push_back({mesh, 0.0});
+        problem_.tessellations.push_back({mesh, 0.0});
         problem_.shapes.emplace_back(mesh);
         auto& instances = meshes == &robot ? problem_.robot : problem_.world;
         instances.push_back(
-            {static_cast<std::uint32_t>(problem_.trees.size() - 1), 0, 0, Eigen::Isometry3d::Identity()});
+            {static_cast<std::uint32_t>(problem_.tessellations.size() - 1), 0, 0, Eigen::Isometry3d::Identity()});
       }
     problem_.world_pairs.assign(robot.size() * world.size(), 1);
     scene_.setProblem(problem_);
@@ -69,7 +69,7 @@ class GpuForest : public testing::Test
   /// that the depth is bounded.
   void expectValid(const Forest& forest, std::size_t tree)
   {
-    const Mesh& mesh = *problem_.trees[tree].mesh;
+    const Mesh& mesh = *problem_.tessellations[tree].mesh;
     std::vector<int> seen(mesh.triangles.size(), 0);
     std::size_t deepest = 0;
     const std::function<void(std::uint32_t, std::size_t, std::vector<std::uint32_t>)> visit =
@@ -166,15 +166,15 @@ TEST_F(GpuForest, CostsAtMostFifteenPercentMoreToTraverseThanBinnedSah)
           meshes.push_back(*mesh);
   }
   const Forest gpu = build(meshes, {});
-  const Forest sah = buildBinnedSah(problem_.trees);
+  const Forest sah = buildBinnedSah(problem_.tessellations);
   const std::uint64_t seed = 3;
   double gpu_cost = 0.0;
   double sah_cost = 0.0;
   for (std::size_t a = 0; a < meshes.size(); ++a)
   {
     const std::size_t b = (a + 1) % meshes.size();
-    gpu_cost += traversalCost(gpu, problem_.trees, a, b, seed);
-    sah_cost += traversalCost(sah, problem_.trees, a, b, seed);
+    gpu_cost += traversalCost(gpu, problem_.tessellations, a, b, seed);
+    sah_cost += traversalCost(sah, problem_.tessellations, a, b, seed);
   }
   std::cout << meshes.size() << " meshes, seed " << seed << ": cost " << gpu_cost / sah_cost << " of binned SAH's"
             << std::endl;

@@ -123,7 +123,7 @@ TEST_F(GpuOrientedBoxesTest, HoldTheirTrianglesHoweverTheseLie)
   const auto huge = [&] { return Vector3d(9e8 * anywhere()); };
   build({soup(1, anywhere), soup(3, flat), soup(900, anywhere), soup(400, flat), soup(400, straight),
          soup(300, [] { return Vector3d(1, 2, 3); }), soup(300, far_away), soup(300, tiny), soup(300, huge),
-         soup(FIT_MOST_TRIANGLES + 1000, anywhere)});
+         soup(FIT_MAX_TRIANGLES + 1000, anywhere)});
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   for (std::size_t tree = 0; tree < 10; ++tree)
   {
@@ -134,11 +134,11 @@ TEST_F(GpuOrientedBoxesTest, HoldTheirTrianglesHoweverTheseLie)
 
 TEST_F(GpuOrientedBoxesTest, LieAlongWhatTheyHold)
 {
-  // A thin rotated plate. Its oriented box is thin as well, whether a lane or a work group fits it.
+  // A thin rotated plate. Its oriented box is thin as well, whether an invocation or a work group fits it.
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const auto on_plate = [&]
   { return Vector3d(turn * Vector3d(uniform_(generator_), 0.3 * uniform_(generator_), 0.01 * uniform_(generator_))); };
-  build({soup(FIT_LANE_TRIANGLES / 2, on_plate), soup(std::size_t{4} * FIT_LANE_TRIANGLES, on_plate)});
+  build({soup(FIT_INVOCATION_TRIANGLES / 2, on_plate), soup(std::size_t{4} * FIT_INVOCATION_TRIANGLES, on_plate)});
   for (std::size_t tree = 0; tree < 2; ++tree)
     EXPECT_LT(halfSurface(oriented_[trees_.tree(tree).root].half), 1.3 * (1.0 * 0.3 + 0.3 * 0.01 + 0.01 * 1.0));
 }

@@ -63,7 +63,7 @@ std::string poseAt(int place)
          vectorAt(place + 3) + ")";
 }
 
-/// Runs one function of the shaders on floats, with one lane for each case.
+/// Runs one function of the shaders on floats, with one invocation for each case.
 class GpuStep : public testing::Test
 {
  protected:
@@ -143,7 +143,7 @@ const char* const kTriangleIncludes =
 const char* const kTriangleCall =
     "trianglePair(vec3[3](at(0u), at(1u), at(2u)), vec3[3](at(3u), at(4u), at(5u)), vec3(0.0), at(6u).x, at(6u).y)";
 
-TEST_F(GpuStep, NothingIsProvenGreaterThanOrByANumberThatIsNone)
+TEST_F(GpuStep, NanProvesNothing)
 {
   const float infinity = std::numeric_limits<float>::infinity();
   const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -424,7 +424,7 @@ TEST_F(GpuStep, PointsLieWithinTheirBoundOfWhereExactPosesPutThem)
   EXPECT_GT(largest, 0.02);  // a bound that is much too wide would cost undecided states
 }
 
-TEST_F(GpuStep, WhatIsProvenOfPlacedTrianglesHoldsForTheExactPoses)
+TEST_F(GpuStep, ProofsOfPlacedTrianglesHoldForTheExactPoses)
 {
   constexpr std::size_t kCases = 3000;
   std::vector<float> floats;

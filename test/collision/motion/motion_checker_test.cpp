@@ -44,12 +44,12 @@ WorldObject wall(double x, double thickness, double y, double width)
 class PointMotions : public testing::Test
 {
  protected:
-  MotionChecker checker(MotionRule rule, double step, std::size_t most_samples = 20000) const
+  MotionChecker checker(MotionRule rule, double step, std::size_t max_samples = 20000) const
   {
     MotionCheckerOptions options;
     options.rule = rule;
     options.steps = {step, step};
-    options.most_samples = most_samples;
+    options.max_samples = max_samples;
     return {std::make_shared<CpuChecker>(scene_), scene_->robot, "", options};
   }
 
@@ -62,7 +62,7 @@ class PointMotions : public testing::Test
   std::shared_ptr<PlanningScene> scene_ = std::make_shared<PlanningScene>(pointRobot());
 };
 
-TEST_F(PointMotions, DoNotJumpAWallOfAMillimetreWhereTheBoundIsAskedForAndDoWhereSamplesAre)
+TEST_F(PointMotions, OnlyTheBoundRuleDetectsAThinWall)
 {
   scene_->objects = {wall(0.512, 0.001, 0.0, 1.0)};
   for (const double step : {0.05, 0.2, 2.0})
@@ -248,7 +248,7 @@ class RealMotions : public testing::TestWithParam<std::string>
 {
 };
 
-TEST_P(RealMotions, ThatAreProvenAreFreeAtTenTimesTheResolutionAndAsFarAsTheirLastValidPart)
+TEST_P(RealMotions, ProvenPartsAreFreeAtTenTimesTheResolution)
 {
   if (!missingFor(GetParam()).empty())
     GTEST_SKIP() << missingFor(GetParam()) << " is missing";

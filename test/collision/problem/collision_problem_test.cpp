@@ -161,7 +161,7 @@ TEST(CollisionProblem, SharesTheTreesOfEqualShapes)
 {
   const CollisionProblem problem = makeProblem(sceneOf(""), "", nullptr);
   // box of base, box of upper, sphere, torus
-  EXPECT_EQ(4u, problem.trees.size());
+  EXPECT_EQ(4u, problem.tessellations.size());
   EXPECT_EQ(4u, problem.shapes.size());
   EXPECT_EQ(5u, problem.robot.size());
   EXPECT_EQ(4u, problem.world.size());
@@ -198,11 +198,11 @@ TEST(CollisionProblem, HasTheSameTreesAndGeometriesForEveryGroup)
   const auto scene = sceneOf(srdfWith(""));
   const CollisionProblem all = makeProblem(scene, "", nullptr);
   const CollisionProblem arm = makeProblem(scene, "arm", nullptr);
-  ASSERT_EQ(all.trees.size(), arm.trees.size());
+  ASSERT_EQ(all.tessellations.size(), arm.tessellations.size());
   ASSERT_EQ(all.robot.size(), arm.robot.size());
   ASSERT_EQ(all.world.size(), arm.world.size());
-  for (std::size_t i = 0; i < all.trees.size(); ++i)
-    EXPECT_EQ(all.trees[i].mesh->triangles, arm.trees[i].mesh->triangles);
+  for (std::size_t i = 0; i < all.tessellations.size(); ++i)
+    EXPECT_EQ(all.tessellations[i].mesh->triangles, arm.tessellations[i].mesh->triangles);
   for (std::size_t i = 0; i < all.robot.size(); ++i)
   {
     EXPECT_EQ(all.robot[i].tree, arm.robot[i].tree);
@@ -437,12 +437,12 @@ TEST(CollisionProblem, RefusesPaddingAndHalfSpacesThatMeanNothing)
         scene.objects[0].shapes.push_back({HalfSpace{{0.0, 0.0, 2.0}, 0.0}});
       });
   refused(
-      "another object of that name", [](PlanningScene& scene) { scene.attached[0].object.id = "right"; });
+      "another object has the same name", [](PlanningScene& scene) { scene.attached[0].object.id = "right"; });
   refused(
       "a link or another object", [](PlanningScene& scene) { scene.objects[0].id = "base"; });
   refused(
-      "its link is number 5 of 5", [](PlanningScene& scene) { scene.attached[0].link = 5; });
-  refused("touch link is number -1", [](PlanningScene& scene) { scene.attached[0].touch_links = {-1}; });
+      "its link has index 5, but the robot has 5 links", [](PlanningScene& scene) { scene.attached[0].link = 5; });
+  refused("touch link has index -1", [](PlanningScene& scene) { scene.attached[0].touch_links = {-1}; });
 }
 
 TEST(CollisionProblem, TakesTheNearestRotationOfAPoseThatIsAlmostOne)

@@ -60,12 +60,12 @@ std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::stri
   return std::make_unique<WorkQueue>(shader_folder, definitions);
 }
 
-void ArgumentsKernel::prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes,
+void ArgumentsKernel::prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t invocations,
                               std::uint32_t cleared) const
 {
   program_.set(LOCATION_COUNTER, counter);
   program_.set(LOCATION_CAPACITY, capacity);
-  program_.set(LOCATION_LANES, lanes);
+  program_.set(LOCATION_INVOCATIONS, invocations);
   program_.set(LOCATION_ARGUMENT_OFFSET, COUNTER_ARGUMENTS);
   program_.set(LOCATION_CLEARED, cleared);
   program_.dispatch(1);

@@ -93,8 +93,8 @@ class ArgumentsKernel
   }
 
   /// Writes the indirect arguments for a list of counters[counter] elements, at most `capacity`, in work groups that
-  /// handle `lanes` elements each. Sets counters[cleared] to 0.
-  void prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t lanes, std::uint32_t cleared) const;
+  /// handle `invocations` elements each. Sets counters[cleared] to 0.
+  void prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t invocations, std::uint32_t cleared) const;
   static std::size_t argumentsOffset();
 
  private:

@@ -16,7 +16,7 @@ constexpr std::size_t kUint = sizeof(std::uint32_t);
 
 /// With at most this many primitives, no invocation of the prefix sums comes near 65535 iterations, after which
 /// llvmpipe ends it.
-constexpr std::size_t kMostPrimitives = std::size_t{1} << 23;
+constexpr std::size_t kMaxPrimitives = std::size_t{1} << 23;
 
 std::size_t divideUp(std::size_t value, std::size_t by)
 {
@@ -99,9 +99,9 @@ void GpuForestBuilder::build(std::size_t count, const std::vector<std::uint32_t>
                              ForestRegion& region, TexelBuffer& nodes, Buffer& leaf_order)
 {
   const std::size_t mesh_count = first.size();
-  if (count > kMostPrimitives)
-    throw Error(std::to_string(count) + " triangles are more than " + std::to_string(kMostPrimitives) +
-                "; use coarser meshes");
+  if (count > kMaxPrimitives)
+    throw Error("a mesh has " + std::to_string(count) + " triangles, but at most " + std::to_string(kMaxPrimitives) +
+                " are supported; use a coarser mesh");
   region.primitive_count = static_cast<std::uint32_t>(count);
   region.node_count = static_cast<std::uint32_t>(2 * count - mesh_count);
   nodes.reserve((std::size_t{region.first_node} + region.node_count) * sizeof(Node));
@@ -133,8 +133,8 @@ void GpuForestBuilder::sortByMorton(std::size_t count, std::size_t mesh_count)
   bounds_.clear();
   for (Buffer& keys : keys_)
     keys.reserve(count * 2 * kUint);
-  const std::size_t lanes = divideUp(count, CHUNK);
-  counts_.reserve(lanes * RADIX_SIZE * kUint);
+  const std::size_t invocations = divideUp(count, CHUNK);
+  counts_.reserve(invocations * RADIX_SIZE * kUint);
 
   boxes_.bindStorage(0);
   mesh_of_.bindStorage(1);
@@ -157,10 +157,10 @@ void GpuForestBuilder::sortByMorton(std::size_t count, std::size_t mesh_count)
       program->set(LOCATION_SHIFT, shift);
       program->set(LOCATION_BY_MESH, by_mesh);
     }
-    sort_scan_program_.set(LOCATION_VALUE_COUNT, static_cast<std::uint32_t>(lanes * RADIX_SIZE));
-    sort_count_program_.dispatch(groupsFor(lanes));
+    sort_scan_program_.set(LOCATION_VALUE_COUNT, static_cast<std::uint32_t>(invocations * RADIX_SIZE));
+    sort_count_program_.dispatch(groupsFor(invocations));
     sort_scan_program_.dispatch(1);
-    sort_scatter_program_.dispatch(groupsFor(lanes));
+    sort_scatter_program_.dispatch(groupsFor(invocations));
     std::swap(keys_[0], keys_[1]);
   };
   for (std::uint32_t shift = 0; shift < MORTON_BITS; shift += RADIX_BITS)
@@ -191,7 +191,7 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   // One record more than rounds: it holds the number and the place of the final clusters.
   rounds_.reserve(kUint * (BUILD_ROUNDS + 1) * ROUND_STRIDE);
   rounds_.clear();
-  const std::size_t lanes = count == mesh_count ? 0 : count;
+  const std::size_t invocations = count == mesh_count ? 0 : count;
   std::vector<std::uint32_t> first(ROUND_STRIDE, 0);
   const auto set_groups = [&](std::size_t at, std::size_t lane_count)
   {
@@ -201,11 +201,11 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
     first[at + 1] = static_cast<std::uint32_t>(rows);
     first[at + 2] = 1;
   };
-  set_groups(ROUND_CLUSTER_GROUPS, lanes);
-  set_groups(ROUND_CHUNK_GROUPS, divideUp(lanes, CHUNK));
+  set_groups(ROUND_CLUSTER_GROUPS, invocations);
+  set_groups(ROUND_CHUNK_GROUPS, divideUp(invocations, CHUNK));
   first[ROUND_CLUSTERS] = static_cast<std::uint32_t>(count);
   rounds_.write(first);
-  if (lanes == 0)
+  if (invocations == 0)
     return 0;
 
   scan_program_.set(LOCATION_MESH_COUNT, static_cast<std::uint32_t>(mesh_count));
@@ -231,8 +231,8 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   rounds_.read(rounds.data(), rounds.size() * kUint);
   const std::uint32_t remaining = rounds[BUILD_ROUNDS * ROUND_STRIDE + ROUND_CLUSTERS];
   if (remaining != mesh_count)
-    throw Error("the GPU left " + std::to_string(remaining) + " subtrees instead of " + std::to_string(mesh_count) +
-                " trees; its compute shaders do not work as OpenGL promises, choose another device");
+    throw Error("the GPU built " + std::to_string(remaining) + " subtrees instead of " + std::to_string(mesh_count) +
+                " trees: its compute shaders do not work as OpenGL specifies; choose another device");
   std::uint32_t merging = 0;
   while (merging < BUILD_ROUNDS && rounds[merging * ROUND_STRIDE + ROUND_PAIRS] > 0)
     ++merging;

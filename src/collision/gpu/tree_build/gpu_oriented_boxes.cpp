@@ -6,13 +6,13 @@
 #include "shader_constants.h"
 
 // One invocation fits the box of a small node. Nodes with many triangles are listed, and a work group fits each of
-// them. Nodes of more than FIT_MOST_TRIANGLES triangles keep their axis-aligned box.
+// them. Nodes of more than FIT_MAX_TRIANGLES triangles keep their axis-aligned box.
 namespace gpu_planning_scene::core
 {
 namespace
 {
 /// A dispatch over this many nodes takes less than 50 ms on llvmpipe. The second limit is for large nodes of up to
-/// FIT_MOST_TRIANGLES triangles.
+/// FIT_MAX_TRIANGLES triangles.
 constexpr std::uint32_t kNodesAtOnce = 65536;
 constexpr std::uint32_t kLargeNodesAtOnce = 64;
 }  // namespace

@@ -6,28 +6,28 @@
 
 #include <gtest/gtest.h>
 
-#include "node/end_deadline.h"
+#include "node/shutdown_deadline.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-TEST(EndDeadlineDeathTest, EndsAProcessThatHangs)
+TEST(ShutdownDeadlineDeathTest, EndsAProcessThatHangs)
 {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(
       {
-        const EndDeadline deadline(0.05);
+        const ShutdownDeadline deadline(0.05);
         for (;;)
           std::this_thread::sleep_for(std::chrono::hours(1));
       },
       testing::ExitedWithCode(EXIT_FAILURE), "");
 }
 
-TEST(EndDeadline, LeavesAProcessAloneThatEndsInTime)
+TEST(ShutdownDeadline, LeavesAProcessAloneThatEndsInTime)
 {
   {
-    const EndDeadline deadline(0.2);
+    const ShutdownDeadline deadline(0.2);
   }
   std::this_thread::sleep_for(std::chrono::milliseconds(400));
 }

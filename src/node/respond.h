@@ -10,7 +10,7 @@ namespace gpu_planning_scene::core
 {
 /// Runs `work` and returns its error as a short line; empty if it throws nothing.
 template <class Work>
-std::string faultOf(Work work)
+std::string errorOf(Work work)
 {
   try
   {
@@ -19,7 +19,7 @@ std::string faultOf(Work work)
   }
   catch (const std::bad_alloc&)
   {
-    return "out of memory; send less at once";
+    return "out of memory; send smaller requests";
   }
   catch (const std::exception& error)
   {
@@ -35,18 +35,18 @@ std::string faultOf(Work work)
 /// Returns the response that `work` fills in, with `success` set. If `work` throws, returns an empty response without
 /// `success` and with the error in `message`.
 template <class Response, class Work>
-Response answered(Work work)
+Response respond(Work work)
 {
   Response response;
-  const std::string fault = faultOf([&] { work(response); });
-  if (fault.empty())
+  const std::string error_text = errorOf([&] { work(response); });
+  if (error_text.empty())
   {
     response.success = true;
     return response;
   }
   Response failed;
   failed.success = false;
-  failed.message = fault;
+  failed.message = error_text;
   return failed;
 }
 }  // namespace gpu_planning_scene::core

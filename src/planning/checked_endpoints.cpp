@@ -1,4 +1,4 @@
-#include "planning/planning_ends.h"
+#include "planning/checked_endpoints.h"
 
 #include <algorithm>
 
@@ -52,7 +52,7 @@ Fault outsideOfProof(const RobotModel& robot, const double* row)
     if (const double value = row[range.variable]; value < range.lower || value > range.upper)
       return {PlanningStatus::OutOfBounds,
               "out of bounds: " + robot.variables()[static_cast<std::size_t>(range.variable)].name + " is " +
-                  std::to_string(value) + ", beyond its limits, where no motion can be proven (motion rule bound)"};
+                  std::to_string(value) + ", beyond its limits; the motion rule \"bound\" proves no motion there"};
   return {};
 }
 
@@ -94,26 +94,26 @@ std::vector<Fault> faultsOf(const PlanningScene& scene, StateChecker& checker, c
 }
 }  // namespace
 
-PlanningEnds findEnds(const PlanningScene& scene, StateChecker& checker, const ob::StateSpacePtr& space,
-                      const PlanningQuery& query)
+CheckedEndpoints checkEndpoints(const PlanningScene& scene, StateChecker& checker, const ob::StateSpacePtr& space,
+                                const PlanningQuery& query)
 {
   const auto& group_space = *space->as<GroupStateSpace>();
   const std::vector<double> rows = rowsOf(query, group_space);
   const std::vector<Fault> faults = faultsOf(scene, checker, group_space, query, rows);
-  PlanningEnds ends;
+  CheckedEndpoints endpoints;
   if (!faults.front().message.empty())
     return {faults.front().status, "the start is " + faults.front().message, {}};
   for (std::size_t i = 1; i < faults.size(); ++i)
     if (faults[i].message.empty())
     {
-      ends.goals.emplace_back(space);
-      group_space.copyFromRow(rows.data() + i * query.start.size(), ends.goals.back().get());
+      endpoints.goals.emplace_back(space);
+      group_space.copyFromRow(rows.data() + i * query.start.size(), endpoints.goals.back().get());
     }
-  if (ends.goals.empty())
+  if (endpoints.goals.empty())
   {
-    ends.status = faults[1].status;
-    ends.message = (query.goals.size() == 1 ? "the goal is " : "goal 0 is ") + faults[1].message;
+    endpoints.status = faults[1].status;
+    endpoints.message = (query.goals.size() == 1 ? "the goal is " : "goal 0 is ") + faults[1].message;
   }
-  return ends;
+  return endpoints;
 }
 }  // namespace gpu_planning_scene::core

@@ -9,6 +9,6 @@ namespace gpu_planning_scene::core
 {
 /// Replaces runs of several motions by one motion of the same length, if it is found valid before `ptc` holds. So it
 /// joins the segments into which planners cut long motions.
-void joinDirectRuns(ompl::geometric::PathGeometric& path, const MotionValidator& validator,
-                    const ompl::base::PlannerTerminationCondition& ptc);
+void mergeCollinearSegments(ompl::geometric::PathGeometric& path, const MotionValidator& validator,
+                            const ompl::base::PlannerTerminationCondition& ptc);
 }  // namespace gpu_planning_scene::core

@@ -12,7 +12,7 @@
 namespace gpu_planning_scene::core
 {
 /// The states that a query starts from and ends at, after their check.
-struct PlanningEnds
+struct CheckedEndpoints
 {
   PlanningStatus status = PlanningStatus::Solved;  ///< else the fault of the start or of the first goal
   std::string message;                             ///< describes the fault
@@ -21,6 +21,6 @@ struct PlanningEnds
 
 /// Checks the start and all goals in one batch. `checker` holds `scene` already. The rows of the query have one value
 /// per variable of the robot.
-PlanningEnds findEnds(const PlanningScene& scene, StateChecker& checker, const ompl::base::StateSpacePtr& space,
-                      const PlanningQuery& query);
+CheckedEndpoints checkEndpoints(const PlanningScene& scene, StateChecker& checker,
+                                const ompl::base::StateSpacePtr& space, const PlanningQuery& query);
 }  // namespace gpu_planning_scene::core

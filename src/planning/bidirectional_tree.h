@@ -13,7 +13,7 @@ namespace gpu_planning_scene::core
 {
 /// Two trees, from the start states and from the goal states, that grow towards each other, many branches at a time.
 /// Not thread-safe. The idea of RRT-Connect: J. J. Kuffner, S. M. LaValle, ICRA 2000.
-class TwoTrees
+class BidirectionalTree
 {
  public:
   enum Side
@@ -29,10 +29,10 @@ class TwoTrees
     const RrtTree::Vertex* goal;
   };
 
-  explicit TwoTrees(const ompl::base::Planner& planner);
-  ~TwoTrees();
-  TwoTrees(const TwoTrees&) = delete;
-  TwoTrees& operator=(const TwoTrees&) = delete;
+  explicit BidirectionalTree(const ompl::base::Planner& planner);
+  ~BidirectionalTree();
+  BidirectionalTree(const BidirectionalTree&) = delete;
+  BidirectionalTree& operator=(const BidirectionalTree&) = delete;
 
   const RrtTree& tree(Side side) const { return trees_[side]; }
 
@@ -54,22 +54,22 @@ class TwoTrees
   using Vertex = RrtTree::Vertex;
 
   /// A straight line from a tree to a vertex of the other tree.
-  struct Way
+  struct Connection
   {
     Side side;
     const Vertex* from;  // null: the vertex of the tree that is nearest to `to` when growth begins
     const Vertex* to;
-    std::size_t most_pieces;  // segments to check at once; the number doubles each time
+    std::size_t max_pieces;  // segments to check at once; the number doubles each time
   };
 
   /// Consecutive motions to check.
   struct Attempt
   {
-    Way way;  // its `to` is null for a random branch
+    Connection connection;  // its `to` is null for a random branch
     std::vector<const ompl::base::State*> states;
   };
 
-  Attempt pieces(Way way, double range);
+  Attempt pieces(Connection connection, double range);
   Attempt randomBranch(Side side, double range);
   const Vertex& advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done);
   ompl::base::State* scratch();
@@ -78,7 +78,7 @@ class TwoTrees
   ompl::base::StateSamplerPtr sampler_;
   std::array<RrtTree, 2> trees_;
   Side turn_ = Start;
-  std::vector<Way> ways_;
+  std::vector<Connection> connections_;
   std::vector<ompl::base::State*> scratch_;  // states of a round
   std::size_t scratch_used_ = 0;
 };

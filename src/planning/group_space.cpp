@@ -1,4 +1,4 @@
-#include "planning/scene_space.h"
+#include "planning/group_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,11 @@ std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInfor
 {
   auto space = std::dynamic_pointer_cast<const GroupStateSpace>(information.getStateSpace());
   if (!space)
-    throw Error("the state space '" + information.getStateSpace()->getName() + "' is none of a planning group; use a " +
+    throw Error("the state space '" + information.getStateSpace()->getName() + "' is not a GroupStateSpace; use a " +
                 "GroupStateSpace");
   if (space->robot() != scene.robot)
-    throw Error("the state space '" + space->getName() + "' is not of the scene's robot; make it with the robot of " +
-                "the scene, which is another one once its links are scaled");
+    throw Error("the state space '" + space->getName() + "' is for another robot; make it with the scene's robot " +
+                "(scaling links replaces that robot)");
   return space;
 }
 

@@ -8,13 +8,13 @@ namespace gpu_planning_scene::core
 {
 /// Ends the process with exit code 1 if this object still exists after `seconds`. A thread that hangs in a device
 /// cannot be stopped, and roslaunch would kill the process some seconds later.
-class EndDeadline
+class ShutdownDeadline
 {
  public:
-  explicit EndDeadline(double seconds);
-  ~EndDeadline();
-  EndDeadline(const EndDeadline&) = delete;
-  EndDeadline& operator=(const EndDeadline&) = delete;
+  explicit ShutdownDeadline(double seconds);
+  ~ShutdownDeadline();
+  ShutdownDeadline(const ShutdownDeadline&) = delete;
+  ShutdownDeadline& operator=(const ShutdownDeadline&) = delete;
 
  private:
   std::mutex mutex_;

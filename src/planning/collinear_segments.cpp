@@ -1,4 +1,4 @@
-#include "planning/direct_runs.h"
+#include "planning/collinear_segments.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,10 +13,10 @@ namespace
 {
 /// Finds runs of several motions that are no longer than one motion would be. Returns the first and last vertex of
 /// each.
-std::vector<std::pair<std::size_t, std::size_t>> directRuns(const PathGeometric& path)
+std::vector<std::pair<std::size_t, std::size_t>> collinearRuns(const PathGeometric& path)
 {
   // Tolerance, as a fraction of the run's length: larger than rounding errors, and too small to matter.
-  constexpr double kDirect = 1e-9;
+  constexpr double kCollinear = 1e-9;
   const auto distance = [&](std::size_t from, std::size_t to)
   {
     return path.getSpaceInformation()->distance(path.getState(static_cast<unsigned int>(from)),
@@ -30,7 +30,7 @@ std::vector<std::pair<std::size_t, std::size_t>> directRuns(const PathGeometric&
     for (; end + 1 < path.getStateCount(); ++end)
     {
       const double longer = length + distance(end, end + 1);
-      if (distance(begin, end + 1) < (1.0 - kDirect) * longer)
+      if (distance(begin, end + 1) < (1.0 - kCollinear) * longer)
         break;
       length = longer;
     }
@@ -42,10 +42,10 @@ std::vector<std::pair<std::size_t, std::size_t>> directRuns(const PathGeometric&
 }
 }  // namespace
 
-void joinDirectRuns(PathGeometric& path, const MotionValidator& validator,
-                    const ompl::base::PlannerTerminationCondition& ptc)
+void mergeCollinearSegments(PathGeometric& path, const MotionValidator& validator,
+                            const ompl::base::PlannerTerminationCondition& ptc)
 {
-  const auto runs = directRuns(path);
+  const auto runs = collinearRuns(path);
   std::vector<MotionValidator::Motion> motions;
   for (const auto& [begin, end] : runs)
     motions.emplace_back(path.getState(static_cast<unsigned int>(begin)),

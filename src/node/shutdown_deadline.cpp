@@ -1,4 +1,4 @@
-#include "node/end_deadline.h"
+#include "node/shutdown_deadline.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -7,20 +7,20 @@
 
 namespace gpu_planning_scene::core
 {
-EndDeadline::EndDeadline(double seconds)
+ShutdownDeadline::ShutdownDeadline(double seconds)
   : thread_(
         [this, seconds]
         {
           std::unique_lock<std::mutex> lock(mutex_);
           if (wake_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return over_; }))
             return;
-          ROS_FATAL_STREAM("what runs has not ended within " << seconds << " s, and is given up");
+          ROS_FATAL_STREAM("the shutdown took longer than " << seconds << " s; the process exits now");
           std::_Exit(EXIT_FAILURE);
         })
 {
 }
 
-EndDeadline::~EndDeadline()
+ShutdownDeadline::~ShutdownDeadline()
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);

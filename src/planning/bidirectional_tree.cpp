@@ -1,0 +1,157 @@
+#include "planning/bidirectional_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+// A round collects the next motions of all attempts and of the random branches. It checks their samples in one call and
+// adds the valid motions to the trees.
+// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+// Keeps a round short for every range.
+constexpr std::size_t kMaxPieces = 64;
+
+// Between two roots, a free straight line saves the most work. There are few of these lines, so each gets many segments
+// at once.
+constexpr std::size_t kPiecesBetweenRoots = 32;
+
+BidirectionalTree::Side otherThan(BidirectionalTree::Side side)
+{
+  return side == BidirectionalTree::Start ? BidirectionalTree::Goal : BidirectionalTree::Start;
+}
+}  // namespace
+
+BidirectionalTree::BidirectionalTree(const ompl::base::Planner& planner)
+  : information_(planner.getSpaceInformation()),
+    sampler_(information_->allocStateSampler()),
+    trees_{RrtTree(planner), RrtTree(planner)}
+{
+}
+
+BidirectionalTree::~BidirectionalTree()
+{
+  for (ompl::base::State* state : scratch_)
+    information_->freeState(state);
+}
+
+void BidirectionalTree::addRoot(Side side, const ompl::base::State* state)
+{
+  const Vertex& root = trees_[side].add(state, nullptr);
+  if (trees_[otherThan(side)].size() != 0)
+    connections_.push_back({otherThan(side), nullptr, &root, kPiecesBetweenRoots});
+}
+
+void BidirectionalTree::remove(Side side, const std::vector<const Vertex*>& vertices)
+{
+  trees_[side].remove(vertices);
+  connections_.erase(std::remove_if(connections_.begin(), connections_.end(),
+                                    [](const Connection& connection) {
+                                      return connection.to->removed || (connection.from && connection.from->removed);
+                                    }),
+                     connections_.end());
+}
+
+ompl::base::State* BidirectionalTree::scratch()
+{
+  if (scratch_used_ == scratch_.size())
+    scratch_.push_back(information_->allocState());
+  return scratch_[scratch_used_++];
+}
+
+/// The next motions towards the target of a connection.
+BidirectionalTree::Attempt BidirectionalTree::pieces(Connection connection, double range)
+{
+  if (!connection.from)
+    connection.from = &trees_[connection.side].nearest(connection.to->state);
+  const double distance = information_->distance(connection.from->state, connection.to->state);
+  const double count = std::max(1.0, std::ceil(distance / range));
+  Attempt attempt{connection, {}};
+  while (attempt.states.size() < connection.max_pieces)
+  {
+    const double piece = static_cast<double>(attempt.states.size()) + 1.0;
+    if (piece >= count)
+    {
+      attempt.states.push_back(connection.to->state);
+      break;
+    }
+    ompl::base::State* state = scratch();
+    information_->getStateSpace()->interpolate(connection.from->state, connection.to->state, piece / count, state);
+    attempt.states.push_back(state);
+  }
+  return attempt;
+}
+
+BidirectionalTree::Attempt BidirectionalTree::randomBranch(Side side, double range)
+{
+  ompl::base::State* state = scratch();
+  sampler_->sampleUniform(state);
+  const Vertex& from = trees_[side].nearest(state);
+  const double distance = information_->distance(from.state, state);
+  if (distance > range)
+    information_->getStateSpace()->interpolate(from.state, state, range / distance, state);
+  return {{side, &from, nullptr, 1}, {state}};
+}
+
+/// Adds the valid first motions of an attempt to the tree. Returns the last vertex; `done` gets the number of valid
+/// motions.
+const RrtTree::Vertex& BidirectionalTree::advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done)
+{
+  const Vertex* tip = attempt.connection.from;
+  for (done = 0; done < attempt.states.size() && valid[done] != 0; ++done)
+    if (!attempt.connection.to || attempt.states[done] != attempt.connection.to->state)
+      tip = &trees_[attempt.connection.side].add(attempt.states[done], tip);
+  return *tip;
+}
+
+std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionValidator& validator, std::size_t branches,
+                                                                double range,
+                                                                const ompl::base::PlannerTerminationCondition& ptc)
+{
+  scratch_used_ = 0;
+  std::vector<Attempt> attempts;
+  for (const Connection& connection : connections_)
+    attempts.push_back(pieces(connection, range));
+  for (std::size_t i = 0; i < branches; ++i)
+    attempts.push_back(randomBranch(turn_, range));
+
+  // The motions get the direction that they will have in the path.
+  std::vector<MotionValidator::Motion> motions;
+  for (const Attempt& attempt : attempts)
+  {
+    const ompl::base::State* last = attempt.connection.from->state;
+    for (const ompl::base::State* state : attempt.states)
+    {
+      motions.emplace_back(attempt.connection.side == Start ? last : state,
+                           attempt.connection.side == Start ? state : last);
+      last = state;
+    }
+  }
+  const std::vector<std::uint8_t> valid = validator.validateSamples(motions, ptc);
+  if (ptc)  // motions without a verdict are reported as invalid
+    return {};
+  turn_ = otherThan(turn_);
+  connections_.clear();
+
+  std::vector<Meeting> meetings;
+  const std::uint8_t* first = valid.data();
+  for (const Attempt& attempt : attempts)
+  {
+    const Connection& connection = attempt.connection;
+    std::size_t done = 0;
+    const Vertex& tip = advance(attempt, first, done);
+    first += attempt.states.size();
+    if (!connection.to && done != 0)
+      connections_.push_back({otherThan(connection.side), nullptr, &tip, 1});
+    if (!connection.to || done < attempt.states.size())
+      continue;
+    if (attempt.states.back() == connection.to->state)
+      meetings.push_back(connection.side == Start ? Meeting{&tip, connection.to} : Meeting{connection.to, &tip});
+    else
+      connections_.push_back({connection.side, &tip, connection.to, std::min(kMaxPieces, 2 * connection.max_pieces)});
+  }
+  return meetings;
+}
+}  // namespace gpu_planning_scene::core
