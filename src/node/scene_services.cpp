@@ -23,7 +23,7 @@ bool takesMemory(const SceneChange& change)
   return !change.fixed_frames.empty() || change.matrix || !change.link_scale.empty() || !change.colors.empty() ||
          std::any_of(change.objects.begin(), change.objects.end(), brings) ||
          std::any_of(attached.begin(), attached.end(),
-                     [&brings](const AttachedChange& attached) { return brings(attached.object); });
+                     [&brings](const AttachedChange& candidate) { return brings(candidate.object); });
 }
 
 /// Logs the warnings of messages on topics, which have no response.
