@@ -8,7 +8,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "traversal/root_pairs.glsl"
 #include "problem/nodes.glsl"
 #include "geometry/error_bounds.glsl"
-#include "problem/oriented_nodes.glsl"
+#include "traversal/bounding_volume_overlap.glsl"
 #include "problem/instance_lists.glsl"
 #include "common/counters.glsl"
 #include "traversal/verdicts.glsl"

@@ -5,7 +5,7 @@
 #include "traversal/root_pairs.glsl"
 #include "problem/nodes.glsl"
 #include "geometry/error_bounds.glsl"
-#include "problem/oriented_nodes.glsl"
+#include "traversal/bounding_volume_overlap.glsl"
 #include "common/counters.glsl"
 layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;
 layout(location = LOCATION_OUT_COUNTER) uniform uint out_counter;

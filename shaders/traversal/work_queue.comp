@@ -14,7 +14,7 @@ layout(local_size_x = QUEUE_INVOCATIONS) in;
 #include "problem/nodes.glsl"
 #include "geometry/error_bounds.glsl"
 #include "problem/instances.glsl"
-#include "problem/oriented_nodes.glsl"
+#include "traversal/bounding_volume_overlap.glsl"
 #if SOLIDS
 #include "traversal/solid_nodes.glsl"
 #endif

@@ -1,4 +1,4 @@
-// Writes a node with its fitted box in the layout of problem/oriented_nodes.glsl.
+// Writes a node with its fitted box in the layout of traversal/bounding_volume_overlap.glsl.
 layout(std430, binding = 0) writeonly buffer OrientedNodes { uvec4 oriented[]; };
 
 void writeOriented(uint at, TreeNode node, vec3 center, vec3 extent, vec4 axes)

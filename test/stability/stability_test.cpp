@@ -61,7 +61,7 @@ TEST(Stability, NoticesThatContainmentInPrimitivesIsNotTested)
   const ShaderFolder shaders;
   shaders.replace("broad_phase/root_pairs.comp", "if (inside != 0u)", "if (false)");
   shaders.replace("broad_phase/root_pairs.comp", "if ((inside & STATE_HIT) != 0u)", "if (false)");
-  shaders.replace("problem/oriented_nodes.glsl",
+  shaders.replace("traversal/bounding_volume_overlap.glsl",
                   "return all(lessThan(b_in_a, core_a)) || all(lessThan(a_in_b, core_b));", "return false;");
   shaders.replace("traversal/solid_leaf.glsl", "found = STATE_HIT;", "found = 0u;");
   expectFailure(shaders, "mesh in or near a primitive");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision/problem/padding.h"
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -28,15 +30,13 @@ bool touchByCarrying(const RobotBody& a, const RobotBody& b)
 std::vector<RobotBody> robotBodies(const PlanningScene& scene)
 {
   const auto& links = scene.robot->links();
-  const auto padding_of = [&scene](int link)
-  { return scene.link_padding.empty() ? 0.0 : scene.link_padding[static_cast<std::size_t>(link)]; };
   std::vector<RobotBody> bodies;
   int body = 0;
   for (const Link& link : links)
   {
     if (!link.shapes.empty())
       bodies.push_back(
-          {body, body, &link.name, &link.shapes, Eigen::Isometry3d::Identity(), padding_of(body), nullptr});
+          {body, body, &link.name, &link.shapes, Eigen::Isometry3d::Identity(), paddingOf(scene, body), nullptr});
     ++body;
   }
   body += static_cast<int>(scene.objects.size());
@@ -44,8 +44,8 @@ std::vector<RobotBody> robotBodies(const PlanningScene& scene)
   {
     const WorldObject& object = attached.object;
     if (!object.shapes.empty())
-      bodies.push_back({body, attached.link, &object.id, &attached.shapes(), object.pose,
-                        padding_of(attached.link) + attached.padding, &attached});
+      bodies.push_back(
+          {body, attached.link, &object.id, &attached.shapes(), object.pose, paddingOf(scene, attached), &attached});
     ++body;
   }
   return bodies;

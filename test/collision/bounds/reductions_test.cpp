@@ -103,7 +103,7 @@ class ReductionsIn : public testing::TestWithParam<const char*>
 
 TEST_P(ReductionsIn, ChangeNoAnswerOfTheCpu)
 {
-  constexpr std::size_t kStates = repetitions(60, 120);
+  constexpr std::size_t kStates = repetitions(30, 120);
   const std::vector<double> states = statesInAndOut(*scene_->robot, kStates);
   CpuChecker whole(scene_, with(kNone.reductions));
   for (const Setting& setting : kEach)
@@ -117,7 +117,7 @@ TEST_P(ReductionsIn, ChangeNoAnswerOfTheCpu)
 
 TEST_P(ReductionsIn, ChangeNoAnswerOfTheGpu)
 {
-  constexpr std::size_t kStates = repetitions(60, 120);
+  constexpr std::size_t kStates = repetitions(30, 120);
   const std::vector<double> states = statesInAndOut(*scene_->robot, kStates);
   CpuChecker whole(scene_, with(kNone.reductions));
   for (const Setting& setting : {kNone, kDirect, kAll})

@@ -9,6 +9,7 @@
 #include "support/carrying_scene.h"
 #include "support/exactness.h"
 #include "support/near_contact.h"
+#include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
 {
@@ -77,11 +78,13 @@ TEST_P(Exact, CloseToContact)
   EXPECT_EQ(0u, clearances.back());
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, Exact,
-                         testing::Values(Slice{"kr5", "kr5", 400, 100},
-                                         Slice{"ur5_robotiq", "ur5_table_pick", 200, 100},
-                                         Slice{"wam", "wam", 200, 100}, Slice{"drchubo", "drchubo", 50, 10},
-                                         Slice{"carrying", "ur5_table_pick", 30, 20}),
-                         [](const auto& parameter) { return std::string(parameter.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Robots, Exact,
+    testing::Values(Slice{"kr5", "kr5", repetitions(150U, 400U), repetitions(40U, 100U)},
+                    Slice{"ur5_robotiq", "ur5_table_pick", repetitions(80U, 200U), repetitions(40U, 100U)},
+                    Slice{"wam", "wam", repetitions(80U, 200U), repetitions(40U, 100U)},
+                    Slice{"drchubo", "drchubo", repetitions(25U, 50U), repetitions(6U, 10U)},
+                    Slice{"carrying", "ur5_table_pick", repetitions(15U, 30U), repetitions(10U, 20U)}),
+    [](const auto& parameter) { return std::string(parameter.param.name); });
 }  // namespace
 }  // namespace gpu_planning_scene::core

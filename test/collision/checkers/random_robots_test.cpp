@@ -21,7 +21,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kStates = repetitions(200, 500);
+constexpr std::size_t kStates = repetitions(100, 500);
 
 class RandomRobots : public testing::TestWithParam<std::uint64_t>
 {

@@ -20,7 +20,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::uint64_t kSeed = 23;
-constexpr std::size_t kStates = repetitions(200, 800);
+constexpr std::size_t kStates = repetitions(500, 800);
 constexpr std::size_t kMaxMeasured = 5;  // by the oracle, which is slow
 
 /// A checker with a tolerance. `method`: "cpu", "breadth_first" or "work_queue".

@@ -32,7 +32,7 @@ const char* const kPlacedNodes = R"(
 #include "problem/nodes.glsl"
 #include "geometry/error_bounds.glsl"
 #include "problem/instances.glsl"
-#include "problem/oriented_nodes.glsl"
+#include "traversal/bounding_volume_overlap.glsl"
 #include "traversal/solid_nodes.glsl"
 OrientedNode node(vec3 center, vec3 extent, vec3 xyz, vec3 w)
 {

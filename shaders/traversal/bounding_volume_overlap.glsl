@@ -1,5 +1,5 @@
-// Nodes with oriented bounding boxes (OBB), which the traversals of pairs test. Three texels a node, in the order of
-// the axis-aligned nodes. Lengths are in metres.
+// The bounding volumes of the traversals: nodes with oriented bounding boxes (OBB), and the test whether two of them
+// overlap. Three texels a node, in the order of the axis-aligned nodes. Lengths are in metres.
 #include "geometry/quaternion.glsl"
 
 struct OrientedNode
