@@ -46,8 +46,8 @@ class AllowedCollisionMatrix
   {
    public:
     bool allowed(const Row& other) const;
-    /// False if the matrix has no entry and no default of the body. All these bodies get the same answers, and so does
-    /// a row made by `Row()`.
+    /// False if the matrix has no entry and no default of the body. All such bodies get the same answers. A row made by
+    /// `Row()` gets these answers too.
     bool known() const { return body_ != nullptr; }
 
    private:

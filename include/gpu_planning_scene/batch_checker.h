@@ -8,9 +8,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// Checks states on the GPU: forward kinematics, root tests, tree traversal, triangle tests. The exact checker, a
-/// traversal of the same trees in double precision on the CPU, decides the undecided states. A BatchChecker owns a GL
-/// context and the thread on which the context is current. Thread-safe: calls are served one after the other.
+/// Checks states on the GPU: forward kinematics, root tests, tree traversal, triangle tests. The exact checker decides
+/// the undecided states. It traverses trees of its own in double precision on the CPU. A BatchChecker owns a GL context
+/// and the thread on which the context is current. Thread-safe: calls are served one after the other.
 ///
 /// A. Gress, G. Zachmann: Object-Space Interference Detection on Programmable Graphics Hardware (2003).
 class BatchChecker : public StateChecker

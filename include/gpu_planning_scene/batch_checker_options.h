@@ -24,8 +24,8 @@ struct BatchCheckerOptions : CheckerOptions
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
   std::size_t max_batch = 16384;  ///< largest number of states sent to the GPU at once; larger requests are split
-  /// The CPU checks batches of fewer states; 0: the GPU checks batches of every size. Unset: the checker measures, for
-  /// each group, from which batch size on the GPU is faster.
+  /// The CPU checks batches of fewer states; 0: the GPU checks batches of every size. Unset: for each group, the
+  /// checker measures the batch size from which the GPU is faster.
   std::optional<std::size_t> cpu_below;
   std::string shader_folder;  ///< empty: the installed shaders, or those of the source tree (see shaderFolder())
 };

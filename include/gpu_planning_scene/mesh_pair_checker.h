@@ -13,7 +13,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Checks two rigid shapes in many relative poses, without a robot: the experiment of A. Gress, G. Zachmann:
+/// Checks two rigid shapes in many relative poses, without a robot. This is the experiment of A. Gress, G. Zachmann:
 /// Object-Space Interference Detection on Programmable Graphics Hardware (2003). Thread-safe: calls are served one
 /// after the other.
 class MeshPairChecker

@@ -20,7 +20,7 @@ struct MeshLimits
 
 /// Returns a function that reads each file in a process of its own. `program`: the installed read_mesh. If that process
 /// fails, the function throws an Error that names the file: "the reader crashed (signal 11)", "takes longer than 20 s",
-/// "needs more than 2048 MiB". The function is thread-safe. childMeshReader throws Error if limits.seconds is not above
+/// "needs more than 2048 MiB". The function is thread-safe. childMeshReader throws Error unless limits.seconds is above
 /// 0 and below 1e6.
 ReadMesh childMeshReader(std::string program, const MeshLimits& limits);
 

@@ -19,7 +19,8 @@ enum class MotionRule
 {
   /// All samples are free, as in MoveIt and OMPL. A thin obstacle between two samples is missed.
   Samples,
-  /// Also, each sample has more clearance than any point of the robot can move up to half way to the next sample.
+  /// All samples are free, and the motion is proven free between them. The clearance of each sample exceeds the
+  /// displacement of every point of the robot between the sample and the middle to a neighbouring sample.
   Bound
 };
 
@@ -31,7 +32,7 @@ struct MotionCheckerOptions
   MotionRule rule = MotionRule::Bound;
   MotionSteps steps{0.02, 0.02};  ///< largest steps between samples, before any subdivision
   /// Limit for each motion. A motion that has more samples than this is rejected. Under MotionRule::Bound, a motion is
-  /// also rejected if this many checks of states, its samples included, do not prove it free.
+  /// also rejected if this many state checks do not prove it free. The checks of its samples count too.
   std::size_t max_samples = 20000;
 };
 
@@ -39,13 +40,14 @@ struct MotionVerdict
 {
   bool valid = false;
   /// Fraction of the motion (0 to 1) at the last free sample before the first collision. Under MotionRule::Bound: the
-  /// fraction up to which the motion is proven free, which is at most that sample's. 0 if the start collides; 1 if the
-  /// motion is valid.
+  /// fraction up to which the motion is proven free. This fraction is at most that of the sample. 0 if the start
+  /// collides; 1 if the motion is valid.
   double last_valid = 0.0;
   /// Fraction of the sample where the valid part ends: the sample collides, or the motion is not proven free around it.
   /// 1 if the motion is valid.
   double first_invalid = 0.0;
-  /// The colliding pair at `first_invalid`; kNoPair if the motion is valid or only not proven free.
+  /// The colliding pair at `first_invalid`; kNoPair if the motion is valid, or if no sample collides but the motion is
+  /// not proven free.
   BodyPair colliding = kNoPair;
 };
 

@@ -29,9 +29,9 @@ struct WorldObject
 /// the world, against all links except its own and its touch links, and against the objects that other links carry.
 struct AttachedObject
 {
-  WorldObject object;  ///< its pose is in the link's frame; its own padding counts only in the world
+  WorldObject object;  ///< its pose is in the link's frame; its `padding` counts only after detach()
   int link = -1;
-  std::vector<int> touch_links = {};  ///< link indices; the link that carries it need not be listed
+  std::vector<int> touch_links = {};  ///< link indices; the carrying link need not be listed
   double padding = 0.0;               ///< metres, at least 0, added to the link's padding
   /// The object's shapes at the scale of its link, see PlanningScene::scaleAttached; null: the shapes of `object`,
   /// unscaled.
@@ -84,8 +84,8 @@ struct PlanningScene
   std::vector<WorldObject> objects;
   std::vector<AttachedObject> attached;
   /// Metres, at least 0, one per link; empty: all 0. A link and a world object collide if their distance is at most the
-  /// sum of their paddings. The padding of an attached object is its own plus that of its link. Pairs of links and
-  /// attached objects have no padding.
+  /// sum of their paddings. The padding of an attached object is its own plus that of its link. A pair in which both
+  /// bodies are links or attached objects has no padding.
   std::vector<double> link_padding;
   AllowedCollisionMatrix allowed_collisions;
   MatrixSource matrix_source;  ///< for reports
@@ -123,8 +123,8 @@ struct PlanningScene
 
 /// Loads a scene file. A file whose name ends in .scene has the text format of RViz's MotionPlanning plugin: objects,
 /// their colours and subframes. Every other file is YAML with the field names of MoveIt's PlanningScene, in MoveIt's
-/// own layout (poses with x, y, z, w keys; entry_values with `enabled`) or in a compact layout (arrays, `type: box`,
-/// bare rows).
+/// own layout (poses with x, y, z, w keys; entry_values with `enabled`) or in a compact layout (`type: box`, poses as
+/// arrays, rows of the matrix without `enabled`).
 /// Object poses are in `planningFrame()`; header.frame_id can name this frame, a link, or a frame of
 /// fixed_frame_transforms. `meshes`: how to read the mesh files of the scene. `defaults`: padding and scale of the
 /// bodies that the file does not name. `warnings` (may be null) receives a line for each joint that the robot lacks and

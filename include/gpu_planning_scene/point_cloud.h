@@ -14,14 +14,14 @@ namespace gpu_planning_scene::core
 struct PointCloudOptions
 {
   double voxel = 0.05;               ///< metres: edge length of a cube
-  double robot_padding = 0.03;       ///< metres: cubes up to this distance from the robot are left out as its own
+  double robot_padding = 0.03;       ///< metres: cubes this near to the robot count as the robot and are left out
   double max_distance = 10.0;        ///< metres: points further from the sensor are left out
   std::size_t max_voxels = 200'000;  ///< a cloud with more is refused
 };
 
 /// Turns point clouds into one world object. The space around the planning frame's origin is divided into voxels; the
-/// object has a cube for each voxel that contains a point. So a body that is free of the object is free of every point.
-/// A body nearer to a point than the diagonal of a voxel may be reported as colliding. Not thread-safe.
+/// object has a cube for each voxel that contains a point. So a body that does not collide with the object touches no
+/// point. A body may be reported as colliding if a point is nearer than the diagonal of a voxel. Not thread-safe.
 class PointCloudFilter
 {
  public:

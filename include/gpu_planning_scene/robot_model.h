@@ -17,9 +17,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// One number of a robot state: radians, metres, or a component of a quaternion. The names are MoveIt's. A joint with
-/// one variable gives it its own name. A planar joint has JOINT/x, /y, /theta; a floating joint has JOINT/trans_x, _y,
-/// _z and JOINT/rot_x, _y, _z, _w.
+/// One number of a robot state: radians, metres, or a component of a quaternion. The names are MoveIt's. The variable
+/// of a joint with a single variable has the name of the joint. A planar joint has JOINT/x, /y, /theta; a floating
+/// joint has JOINT/trans_x, _y, _z and JOINT/rot_x, _y, _z, _w.
 struct Variable
 {
   std::string name;
@@ -141,8 +141,8 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   int variableIndex(const std::string& name) const;   ///< -1 if there is none
   const Group& group(const std::string& name) const;  ///< throws Error that lists the groups if it is unknown
 
-  /// Pairs of links with shapes that a joint joins, sorted. Links without shapes are skipped: two links joined by an
-  /// empty link are adjacent.
+  /// Pairs of links that a joint connects, sorted. Only links with shapes count: two of them are also adjacent if only
+  /// links without shapes are between them.
   std::vector<std::pair<int, int>> adjacentLinks() const;
 
   /// Forward kinematics: writes the pose of every link in the planning frame. `state`: variables().size() values.

@@ -15,7 +15,7 @@
 namespace gpu_planning_scene::core
 {
 // Changes of a scene, as MoveIt's messages describe them, but without ROS. The names and meanings are those of
-// moveit_msgs, with one difference: a change is made as a whole or not at all. (MoveIt makes the parts that it can.)
+// moveit_msgs, with one difference: a change is made as a whole or not at all. (MoveIt applies the valid parts.)
 
 enum class Operation
 {
@@ -49,15 +49,15 @@ struct ObjectChange
   std::vector<PlacedShape> shapes;             ///< in the object's frame: primitives, then meshes, then half-spaces
   std::vector<Eigen::Isometry3d> shape_poses;  ///< only for Move: none, or one per shape of the object, in that order
   std::map<std::string, Eigen::Isometry3d> subframes;  ///< in the object's frame
-  /// Only for Remove. True: the allowed collision matrix keeps the object's entries, for an object that comes and goes,
-  /// for example a point cloud. False, as in MoveIt: the entries are removed with the object.
+  /// Only for Remove. True: the allowed collision matrix keeps the object's entries. This is for objects that come and
+  /// go, for example a point cloud. False, as in MoveIt: the entries are removed with the object.
   bool keeps_allowed_collisions = false;
 };
 
 /// A change of the objects that links carry. Add without shapes attaches the world object of that id, which stays where
 /// it is. Add with shapes replaces the object of that id, in the world or on a link. Remove returns the object to the
-/// world where it is; without an id, it returns all objects of the link; without an id and a link, all attached
-/// objects.
+/// world at its current place. Without an id, it returns all objects of the link. Without an id and a link, it returns
+/// all attached objects.
 struct AttachedChange
 {
   ObjectChange object;
@@ -70,15 +70,15 @@ struct StateChange
 {
   std::map<std::string, double> variables;  ///< by name of the variable
   std::vector<AttachedChange> attached;     ///< in order, after the variables are set
-  /// True: links keep the objects that they carry. False: `attached`, which must use Add only, replaces them; in a diff
-  /// only if `variables` are given. A replaced object that `attached` does not name is removed with a warning, and so
-  /// are its entries in the allowed collision matrix.
+  /// True: links keep the objects that they carry. False: `attached` must use Add only, and it replaces all attached
+  /// objects. In a diff, it replaces them only if `variables` are given, and adds to them otherwise. A replaced object
+  /// that `attached` does not name is removed with a warning, and so are its entries in the allowed collision matrix.
   bool is_diff = true;
 };
 
 /// A full scene or a diff. The parts are applied in the order of the members, except that a full scene empties the
 /// world before it applies the state. In a diff, an empty part changes nothing. In a full scene, an empty part takes
-/// the value of a new scene; only the state keeps its variables.
+/// the value of a new scene. The state is an exception: its variables keep their values.
 struct SceneChange
 {
   bool is_diff = false;
@@ -129,8 +129,8 @@ Change applyChange(const PlanningScene& scene, const std::vector<double>& state,
 /// The full scene that turns any other scene of the robot into `scene`.
 SceneChange fullSceneOf(const PlanningScene& scene);
 
-/// The change from one scene of a robot to another: applyChange(from, diffOf(from, to)) gives `to`, except for the
-/// order of the objects, and for their paddings, which a change cannot name. The result is a full scene if no diff
-/// leads to `to`.
+/// The change from one scene of a robot to another: applyChange(from, diffOf(from, to)) gives `to`. Two things may
+/// differ: the order of the objects, and the paddings of the objects, which a change cannot name. The result is a full
+/// scene if no diff leads to `to`.
 SceneChange diffOf(const PlanningScene& from, const PlanningScene& to);
 }  // namespace gpu_planning_scene::core

@@ -15,9 +15,9 @@ namespace gpu_planning_scene::core
 /// resolve micrometres.
 constexpr double kLargestLength = 1e6;
 
-/// A triangle mesh in metres, in its own frame. Any topology is allowed: open, cracked, duplicate and zero-area
-/// triangles are surfaces like all others. Vertices are finite and indices in range; the loaders and `validateMesh`
-/// ensure this. Immutable once shared.
+/// A triangle mesh in metres, in its own frame. Any topology is allowed. A mesh may be open or cracked. Duplicate
+/// triangles and triangles of zero area are surfaces like all others. Vertices are finite and indices in range; the
+/// loaders and `validateMesh` ensure this. Immutable once shared.
 struct Mesh
 {
   std::string name;  ///< origin of the mesh, for messages: a file, or the object that has it

@@ -27,9 +27,10 @@ struct Reductions
 
 struct CheckerOptions
 {
-  /// Metres, at least 0; 0: exact. Above 0, the traversal stops at two overlapping nodes if the sum of their diagonals
-  /// is at most this value, and reports a collision. A collision is never reported as free. A pair may be reported as
-  /// colliding if its distance is at most its required distance plus this value.
+  /// Metres, at least 0; 0: exact. Above 0, the traversal may stop early. It then reports a collision for two nodes
+  /// whose boxes prove that the distance of their contents is at most the required distance plus this value. A
+  /// collision is never reported as free. A pair may be reported as colliding if its distance is at most its required
+  /// distance plus this value.
   double tolerance = 0.0;
   Reductions reductions;
 };
@@ -41,11 +42,11 @@ struct JointTravel
   double angle = 0.0;   ///< radians: rotation (revolute, continuous, planar and floating joints)
 };
 
-/// Neighbourhoods of the states of a batch. The neighbourhood of a state has all states within the joint limits in
-/// which every joint stays within its travel of its value in the state.
+/// Neighbourhoods of the states of a batch. A state within the joint limits is in the neighbourhood of a given state if
+/// the value of every joint differs from its value in the given state by at most the travel of the joint.
 struct JointNeighbourhood
 {
-  std::vector<JointTravel> travel;  ///< rows, at least 0: one entry per joint of the robot, mimic joints included
+  std::vector<JointTravel> travel;  ///< rows of one entry (>= 0) per joint of the robot, mimic joints included
   std::vector<std::uint32_t> rows;  ///< one per state: the row of `travel` for the state
 };
 
@@ -66,14 +67,14 @@ struct SceneReport
   std::size_t world_pairs = 0;         ///< checked: a world object and a link or attached object
   std::size_t allowed_self_pairs = 0;  ///< left out: the allowed collision matrix allows them
   std::size_t allowed_world_pairs = 0;
-  std::size_t touch_pairs = 0;    ///< left out: an attached object with its link, its touch links, or its link's load
+  std::size_t touch_pairs = 0;    ///< left out: an attached object with its link, touch links, or objects of its link
   std::size_t unmoved_pairs = 0;  ///< left out: the group does not move either body
   std::size_t links_without_shapes = 0;     ///< left out: they cannot collide
   std::size_t unreachable_self_pairs = 0;   ///< left out: within the joint limits the bodies never meet
   std::size_t unreachable_world_pairs = 0;  ///< left out: within the joint limits the bodies never meet
   std::size_t unreachable_objects = 0;      ///< left out: no link or attached object reaches them
   std::size_t settled_pairs = 0;  ///< left out: decided once, because no joint moves one body relative to the other
-  /// A settled pair that collides, so that every state collides: body indices.
+  /// Body indices of a settled pair that collides. Every state then collides.
   std::optional<BodyPair> always_colliding;
   std::size_t triangles = 0;     ///< in all trees
   std::size_t trees = 0;         ///< one per distinct shape
@@ -92,13 +93,14 @@ class StateChecker
   /// Replaces the scene. Throws Error and keeps the old scene if the new one is not valid.
   virtual void setScene(std::shared_ptr<const PlanningScene> scene) = 0;
 
-  /// `states`: row-major, `count` rows of robot->variables().size() values. `group`: a planning group, for the pairs
-  /// with a link that the group moves; empty: all pairs. Throws Error for an unknown group, or a value that is not
-  /// finite or beyond Variable::largest.
+  /// `states`: row-major, `count` rows of robot->variables().size() values. `group`: a planning group; only pairs with
+  /// a link that the group moves are checked. Empty: all pairs are checked. Throws Error for an unknown group, or a
+  /// value that is not finite or beyond Variable::largest.
   /// With `around`, valid[i] is 1 only if the whole neighbourhood of state i is proven free: the distance of each pair
   /// exceeds its required distance by more than its bodies can move relative to each other. If valid[i] is 0, the state
   /// itself may be free, and the reported pair may only be near. A state outside the joint limits gets 0. Only joints
-  /// that the group moves may have travel (not checked). Throws Error if the rows or the travel do not fit the states.
+  /// that the group moves may have a travel above 0; the function does not verify this. Throws Error if the rows or the
+  /// travel do not fit the states.
   virtual BatchResult check(const double* states, std::size_t count, const std::string& group = "",
                             const JointNeighbourhood* around = nullptr) = 0;
 

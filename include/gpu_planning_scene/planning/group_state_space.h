@@ -18,8 +18,8 @@ namespace gpu_planning_scene::core
 ///   - an SO2StateSpace for each continuous joint,
 ///   - an SE2StateSpace for each planar joint, with its translations bounded by Variable::lower and upper,
 ///   - an SE3StateSpace for each floating joint, with the same bounds.
-/// The SO2, SE2 and SE3 spaces have the names of their joints. The space has no values for mimic joints, which follow
-/// their leaders, for passive joints, and for joints whose limits leave no range. Const functions are thread-safe after
+/// The SO2, SE2 and SE3 spaces have the names of their joints. The space has no values for mimic joints (they follow
+/// their leaders), for passive joints, or for joints whose limits leave no range. Const functions are thread-safe after
 /// setup().
 class GroupStateSpace : public ompl::base::CompoundStateSpace
 {

@@ -38,14 +38,15 @@ class MotionValidator : public ompl::base::MotionValidator
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
                    std::pair<ompl::base::State*, double>& last_valid) const override;
 
-  /// In bulk: one byte per motion, 1 if it is valid, else 0. When `ptc` holds, all motions without a verdict get 0.
+  /// Validates many motions in one call. Returns one byte per motion: 1 if the motion is valid, else 0. When `ptc`
+  /// holds, all motions without a verdict get 0.
   std::vector<std::uint8_t> validateMotions(const std::vector<Motion>& motions, const Termination& ptc = never()) const;
-  /// In bulk: one byte per motion, 1 if all its samples are free, else 0. This is for planners that prove only the
-  /// motions of a solution: see MotionRule.
+  /// Checks only the samples of many motions in one call. Returns one byte per motion: 1 if all its samples are free,
+  /// else 0. Planners that prove only the motions of a solution use this function: see MotionRule.
   std::vector<std::uint8_t> validateSamples(const std::vector<Motion>& motions, const Termination& ptc = never()) const;
   MotionRule rule() const { return motions_.rule(); }
-  /// Checks all motions of the path in one batch: true if all are valid. A path with one state is valid if the state
-  /// is; an empty path is not valid.
+  /// Checks all motions of the path in one batch. Returns true if all motions are valid. A path with one state is valid
+  /// if the state is valid. An empty path is not valid.
   bool validatePath(const ompl::geometric::PathGeometric& path, const Termination& ptc = never()) const;
 
   /// Number of states checked so far.

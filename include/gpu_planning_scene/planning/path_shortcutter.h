@@ -18,10 +18,11 @@ struct ShortcutterOptions
   double least_gain = 1e-2;     ///< least gain of a round, as a fraction of the path's length
 };
 
-/// Shortens paths with a MotionValidator, which checks many motions in little more time than one motion. First, one
-/// motion replaces several motions of the same total length. Then each round draws shortcuts between two points of the
-/// path, which are vertices or points on edges, and checks them in one call. It takes the valid shortcuts in the
-/// order of their gain, largest first, and skips a shortcut that overlaps one already taken. Not thread-safe.
+/// Shortens paths with a MotionValidator, which checks many motions in little more time than one motion. First,
+/// consecutive motions are replaced by one motion if this motion has the same total length. Then each round draws
+/// shortcuts between two points of the path, which are vertices or points on edges, and checks them in one call. It
+/// takes the valid shortcuts in the order of their gain, largest first, and skips a shortcut that overlaps one already
+/// taken. Not thread-safe.
 ///
 /// R. Geraerts, M. H. Overmars: Creating high-quality paths for motion planning. IJRR 26(8), 2007. Their method checks
 /// one shortcut at a time.

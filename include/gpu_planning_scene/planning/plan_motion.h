@@ -15,16 +15,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// A request for a motion. Each row has one value per variable of the robot, in radians and metres. Variables that the
-/// group does not move keep their values of the start.
+/// A request for a motion. Each row has one value per variable of the robot, in radians and metres. Variables that are
+/// not in the group keep their values from the start.
 struct PlanningQuery
 {
   std::string group;
   std::vector<double> start;
   std::vector<std::vector<double>> goals;  ///< rows; the motion may end at any of them
   /// Seconds for planning, with the check of the start and the goals; planners can take slightly longer. Simplification
-  /// and the last check of the path can each take the time that planning leaves, but at least a tenth of the whole and
-  /// at least 0.1 s.
+  /// and the last check of the path then have a time limit each. This limit is the time that planning has left, but at
+  /// least a tenth of `seconds` and at least 0.1 s.
   double seconds = 5.0;
   bool simplify = true;
   MotionCheckerOptions motions;
@@ -35,7 +35,7 @@ struct PlanningQuery
 enum class PlanningStatus
 {
   Solved,
-  Approximate,  ///< no solution within the time; the path ends as near to a goal as was found
+  Approximate,  ///< no solution within the time; the path ends at the state that was found nearest to a goal
   NoSolution,   ///< no solution, no path that comes nearer to a goal, or a path that is not valid by the rule
   StartInCollision,
   GoalsInCollision,  ///< no goal is good (free and within bounds), and the first collides
@@ -58,8 +58,8 @@ struct PlanningResult
 /// to time; when it returns true, planning ends early, as soon as the planner reacts. Thread-safe if each call has a
 /// checker of its own.
 /// Throws Error for an unknown group, parameter or projection joint; for a row with a wrong length or a value that is
-/// not finite; for an angle of the start beyond 1e6 rad (continuous and planar joints); without a goal; and for a time
-/// that is not above 0 and at most 1e9 s. Exceptions of the planner pass through.
+/// not finite; for an angle of the start beyond 1e6 rad (continuous and planar joints); without a goal; and unless the
+/// time is above 0 and at most 1e9 s. Exceptions of the planner pass through.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,
                           const PlannerFactory& factory, const std::function<bool()>& stop = {});

@@ -12,7 +12,8 @@ class PlannerFactory
   virtual ~PlannerFactory() = default;
 
   /// Creates a planner with its own default parameters. The space information has the GroupStateSpace, MotionValidator
-  /// and StateValidityChecker of this package; a planner may use their functions in bulk.
+  /// and StateValidityChecker of this package; a planner may use their functions that check many states or motions in
+  /// one call.
   virtual ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const = 0;
 };
 }  // namespace gpu_planning_scene::core

@@ -27,12 +27,12 @@ class StateValidityChecker : public ompl::base::StateValidityChecker
 
   bool isValid(const ompl::base::State* state) const override;
   using ompl::base::StateValidityChecker::isValid;
-  /// The smaller of the clearances to the world and of the robot to itself, in metres beyond the required distance: see
-  /// StateInspector. The bounds of the space do not count. Throws Error for a value that is not finite.
+  /// The smaller of Clearance::world and Clearance::self, in metres beyond the required distance: see StateInspector.
+  /// The bounds of the space do not count. Throws Error for a value that is not finite.
   double clearance(const ompl::base::State* state) const override;
   using ompl::base::StateValidityChecker::clearance;
 
-  /// In bulk: one byte per state, 1 if it is valid, else 0.
+  /// Validates many states in one call. Returns one byte per state: 1 if the state is valid, else 0.
   std::vector<std::uint8_t> validateStates(const std::vector<const ompl::base::State*>& states) const;
 
   /// Number of states checked so far. States out of bounds are not checked and do not count.
