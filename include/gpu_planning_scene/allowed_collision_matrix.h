@@ -27,8 +27,9 @@ class AllowedCollisionMatrix
   /// Sets the entry of a pair. The order of the two names does not matter.
   void setEntry(const std::string& body_1, const std::string& body_2, bool allowed);
   void setDefault(const std::string& body, bool allowed);
-  /// Removes all entries of a body and its default.
-  void removeEntry(const std::string& body);
+  /// Removes all entries of a body and its default. Returns the bodies, sorted by name, that were forbidden to touch
+  /// `body` and may touch it now because their default allows it.
+  std::vector<std::string> removeEntry(const std::string& body);
   bool allowed(const std::string& body_1, const std::string& body_2) const;
 
   std::vector<std::string> bodies() const;             ///< all with an entry or a default, sorted by name

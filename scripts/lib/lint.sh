@@ -48,7 +48,8 @@ files_to_lint()
 includer_of()
 {
   local name=${1##*/} includers
-  includers="$(grep --recursive --files-with-matches --include='*.cpp' "#include \".*\b$name\"" src test bench | sort)"
+  includers="$(grep --recursive --files-with-matches --include='*.cpp' "#include \".*\b$name\"" src test bench |
+    grep --invert-match '^test/install/' | sort)"
   grep "/${name%.h}\.cpp$" <<< "$includers" | head -1 | grep . || head -1 <<< "$includers"
 }
 

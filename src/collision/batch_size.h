@@ -32,9 +32,13 @@ class BatchSize
     size_ = std::min(size_, capacity_);
   }
 
-  /// Reports that a batch of `count` states took `seconds`.
+  /// Reports that a batch of `count` states took `seconds`. Only a batch that took too long makes the next ones
+  /// smaller: the fixed costs of a short batch say little about a full one. Only a full batch makes the next ones
+  /// larger.
   void took(std::size_t count, double seconds)
   {
+    if (count == 0)
+      return;
     // A batch that was too large says little about much later batches: the limit that it set is raised again.
     if (++good_batches_ >= kBatchesToForget)
     {
@@ -42,7 +46,7 @@ class BatchSize
       good_batches_ = 0;
     }
     const double wanted = static_cast<double>(count) * limits_.seconds / std::max(seconds, 1e-6);
-    if (wanted < static_cast<double>(size_))
+    if (seconds > limits_.seconds)
       size_ = std::min(capacity_, std::max(limits_.min, static_cast<std::size_t>(wanted)));
     else if (count == size_ && wanted >= 2.0 * static_cast<double>(count))
       size_ = std::min(capacity_, 2 * size_);

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "collision/bounds/reach.h"
 #include "collision/checkers/scene_text.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
@@ -64,6 +65,21 @@ std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions
                   " (limits/request_states); send fewer motions, or take larger steps");
   }
   return {options, static_cast<std::size_t>(all)};
+}
+
+/// A warning if a joint is beyond its limits in one of the states; otherwise empty. The rule "bound" proves no motion
+/// there, even if the group does not move the joint. `states`: full states, the starts or the ends of the motions.
+std::string beyondLimits(const RobotModel& robot, const std::vector<double>& states)
+{
+  const std::size_t width = robot.variables().size();
+  for (std::size_t row = 0; row < states.size(); row += width)
+    for (const VariableRange& range : limitRanges(robot))
+      if (const double value = states[row + static_cast<std::size_t>(range.variable)];
+          value < range.lower || value > range.upper)
+        return "motion " + std::to_string(row / width) + ": " +
+               robot.variables()[static_cast<std::size_t>(range.variable)].name + " is " + std::to_string(value) +
+               ", beyond its limits; the motion rule \"bound\" proves no motion there";
+  return "";
 }
 
 std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
@@ -277,6 +293,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         validateStates(robot, ends.data(), count);
         std::tie(job.motions, job.samples) =
             requestedMotions(request, robot, options_.motion_rule, starts, ends, options_.max_states);
+        const MotionRule motion_rule = job.motions->rule;
         // The full states above serve to count the samples. For the check, the variables that the request does not name
         // come from the checked snapshot, which may be newer than `now`.
         job.states = request.starts;
@@ -292,6 +309,12 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
           const bool collides = verdict.colliding != kNoPair;
           response.body_1.push_back(collides ? answer.scene->bodyName(verdict.colliding[0]) : "");
           response.body_2.push_back(collides ? answer.scene->bodyName(verdict.colliding[1]) : "");
+        }
+        if (motion_rule == MotionRule::Bound)
+        {
+          response.message = beyondLimits(robot, starts);
+          if (response.message.empty())
+            response.message = beyondLimits(robot, ends);
         }
         response.states_checked = answer.states_checked;
         response.scene_revision = answer.result.revision;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "gpu_planning_scene/error.h"
+#include "node/topic_warnings.h"
 
 namespace gpu_planning_scene::core
 {
@@ -80,6 +81,6 @@ void CloudTopic::take(const sensor_msgs::PointCloud2& message)
   SceneChange diff;
   diff.is_diff = true;
   diff.objects.push_back(std::move(change));
-  store_.apply(diff, lookup_);
+  warnOfMessage(store_.apply(diff, lookup_).warnings);
 }
 }  // namespace gpu_planning_scene::core

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include <ros/console.h>
-
 #include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/error.h"
+#include "model/one_line.h"
 #include "node/from_messages.h"
 #include "node/respond.h"
 #include "node/to_messages.h"
+#include "node/topic_warnings.h"
 
 namespace gpu_planning_scene::core
 {
@@ -26,11 +26,13 @@ bool takesMemory(const SceneChange& change)
                      [&brings](const AttachedChange& candidate) { return brings(candidate.object); });
 }
 
-/// Logs the warnings of messages on topics, which have no response.
-void warnThrottled(const std::vector<std::string>& warnings)
+/// All warnings of a change, in one line.
+std::string joined(const std::vector<std::string>& warnings)
 {
+  std::string all;
   for (const std::string& warning : warnings)
-    ROS_WARN_STREAM_THROTTLE(1.0, shortLine(warning));
+    all += (all.empty() ? "" : "; ") + warning;
+  return shortLine(all);
 }
 }  // namespace
 
@@ -56,16 +58,20 @@ ApplyPlanningScene::Response SceneServices::apply(const ApplyPlanningScene::Requ
             changeFrom(request.scene, *store_.snapshot().scene->robot, store_.limits(), &warnings);
         SceneStore::Applied applied = apply(change, lookup_);
         warnings.insert(warnings.end(), applied.warnings.begin(), applied.warnings.end());
-        for (const std::string& warning : warnings)
-          response.message += (response.message.empty() ? "" : "; ") + warning;
-        response.message = shortLine(response.message);
+        response.message = joined(warnings);
         response.scene_revision = applied.revision;
       });
 }
 
 Clear::Response SceneServices::clear()
 {
-  return respond<Clear::Response>([&](Clear::Response& response) { response.scene_revision = store_.clear(); });
+  return respond<Clear::Response>(
+      [&](Clear::Response& response)
+      {
+        const SceneStore::Applied applied = store_.clear();
+        response.message = joined(applied.warnings);
+        response.scene_revision = applied.revision;
+      });
 }
 
 GetPlanningScene::Response SceneServices::get(const GetPlanningScene::Request& request) const
@@ -80,7 +86,7 @@ SceneChange SceneServices::changeOf(const PlanningSceneMessage& message) const
 {
   std::vector<std::string> warnings;
   SceneChange change = changeFrom(message, *store_.snapshot().scene->robot, store_.limits(), &warnings);
-  warnThrottled(warnings);
+  warnOfMessage(warnings);
   return change;
 }
 
@@ -102,7 +108,7 @@ SceneChange SceneServices::changeOf(const AttachedCollisionObject& message) cons
 
 void SceneServices::make(const SceneChange& change, const SceneStore::Lookup& lookup)
 {
-  warnThrottled(apply(change, lookup).warnings);
+  warnOfMessage(apply(change, lookup).warnings);
 }
 
 void SceneServices::take(const sensor_msgs::JointState& message)

@@ -34,15 +34,21 @@ void AllowedCollisionMatrix::setDefault(const std::string& body, bool allowed)
   bodies_[body].default_allowed = allowed;
 }
 
-void AllowedCollisionMatrix::removeEntry(const std::string& body)
+std::vector<std::string> AllowedCollisionMatrix::removeEntry(const std::string& body)
 {
   const auto known = bodies_.find(body);
   if (known == bodies_.end())
-    return;
-  for (const auto& entry : known->second.entries)
-    if (entry.first != body)
-      removeHalfOfEntry(entry.first, body);
+    return {};
+  std::vector<std::string> no_longer_forbidden;
+  for (const auto& [other, allowed] : known->second.entries)
+    if (other != body)
+    {
+      if (!allowed && defaultOf(other).value_or(false))
+        no_longer_forbidden.push_back(other);
+      removeHalfOfEntry(other, body);
+    }
   bodies_.erase(known);
+  return no_longer_forbidden;
 }
 
 void AllowedCollisionMatrix::removeHalfOfEntry(const std::string& body, const std::string& other)

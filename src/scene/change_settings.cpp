@@ -49,7 +49,6 @@ void SceneChanger::changeMatrix(const SceneChange& change)
   {
     count_.requireMatrix(*change.matrix);
     scene.allowed_collisions = *change.matrix;
-    has_new_matrix_ = true;
     scene.matrix_source = MatrixSource::SceneFile;
   }
   else if (!change.is_diff)

@@ -5,6 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "scene/frame.h"
+#include "scene/matrix_entries.h"
 #include "scene/rigid_pose.h"
 #include "scene/shape_order.h"
 
@@ -41,6 +42,7 @@ SceneChanger::SceneChanger(const PlanningScene& scene, const std::vector<double>
 /// The world of a full scene is emptied first, so that the change cannot attach an object of the previous scene.
 Change SceneChanger::make(const SceneChange& change)
 {
+  has_new_matrix_ = change.matrix.has_value();
   changeNames(change);
   if (!change.is_diff)
     clearWorld();
@@ -108,7 +110,8 @@ void SceneChanger::require(const ObjectChange& change)
 void SceneChanger::forget(const std::string& id)
 {
   result_.scene.colors.erase(id);
-  result_.scene.allowed_collisions.removeEntry(id);
+  for (std::string& warning : removeEntriesOfObject(result_.scene.allowed_collisions, id))
+    result_.warnings.push_back(std::move(warning));
 }
 
 void SceneChanger::warnOfAllowedCollisions(const std::string& id)

@@ -86,7 +86,7 @@ class SceneChanger
   SceneCount count_;
   const SceneDefaults& defaults_;
   Lookup lookup_;
-  bool has_new_matrix_ = false;          // this change has set the matrix
+  bool has_new_matrix_ = false;          // this change sets the matrix
   std::set<std::string> attached_here_;  // ids of objects that this change attached
   std::set<const Mesh*> valid_meshes_;   // meshes of this change that were found valid
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
+#include "scene/matrix_entries.h"
 
 namespace gpu_planning_scene::core
 {
@@ -84,18 +85,24 @@ SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& l
   }
 }
 
-std::uint64_t SceneStore::clear()
+SceneStore::Applied SceneStore::clear()
 {
   const std::lock_guard<std::mutex> changing(changes_);
   PlanningScene scene = *snapshot().scene;
+  std::vector<std::string> warnings;
+  const auto forget = [&](const std::string& id)
+  {
+    for (std::string& warning : removeEntriesOfObject(scene.allowed_collisions, id))
+      warnings.push_back(std::move(warning));
+  };
   for (const WorldObject& object : scene.objects)
-    scene.allowed_collisions.removeEntry(object.id);
+    forget(object.id);
   for (const AttachedObject& attached : scene.attached)
-    scene.allowed_collisions.removeEntry(attached.object.id);
+    forget(attached.object.id);
   scene.objects.clear();
   scene.attached.clear();
   scene.colors.clear();
-  return replace(std::move(scene), {});
+  return {replace(std::move(scene), {}), std::move(warnings)};
 }
 
 /// Sets the scene and the given variables in one step. The variables are finite.

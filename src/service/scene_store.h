@@ -49,8 +49,9 @@ class SceneStore
   Applied apply(const SceneChange& change, const Lookup& lookup);
 
   /// Removes all objects and attached objects with their entries in the allowed collision matrix, and all colours.
-  /// Returns the new revision.
-  std::uint64_t clear();
+  /// Warns of bodies that an entry forbade to touch an object, and that their default allows to touch a new object of
+  /// the same name.
+  Applied clear();
 
   /// Sets the robot's variables, by name; names that the robot lacks are ignored. The revision stays the same. If a
   /// value is not finite, it throws Error and sets nothing. `stamp`: nanoseconds; 0: unknown.

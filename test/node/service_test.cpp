@@ -399,6 +399,12 @@ TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)
     EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid) << response.message;
   EXPECT_GT(proven.states_checked, sampled.states_checked);
   EXPECT_EQ(proven.states_checked, unnamed.states_checked) << "the node's own rule is the bound";
+  asked.ends[0] = 7.0;
+  const CheckMotions::Response beyond = services.checkMotions(asked);
+  EXPECT_TRUE(beyond.success);
+  EXPECT_EQ(0, beyond.valid.at(0));
+  EXPECT_NE(std::string::npos, beyond.message.find("motion 0: slide is 7.000000, beyond its limits")) << beyond.message;
+  asked.ends[0] = 0.5;
   asked.motion_rule = "sample";
   EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("must be samples or bound"));
   asked.motion_rule = "bound";

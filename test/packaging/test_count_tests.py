@@ -56,6 +56,12 @@ class CountTests(unittest.TestCase):
         report = {"Seeds.Suite.xml": REPORT.format(more="")}
         self.assertEqual(self.count(SUITE.format(status="fail"), reports=report), "2 passed, 1 failed, 1 skipped\n")
 
+    def test_a_skipped_case_that_runs_alone_is_skipped(self):
+        case = '<testsuite><testcase name="Seeds/Suite.C" status="run"/></testsuite>'
+        skipped = '<testsuite><testcase name="C" status="run" result="skipped"><skipped message=""/></testcase></testsuite>'
+        report = {"Seeds.Suite.C.xml": skipped}
+        self.assertEqual(self.count(case, reports=report), "0 passed, 0 failed, 1 skipped\n")
+
     def test_a_suite_that_crashes_without_a_report_failed(self):
         self.assertEqual(self.count(SUITE.format(status="fail")), "0 passed, 1 failed, 0 skipped\n")
 

@@ -31,7 +31,7 @@ TEST(AllowedCollisionMatrix, ABodyWithADefaultKeepsItWhenItsLastPartnerIsRemoved
   AllowedCollisionMatrix matrix;
   matrix.setDefault("a", true);
   matrix.setEntry("a", "b", false);
-  matrix.removeEntry("b");
+  EXPECT_EQ((std::vector<std::string>{"a"}), matrix.removeEntry("b")) << "'a' may touch 'b' now";
   EXPECT_TRUE(matrix.allowed("a", "b"));
 }
 
@@ -141,6 +141,19 @@ TEST_F(AllowedObject, IsWarnedOfWhereEarlierEntriesAllowANewObject)
   apply(both);
   EXPECT_TRUE(isAllowed());
   EXPECT_TRUE(warnings_.empty()) << "the same change says what the object may touch";
+}
+TEST_F(AllowedObject, IsWarnedOfWhenItsRemovalEndsAProhibition)
+{
+  SceneChange forbid;
+  forbid.is_diff = true;
+  forbid.matrix = AllowedCollisionMatrix::fromRobot(*scene_.robot);
+  forbid.matrix->setDefault("cart", true);
+  forbid.matrix->setEntry("big", "cart", false);
+  apply(forbid);
+  EXPECT_FALSE(isAllowed());
+  change(objectChange(Operation::Remove, "big"));
+  EXPECT_TRUE(isAllowed());
+  EXPECT_TRUE(warned("the matrix entry that forbids contact with 'cart'"));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -45,7 +45,7 @@ TEST_F(Store, AChangeMakesANewRevisionAndLeavesOldScenesAlone)
   EXPECT_TRUE(before->objects.empty());
   ASSERT_EQ(1u, store.snapshot().scene->objects.size());
   EXPECT_EQ(1u, store.snapshot().scene->revision);
-  EXPECT_EQ(2u, store.clear());
+  EXPECT_EQ(2u, store.clear().revision);
   EXPECT_TRUE(store.snapshot().scene->objects.empty());
 }
 

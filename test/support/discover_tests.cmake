@@ -1,7 +1,7 @@
 # gps_add_test runs this script after it has linked a GoogleTest program. The script writes FILE, which ctest reads. FILE adds
 # one CTest test per suite, because each new process loads robots and compiles shaders again. If the environment variable
 # GPS_EACH_CASE is set, FILE adds one CTest test per case.
-# PROGRAM: path of the program; RESULTS: folder for the XML reports of the suites; PROPERTIES: properties of all these tests.
+# PROGRAM: path of the program; RESULTS: folder for the XML reports of the tests; PROPERTIES: properties of all these tests.
 execute_process(COMMAND ${CMAKE_COMMAND} -E env ASAN_OPTIONS=detect_leaks=0 ${PROGRAM} --gtest_list_tests
   RESULT_VARIABLE status OUTPUT_VARIABLE listing ERROR_VARIABLE error TIMEOUT 60)
 if(NOT status EQUAL 0)
@@ -21,7 +21,9 @@ endfunction()
 foreach(line IN LISTS listing)
   string(REGEX REPLACE " *#.*" "" line "${line}")
   if(line MATCHES "^  (.+)$")
-    add(cases "${suite}.${CMAKE_MATCH_1}" "--gtest_filter=${suite}.${CMAKE_MATCH_1}")
+    set(name "${suite}.${CMAKE_MATCH_1}")
+    string(REPLACE "/" "." report "${name}")
+    add(cases "${name}" "--gtest_filter=${name}" "--gtest_output=xml:${RESULTS}/${report}.xml")
   elseif(line MATCHES "^(.+)[.]$")
     set(suite "${CMAKE_MATCH_1}")
     string(REPLACE "/" "." report "${suite}")

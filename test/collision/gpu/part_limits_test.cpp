@@ -46,10 +46,14 @@ TEST(BatchSizes, ApproachTheWantedTime)
   EXPECT_EQ(65536u, size.size()) << "0.1 us a state: the largest batch takes no 50 ms";
   size.took(65536, 1.0);
   EXPECT_NEAR(3276.0, static_cast<double>(size.size()), 1.0);
+  const std::size_t before = size.size();
+  size.took(0, 1e-6);
   size.took(10, 0.001);
-  EXPECT_NEAR(500.0, static_cast<double>(size.size()), 1.0) << "also a small batch tells that states take long";
+  EXPECT_EQ(before, size.size()) << "short batches within the wanted time change nothing";
   size.took(10, 1e-6);
-  EXPECT_NEAR(500.0, static_cast<double>(size.size()), 1.0) << "and not that they are quick: a full batch does";
+  EXPECT_EQ(before, size.size()) << "nor do quick ones that are not full";
+  size.took(1000, 0.1);
+  EXPECT_NEAR(500.0, static_cast<double>(size.size()), 1.0) << "a short batch that took too long";
   size.took(size.size(), 10.0);
   EXPECT_EQ(64u, size.size());
 }

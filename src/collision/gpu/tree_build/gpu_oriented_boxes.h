@@ -10,8 +10,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// A node with its oriented box in the layout of the GPU memory (shaders/traversal/bounding_volume_overlap.glsl). In the
-/// frame of the mesh, in metres.
+/// A node with its oriented box in the layout of the GPU memory (shaders/traversal/bounding_volume_overlap.glsl). In
+/// the frame of the mesh, in metres.
 struct OrientedNode
 {
   std::array<float, 3> center;
