@@ -10,6 +10,7 @@
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
+#include "support/repetitions.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
@@ -37,13 +38,13 @@ TEST_P(Invariance, ValidIsTheSameForTraversalsBatchSizesAndOrders)
     GTEST_SKIP() << "there is no " << missing;
   const TestScene& scene = testScene(GetParam());
   // All batch sizes check the same states. Small batches check fewer of them, to save time.
-  constexpr std::size_t kStates = 16384;
+  constexpr std::size_t kStates = repetitions(4096, 16384);
   const std::vector<double> states = scene.randomStates(kStates, kSeed);
   const std::size_t width = scene.scene->robot->variables().size();
   BatchChecker reference(scene.scene, with(Traversal::WorkQueue));
   const std::vector<std::uint8_t> valid = reference.check(states.data(), kStates).valid;
   for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
-    for (const std::size_t batch : {1, 7, 64, 1024, 16384})
+    for (const std::size_t batch : {std::size_t{1}, std::size_t{7}, std::size_t{64}, std::size_t{1024}, kStates})
     {
       const std::size_t count = std::min<std::size_t>(kStates, batch * 64);
       BatchChecker checker(scene.scene, with(traversal, batch));
