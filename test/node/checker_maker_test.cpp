@@ -54,12 +54,13 @@ class CheckerMaker : public testing::Test
   {
     if (!server_)
     {
-      const OpenDevice open = [this, repaired = repaired_.get_future().share()](
+      // A thread that waits for `repaired` may go on after the end of the test, so it must not use `this` afterwards.
+      const OpenDevice open = [this, losses = losses_, repaired = repaired_.get_future().share()](
                                   std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions&)
       {
         if (fault_ != nullptr)
           fault_.load()(repaired);
-        return std::make_unique<Device>(std::move(scene), losses_);
+        return std::make_unique<Device>(std::move(scene), losses);
       };
       server_ = std::make_unique<CheckServer>(store_, checkerMaker({}, resilience_, open, diagnostics_),
                                               CheckServerOptions());
