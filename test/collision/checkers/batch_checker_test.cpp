@@ -207,9 +207,9 @@ TEST_F(BatchCheckerTest, SceneWithoutObjectsIsCheckedAgainstTheRobotAlone)
 TEST_F(BatchCheckerTest, AgreesWithTheCpuAtALatticeOfStates)
 {
   std::vector<double> states;
-  for (double shoulder = -3.0; shoulder <= 3.0; shoulder += 0.1)
-    for (double elbow = -3.1; elbow <= 3.1; elbow += 0.1)
-      states.insert(states.end(), {shoulder, elbow});
+  for (int shoulder = -30; shoulder <= 30; ++shoulder)
+    for (int elbow = -31; elbow <= 31; ++elbow)
+      states.insert(states.end(), {0.1 * shoulder, 0.1 * elbow});
   const std::size_t count = states.size() / 2;
   const std::vector<std::uint8_t> expected = CpuChecker(scene_).check(states.data(), count).valid;
   EXPECT_GT(std::count(expected.begin(), expected.end(), 0), 50);

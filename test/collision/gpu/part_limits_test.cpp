@@ -18,7 +18,7 @@ TEST(PartLimits, IsSoSmallThatNoProductOfStatesWrapsInThirtyTwoBits)
   constexpr std::size_t kTextureBytes = std::size_t{1} << 40;
   for (const std::size_t instances : {1, 10, 1200, MAX_ROBOT_INSTANCES})
   {
-    const std::size_t self_queries = instances * instances / (2 * QUERY_PARTNERS) + instances;
+    const std::size_t self_queries = instances * instances / (std::size_t{2} * QUERY_PARTNERS) + instances;
     const std::size_t states = maxStatesOfPart(kTextureBytes, instances, self_queries);
     SCOPED_TRACE(instances);
     EXPECT_GE(states, 1u);
