@@ -6,15 +6,11 @@
 # it reads each header once for twelve files.
 configure_and_build()
 {
-  local folder=$1 log="$1/build.log" launcher=()
+  local folder=$1 log="$1/build.log"
   shift
   use_build_folder "$folder"
-  if command -v ccache > /dev/null; then
-    launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    export CCACHE_BASEDIR="$repository" CCACHE_NOHASHDIR=1  # a second clone finds the objects of the first
-  fi
   if ! run cmake -S "$repository" -B "$folder" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 "${launcher[@]}" "$@" > "$log" 2>&1; then
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 "$@" > "$log" 2>&1; then
     tail -40 "$log" >&2
     die "CMake could not configure the package (above; all of it in ${log#"$repository"/})"
   fi

@@ -1,1 +1,1 @@
-// This file is empty. Its target precompiles the headers of the tests (see test/CMakeLists.txt).
+// This file is empty. Two targets use it: they precompile headers of the tests and of the benchmarks.
