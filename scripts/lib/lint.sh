@@ -23,9 +23,9 @@ git_here()
   git -C "$repository" -c safe.directory='*' "$@" 2> /dev/null
 }
 
-# files_to_lint: prints the changed .cpp files, committed or not, and one .cpp file per changed header: the file of the same
-# name, or else the first file that includes the header. clang-tidy reports the findings of a header through any file that
-# includes it. If git does not know the changes, prints all .cpp files.
+# files_to_lint: prints the changed .cpp files, committed or not, and one .cpp file per changed header: the file of the
+# same name, or else the first file that includes the header. clang-tidy reports the findings of a header through any
+# file that includes it. If git does not know the changes, prints all .cpp files.
 files_to_lint()
 {
   local base changed header
@@ -44,7 +44,7 @@ files_to_lint()
   } | sort --unique
 }
 
-# includer_of HEADER: a .cpp file that includes it.
+# includer_of HEADER: prints a .cpp file that includes the header.
 includer_of()
 {
   local name=${1##*/} includers
@@ -53,8 +53,9 @@ includer_of()
   grep "/${name%.h}\.cpp$" <<< "$includers" | head -1 | grep . || head -1 <<< "$includers"
 }
 
-# lint: prints the findings of clang-tidy in the changed files; fails if there are any. clang-tidy needs a compile command for
-# each file, which a unity build does not have. So lint configures a second build folder, and builds only the messages there.
+# lint: prints the findings of clang-tidy in the changed files; fails if there are any. clang-tidy needs a compile command
+# for each file, which a unity build does not have. So lint configures a second build folder, and builds only the
+# messages there.
 lint()
 {
   local list="$temporary/lint" folder="$build/lint" target=gpu_planning_scene_generate_messages_cpp
