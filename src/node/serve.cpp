@@ -4,8 +4,6 @@
 #include <atomic>
 #include <optional>
 
-#include <malloc.h>
-
 #include "collision/checkers/scene_text.h"
 #include "node/check_services.h"
 #include "node/checker_maker.h"
@@ -33,14 +31,6 @@ void warn(const std::vector<std::string>& warnings)
     ROS_WARN_STREAM(warning);
 }
 
-/// glibc gives each thread its own heap, and memory freed in one heap does not serve the other threads. The node has a
-/// thread for each waiting request, and destroys scenes and devices on other threads than it made them on. So with many
-/// heaps the process would grow for hours.
-void useOneHeap()
-{
-  mallopt(M_ARENA_MAX, 1);
-}
-
 void logScene(CheckServer& server)
 {
   CheckJob job;
@@ -55,7 +45,6 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
            const std::function<bool()>& stop)
 {
   std::optional<ShutdownDeadline> deadline;  // declared first, so that it covers the destructors of all objects below
-  useOneHeap();
   const ServiceOptions options = serviceOptionsFromParameters(own);
   const CheckServerOptions server_options = serverOptionsFromParameters(own);
   const BatchCheckerOptions checker_options = checkerOptionsFromParameters(own);

@@ -1,22 +1,16 @@
 // The unchanged node on a device that fails now and then, for the soak test.
 
 #include <atomic>
-#include <csignal>
-#include <iostream>
 #include <random>
-
-#include <ros/ros.h>
 
 #include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/error.h"
-#include "node/serve.h"
+#include "node/run_node.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-volatile std::sig_atomic_t stop_requested = 0;
-
 /// A checker whose device is lost in about one of 100 calls.
 class FaultyChecker : public StateChecker
 {
@@ -61,21 +55,5 @@ std::unique_ptr<StateChecker> openFaulty(std::shared_ptr<const PlanningScene> sc
 
 int main(int argc, char** argv)
 {
-  using namespace gpu_planning_scene::core;
-  ros::init(argc, argv, "planning_scene", ros::init_options::NoSigintHandler);
-  const auto stop = [](int) { stop_requested = 1; };
-  std::signal(SIGINT, stop);
-  std::signal(SIGTERM, stop);
-  ros::NodeHandle node;
-  ros::NodeHandle own("~");
-  try
-  {
-    serve(node, own, openFaulty, [] { return stop_requested != 0; });
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << error.what() << "\n";
-    return 1;
-  }
+  return gpu_planning_scene::core::runNode(argc, argv, gpu_planning_scene::core::openFaulty);
 }

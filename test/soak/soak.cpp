@@ -204,15 +204,13 @@ class Soak : public RunningNode
                : latencies[static_cast<std::size_t>(fraction * static_cast<double>(latencies.size() - 1))];
   }
 
-  /// Mean memory in bytes over a part of the reported diagnostics; `from` and `to` are fractions of the run.
-  double memory(double from, double to)
+  /// The least memory in bytes that the diagnostics reported in a part of the run; `from` and `to` are fractions of the
+  /// run. While no device is open, the node uses least: an open device on llvmpipe needs some 300 MB more.
+  double leastMemory(double from, double to)
   {
     const auto at = [this](double fraction)
     { return memories.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(memories.size())); };
-    double sum = 0.0;
-    for (auto i = at(from); i != at(to); ++i)
-      sum += *i;
-    return sum / static_cast<double>(std::max<std::ptrdiff_t>(1, at(to) - at(from)));
+    return at(from) == at(to) ? 0.0 : *std::min_element(at(from), at(to));
   }
 
   std::atomic<bool> done{false};
@@ -270,8 +268,10 @@ TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
               judge->oracle_samples);
   std::printf("latency: p50 %.1f ms, p99 %.1f ms, max %.1f ms\n", 1e3 * latency(0.5), 1e3 * latency(0.99),
               1e3 * latency(1.0));
-  std::printf("memory: %.1f MiB in the second quarter, %.1f MiB in the last\n", memory(0.25, 0.5) / 1048576.0,
-              memory(0.75, 1.0) / 1048576.0);
+  const double early = leastMemory(0.25, 0.5);
+  const double late = leastMemory(0.75, 1.0);
+  std::printf("least memory: %.1f MiB in the second quarter, %.1f MiB in the last\n", early / 1048576.0,
+              late / 1048576.0);
   EXPECT_EQ(0u, judge->wrong);
   EXPECT_EQ(0u, judge->malformed);
   EXPECT_EQ(0u, judge->too_old);
@@ -285,7 +285,11 @@ TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
   EXPECT_GT(changes, 50);
   EXPECT_GT(killed, 5);
   EXPECT_GT(losses, 0.0) << "the test is to lose devices";
-  EXPECT_LT(memory(0.75, 1.0), 1.1 * memory(0.25, 0.5) + 64e6);
+  // A device is lost about every four seconds, so a shorter run may never be without one for part of a quarter. And the
+  // address sanitizer keeps the first 256 MB that are freed.
+  constexpr double kShortestForMemory = 120.0;  // seconds
+  if (seconds >= kShortestForMemory)
+    EXPECT_LT(late, 1.1 * early + 8e6);
 }
 
 /// Sends requests until the process is killed.
