@@ -2,14 +2,11 @@
 
 #include <utility>
 
-#include "collision/exact/binned_sah.h"
-
 namespace gpu_planning_scene::core
 {
 std::unique_ptr<const CpuTraversal> ForestCache::traversalOf(std::shared_ptr<const CollisionProblem> problem)
 {
-  const auto build = [](const std::vector<Tessellation>& shapes) { return buildBinnedSah(shapes); };
-  forest_ = std::make_shared<const CpuForest>(*problem, forest_ ? *forest_ : CpuForest(), build);
+  forest_ = std::make_shared<const CpuForest>(*problem);
   objects_ = std::make_shared<const ObjectTree>(worldBounds(*problem, *forest_), objects_ ? *objects_ : ObjectTree());
   return std::make_unique<const CpuTraversal>(std::move(problem), forest_, objects_);
 }

@@ -10,6 +10,7 @@
 #include "support/inside.h"
 #include "support/moving_shape.h"
 #include "support/obstacles.h"
+#include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
 {
@@ -71,7 +72,7 @@ TEST(CpuTraversal, FindsWhatTestingEverythingFindsForAllKindsOfShapes)
     {
       MovingShape pairs(a, {{b, Isometry3d::Identity()}});
       int hits = 0;
-      const int poses = isMesh(a) && isMesh(b) ? 30 : 60;
+      const int poses = isMesh(a) && isMesh(b) ? repetitions(15, 30) : repetitions(30, 60);
       for (int i = 0; i < poses; ++i)
       {
         const Isometry3d pose = randomPose(generator, isMesh(a) && isMesh(b) ? 0.18 : 0.12);

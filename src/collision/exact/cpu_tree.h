@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "collision/exact/forest.h"
+#include "collision/geometry/components.h"
+#include "collision/geometry/oriented_box.h"
+#include "collision/geometry/triangle_pair.h"
+#include "gpu_planning_scene/shapes.h"
+
+namespace gpu_planning_scene::core
+{
+/// A node of a shape's tree. It fills two cache lines, so a visit loads nothing else.
+struct alignas(64) CpuNode
+{
+  OrientedBox box;      ///< contains the triangles below the node
+  std::uint32_t first;  ///< inner node: its children are nodes first and first + 1; leaf: its first triangle
+  std::uint32_t count;  ///< 0: inner node; otherwise the number of a leaf's triangles
+
+  bool isLeaf() const { return count != 0; }
+};
+static_assert(sizeof(CpuNode) == 128, "two cache lines");
+
+/// A shape's tree in the layout for the CPU's queries, with the shape's bounds and components. Immutable.
+struct CpuTree
+{
+  Shape shape;
+  bool mesh;
+  Eigen::Vector3d center;  ///< centre of an axis-aligned box that contains the exact shape, not only its tessellation
+  Eigen::Vector3d half;
+  OrientedBox box;                   ///< oriented box that contains the exact shape
+  MeshComponents components;         ///< connected components, meshes only
+  Eigen::AlignedBox3d solid_bounds;  ///< bounds of all closed components together; empty if there are none
+
+  std::vector<CpuNode> nodes;              ///< node 0 is the root; children come after their parents
+  std::vector<Triangle> triangles;         ///< in the order of the leaves; a leaf's `first` and `count` index them
+  std::vector<std::uint8_t> bounds_solid;  ///< one per triangle: 1 if it belongs to a closed component
+};
+
+/// The tree of a shape, over the triangles of `mesh`: tree `number` of `forest`, which must be valid for them.
+std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Mesh& mesh, const Forest& forest,
+                                           std::size_t number);
+
+/// The tree of a shape. All checkers of the process share it: while the tree of an equal shape is in use, this is that
+/// tree; otherwise it is built. Equal shapes are the same mesh, or primitives of the same kind and dimensions. `shape`
+/// must not be a half-space. Thread-safe.
+std::shared_ptr<const CpuTree> cpuTreeOf(const Shape& shape, const Tessellation& tessellation);
+}  // namespace gpu_planning_scene::core
