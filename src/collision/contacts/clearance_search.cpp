@@ -8,9 +8,10 @@
 
 #include "collision/exact/cpu_shape_pair.h"
 #include "collision/exact/cpu_traversal.h"
+#include "collision/exact/pair_clearance.h"
 
 // Best-first search with bounding boxes: a pair is tested only if its boxes may be nearer than the best clearance so
-// far. Bisection over the required distance then gives the clearance of the pair.
+// far.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -27,20 +28,20 @@ struct Nearest
   double clearance = std::numeric_limits<double>::infinity();
   BodyPair bodies = kNoPair;
 
-  /// Updates the result with a pair whose clearance is between two bounds. `collides(x)`: whether the clearance is at
-  /// most x. Most pairs cost only a comparison of bounds, or one test.
-  template <class Collides>
-  void consider(double lower, double upper, std::int32_t a, std::int32_t b, const Collides& collides)
+  /// Updates the result with a pair. `collides`: whether it collides. `clearance_of(x)`: its clearance if that is below
+  /// x, and otherwise x. Neither is called for most pairs, because the pair's clearance is at least `lower`.
+  template <class Collides, class ClearanceOf>
+  void consider(double lower, double upper, std::int32_t a, std::int32_t b, const Collides& collides,
+                const ClearanceOf& clearance_of)
   {
     if (std::max(0.0, lower) >= clearance)
       return;
-    if (std::isfinite(clearance))
-    {
-      if (!collides(clearance))
-        return;
-      upper = clearance;
-    }
-    clearance = collides(0.0) ? 0.0 : bisectLeast(std::max(0.0, lower), std::max(0.0, upper), collides);
+    const bool is_first = !std::isfinite(clearance);
+    const double most = is_first ? std::max(0.0, upper) : clearance;
+    const double found = lower <= 0.0 && collides() ? 0.0 : clearance_of(most);
+    if (!is_first && found >= clearance)
+      return;
+    clearance = found;
     bodies = {std::min(a, b), std::max(a, b)};
   }
 };
@@ -63,12 +64,16 @@ class Search
  public:
   Search(const CollisionProblem& problem, std::shared_ptr<const CpuForest> forest, const ObjectTree& objects,
          const std::vector<AlignedBox3d>& world_bounds, const Isometry3d* link_poses)
-    : problem_(problem), pair_(forest, problem.tolerance), objects_(objects), world_bounds_(world_bounds)
+    : problem_(problem),
+      forest_(std::move(forest)),
+      pair_(forest_, problem.tolerance),
+      objects_(objects),
+      world_bounds_(world_bounds)
   {
     for (const ShapeInstance& geometry : problem.robot)
     {
       poses_.push_back(link_poses[geometry.link] * geometry.pose);
-      bounds_.push_back(boundsOf(forest->tree(geometry.tree), poses_.back()));
+      bounds_.push_back(boundsOf(forest_->tree(geometry.tree), poses_.back()));
     }
   }
 
@@ -90,9 +95,13 @@ class Search
       const auto [i, j] = pair;
       const ShapeInstance& a = problem_.robot[i];
       const ShapeInstance& b = problem_.robot[j];
-      nearest.consider(lower, maxDistance(bounds_[i], bounds_[j]), a.body, b.body,
-                       [&, i = i, j = j](double distance)
-                       { return pair_.collide(a.tree, poses_[i], b.tree, poses_[j], distance, scratch_); });
+      nearest.consider(
+          lower, maxDistance(bounds_[i], bounds_[j]), a.body, b.body,
+          [&, i = i, j = j] { return pair_.collide(a.tree, poses_[i], b.tree, poses_[j], 0.0, scratch_); },
+          [&, i = i, j = j](double most) {
+            return pairClearance(forest_->tree(a.tree), poses_[i], forest_->tree(b.tree), poses_[j], 0.0, most,
+                                 scratch_);
+          });
     }
     return nearest;
   }
@@ -150,11 +159,15 @@ class Search
     const ShapeInstance& a = problem_.robot[instance];
     const ShapeInstance& b = problem_.world[object];
     const double required = a.padding + b.padding;
-    nearest.consider(leastDistance(bounds_[instance], world_bounds_[object]) - required,
-                     maxDistance(bounds_[instance], world_bounds_[object]) - required, a.body, b.body,
-                     [&](double distance) {
-                       return pair_.collide(a.tree, poses_[instance], b.tree, b.pose, required + distance, scratch_);
-                     });
+    nearest.consider(
+        leastDistance(bounds_[instance], world_bounds_[object]) - required,
+        maxDistance(bounds_[instance], world_bounds_[object]) - required, a.body, b.body,
+        [&] { return pair_.collide(a.tree, poses_[instance], b.tree, b.pose, required, scratch_); },
+        [&](double most)
+        {
+          return pairClearance(forest_->tree(a.tree), poses_[instance], forest_->tree(b.tree), b.pose, required, most,
+                               scratch_);
+        });
   }
 
   void considerHalfSpace(std::uint32_t instance, const WorldHalfSpace& half_space, Nearest& nearest)
@@ -163,12 +176,14 @@ class Search
     const double required = a.padding + half_space.padding;
     const double center = half_space.normal.dot(bounds_[instance].center()) - half_space.offset - required;
     const double reach = 0.5 * half_space.normal.cwiseAbs().dot(bounds_[instance].sizes()) + kDistanceMargin;
-    nearest.consider(center - reach, center + reach, a.body, half_space.body,
-                     [&](double distance)
-                     {
-                       return pair_.collide(a.tree, poses_[instance], {half_space.normal, half_space.offset},
-                                            required + distance, scratch_);
-                     });
+    const auto collides = [&](double distance)
+    {
+      return pair_.collide(a.tree, poses_[instance], {half_space.normal, half_space.offset}, required + distance,
+                           scratch_);
+    };
+    nearest.consider(
+        center - reach, center + reach, a.body, half_space.body, [&] { return collides(0.0); },
+        [&](double most) { return collides(most) ? bisectLeast(0.0, most, collides) : most; });
   }
 
   struct Entry
@@ -178,6 +193,7 @@ class Search
   };
 
   const CollisionProblem& problem_;
+  std::shared_ptr<const CpuForest> forest_;
   CpuShapePair pair_;
   const ObjectTree& objects_;
   const std::vector<AlignedBox3d>& world_bounds_;

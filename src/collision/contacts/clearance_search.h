@@ -31,20 +31,4 @@ class ClearanceSearch
   std::shared_ptr<const ObjectTree> objects_;
   std::vector<Eigen::AlignedBox3d> world_bounds_;  // boxes of the world's instances, without padding
 };
-
-/// Bisection for the least x in [low, high] with holds(x). `holds` must be true for `high` and for all values above the
-/// least one. The result is at most 1e-6 m below the least x, and never above it.
-template <class Predicate>
-double bisectLeast(double low, double high, const Predicate& holds)
-{
-  constexpr double kResolution = 1e-6;  // metres
-  while (high - low > kResolution)
-  {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high)
-      break;  // doubles of this size have no finer resolution
-    (holds(middle) ? high : low) = middle;
-  }
-  return low;
-}
 }  // namespace gpu_planning_scene::core

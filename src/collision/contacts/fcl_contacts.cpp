@@ -10,7 +10,7 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
-#include "collision/contacts/clearance_search.h"
+#include "collision/exact/pair_clearance.h"
 #include "collision/geometry/primitive_solid.h"
 
 // FCL computes contact points and nearest points. Its results are used only if they agree with the exact test;

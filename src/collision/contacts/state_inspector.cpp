@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "collision/contacts/fcl_contacts.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/exact/forest_cache.h"
+#include "collision/parallel_for.h"
 #include "collision/problem/state_validation.h"
 
 // The exact checker finds the colliding pairs of instances. FCL gives their contacts, of which the deepest ones per
@@ -232,7 +234,33 @@ std::vector<Contact> StateInspector::contacts(const double* state, const std::st
 
 Clearance StateInspector::clearance(const double* state, const std::string& group) const
 {
+  return clearances(state, 1, group).front();
+}
+
+std::vector<Clearance> StateInspector::clearances(const double* states, std::size_t count,
+                                                  const std::string& group) const
+{
   const Inspected& inspected = impl_->inspected(group);
-  return inspected.clearance->find(impl_->linkPoses(state).data());
+  const RobotModel& robot = *impl_->scene->robot;
+  validateStates(robot, states, count);
+  std::vector<Clearance> found(count);
+  std::vector<std::exception_ptr> errors(count);
+  parallelFor(count, 1,
+              [&, poses = std::vector<Eigen::Isometry3d>(robot.links().size())](std::size_t i, std::size_t) mutable
+              {
+                try
+                {
+                  robot.linkPoses(states + i * robot.variables().size(), poses.data());
+                  found[i] = inspected.clearance->find(poses.data());
+                }
+                catch (...)
+                {
+                  errors[i] = std::current_exception();
+                }
+              });
+  for (const std::exception_ptr& error : errors)
+    if (error)
+      std::rethrow_exception(error);
+  return found;
 }
 }  // namespace gpu_planning_scene::core

@@ -24,17 +24,6 @@ constexpr double kToleranceMargin = 1e-9;  // metres
 // The test of two solids costs about as much as visiting this many nodes.
 constexpr std::uint64_t kStepsOfSolids = 20;
 
-/// The pose of b in the frame of a. The translations are subtracted first, so no digits are lost if both are far from
-/// the origin.
-Isometry3d relativePose(const Isometry3d& a, const Isometry3d& b)
-{
-  Isometry3d b_in_a;
-  b_in_a.linear().noalias() = a.linear().transpose() * b.linear();
-  b_in_a.translation().noalias() = a.linear().transpose() * (b.translation() - a.translation());
-  b_in_a.makeAffine();
-  return b_in_a;
-}
-
 bool leavesMeet(const CpuTree& tree_a, const CpuNode& a, const CpuTree& tree_b, const CpuNode& b,
                 const Isometry3d& b_in_a, double required)
 {

@@ -84,6 +84,17 @@ class BoxPairTest
   Eigen::Matrix3d abs_r_;
 };
 
+/// The pose of b in the frame of a. The translations are subtracted first, so no digits are lost if both are far from
+/// the origin.
+inline Eigen::Isometry3d relativePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
+{
+  Eigen::Isometry3d b_in_a;
+  b_in_a.linear().noalias() = a.linear().transpose() * b.linear();
+  b_in_a.translation().noalias() = a.linear().transpose() * (b.translation() - a.translation());
+  b_in_a.makeAffine();
+  return b_in_a;
+}
+
 inline OrientedBox placed(const OrientedBox& box, const Eigen::Isometry3d& pose)
 {
   return {pose.linear() * box.axes, pose * box.center, box.half};

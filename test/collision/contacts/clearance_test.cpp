@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/bounds/problem_maker.h"
-#include "collision/contacts/clearance_search.h"
+#include "collision/exact/pair_clearance.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/state_inspector.h"
 #include "oracle/problem_oracle.h"

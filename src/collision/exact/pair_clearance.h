@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "collision/exact/cpu_shape_pair.h"
+#include "collision/exact/cpu_tree.h"
+
+namespace gpu_planning_scene::core
+{
+/// Bisection for the least x in [low, high] with holds(x). `holds` must be true for `high` and for all values above the
+/// least one. The result is at most 1e-6 m below the least x, and never above it.
+template <class Predicate>
+double bisectLeast(double low, double high, const Predicate& holds)
+{
+  constexpr double kResolution = 1e-6;  // metres
+  while (high - low > kResolution)
+  {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high)
+      break;  // doubles of this size have no finer resolution
+    (holds(middle) ? high : low) = middle;
+  }
+  return low;
+}
+
+/// The clearance of two shapes that do not collide with the required distance `required`: the least x above 0 for which
+/// they collide with the required distance `required` + x, as CpuShapePair decides it. Of a clearance of `most` or
+/// more, the result is `most`; otherwise it is at most 1e-6 m below the clearance, and never above it.
+double pairClearance(const CpuTree& a, const Eigen::Isometry3d& pose_a, const CpuTree& b,
+                     const Eigen::Isometry3d& pose_b, double required, double most, CpuShapePair::Scratch& scratch);
+}  // namespace gpu_planning_scene::core
