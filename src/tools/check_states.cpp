@@ -114,6 +114,8 @@ void run(const CommandLine& arguments)
   if (!group.empty())
     scene->robot->group(group);
   const auto source = stateSourceFrom(arguments, *scene);
+  if (const std::string warning = source->warning(); !warning.empty())
+    printWarnings({warning});
   const std::string out_path = arguments.value("--out", "");
   std::ofstream out_file;
   if (!out_path.empty())
