@@ -136,6 +136,7 @@ void fillReport(const CheckAnswer& answer, GetReport::Response& response)
   add("unreachable_objects", report.unreachable_objects);
   add("settled_pairs", report.settled_pairs);
   add("always_colliding", report.always_colliding ? 1 : 0);
+  add("colliding_in_samples", report.colliding_in_samples.size());
   add("triangles", report.triangles);
   add("trees", report.trees);
   add("shared_trees", report.shared_trees);

@@ -144,7 +144,9 @@ void run(const CommandLine& arguments)
       throw Error(out_path + ": writing the file failed");
   }
   std::cout.flush();
-  printSummary(*scene, checker->report(group), *source, result, checker->deviceName());
+  const SceneReport report = checker->report(group);
+  printWarnings(warningsOfScene(*scene, report));
+  printSummary(*scene, report, *source, result, checker->deviceName());
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
