@@ -319,6 +319,9 @@ TEST_F(SmallScene, ReportsThePairsThatCollideInEverySample)
   scene_ = std::make_shared<PlanningScene>(*scene_);
   scene_->objects.push_back({"plate", Eigen::Isometry3d::Identity(), {{Box{{0.5, 0.5, 0.02}}}}});
   addBox("on_mast", {0.0, 0.3, 1.0});
+  // The arm hits this bar unless it turns to the right by more than 0.9 rad.
+  scene_->objects.push_back(
+      {"bar", Eigen::Isometry3d(Eigen::Translation3d(0.31, 0.125, 0.0)), {{Box{{0.02, 0.95, 0.02}}}}});
   const std::set<std::string> expected = {"base - plate", "arm - plate", "mast - on_mast"};
   on_cpu.setScene(scene_);
   EXPECT_EQ(pairs_of(on_cpu), expected);
