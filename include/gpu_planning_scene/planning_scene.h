@@ -125,6 +125,7 @@ struct PlanningScene
 /// their colours and subframes. Every other file is YAML with the field names of MoveIt's PlanningScene, in MoveIt's
 /// own layout (poses with x, y, z, w keys; entry_values with `enabled`) or in a compact layout (`type: box`, poses as
 /// arrays, rows of the matrix without `enabled`).
+/// A list `allowed_collisions` of pairs of names adds to the allowed collision matrix.
 /// Object poses are in `planningFrame()`; header.frame_id can name this frame, a link, or a frame of
 /// fixed_frame_transforms. `meshes`: how to read the mesh files of the scene. `defaults`: padding and scale of the
 /// bodies that the file does not name. `warnings` (may be null) receives a line for each joint that the robot lacks and

@@ -60,6 +60,9 @@ struct BatchResult
   double undecided_seconds = 0.0;    ///< part of `seconds` for deciding them
 };
 
+/// The number of random states for SceneReport::colliding_in_samples.
+constexpr std::size_t kSampledStates = 64;
+
 /// The pairs of a scene that are checked, and the pairs that are left out, by reason.
 struct SceneReport
 {
@@ -76,6 +79,9 @@ struct SceneReport
   std::size_t settled_pairs = 0;  ///< left out: decided once, because no joint moves one body relative to the other
   /// Body indices of a settled pair that collides. Every state then collides.
   std::optional<BodyPair> always_colliding;
+  /// Pairs that collided in each of kSampledStates random states within the joint limits, in ascending order. All
+  /// settled pairs that collide are among them.
+  std::vector<BodyPair> colliding_in_samples;
   std::size_t triangles = 0;     ///< in all trees
   std::size_t trees = 0;         ///< one per distinct shape
   std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal shape

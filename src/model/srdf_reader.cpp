@@ -3,7 +3,7 @@
 #include <tinyxml2.h>
 
 #include "gpu_planning_scene/error.h"
-#include "model/xml.h"
+#include "model/xml_kind.h"
 
 namespace gpu_planning_scene::core
 {
@@ -73,6 +73,7 @@ SrdfVirtualJoint readVirtualJoint(const XmlText& xml, const tinyxml2::XMLElement
 Srdf readSrdf(const std::string& text, const std::string& name)
 {
   const XmlText xml(text, name, "robot");
+  requireSrdf(xml);
   Srdf srdf;
   const char* robot_name = xml.root().Attribute("name");
   srdf.robot_name = robot_name == nullptr ? "" : robot_name;

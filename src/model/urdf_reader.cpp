@@ -10,6 +10,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/xml_kind.h"
 
 namespace gpu_planning_scene::core
 {
@@ -163,6 +164,7 @@ void requireAllCollisionElements(const XmlText& xml, const urdf::ModelInterface&
 
 UrdfText::UrdfText(const std::string& text, const std::string& name) : xml(text, name, "robot")
 {
+  requireUrdf(xml, warnings);
   requireTree(xml);
   LogCapture log;
   try

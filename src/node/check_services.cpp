@@ -6,11 +6,14 @@
 #include <tuple>
 #include <utility>
 
+#include <ros/console.h>
+
 #include "collision/bounds/reach.h"
 #include "collision/checkers/scene_text.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
+#include "model/joint_limits.h"
 #include "model/seconds_since.h"
 #include "node/from_messages.h"
 #include "node/requested_states.h"
@@ -22,6 +25,7 @@ namespace
 {
 constexpr std::size_t kInspections = 2;                    // at the same time
 constexpr std::chrono::milliseconds kPollInterval{100};    // interval in which a waiting request checks for shutdown
+constexpr double kWarningPeriod = 10.0;                    // seconds between warnings about joint limits in the log
 constexpr std::chrono::milliseconds kShutdownGrace{4000};  // longest wait for the checker during a shutdown
 
 Error shuttingDown()
@@ -133,6 +137,7 @@ void fillReport(const CheckAnswer& answer, GetReport::Response& response)
   add("unreachable_objects", report.unreachable_objects);
   add("settled_pairs", report.settled_pairs);
   add("always_colliding", report.always_colliding ? 1 : 0);
+  add("colliding_in_samples", report.colliding_in_samples.size());
   add("triangles", report.triangles);
   add("trees", report.trees);
   add("shared_trees", report.shared_trees);
@@ -185,6 +190,12 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         job.states = request.positions;
         job.group = request.group;
         job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
+        if (const auto outside =
+                findValueOutsideLimits(*store_.snapshot().scene->robot, job.columns, request.positions.data(),
+                                       request.positions.size() / job.columns.size()))
+          response.message = shortLine("state " + std::to_string(outside->row) + ": " + outside->text);
+        if (!response.message.empty())
+          ROS_WARN_STREAM_THROTTLE(kWarningPeriod, "check_states: " << response.message);
         job.keep_states = request.max_contacts != 0 || request.clearance;
         const bool inspects = job.keep_states;
         std::optional<Admission::Pass> pass;

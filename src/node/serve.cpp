@@ -4,7 +4,6 @@
 #include <atomic>
 #include <optional>
 
-#include "collision/checkers/scene_text.h"
 #include "node/check_services.h"
 #include "node/checker_maker.h"
 #include "node/cloud_topic.h"
@@ -16,6 +15,7 @@
 #include "node/plan_service.h"
 #include "node/scene_publisher.h"
 #include "node/scene_topics.h"
+#include "node/scene_watch.h"
 #include "node/shutdown_call.h"
 #include "node/shutdown_deadline.h"
 
@@ -29,15 +29,6 @@ void warn(const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)
     ROS_WARN_STREAM(warning);
-}
-
-void logScene(CheckServer& server)
-{
-  CheckJob job;
-  job.report = true;
-  const CheckAnswer answer = server.submit(std::move(job)).get();
-  for (const std::string& line : describeScene(*answer.scene, *answer.report, answer.device))
-    ROS_INFO_STREAM(line);
 }
 }  // namespace
 
@@ -63,7 +54,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   SceneStore store(std::move(scene), defaults, limits);
   const CheckServer::MakeChecker make_checker = checkerMaker(checker_options, resilience, open_device, diagnostics);
   CheckServer server(store, make_checker, server_options);
-  logScene(server);
+  const SceneWatch watch(own, store, server);
 
   const MemoryGuard memory(options.max_memory);
   std::atomic<bool> stopping{false};

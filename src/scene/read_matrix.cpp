@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 
 #include "scene/scene_reader.h"
@@ -14,6 +15,17 @@ const YamlValue& rowValues(const YamlValue& row, std::size_t count)
     values.fail("a row of " + std::to_string(values.items().size()) + " entries for " + std::to_string(count) +
                 " entry_names");
   return values;
+}
+
+bool hasBody(const PlanningScene& scene, const std::string& name)
+{
+  return scene.robot->linkIndex(name) >= 0 ||
+         std::any_of(
+             scene.objects.begin(), scene.objects.end(),
+             [&name](const WorldObject& object) { return object.id == name; }) ||
+         std::any_of(
+             scene.attached.begin(), scene.attached.end(),
+             [&name](const AttachedObject& attached) { return attached.object.id == name; });
 }
 
 const std::vector<YamlValue>& itemsOrNone(const YamlValue* value)
@@ -65,5 +77,22 @@ bool readMatrix(const YamlValue& value, const SceneReader& reader, AllowedCollis
     result.setDefault(default_names[i].text(), default_values[i].boolean());
   matrix = std::move(result);
   return true;
+}
+
+void addAllowedCollisions(const YamlValue& value, const SceneReader& reader, PlanningScene& scene)
+{
+  for (const YamlValue& pair : value.items())
+  {
+    const std::vector<YamlValue>& names = pair.items();
+    if (names.size() != 2 || names[0].text() == names[1].text())
+      pair.fail("allowed_collisions is a list of pairs of two names, for example [[can, table]]");
+    for (const YamlValue& name : names)
+      if (!hasBody(scene, name.text()))
+        reader.warn(name.where() + ": allowed_collisions: '" + name.text() +
+                    "' is neither a link nor an object of this scene; correct the name, unless an object of that name "
+                    "will be added later");
+    scene.allowed_collisions.setEntry(names[0].text(), names[1].text(), true);
+    scene.matrix_source = MatrixSource::SceneFile;
+  }
 }
 }  // namespace gpu_planning_scene::core

@@ -30,6 +30,7 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
                                                                 "robot_model_name",
                                                                 "fixed_frame_transforms",
                                                                 "allowed_collision_matrix",
+                                                                "allowed_collisions",
                                                                 "link_padding",
                                                                 "link_scale",
                                                                 "object_colors",
@@ -73,6 +74,8 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
   scene.fixed_frames = reader.fixed_frames;
   scene.fixed_frames.erase(robot->planningFrame());
   readObjects(file, reader, scene);
+  if (const YamlValue* allowed = file.find("allowed_collisions"))
+    addAllowedCollisions(*allowed, reader, scene);
   scene.current_state = reader.state;
   return scene;
 }

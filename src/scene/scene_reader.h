@@ -51,6 +51,10 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
 /// Returns false and leaves `matrix` unchanged if the value holds no entries.
 bool readMatrix(const YamlValue& value, const SceneReader& reader, AllowedCollisionMatrix& matrix);
 
+/// Adds the pairs of `allowed_collisions` to the matrix of `scene`. `scene` must already have its objects: a name that
+/// is neither a link nor an object gets a warning.
+void addAllowedCollisions(const YamlValue& value, const SceneReader& reader, PlanningScene& scene);
+
 /// The primitives, meshes and planes of a collision object, in its frame. A plane becomes the half-space behind it.
 std::vector<PlacedShape> readShapes(const YamlValue& object, SceneReader& reader);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 
 #include <yaml-cpp/eventhandler.h>
@@ -11,6 +10,7 @@
 #include <yaml-cpp/parser.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/open_file.h"
 #include "scene/parse_number.h"
 
 namespace gpu_planning_scene::core
@@ -128,6 +128,7 @@ class YamlTreeBuilder : public YAML::EventHandler
       parent.key = std::make_unique<YamlValue>(std::move(value));
       return;
     }
+    value.key_line_ = parent.key->line_;
     parent.value.members_.emplace_back(parent.key->scalar_, std::move(value));
     parent.key.reset();
   }
@@ -142,9 +143,7 @@ class YamlTreeBuilder : public YAML::EventHandler
 
 YamlValue YamlValue::loadFile(const std::string& path)
 {
-  std::ifstream file(path);
-  if (!file || file.peek() == std::ifstream::traits_type::eof())
-    throw Error(path + ": cannot read the file, or it is empty");
+  std::ifstream file = openFile(path);
   YamlTreeBuilder builder(std::make_shared<const std::string>(path));
   YamlValue document;
   try
@@ -259,6 +258,7 @@ void YamlValue::warnOfUnknownKeys(std::initializer_list<const char*> known, std:
 {
   for (const auto& member : members())
     if (warnings && std::find(known.begin(), known.end(), member.first) == known.end())
-      warnings->push_back(member.second.where() + ": unknown key '" + member.first + "' is not used");
+      warnings->push_back(*file_ + ":" + std::to_string(member.second.key_line_) + ": unknown key '" + member.first +
+                          "' is not used");
 }
 }  // namespace gpu_planning_scene::core

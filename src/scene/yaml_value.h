@@ -45,13 +45,15 @@ class YamlValue
   /// The items of a list of exactly `count` finite numbers; fails if the value is not one.
   std::vector<double> numbers(std::size_t count) const;
 
-  /// Adds a line to `warnings` (may be null) for each member whose key is not in `known`.
+  /// Adds a line to `warnings` (may be null) for each member whose key is not in `known`. The line has the place of the
+  /// key.
   void warnOfUnknownKeys(std::initializer_list<const char*> known, std::vector<std::string>* warnings) const;
 
  private:
   friend class YamlTreeBuilder;
   Kind kind_ = Kind::Null;
   int line_ = 0;
+  int key_line_ = 0;  ///< of a map's member: the line of its key
   std::shared_ptr<const std::string> file_;
   std::string scalar_;
   std::vector<YamlValue> items_;

@@ -114,6 +114,8 @@ void run(const CommandLine& arguments)
   if (!group.empty())
     scene->robot->group(group);
   const auto source = stateSourceFrom(arguments, *scene);
+  if (const std::string warning = source->warning(); !warning.empty())
+    printWarnings({warning});
   const std::string out_path = arguments.value("--out", "");
   std::ofstream out_file;
   if (!out_path.empty())
@@ -142,7 +144,9 @@ void run(const CommandLine& arguments)
       throw Error(out_path + ": writing the file failed");
   }
   std::cout.flush();
-  printSummary(*scene, checker->report(group), *source, result, checker->deviceName());
+  const SceneReport report = checker->report(group);
+  printWarnings(warningsOfScene(*scene, report));
+  printSummary(*scene, report, *source, result, checker->deviceName());
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

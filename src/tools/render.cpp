@@ -7,6 +7,7 @@
 
 #include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/state_inspector.h"
+#include "model/joint_limits.h"
 #include "render/renderer.h"
 #include "tools/robot_arguments.h"
 #include "tools/scene_arguments.h"
@@ -44,6 +45,8 @@ std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene&
     std::mt19937_64 generator(static_cast<std::uint64_t>(arguments.integer("--random", 0, 0, 1LL << 32)));
     robot.randomState(generator, state.data());
   }
+  std::vector<int> given;
+  std::vector<double> values;
   std::istringstream words(arguments.value("--state", ""));
   for (std::string word; std::getline(words, word, ',');)
   {
@@ -51,8 +54,12 @@ std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene&
     const int variable = robot.variableIndex(word.substr(0, equals));
     if (equals == std::string::npos || variable < 0)
       throw UsageError("--state: '" + word + "' is not NAME=VALUE with a variable of the robot");
-    state[static_cast<std::size_t>(variable)] = numbersFrom("--state", word.substr(equals + 1), 1)[0];
+    given.push_back(variable);
+    values.push_back(numbersFrom("--state", word.substr(equals + 1), 1)[0]);
+    state[static_cast<std::size_t>(variable)] = values.back();
   }
+  if (const auto outside = findValueOutsideLimits(robot, given, values.data(), 1))
+    printWarnings({"--state: " + outside->text});
   return state;
 }
 

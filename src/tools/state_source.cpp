@@ -5,6 +5,7 @@
 
 #include "collision/checkers/scene_text.h"
 #include "model/full_states.h"
+#include "model/joint_limits.h"
 #include "tools/state_table.h"
 
 namespace gpu_planning_scene::core
@@ -51,6 +52,8 @@ class StatesOfFile : public StateSource
     try
     {
       const std::vector<int> columns = variableIndices(robot, table.names);
+      if (const auto outside = findValueOutsideLimits(robot, columns, table.values.data(), table.rows))
+        warning_ = path + ":" + std::to_string(outside->row + 2) + ": " + outside->text;
       const PartialState current(robot, scene.current_state);
       states_ = fullStates(robot, columns, table.values.data(), table.rows, current);
     }
@@ -62,6 +65,7 @@ class StatesOfFile : public StateSource
 
   std::size_t count() const override { return count_; }
   std::string text() const override { return counted(count_, "state") + " from " + path_; }
+  std::string warning() const override { return warning_; }
 
   const double* next(std::size_t count) override
   {
@@ -72,6 +76,7 @@ class StatesOfFile : public StateSource
 
  private:
   std::string path_;
+  std::string warning_;
   std::size_t width_ = 0;
   std::size_t count_ = 0;
   std::size_t next_ = 0;

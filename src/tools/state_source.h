@@ -17,6 +17,8 @@ class StateSource
   virtual std::size_t count() const = 0;
   /// Text for the user: the number of states and their origin.
   virtual std::string text() const = 0;
+  /// One line about values outside the joint limits; empty if there are none.
+  virtual std::string warning() const { return {}; }
   /// The next `count` states, row-major; valid until the next call.
   virtual const double* next(std::size_t count) = 0;
 };

@@ -1,9 +1,9 @@
 #include "tools/state_table.h"
 
 #include <cmath>
-#include <fstream>
 
 #include "gpu_planning_scene/error.h"
+#include "model/open_file.h"
 #include "scene/parse_number.h"
 
 namespace gpu_planning_scene::core
@@ -49,10 +49,9 @@ double readCell(const std::string& cell, const std::string& where)
 
 StateTable readStateTable(const std::string& path)
 {
-  std::ifstream file(path);
+  std::ifstream file = openFile(path);
   std::string line;
-  if (!file || !std::getline(file, line))
-    throw Error(path + ": cannot read the file, or it is empty");
+  std::getline(file, line);
   if (line.compare(0, 3, "\xEF\xBB\xBF") == 0)
     line.erase(0, 3);  // byte-order mark, as written by spreadsheets
   StateTable table;

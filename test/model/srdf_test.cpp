@@ -36,6 +36,23 @@ TEST(Srdf, CollisionEntriesArePairsOfLinkIndices)
   EXPECT_TRUE(warnings.empty()) << warnings[0];
 }
 
+TEST(Srdf, AUrdfInItsPlaceIsRefused)
+{
+  const std::string message = error("\n<link name='base'/>");
+  EXPECT_EQ(message.find("test.srdf:2: <link> is an element of a URDF, and an SRDF is needed here"), 0u) << message;
+}
+
+TEST(Srdf, XacroIsRefusedWithTheCommandToRun)
+{
+  const std::string message = error("<group name='arm'/>\n<xacro:include filename='x'/>");
+  EXPECT_EQ(
+      message.find("test.srdf:2: <xacro:include> is xacro, which must be expanded first: xacro FILE > robot.srdf, "
+                   "or for the launch file srdf_command:=\"xacro FILE\" instead of srdf:=FILE"),
+      0u)
+      << message;
+  EXPECT_EQ(error("<group name='${name}_arm'/>").find("test.srdf:1: name=\"${name}_arm\" is xacro"), 0u);
+}
+
 TEST(Srdf, UnknownLinksInCollisionEntriesAreWarnings)
 {
   std::vector<std::string> warnings;

@@ -37,6 +37,28 @@ TEST(UrdfErrors, MalformedXmlIsNamedWithItsLine)
   EXPECT_NE(whole("<robot><link name=\"a\"/></robot>"), "");
 }
 
+TEST(UrdfErrors, XacroIsRefusedWithTheCommandToRun)
+{
+  expectError("<link name='a'/>\n<xacro:macro name='arm'/>", "test.urdf:2: <xacro:macro> is xacro",
+              "xacro FILE > robot.urdf, or for the launch file urdf_command:=\"xacro FILE\"");
+  expectError("<link name='a'><collision><geometry>\n<box size='1 1 ${height}'/></geometry></collision></link>",
+              "test.urdf:2: size=\"1 1 ${height}\" is xacro", "urdf_command");
+}
+
+TEST(UrdfErrors, AMacroCallThatXacroLeftIsAWarning)
+{
+  std::vector<std::string> warnings;
+  robotOf("<link name='a'/>\n<xacro:gazebo_head name='head'/>", "", &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].find("test.urdf:2: <xacro:gazebo_head> is the call of a macro that xacro did not expand"), 0u)
+      << warnings[0];
+}
+
+TEST(UrdfErrors, AnSrdfInItsPlaceIsRefused)
+{
+  expectError("\n<group name='arm'/>", "test.urdf:2: <group> without any <link>: this is an SRDF", "srdf:=FILE");
+}
+
 TEST(UrdfErrors, LimitsMustBeThereAndInOrder)
 {
   expectError(kTwoLinks + jointXml("j", "revolute", "a", "b"), "test.urdf:2:", "[j]");

@@ -424,6 +424,17 @@ TEST_F(Service, AMatrixOfARequestReplacesTheScenes)
   EXPECT_EQ((std::vector<std::uint8_t>{1}), answer(asked).valid);
 }
 
+TEST_F(Service, ValuesOutsideTheLimitsAreCheckedWithAWarning)
+{
+  const CheckStates::Response response = answer(request({"turn", "slide"}, {0.5, 0.0, 90.0, 1.0, 0.0, -3.0}));
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 1}), response.valid);
+  EXPECT_EQ(
+      "state 1: joint 'turn' is 90, outside its limits -3 to 3 rad; values are in radians, and 90 degrees are "
+      "1.5708 rad; 1 more value is outside the limits",
+      response.message);
+}
+
 TEST_F(Service, AReportHasLinesAndNumbers)
 {
   const GetReport::Response response = services.report({});

@@ -1,5 +1,9 @@
 // Padding, scale, colours and matrices over ROS; get_planning_scene and clear.
 
+#include <mutex>
+
+#include <rosgraph_msgs/Log.h>
+
 #include "gpu_planning_scene/planning_scene.h"
 #include "node/node_client.h"
 
@@ -95,6 +99,33 @@ TEST_F(Settings, AMatrixOfTheSceneAllowsPairsUntilAFullSceneComes)
   SetUp();
   apply(diffWith(boxObject("box", tipPoint(), 0.02)));
   EXPECT_FALSE(isFree());
+}
+
+TEST_F(Settings, AChangeAfterWhichBodiesAlwaysCollideIsAWarningInTheLog)
+{
+  std::mutex mutex;
+  std::string found;
+  const ros::Subscriber log = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
+      "/rosout", 1000,
+      [&](const rosgraph_msgs::Log::ConstPtr& line)
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (line->level == rosgraph_msgs::Log::WARN && line->msg.find(" - block") != std::string::npos)
+          found = line->msg;
+      });
+  for (int i = 0; i < 100 && log.getNumPublishers() == 0; ++i)
+    ros::WallDuration(0.1).sleep();
+  apply(diffWith(boxObject("block", Eigen::Vector3d::Zero(), 20.0)));
+  const auto text = [&]
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return found;
+  };
+  for (int i = 0; i < 300 && text().empty(); ++i)
+    ros::WallDuration(0.1).sleep();
+  EXPECT_NE(std::string::npos, text().find("in collision in each of 64 random states, so probably no state is valid"))
+      << text();
+  EXPECT_NE(std::string::npos, text().find("move these bodies apart")) << text();
 }
 
 TEST_F(Settings, AMatrixOfARequestHoldsForItAlone)

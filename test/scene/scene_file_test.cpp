@@ -190,6 +190,50 @@ TEST_F(SceneFile, ItsMatrixReplacesTheRobotsOwnWhereItHasOne)
   EXPECT_TRUE(replaced.allowed_collisions.allowed("cart", "nut"));
 }
 
+TEST_F(SceneFile, AllowedCollisionsAreAddedToTheMatrix)
+{
+  const std::string can = "world: {collision_objects: [{id: can, primitives: [{type: sphere, dimensions: [1]}]}]}\n";
+  const PlanningScene scene = load(can + "allowed_collisions: [[can, nut], [rail, can]]");
+  EXPECT_TRUE(warnings.empty()) << warnings.at(0);
+  EXPECT_TRUE(scene.allowed_collisions.allowed("cart", "pole"));  // by the SRDF
+  EXPECT_TRUE(scene.allowed_collisions.allowed("nut", "can"));
+  EXPECT_TRUE(scene.allowed_collisions.allowed("can", "rail"));
+  EXPECT_FALSE(scene.allowed_collisions.allowed("can", "cart"));
+  EXPECT_EQ(MatrixSource::SceneFile, scene.matrix_source);  // so that copies of the scene get the pairs too
+  const PlanningScene both =
+      load(can + "allowed_collisions: [[can, nut]]\n" +
+           "allowed_collision_matrix: {entry_names: [can, cart], entry_values: [[false, true], [true, false]]}");
+  EXPECT_TRUE(both.allowed_collisions.allowed("can", "nut"));
+  EXPECT_TRUE(both.allowed_collisions.allowed("can", "cart"));
+  EXPECT_FALSE(both.allowed_collisions.allowed("cart", "pole"));
+  EXPECT_EQ(MatrixSource::Srdf, load(can + "allowed_collisions: []").matrix_source);
+}
+
+TEST_F(SceneFile, AllowedCollisionsWithAnUnknownNameAreWarnings)
+{
+  const PlanningScene scene = load("world: {}\nallowed_collisions:\n  - [cart, pole]\n  - [can, cart]");
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_TRUE(warned("scene.yaml:4: allowed_collisions: 'can' is neither a link nor an object"));
+  EXPECT_TRUE(scene.allowed_collisions.allowed("can", "cart"));
+}
+
+TEST_F(SceneFile, UnknownKeysAreNamedWithTheLineOfTheKey)
+{
+  load("world:\n  collision_objects: []\nwrold:\n  collision_objects:\n    - {}\n");
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_TRUE(warned("scene.yaml:3: unknown key 'wrold'")) << warnings.at(0);
+}
+
+TEST_F(SceneFile, AnUnreadableFileAndAnEmptyFileAreToldApart)
+{
+  const auto error = [this](const std::string& path)
+  { return errorOf([&] { loadSceneFile(path, sliderRobot(), packages, &warnings); }); };
+  EXPECT_EQ(folder.path("none.yaml") + ": cannot read the file: No such file or directory",
+            error(folder.path("none.yaml")));
+  EXPECT_EQ(folder.path("empty.yaml") + ": the file is empty", error(folder.write("empty.yaml", "")));
+  EXPECT_EQ(folder.path("") + ": this is a folder, not a file", error(folder.path("")));
+}
+
 TEST_F(SceneFile, ObjectsMayBeGivenInLinksAndFixedFrames)
 {
   const std::string shape = "primitives: [{type: sphere, dimensions: [1]}]";

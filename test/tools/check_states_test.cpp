@@ -160,6 +160,39 @@ TEST_F(CheckStates, RandomStatesAreTheModelsAndDependOnTheSeedAlone)
   EXPECT_NE(one_batch, check({"--random", "500", "--seed", "8"}).out);
 }
 
+TEST_F(CheckStates, WarnsOfAMatrixThatLosesPairsOfTheSrdf)
+{
+  std::string longer_pole = sliderUrdf();
+  const std::string size = "0.1 0.1 0.4";
+  longer_pole.replace(longer_pole.find(size), size.size(), "0.1 0.1 1.2");  // it goes through the cart
+  urdf = folder.write("slider.urdf", longer_pole);
+  scene = folder.write("scene.yaml",
+                       "allowed_collision_matrix: {entry_names: [nut, rail], entry_values: [[0, 1], [1, 0]]}\n");
+  const ProgramOutput lost = check({"--random", "10"});
+  EXPECT_EQ(0, lost.exit_code);
+  EXPECT_NE(std::string::npos, lost.err.find("warning: 1 pair in collision in each of 64 random states, so probably no "
+                                             "state is valid: cart - pole; the SRDF allows them"))
+      << lost.err;
+  EXPECT_NE(std::string::npos, lost.err.find("use allowed_collisions, which adds pairs")) << lost.err;
+  scene = folder.write("scene.yaml", "allowed_collisions: [[nut, rail]]\n");
+  const ProgramOutput kept = check({"--random", "10"});
+  EXPECT_EQ(std::string::npos, kept.err.find("warning")) << kept.err;
+  EXPECT_NE(std::string::npos, kept.err.find("10 states, 10 valid")) << kept.err;
+}
+
+TEST_F(CheckStates, WarnsOnceOfValuesOutsideTheLimits)
+{
+  const ProgramOutput output = checkCsv("slide,turn\n0,0\n0,90\n0,45\n");
+  EXPECT_EQ(0, output.exit_code);
+  EXPECT_EQ(3u, linesOf(output.out).size());
+  EXPECT_EQ(0u, output.err.find("warning: " + folder.path("states.csv") +
+                                ":3: joint 'turn' is 90, outside its limits -3 to 3 rad; values are in radians, and 90 "
+                                "degrees are 1.5708 rad; 1 more value is outside the limits\n"))
+      << output.err;
+  EXPECT_EQ(output.err.find("warning"), output.err.rfind("warning")) << output.err;
+  EXPECT_EQ(std::string::npos, check({"--random", "10"}).err.find("warning"));
+}
+
 TEST_F(CheckStates, WritesToAFileWhereAsked)
 {
   const std::string path = folder.write("answers.csv", "something older\nthat is longer than the answers are\n");
@@ -255,8 +288,8 @@ TEST_F(CheckStates, BadInputEndsWithOne)
   expectError(run({"--urdf", folder.path("no.urdf"), "--random", "1"}), 1, "no.urdf");
   expectError(run({"--urdf", folder.write("bad.urdf", "<robot"), "--random", "1"}), 1, "bad.urdf");
   expectError(run({"--urdf", urdf, "--scene", folder.path("no.yaml"), "--random", "1"}), 1, "no.yaml");
-  expectError(check({"--states", folder.path("no.csv")}), 1, "no.csv");
-  expectError(checkCsv(""), 1, "states.csv: ");
+  expectError(check({"--states", folder.path("no.csv")}), 1, "no.csv: cannot read the file: No such file");
+  expectError(checkCsv(""), 1, "states.csv: the file is empty");
   expectError(checkCsv("slide,turn\n"), 1, "no states");
   expectError(checkCsv("0,0\n1,1\n"), 1, "states.csv:1: column 1: the first line must name the variables");
   expectError(checkCsv("slide,trun\n0,0\n"), 1, "no variable 'trun'; its variables are slide, turn");

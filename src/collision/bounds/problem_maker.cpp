@@ -38,7 +38,9 @@ CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::strin
     counts.self_pairs -= self;
     counts.world_pairs -= world;
     counts.settled_pairs = self + world;
-    counts.always_colliding = fixed_pairs_.firstCollision(scene, bodies, fixed);
+    counts.colliding_in_samples = fixed_pairs_.collisions(scene, bodies, fixed);
+    if (!counts.colliding_in_samples.empty())
+      counts.always_colliding = counts.colliding_in_samples.front();
   }
 
   CollisionProblem problem = problemOf(scene, bodies, pairs, options_.reductions.shared_trees, tessellations_);

@@ -65,8 +65,8 @@ std::unique_ptr<const CpuTraversal> RigidPairs::traversalOf(const PlanningScene&
 
 /// The relative pose of a rigid pair is the same in all states, up to rounding. Rounding can change the verdict only if
 /// the distance is within the checker's slack of the required distance, and there the contract allows both verdicts.
-std::optional<BodyPair> RigidPairs::firstCollision(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
-                                                   CheckedPairs fixed)
+std::vector<BodyPair> RigidPairs::collisions(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
+                                             CheckedPairs fixed)
 {
   if (robot_ != scene.robot)
   {
@@ -96,12 +96,16 @@ std::optional<BodyPair> RigidPairs::firstCollision(const PlanningScene& scene, c
     for (const CheckedPair& pair : unknown.self)
       links_collide_[names(pair)] = std::find(found.begin(), found.end(), names(pair)) != found.end();
   }
+  std::vector<BodyPair> colliding;
+  if (!fixed.self.empty() || !fixed.world.empty())
+  {
+    CpuTraversal::Scratch scratch;
+    colliding = traversalOf(scene, bodies, fixed, forest_)->allCollisions(poses.data(), scratch);
+  }
   for (const CheckedPair& pair : links)
     if (links_collide_[names(pair)])
-      return names(pair);
-  if (fixed.self.empty() && fixed.world.empty())
-    return std::nullopt;
-  CpuTraversal::Scratch scratch;
-  return traversalOf(scene, bodies, fixed, forest_)->firstCollision(poses.data(), scratch);
+      colliding.push_back(names(pair));
+  std::sort(colliding.begin(), colliding.end());
+  return colliding;
 }
 }  // namespace gpu_planning_scene::core

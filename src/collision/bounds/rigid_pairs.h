@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "collision/exact/forest_cache.h"
@@ -21,10 +20,10 @@ class RigidPairs
   /// Moves the rigid pairs from `pairs` to the result.
   static CheckedPairs take(const RobotModel& robot, const std::vector<RobotBody>& bodies, CheckedPairs& pairs);
 
-  /// The bodies of a colliding pair among the pairs that the group moves, if there is one. The pair then collides in
-  /// every state.
-  std::optional<BodyPair> firstCollision(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
-                                         CheckedPairs fixed);
+  /// The colliding pairs among the pairs that the group moves, each once, in ascending order. They collide in every
+  /// state.
+  std::vector<BodyPair> collisions(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
+                                   CheckedPairs fixed);
 
  private:
   std::unique_ptr<const CpuTraversal> traversalOf(const PlanningScene& scene, const std::vector<RobotBody>& bodies,

@@ -1,8 +1,11 @@
 #include "collision/checkers/cpu_scene.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "collision/exact/sampled_collisions.h"
 #include "collision/parallel_for.h"
 #include "collision/problem/state_validation.h"
-
-#include <utility>
 
 namespace gpu_planning_scene::core
 {
@@ -37,6 +40,23 @@ CpuScene::Group& CpuScene::groupOf(const std::string& group)
   made.problem = std::make_shared<const CollisionProblem>(maker_.make(*scene_, group, &made.report));
   made.scratch.poses.resize(scene_->robot->links().size());
   return groups_.emplace(group, std::move(made)).first->second;
+}
+
+/// The pairs that collide in each sample are found here and not in setScene, because most scenes are checked without a
+/// report.
+const SceneReport& CpuScene::report(const std::string& name)
+{
+  Group& group = groupOf(name);
+  if (!group.is_sampled)
+  {
+    prepare(group);
+    std::vector<BodyPair>& pairs = group.report.colliding_in_samples;
+    const std::vector<BodyPair> sampled = collidingInSamples(*scene_->robot, *group.problem, *group.within);
+    pairs.insert(pairs.end(), sampled.begin(), sampled.end());
+    std::sort(pairs.begin(), pairs.end());
+    group.is_sampled = true;
+  }
+  return group.report;
 }
 
 void CpuScene::prepare(Group& group)

@@ -25,7 +25,7 @@ class CpuScene
   const std::shared_ptr<const PlanningScene>& scene() const { return scene_; }
 
   /// This and the functions below throw Error for an unknown group.
-  const SceneReport& report(const std::string& group) { return groupOf(group).report; }
+  const SceneReport& report(const std::string& group);
   const std::shared_ptr<const CollisionProblem>& problem(const std::string& group) { return groupOf(group).problem; }
 
   /// The trees of the CPU's traversals.
@@ -55,6 +55,7 @@ class CpuScene
   struct Group
   {
     SceneReport report;
+    bool is_sampled = false;  // the report has the pairs of collidingInSamples
     std::shared_ptr<const CollisionProblem> problem;
     std::unique_ptr<const CpuTraversal> within;   // traversal of this problem
     std::unique_ptr<const CpuTraversal> outside;  // all pairs, for states for which the problem is not valid

@@ -9,6 +9,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+constexpr std::size_t kMaxListedPairs = 5;
+
 std::string matrixText(MatrixSource source)
 {
   switch (source)
@@ -22,6 +24,16 @@ std::string matrixText(MatrixSource source)
   }
   return "are adjacent (no SRDF was given)";
 }
+/// The first pairs by name, and the number of the others.
+std::string pairList(const PlanningScene& scene, const std::vector<BodyPair>& pairs)
+{
+  std::string text;
+  for (std::size_t i = 0; i < std::min(pairs.size(), kMaxListedPairs); ++i)
+    text += (i == 0 ? "" : ", ") + scene.bodyName(pairs[i][0]) + " - " + scene.bodyName(pairs[i][1]);
+  return pairs.size() <= kMaxListedPairs ? text
+                                         : text + " and " + std::to_string(pairs.size() - kMaxListedPairs) + " more";
+}
+
 std::string batchesText(std::size_t cpu_below)
 {
   return cpu_below == std::numeric_limits<std::size_t>::max() ? "batches of any size"
@@ -70,8 +82,35 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
   if (report.always_colliding)
     lines.push_back("in collision in every state: " + scene.bodyName((*report.always_colliding)[0]) + " - " +
                     scene.bodyName((*report.always_colliding)[1]));
+  if (!report.colliding_in_samples.empty())
+    lines.push_back("in collision in each of " + std::to_string(kSampledStates) +
+                    " random states: " + pairList(scene, report.colliding_in_samples));
   if (report.cpu_below && *report.cpu_below != 0)
     lines.push_back("checked on the CPU, because it is faster: " + batchesText(*report.cpu_below));
+  std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
+  return lines;
+}
+
+std::vector<std::string> warningsOfScene(const PlanningScene& scene, const SceneReport& report)
+{
+  const AllowedCollisionMatrix own = AllowedCollisionMatrix::fromRobot(*scene.robot);
+  std::vector<BodyPair> lost;   // pairs that the robot's own matrix allows
+  std::vector<BodyPair> other;  // all other pairs
+  for (const BodyPair& pair : report.colliding_in_samples)
+    (own.allowed(scene.bodyName(pair[0]), scene.bodyName(pair[1])) ? lost : other).push_back(pair);
+  const std::string found =
+      " in collision in each of " + std::to_string(kSampledStates) + " random states, so probably no state is valid: ";
+  std::vector<std::string> lines;
+  if (!lost.empty())
+    lines.push_back(counted(lost.size(), "pair") + found + pairList(scene, lost) + "; the " +
+                    (scene.robot->srdfCollisions().has_srdf ? "SRDF" : "robot's own matrix") +
+                    " allows them, but an allowed_collision_matrix replaced it: in a scene file, use " +
+                    "allowed_collisions, which adds pairs; in a message, send the matrix of get_planning_scene with "
+                    "your entries added");
+  if (!other.empty())
+    lines.push_back(counted(other.size(), "pair") + found + pairList(scene, other) +
+                    "; move these bodies apart, or allow a pair that may touch: allowed_collisions: [[" +
+                    scene.bodyName(other[0][0]) + ", " + scene.bodyName(other[0][1]) + "]] in a scene file");
   std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
   return lines;
 }

@@ -304,6 +304,40 @@ TEST_F(SmallScene, CollidesInEveryStateWhereAFixedPairDoes)
   EXPECT_EQ(on_gpu.check(states.data(), 2).valid, std::vector<std::uint8_t>(2, 1));
 }
 
+TEST_F(SmallScene, ReportsThePairsThatCollideInEverySample)
+{
+  const auto pairs_of = [this](StateChecker& checker)
+  {
+    std::set<std::string> names;
+    for (const BodyPair& pair : checker.report().colliding_in_samples)
+      names.insert(scene_->bodyName(pair[0]) + " - " + scene_->bodyName(pair[1]));
+    return names;
+  };
+  CpuChecker on_cpu(scene_);
+  EXPECT_TRUE(pairs_of(on_cpu).empty());  // "way" is hit in some states only
+  EXPECT_TRUE(warningsOfScene(*scene_, on_cpu.report()).empty());
+  scene_ = std::make_shared<PlanningScene>(*scene_);
+  scene_->objects.push_back({"plate", Eigen::Isometry3d::Identity(), {{Box{{0.5, 0.5, 0.02}}}}});
+  addBox("on_mast", {0.0, 0.3, 1.0});
+  // The arm hits this bar unless it turns to the right by more than 0.9 rad.
+  scene_->objects.push_back(
+      {"bar", Eigen::Isometry3d(Eigen::Translation3d(0.31, 0.125, 0.0)), {{Box{{0.02, 0.95, 0.02}}}}});
+  const std::set<std::string> expected = {"base - plate", "arm - plate", "mast - on_mast"};
+  on_cpu.setScene(scene_);
+  EXPECT_EQ(pairs_of(on_cpu), expected);
+  EXPECT_EQ(pairs_of(on_cpu), expected);  // the second report is the first one
+  BatchCheckerOptions options;
+  options.cpu_below = 0;
+  BatchChecker on_gpu(scene_, options);
+  EXPECT_EQ(pairs_of(on_gpu), expected);
+  const std::vector<std::string> warnings = warningsOfScene(*scene_, on_cpu.report());
+  ASSERT_EQ(1U, warnings.size());
+  EXPECT_EQ(0U, warnings[0].find("3 pairs in collision in each of 64 random states, so probably no state is valid: "))
+      << warnings[0];
+  EXPECT_NE(std::string::npos, warnings[0].find("arm - plate")) << warnings[0];
+  EXPECT_NE(std::string::npos, warnings[0].find("allowed_collisions: [[base, plate]]")) << warnings[0];
+}
+
 TEST_F(SmallScene, AsksForFixedLinksOnlyWhereTheGroupMovesThem)
 {
   const auto link = [](const std::string& name, const std::string& at)

@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include "model/joint_limits.h"
+#include "model/model_testing.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// A revolute joint "arm" and a prismatic joint "lift", from -1 to 2, and a continuous joint "pan".
+class JointLimits : public testing::Test
+{
+ public:
+  std::optional<ValueOutsideLimits> find(const std::vector<double>& rows) const
+  {
+    return findValueOutsideLimits(*robot, {robot->variableIndex("arm"), robot->variableIndex("lift")}, rows.data(),
+                                  rows.size() / 2);
+  }
+
+  std::shared_ptr<const RobotModel> robot = robotOf(
+      boxLink("base") + boxLink("a") + boxLink("b") + boxLink("c") + jointXml("arm", "revolute", "base", "a", kLimits) +
+      jointXml("lift", "prismatic", "a", "b", kLimits) + jointXml("pan", "continuous", "b", "c"));
+};
+
+TEST_F(JointLimits, ValuesWithinThemGiveNoLine)
+{
+  EXPECT_FALSE(find({-1.0, 2.0, 2.0 + 1e-7, -1.0 - 1e-7}));
+  const std::vector<double> turns = {100.0};
+  EXPECT_FALSE(findValueOutsideLimits(*robot, {robot->variableIndex("pan")}, turns.data(), 1));
+}
+
+TEST_F(JointLimits, TheFirstValueOutsideThemIsNamedAndTheOthersAreCounted)
+{
+  const auto found = find({0.0, 0.0, 0.0, 2.5, -300.0, 0.0, 0.0, -2.0});
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->row, 1u);
+  EXPECT_EQ(found->text, "joint 'lift' is 2.5, outside its limits -1 to 2; 2 more values are outside the limits");
+}
+
+TEST_F(JointLimits, DegreesAreSuggestedForAnglesThatTheyWouldFit)
+{
+  EXPECT_EQ(find({90.0, 0.0})->text,
+            "joint 'arm' is 90, outside its limits -1 to 2 rad; values are in radians, and 90 degrees are 1.5708 rad");
+  EXPECT_EQ(find({-300.0, 0.0})->text, "joint 'arm' is -300, outside its limits -1 to 2 rad");
+  EXPECT_EQ(find({0.0, 90.0})->text, "joint 'lift' is 90, outside its limits -1 to 2");
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
