@@ -70,8 +70,8 @@ class Pipe
   std::array<int, 2> ends_{{-1, -1}};
 };
 
-/// A child process with `out` and `err` as its standard output and error. It inherits no other file. The destructor
-/// kills the process if it still runs, and reaps it.
+/// A child process with `out` and `err` as its standard output and error. read_mesh itself closes other files that it
+/// inherits. The destructor kills the process if it still runs, and reaps it.
 class Child
 {
  public:
@@ -86,7 +86,6 @@ class Child
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&files, out.writeEnd(), STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&files, err.writeEnd(), STDERR_FILENO);
-    posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
     // A ROS node ignores broken pipes and may block signals; its child must not.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);

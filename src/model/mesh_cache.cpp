@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
-#include <exception>
 #include <filesystem>
 #include <new>
 
@@ -141,20 +140,10 @@ std::string lowerCaseExtension(const std::string& path)
 }
 
 // Assimp turns exceptions into text. Out of memory is not a fault of the file, so it is thrown again.
-void throwIfOutOfMemory(const std::exception_ptr& thrown)
+void throwIfOutOfMemory(const std::string& error)
 {
-  try
-  {
-    if (thrown)
-      std::rethrow_exception(thrown);
-  }
-  catch (const std::bad_alloc&)
-  {
-    throw;
-  }
-  catch (...)
-  {
-  }
+  if (error == std::bad_alloc().what() || error == std::bad_array_new_length().what())
+    throw std::bad_alloc();
 }
 
 std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vector3d& scale)
@@ -179,7 +168,7 @@ std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vecto
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
   if (scene == nullptr || scene->mRootNode == nullptr)
   {
-    throwIfOutOfMemory(importer.GetException());
+    throwIfOutOfMemory(importer.GetErrorString());
     throw Error("mesh file '" + path + "' cannot be read: " + importer.GetErrorString());
   }
   std::shared_ptr<const Mesh> mesh = SceneFlattener(*scene, path, scale).mesh();

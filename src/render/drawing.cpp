@@ -111,7 +111,8 @@ Eigen::AlignedBox3d shapeBounds(const Shape& shape, const Eigen::Isometry3d& pos
     half = Eigen::Vector3d(cone->radius, cone->radius, 0.5 * cone->length);
   else
     return {};
-  return Eigen::AlignedBox3d(-half, half).transformed(pose);
+  const Eigen::Vector3d extent = pose.linear().cwiseAbs() * half;
+  return {pose.translation() - extent, pose.translation() + extent};
 }
 }  // namespace
 

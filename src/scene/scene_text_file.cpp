@@ -115,8 +115,8 @@ class SceneTextReader
   HalfSpace readPlane()
   {
     Eigen::Vector4d plane;
-    for (double& coefficient : plane)
-      coefficient = tokens_.number("a plane (a b c d)");
+    for (int i = 0; i < 4; ++i)
+      plane[i] = tokens_.number("a plane (a b c d)");
     try
     {
       return halfSpaceBehind(plane);

@@ -93,8 +93,8 @@ std::size_t TextTokens::count(const char* what)
 Eigen::Vector3d TextTokens::vector(const char* what)
 {
   Eigen::Vector3d result;
-  for (double& component : result)
-    component = number(what);
+  for (int i = 0; i < 3; ++i)
+    result[i] = number(what);
   return result;
 }
 
@@ -102,8 +102,8 @@ Eigen::Isometry3d TextTokens::pose()
 {
   const Eigen::Vector3d position = vector("a position (x y z)");
   Eigen::Vector4d components;
-  for (double& component : components)
-    component = number("an orientation (x y z w)");
+  for (int i = 0; i < 4; ++i)
+    components[i] = number("an orientation (x y z w)");
   const double norm = components.stableNorm();
   if (norm == 0.0)
     fail("the quaternion is zero; the identity is 0 0 0 1");

@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <new>
+#include <string>
+#include <vector>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -21,6 +23,17 @@
 namespace
 {
 using namespace gpu_planning_scene::core;
+
+/// Closes all files but the standard ones. The parent's sockets and devices must not stay open in this process.
+void closeInheritedFiles()
+{
+  std::vector<int> inherited;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd"))
+    inherited.push_back(std::stoi(entry.path().filename().string()));
+  for (const int file : inherited)
+    if (file > STDERR_FILENO)
+      close(file);
+}
 
 void limit(__rlimit_resource_t resource, rlim_t max)
 {
@@ -55,6 +68,7 @@ std::size_t number(const char* text)
 
 void read(const char* const* arguments)
 {
+  closeInheritedFiles();
   const std::string path = arguments[1];
   const Eigen::Vector3d scale(std::atof(arguments[2]), std::atof(arguments[3]), std::atof(arguments[4]));
   limitThisProcess(static_cast<unsigned>(number(arguments[5])), number(arguments[6]));

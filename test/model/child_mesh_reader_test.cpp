@@ -1,5 +1,9 @@
 #include <array>
+#include <filesystem>
 #include <limits>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <gtest/gtest.h>
 
@@ -120,6 +124,19 @@ TEST(ChildMeshReader, AFileThatNeedsTooMuchMemoryIsRefused)
   limits.memory = 100 << 20;
   const std::string error = errorOfReading(GPS_READ_MESH, path, limits);
   EXPECT_NE(error.find("needs more than 100 MiB"), std::string::npos) << error;
+}
+
+TEST(ChildMeshReader, FilesThatAreOpenInThisProcessAreClosedInTheReader)
+{
+  const TemporaryFolder folder;
+  const std::string path = folder.write("sheet.stl", binaryStl(sheet(3)));
+  const int inherited = open(path.c_str(), O_RDONLY);  // without O_CLOEXEC
+  ASSERT_GT(inherited, STDERR_FILENO);
+  const std::string link = folder.path("link.stl");
+  std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(inherited), link);
+  EXPECT_EQ(MeshCache().load(link, Eigen::Vector3d::Ones())->triangles.size(), 18u) << "open in this process";
+  EXPECT_NE(errorOfReading(GPS_READ_MESH, link, quick()).find("does not exist"), std::string::npos);
+  close(inherited);
 }
 
 TEST(ChildMeshReader, AProgramThatIsNotThereIsNamed)

@@ -1,9 +1,9 @@
 #include "collision/problem/shape_key.h"
 
 #include <cstdint>
-#include <functional>
 
 #include "collision/geometry/primitive_solid.h"
+#include "model/coordinate_hash.h"
 
 namespace gpu_planning_scene::core
 {
@@ -18,12 +18,6 @@ ShapeKey::ShapeKey(const Shape& shape) : kind(shape.index()), dimensions(Eigen::
 
 std::size_t ShapeKeyHash::operator()(const ShapeKey& key) const
 {
-  std::uint64_t hash = key.kind ^ reinterpret_cast<std::uintptr_t>(key.mesh);
-  for (const double dimension : key.dimensions)
-  {
-    hash = (hash ^ std::hash<double>()(dimension)) * 0x9E3779B97F4A7C15U;
-    hash ^= hash >> 32U;
-  }
-  return hash;
+  return hashOf(key.dimensions, key.kind ^ reinterpret_cast<std::uintptr_t>(key.mesh));
 }
 }  // namespace gpu_planning_scene::core
