@@ -17,7 +17,7 @@ constexpr BodyColor kTreeColor{31, 119, 180, 255};
 constexpr std::size_t kTrianglesOfBox = 8;
 
 /// Colliding bodies are translucent, so that the contact points inside of them are visible.
-constexpr BodyColor kTranslucentCollidingColor{kCollidingColor[0], kCollidingColor[1], kCollidingColor[2], 150};
+constexpr BodyColor kTranslucentCollidingColor{kCollidingColor[0], kCollidingColor[1], kCollidingColor[2], 185};
 
 std::vector<std::size_t> triangleCounts(const PlanningScene& scene, std::size_t bodies)
 {
