@@ -68,9 +68,9 @@ def view_of(markers):
 
     def hidden(yaw):
         line_of_sight = [math.cos(PITCH) * math.cos(yaw), math.cos(PITCH) * math.sin(yaw), math.sin(PITCH)]
-        return round(hidden_share(points, focus + 2 * size * numpy.array(line_of_sight), boxes), 1)
+        return round(hidden_share(points, focus + 2.4 * size * numpy.array(line_of_sight), boxes), 1)
 
-    return focus, 2 * size, min(YAWS, key=hidden)
+    return focus, 2.4 * size, min(YAWS, key=hidden)
 
 
 def configuration(template, node, frame, view):

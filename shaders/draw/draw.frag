@@ -25,6 +25,7 @@ const int steps = 4;  // samples of the shadow map in each direction from the mi
 float lit(vec3 point)
 {
   vec3 at = (to_lamp * vec4(point, 1.0)).xyz;
+  at.z = min(at.z, 1.0);  // the floor extends beyond the shadow map
   float sum = 0.0;
   for (int i = -steps; i <= steps; ++i)
     for (int k = -steps; k <= steps; ++k)

@@ -21,8 +21,8 @@ constexpr double kPointDiameter = 0.02;  // metres
 
 constexpr std::size_t kMinGhosts = 2;
 constexpr std::size_t kMaxGhosts = 6;
-constexpr BodyColor kStartColor{40, 90, 230, 90};
-constexpr BodyColor kGoalColor{20, 170, 70, 90};
+constexpr BodyColor kStartColor{70, 120, 255, 80};
+constexpr BodyColor kGoalColor{50, 210, 100, 80};
 constexpr BodyColor kLineColor{0, 204, 51, 255};
 constexpr BodyColor kPointColor{0, 204, 204, 255};
 

@@ -80,10 +80,12 @@ Camera clearestView(const PlanningScene& scene, const double* state, const std::
           contacts.push_back(countOf(pixels, 1));
         }
       });
-  // The robot counts as much as the contacts, each compared with the view that shows most of it.
+  // The robot counts as much as the contacts, each compared with the view that shows most of it. Half of the contacts
+  // is enough.
   const double most_robot = std::max(1.0, *std::max_element(robot.begin(), robot.end()));
   const double most_contacts = std::max(1.0, *std::max_element(contacts.begin(), contacts.end()));
-  const auto score = [&](std::size_t view) { return robot[view] / most_robot + contacts[view] / most_contacts; };
+  const auto score = [&](std::size_t view)
+  { return robot[view] / most_robot + std::min(0.5, contacts[view] / most_contacts); };
   std::size_t best = 0;
   double least = kPreference * score(0);
   for (std::size_t view = 1; view < views.size(); ++view)

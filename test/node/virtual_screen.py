@@ -1,7 +1,6 @@
 """A screen in memory (Xvfb), on which tests show windows and look at the pixels."""
 import os
 import pathlib
-import shutil
 import struct
 import subprocess
 import tempfile
@@ -13,10 +12,6 @@ WIDTH, HEIGHT = 1280, 800
 
 class VirtualScreen:
     """Runs Xvfb on a free display until close()."""
-
-    @staticmethod
-    def is_installed():
-        return shutil.which("Xvfb") is not None
 
     def __init__(self):
         self.folder = tempfile.TemporaryDirectory()

@@ -120,9 +120,18 @@ TEST(Render, HiddenContactPointsAreFaintAndNearOnesAreNot)
   EXPECT_NE(picture_of({{0.8, 0.0, 0.0}}).rgb, picture_of({}).rgb) << "faint, but visible";
 }
 
+/// The same scene without grey bodies, which look like a shaded floor.
+PlanningScene greenScene()
+{
+  PlanningScene scene = sceneWithWall();
+  for (const char* name : {"cart", "pole", "wall"})
+    scene.colors[name] = Color{0.1F, 0.8F, 0.1F, 1.0F};
+  return scene;
+}
+
 TEST(Render, TheSceneStandsOnAFloorWithShadows)
 {
-  const PlanningScene scene = sceneWithWall();
+  const PlanningScene scene = greenScene();
   const std::vector<double> state = cartAt(scene, 0.0);
   const double shaded = shareOf(pictureOf(scene, state), isShadedFloor);
   EXPECT_GT(shaded, 0.003);
@@ -156,7 +165,7 @@ TEST(Render, TheClearestViewIsNotTheBackOfAShelf)
 
 TEST(Render, AHalfSpaceIsAPlaneBelowTheRobotInsteadOfTheFloor)
 {
-  PlanningScene scene = sceneWithWall();
+  PlanningScene scene = greenScene();
   scene.colors["floor"] = Color{0.9F, 0.8F, 0.4F, 1.0F};
   const std::vector<double> state = cartAt(scene, 0.0);
   const double without = shareOf(pictureOf(scene, state), isTan);
