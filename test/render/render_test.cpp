@@ -174,7 +174,7 @@ TEST(Render, AHalfSpaceIsAPlaneBelowTheRobotInsteadOfTheFloor)
   floor.shapes.push_back({HalfSpace{Eigen::Vector3d::UnitZ(), -0.3}, Eigen::Isometry3d::Identity()});
   scene.objects.push_back(floor);
   EXPECT_GT(shareOf(pictureOf(scene, state), isTan), without + 0.03);
-  EXPECT_EQ(shareOf(pictureOf(scene, state), isShadedFloor), 0.0);
+  EXPECT_LT(shareOf(pictureOf(scene, state), isShadedFloor), 0.003) << "smoothed edges alone";
 }
 
 TEST(Render, NearBodiesHideFarBodies)
