@@ -13,7 +13,8 @@ if(GPU_PLANNING_SCENE_ROS)
   install(TARGETS gpu_planning_scene_planners LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
   install(FILES planner_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
   install(TARGETS add_object planning_scene_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-  catkin_install_python(PROGRAMS scripts/demo_client.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  catkin_install_python(PROGRAMS scripts/demo_client.py scripts/joint_sliders.py scripts/show_scene.py
+    DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   export(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene::
     FILE ${CATKIN_DEVEL_PREFIX}/${export_folder}/gpu_planning_scene-targets.cmake)
 endif()

@@ -1,7 +1,8 @@
 // One invocation per corner of a triangle of a picture: projects the corner and passes its colour and normal on.
-// src/render/renderer.cpp sets the inputs.
+// src/render/gl_painter.cpp sets the inputs.
 
 layout(location = 0) uniform mat4 to_clip_space;
+layout(location = 1) uniform vec4 pull;  // the eye, and metres: the depth is that of a point so much nearer to the eye
 
 layout(location = 0) in vec3 position;  // metres, in the planning frame
 layout(location = 1) in vec3 normal;    // of the corner's triangle, of unit length
@@ -18,6 +19,11 @@ layout(location = 2) flat out vec4 paint;
 void main()
 {
   gl_Position = to_clip_space * vec4(position, 1.0);
+  if (pull.w > 0.0)
+  {
+    vec4 nearer = to_clip_space * vec4(position + pull.w * normalize(pull.xyz - position), 1.0);
+    gl_Position.z = nearer.z / nearer.w * gl_Position.w;
+  }
   place = position;
   facing = normal;
   paint = color;

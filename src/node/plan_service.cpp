@@ -2,10 +2,7 @@
 
 #include <utility>
 
-#include <visualization_msgs/MarkerArray.h>
-
 #include "gpu_planning_scene/error.h"
-#include "node/path_markers.h"
 #include "node/respond.h"
 #include "service/busy.h"
 
@@ -112,13 +109,13 @@ class PlanService::CheckerLease
 };
 
 PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, CheckServer::MakeChecker make_checker,
-                         const MemoryGuard& memory, const PlanServiceOptions& options)
+                         const MemoryGuard& memory, PathPublisher& paths, const PlanServiceOptions& options)
   : store_(store),
     make_checker_(std::move(make_checker)),
     memory_(memory),
+    paths_(paths),
     options_(options),
     configs_(PlannerConfigs::fromParameters(own)),
-    markers_(own.advertise<visualization_msgs::MarkerArray>("plan_markers", 1, true)),
     admission_(options.at_once, options.max_waiting)
 {
 }
@@ -201,6 +198,6 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   response.checking_time = result.checking_seconds;
   response.states_checked = result.states_checked;
   response.scene_revision = result.revision;
-  markers_.publish(pathMarkers(*task.scene, result.waypoints, group));
+  paths_.show(task.scene, result.waypoints, group);
 }
 }  // namespace gpu_planning_scene::core

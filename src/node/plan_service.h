@@ -9,6 +9,7 @@
 #include <ros/node_handle.h>
 
 #include "node/ompl_log.h"
+#include "node/path_publisher.h"
 #include "node/plan_request.h"
 #include "node/planner_configs.h"
 #include "node/planner_plugins.h"
@@ -18,7 +19,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Answers ~plan, and publishes the last path on ~plan_markers. Throws nothing: the response has the error. Several
+/// Answers ~plan, and shows the last path with a PathPublisher. Throws nothing: the response has the error. Several
 /// requests are planned at the same time, each with its own checker; further requests wait. Checkers are kept for later
 /// requests. Thread-safe.
 class PlanService
@@ -26,7 +27,7 @@ class PlanService
  public:
   /// Throws Error for wrong values in ~planners.
   PlanService(ros::NodeHandle& own, const SceneStore& store, CheckServer::MakeChecker make_checker,
-              const MemoryGuard& memory, const PlanServiceOptions& options);
+              const MemoryGuard& memory, PathPublisher& paths, const PlanServiceOptions& options);
 
   PlanMotion::Response plan(const PlanMotion::Request& request);
 
@@ -52,11 +53,11 @@ class PlanService
   const SceneStore& store_;
   const CheckServer::MakeChecker make_checker_;
   const MemoryGuard& memory_;
+  PathPublisher& paths_;
   const PlanServiceOptions options_;
   const PlannerConfigs configs_;
   const OmplLog log_;
   PlannerPlugins plugins_;
-  ros::Publisher markers_;
   Admission admission_;
   std::atomic<bool> stopping_{false};
   std::mutex mutex_;

@@ -62,7 +62,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   CheckServices checks(store, server, memory,
                        {server_options.max_states, options.max_inspected_states, options.max_contacts,
                         server_options.max_waiting_requests, plan_options.motions.rule});
-  PlanService plans(own, store, make_checker, memory, plan_options);
+  PathPublisher paths(own, options.marker_rate, options.marker_triangles);
+  PlanService plans(own, store, make_checker, memory, paths, plan_options);
   const SceneStore::Lookup look_up = [&lookup](const StampedFrame& frame) { return lookup(frame, lookup.deadline()); };
   SceneServices changes(store, look_up, memory);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/math_constants.h"
 #include "render/drawing.h"
 #include "render/renderer.h"
 
@@ -9,6 +10,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr double kAspect = 4.0 / 3.0;  // width to height of the usual picture
+constexpr int kSides = 8;
 }  // namespace
 
 Eigen::AlignedBox3d nearRobot(const PlanningScene& scene, const double* state)
@@ -36,14 +38,14 @@ Eigen::AlignedBox3d nearRobot(const PlanningScene& scene, const double* state)
   return near;
 }
 
-Camera cameraFor(const PlanningScene& scene, const double* state, const Eigen::Vector3d& up)
+namespace
 {
-  const Eigen::AlignedBox3d near = nearRobot(scene, state);
+/// A camera in the direction `side` from the middle of `near`.
+Camera cameraAt(const Eigen::AlignedBox3d& near, const Eigen::Vector3d& side, const Eigen::Vector3d& up)
+{
   Camera camera;
   camera.up = up;
   camera.target = near.center();
-  const Eigen::Vector3d side =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up) * Eigen::Vector3d(1.0, -0.75, 0.55).normalized();
   // The least distance at which all corners of the box are in the picture, plus a little room.
   const Eigen::Vector3d right = up.cross(side).normalized();
   const Eigen::Vector3d top = side.cross(right);
@@ -57,5 +59,21 @@ Camera cameraFor(const PlanningScene& scene, const double* state, const Eigen::V
   }
   camera.eye = camera.target + 1.05 * distance * side;
   return camera;
+}
+}  // namespace
+
+std::vector<Camera> viewsOf(const PlanningScene& scene, const double* state, const Eigen::Vector3d& up)
+{
+  const Eigen::AlignedBox3d near = nearRobot(scene, state);
+  const Eigen::Quaterniond upright = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), up);
+  std::vector<Camera> views;
+  for (const double height : {0.55, 1.1})
+    for (int i = 0; i < kSides; ++i)
+    {
+      const Eigen::Vector3d front = Eigen::Vector3d(1.0, -0.75, height).normalized();
+      const Eigen::AngleAxisd turn(2.0 * kPi * i / kSides, Eigen::Vector3d::UnitZ());
+      views.push_back(cameraAt(near, upright * (turn * front), up));
+    }
+  return views;
 }
 }  // namespace gpu_planning_scene::core

@@ -13,6 +13,7 @@ namespace
 {
 constexpr BodyColor kLink{186, 190, 196, 255};
 constexpr BodyColor kCarried{120, 170, 120, 255};
+constexpr BodyColor kFloor{226, 229, 234, 255};
 constexpr std::array<BodyColor, 6> kObjects{{{222, 196, 150, 255},
                                              {150, 182, 214, 255},
                                              {178, 205, 160, 255},
@@ -90,6 +91,20 @@ class Tessellations
  private:
   std::map<std::array<double, 4>, std::shared_ptr<const Mesh>> made_;
 };
+
+void addFloor(const Eigen::AlignedBox3d& near, const Eigen::Vector3d& up, Drawing& drawing, Painter& painter)
+{
+  double lowest = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+    lowest =
+        std::min(lowest, up.dot(near.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)) - near.center()));
+  const double size = near.diagonal().norm();
+  // A little lower, so that the bottom of a body does not flicker.
+  drawing.floor.center = near.center() + (lowest - 0.002 * size) * up;
+  drawing.floor.radius = 1.6 * size;
+  const HalfSpace plane{up, up.dot(drawing.floor.center)};
+  painter.addPlane(plane, Eigen::Isometry3d::Identity(), drawing.floor.center, drawing.floor.radius, kFloor);
+}
 
 Eigen::AlignedBox3d shapeBounds(const Shape& shape, const Eigen::Isometry3d& pose)
 {
@@ -172,7 +187,7 @@ Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen
 }
 
 Drawing drawingOf(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
-                  const std::vector<Eigen::Vector3d>& contact_points)
+                  const std::vector<Eigen::Vector3d>& contact_points, const Eigen::Vector3d& up)
 {
   const std::set<std::size_t> red = bodiesOf(colliding);
   const Eigen::AlignedBox3d near = nearRobot(scene, state);
@@ -180,6 +195,8 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
   Painter painter(drawing.vertices);
   Tessellations tessellations;
   const auto poses = bodyPoses(scene, state);
+  const std::size_t links = scene.robot->links().size();
+  bool has_plane = false;
   for (std::size_t body = 0; body < poses.size(); ++body)
   {
     const BodyColor color = red.count(body) != 0 ? kCollidingColor : bodyColor(scene, body);
@@ -187,15 +204,25 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
     {
       const Eigen::Isometry3d pose = poses[body] * shape.pose;
       if (const auto* plane = std::get_if<HalfSpace>(&shape.shape))
+      {
         painter.addPlane(*plane, pose, near.center(), 0.5 * near.diagonal().norm(), color);
+        has_plane = true;
+      }
       else
         painter.addMesh(*tessellations.of(shape.shape), pose, color);
     }
+    if (body < links)
+      drawing.links_end = drawing.vertices.size();
+    if (body < links + scene.objects.size())
+      drawing.objects_end = drawing.vertices.size();
   }
   drawing.bodies_end = drawing.vertices.size();
   const Shape dot = Sphere{0.007 * near.diagonal().norm()};
   for (const Eigen::Vector3d& point : contact_points)
     painter.addMesh(*tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContactColor);
+  drawing.contacts_end = drawing.vertices.size();
+  if (!has_plane)
+    addFloor(near, up, drawing, painter);
   return drawing;
 }
 }  // namespace gpu_planning_scene::core

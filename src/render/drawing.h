@@ -40,16 +40,28 @@ std::vector<Eigen::Isometry3d> bodyPoses(const PlanningScene& scene, const doubl
 /// The bounding box of a body's shapes in the planning frame. Half-spaces have no bounding box.
 Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen::Isometry3d& pose);
 
-/// Triangles, three corners each.
+/// A disc that shows where the scene's lowest point is. It is not part of the scene.
+struct Floor
+{
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< in the planning frame
+  double radius = 0.0;                               ///< metres; 0: no floor
+};
+
+/// Triangles, three corners each. In this order: links, objects, attached objects, contact points, floor.
 struct Drawing
 {
   std::vector<DrawnVertex> vertices;
-  std::size_t bodies_end = 0;  ///< later vertices are drawn over the bodies
+  std::size_t links_end = 0;
+  std::size_t objects_end = 0;
+  std::size_t bodies_end = 0;
+  std::size_t contacts_end = 0;
+  Floor floor;
 };
 
 /// Draws all bodies: links grey, attached objects green, objects in several colours, unless the scene gives them a
 /// colour. Bodies of `colliding` pairs are red. Then it draws the contact points as small yellow spheres, which mostly
-/// lie inside the bodies. A half-space is drawn as a square with the diagonal of nearRobot as its edge.
+/// lie inside the bodies. A half-space is drawn as a square with the diagonal of nearRobot as its edge. A scene without
+/// a half-space gets a floor, at right angles to `up`, below all bodies near the robot.
 Drawing drawingOf(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
-                  const std::vector<Eigen::Vector3d>& contact_points);
+                  const std::vector<Eigen::Vector3d>& contact_points, const Eigen::Vector3d& up);
 }  // namespace gpu_planning_scene::core

@@ -24,8 +24,8 @@ struct Camera
 /// frame.
 Eigen::AlignedBox3d nearRobot(const PlanningScene& scene, const double* state);
 
-/// A camera that shows all of nearRobot from the front, the side and above.
-Camera cameraFor(const PlanningScene& scene, const double* state, const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ());
+/// Cameras that show all of nearRobot from eight sides and two heights. The first is at the front and the side.
+std::vector<Camera> viewsOf(const PlanningScene& scene, const double* state, const Eigen::Vector3d& up);
 
 /// Pixels in rows from the top, three bytes (red, green, blue) each.
 struct Image
@@ -38,8 +38,14 @@ struct Image
 /// Every pair of bodies that collides in `state`, by the exact checker.
 std::vector<BodyPair> collidingPairs(const PlanningScene& scene, const double* state);
 
-/// A picture of the scene in the colours of drawingOf. `device`: a selector, as in EglContext. The same scene gives the
-/// same picture on the same device. Throws Error if the size, the camera or the device cannot be used.
+/// The first of viewsOf, or another of them in which objects hide clearly less of the robot and of the contact points.
+/// Same arguments and errors as render.
+Camera clearestView(const PlanningScene& scene, const double* state, const std::vector<Eigen::Vector3d>& contact_points,
+                    const Eigen::Vector3d& up, const std::string& device);
+
+/// A picture of the scene in the colours of drawingOf, with soft shadows. Hidden contact points are faint. `device`: a
+/// selector, as in EglContext. The same scene gives the same picture on the same device. Throws Error if the size, the
+/// camera or the device cannot be used.
 Image render(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
              const std::vector<Eigen::Vector3d>& contact_points, const Camera& camera, int width, int height,
              const std::string& device);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 #include <sstream>
+#include <string_view>
 
 #include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/state_inspector.h"
@@ -28,7 +29,8 @@ std::vector<Option> options()
                  "values of variables; other variables have the values of\nthe scene's state, or their defaults"});
   all.push_back({"--random", "SEED", "a random state instead, within the joints' limits"});
   all.push_back({"--camera", "X,Y,Z[,X,Y,Z]",
-                 "camera position and target; default: a view of the\nrobot and the objects near it"});
+                 "camera position and target; default: the view in which\nobjects hide least of the robot and the "
+                 "contact points"});
   all.push_back({"--up", "X,Y,Z", "upward direction (default 0,0,1)"});
   all.push_back({"--size", "WxH", "pixels (default 960x720)"});
   all.push_back({"--device", "DEVICE", "auto (default), software, an index, or part of a renderer's name"});
@@ -63,15 +65,16 @@ std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene&
   return state;
 }
 
-Camera cameraFrom(const CommandLine& arguments, const PlanningScene& scene, const double* state)
+Camera cameraFrom(const CommandLine& arguments, const PlanningScene& scene, const double* state,
+                  const std::vector<Eigen::Vector3d>& contact_points)
 {
   const std::vector<double> up = numbersFrom("--up", arguments.value("--up", "0,0,1"), 3);
   const Eigen::Vector3d upward(up.data());
   if (upward.norm() == 0.0)
     throw UsageError("--up: the vector has length 0");
-  Camera camera = cameraFor(scene, state, upward.normalized());
   if (!arguments.has("--camera"))
-    return camera;
+    return clearestView(scene, state, contact_points, upward.normalized(), arguments.value("--device", "auto"));
+  Camera camera = viewsOf(scene, state, upward.normalized())[0];
   const std::string text = arguments.required("--camera");
   const bool has_target = std::count(text.begin(), text.end(), ',') > 2;
   const std::vector<double> values = numbersFrom("--camera", text, has_target ? 6 : 3);
@@ -92,9 +95,18 @@ std::pair<int, int> sizeFrom(const CommandLine& arguments)
   return {width, height};
 }
 
-void run(const CommandLine& arguments)
+std::string pngFileFrom(const CommandLine& arguments)
 {
   const std::string out = arguments.required("--out");
+  constexpr std::string_view kEnding = ".png";
+  if (out.size() <= kEnding.size() || out.substr(out.size() - kEnding.size()) != kEnding)
+    throw UsageError("--out: '" + out + "' does not end in .png; render writes only PNG files");
+  return out;
+}
+
+void run(const CommandLine& arguments)
+{
+  const std::string out = pngFileFrom(arguments);
   const auto [width, height] = sizeFrom(arguments);
   std::vector<std::string> warnings;
   const auto shared = std::make_shared<const PlanningScene>(sceneFrom(arguments, &warnings));
@@ -106,13 +118,13 @@ void run(const CommandLine& arguments)
   if (!colliding.empty())
     for (const Contact& contact : StateInspector(shared).contacts(state.data(), "", kMaxContacts, kMaxContactsOfPair))
       points.push_back(contact.point);
-  writePng(render(scene, state.data(), colliding, points, cameraFrom(arguments, scene, state.data()), width, height,
-                  arguments.value("--device", "auto")),
+  writePng(render(scene, state.data(), colliding, points, cameraFrom(arguments, scene, state.data(), points), width,
+                  height, arguments.value("--device", "auto")),
            out);
   for (const auto& pair : colliding)
     std::cerr << "collides: " << scene.bodyName(pair[0]) << " - " << scene.bodyName(pair[1]) << "\n";
   std::cerr << (colliding.empty() ? "free of collision" : counted(colliding.size(), "colliding pair")) << ", " << out
-            << "\n";
+            << " (collision shapes, not visual meshes)\n";
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
@@ -124,7 +136,9 @@ int main(int argc, char** argv)
                   "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
                   "              [--state NAME=VALUE,...] --out FILE.png [options]",
                   "Draws a robot in its scene: links grey, objects in colours, bodies that collide red,\ncontact "
-                  "points yellow. Needs an OpenGL device (a software device works too), but no window system.\n"
+                  "points yellow (faint behind other bodies). It draws the collision shapes of the URDF, not the\n"
+                  "visual meshes. Unless the scene has a plane, it adds a floor below the scene, with shadows.\n"
+                  "Needs an OpenGL device (a software device works too), but no window system.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",
                   options(), run};
   return runTool(tool, argc, argv);

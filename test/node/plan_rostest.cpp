@@ -302,11 +302,21 @@ TEST_F(Planning, DrawsThePath)
   const Response response = plan(request());
   wait([&] { return !drawn.empty() && drawn.back().markers.size() > 1; });
   ASSERT_FALSE(drawn.empty());
-  ASSERT_EQ(drawn.back().markers.size(), 4u);  // the deletion, lines of pennant and nut, waypoints
+  const auto of = [&drawn](const std::string& name)
+  {
+    std::vector<visualization_msgs::Marker> markers;
+    for (const visualization_msgs::Marker& marker : drawn.back().markers)
+      if (marker.ns == name)
+        markers.push_back(marker);
+    return markers;
+  };
   EXPECT_EQ(drawn.back().markers[0].action, visualization_msgs::Marker::DELETEALL);
-  EXPECT_EQ(drawn.back().markers[3].points.size(), 2 * response.trajectory.points.size());
-  EXPECT_NEAR(drawn.back().markers[1].points.front().x, -1.0, 1e-9);
-  EXPECT_NEAR(drawn.back().markers[1].points.back().x, 1.0, 1e-9);
+  EXPECT_EQ(of("ghosts").size(), 12u) << "cart and pole, six times";
+  ASSERT_EQ(of("path").size(), 2u) << "pennant and nut";
+  EXPECT_NEAR(of("path")[0].points.front().x, -1.0, 1e-9);
+  EXPECT_NEAR(of("path")[0].points.back().x, 1.0, 1e-9);
+  ASSERT_EQ(of("waypoints").size(), 1u);
+  EXPECT_EQ(of("waypoints")[0].points.size(), 2 * response.trajectory.points.size());
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -39,8 +39,8 @@ std::vector<double> cartAt(const PlanningScene& scene, double x)
 Image pictureOf(const PlanningScene& scene, const std::vector<double>& state,
                 const std::vector<Eigen::Vector3d>& contacts = {})
 {
-  return render(scene, state.data(), collidingPairs(scene, state.data()), contacts, cameraFor(scene, state.data()),
-                kWidth, kHeight, "software");
+  return render(scene, state.data(), collidingPairs(scene, state.data()), contacts,
+                viewsOf(scene, state.data(), Eigen::Vector3d::UnitZ())[0], kWidth, kHeight, "software");
 }
 
 using IsColor = bool (*)(int red, int green, int blue);
@@ -52,9 +52,17 @@ bool isYellow(int red, int green, int blue)
 {
   return red > 100 && 10 * green > 7 * red && 3 * blue < red;
 }
-bool isBackground(int red, int green, int blue)
+bool isBackgroundOrFloor(int red, int green, int blue)
 {
-  return red > 240 && green > 240 && blue > 240;
+  return blue > 130 && blue >= red && 10 * red > 9 * blue && 10 * green > 9 * blue;
+}
+bool isShadedFloor(int red, int green, int blue)
+{
+  return isBackgroundOrFloor(red, green, blue) && blue < 215;
+}
+bool isTan(int red, int green, int blue)
+{
+  return 10 * red > 13 * blue && red >= green && green > blue;
 }
 
 /// The share of the pixels for which `is_color` is true.
@@ -72,8 +80,8 @@ TEST(Render, BodiesThatCollideAreRedAndNoOthers)
   const Image free = pictureOf(scene, cartAt(scene, 0.0));
   EXPECT_EQ(free.rgb.size(), 3u * kWidth * kHeight);
   EXPECT_EQ(shareOf(free, isRed), 0.0);
-  EXPECT_LT(shareOf(free, isBackground), 0.97) << "nothing is drawn";
-  EXPECT_GT(shareOf(free, isBackground), 0.3) << "the camera is inside of something";
+  EXPECT_LT(shareOf(free, isBackgroundOrFloor), 0.97) << "nothing is drawn";
+  EXPECT_GT(shareOf(free, isBackgroundOrFloor), 0.3) << "the camera is inside of something";
   const Image hit = pictureOf(scene, cartAt(scene, 0.9));
   EXPECT_GT(shareOf(hit, isRed), 0.02);
 }
@@ -95,16 +103,78 @@ TEST(Render, ContactPointsAreYellow)
   EXPECT_GT(shareOf(pictureOf(scene, state, {Eigen::Vector3d(0.1, 0.0, 0.2)}), isYellow), 0.0);
 }
 
-TEST(Render, AHalfSpaceIsAPlaneBelowTheRobot)
+TEST(Render, HiddenContactPointsAreFaintAndNearOnesAreNot)
+{
+  const PlanningScene scene = sceneWithWall();
+  const std::vector<double> state = cartAt(scene, 0.0);
+  Camera camera;
+  camera.eye = Eigen::Vector3d(3.0, 0.0, 0.0);
+  camera.target = Eigen::Vector3d(1.0, 0.0, 0.0);
+  // The side of the wall towards the camera is at x = 1.1 m, the other side at 0.9 m.
+  const auto picture_of = [&](const std::vector<Eigen::Vector3d>& contacts)
+  { return render(scene, state.data(), {}, contacts, camera, kWidth, kHeight, "software"); };
+  const auto yellow_at = [&](double x) { return shareOf(picture_of({{x, 0.0, 0.0}}), isYellow); };
+  EXPECT_GT(yellow_at(1.15), 0.0) << "before the wall";
+  EXPECT_GT(yellow_at(1.09), 0.0) << "in the wall, near its surface";
+  EXPECT_EQ(yellow_at(0.8), 0.0) << "behind the wall";
+  EXPECT_NE(picture_of({{0.8, 0.0, 0.0}}).rgb, picture_of({}).rgb) << "faint, but visible";
+}
+
+/// The same scene without grey bodies, which look like a shaded floor.
+PlanningScene greenScene()
+{
+  PlanningScene scene = sceneWithWall();
+  for (const char* name : {"cart", "pole", "wall"})
+    scene.colors[name] = Color{0.1F, 0.8F, 0.1F, 1.0F};
+  return scene;
+}
+
+TEST(Render, TheSceneStandsOnAFloorWithShadows)
+{
+  const PlanningScene scene = greenScene();
+  const std::vector<double> state = cartAt(scene, 0.0);
+  const double shaded = shareOf(pictureOf(scene, state), isShadedFloor);
+  EXPECT_GT(shaded, 0.003);
+  EXPECT_LT(shaded, 0.3);
+  // From below, the floor would hide everything.
+  Camera camera = viewsOf(scene, state.data(), Eigen::Vector3d::UnitZ())[0];
+  camera.eye.z() = -camera.eye.z();
+  const Image below = render(scene, state.data(), {{1, 2}}, {}, camera, kWidth, kHeight, "software");
+  EXPECT_GT(shareOf(below, isRed), 0.0);
+}
+
+TEST(Render, TheClearestViewIsNotTheBackOfAShelf)
 {
   PlanningScene scene = sceneWithWall();
   const std::vector<double> state = cartAt(scene, 0.0);
-  const double without = shareOf(pictureOf(scene, state), isBackground);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const auto red_in = [&](const Camera& camera) {
+    return shareOf(render(scene, state.data(), {{1, 2}}, {}, camera, kWidth, kHeight, "software"), isRed);
+  };
+  const Camera front = viewsOf(scene, state.data(), up)[0];
+  EXPECT_EQ(clearestView(scene, state.data(), {}, up, "software").eye, front.eye) << "nothing hides the robot";
+  WorldObject shelf;
+  shelf.id = "shelf";
+  shelf.pose.translation() = Eigen::Vector3d(0.5, -0.4, 0.3);
+  shelf.pose.linear() = Eigen::AngleAxisd(-0.64, up).toRotationMatrix();
+  shelf.shapes.push_back({Box{Eigen::Vector3d(0.02, 2.0, 2.0)}, Eigen::Isometry3d::Identity()});
+  scene.objects.push_back(shelf);
+  ASSERT_LT(red_in(viewsOf(scene, state.data(), up)[0]), 0.001);
+  EXPECT_GT(red_in(clearestView(scene, state.data(), {}, up, "software")), 0.005);
+}
+
+TEST(Render, AHalfSpaceIsAPlaneBelowTheRobotInsteadOfTheFloor)
+{
+  PlanningScene scene = greenScene();
+  scene.colors["floor"] = Color{0.9F, 0.8F, 0.4F, 1.0F};
+  const std::vector<double> state = cartAt(scene, 0.0);
+  const double without = shareOf(pictureOf(scene, state), isTan);
   WorldObject floor;
   floor.id = "floor";
   floor.shapes.push_back({HalfSpace{Eigen::Vector3d::UnitZ(), -0.3}, Eigen::Isometry3d::Identity()});
   scene.objects.push_back(floor);
-  EXPECT_LT(shareOf(pictureOf(scene, state), isBackground), without - 0.03);
+  EXPECT_GT(shareOf(pictureOf(scene, state), isTan), without + 0.03);
+  EXPECT_LT(shareOf(pictureOf(scene, state), isShadedFloor), 0.003) << "smoothed edges alone";
 }
 
 TEST(Render, NearBodiesHideFarBodies)
@@ -166,6 +236,7 @@ TEST(RenderTool, WritesAPngAndNamesWhatCollides)
   const ProgramOutput free = run({"--state", "slide=0"});
   EXPECT_EQ(free.exit_code, 0) << free.err;
   EXPECT_NE(free.err.find("free of collision"), std::string::npos) << free.err;
+  EXPECT_NE(free.err.find("collision shapes, not visual meshes"), std::string::npos) << free.err;
   std::ifstream file(out, std::ios::binary);
   std::string head(24, '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
@@ -180,6 +251,9 @@ TEST(RenderTool, WritesAPngAndNamesWhatCollides)
                                                 {"--camera", "1,2"},
                                                 {"--up", "0,0,0"},
                                                 {"--object", "a"},
+                                                {"--out", "a.jpg"},
+                                                {"--out", ".png"},
+                                                {"--out", "a"},
                                                 {"--object", "a=b.stl,1,2"}})
     EXPECT_EQ(run(wrong).exit_code, 2) << wrong[0] << " " << wrong[1];
 }

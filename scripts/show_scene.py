@@ -1,0 +1,158 @@
+#!/usr/bin/python3
+"""Starts RViz with the scene of a running planning_scene_node: the robot, the objects, contacts and planned paths."""
+import argparse
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import numpy
+import yaml
+
+# Views that are tried, in this order: horizontal directions from the scene to the camera, in radians. The first is the
+# default view of the tool `render`.
+YAWS = [math.atan2(-0.75, 1.0) + step * math.pi / 4 for step in (0, -1, 1, -2, 2, -3, 3, 4)]
+PITCH = 0.41  # radians
+MAX_POINTS = 500  # of a marker
+
+
+def rotation_of(quaternion):
+    """The matrix of a geometry_msgs/Quaternion."""
+    x, y, z, w = (getattr(quaternion, axis) for axis in "xyzw")
+    return numpy.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def points_of(marker):
+    """Points of a marker in its frame, one per row: vertices of triangles, or the corners of boxes around the solids."""
+    chosen = marker.points[:: max(1, len(marker.points) // MAX_POINTS)]
+    points = numpy.array([[point.x, point.y, point.z] for point in chosen]).reshape(-1, 3)
+    if marker.type != marker.TRIANGLE_LIST:
+        half = 0.5 * numpy.array([marker.scale.x, marker.scale.y, marker.scale.z])
+        corners = half * numpy.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+        centers = points if len(points) else numpy.zeros((1, 3))
+        points = (centers[:, None, :] + corners[None, :, :]).reshape(-1, 3)
+    position = marker.pose.position
+    return points @ rotation_of(marker.pose.orientation).T + [position.x, position.y, position.z]
+
+
+def hidden_share(points, eye, boxes):
+    """The share of the points whose straight line to the eye passes through one of the boxes (lower, upper)."""
+    hidden = numpy.zeros(len(points), dtype=bool)
+    direction = eye - points
+    direction[direction == 0.0] = 1e-12
+    for lower, upper in boxes:
+        slabs = numpy.stack([(lower - points) / direction, (upper - points) / direction])
+        enter = numpy.maximum(slabs.min(axis=0).max(axis=1), 0.0)
+        leave = numpy.minimum(slabs.max(axis=0).min(axis=1), 1.0)
+        hidden |= enter < leave
+    return hidden.mean()
+
+
+def view_of(markers):
+    """The focal point, distance and yaw of an RViz orbit view, in metres and radians: the robot fills much of the
+    picture, and few objects hide it."""
+    robot = [points_of(marker) for marker in markers if marker.ns == "robot"]
+    points = numpy.concatenate(robot) if robot else numpy.array([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
+    lower, upper = points.min(axis=0), points.max(axis=0)
+    focus, size = 0.5 * (lower + upper), max(0.1, float(numpy.linalg.norm(upper - lower)))
+    objects = [points_of(marker) for marker in markers if marker.ns == "objects"]
+    boxes = [(corners.min(axis=0), corners.max(axis=0)) for corners in objects]
+
+    def hidden(yaw):
+        line_of_sight = [math.cos(PITCH) * math.cos(yaw), math.cos(PITCH) * math.sin(yaw), math.sin(PITCH)]
+        return round(hidden_share(points, focus + 2.4 * size * numpy.array(line_of_sight), boxes), 1)
+
+    return focus, 2.4 * size, min(YAWS, key=hidden)
+
+
+def configuration(template, node, frame, view):
+    """The RViz configuration `template` with the topics of `node`, the fixed frame and the view."""
+    manager = template["Visualization Manager"]
+    for display in manager["Displays"]:
+        if "Marker Topic" in display:
+            display["Marker Topic"] = f"{node}/{display['Marker Topic'].rsplit('/', 1)[1]}"
+    manager["Global Options"]["Fixed Frame"] = frame
+    focus, distance, yaw = view
+    manager["Views"]["Current"].update(
+        {
+            "Focal Point": dict(zip("XYZ", map(float, focus))),
+            "Distance": float(distance),
+            "Pitch": PITCH,
+            "Yaw": float(yaw % (2 * math.pi)),
+        }
+    )
+    return template
+
+
+def first_markers(topic):
+    """Waits for the markers of the node. None if ROS shuts down before they come."""
+    import rospy  # imported here, so that the other functions work without ROS
+    from visualization_msgs.msg import MarkerArray
+
+    while not rospy.is_shutdown():
+        try:
+            # The first marker only deletes earlier markers.
+            return rospy.wait_for_message(topic, MarkerArray, 10).markers[1:]
+        except rospy.ROSInterruptException:
+            return None
+        except rospy.ROSException:
+            rospy.logwarn("no message on %s; is planning_scene_node running under this name?", topic)
+    return None
+
+
+def announce(frame, node):
+    """Publishes a frame at the origin of the planning frame. RViz warns about a fixed frame that tf does not know, which
+    is the case where nobody else publishes tf."""
+    import rospy
+    from geometry_msgs.msg import TransformStamped
+    from tf2_msgs.msg import TFMessage
+
+    origin = TransformStamped(child_frame_id=f"{node.strip('/')}/origin")
+    origin.header.frame_id, origin.header.stamp = frame, rospy.Time.now()
+    origin.transform.rotation.w = 1.0
+    publisher = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+    publisher.publish(TFMessage([origin]))
+    return publisher
+
+
+def main():
+    import rospkg
+    import rospy
+
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--node", default="planning_scene", help="name of the planning_scene_node (%(default)s)")
+    arguments = parser.parse_args(rospy.myargv()[1:])
+    if not shutil.which("rviz"):
+        print("show_scene.py: RViz is missing; install the package rviz (Debian) or ros-noetic-rviz", file=sys.stderr)
+        return 1
+    rospy.init_node("show_scene", anonymous=True)
+    node = rospy.resolve_name(arguments.node)
+    markers = first_markers(f"{node}/markers")
+    if markers is None:
+        return 0
+    if not markers:
+        print(f"show_scene.py: the scene of {node} has no shapes, so there is nothing to show", file=sys.stderr)
+        return 1
+    template = pathlib.Path(rospkg.RosPack().get_path("gpu_planning_scene"), "config", "scene.rviz")
+    made = configuration(yaml.safe_load(template.read_text()), node, markers[0].header.frame_id, view_of(markers))
+    frames = announce(markers[0].header.frame_id, node)  # published as long as this object lives
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder, "scene.rviz")
+        file.write_text(yaml.safe_dump(made, sort_keys=False))
+        with subprocess.Popen(["rviz", "-d", str(file)]) as rviz:
+            rospy.on_shutdown(rviz.terminate)
+            status = rviz.wait()
+    frames.unregister()
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())
