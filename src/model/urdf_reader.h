@@ -21,6 +21,6 @@ struct UrdfText
 
   XmlText xml;
   std::shared_ptr<const urdf::ModelInterface> model;
-  std::vector<std::string> warnings;  ///< macro calls, and urdfdom's messages about a text that it accepted
+  std::vector<std::string> warnings;  ///< elements of xacro, and urdfdom's messages about a text that it accepted
 };
 }  // namespace gpu_planning_scene::core

@@ -19,11 +19,11 @@ bool isXacro(const XMLElement& element)
   return std::strncmp(element.Name(), "xacro:", 6) == 0;
 }
 
-/// Whether xacro itself defines this element. No such element is left in a file that xacro has expanded.
+/// Whether the content of a robot without this element's expansion is incomplete or wrong. Properties and arguments are
+/// harmless by themselves; their use is an expression.
 bool isDirective(const XMLElement& element)
 {
-  for (const char* name :
-       {"include", "macro", "property", "arg", "if", "unless", "insert_block", "element", "attribute"})
+  for (const char* name : {"include", "macro", "if", "unless", "insert_block", "element", "attribute"})
     if (isXacro(element) && std::strcmp(element.Name() + 6, name) == 0)
       return true;
   return false;
@@ -38,9 +38,9 @@ const tinyxml2::XMLAttribute* expressionOf(const XMLElement& element)
   return nullptr;
 }
 
-/// `kind`: "urdf" or "srdf". `calls` receives the macro calls.
+/// `kind`: "urdf" or "srdf". `leftovers` receives all other elements of xacro.
 void refuseXacro(const XmlText& xml, const XMLElement& element, const std::string& kind,
-                 std::vector<const XMLElement*>& calls)
+                 std::vector<const XMLElement*>& leftovers)
 {
   const auto* expression = expressionOf(element);
   if (expression != nullptr || isDirective(element))
@@ -50,9 +50,9 @@ void refuseXacro(const XmlText& xml, const XMLElement& element, const std::strin
                 " is xacro, which must be expanded first: xacro FILE > robot." + kind + ", or for the launch file " +
                 kind + "_command:=\"xacro FILE\" instead of " + kind + ":=FILE");
   if (isXacro(element))
-    calls.push_back(&element);
+    leftovers.push_back(&element);
   for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
-    refuseXacro(xml, *child, kind, calls);
+    refuseXacro(xml, *child, kind, leftovers);
 }
 
 const XMLElement* firstOf(const XmlText& xml, std::initializer_list<const char*> tags)
@@ -66,11 +66,10 @@ const XMLElement* firstOf(const XmlText& xml, std::initializer_list<const char*>
 
 void requireUrdf(const XmlText& xml, std::vector<std::string>& warnings)
 {
-  std::vector<const XMLElement*> calls;
-  refuseXacro(xml, xml.root(), "urdf", calls);
-  for (const XMLElement* call : calls)
-    warnings.push_back(xml.where(*call) + ": <" + call->Name() +
-                       "> is the call of a macro that xacro did not expand; it is not used");
+  std::vector<const XMLElement*> leftovers;
+  refuseXacro(xml, xml.root(), "urdf", leftovers);
+  for (const XMLElement* element : leftovers)
+    warnings.push_back(xml.where(*element) + ": <" + element->Name() + "> was not expanded by xacro; it is not used");
   const XMLElement* of_srdf =
       firstOf(xml, {"group", "disable_collisions", "virtual_joint", "end_effector", "group_state", "passive_joint"});
   if (firstOf(xml, {"link"}) == nullptr && of_srdf != nullptr)
@@ -81,12 +80,11 @@ void requireUrdf(const XmlText& xml, std::vector<std::string>& warnings)
 
 void requireSrdf(const XmlText& xml)
 {
-  std::vector<const XMLElement*> calls;
-  refuseXacro(xml, xml.root(), "srdf", calls);
-  if (!calls.empty())
-    throw Error(xml.where(*calls[0]) + ": <" + calls[0]->Name() +
-                "> is the call of a macro that xacro did not expand; expand the file with all that it includes: xacro "
-                "FILE > robot.srdf");
+  std::vector<const XMLElement*> leftovers;
+  refuseXacro(xml, xml.root(), "srdf", leftovers);
+  if (!leftovers.empty())
+    throw Error(xml.where(*leftovers[0]) + ": <" + leftovers[0]->Name() +
+                "> was not expanded by xacro; expand the file with all that it includes: xacro FILE > robot.srdf");
   if (const XMLElement* of_urdf = firstOf(xml, {"link", "joint"}))
     throw Error(xml.where(*of_urdf) + ": <" + of_urdf->Name() +
                 "> is an element of a URDF, and an SRDF is needed here; give the URDF as urdf:=FILE (launch file), "
