@@ -4,11 +4,15 @@ import argparse
 import collections
 import math
 import sys
+import threading
 import time
 import xml.etree.ElementTree
 
 import numpy
 import yaml
+
+# Debian 11's rospy calls isAlive, which Python 3.9 has no more.
+threading.Thread.isAlive = threading.Thread.is_alive
 
 # Variables have MoveIt's names: the name of the joint, or JOINT/PART if the joint has several variables.
 Variable = collections.namedtuple("Variable", "name lower upper")

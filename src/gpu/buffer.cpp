@@ -123,7 +123,7 @@ void TexelBuffer::reserve(std::size_t size)
   if (size > max_bytes)
     throw Error("the scene needs " + std::to_string((size + kTexelBytes - 1) / kTexelBytes) +
                 " texels in a buffer texture, but the device holds at most " + std::to_string(max_bytes / kTexelBytes) +
-                "; use fewer triangles or a smaller batch");
+                "; use fewer triangles, a smaller batch or the device 'cpu'");
   buffer_.reserve(size, max_bytes);
   if (!texture_)
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
