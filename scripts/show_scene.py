@@ -30,6 +30,17 @@ def rotation_of(quaternion):
     )
 
 
+def upright(up):
+    """A quaternion that turns the z axis to the direction `up`."""
+    from geometry_msgs.msg import Quaternion
+
+    x, y, z = numpy.array(up) / numpy.linalg.norm(up)
+    if z < -0.999999:
+        return Quaternion(1.0, 0.0, 0.0, 0.0)
+    turn = numpy.array([-y, x, 0.0, 1.0 + z])
+    return Quaternion(*map(float, turn / numpy.linalg.norm(turn)))
+
+
 def points_of(marker):
     """Points of a marker in its frame, one per row: vertices of triangles, or the corners of boxes around the solids."""
     chosen = marker.points[:: max(1, len(marker.points) // MAX_POINTS)]
@@ -56,14 +67,14 @@ def hidden_share(points, eye, boxes):
     return hidden.mean()
 
 
-def view_of(markers):
+def view_of(markers, axes):
     """The focal point, distance and yaw of an RViz orbit view, in metres and radians: the robot fills much of the
-    picture, and few objects hide it."""
-    robot = [points_of(marker) for marker in markers if marker.ns == "robot"]
+    picture, and few objects hide it. `axes`: the axes of the fixed frame, as columns, in the frame of the markers."""
+    robot = [points_of(marker) @ axes for marker in markers if marker.ns == "robot"]
     points = numpy.concatenate(robot) if robot else numpy.array([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
     lower, upper = points.min(axis=0), points.max(axis=0)
     focus, size = 0.5 * (lower + upper), max(0.1, float(numpy.linalg.norm(upper - lower)))
-    objects = [points_of(marker) for marker in markers if marker.ns == "objects"]
+    objects = [points_of(marker) @ axes for marker in markers if marker.ns == "objects"]
     boxes = [(corners.min(axis=0), corners.max(axis=0)) for corners in objects]
 
     def hidden(yaw):
@@ -108,16 +119,16 @@ def first_markers(topic):
     return None
 
 
-def announce(frame, node):
-    """Publishes a frame at the origin of the planning frame. RViz warns about a fixed frame that tf does not know, which
-    is the case where nobody else publishes tf."""
+def announce(frame, child, rotation):
+    """Publishes the frame `child` at the origin of the planning frame. RViz needs it for another upward direction. It
+    also warns about a planning frame that tf does not know, which is the case where nobody else publishes tf."""
     import rospy
     from geometry_msgs.msg import TransformStamped
     from tf2_msgs.msg import TFMessage
 
-    origin = TransformStamped(child_frame_id=f"{node.strip('/')}/origin")
+    origin = TransformStamped(child_frame_id=child)
     origin.header.frame_id, origin.header.stamp = frame, rospy.Time.now()
-    origin.transform.rotation.w = 1.0
+    origin.transform.rotation = rotation
     publisher = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
     publisher.publish(TFMessage([origin]))
     return publisher
@@ -129,7 +140,14 @@ def main():
 
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--node", default="planning_scene", help="name of the planning_scene_node (%(default)s)")
+    parser.add_argument("--up", default="0,0,1", metavar="X,Y,Z", help="upward direction (%(default)s)")
     arguments = parser.parse_args(rospy.myargv()[1:])
+    try:
+        up = [float(word) for word in arguments.up.split(",")]
+    except ValueError:
+        up = []
+    if len(up) != 3 or not 0.0 < numpy.linalg.norm(up) < math.inf:
+        parser.error(f"--up: '{arguments.up}' is not a direction X,Y,Z")
     if not shutil.which("rviz"):
         print("show_scene.py: RViz is missing; install the package rviz (Debian) or ros-noetic-rviz", file=sys.stderr)
         return 1
@@ -142,8 +160,11 @@ def main():
         print(f"show_scene.py: the scene of {node} has no shapes, so there is nothing to show", file=sys.stderr)
         return 1
     template = pathlib.Path(rospkg.RosPack().get_path("gpu_planning_scene"), "config", "scene.rviz")
-    made = configuration(yaml.safe_load(template.read_text()), node, markers[0].header.frame_id, view_of(markers))
-    frames = announce(markers[0].header.frame_id, node)  # published as long as this object lives
+    frame, child, rotation = markers[0].header.frame_id, f"{node.strip('/')}/upright", upright(up)
+    frames = announce(frame, child, rotation)  # published as long as this object lives
+    fixed = frame if rotation.w == 1.0 else child
+    view = view_of(markers, rotation_of(rotation))
+    made = configuration(yaml.safe_load(template.read_text()), node, fixed, view)
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "scene.rviz")
         file.write_text(yaml.safe_dump(made, sort_keys=False))

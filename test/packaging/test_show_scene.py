@@ -50,19 +50,37 @@ class Views(unittest.TestCase):
     robot = box("robot", (5, 0, 0.5), (0.2, 0.2, 1))
 
     def test_show_the_middle_of_the_robot_from_the_front_if_nothing_hides_it(self):
-        focus, distance, yaw = show_scene.view_of([self.robot, box("objects", (5, 0, -0.1), (4, 4, 0.1))])
+        focus, distance, yaw = show_scene.view_of([self.robot, box("objects", (5, 0, -0.1), (4, 4, 0.1))], numpy.eye(3))
         self.assertTrue(numpy.allclose(focus, [5, 0, 0.5]))
         self.assertTrue(1.5 < distance < 4, distance)
         self.assertEqual(show_scene.YAWS[0], yaw)
 
     def test_are_not_of_the_back_of_a_shelf(self):
         shelf = box("objects", (5.5, 0, 0.75), (0.4, 3, 1.5))
-        _, _, yaw = show_scene.view_of([self.robot, shelf])
+        _, _, yaw = show_scene.view_of([self.robot, shelf], numpy.eye(3))
         self.assertLess(math.cos(yaw), 0.5, "the camera is behind the shelf")
 
     def test_of_a_robot_without_shapes_show_the_origin(self):
-        focus, _, _ = show_scene.view_of([])
+        focus, _, _ = show_scene.view_of([], numpy.eye(3))
         self.assertTrue(numpy.allclose(focus, 0))
+
+
+    def test_are_in_the_fixed_frame(self):
+        y_up = numpy.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])  # the fixed frame's z axis is the y axis of the markers
+        focus, _, _ = show_scene.view_of([self.robot], y_up)
+        self.assertTrue(numpy.allclose(focus, [5, -0.5, 0]))
+
+
+class Upright(unittest.TestCase):
+    def test_turns_z_to_the_upward_direction(self):
+        try:
+            import geometry_msgs.msg  # noqa: F401
+        except ImportError:
+            self.skipTest("needs geometry_msgs")
+        for up in ((0, 0, 1), (0, 1, 0), (-2, 0, 0), (0, 0, -1), (1, 2, -3)):
+            turned = show_scene.rotation_of(show_scene.upright(up)) @ [0, 0, 1]
+            self.assertTrue(numpy.allclose(turned, numpy.array(up) / numpy.linalg.norm(up)), up)
+        self.assertEqual(1.0, show_scene.upright((0, 0, 2)).w)
 
 
 class Configuration(unittest.TestCase):
