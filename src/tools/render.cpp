@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
-#include <sstream>
 
 #include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/state_inspector.h"
 #include "render/renderer.h"
 #include "tools/robot_arguments.h"
 #include "tools/scene_arguments.h"
+#include "tools/state_values.h"
 
 namespace gpu_planning_scene::core
 {
@@ -23,9 +23,11 @@ std::vector<Option> options()
   std::vector<Option> all = robotOptions();
   for (const Option& option : sceneOptions())
     all.push_back(option);
-  all.push_back({"--state", "NAME=VALUE,...",
-                 "values of variables; other variables have the values of\nthe scene's state, or their defaults"});
-  all.push_back({"--random", "SEED", "a random state instead, within the joints' limits"});
+  all.push_back({"--state", "ITEM,...",
+                 "items NAME=VALUE (a variable) and names of states of the\nSRDF (ready, or GROUP/ready); other "
+                 "variables have the values\nof the scene's state, or their defaults"});
+  all.push_back({"--random", "SEED",
+                 "a random state instead, within the joints' limits; planar\nand floating joints stay where they are"});
   all.push_back({"--camera", "X,Y,Z[,X,Y,Z]",
                  "camera position and target; default: a view of the\nrobot and the objects near it"});
   all.push_back({"--up", "X,Y,Z", "upward direction (default 0,0,1)"});
@@ -37,22 +39,13 @@ std::vector<Option> options()
 
 std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene& scene)
 {
-  const RobotModel& robot = *scene.robot;
-  std::vector<double> state = scene.current_state.empty() ? robot.defaultState() : scene.current_state;
+  std::vector<double> state = startState(scene);
   if (arguments.has("--random"))
   {
     std::mt19937_64 generator(static_cast<std::uint64_t>(arguments.integer("--random", 0, 0, 1LL << 32)));
-    robot.randomState(generator, state.data());
+    randomise(*scene.robot, generator, startState(scene), true, state.data());
   }
-  std::istringstream words(arguments.value("--state", ""));
-  for (std::string word; std::getline(words, word, ',');)
-  {
-    const std::size_t equals = word.find('=');
-    const int variable = robot.variableIndex(word.substr(0, equals));
-    if (equals == std::string::npos || variable < 0)
-      throw UsageError("--state: '" + word + "' is not NAME=VALUE with a variable of the robot");
-    state[static_cast<std::size_t>(variable)] = numbersFrom("--state", word.substr(equals + 1), 1)[0];
-  }
+  setValues(*scene.robot, arguments.value("--state", ""), state);
   return state;
 }
 
@@ -115,7 +108,7 @@ int main(int argc, char** argv)
   using namespace gpu_planning_scene::core;
   const Tool tool{"render",
                   "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
-                  "              [--state NAME=VALUE,...] --out FILE.png [options]",
+                  "              [--state ITEM,...] --out FILE.png [options]",
                   "Draws a robot in its scene: links grey, objects in colours, bodies that collide red,\ncontact "
                   "points yellow. Needs an OpenGL device (a software device works too), but no window system.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",
