@@ -13,12 +13,17 @@
 
 namespace gpu_planning_scene::core
 {
-/// Maps the name of a ROS package to its folder, or to an empty string if the package is unknown. The libraries do not
-/// use ROS: the node passes ros::package::getPath, the tools pass the values of --package.
+/// Maps the name of a ROS package to its folder. It returns an empty string, or throws Error with the remedy, if the
+/// package is unknown.
 using PackageResolver = std::function<std::string(const std::string& package)>;
 
-/// A resolver for NAME -> DIR pairs.
-PackageResolver packageResolver(std::map<std::string, std::string> folders);
+/// A resolver for NAME -> DIR pairs and, after them, for the packages below the folders of ROS_PACKAGE_PATH. It needs
+/// no ROS, and finds packages as ROS does: a package is a folder with a package.xml, which has the package's name, and
+/// the first one on the path counts. The path is searched when a package is first needed. For an unknown package, the
+/// resolver throws Error. `remedy`: the end of its message, "or ...", where NAME stands for the package; it tells how
+/// the user of a program gives it a folder.
+PackageResolver packageResolver(std::map<std::string, std::string> folders,
+                                std::string remedy = "give packageResolver the folder of NAME");
 
 /// Turns a mesh URI into a file path. `uri`: package://NAME/PATH, file:///PATH, an absolute path, or a path relative to
 /// `base_folder`. `base_folder`: the folder of the URDF; if it is empty, relative paths are refused. Escapes such as

@@ -79,6 +79,15 @@ struct Group
   std::vector<int> moved_links;  ///< links that these variables move, ascending (MoveIt: updated links)
 };
 
+/// A state that the SRDF names for a group (group_state): values of some variables of the group.
+struct NamedState
+{
+  std::string name;
+  std::string group;
+  std::vector<int> variables;
+  std::vector<double> values;  ///< one per variable
+};
+
 /// A pair of links that the SRDF names.
 struct LinkPair
 {
@@ -134,12 +143,17 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   const std::vector<Joint>& joints() const { return joints_; }  ///< parents before children
   const std::vector<Variable>& variables() const { return variables_; }
   const std::vector<Group>& groups() const { return groups_; }
+  const std::vector<NamedState>& namedStates() const { return named_states_; }
   const SrdfCollisions& srdfCollisions() const { return srdf_collisions_; }
 
   int linkIndex(const std::string& name) const;       ///< -1 if there is none
   int jointIndex(const std::string& name) const;      ///< -1 if there is none
   int variableIndex(const std::string& name) const;   ///< -1 if there is none
   const Group& group(const std::string& name) const;  ///< throws Error that lists the groups if it is unknown
+  /// The state of the SRDF with this name: NAME or GROUP/NAME. If several groups have a state NAME, for example an arm
+  /// and its hand, it has the values of all of them. Throws Error that lists the states if there is none, and Error if
+  /// two groups give a variable different values.
+  NamedState namedState(const std::string& name) const;
 
   /// Pairs of links that a joint connects, sorted. Only links with shapes count: two of them are also adjacent if only
   /// links without shapes are between them.
@@ -176,6 +190,7 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   std::vector<Joint> joints_;
   std::vector<Variable> variables_;
   std::vector<Group> groups_;
+  std::vector<NamedState> named_states_;
   SrdfCollisions srdf_collisions_;
   std::unordered_map<std::string, int> link_indices_;
   std::unordered_map<std::string, int> joint_indices_;

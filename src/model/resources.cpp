@@ -38,6 +38,22 @@ std::string decodePercents(const std::string& text, const std::string& uri)
   return decoded;
 }
 
+std::string folderOf(const std::string& package, const std::string& uri, const PackageResolver& packages)
+{
+  std::string folder;
+  try
+  {
+    folder = packages ? packages(package) : "";
+  }
+  catch (const Error& error)
+  {
+    throw Error("mesh URI '" + uri + "': " + error.what());
+  }
+  if (folder.empty())
+    throw Error("mesh URI '" + uri + "': the folder of package '" + package + "' is not known");
+  return folder;
+}
+
 /// The package name ends at the first slash of the URI, as in ROS. So a decoded name must not contain a slash.
 std::string resolvePackageUri(const std::string& uri, const PackageResolver& packages)
 {
@@ -52,13 +68,7 @@ std::string resolvePackageUri(const std::string& uri, const PackageResolver& pac
   if (package == "." || package == ".." || package.find('/') != std::string::npos || inside.is_absolute() ||
       *inside.begin() == "..")
     throw Error("mesh URI '" + uri + "' leaves its package");
-  const std::string folder = packages ? packages(package) : std::string();
-  if (folder.empty())
-  {
-    throw Error("mesh URI '" + uri + "': the folder of package '" + package + "' is not known; name it (--package " +
-                package + "=DIR) or put it on ROS_PACKAGE_PATH");
-  }
-  return (fs::path(folder) / inside).string();
+  return (fs::path(folderOf(package, uri, packages)) / inside).string();
 }
 
 std::string resolveFileUri(const std::string& uri)
@@ -72,15 +82,6 @@ std::string resolveFileUri(const std::string& uri)
   return path;
 }
 }  // namespace
-
-PackageResolver packageResolver(std::map<std::string, std::string> folders)
-{
-  return [folders = std::move(folders)](const std::string& package)
-  {
-    const auto found = folders.find(package);
-    return found == folders.end() ? std::string() : found->second;
-  };
-}
 
 std::string resolveUri(const std::string& uri, const std::string& base_folder, const PackageResolver& packages)
 {

@@ -9,6 +9,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/groups.h"
 #include "model/kinematics.h"
+#include "model/named_states.h"
 #include "model/one_line.h"
 #include "model/srdf_reader.h"
 #include "model/tree_builder.h"
@@ -107,6 +108,7 @@ class RobotModelBuilder
         collisions.disabled_by_default.push_back(index);
     }
     model_->groups_ = resolveGroups(srdf.groups, *model_, ignored_joints_, warnings_);
+    model_->named_states_ = resolveNamedStates(srdf.named_states, *model_, ignored_joints_, warnings_);
   }
 
   int knownLink(const std::string& link, const std::string& where)

@@ -56,6 +56,18 @@ SrdfGroup readGroup(const XmlText& xml, const tinyxml2::XMLElement& element)
   return group;
 }
 
+SrdfNamedState readNamedState(const XmlText& xml, const tinyxml2::XMLElement& element)
+{
+  SrdfNamedState state = {xml.attribute(element, "name"), xml.attribute(element, "group"), xml.where(element), {}};
+  forEachChild(element, "joint",
+               [&](const tinyxml2::XMLElement& joint)
+               {
+                 state.values.emplace_back(SrdfName{xml.attribute(joint, "name"), xml.where(joint)},
+                                           xml.attribute(joint, "value"));
+               });
+  return state;
+}
+
 SrdfVirtualJoint readVirtualJoint(const XmlText& xml, const tinyxml2::XMLElement& element)
 {
   SrdfVirtualJoint joint = {xml.attribute(element, "name"), xml.attribute(element, "type"),
@@ -81,8 +93,11 @@ Srdf readSrdf(const std::string& text, const std::string& name)
   forEachChild(
       xml.root(), "virtual_joint",
       [&](const tinyxml2::XMLElement& element) { srdf.virtual_joints.push_back(readVirtualJoint(xml, element)); });
-  forEachChild(xml.root(), "group",
-               [&](const tinyxml2::XMLElement& element) { srdf.groups.push_back(readGroup(xml, element)); });
+  forEachChild(
+      xml.root(), "group",
+      [&](const tinyxml2::XMLElement& element) { srdf.groups.push_back(readGroup(xml, element)); });
+  forEachChild(xml.root(), "group_state",
+               [&](const tinyxml2::XMLElement& element) { srdf.named_states.push_back(readNamedState(xml, element)); });
   srdf.passive_joints = readNames(xml, xml.root(), "passive_joint");
   srdf.disabled = readPairs(xml, "disable_collisions");
   srdf.enabled = readPairs(xml, "enable_collisions");

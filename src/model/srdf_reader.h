@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gpu_planning_scene::core
@@ -38,6 +39,14 @@ struct SrdfVirtualJoint
   std::string where;
 };
 
+struct SrdfNamedState
+{
+  std::string name;
+  std::string group;
+  std::string where;
+  std::vector<std::pair<SrdfName, std::string>> values;  ///< joints and the text of their values
+};
+
 struct SrdfPair
 {
   std::string link_1;
@@ -53,6 +62,7 @@ struct Srdf
   std::string where;
   std::vector<SrdfVirtualJoint> virtual_joints;
   std::vector<SrdfGroup> groups;
+  std::vector<SrdfNamedState> named_states;
   std::vector<SrdfName> passive_joints;
   std::vector<SrdfPair> disabled;
   std::vector<SrdfPair> enabled;

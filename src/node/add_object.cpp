@@ -7,6 +7,7 @@
 #include "gpu_planning_scene/error.h"
 #include "node/messages.h"
 #include "tools/command_line.h"
+#include "tools/robot_arguments.h"
 #include "tools/scene_arguments.h"
 
 namespace gpu_planning_scene::core
@@ -15,14 +16,16 @@ namespace
 {
 std::vector<Option> options()
 {
-  return {{"--object", "ID=FILE[,POSE]",
-           "an STL, DAE, OBJ or PLY file; POSE is x,y,z or\nx,y,z,qx,qy,qz,qw; an object of that name is replaced;\n"
-           "can be repeated",
-           true},
-          {"--frame", "NAME",
-           "the frame of POSE: a link, an object, OBJECT/SUBFRAME,\nor any frame of tf (default: the planning frame)"},
-          {"--node", "NAME", "the node (default /planning_scene)"},
-          {"--wait", "SECONDS", "time to wait for the node (default 5)"}};
+  return {
+      {"--object", "ID=FILE[,POSE]",
+       "an STL, DAE, OBJ or PLY file: a path or package://NAME/PATH;\nPOSE is x,y,z or x,y,z,qx,qy,qz,qw; an object "
+       "of that name is\nreplaced; can be repeated",
+       true},
+      packageOption(),
+      {"--frame", "NAME",
+       "the frame of POSE: a link, an object, OBJECT/SUBFRAME,\nor any frame of tf (default: the planning frame)"},
+      {"--node", "NAME", "the node (default /planning_scene)"},
+      {"--wait", "SECONDS", "time to wait for the node (default 5)"}};
 }
 
 shape_msgs::Mesh messageOf(const Mesh& mesh)
@@ -69,9 +72,10 @@ void run(const CommandLine& arguments)
   ApplyPlanningScene service;
   service.request.scene.is_diff = true;
   service.request.scene.robot_state.is_diff = true;
+  const PackageResolver packages = packagesFrom(arguments);
   for (const std::string& text : arguments.values("--object"))
     service.request.scene.world.collision_objects.push_back(
-        messageOf(objectFrom(text), arguments.value("--frame", "")));
+        messageOf(objectFrom(text, packages), arguments.value("--frame", "")));
   if (!ros::master::check())
     throw Error("no ROS master answers at " + ros::master::getURI() + "; start one (roscore), or set ROS_MASTER_URI");
   const ros::NodeHandle node;
@@ -98,7 +102,9 @@ int main(int argc, char** argv)
   std::vector<const char*> arguments;
   for (const std::string& word : words)
     arguments.push_back(word.c_str());
-  const Tool tool{"add_object", "--object ID=FILE[,x,y,z[,qx,qy,qz,qw]]... [--frame NAME] [--node NAME]",
+  const Tool tool{"add_object",
+                  "--object ID=FILE[,x,y,z[,qx,qy,qz,qw]]... [--package NAME=DIR]... [--frame NAME]\n                  "
+                  "[--node NAME]",
                   "Puts mesh files as objects into the scene of a running node.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",
                   options(), run};

@@ -203,10 +203,17 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
       {
         memory_.require();
         CheckJob job;
+        const Snapshot now = store_.snapshot();
+        const RobotModel& robot = *now.scene->robot;
+        NamedRow named;
+        const bool is_named = !request.named_state.empty();
+        if (is_named)
+          named = requestedNamedState(robot, {"named_state", request.named_state},
+                                      request.joint_names.empty() && request.positions.empty());
+        job.states = is_named ? named.values : request.positions;
         job.columns = requestedColumns(
-            *store_.snapshot().scene->robot, {"joint_names", request.joint_names}, {"positions", request.positions},
+            robot, {"joint_names", is_named ? named.names : request.joint_names}, {"positions", job.states},
             [this](std::size_t count) { server_.requireStateCount(count); });
-        job.states = request.positions;
         job.group = request.group;
         job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
         if (const auto outside =

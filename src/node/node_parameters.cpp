@@ -1,7 +1,5 @@
 #include "node/node_parameters.h"
 
-#include <ros/package.h>
-
 #include "gpu_planning_scene/error.h"
 #include "node/parameter_values.h"
 #include "node/planning_parameters.h"
@@ -94,11 +92,7 @@ PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHa
   if (own.getParam("packages", packages))
     folders = packageFolders(packages);
   RobotModelOptions options;
-  options.packages = [known = packageResolver(folders)](const std::string& package)
-  {
-    const std::string folder = known(package);
-    return folder.empty() ? ros::package::getPath(package) : folder;
-  };
+  options.packages = packageResolver(folders, "name its folder in ~packages (launch file: \"packages:={NAME: DIR}\")");
   options.urdf_folder = textParameter(own, "urdf_folder", "");
   options.unbounded_translation = lengthParameter(own, "unbounded_translation", options.unbounded_translation);
   options.meshes = meshAccessFromParameters(own);

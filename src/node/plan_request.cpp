@@ -24,6 +24,27 @@ void requirePlannedFor(const std::vector<int>& columns, const GroupStateSpace& s
       throw Error("goal_names has " + space.robot()->variables()[static_cast<std::size_t>(column)].name +
                   ", which group '" + space.group().name + "' does not plan for");
 }
+
+/// The state of the SRDF, without variables outside the group: a state `home` of an arm and its hand is also a goal of
+/// the arm.
+NamedRow namedGoal(const PlanMotion::Request& request, const GroupStateSpace& space)
+{
+  const RobotModel& robot = *space.robot();
+  const NamedRow state = requestedNamedState(robot, {"named_goal", request.named_goal},
+                                             request.goal_names.empty() && request.goals.empty());
+  NamedRow goal;
+  for (std::size_t i = 0; i < state.names.size(); ++i)
+    if (std::find(space.variables().begin(), space.variables().end(), robot.variableIndex(state.names[i])) !=
+        space.variables().end())
+    {
+      goal.names.push_back(state.names[i]);
+      goal.values.push_back(state.values[i]);
+    }
+  if (goal.names.empty())
+    throw Error("named_goal '" + request.named_goal + "' has no variable of the group '" + request.group + "'");
+  return goal;
+}
+
 /// Refuses parameters that keep a planner busy for hours between two checks of the time, because planners accept any
 /// number. Examples are a count of many millions, and a `range` that is a billionth of the extent of the space.
 void refuseCostly(const std::map<std::string, std::string>& parameters, double extent, std::size_t limit)
@@ -83,14 +104,18 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
       throw Error("start has " + std::to_string(count) + " rows; a motion has one start");
   };
   const PartialState current = now.partialState();
-  if (request.start_names.empty() && request.start.empty())
+  NamedRow start_row{request.start_names, request.start};
+  if (!request.named_start.empty())
+    start_row = requestedNamedState(robot, {"named_start", request.named_start},
+                                    request.start_names.empty() && request.start.empty());
+  if (start_row.names.empty() && start_row.values.empty())
     query.start = fullStates(robot, {}, nullptr, 1, current);
   else
   {
     const std::vector<int> columns =
-        requestedColumns(robot, {"start_names", request.start_names}, {"start", request.start}, one);
+        requestedColumns(robot, {"start_names", start_row.names}, {"start", start_row.values}, one);
     requireWholeRotations(robot, columns);
-    query.start = fullStates(robot, columns, request.start.data(), 1, current);
+    query.start = fullStates(robot, columns, start_row.values.data(), 1, current);
   }
   const auto few = [&options](std::size_t count)
   {
@@ -98,15 +123,18 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
       throw Error(std::to_string(count) + " goals are more than " + std::to_string(options.max_goals) +
                   " (limits/goals)");
   };
-  const std::vector<int> columns =
-      requestedColumns(robot, {"goal_names", request.goal_names}, {"goals", request.goals}, few);
   const GroupStateSpace space(now.scene->robot, request.group);
+  NamedRow goal_rows{request.goal_names, request.goals};
+  if (!request.named_goal.empty())
+    goal_rows = namedGoal(request, space);
+  const std::vector<int> columns =
+      requestedColumns(robot, {"goal_names", goal_rows.names}, {"goals", goal_rows.values}, few);
   requirePlannedFor(columns, space);
   requireWholeRotations(robot, columns);
   const std::size_t width = columns.size();
   const PartialState start(robot, query.start);
-  const std::size_t goals = request.goals.size() / width;
-  const std::vector<double> rows = fullStates(robot, columns, request.goals.data(), goals, start);
+  const std::size_t goals = goal_rows.values.size() / width;
+  const std::vector<double> rows = fullStates(robot, columns, goal_rows.values.data(), goals, start);
   for (std::size_t i = 0; i < goals; ++i)
     query.goals.emplace_back(rows.begin() + static_cast<std::ptrdiff_t>(i * query.start.size()),
                              rows.begin() + static_cast<std::ptrdiff_t>((i + 1) * query.start.size()));

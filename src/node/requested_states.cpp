@@ -28,6 +28,19 @@ std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<st
   return columns;
 }
 
+NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::string>& field, bool others_empty)
+{
+  if (!others_empty)
+    throw Error(std::string(field.name) + " is '" + field.values +
+                "', but the request has joint names or positions too; give one of the two");
+  const NamedState state = robot.namedState(field.values);
+  NamedRow row;
+  row.values = state.values;
+  for (const int variable : state.variables)
+    row.names.push_back(robot.variables()[static_cast<std::size_t>(variable)].name);
+  return row;
+}
+
 void requireWholeRotations(const RobotModel& robot, const std::vector<int>& columns)
 {
   constexpr int kRotation = 3;  // index of the first rotation variable of a floating joint, after the position

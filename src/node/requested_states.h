@@ -23,6 +23,17 @@ std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<st
                                   const RequestField<std::vector<double>>& rows,
                                   const std::function<void(std::size_t)>& require_count);
 
+/// The names and values of a row of states, as in a request.
+struct NamedRow
+{
+  std::vector<std::string> names;
+  std::vector<double> values;
+};
+
+/// The row of a state that the SRDF names. `field`: the field of the request that has the name. `others_empty`: whether
+/// the request has no names and values besides. Throws Error if it has, and if the SRDF has no such state.
+NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::string>& field, bool others_empty);
+
 /// Throws Error if the columns have only some of the four variables of a floating joint's rotation: a motion between
 /// two such rotations is not defined.
 void requireWholeRotations(const RobotModel& robot, const std::vector<int>& columns);

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <set>
+
 #include "gpu_planning_scene/error.h"
 #include "scene/message_values.h"
 #include "scene/scene_reader.h"
@@ -28,6 +31,16 @@ std::string join(const std::vector<std::string>& names)
   for (const std::string& name : names)
     line += (line.empty() ? "" : ", ") + name;
   return line;
+}
+
+/// The variables of the SRDF's virtual joint, if there is one.
+std::set<int> virtualVariables(const RobotModel& robot)
+{
+  std::set<int> variables;
+  for (const Joint& joint : robot.joints())
+    for (int i = 0; joint.parent_link < 0 && i < variableCount(joint.type); ++i)
+      variables.insert(joint.first_variable + i);
+  return variables;
 }
 
 void readJointState(const YamlValue& value, const SceneReader& reader, GivenState& state)
@@ -132,12 +145,14 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
   if (!state.mimic_joints.empty())
     reader.warn(start + "joints ignored because they follow other joints: " + join(state.mimic_joints));
 
-  std::vector<std::string> missing;
-  for (std::size_t i = 0; i < state.given.size(); ++i)
-    if (!state.given[i])
-      missing.push_back(reader.robot.variables()[i].name);
-  if (missing.size() == state.values.size())
+  if (std::find(state.given.begin(), state.given.end(), true) == state.given.end())
     return {};
+  // The virtual joint is not in the URDF. Files of its users often leave it out, and mean the default.
+  std::vector<std::string> missing;
+  const std::set<int> of_virtual_joint = virtualVariables(reader.robot);
+  for (std::size_t i = 0; i < state.given.size(); ++i)
+    if (!state.given[i] && of_virtual_joint.count(static_cast<int>(i)) == 0)
+      missing.push_back(reader.robot.variables()[i].name);
   if (!missing.empty())
     reader.warn(start + "joints without a value get their default: " + join(missing));
   return state.values;

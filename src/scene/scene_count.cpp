@@ -10,6 +10,12 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+/// "a link", "an object".
+std::string withArticle(const std::string& noun)
+{
+  return (noun.find_first_of("aeiou") == 0 ? "an " : "a ") + noun;
+}
+
 void requireAtMost(std::size_t count, std::size_t limit, const std::string& what, const char* parameter)
 {
   if (limit != 0 && count > limit)
@@ -89,10 +95,10 @@ void SceneCount::requireFramesAndColors(const PlanningScene& scene) const
 void SceneCount::requireName(const std::string& name, const std::string& what) const
 {
   if (name.empty())
-    throw Error("a " + what + " has no name; give it a name");
+    throw Error(withArticle(what) + " has no name; give it a name");
   requireAtMost(name.size(), limits_.name_length, "the length of a name (" + what + ") is", "name_length");
   if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }))
-    throw Error("the name of a " + what + " contains a line break or another control character; remove it");
+    throw Error("the name of " + withArticle(what) + " contains a line break or another control character; remove it");
 }
 
 void SceneCount::requireMatrix(const AllowedCollisionMatrix& matrix) const

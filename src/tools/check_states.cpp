@@ -37,8 +37,7 @@ void checkUsage(const CommandLine& arguments)
   arguments.required("--urdf");
   packagesFrom(arguments);
   checkerOptionsFrom(arguments);
-  if (arguments.has("--states") == arguments.has("--random"))
-    throw UsageError("give either --states FILE or --random N");
+  checkStateUsage(arguments);
 }
 
 /// Checks all states, in batches of `batch` states, to show the progress.
@@ -67,6 +66,7 @@ void writeAnswers(std::ostream& out, const BatchResult& result, const PlanningSc
   const std::size_t bodies = scene.robot->links().size() + scene.objects.size() + scene.attached.size();
   for (std::size_t body = 0; body < bodies; ++body)
     names.push_back(csvCell(scene.bodyName(static_cast<int>(body))));
+  out << "valid,body_1,body_2\n";
   for (std::size_t i = 0; i < result.valid.size(); ++i)
     if (result.valid[i])
       out << "1,,\n";
@@ -156,9 +156,10 @@ int main(int argc, char** argv)
   using namespace gpu_planning_scene::core;
   const Tool tool{"check_states",
                   "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
-                  "                    (--states FILE.csv | --random N [--seed S]) [options]",
-                  "Checks which states of a robot are free of collision. Answers with one line per state,\n"
-                  "valid,body_1,body_2: 1 and two empty names, or 0 and a pair of bodies that collide.\n"
+                  "                    (--states FILE.csv | --state ready | --random N [--seed S]) [options]",
+                  "Checks which states of a robot are free of collision. Answers in CSV: the header\n"
+                  "valid,body_1,body_2, then one line per state: 1 and two empty names, or 0 and a pair of\n"
+                  "bodies that collide.\n"
                   "A summary goes to the standard error; its last line is\n"
                   "  N states, V valid, R states/s, DEVICE\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",

@@ -82,12 +82,15 @@ void run(const CommandLine& arguments)
 int main(int argc, char** argv)
 {
   using namespace gpu_planning_scene::core;
-  const Tool tool{"generate_acm", "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [options]",
-                  "Finds the pairs of a robot's links that need not be checked for collision, as MoveIt's Setup\n"
-                  "Assistant does, and writes them as disable_collisions of an SRDF: Adjacent (a joint joins them),\n"
-                  "Default (they collide in the default state), Always (in nearly all of many random states) and\n"
-                  "Never (in none of them). Runs on the CPU, on all cores, in double precision.\n"
-                  "Exit code: 0 success, 2 bad usage, 1 any other error.",
-                  options(), run};
+  const Tool tool{
+      "generate_acm", "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [options]",
+      "Finds the pairs of a robot's links that need not be checked for collision, as MoveIt's Setup\n"
+      "Assistant does, and writes them as disable_collisions of an SRDF: Adjacent (a joint joins them),\n"
+      "Default (they collide in the default state), Always (in nearly all of many random states) and\n"
+      "Never (in none of them). Runs on the CPU, on all cores, in double precision.\n"
+      "If there is no SRDF yet, or none with groups, it also writes planning groups: a chain from the root\n"
+      "link to each tip, with the name of the tip.\n"
+      "Exit code: 0 success, 2 bad usage, 1 any other error.",
+      options(), run};
   return runTool(tool, argc, argv);
 }

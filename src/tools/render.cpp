@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
-#include <sstream>
+#include <numeric>
+#include <random>
 #include <string_view>
 
 #include "collision/checkers/scene_text.h"
@@ -12,6 +13,7 @@
 #include "render/renderer.h"
 #include "tools/robot_arguments.h"
 #include "tools/scene_arguments.h"
+#include "tools/state_values.h"
 
 namespace gpu_planning_scene::core
 {
@@ -25,9 +27,11 @@ std::vector<Option> options()
   std::vector<Option> all = robotOptions();
   for (const Option& option : sceneOptions())
     all.push_back(option);
-  all.push_back({"--state", "NAME=VALUE,...",
-                 "values of variables; other variables have the values of\nthe scene's state, or their defaults"});
-  all.push_back({"--random", "SEED", "a random state instead, within the joints' limits"});
+  all.push_back({"--state", "ITEM,...",
+                 "items NAME=VALUE (a variable) and names of states of the\nSRDF (ready, or GROUP/ready); other "
+                 "variables have the values\nof the scene's state, or their defaults"});
+  all.push_back({"--random", "SEED",
+                 "a random state instead, within the joints' limits; planar\nand floating joints stay where they are"});
   all.push_back({"--camera", "X,Y,Z[,X,Y,Z]",
                  "camera position and target; default: the view in which\nobjects hide least of the robot and the "
                  "contact points"});
@@ -40,28 +44,20 @@ std::vector<Option> options()
 
 std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene& scene)
 {
-  const RobotModel& robot = *scene.robot;
-  std::vector<double> state = scene.current_state.empty() ? robot.defaultState() : scene.current_state;
+  std::vector<double> state = startState(scene);
   if (arguments.has("--random"))
   {
     std::mt19937_64 generator(static_cast<std::uint64_t>(arguments.integer("--random", 0, 0, 1LL << 32)));
-    robot.randomState(generator, state.data());
+    randomise(*scene.robot, generator, startState(scene), true, state.data());
   }
-  std::vector<int> given;
-  std::vector<double> values;
-  std::istringstream words(arguments.value("--state", ""));
-  for (std::string word; std::getline(words, word, ',');)
+  if (arguments.has("--state"))
   {
-    const std::size_t equals = word.find('=');
-    const int variable = robot.variableIndex(word.substr(0, equals));
-    if (equals == std::string::npos || variable < 0)
-      throw UsageError("--state: '" + word + "' is not NAME=VALUE with a variable of the robot");
-    given.push_back(variable);
-    values.push_back(numbersFrom("--state", word.substr(equals + 1), 1)[0]);
-    state[static_cast<std::size_t>(variable)] = values.back();
+    setValues(*scene.robot, arguments.value("--state", ""), state);
+    std::vector<int> all(scene.robot->variables().size());
+    std::iota(all.begin(), all.end(), 0);
+    if (const auto outside = findValueOutsideLimits(*scene.robot, all, state.data(), 1))
+      printWarnings({"--state: " + outside->text});
   }
-  if (const auto outside = findValueOutsideLimits(robot, given, values.data(), 1))
-    printWarnings({"--state: " + outside->text});
   return state;
 }
 
@@ -134,7 +130,7 @@ int main(int argc, char** argv)
   using namespace gpu_planning_scene::core;
   const Tool tool{"render",
                   "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
-                  "              [--state NAME=VALUE,...] --out FILE.png [options]",
+                  "              [--state ITEM,...] --out FILE.png [options]",
                   "Draws a robot in its scene: links grey, objects in colours, bodies that collide red,\ncontact "
                   "points yellow (faint behind other bodies). It draws the collision shapes of the URDF, not the\n"
                   "visual meshes. Unless the scene has a plane, it adds a floor below the scene, with shadows.\n"

@@ -4,12 +4,18 @@
 
 namespace gpu_planning_scene::core
 {
+Option packageOption()
+{
+  return {"--package", "NAME=DIR",
+          "the folder of package://NAME/...; packages on ROS_PACKAGE_PATH\nneed no option; can be repeated", true};
+}
+
 std::vector<Option> robotOptions()
 {
   return {{"--urdf", "FILE", "the robot"},
           {"--srdf", "FILE",
            "groups, and pairs of links that are not checked;\nwithout it, adjacent links are not checked"},
-          {"--package", "NAME=DIR", "the folder of package://NAME/...; can be repeated", true},
+          packageOption(),
           {"--unbounded-translation", "METRES",
            "planar and floating joints without limits: random positions\nare from -METRES to METRES (default 1)"}};
 }
@@ -37,7 +43,7 @@ PackageResolver packagesFrom(const CommandLine& arguments)
     if (!folders.emplace(package.substr(0, equals), package.substr(equals + 1)).second)
       throw UsageError("--package: '" + package.substr(0, equals) + "' is given twice");
   }
-  return packageResolver(folders);
+  return packageResolver(folders, "name its folder (--package NAME=DIR)");
 }
 
 std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::vector<std::string>* warnings)

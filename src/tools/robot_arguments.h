@@ -13,9 +13,11 @@ namespace gpu_planning_scene::core
 /// The tools' options for the robot (--urdf, --srdf, --package, --unbounded-translation) and for the device (--device,
 /// --traversal, --max-batch, --tolerance).
 std::vector<Option> robotOptions();
+/// --package alone, which is also one of robotOptions().
+Option packageOption();
 std::vector<Option> deviceOptions();
 
-/// Resolves packages by the NAME=DIR of each --package.
+/// Resolves packages by the NAME=DIR of each --package, then by ROS_PACKAGE_PATH.
 PackageResolver packagesFrom(const CommandLine& arguments);
 std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::vector<std::string>* warnings);
 BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments);

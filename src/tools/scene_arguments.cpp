@@ -11,12 +11,12 @@ namespace gpu_planning_scene::core
 {
 std::vector<Option> sceneOptions()
 {
-  return {
-      {"--scene", "FILE",
-       "the planning scene, YAML with MoveIt's field names;\nwithout it, the scene has only the robot"},
-      {"--object", "ID=FILE[,POSE]",
-       "a mesh file as a further object; POSE is x,y,z or\nx,y,z,qx,qy,qz,qw in the planning frame; can be repeated",
-       true}};
+  return {{"--scene", "FILE",
+           "the planning scene, YAML with MoveIt's field names;\nwithout it, the scene has only the robot"},
+          {"--object", "ID=FILE[,POSE]",
+           "a mesh file as a further object; FILE is a path or\npackage://NAME/PATH; POSE is x,y,z or "
+           "x,y,z,qx,qy,qz,qw in the\nplanning frame; can be repeated",
+           true}};
 }
 
 std::vector<double> numbersFrom(const std::string& option, const std::string& text, std::size_t count)
@@ -35,7 +35,7 @@ std::vector<double> numbersFrom(const std::string& option, const std::string& te
   return numbers;
 }
 
-WorldObject objectFrom(const std::string& text)
+WorldObject objectFrom(const std::string& text, const PackageResolver& packages)
 {
   const std::size_t equals = text.find('=');
   const std::size_t comma = std::min(text.find(',', equals == std::string::npos ? 0 : equals), text.size());
@@ -57,8 +57,9 @@ WorldObject objectFrom(const std::string& text)
       object.pose.linear() = rotation.normalized().toRotationMatrix();
     }
   }
-  object.shapes.push_back({MeshCache().load(text.substr(equals + 1, comma - equals - 1), Eigen::Vector3d::Ones()),
-                           Eigen::Isometry3d::Identity()});
+  const std::string file = text.substr(equals + 1, comma - equals - 1);
+  const std::string path = file.find("://") == std::string::npos ? file : resolveUri(file, "", packages);
+  object.shapes.push_back({MeshCache().load(path, Eigen::Vector3d::Ones()), Eigen::Isometry3d::Identity()});
   return object;
 }
 
@@ -69,7 +70,7 @@ PlanningScene sceneFrom(const CommandLine& arguments, std::vector<std::string>* 
                             ? loadSceneFile(arguments.required("--scene"), robot, packagesFrom(arguments), warnings)
                             : PlanningScene(robot);
   for (const std::string& text : arguments.values("--object"))
-    scene.objects.push_back(objectFrom(text));
+    scene.objects.push_back(objectFrom(text, packagesFrom(arguments)));
   return scene;
 }
 }  // namespace gpu_planning_scene::core

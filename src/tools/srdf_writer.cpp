@@ -7,6 +7,7 @@
 #include <tinyxml2.h>
 
 #include "gpu_planning_scene/error.h"
+#include "tools/chain_groups.h"
 
 namespace gpu_planning_scene::core
 {
@@ -46,6 +47,22 @@ bool isGenerated(const tinyxml2::XMLNode& node)
   const char* reason = element->Attribute("reason");
   return reason && !isUsersReason(reason);
 }
+void addGroups(const std::vector<std::string>& tips, const RobotModel& robot, tinyxml2::XMLDocument& document)
+{
+  tinyxml2::XMLElement* root = document.RootElement();
+  if (!tips.empty())
+    root->InsertEndChild(
+        document.NewComment(" Planning groups by generate_acm: a chain from the root link to each tip, "
+                            "with the name of the tip. Change them as you\n    need; they are kept. "));
+  for (const std::string& tip : tips)
+  {
+    tinyxml2::XMLElement* group = root->InsertNewChildElement("group");
+    group->SetAttribute("name", tip.c_str());
+    tinyxml2::XMLElement* chain = group->InsertNewChildElement("chain");
+    chain->SetAttribute("base_link", robot.links().front().name.c_str());
+    chain->SetAttribute("tip_link", tip.c_str());
+  }
+}
 }  // namespace
 
 std::string srdfWith(const GeneratedMatrix& matrix, const RobotModel& robot, const SamplingOptions& options,
@@ -70,6 +87,8 @@ std::string srdfWith(const GeneratedMatrix& matrix, const RobotModel& robot, con
       root->DeleteChild(node);
     node = next;
   }
+  if (root->FirstChildElement("group") == nullptr)
+    addGroups(chainTips(robot), robot, document);
   root->InsertEndChild(document.NewComment(commentText(matrix, robot, options).c_str()));
   for (const DisabledPair& pair : matrix.disabled)
   {

@@ -6,8 +6,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Writes an SRDF with the matrix and a comment that explains it. `srdf`: the XML of the robot's SRDF, or empty. All of
-/// it is kept except earlier generated entries.
+/// Writes an SRDF with the matrix and a comment that explains it, and with groups (chain_groups.h) if `srdf` has none.
+/// `srdf`: the XML of the robot's SRDF, or empty. All of it is kept except earlier generated entries of the matrix.
 std::string srdfWith(const GeneratedMatrix& matrix, const RobotModel& robot, const SamplingOptions& options,
                      const std::string& srdf);
 }  // namespace gpu_planning_scene::core

@@ -7,6 +7,7 @@
 #include "model/full_states.h"
 #include "model/joint_limits.h"
 #include "tools/state_table.h"
+#include "tools/state_values.h"
 
 namespace gpu_planning_scene::core
 {
@@ -15,8 +16,13 @@ namespace
 class RandomStates : public StateSource
 {
  public:
-  RandomStates(const RobotModel& robot, std::size_t count, std::uint64_t seed)
-    : robot_(robot), count_(count), seed_(seed), generator_(seed)
+  RandomStates(const PlanningScene& scene, std::size_t count, std::uint64_t seed, bool keep_base)
+    : robot_(*scene.robot),
+      start_(startState(scene)),
+      count_(count),
+      seed_(seed),
+      keep_base_(keep_base),
+      generator_(seed)
   {
   }
 
@@ -28,16 +34,35 @@ class RandomStates : public StateSource
     const std::size_t width = robot_.variables().size();
     states_.resize(count * width);
     for (std::size_t i = 0; i < count; ++i)
-      robot_.randomState(generator_, states_.data() + i * width);
+      randomise(robot_, generator_, start_, keep_base_, states_.data() + i * width);
     return states_.data();
   }
 
  private:
   const RobotModel& robot_;
+  std::vector<double> start_;
   std::size_t count_;
   std::uint64_t seed_;
+  bool keep_base_;
   std::mt19937_64 generator_;
   std::vector<double> states_;
+};
+
+class StateOfText : public StateSource
+{
+ public:
+  StateOfText(const PlanningScene& scene, const std::string& text) : text_(text), state_(startState(scene))
+  {
+    setValues(*scene.robot, text, state_);
+  }
+
+  std::size_t count() const override { return 1; }
+  std::string text() const override { return "1 state, " + text_; }
+  const double* next(std::size_t /*count*/) override { return state_.data(); }
+
+ private:
+  std::string text_;
+  std::vector<double> state_;
 };
 
 class StatesOfFile : public StateSource
@@ -89,23 +114,37 @@ std::vector<Option> stateOptions()
   return {{"--states", "FILE",
            "CSV: a header of variable names, then one state per row; variables\nwithout a column take the scene's "
            "robot_state"},
-          {"--random", "N", "instead: N random states within the limits, with random values\nof all variables"},
+          {"--state", "ITEM,...",
+           "instead: one state, from items NAME=VALUE (a variable) and names of\nstates of the SRDF (ready, or "
+           "GROUP/ready); the other variables have\nthe scene's robot_state, or their defaults"},
+          {"--random", "N",
+           "instead: N random states within the limits. Planar and floating\njoints, which move the robot's base, "
+           "stay where they are"},
+          {"--random-base", "", "with --random: random values of planar and floating joints too"},
           {"--seed", "S", "the seed of the random states (default 0)"}};
+}
+
+void checkStateUsage(const CommandLine& arguments)
+{
+  const int sources =
+      (arguments.has("--states") ? 1 : 0) + (arguments.has("--state") ? 1 : 0) + (arguments.has("--random") ? 1 : 0);
+  if (sources != 1)
+    throw UsageError("give one of --states FILE, --state ITEM,... and --random N");
+  for (const char* option : {"--seed", "--random-base"})
+    if (arguments.has(option) && !arguments.has("--random"))
+      throw UsageError(std::string(option) + " needs --random");
 }
 
 std::unique_ptr<StateSource> stateSourceFrom(const CommandLine& arguments, const PlanningScene& scene)
 {
-  if (arguments.has("--states") == arguments.has("--random"))
-    throw UsageError("give either --states FILE or --random N");
+  checkStateUsage(arguments);
   if (arguments.has("--states"))
-  {
-    if (arguments.has("--seed"))
-      throw UsageError("--seed needs --random");
     return std::make_unique<StatesOfFile>(scene, arguments.required("--states"));
-  }
+  if (arguments.has("--state"))
+    return std::make_unique<StateOfText>(scene, arguments.required("--state"));
   const long long count = arguments.integer("--random", 0, 1, 1000000000);
   const long long seed = arguments.integer("--seed", 0, 0, std::numeric_limits<long long>::max());
-  return std::make_unique<RandomStates>(*scene.robot, static_cast<std::size_t>(count),
-                                        static_cast<std::uint64_t>(seed));
+  return std::make_unique<RandomStates>(scene, static_cast<std::size_t>(count), static_cast<std::uint64_t>(seed),
+                                        !arguments.has("--random-base"));
 }
 }  // namespace gpu_planning_scene::core

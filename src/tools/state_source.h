@@ -23,9 +23,12 @@ class StateSource
   virtual const double* next(std::size_t count) = 0;
 };
 
-/// --states, --random and --seed.
+/// --states, --state, --random, --random-base and --seed.
 std::vector<Option> stateOptions();
-/// The states of these options. `scene` must outlive the source. Throws UsageError unless exactly one of --states and
-/// --random is given, and Error for a wrong file.
+/// Throws UsageError unless exactly one of --states, --state and --random is given, and for an option that needs
+/// --random. Reads no file.
+void checkStateUsage(const CommandLine& arguments);
+/// The states of these options. `scene` must outlive the source. Throws as checkStateUsage, UsageError for a wrong
+/// --state, and Error for a wrong file.
 std::unique_ptr<StateSource> stateSourceFrom(const CommandLine& arguments, const PlanningScene& scene);
 }  // namespace gpu_planning_scene::core

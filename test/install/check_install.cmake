@@ -18,6 +18,13 @@ function(run what)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
+# require_no_warning(WHAT OUTPUT): fails if the output has a warning.
+function(require_no_warning what output)
+  if(output MATCHES "[Ww]arning")
+    message(FATAL_ERROR "${what} gives a warning:\n${output}")
+  endif()
+endfunction()
+
 file(REMOVE_RECURSE ${FOLDER})
 # A sourced workspace would hide the installed files.
 foreach(name LD_LIBRARY_PATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH)
@@ -43,9 +50,11 @@ endforeach()
 
 # The example finds a path from its start to its goal.
 run("find_package does not find it for the example" ${CMAKE_COMMAND} -S ${EXAMPLE} -B ${FOLDER}/example -G ${GENERATOR}
-  -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${flags} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
+  -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=${flags} -Wall -Wextra" -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
+require_no_warning("finding the package" "${output}")
 run("the example does not build" ${CMAKE_COMMAND} --build ${FOLDER}/example)
-run("the example finds no path" ${FOLDER}/example/plan_a_motion ${ROBOT}.urdf ${ROBOT}.srdf drive)
+require_no_warning("building the example" "${output}")
+run("the example finds no path" ${FOLDER}/example/plan_a_motion ${ROBOT}.urdf ${ROBOT}.srdf drive left right)
 if(NOT output MATCHES "-1 0\\.8[^\n]*\n(.*\n)+1 0\\.8")
   message(FATAL_ERROR "the example's path is another one:\n${output}")
 endif()

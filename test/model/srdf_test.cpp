@@ -178,5 +178,58 @@ TEST(Srdf, WithoutOneThereAreNoGroups)
   EXPECT_TRUE(robot->groups().empty());
   EXPECT_EQ(robot->planningFrame(), "base");
 }
+const char* const kGroups = R"(<group name="arm"><chain base_link="base" tip_link="hand"/></group>
+    <group name="grip"><joint name="left"/><joint name="right"/></group>)";
+
+TEST(SrdfStates, HaveTheValuesOfTheirGroupsJoints)
+{
+  std::vector<std::string> warnings;
+  const auto robot = robotOf(armUrdf(), kGroups + std::string(R"(
+    <group_state name="ready" group="arm"><joint name="arm_2" value="0.5"/><joint name="arm_1" value=" -1e-1 "/>
+      <joint name="hand_fix" value="3"/></group_state>
+    <group_state name="open" group="grip"><joint name="left" value="1"/><joint name="right" value="1"/></group_state>)"),
+                             &warnings);
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+  const NamedState ready = robot->namedState("ready");
+  EXPECT_EQ(ready.group, "arm");
+  EXPECT_EQ(ready.variables, (std::vector<int>{robot->variableIndex("arm_2"), robot->variableIndex("arm_1")}));
+  EXPECT_EQ(ready.values, (std::vector<double>{0.5, -0.1}));
+  EXPECT_EQ(robot->namedState("grip/open").variables, std::vector<int>{robot->variableIndex("left")});
+  EXPECT_EQ(errorOf([&] { robot->namedState("home"); }),
+            "the SRDF has no state 'home'; its states: arm/ready, grip/open");
+  EXPECT_EQ(errorOf([] { robotOf(armUrdf())->namedState("home"); }),
+            "the SRDF has no state 'home'; it names no states");
+}
+
+TEST(SrdfStates, OfOneNameAreMergedUnlessTheyDisagree)
+{
+  const auto robot = robotOf(armUrdf(), kGroups + std::string(R"(
+    <group_state name="home" group="arm"><joint name="arm_1" value="0.5"/></group_state>
+    <group_state name="home" group="grip"><joint name="left" value="1"/></group_state>
+    <group_state name="twice" group="arm"><joint name="arm_1" value="0.5"/></group_state>
+    <group_state name="twice" group="grip"><joint name="arm_1" value="0.6"/></group_state>)"));
+  EXPECT_EQ(robot->namedState("home").variables.size(), 2u);
+  EXPECT_EQ(robot->namedState("arm/home").variables.size(), 1u);
+  EXPECT_EQ(errorOf([&] { robot->namedState("twice"); }),
+            "the states 'twice' of the SRDF give arm_1 different values; write GROUP/NAME: arm/twice or grip/twice");
+  EXPECT_EQ(robot->namedState("grip/twice").values, std::vector<double>{0.6});
+}
+
+TEST(SrdfStates, WithFaultsGiveWarnings)
+{
+  std::vector<std::string> warnings;
+  const auto robot = robotOf(armUrdf(), kGroups + std::string(R"(
+    <group_state name="a" group="legs"/>
+    <group_state name="b" group="arm"><joint name="arm_9" value="0.5"/><joint name="arm_1" value="0.5 1"/>
+      <joint name="arm_2" value="0.5x"/></group_state>)"),
+                             &warnings);
+  EXPECT_TRUE(robot->namedState("b").variables.empty());
+  const std::vector<std::string> expected = {
+      "test.srdf:3: state 'a' is ignored: its group 'legs' does not exist",
+      "test.srdf:4: state 'b': joint 'arm_9' is not in the robot, the entry is ignored",
+      "test.srdf:4: state 'b': joint 'arm_1' needs 1 finite numbers, not '0.5 1'; the entry is ignored",
+      "test.srdf:5: state 'b': joint 'arm_2' needs 1 finite numbers, not '0.5x'; the entry is ignored"};
+  EXPECT_EQ(expected, warnings);
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

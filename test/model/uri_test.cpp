@@ -1,3 +1,6 @@
+#include <cstdlib>
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/resources.h"
@@ -7,6 +10,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+/// The tests of URIs need no packages of this machine, and searching for them takes long.
+const bool kNoPackages = setenv("ROS_PACKAGE_PATH", "/none", 1) == 0;
 const PackageResolver kPackages = packageResolver({{"arm", "/opt/arm"}});
 
 std::string resolved(const std::string& uri)
@@ -59,8 +64,56 @@ TEST(Uri, UnknownPackagesAreNamedWithTheRemedy)
 {
   const std::string error = errorFor("package://leg/a.stl");
   EXPECT_NE(error.find("'leg'"), std::string::npos) << error;
-  EXPECT_NE(error.find("--package leg=DIR"), std::string::npos) << error;
+  EXPECT_NE(error.find("give packageResolver the folder of leg"), std::string::npos) << error;
   EXPECT_NE(errorOf([] { resolveUri("package://arm/a.stl", "", PackageResolver()); }), "");
+}
+
+TEST(Uri, TheRemedyIsThatOfTheProgram)
+{
+  const PackageResolver packages = packageResolver({}, "name its folder (packages:={NAME: DIR})");
+  EXPECT_EQ(errorOf([&] { resolveUri("package://leg/a.stl", "", packages); }),
+            "mesh URI 'package://leg/a.stl': the folder of package 'leg' is not known; put the package on "
+            "ROS_PACKAGE_PATH, or name its folder (packages:={leg: DIR})");
+}
+
+/// Sets ROS_PACKAGE_PATH while it lives.
+class RosPackagePath
+{
+ public:
+  explicit RosPackagePath(const std::string& path) { setenv("ROS_PACKAGE_PATH", path.c_str(), 1); }
+  ~RosPackagePath() { setenv("ROS_PACKAGE_PATH", "/none", 1); }
+};
+
+TEST(PackageResolver, FindsPackagesAsRosDoes)
+{
+  const TemporaryFolder folder;
+  const auto package = [&folder](const std::string& path, const std::string& name)
+  {
+    std::filesystem::create_directories(folder.path(path));
+    folder.write(path + "/package.xml", "<?xml version=\"1.0\"?><package><name> " + name + " </name></package>");
+  };
+  package("first/repository/arm", "arm");              // below a folder that is no package
+  package("first/other_name", "leg");                  // the name is in package.xml
+  package("first/leg_of_old", "leg_of_old");           // not mistaken for its neighbours
+  package("first/other_name/inside", "inside_a_leg");  // in a package
+  package("first/.hidden/cat", "cat");
+  package("first/ignored/dog", "dog");
+  folder.write("first/ignored/CATKIN_IGNORE", "");
+  package("first/leaf/owl", "owl");
+  folder.write("first/leaf/rospack_nosubdirs", "");
+  package("second/arm", "arm");  // the first one counts
+  package("second/hand", "hand");
+  std::filesystem::create_directory_symlink(folder.path("first"), folder.path("first/circle"));
+
+  const RosPackagePath path(folder.path("none") + "::" + folder.path("first") + ":" + folder.path("second"));
+  const PackageResolver packages = packageResolver({{"given", "/given"}, {"hand", "/mine"}});
+  EXPECT_EQ("/given", packages("given"));
+  EXPECT_EQ("/mine", packages("hand")) << "given folders come first";
+  EXPECT_EQ(folder.path("first/other_name"), packages("leg"));
+  EXPECT_EQ(folder.path("first/repository/arm"), packages("arm"));
+  EXPECT_EQ(folder.path("second/hand"), packageResolver({})("hand"));
+  for (const char* name : {"other_name", "inside_a_leg", "cat", "dog", "owl", "missing"})
+    EXPECT_NE("", errorOf([&] { packages(name); })) << name;
 }
 
 TEST(Uri, UnresolvableUrisAreErrors)

@@ -237,6 +237,40 @@ TEST_F(Planning, TellsAnApproximateSolutionFromASolution)
   EXPECT_NE(response.message.find("the path ends"), std::string::npos) << response.message;
 }
 
+TEST_F(Planning, StartAndGoalMayBeStatesOfTheSrdf)
+{
+  PlanMotion::Request wanted = request();
+  wanted.start_names = wanted.goal_names = {};
+  wanted.start = wanted.goals = {};
+  wanted.named_start = "left";
+  wanted.named_goal = "drive/right";
+  expectSolved(plan(wanted), {-1.0, 0.8}, {1.0, 0.8});
+  wanted.named_goal = "home";
+  expectStatus(wanted, Response::BAD_REQUEST, "the SRDF has no state 'home'; its states: drive/left, drive/right");
+  wanted.named_goal = "right";
+  wanted.start_names = {"slide"};
+  expectStatus(wanted, Response::BAD_REQUEST,
+               "named_start is 'left', but the request has joint names or positions too");
+  // A state of both joints counts for the group's joint.
+  wanted.named_start.clear();
+  wanted.start_names = {"slide", "turn"};
+  wanted.start = {-1.0, 0.0};
+  wanted.group = "mast";
+  EXPECT_TRUE(plan(wanted).success);
+}
+
+TEST_F(Planning, AStateOfTheSrdfCanBeChecked)
+{
+  CheckStates::Request wanted;
+  wanted.named_state = "left";
+  EXPECT_EQ(std::vector<std::uint8_t>{1}, call<CheckStates>("check_states", wanted).valid);
+  apply(diffWith(plate("wall", {-1.0, 0.0, 0.0}, {0.1, 2.0, 0.15})));
+  EXPECT_EQ(std::vector<std::uint8_t>{0}, call<CheckStates>("check_states", wanted).valid);
+  wanted.joint_names = {"slide"};
+  wanted.positions = {0.0};
+  EXPECT_NE(std::string::npos, call<CheckStates>("check_states", wanted).message.find("give one of the two"));
+}
+
 TEST_F(Planning, RefusesInvalidRequests)
 {
   PlanMotion::Request wanted = request();

@@ -156,6 +156,8 @@ TEST_F(ChangeSettings, InvalidChangesAreRefused)
       [nan](SceneChange& change) {
         change.colors["a"] = {static_cast<float>(nan), 0.0F, 0.0F, 1.0F};
       });
+  refused_where(
+      "an object color has no name", [](SceneChange& change) { change.colors[""] = {}; });
   refused_where("line break", [](SceneChange& change) { change.name = "a\nb"; });
 }
 }  // namespace

@@ -345,6 +345,17 @@ TEST_F(SceneFile, UnusedJointValuesGiveWarnings)
   EXPECT_TRUE(warned("get their default: turn"));
 }
 
+TEST_F(SceneFile, AMissingVirtualJointGivesNoWarning)
+{
+  const auto robot = sliderRobotOnFloor("planar");
+  const PlanningScene scene = load("robot_state: {joint_state: {name: [slide, turn], position: [1, 2]}}", robot);
+  EXPECT_EQ(0.0, scene.current_state.at(static_cast<std::size_t>(robot->variableIndex("floor/x"))));
+  EXPECT_FALSE(warned("default"));
+  load("robot_state: {joint_state: {name: [slide], position: [1]}}", robot);
+  EXPECT_TRUE(warned("get their default: turn"));
+  EXPECT_FALSE(warned("floor"));
+}
+
 TEST_F(SceneFile, WithoutJointValuesThereIsNoState)
 {
   EXPECT_TRUE(load("world: {}\nname: a").current_state.empty());

@@ -10,7 +10,8 @@ namespace gpu_planning_scene::core
 /// A robot whose collisions follow from arithmetic (slider.urdf, slider.srdf). The cart, a cube of 0.2 m, slides along
 /// x over a rail without shapes (`slide`, metres). The pole, a box of 0.1 x 0.1 x 0.4 m, turns about z (`turn`,
 /// radians); its centre is 0.5 m above the cart's centre. The joint `flag` mimics `turn` and the joint `bolt` is fixed;
-/// their links have no shapes. The group `drive` moves everything, the group `mast` moves only the pole.
+/// their links have no shapes. The group `drive` moves everything, the group `mast` moves only the pole. The
+/// states `left` and `right` have the cart at x = -1 m and 1 m, and the pole turned by 0.8 rad.
 std::string sliderUrdf();
 std::string sliderSrdf();
 std::shared_ptr<const RobotModel> sliderRobot();

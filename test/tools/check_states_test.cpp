@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -70,6 +72,16 @@ class CheckStates : public testing::Test
     EXPECT_NE(std::string::npos, output.err.find(reason)) << output.err;
   }
 
+  /// The answers without their header, one line per state.
+  static std::vector<std::string> rowsOf(const ProgramOutput& output)
+  {
+    std::vector<std::string> lines = linesOf(output.out);
+    if (lines.empty() || lines.front() != "valid,body_1,body_2")
+      throw std::runtime_error("no header: " + output.out + output.err);
+    lines.erase(lines.begin());
+    return lines;
+  }
+
   TemporaryFolder folder;
   std::string urdf;
   std::string srdf;
@@ -82,7 +94,7 @@ TEST_F(CheckStates, AnswersARowForEachState)
   const ProgramOutput output = checkCsv(csv);
   EXPECT_EQ(0, output.exit_code);
   EXPECT_EQ(output.out, checkCsv(csv, {"--max-batch", "3"}).out);
-  const auto rows = linesOf(output.out);
+  const auto rows = rowsOf(output);
   ASSERT_EQ(4u, rows.size());
   EXPECT_EQ("1,,", rows[0]);
   EXPECT_EQ("1,,", rows[1]);
@@ -92,7 +104,7 @@ TEST_F(CheckStates, AnswersARowForEachState)
 
 TEST_F(CheckStates, ColumnsMayComeInAnyOrderAndForm)
 {
-  const auto rows = linesOf(checkCsv("\xEF\xBB\xBF\"turn\" , slide\r\n 0.5,\"0\"\r\n0.5 , 1e0\r\n1,+0.5\r\n\r\n").out);
+  const auto rows = rowsOf(checkCsv("\xEF\xBB\xBF\"turn\" , slide\r\n 0.5,\"0\"\r\n0.5 , 1e0\r\n1,+0.5\r\n\r\n"));
   ASSERT_EQ(3u, rows.size());
   EXPECT_EQ('1', rows[0][0]);
   EXPECT_EQ('0', rows[1][0]);
@@ -101,10 +113,10 @@ TEST_F(CheckStates, ColumnsMayComeInAnyOrderAndForm)
 
 TEST_F(CheckStates, OtherVariablesTakeTheScenesState)
 {
-  EXPECT_EQ("1,,\n", checkCsv("turn\n0.5\n").out);
+  EXPECT_EQ("1,,", rowsOf(checkCsv("turn\n0.5\n")).at(0));
   scene = folder.write("scene.yaml",
                        std::string(kScene) + "robot_state: {joint_state: {name: [slide, turn], position: [1, 0]}}");
-  EXPECT_EQ('0', checkCsv("turn\n0.5\n").out.at(0));
+  EXPECT_EQ('0', rowsOf(checkCsv("turn\n0.5\n")).at(0).at(0));
   scene = folder.write("scene.yaml", kScene);
   expectError(checkCsv("turn\n0.5\n"), 1, "states.csv:1: no value for slide");
 }
@@ -113,8 +125,8 @@ TEST_F(CheckStates, AGroupRestrictsThePairs)
 {
   // In the first state the cart is in the wall, in the second state the pole is in the lamp.
   const std::string csv = "slide,turn\n1,0\n-1,0\n";
-  EXPECT_EQ("0", linesOf(checkCsv(csv).out).at(0).substr(0, 1));
-  const auto rows = linesOf(checkCsv(csv, {"--group", "mast"}).out);
+  EXPECT_EQ('0', rowsOf(checkCsv(csv)).at(0).at(0));
+  const auto rows = rowsOf(checkCsv(csv, {"--group", "mast"}));
   EXPECT_EQ("1,,", rows.at(0));
   EXPECT_EQ('0', rows.at(1).at(0));
   expectError(checkCsv(csv, {"--group", "sails"}), 1, "sails");
@@ -124,7 +136,7 @@ TEST_F(CheckStates, TheLastLineOfTheSummaryIsAsPromised)
 {
   const ProgramOutput output = check({"--random", "3000", "--seed", "7", "--max-batch", "999"});
   EXPECT_EQ(0, output.exit_code);
-  const auto rows = linesOf(output.out);
+  const auto rows = rowsOf(output);
   ASSERT_EQ(3000u, rows.size());
   const auto valid = std::count(rows.begin(), rows.end(), "1,,");
   const std::string last = linesOf(output.err).back();
@@ -151,8 +163,9 @@ TEST_F(CheckStates, RandomStatesAreTheModelsAndDependOnTheSeedAlone)
   CpuChecker checker(std::make_shared<const PlanningScene>(loadSceneFile(scene, robot, {})));
   const BatchResult expected = checker.check(states.data(), 500);
 
-  const std::string one_batch = check({"--random", "500", "--seed", "7"}).out;
-  const auto rows = linesOf(one_batch);
+  const ProgramOutput output = check({"--random", "500", "--seed", "7"});
+  const std::string one_batch = output.out;
+  const auto rows = rowsOf(output);
   ASSERT_EQ(500u, rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
     EXPECT_EQ(expected.valid[i], rows[i][0] - '0') << "state " << i;
@@ -199,7 +212,7 @@ TEST_F(CheckStates, WritesToAFileWhereAsked)
   const ProgramOutput output = checkCsv("slide,turn\n0,0\n", {"--out", path});
   EXPECT_EQ("", output.out);
   std::ifstream file(path);
-  EXPECT_EQ("1,,\n", std::string(std::istreambuf_iterator<char>(file), {}));
+  EXPECT_EQ("valid,body_1,body_2\n1,,\n", std::string(std::istreambuf_iterator<char>(file), {}));
 }
 
 TEST_F(CheckStates, AFailureLeavesTheOutputFileAsItWas)
@@ -223,7 +236,7 @@ TEST_F(CheckStates, EveryDeviceAndTraversalAnswersTheSame)
   const auto valid = [](const ProgramOutput& output)
   {
     std::string column;
-    for (const std::string& row : linesOf(output.out))
+    for (const std::string& row : rowsOf(output))
       column += row[0];
     return column;
   };
@@ -256,18 +269,88 @@ TEST_F(CheckStates, SaysWhatItIsAndCanDo)
   EXPECT_EQ(3, std::sscanf(version.out.c_str(), "check_states %d.%d.%d\n", &major, &minor, &patch)) << version.out;
   const ProgramOutput help = run({"--help"});
   EXPECT_EQ(0, help.exit_code);
-  for (const char* option : {"--urdf", "--srdf", "--package", "--scene", "--states", "--random", "--seed", "--group",
-                             "--device", "--traversal", "--tolerance", "--out", "--version", "--help"})
+  for (const char* option :
+       {"--urdf", "--srdf", "--package", "--scene", "--states", "--state", "--random", "--random-base", "--seed",
+        "--group", "valid,body_1,body_2", "--device", "--traversal", "--tolerance", "--out", "--version", "--help"})
     EXPECT_NE(std::string::npos, help.out.find(option)) << option;
+}
+
+TEST_F(CheckStates, RandomStatesLeaveABaseWhereItIsUnlessAsked)
+{
+  // The rail's base is at x = 100 m in the scene, so the cart never comes to the wall. At the origin, it often does.
+  srdf = folder.write("floor.srdf",
+                      "<robot name=\"slider\"><virtual_joint name=\"floor\" type=\"planar\" "
+                      "parent_frame=\"hall\" child_link=\"rail\"/></robot>");
+  scene = folder.write("far.yaml", std::string(kScene) +
+                                       "robot_state: {joint_state: {name: [floor/x, slide], "
+                                       "position: [100, 0]}}");
+  const auto colliding = [](const ProgramOutput& output)
+  {
+    const auto rows = rowsOf(output);
+    return std::count_if(rows.begin(), rows.end(), [](const std::string& row) { return row[0] == '0'; });
+  };
+  EXPECT_EQ(0, colliding(check({"--random", "500"})));
+  EXPECT_LT(0, colliding(check({"--random", "500", "--random-base"})));
+}
+
+TEST_F(CheckStates, AStateIsGivenByVariablesAndByNamesOfTheSrdf)
+{
+  std::string text = sliderSrdf();
+  text.insert(text.find("</robot>"),
+              "<group_state name=\"in_wall\" group=\"drive\"><joint name=\"slide\" value=\"1\"/>"
+              "<joint name=\"turn\" value=\"0\"/></group_state>");
+  srdf = folder.write("named.srdf", text);
+  EXPECT_EQ('0', rowsOf(check({"--state", "in_wall"})).at(0).at(0));
+  EXPECT_EQ('0', rowsOf(check({"--state", "drive/in_wall"})).at(0).at(0));
+  EXPECT_EQ('0', rowsOf(check({"--state", "slide=1"})).at(0).at(0));
+  EXPECT_EQ("1,,", rowsOf(check({"--state", "in_wall,slide=0"})).at(0));
+  expectError(check({"--state", "ready"}), 2,
+              "--state: 'ready': the SRDF has no state 'ready'; its states: drive/left, drive/right, drive/in_wall");
+  expectError(check({"--state", "joint1=1"}), 2,
+              "--state: 'joint1=1': the robot has no variable 'joint1'; its variables are slide, turn");
+  expectError(check({"--state", "slide=x"}), 2, "--state: 'x' is not a finite number");
+}
+
+TEST_F(CheckStates, PackagesAreFoundOnRosPackagePathOrByOption)
+{
+  std::string text = sliderUrdf();
+  const std::string box = "<box size=\"0.2 0.2 0.2\"/>";
+  text.replace(text.find(box), box.size(), "<mesh filename=\"package://carts/cart.obj\"/>");
+  urdf = folder.write("mesh.urdf", text);
+  std::filesystem::create_directories(folder.path("ws/nested"));
+  folder.write("ws/nested/cart.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n");
+  folder.write("ws/nested/package.xml", "<package format=\"2\"><name>carts</name></package>");
+  setenv("ROS_PACKAGE_PATH", (folder.path("none") + ":" + folder.path("ws")).c_str(), 1);
+  const ProgramOutput found = check({"--random", "1"});
+  setenv("ROS_PACKAGE_PATH", folder.path("none").c_str(), 1);
+  const ProgramOutput lost = check({"--random", "1"});
+  const ProgramOutput named = check({"--random", "1", "--package", "carts=" + folder.path("ws/nested")});
+  unsetenv("ROS_PACKAGE_PATH");
+  EXPECT_EQ(0, found.exit_code) << found.err;
+  EXPECT_EQ(0, named.exit_code) << named.err;
+  expectError(lost, 1,
+              "the folder of package 'carts' is not known; put the package on ROS_PACKAGE_PATH, or name its "
+              "folder (--package carts=DIR)");
+}
+
+TEST_F(CheckStates, AnObjectMayLieInAPackage)
+{
+  folder.write("plate.obj", "v 1 -1 0\nv 1 1 0\nv 1 0 1\nf 1 2 3\n");
+  const ProgramOutput output = check({"--object", "plate=package://parts/plate.obj", "--package",
+                                      "parts=" + folder.path("."), "--state", "slide=1.1"});
+  EXPECT_EQ(0, output.exit_code) << output.err;
+  EXPECT_NE(std::string::npos, output.err.find("scene: 3 objects")) << output.err;
 }
 
 TEST_F(CheckStates, BadUsageEndsWithTwo)
 {
   const std::string csv = folder.write("states.csv", "slide,turn\n0,0\n");
   expectError(run({}), 2, "--urdf is missing");
-  expectError(check({}), 2, "--states FILE or --random N");
-  expectError(check({"--states", csv, "--random", "1"}), 2, "--states FILE or --random N");
-  expectError(check({"--states", csv, "--seed", "1"}), 2, "--seed");
+  expectError(check({}), 2, "give one of --states FILE, --state ITEM,... and --random N");
+  expectError(check({"--states", csv, "--random", "1"}), 2,
+              "give one of --states FILE, --state ITEM,... and --random N");
+  expectError(check({"--states", csv, "--seed", "1"}), 2, "--seed needs --random");
+  expectError(check({"--state", "turn=0", "--random-base"}), 2, "--random-base needs --random");
   expectError(check({"--random", "0"}), 2, "--random: '0'");
   expectError(check({"--random", "ten"}), 2, "--random: 'ten'");
   expectError(check({"--random", "1.5"}), 2, "--random: '1.5'");

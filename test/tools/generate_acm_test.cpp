@@ -136,6 +136,33 @@ TEST_F(GenerateAcm, KeepsWhatTheUserWroteInAnSrdf)
   EXPECT_EQ(once, contentOf(out));
 }
 
+TEST_F(GenerateAcm, WritesAGroupForTheChainFromTheRootToEachTip)
+{
+  // A wrist with two fingers of their own: the arm up to the wrist, and the arm with each finger. The camera moves with
+  // the wrist, so it makes no group of its own.
+  const std::string turn = "<axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>";
+  urdf = folder.write("hand.urdf", "<robot name=\"hand\">" + boxLink("foot") + boxLink("wrist") + boxLink("camera") +
+                                       boxLink("left") + boxLink("right") + boxLink("sign") +
+                                       jointXml("arm", "revolute", "foot", "wrist", turn) +
+                                       jointXml("mount", "fixed", "wrist", "camera") +
+                                       jointXml("grip_left", "revolute", "wrist", "left", turn) +
+                                       jointXml("grip_right", "revolute", "wrist", "right", turn) +
+                                       jointXml("nail", "fixed", "foot", "sign") + "</robot>");
+  ASSERT_EQ(0, generate({"--samples", "10"}).exit_code);
+  std::map<std::string, std::vector<std::string>> groups;
+  const auto robot = RobotModel::fromFiles(urdf, out, {});
+  for (const Group& group : robot->groups())
+    groups[group.name] = jointNames(*robot, group.joints);
+  const std::map<std::string, std::vector<std::string>> expected = {
+      {"wrist", {"arm"}}, {"left", {"arm", "grip_left"}}, {"right", {"arm", "grip_right"}}};
+  EXPECT_EQ(expected, groups);
+
+  // The groups are the user's from then on.
+  const std::string once = contentOf(out);
+  ASSERT_EQ(0, generate({"--samples", "10", "--srdf", out}).exit_code);
+  EXPECT_EQ(once, contentOf(out));
+}
+
 TEST_F(GenerateAcm, ErrorsHaveTheToolsExitCodes)
 {
   EXPECT_EQ(2, runProgram(GPS_GENERATE_ACM, {}).exit_code);

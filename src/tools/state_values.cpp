@@ -1,0 +1,56 @@
+#include "tools/state_values.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "model/full_states.h"
+#include "tools/command_line.h"
+#include "tools/scene_arguments.h"
+
+namespace gpu_planning_scene::core
+{
+std::vector<double> startState(const PlanningScene& scene)
+{
+  return scene.current_state.empty() ? scene.robot->defaultState() : scene.current_state;
+}
+
+void setValues(const RobotModel& robot, const std::string& text, std::vector<double>& state)
+{
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');)
+  {
+    const std::size_t equals = word.find('=');
+    try
+    {
+      if (equals == std::string::npos)
+      {
+        const NamedState named = robot.namedState(word);
+        for (std::size_t i = 0; i < named.variables.size(); ++i)
+          state[static_cast<std::size_t>(named.variables[i])] = named.values[i];
+        continue;
+      }
+      const int variable = variableIndices(robot, {word.substr(0, equals)}).front();
+      state[static_cast<std::size_t>(variable)] = numbersFrom("--state", word.substr(equals + 1), 1)[0];
+    }
+    catch (const UsageError&)
+    {
+      throw;
+    }
+    catch (const Error& error)
+    {
+      throw UsageError("--state: '" + word + "': " + error.what());
+    }
+  }
+}
+
+void randomise(const RobotModel& robot, std::mt19937_64& generator, const std::vector<double>& start, bool keep_base,
+               double* state)
+{
+  robot.randomState(generator, state);
+  if (!keep_base)
+    return;
+  for (const Joint& joint : robot.joints())
+    if (joint.type == JointType::Planar || joint.type == JointType::Floating)
+      std::copy_n(start.begin() + joint.first_variable, variableCount(joint.type), state + joint.first_variable);
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,57 @@
+"""The example plan_a_motion plans for any group of any robot, between values and named states."""
+import pathlib
+import subprocess
+import sys
+import unittest
+
+
+class PlanAMotion(unittest.TestCase):
+    def plan(self, urdf, srdf, *arguments, path=""):
+        return subprocess.run(
+            [PROGRAM, urdf, srdf, *arguments], capture_output=True, text=True, timeout=100, check=False,
+            env={"PATH": "/usr/bin:/bin", "ASAN_OPTIONS": "detect_leaks=0", "ROS_PACKAGE_PATH": str(path)},
+        )
+
+    def slider(self, *arguments):
+        return self.plan(f"{SOURCE}/test/scene/slider.urdf", f"{SOURCE}/test/scene/slider.srdf", *arguments)
+
+    def rows(self, answer):
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        return [[float(word) for word in line.split()] for line in answer.stdout.splitlines() if line.strip()]
+
+    def test_plans_between_values(self):
+        rows = self.rows(self.slider("drive", "-1,0.5", "1,-0.5"))
+        self.assertEqual((rows[0], rows[-1]), ([-1.0, 0.5], [1.0, -0.5]))
+
+    def test_plans_between_named_states(self):
+        rows = self.rows(self.slider("drive", "left", "drive/right"))
+        self.assertEqual((rows[0], rows[-1]), ([-1.0, 0.8], [1.0, 0.8]))
+
+    def test_a_goal_inside_an_object_of_the_scene_is_not_reached(self):
+        answer = self.slider("drive", "0,0", "1,0", f"{SOURCE}/test/node/wall_scene.yaml")
+        self.assertEqual(answer.returncode, 1)
+        self.assertIn("plan_a_motion: no path was found within 10 s: Invalid goal", answer.stderr)
+
+    def test_a_wrong_number_of_values_is_named_with_the_variables(self):
+        answer = self.slider("drive", "-1", "1,0")
+        self.assertEqual(answer.returncode, 1)
+        self.assertEqual(
+            answer.stderr, "plan_a_motion: '-1' has 1 values; the group has the variables slide,turn\n"
+        )
+
+    def test_plans_for_the_seven_joints_of_panda(self):
+        resources = pathlib.Path(SHARED) / "moveit" / "resources"
+        urdf = resources / "panda_description" / "urdf" / "panda.urdf"
+        if not urdf.exists():
+            self.skipTest("MoveIt's panda is not here")
+        srdf = resources / "panda_moveit_config" / "config" / "panda.srdf"
+        goal = "0.3,-0.785,0,-2.356,0,1.571,0.785"
+        rows = self.rows(self.plan(str(urdf), str(srdf), "panda_arm", "ready", goal, path=resources))
+        self.assertEqual(len(rows[0]), 7)
+        self.assertAlmostEqual(rows[0][3], -2.356, places=3)
+        self.assertAlmostEqual(rows[-1][0], 0.3, places=3)
+
+
+if __name__ == "__main__":
+    PROGRAM, SOURCE, SHARED = sys.argv[1:]
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,56 @@
+"""The examples in docs/scene_files.md and docs/your_robot.md are scene files that the reader takes without a warning."""
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs"
+
+
+def scenes(document):
+    """The indented blocks that are scene files."""
+    blocks = re.findall(r"(?:^    .*\n)+", (DOCS / document).read_text(encoding="utf-8"), flags=re.MULTILINE)
+    texts = [re.sub("^    ", "", block, flags=re.MULTILINE) for block in blocks]
+    return [text for text in texts if re.match(r"[a-z_]+:( |\n)", text)]
+
+
+class SceneFiles(unittest.TestCase):
+    def setUp(self):
+        if not pathlib.Path(URDF).exists():
+            self.skipTest("Debian's dart-doc is not here")
+
+    def check(self, text):
+        package = "KR5=" + str(pathlib.Path(URDF).parent)
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            command = [CHECK_STATES, "--urdf", URDF, "--package", package, "--scene", file.name, "--random", "1"]
+            return subprocess.run(command + ["--device", "cpu"], capture_output=True, text=True, timeout=60, check=False)
+
+    def test_each_example_is_read_without_a_warning(self):
+        for document, least in (("scene_files.md", 12), ("your_robot.md", 1)):
+            texts = scenes(document)
+            self.assertGreaterEqual(len(texts), least)
+            for text in texts:
+                answer = self.check(text)
+                self.assertEqual(0, answer.returncode, text + answer.stderr)
+                warnings = [line for line in answer.stderr.splitlines() if line.startswith("warning")]
+                # The page says that the robot has no joint `base`.
+                self.assertEqual([], [line for line in warnings if not line.endswith("does not have them: base")], text)
+
+    def test_each_field_of_a_scene_has_an_example(self):
+        text = "".join(scenes("scene_files.md"))
+        for field in (
+            "collision_objects primitives meshes planes resource vertices triangles scale coef pose primitive_poses "
+            "mesh_poses header frame_id subframe_names subframe_poses joint_state multi_dof_joint_state "
+            "attached_collision_objects link_name touch_links entry_names entry_values default_entry_names "
+            "default_entry_values link_padding link_scale fixed_frame_transforms object_colors"
+        ).split():
+            self.assertRegex(text, rf"\b{field}:")
+
+
+if __name__ == "__main__":
+    CHECK_STATES, URDF = sys.argv[1:]
+    unittest.main(argv=sys.argv[:1])

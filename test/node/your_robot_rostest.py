@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Follows docs/your_robot.md as a reader does: runs its commands, its scene file and its program as they are printed."""
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import rospy
+import rostest
+
+from documents_rostest import examples
+
+
+# The folder of the built programs is in the workspace that the test runs in.
+PROGRAMS = os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "lib", "gpu_planning_scene")
+
+
+class YourRobot(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        # The page uses the demo's folders; here the robots are elsewhere, and the workspace is set up.
+        urdf = rospy.get_param("~urdf")
+        blocks = [
+            block.replace("/tmp/", self.folder.name + "/")
+            .replace("source build/demo/devel/setup.bash", "true")
+            .replace("$PWD/build/demo/devel/lib/gpu_planning_scene", PROGRAMS)
+            .replace("$PWD/build/robots/urdf/KR5", os.path.dirname(urdf))
+            for block in examples(os.path.join("docs", "your_robot.md"))
+            if block
+        ]
+        self.assertEqual(8, len(blocks))
+        (self.variables, self.generate, scene, self.launch, self.report, self.client, self.plan, self.picture) = blocks
+        with open(os.path.join(self.folder.name, "my_scene.yaml"), "w", encoding="utf-8") as file:
+            file.write(scene)
+
+    def run_block(self, block):
+        answer = subprocess.run(["bash", "-c", self.variables + "\n" + block], capture_output=True, text=True,
+                                timeout=200, check=False)
+        self.assertEqual(0, answer.returncode, block + "\n" + answer.stdout + answer.stderr)
+        self.assertNotIn("success: False", answer.stdout, answer.stdout)
+        return answer.stdout + answer.stderr
+
+    def test_each_step_of_the_page_works(self):
+        self.run_block(self.generate)
+        with subprocess.Popen(["bash", "-c", self.variables + "\nexec " + self.launch + " device:=cpu"]) as node:
+            try:
+                rospy.wait_for_service("/planning_scene/check_states", 60)
+                report = self.run_block(self.report)
+                self.assertRegex(report, r"scene: \d+ objects")
+                answer = subprocess.run([sys.executable, "-c", self.client], capture_output=True, text=True, timeout=60,
+                                        check=False)
+                self.assertEqual(0, answer.returncode, answer.stderr)
+                # The first state is free, the second is not: the reader sees both answers.
+                self.assertRegex(answer.stdout, r"^free\n\w+ collides with \w+\n$")
+                self.assertRegex(self.run_block(self.plan), r"status: 1\n")
+            finally:
+                node.send_signal(signal.SIGINT)
+                node.wait(60)
+        self.assertRegex(self.run_block(self.picture), r"collides: \w+ - \w+")
+        self.assertTrue(os.path.exists(os.path.join(self.folder.name, "my_robot.png")))
+
+    def test_the_scene_has_15_lines_with_each_kind_of_object(self):
+        with open(os.path.join(self.folder.name, "my_scene.yaml"), encoding="utf-8") as file:
+            text = file.read().strip()
+        self.assertLessEqual(len(text.splitlines()), 15)
+        for kind in ("box", "sphere", "cylinder", "cone", "planes", "meshes", "attached_collision_objects"):
+            self.assertTrue(re.search(kind, text), kind)
+
+
+if __name__ == "__main__":
+    rospy.init_node("your_robot_rostest")
+    rostest.rosrun("gpu_planning_scene", "your_robot_rostest", YourRobot)
