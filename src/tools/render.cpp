@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
-#include <numeric>
 #include <random>
 #include <string_view>
 
 #include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/state_inspector.h"
-#include "model/joint_limits.h"
 #include "render/renderer.h"
 #include "tools/robot_arguments.h"
 #include "tools/scene_arguments.h"
@@ -53,10 +51,8 @@ std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene&
   if (arguments.has("--state"))
   {
     setValues(*scene.robot, arguments.value("--state", ""), state);
-    std::vector<int> all(scene.robot->variables().size());
-    std::iota(all.begin(), all.end(), 0);
-    if (const auto outside = findValueOutsideLimits(*scene.robot, all, state.data(), 1))
-      printWarnings({"--state: " + outside->text});
+    if (const std::string warning = warningOfLimits(*scene.robot, state); !warning.empty())
+      printWarnings({warning});
   }
   return state;
 }

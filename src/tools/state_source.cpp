@@ -54,15 +54,18 @@ class StateOfText : public StateSource
   StateOfText(const PlanningScene& scene, const std::string& text) : text_(text), state_(startState(scene))
   {
     setValues(*scene.robot, text, state_);
+    warning_ = warningOfLimits(*scene.robot, state_);
   }
 
   std::size_t count() const override { return 1; }
   std::string text() const override { return "1 state, " + text_; }
+  std::string warning() const override { return warning_; }
   const double* next(std::size_t /*count*/) override { return state_.data(); }
 
  private:
   std::string text_;
   std::vector<double> state_;
+  std::string warning_;
 };
 
 class StatesOfFile : public StateSource

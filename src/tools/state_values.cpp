@@ -1,9 +1,11 @@
 #include "tools/state_values.h"
 
 #include <algorithm>
+#include <numeric>
 #include <sstream>
 
 #include "model/full_states.h"
+#include "model/joint_limits.h"
 #include "tools/command_line.h"
 #include "tools/scene_arguments.h"
 
@@ -41,6 +43,14 @@ void setValues(const RobotModel& robot, const std::string& text, std::vector<dou
       throw UsageError("--state: '" + word + "': " + error.what());
     }
   }
+}
+
+std::string warningOfLimits(const RobotModel& robot, const std::vector<double>& state)
+{
+  std::vector<int> all(state.size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto outside = findValueOutsideLimits(robot, all, state.data(), 1);
+  return outside ? "--state: " + outside->text : "";
 }
 
 void randomise(const RobotModel& robot, std::mt19937_64& generator, const std::vector<double>& start, bool keep_base,

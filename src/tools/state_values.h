@@ -16,6 +16,9 @@ std::vector<double> startState(const PlanningScene& scene);
 /// option --state.
 void setValues(const RobotModel& robot, const std::string& text, std::vector<double>& state);
 
+/// A warning for --state if a value of `state` is outside its joint's limits; otherwise empty.
+std::string warningOfLimits(const RobotModel& robot, const std::vector<double>& state);
+
 /// A random state within the limits. `keep_base`: planar and floating joints keep the values of `start`. Other joints
 /// have the same values for both settings.
 void randomise(const RobotModel& robot, std::mt19937_64& generator, const std::vector<double>& start, bool keep_base,

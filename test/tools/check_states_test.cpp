@@ -309,6 +309,7 @@ TEST_F(CheckStates, AStateIsGivenByVariablesAndByNamesOfTheSrdf)
   expectError(check({"--state", "joint1=1"}), 2,
               "--state: 'joint1=1': the robot has no variable 'joint1'; its variables are slide, turn");
   expectError(check({"--state", "slide=x"}), 2, "--state: 'x' is not a finite number");
+  EXPECT_NE(std::string::npos, check({"--state", "turn=90"}).err.find("warning: --state: joint 'turn' is 90, outside"));
 }
 
 TEST_F(CheckStates, PackagesAreFoundOnRosPackagePathOrByOption)
