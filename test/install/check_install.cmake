@@ -50,7 +50,7 @@ endforeach()
 
 # The example finds a path from its start to its goal.
 run("find_package does not find it for the example" ${CMAKE_COMMAND} -S ${EXAMPLE} -B ${FOLDER}/example -G ${GENERATOR}
-  -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=${flags} -Wall -Wextra" -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
+  -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=${flags} -Wall -Wextra")
 require_no_warning("finding the package" "${output}")
 run("the example does not build" ${CMAKE_COMMAND} --build ${FOLDER}/example)
 require_no_warning("building the example" "${output}")

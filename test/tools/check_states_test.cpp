@@ -197,7 +197,7 @@ TEST_F(CheckStates, WarnsOnceOfValuesOutsideTheLimits)
 {
   const ProgramOutput output = checkCsv("slide,turn\n0,0\n0,90\n0,45\n");
   EXPECT_EQ(0, output.exit_code);
-  EXPECT_EQ(3u, linesOf(output.out).size());
+  EXPECT_EQ(3u, rowsOf(output).size());
   EXPECT_EQ(0u, output.err.find("warning: " + folder.path("states.csv") +
                                 ":3: joint 'turn' is 90, outside its limits -3 to 3 rad; values are in radians, and 90 "
                                 "degrees are 1.5708 rad; 1 more value is outside the limits\n"))
