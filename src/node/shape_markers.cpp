@@ -55,15 +55,6 @@ std::size_t trianglesOf(const Shape& shape)
   return std::holds_alternative<Cone>(shape) ? tessellate(shape).mesh->triangles.size() : 0;
 }
 
-ShapeMarkers::ShapeMarkers(const std_msgs::Header& header, const Eigen::AlignedBox3d& surroundings)
-  : header_(header), surroundings_(surroundings)
-{
-  Marker erase;
-  erase.header = header_;
-  erase.action = Marker::DELETEALL;
-  array_.markers.push_back(erase);
-}
-
 void ShapeMarkers::limitTriangles(std::size_t max_triangles, std::vector<std::size_t> shapes)
 {
   max_triangles_ = max_triangles;

@@ -26,7 +26,13 @@ class ShapeMarkers
 {
  public:
   /// `surroundings`: the region, in the planning frame, in which planes are drawn.
-  ShapeMarkers(const std_msgs::Header& header, const Eigen::AlignedBox3d& surroundings);
+  ShapeMarkers(const std_msgs::Header& header, const Eigen::AlignedBox3d& surroundings)
+    : header_(header), surroundings_(surroundings)
+  {
+    array_.markers.emplace_back();
+    array_.markers.back().header = header_;
+    array_.markers.back().action = visualization_msgs::Marker::DELETEALL;
+  }
 
   /// If all shapes together have more triangles, the largest are drawn as boxes. `shapes`: the triangle counts of the
   /// shapes that follow.

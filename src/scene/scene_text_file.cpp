@@ -83,7 +83,7 @@ class SceneTextReader
   Shape readGeometry(const std::string& id)
   {
     const std::string kind = tokens_.word("a shape");
-    const Shape shape = readKind(kind, id);
+    Shape shape = readKind(kind, id);
     try
     {
       validateShape(shape, "object '" + id + "'");

@@ -89,7 +89,7 @@ std::pair<int, int> sizeFrom(const CommandLine& arguments)
 
 std::string pngFileFrom(const CommandLine& arguments)
 {
-  const std::string out = arguments.required("--out");
+  std::string out = arguments.required("--out");
   constexpr std::string_view kEnding = ".png";
   if (out.size() <= kEnding.size() || out.substr(out.size() - kEnding.size()) != kEnding)
     throw UsageError("--out: '" + out + "' does not end in .png; render writes only PNG files");

@@ -4,16 +4,24 @@
 #   CONSUMER   a package to build against it
 #   EXAMPLE    a second package, which plans for the robot of ROBOT.urdf and ROBOT.srdf
 #   PLUGIN     a third package, which adds a planner
-#   FOLDER     the folder of all files that the test writes
 #   PREFIX     the CMAKE_INSTALL_PREFIX of BUILD
 #   GENERATOR  the CMake generator of BUILD, because a machine may have only one
 #   SANITIZE   whether BUILD has sanitizers, which CONSUMER then needs too
+
+# All files go to a temporary folder. In the package's own folder, roslaunch would find the installed launch file too.
+execute_process(COMMAND mktemp --directory OUTPUT_VARIABLE folder OUTPUT_STRIP_TRAILING_WHITESPACE)
+
+# fail(MESSAGE): ends the test.
+function(fail message)
+  file(REMOVE_RECURSE ${folder})
+  message(FATAL_ERROR "${message}")
+endfunction()
 
 # run(WHAT COMMAND...): runs the command and sets `output`. If it fails, the error shows WHAT and the command's output.
 function(run what)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
-    message(FATAL_ERROR "${what}: ${status}\n${output}")
+    fail("${what}: ${status}\n${output}")
   endif()
   set(output "${output}" PARENT_SCOPE)
 endfunction()
@@ -21,19 +29,18 @@ endfunction()
 # require_no_warning(WHAT OUTPUT): fails if the output has a warning.
 function(require_no_warning what output)
   if(output MATCHES "[Ww]arning")
-    message(FATAL_ERROR "${what} gives a warning:\n${output}")
+    fail("${what} gives a warning:\n${output}")
   endif()
 endfunction()
 
-file(REMOVE_RECURSE ${FOLDER})
 # A sourced workspace would hide the installed files.
 foreach(name LD_LIBRARY_PATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH)
   unset(ENV{${name}})
 endforeach()
 # The files go below DESTDIR. `cmake --install --prefix` would not do: catkin's setup files go to the prefix that BUILD
 # was configured with, whatever --prefix is, and a test must not write there.
-set(ENV{DESTDIR} ${FOLDER}/root)
-set(prefix ${FOLDER}/root${PREFIX})
+set(ENV{DESTDIR} ${folder}/root)
+set(prefix ${folder}/root${PREFIX})
 set(flags "")
 if(SANITIZE)
   set(flags "-fsanitize=address,undefined")
@@ -41,29 +48,29 @@ endif()
 
 run("the package does not install" ${CMAKE_COMMAND} --install ${BUILD})
 unset(ENV{DESTDIR})
-run("find_package does not find it" ${CMAKE_COMMAND} -S ${CONSUMER} -B ${FOLDER}/build -G ${GENERATOR}
+run("find_package does not find it" ${CMAKE_COMMAND} -S ${CONSUMER} -B ${folder}/build -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${flags} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
-run("a package does not build against it" ${CMAKE_COMMAND} --build ${FOLDER}/build)
+run("a package does not build against it" ${CMAKE_COMMAND} --build ${folder}/build)
 foreach(program with_variables with_targets)
-  run("${program} gives wrong answers" ${FOLDER}/build/${program})
+  run("${program} gives wrong answers" ${folder}/build/${program})
 endforeach()
 
 # The example finds a path from its start to its goal.
-run("find_package does not find it for the example" ${CMAKE_COMMAND} -S ${EXAMPLE} -B ${FOLDER}/example -G ${GENERATOR}
+run("find_package does not find it for the example" ${CMAKE_COMMAND} -S ${EXAMPLE} -B ${folder}/example -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS=${flags} -Wall -Wextra")
 require_no_warning("finding the package" "${output}")
-run("the example does not build" ${CMAKE_COMMAND} --build ${FOLDER}/example)
+run("the example does not build" ${CMAKE_COMMAND} --build ${folder}/example)
 require_no_warning("building the example" "${output}")
-run("the example finds no path" ${FOLDER}/example/plan_a_motion ${ROBOT}.urdf ${ROBOT}.srdf drive left right)
+run("the example finds no path" ${folder}/example/plan_a_motion ${ROBOT}.urdf ${ROBOT}.srdf drive left right)
 if(NOT output MATCHES "-1 0\\.8[^\n]*\n(.*\n)+1 0\\.8")
-  message(FATAL_ERROR "the example's path is another one:\n${output}")
+  fail("the example's path is another one:\n${output}")
 endif()
 
 # The planner of another package builds.
-run("find_package does not find it for the plugin" ${CMAKE_COMMAND} -S ${PLUGIN} -B ${FOLDER}/plugin -G ${GENERATOR}
+run("find_package does not find it for the plugin" ${CMAKE_COMMAND} -S ${PLUGIN} -B ${folder}/plugin -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS=${flags} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE}
   -DPython3_EXECUTABLE=${PYTHON_EXECUTABLE})
-run("the plugin does not build" ${CMAKE_COMMAND} --build ${FOLDER}/plugin)
+run("the plugin does not build" ${CMAKE_COMMAND} --build ${folder}/plugin)
 
 # The installed tools run without a sourced workspace.
 foreach(tool check_states generate_acm)
@@ -77,13 +84,14 @@ foreach(file setup.bash ${share}/launch/planning_scene.launch ${share}/config/de
         ${share}/launch/live_demo.launch ${share}/config/demo/arm.urdf
         ${share}/planner_plugins.xml lib/libgpu_planning_scene_planners.so)
   if(NOT EXISTS ${prefix}/${file})
-    message(FATAL_ERROR "${file} is not installed")
+    fail("${file} is not installed")
   endif()
 endforeach()
 
 # The programs compile the installed shaders: with a damaged shader the program fails and names it.
 file(WRITE ${prefix}/share/gpu_planning_scene/shaders/shader_constants.h "#error the installed one\n")
-execute_process(COMMAND ${FOLDER}/build/with_variables RESULT_VARIABLE status ERROR_VARIABLE output OUTPUT_VARIABLE output)
+execute_process(COMMAND ${folder}/build/with_variables RESULT_VARIABLE status ERROR_VARIABLE output OUTPUT_VARIABLE output)
 if(status EQUAL 0 OR NOT output MATCHES "the installed one")
-  message(FATAL_ERROR "the installed shaders are not used: ${status}\n${output}")
+  fail("the installed shaders are not used: ${status}\n${output}")
 endif()
+file(REMOVE_RECURSE ${folder})
