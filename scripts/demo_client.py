@@ -11,7 +11,7 @@ import xml.etree.ElementTree
 import numpy
 import yaml
 
-# Debian 11's rospy calls isAlive, which Python 3.9 has no more.
+# Debian 11's rospy calls isAlive, which Python 3.9 no longer has.
 threading.Thread.isAlive = threading.Thread.is_alive
 
 # Variables have MoveIt's names: the name of the joint, or JOINT/PART if the joint has several variables.

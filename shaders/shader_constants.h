@@ -48,6 +48,16 @@
 #define LOCATION_FIRST_LISTED 38
 #define LOCATION_LISTED_COUNT 39
 #define LOCATION_CASE_COUNT 40
+#define LOCATION_TO_CLIP_SPACE 41
+#define LOCATION_PULL 42
+#define LOCATION_EYE 43
+#define LOCATION_LAMP 44
+#define LOCATION_TO_LAMP 45
+#define LOCATION_SOFTNESS 46
+#define LOCATION_LIFT 47
+#define LOCATION_GROUND 48
+#define LOCATION_BACKGROUND 49
+#define LOCATION_FLAT_COLOR 50
 
 // --- Building trees ------------------------------------------------------------------------------------------------
 // A leaf of a tree holds at most this many triangles.

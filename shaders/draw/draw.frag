@@ -3,14 +3,20 @@
 // Shadows: L. Williams, "Casting curved shadows on curved surfaces", 1978; filtered as in W. Reeves, D. Salesin and
 // R. Cook, "Rendering antialiased shadows with depth maps", 1987.
 
-layout(location = 0) uniform vec3 eye;        // metres, in the planning frame
-layout(location = 1) uniform vec3 lamp;       // direction to the lamp, of unit length
-layout(location = 2) uniform mat4 to_lamp;    // from the planning frame to the shadow map: 0 to 1 in all three axes
-layout(location = 3) uniform float softness;  // half the width of a shadow's edge, as a share of the shadow map
-layout(location = 4) uniform float lift;      // metres: a surface within this distance does not shade itself
-layout(location = 5) uniform vec4 ground;     // the floor's centre and radius in metres; radius 0: this is not the floor
-layout(location = 6) uniform vec3 background;
-layout(location = 7) uniform vec4 flat_color;  // with opacity above 0, all pixels have this colour, without light
+#include "shader_constants.h"
+
+layout(location = LOCATION_EYE) uniform vec3 eye;    // metres, in the planning frame
+layout(location = LOCATION_LAMP) uniform vec3 lamp;  // direction to the lamp, of unit length
+// From the planning frame to the shadow map: 0 to 1 in all three axes.
+layout(location = LOCATION_TO_LAMP) uniform mat4 to_lamp;
+// Half the width of a shadow's edge, as a share of the shadow map.
+layout(location = LOCATION_SOFTNESS) uniform float softness;
+layout(location = LOCATION_LIFT) uniform float lift;  // metres: a surface within this distance does not shade itself
+// The floor's centre and radius in metres. With radius 0, the triangles do not belong to the floor.
+layout(location = LOCATION_GROUND) uniform vec4 ground;
+layout(location = LOCATION_BACKGROUND) uniform vec3 background;
+// With opacity above 0, all pixels have this colour, without light.
+layout(location = LOCATION_FLAT_COLOR) uniform vec4 flat_color;
 layout(binding = 0) uniform sampler2DShadow shadow_map;
 
 layout(location = 0) in vec3 place;        // metres, in the planning frame

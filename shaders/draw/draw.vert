@@ -1,8 +1,11 @@
 // One invocation per corner of a triangle of a picture: projects the corner and passes its colour and normal on.
 // src/render/gl_painter.cpp sets the inputs.
 
-layout(location = 0) uniform mat4 to_clip_space;
-layout(location = 1) uniform vec4 pull;  // the eye, and metres: the depth is that of a point so much nearer to the eye
+#include "shader_constants.h"
+
+layout(location = LOCATION_TO_CLIP_SPACE) uniform mat4 to_clip_space;
+// The eye, and a distance in metres. The depth of each corner is that of a point nearer to the eye by this distance.
+layout(location = LOCATION_PULL) uniform vec4 pull;
 
 layout(location = 0) in vec3 position;  // metres, in the planning frame
 layout(location = 1) in vec3 normal;    // of the corner's triangle, of unit length

@@ -205,23 +205,22 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         CheckJob job;
         const Snapshot now = store_.snapshot();
         const RobotModel& robot = *now.scene->robot;
-        NamedRow named;
-        const bool is_named = !request.named_state.empty();
-        if (is_named)
-          named = requestedNamedState(robot, {"named_state", request.named_state},
-                                      request.joint_names.empty() && request.positions.empty());
-        job.states = is_named ? named.values : request.positions;
+        NamedRow rows{request.joint_names, request.positions};
+        if (!request.named_state.empty())
+          rows = requestedNamedState(robot, {"named_state", request.named_state},
+                                     request.joint_names.empty() && request.positions.empty());
         job.columns = requestedColumns(
-            robot, {"joint_names", is_named ? named.names : request.joint_names}, {"positions", job.states},
+            robot, {"joint_names", rows.names}, {"positions", rows.values},
             [this](std::size_t count) { server_.requireStateCount(count); });
+        job.states = std::move(rows.values);
         job.group = request.group;
         job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
         if (const auto outside =
-                findValueOutsideLimits(*store_.snapshot().scene->robot, job.columns, request.positions.data(),
-                                       request.positions.size() / job.columns.size()))
+                findValueOutsideLimits(robot, job.columns, job.states.data(), job.states.size() / job.columns.size()))
+        {
           response.message = shortLine("state " + std::to_string(outside->row) + ": " + outside->text);
-        if (!response.message.empty())
           logOnceInAWhile("check_states: " + response.message);
+        }
         job.keep_states = request.max_contacts != 0 || request.clearance;
         const bool inspects = job.keep_states;
         std::optional<Admission::Pass> pass;

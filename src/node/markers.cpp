@@ -4,6 +4,7 @@
 #include "gpu_planning_scene/error.h"
 #include "node/shape_markers.h"
 #include "render/renderer.h"
+#include "scene/has_body.h"
 
 namespace gpu_planning_scene::core
 {
@@ -137,15 +138,6 @@ class MarkerMaker
   ShapeMarkers markers_;
   std::size_t drawn_ = 0;  // triangles so far; tree boxes count as kTrianglesOfBox
 };
-
-bool hasBody(const PlanningScene& scene, const std::string& name)
-{
-  const std::size_t bodies = scene.robot->links().size() + scene.objects.size() + scene.attached.size();
-  for (std::size_t i = 0; i < bodies; ++i)
-    if (scene.bodyName(static_cast<int>(i)) == name)
-      return true;
-  return false;
-}
 }  // namespace
 
 void requireTreeLevel(const PlanningScene& scene, int level, const std::string& body)

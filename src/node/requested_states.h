@@ -23,7 +23,7 @@ std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<st
                                   const RequestField<std::vector<double>>& rows,
                                   const std::function<void(std::size_t)>& require_count);
 
-/// The names and values of a row of states, as in a request.
+/// The names of variables, and rows of their values, as in a request.
 struct NamedRow
 {
   std::vector<std::string> names;

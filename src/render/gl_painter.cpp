@@ -9,6 +9,7 @@
 #include "gpu/gl_check.h"
 #include "gpu/program.h"
 #include "gpu_planning_scene/error.h"
+#include "shader_constants.h"
 
 namespace gpu_planning_scene::core
 {
@@ -18,18 +19,6 @@ constexpr std::array<float, 3> kBackground{0.965F, 0.97F, 0.98F};
 constexpr int kShadowSize = 1024;    // pixels of the shadow map in each direction
 constexpr double kSoftness = 0.010;  // half the width of a shadow's edge, as a share of the shadow map
 constexpr float kHiddenOpacity = 0.3F;
-
-// Uniform locations of shaders/draw/.
-constexpr GLint kToClipSpace = 0;
-constexpr GLint kPull = 1;
-constexpr GLint kEye = 0;
-constexpr GLint kLamp = 1;
-constexpr GLint kToLamp = 2;
-constexpr GLint kSoftnessOfMap = 3;
-constexpr GLint kLift = 4;
-constexpr GLint kGround = 5;
-constexpr GLint kBackgroundColor = 6;
-constexpr GLint kFlatColor = 7;
 
 GLuint compileStage(GLenum stage, const std::string& folder, const char* name)
 {
@@ -138,7 +127,7 @@ GlPainter::GlPainter(const Drawing& drawing)
   fragment_stage_ = compileStage(GL_FRAGMENT_SHADER, folder, "draw/draw.frag");
   glUseProgramStages(pipeline_, GL_FRAGMENT_SHADER_BIT, fragment_stage_);
   glBindProgramPipeline(pipeline_);
-  glProgramUniform3fv(fragment_stage_, kBackgroundColor, 1, kBackground.data());
+  glProgramUniform3fv(fragment_stage_, LOCATION_BACKGROUND, 1, kBackground.data());
 
   vertices_.write(drawing.vertices);
   GLuint array = 0;
@@ -195,16 +184,16 @@ void GlPainter::castShadows(const Eigen::Vector3d& lamp)
   glViewport(0, 0, kShadowSize, kShadowSize);
   glClear(GL_DEPTH_BUFFER_BIT);
   const Eigen::Matrix4f matrix = to_clip_space.cast<float>();
-  glProgramUniformMatrix4fv(vertex_stage_, kToClipSpace, 1, GL_FALSE, matrix.data());
+  glProgramUniformMatrix4fv(vertex_stage_, LOCATION_TO_CLIP_SPACE, 1, GL_FALSE, matrix.data());
   drawRange(0, drawing_.bodies_end);
   glDeleteFramebuffers(1, &frame);
 
   const Eigen::Matrix4f to_lamp = (to_map * to_clip_space).cast<float>();
   const Eigen::Vector3f direction = lamp.cast<float>();
-  glProgramUniformMatrix4fv(fragment_stage_, kToLamp, 1, GL_FALSE, to_lamp.data());
-  glProgramUniform3fv(fragment_stage_, kLamp, 1, direction.data());
-  glProgramUniform1f(fragment_stage_, kSoftnessOfMap, static_cast<float>(kSoftness));
-  glProgramUniform1f(fragment_stage_, kLift, static_cast<float>(2.0 * radius * kSoftness));
+  glProgramUniformMatrix4fv(fragment_stage_, LOCATION_TO_LAMP, 1, GL_FALSE, to_lamp.data());
+  glProgramUniform3fv(fragment_stage_, LOCATION_LAMP, 1, direction.data());
+  glProgramUniform1f(fragment_stage_, LOCATION_SOFTNESS, static_cast<float>(kSoftness));
+  glProgramUniform1f(fragment_stage_, LOCATION_LIFT, static_cast<float>(2.0 * radius * kSoftness));
   glBindTextureUnit(0, shadow_map_);
 }
 
@@ -216,16 +205,16 @@ void GlPainter::aim(const Camera& camera, int width, int height)
   const double distance = (camera.target - camera.eye).norm();
   const Eigen::Matrix4f matrix =
       projection(camera, static_cast<double>(width) / height, 0.01 * distance, std::max(2.0 * distance, 1.01 * far));
-  glProgramUniformMatrix4fv(vertex_stage_, kToClipSpace, 1, GL_FALSE, matrix.data());
+  glProgramUniformMatrix4fv(vertex_stage_, LOCATION_TO_CLIP_SPACE, 1, GL_FALSE, matrix.data());
   const Eigen::Vector3f eye = camera.eye.cast<float>();
-  glProgramUniform3fv(fragment_stage_, kEye, 1, eye.data());
+  glProgramUniform3fv(fragment_stage_, LOCATION_EYE, 1, eye.data());
 }
 
 /// Gives the next triangles the depth of points that are nearer to the eye by `distance` metres.
 void GlPainter::pullContacts(const Camera& camera, double distance)
 {
   const Eigen::Vector3f eye = camera.eye.cast<float>();
-  glProgramUniform4f(vertex_stage_, kPull, eye.x(), eye.y(), eye.z(), static_cast<float>(distance));
+  glProgramUniform4f(vertex_stage_, LOCATION_PULL, eye.x(), eye.y(), eye.z(), static_cast<float>(distance));
 }
 
 Pixels GlPainter::picture(const Camera& camera, int width, int height, double near_surface)
@@ -243,9 +232,10 @@ Pixels GlPainter::picture(const Camera& camera, int width, int height, double ne
   if (floor.radius > 0.0 && (camera.eye - floor.center).dot(camera.up) > 0.0)
   {
     const Eigen::Vector3f center = floor.center.cast<float>();
-    glProgramUniform4f(fragment_stage_, kGround, center.x(), center.y(), center.z(), static_cast<float>(floor.radius));
+    glProgramUniform4f(fragment_stage_, LOCATION_GROUND, center.x(), center.y(), center.z(),
+                       static_cast<float>(floor.radius));
     drawRange(drawing_.contacts_end, drawing_.vertices.size());
-    glProgramUniform4f(fragment_stage_, kGround, 0.0F, 0.0F, 0.0F, 0.0F);
+    glProgramUniform4f(fragment_stage_, LOCATION_GROUND, 0.0F, 0.0F, 0.0F, 0.0F);
   }
   pullContacts(camera, near_surface);
   glEnable(GL_CULL_FACE);  // each pixel of a faint point is blended once
@@ -254,10 +244,10 @@ Pixels GlPainter::picture(const Camera& camera, int width, int height, double ne
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_GREATER);
   const auto channel = [](std::uint8_t value) { return static_cast<float>(value) / 255.0F; };
-  glProgramUniform4f(fragment_stage_, kFlatColor, channel(kContactColor[0]), channel(kContactColor[1]),
+  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, channel(kContactColor[0]), channel(kContactColor[1]),
                      channel(kContactColor[2]), kHiddenOpacity);
   drawRange(drawing_.bodies_end, drawing_.contacts_end);
-  glProgramUniform4f(fragment_stage_, kFlatColor, 0.0F, 0.0F, 0.0F, 0.0F);
+  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 0.0F, 0.0F, 0.0F);
   glDisable(GL_BLEND);
   glDisable(GL_CULL_FACE);
   glDepthMask(GL_TRUE);
@@ -273,16 +263,16 @@ Pixels GlPainter::roles(const Camera& camera, int width, int height, double near
   aim(camera, width, height);
   glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  glProgramUniform4f(fragment_stage_, kFlatColor, 1.0F, 0.0F, 0.0F, 1.0F);
+  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 1.0F, 0.0F, 0.0F, 1.0F);
   drawRange(0, drawing_.links_end);
   drawRange(drawing_.objects_end, drawing_.bodies_end);
-  glProgramUniform4f(fragment_stage_, kFlatColor, 0.0F, 0.0F, 1.0F, 1.0F);
+  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 0.0F, 1.0F, 1.0F);
   drawRange(drawing_.links_end, drawing_.objects_end);
-  glProgramUniform4f(fragment_stage_, kFlatColor, 0.0F, 1.0F, 0.0F, 1.0F);
+  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 1.0F, 0.0F, 1.0F);
   pullContacts(camera, near_surface);
   drawRange(drawing_.bodies_end, drawing_.contacts_end);
   pullContacts(camera, 0.0);
-  glProgramUniform4f(fragment_stage_, kFlatColor, 0.0F, 0.0F, 0.0F, 0.0F);
+  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 0.0F, 0.0F, 0.0F);
   return readPixels(width, height);
 }
 }  // namespace gpu_planning_scene::core

@@ -24,8 +24,8 @@ class GlPainter
   /// are drawn in full; contact points that are hidden further are drawn faintly.
   Pixels picture(const Camera& camera, int width, int height, double near_surface);
 
-  /// What is visible: red pixels show the robot, green pixels its contact points, blue pixels objects. All other pixels
-  /// are black.
+  /// A picture of the roles that are visible: red pixels show the robot, green pixels its contact points, blue pixels
+  /// objects. All other pixels are black.
   Pixels roles(const Camera& camera, int width, int height, double near_surface);
 
  private:

@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <set>
 
+#include "scene/has_body.h"
 #include "scene/scene_reader.h"
 
 namespace gpu_planning_scene::core
@@ -15,17 +15,6 @@ const YamlValue& rowValues(const YamlValue& row, std::size_t count)
     values.fail("a row of " + std::to_string(values.items().size()) + " entries for " + std::to_string(count) +
                 " entry_names");
   return values;
-}
-
-bool hasBody(const PlanningScene& scene, const std::string& name)
-{
-  return scene.robot->linkIndex(name) >= 0 ||
-         std::any_of(
-             scene.objects.begin(), scene.objects.end(),
-             [&name](const WorldObject& object) { return object.id == name; }) ||
-         std::any_of(
-             scene.attached.begin(), scene.attached.end(),
-             [&name](const AttachedObject& attached) { return attached.object.id == name; });
 }
 
 const std::vector<YamlValue>& itemsOrNone(const YamlValue* value)

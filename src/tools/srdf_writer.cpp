@@ -47,6 +47,7 @@ bool isGenerated(const tinyxml2::XMLNode& node)
   const char* reason = element->Attribute("reason");
   return reason && !isUsersReason(reason);
 }
+
 void addGroups(const std::vector<std::string>& tips, const RobotModel& robot, tinyxml2::XMLDocument& document)
 {
   tinyxml2::XMLElement* root = document.RootElement();

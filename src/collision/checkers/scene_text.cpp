@@ -24,6 +24,7 @@ std::string matrixText(MatrixSource source)
   }
   return "are adjacent (no SRDF was given)";
 }
+
 /// The first pairs by name, and the number of the others.
 std::string pairList(const PlanningScene& scene, const std::vector<BodyPair>& pairs)
 {

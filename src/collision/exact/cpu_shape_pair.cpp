@@ -167,8 +167,7 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
         return true;
       continue;
     }
-    const bool open_a =
-        node_b.isLeaf() || (!node_a.isLeaf() && node_a.box.half.squaredNorm() >= node_b.box.half.squaredNorm());
+    const bool open_a = opensFirst(node_a, node_b);
     const OrientedBox other = open_a ? placed(node_b.box, b_in_a) : placed(node_a.box, a_in_b);
     const std::uint32_t first = open_a ? node_a.first : node_b.first;
     for (const std::uint32_t child : {first, first + 1})

@@ -25,6 +25,13 @@ struct alignas(64) CpuNode
 };
 static_assert(sizeof(CpuNode) == 128, "two cache lines");
 
+/// Which node of a pair a traversal opens: whether it is the first. It is the larger one, unless that is a leaf. They
+/// must not both be leaves.
+inline bool opensFirst(const CpuNode& a, const CpuNode& b)
+{
+  return b.isLeaf() || (!a.isLeaf() && a.box.half.squaredNorm() >= b.box.half.squaredNorm());
+}
+
 /// A shape's tree in the layout for the CPU's queries, with the shape's bounds and components. Immutable.
 struct CpuTree
 {

@@ -77,8 +77,7 @@ void surfacesApart(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a,
       }
       continue;
     }
-    const bool open_a =
-        node_b.isLeaf() || (!node_a.isLeaf() && node_a.box.half.squaredNorm() >= node_b.box.half.squaredNorm());
+    const bool open_a = opensFirst(node_a, node_b);
     const OrientedBox other = open_a ? placed(node_b.box, b_in_a) : placed(node_a.box, a_in_b);
     const CpuTree& opened = open_a ? a : b;
     std::uint32_t near = open_a ? node_a.first : node_b.first;
