@@ -41,6 +41,9 @@ class Device : public CpuChecker
   std::shared_ptr<std::atomic<int>> losses_;
 };
 
+/// States of a request for the second queue, whose checker is made with its first request.
+constexpr std::size_t kLarge = 2000;
+
 class CheckerMaker : public testing::Test
 {
  protected:
@@ -62,7 +65,7 @@ class CheckerMaker : public testing::Test
           fault_.load()(repaired);
         return std::make_unique<Device>(std::move(scene), losses);
       };
-      server_ = std::make_unique<CheckServer>(store_, checkerMaker({}, resilience_, open, diagnostics_),
+      server_ = std::make_unique<CheckServer>(store_, checkerMaker(options_, resilience_, open, diagnostics_),
                                               CheckServerOptions());
     }
     return *server_;
@@ -80,19 +83,29 @@ class CheckerMaker : public testing::Test
   std::atomic<void (*)(const std::shared_future<void>&)> fault_{nullptr};
   std::promise<void> repaired_;
   std::shared_ptr<std::atomic<int>> losses_ = std::make_shared<std::atomic<int>>(0);
+  BatchCheckerOptions options_;
   ResilientOptions resilience_;
   SceneStore store_{PlanningScene(sliderRobot()), {}, {}};
   Diagnostics diagnostics_;
   std::unique_ptr<CheckServer> server_;
 };
 
-/// States of a request for the second queue, whose checker is made with its first request.
-constexpr std::size_t kLarge = 2000;
-
-TEST_F(CheckerMaker, ADeviceThatCannotBeOpenedAtTheStartIsAnError)
+TEST_F(CheckerMaker, ANamedDeviceThatCannotBeOpenedAtTheStartIsAnError)
 {
+  options_.device = "software";
   openWith([](const auto&) { throw Error("no usable device"); });
   EXPECT_EQ(errorOf([&] { server(); }), "no usable device");
+}
+
+TEST_F(CheckerMaker, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
+{
+  openWith([](const auto&) { throw Error("no usable device"); });
+  for (const std::size_t count : {std::size_t{1}, kLarge})
+  {
+    const CheckAnswer answer = ask(count);
+    EXPECT_EQ(answer.result.valid.size(), count);
+    EXPECT_EQ(answer.device, "CPU");
+  }
 }
 
 TEST_F(CheckerMaker, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)

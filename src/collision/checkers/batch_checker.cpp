@@ -1,49 +1,23 @@
 #include "gpu_planning_scene/batch_checker.h"
 
-#include <algorithm>
 #include <chrono>
-#include <map>
 #include <mutex>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 
-#include "collision/checkers/break_even.h"
+#include "collision/checkers/cpu_or_gpu.h"
 #include "collision/checkers/cpu_scene.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/problem/state_validation.h"
 #include "model/seconds_since.h"
 
-// Small batches are faster on the CPU. The threshold is measured per group (see breakEven) and kept for a while.
 namespace gpu_planning_scene::core
 {
-namespace
-{
-using Clock = std::chrono::steady_clock;
-
-// A new scene keeps the measured threshold until this many times the duration of the measurement has passed. So
-// frequent scene changes do not cause frequent measurements.
-constexpr double kMeasuringPause = 50.0;
-
-// Fewer states of the caller are not representative.
-constexpr std::size_t kEnough = 256;
-
-}  // namespace
-
 struct BatchChecker::Impl
 {
-  /// The number of states from which on a group's batches go to the GPU.
-  struct Threshold
-  {
-    std::size_t states;
-    std::weak_ptr<const PlanningScene> scene;  // scene for which it was measured
-    Clock::time_point keep_until;
-    bool by_own_states;  // measured with the caller's states instead of random ones
-  };
-
   explicit Impl(const BatchCheckerOptions& options)
-    : fixed_threshold(options.cpu_below), on_cpu(options), engine(options, on_cpu.trees())
+    : cpu_or_gpu(options.cpu_below), on_cpu(options), engine(options, on_cpu.trees())
   {
   }
 
@@ -54,15 +28,13 @@ struct BatchChecker::Impl
   void checkAround(const double* states, std::size_t count, const std::string& group, const Margins& margins,
                    BatchResult& result);
   std::size_t threshold(const std::string& group, const double* states, std::size_t count);
-  std::size_t measure(const std::string& group, const double* states, std::size_t count);
 
   std::mutex mutex;
-  std::optional<std::size_t> fixed_threshold;
+  CpuOrGpu cpu_or_gpu;
   CpuScene on_cpu;
   GpuChecker engine;
   GpuWork work;                               // work of the last batch
   std::optional<std::string> selected_group;  // group whose pairs the engine holds
-  std::map<std::string, Threshold> thresholds;
 };
 
 /// The group's problem must be valid for the states.
@@ -132,51 +104,10 @@ void BatchChecker::Impl::checkAround(const double* states, std::size_t count, co
 
 std::size_t BatchChecker::Impl::threshold(const std::string& group, const double* states, std::size_t count)
 {
-  if (fixed_threshold)
-    return *fixed_threshold;
-  const auto known = thresholds.find(group);
-  const Clock::time_point start = Clock::now();
-  const bool enough = count >= kEnough;
-  if (known != thresholds.end() && (known->second.by_own_states || !enough) &&
-      (known->second.scene.lock() == on_cpu.scene() || start < known->second.keep_until))
-    return known->second.states;
-  const std::size_t measured = measure(group, states, count);
-  const auto pause = std::chrono::duration_cast<Clock::duration>(kMeasuringPause * (Clock::now() - start));
-  thresholds.insert_or_assign(group, Threshold{measured, on_cpu.scene(), Clock::now() + pause, enough});
-  return measured;
-}
-
-/// Measures the threshold with the caller's states, repeated as needed, if there are enough of them; otherwise with
-/// random states.
-std::size_t BatchChecker::Impl::measure(const std::string& group, const double* states, std::size_t count)
-{
-  const RobotModel& robot = *on_cpu.scene()->robot;
-  const CollisionProblem& problem = *on_cpu.problem(group);
-  std::vector<double> sample(kMaxTimed * width());
-  std::mt19937_64 generator;
-  for (std::size_t i = 0; i < kMaxTimed; ++i)
-  {
-    double* row = &sample[i * width()];
-    const double* own = states + (count == 0 ? 0 : i % count) * width();
-    if (count >= kEnough && isValidFor(problem, own))
-      std::copy(own, own + width(), row);
-    else
-      robot.randomState(generator, row);
-  }
-  const auto timed = [&](auto&& check)
-  {
-    return [&, check](std::size_t size)
-    {
-      BatchResult answers;
-      const Clock::time_point start = Clock::now();
-      check(sample.data(), size, answers);
-      return secondsSince(start);
-    };
-  };
-  return breakEven(timed([&](const double* rows, std::size_t size, BatchResult& answers)
-                         { on_cpu.check(rows, size, group, answers); }),
-                   timed([&](const double* rows, std::size_t size, BatchResult& answers)
-                         { checkOnGpu(rows, size, group, answers); }));
+  BatchResult unused;
+  const CpuOrGpu::Checks checks{[&](const double* rows, std::size_t size) { on_cpu.check(rows, size, group, unused); },
+                                [&](const double* rows, std::size_t size) { checkOnGpu(rows, size, group, unused); }};
+  return cpu_or_gpu.threshold(group, on_cpu.scene(), *on_cpu.problem(group), states, count, checks);
 }
 
 BatchChecker::BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
@@ -205,7 +136,7 @@ void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   }
   impl_->selected_group = "";
   if (previous && previous->robot != impl_->on_cpu.scene()->robot)
-    impl_->thresholds.clear();  // the new robot may have groups with the same names
+    impl_->cpu_or_gpu.forget();
 }
 
 BatchResult BatchChecker::check(const double* states, std::size_t count, const std::string& group,
@@ -225,7 +156,7 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
   impl_->work = {};
   BatchResult result;
   result.revision = scene.revision;
-  const Clock::time_point start = Clock::now();
+  const auto start = std::chrono::steady_clock::now();
   if (around)
     impl_->checkAround(states, count, group, impl_->on_cpu.margins(*around, states, count, group), result);
   else

@@ -1,15 +1,27 @@
-#include "collision/checkers/break_even.h"
+#include "collision/checkers/cpu_or_gpu.h"
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
-// Times both kinds of work at a few sizes, takes the fastest of several runs, and interpolates the size at which their
-// times are equal.
+#include "model/seconds_since.h"
+
+// Times both checks at a few sizes, takes the fastest of several runs, and interpolates the size at which their times
+// are equal.
 namespace gpu_planning_scene::core
 {
 namespace
 {
+using Clock = std::chrono::steady_clock;
+
+// A new scene keeps the measured threshold until this many times the duration of the measurement has passed. So
+// frequent scene changes do not cause frequent measurements.
+constexpr double kMeasuringPause = 50.0;
+
+// Fewer states of the caller are not representative.
+constexpr std::size_t kEnough = 256;
+
 // The timed sizes. Timing stops when one of the two takes kLong, but not before the second size.
 constexpr std::size_t kSizes[] = {1, 16, 64, 256, kMaxTimed};
 constexpr double kLong = 0.005;    // seconds
@@ -53,7 +65,54 @@ std::vector<Comparison> compare(const TimedWork& direct, const TimedWork& bulk)
   }
   return made;
 }
+
+/// kMaxTimed states: the caller's, repeated as needed, if there are enough of them; otherwise random ones.
+std::vector<double> sampleOf(const RobotModel& robot, const CollisionProblem& problem, const double* states,
+                             std::size_t count)
+{
+  const std::size_t width = robot.variables().size();
+  std::vector<double> sample(kMaxTimed * width);
+  std::mt19937_64 generator;
+  for (std::size_t i = 0; i < kMaxTimed; ++i)
+  {
+    double* row = &sample[i * width];
+    const double* own = states + (count == 0 ? 0 : i % count) * width;
+    if (count >= kEnough && isValidFor(problem, own))
+      std::copy(own, own + width, row);
+    else
+      robot.randomState(generator, row);
+  }
+  return sample;
+}
 }  // namespace
+
+std::size_t CpuOrGpu::threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
+                                const CollisionProblem& problem, const double* states, std::size_t count,
+                                const Checks& checks)
+{
+  if (fixed_)
+    return *fixed_;
+  const auto known = thresholds_.find(group);
+  const Clock::time_point start = Clock::now();
+  const bool enough = count >= kEnough;
+  if (known != thresholds_.end() && (known->second.by_own_states || !enough) &&
+      (known->second.scene.lock() == scene || start < known->second.keep_until))
+    return known->second.states;
+  const std::vector<double> sample = sampleOf(*scene->robot, problem, states, count);
+  const auto timed = [&sample](const Check& check)
+  {
+    return [&sample, &check](std::size_t size)
+    {
+      const Clock::time_point begin = Clock::now();
+      check(sample.data(), size);
+      return secondsSince(begin);
+    };
+  };
+  const std::size_t measured = breakEven(timed(checks.cpu), timed(checks.gpu));
+  const auto pause = std::chrono::duration_cast<Clock::duration>(kMeasuringPause * (Clock::now() - start));
+  thresholds_.insert_or_assign(group, Threshold{measured, scene, Clock::now() + pause, enough});
+  return measured;
+}
 
 /// The lead of `direct` is interpolated linearly between two sizes, and extrapolated from the last two sizes. Only the
 /// last sizes are used because small batches leave lanes or cores idle: their time grows more slowly.

@@ -1,5 +1,5 @@
 // The batch size from which a method with a slow start is the faster one.
-#include "collision/checkers/break_even.h"
+#include "collision/checkers/cpu_or_gpu.h"
 
 #include <gtest/gtest.h>
 

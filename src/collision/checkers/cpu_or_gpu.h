@@ -1,0 +1,65 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "collision/problem/collision_problem.h"
+
+namespace gpu_planning_scene::core
+{
+/// Decides whether a batch goes to the CPU or to the GPU. Small batches are faster on the CPU. The batch size from
+/// which on the GPU is faster is fixed, or measured for each group with both checks and kept for a while. One caller at
+/// a time.
+class CpuOrGpu
+{
+ public:
+  /// Checks `count` states (rows of the robot's variables).
+  using Check = std::function<void(const double* states, std::size_t count)>;
+  struct Checks
+  {
+    Check cpu;
+    Check gpu;
+  };
+
+  /// fixed: the threshold of all groups; unset: the threshold is measured.
+  explicit CpuOrGpu(std::optional<std::size_t> fixed) : fixed_(fixed) {}
+
+  /// The number of states from which on batches of the group go to the GPU. `states` are the batch for which the
+  /// question is asked. If it is large enough, its states are used for a measurement, otherwise random states are.
+  std::size_t threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
+                        const CollisionProblem& problem, const double* states, std::size_t count, const Checks& checks);
+
+  /// Forgets all measurements. A new robot may have groups with the names of the last one's.
+  void forget() { thresholds_.clear(); }
+
+ private:
+  struct Threshold
+  {
+    std::size_t states;
+    std::weak_ptr<const PlanningScene> scene;  // scene for which it was measured
+    std::chrono::steady_clock::time_point keep_until;
+    bool by_own_states;  // measured with the caller's states instead of random ones
+  };
+
+  std::optional<std::size_t> fixed_;
+  std::map<std::string, Threshold> thresholds_;
+};
+
+/// A batch size that no batch reaches.
+constexpr std::size_t kNoBatch = std::numeric_limits<std::size_t>::max();
+
+/// Does work of a given size and returns its duration in seconds.
+using TimedWork = std::function<double(std::size_t)>;
+
+/// The size from which on `bulk`, which has a high fixed cost, is clearly faster (1.2 times) than `direct`. kNoBatch if
+/// bulk does not seem to become faster. Both are timed at growing sizes up to kMaxTimed. This takes some tens of
+/// milliseconds, or longer if already a few items take longer.
+std::size_t breakEven(const TimedWork& direct, const TimedWork& bulk);
+constexpr std::size_t kMaxTimed = 1024;
+}  // namespace gpu_planning_scene::core
