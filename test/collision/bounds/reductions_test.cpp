@@ -13,6 +13,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"
 #include "support/carrying_scene.h"
+#include "support/kept_trees.h"
 #include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
@@ -91,6 +92,7 @@ class ReductionsIn : public testing::TestWithParam<const char*>
     if (const std::string missing = missingFor(name == "carrying" ? "ur5_table_pick" : name); !missing.empty())
       GTEST_SKIP() << "there is no " << missing;
     scene_ = sceneCalled(name).scene;
+    keepTrees(*scene_);
     groups_ = {""};
     for (const Group& group : scene_->robot->groups())
       groups_.push_back(group.name);

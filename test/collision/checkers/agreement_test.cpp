@@ -9,6 +9,7 @@
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "support/fcl_agreement.h"
+#include "support/kept_trees.h"
 #include "support/repetitions.h"
 #include "support/test_scenes.h"
 
@@ -58,6 +59,7 @@ TEST_P(Agreement, WithFclInRandomStates)
   if (const std::string missing = missingFor(name); !missing.empty())
     GTEST_SKIP() << "there is no " << missing;
   const TestScene& scene = testScene(name);
+  keepTrees(*scene.scene);
   const std::vector<double> states = scene.randomStates(kStates, kSeed);
   const auto checker = implementation.make(scene.scene);
   const BatchResult result = checker->check(states.data(), kStates);

@@ -10,6 +10,7 @@
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
+#include "support/kept_trees.h"
 #include "support/repetitions.h"
 #include "support/test_scenes.h"
 
@@ -37,6 +38,7 @@ TEST_P(Invariance, ValidIsTheSameForTraversalsBatchSizesAndOrders)
   if (const std::string missing = missingFor(GetParam()); !missing.empty())
     GTEST_SKIP() << "there is no " << missing;
   const TestScene& scene = testScene(GetParam());
+  keepTrees(*scene.scene);
   // All batch sizes check the same states. Small batches check fewer of them, to save time.
   constexpr std::size_t kStates = repetitions(4096, 16384);
   const std::vector<double> states = scene.randomStates(kStates, kSeed);

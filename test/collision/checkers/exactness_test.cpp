@@ -8,6 +8,7 @@
 
 #include "support/carrying_scene.h"
 #include "support/exactness.h"
+#include "support/kept_trees.h"
 #include "support/near_contact.h"
 #include "support/repetitions.h"
 
@@ -38,6 +39,7 @@ class Exact : public testing::TestWithParam<Slice>
     if (const std::string missing = missingFor(GetParam().scene); !missing.empty())
       GTEST_SKIP() << "there is no " << missing;
     scene_ = std::string(GetParam().name) == "carrying" ? carryingScene() : testScene(GetParam().scene);
+    keepTrees(*scene_.scene);
   }
 
   void expectNothingWrong(const Exactness& exactness)

@@ -13,6 +13,7 @@
 #include "gpu_planning_scene/mesh_pair_checker.h"
 #include "oracle/problem_oracle.h"
 #include "support/carrying_scene.h"
+#include "support/kept_trees.h"
 #include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
@@ -49,6 +50,7 @@ TEST_P(ToleranceIn, FindsAllCollisionsAndAddsOnlyWhatIsWithinIt)
   if (const std::string missing = missingFor(name == "carrying" ? "ur5_table_pick" : name); !missing.empty())
     GTEST_SKIP() << "there is no " << missing;
   const TestScene scene = name == "carrying" ? carryingScene() : testScene(name);
+  keepTrees(*scene.scene);
   const RobotModel& robot = *scene.scene->robot;
   const std::vector<double> states = scene.randomStates(kStates, kSeed);
   const oracle::ProblemOracle oracle(std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr)));

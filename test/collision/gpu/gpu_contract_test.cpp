@@ -1,6 +1,8 @@
 // The contract on the GPU with both traversals: required distances, half-spaces and solids. The poses are farther from
 // the thresholds than the errors of float32, so the GPU itself must decide.
 
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "collision/gpu/gpu_checker.h"
@@ -69,9 +71,14 @@ class GpuContract : public testing::TestWithParam<Traversal>
     problem.world_pairs.push_back(1);
   }
 
+  static void TearDownTestSuite() { engines().clear(); }
+
+  /// The suite's engine for this traversal. To start one takes longer than most tests.
+  GpuChecker& engine() const { return engines().try_emplace(GetParam(), options()).first->second; }
+
   BatchResult check(const CollisionProblem& problem, const std::vector<Isometry3d>& poses)
   {
-    GpuChecker engine(options());
+    GpuChecker& engine = this->engine();
     engine.setProblem(std::make_shared<const CollisionProblem>(problem));
     BatchResult result;
     engine.checkPoses(
@@ -84,6 +91,13 @@ class GpuContract : public testing::TestWithParam<Traversal>
     const BatchResult result = check(problem, poses);
     EXPECT_EQ(result.undecided_states, 0U);
     return {result.valid.begin(), result.valid.end()};
+  }
+
+ private:
+  static std::map<Traversal, GpuChecker>& engines()
+  {
+    static std::map<Traversal, GpuChecker> engines;
+    return engines;
   }
 };
 
@@ -107,7 +121,7 @@ TEST_P(GpuContract, PaddingDoesNotCountBetweenLinks)
   problem.robot[0].padding = 0.05;
   problem.robot.push_back({0, 1, 1, at(0.0), 0.05});
   problem.self_pairs = {{0, 1}};
-  GpuChecker engine(options());
+  GpuChecker& engine = this->engine();
   engine.setProblem(std::make_shared<const CollisionProblem>(problem));
   BatchResult result;
   engine.checkPoses(
