@@ -33,9 +33,20 @@ std::string whyNoVariable(const RobotModel& robot, const std::string& name)
 }
 }  // namespace
 
-PartialState::PartialState(const RobotModel& robot)
-  : values(robot.variables().size(), 0.0), known(robot.variables().size(), false)
+std::vector<int> virtualVariables(const RobotModel& robot)
 {
+  std::vector<int> variables;
+  for (const Joint& joint : robot.joints())
+    for (int i = 0; joint.parent_link < 0 && i < variableCount(joint.type); ++i)
+      variables.push_back(joint.first_variable + i);
+  return variables;
+}
+
+PartialState::PartialState(const RobotModel& robot)
+  : values(robot.defaultState()), known(robot.variables().size(), false)
+{
+  for (const int variable : virtualVariables(robot))
+    known[static_cast<std::size_t>(variable)] = true;
 }
 
 PartialState::PartialState(const RobotModel& robot, const std::vector<double>& state) : PartialState(robot)
@@ -75,7 +86,7 @@ std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& 
     if (!given[i] && !current.known[i])
       missing.push_back(robot.variables()[i].name);
   if (!missing.empty())
-    throw Error("no value for " + joined(missing) + ": neither the request nor the scene's current state has one");
+    throw Error("no value for " + joined(missing) + "; give one, or set the current state of the scene");
 
   std::vector<double> states(count * width);
   for (std::size_t row = 0; row < count; ++row)

@@ -10,14 +10,18 @@ namespace gpu_planning_scene::core
 /// A robot state in which some variables may still be unknown.
 struct PartialState
 {
-  /// No variable is known.
+  /// Only the virtual joint is known.
   explicit PartialState(const RobotModel& robot);
-  /// All variables are known; none if `state` is empty.
+  /// All variables are known; only the virtual joint if `state` is empty.
   PartialState(const RobotModel& robot, const std::vector<double>& state);
 
   std::vector<double> values;
   std::vector<bool> known;
 };
+
+/// The variables of the SRDF's virtual joint. The joint is not in the URDF and no driver reports it, so a state that
+/// does not name them means their defaults: the robot stands at the origin of the planning frame.
+std::vector<int> virtualVariables(const RobotModel& robot);
 
 /// Finds the variable of each column in a table of states. Throws Error if a name is not a variable of the robot, or is
 /// given twice.

@@ -1,6 +1,7 @@
 #include "model/joint_limits.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "model/math_constants.h"
@@ -10,6 +11,8 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr double kLimitSlack = 1e-6;  // values are often written with six decimals
+
+constexpr double kTwoTurns = 4.0 * kPi;
 
 bool isOutside(const Variable& variable, double value)
 {
@@ -37,11 +40,12 @@ std::string describe(const RobotModel& robot, int index, double value)
   const Variable& variable = robot.variables()[static_cast<std::size_t>(index)];
   const bool is_angle = isAngle(robot, index);
   const double radians = value * kPi / 180.0;
+  // A smaller value is hardly meant as degrees.
+  const bool may_be_degrees = is_angle && std::abs(value) > kTwoTurns && !isOutside(variable, radians);
   return "joint '" + variable.name + "' is " + text(value) + ", outside its limits " + text(variable.lower) + " to " +
          text(variable.upper) + (is_angle ? " rad" : "") +
-         (is_angle && !isOutside(variable, radians)
-              ? "; values are in radians, and " + text(value) + " degrees are " + text(radians) + " rad"
-              : "");
+         (may_be_degrees ? "; values are in radians, and " + text(value) + " degrees are " + text(radians) + " rad"
+                         : "");
 }
 }  // namespace
 

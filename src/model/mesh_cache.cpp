@@ -146,6 +146,18 @@ void throwIfOutOfMemory(const std::string& error)
     throw std::bad_alloc();
 }
 
+/// Names the outermost folder of a path that does not exist, often that of a package; empty if only the file is
+/// missing.
+std::string missingFolder(const std::string& path)
+{
+  std::error_code unreadable;
+  std::filesystem::path missing;
+  for (std::filesystem::path folder = std::filesystem::path(path).parent_path();
+       !folder.empty() && !std::filesystem::exists(folder, unreadable); folder = folder.parent_path())
+    missing = folder;
+  return missing.empty() ? "" : "; there is no folder '" + missing.string() + "'";
+}
+
 std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vector3d& scale)
 {
   const std::string extension = lowerCaseExtension(path);
@@ -153,7 +165,7 @@ std::shared_ptr<const Mesh> readMesh(const std::string& path, const Eigen::Vecto
     throw Error("mesh file '" + path + "': only .stl, .dae, .obj and .ply files can be read");
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(path, unreadable))
-    throw Error("mesh file '" + path + "' does not exist");
+    throw Error("mesh file '" + path + "' does not exist" + missingFolder(path));
   if (!scale.allFinite() || scale.prod() == 0.0)
     throw Error("mesh file '" + path + "': its scale has a component that is zero or not finite");
 

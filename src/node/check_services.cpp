@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <future>
-#include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -20,6 +19,7 @@
 #include "node/from_messages.h"
 #include "node/requested_states.h"
 #include "node/respond.h"
+#include "node/topic_warnings.h"
 
 namespace gpu_planning_scene::core
 {
@@ -27,7 +27,6 @@ namespace
 {
 constexpr std::size_t kInspections = 2;                    // at the same time
 constexpr std::chrono::milliseconds kPollInterval{100};    // interval in which a waiting request checks for shutdown
-constexpr std::chrono::seconds kWarningPeriod{10};         // between warnings about joint limits in the log
 constexpr std::chrono::milliseconds kShutdownGrace{4000};  // longest wait for the checker during a shutdown
 
 Error shuttingDown()
@@ -117,22 +116,6 @@ ContactInformation messageOf(const Contact& contact, const PlanningScene& scene,
   return message;
 }
 
-/// Logs the warning if none was logged for kWarningPeriod. (ROS_WARN_THROTTLE would stop with a simulated clock.)
-void logOnceInAWhile(const std::string& warning)
-{
-  using Clock = std::chrono::steady_clock;
-  static std::mutex mutex;
-  static std::optional<Clock::time_point> logged;
-  const Clock::time_point now = Clock::now();
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (logged && now - *logged < kWarningPeriod)
-      return;
-    logged = now;
-  }
-  ROS_WARN_STREAM(warning);
-}
-
 /// Writes the report of `answer`, which must have one, into the response.
 void fillReport(const CheckAnswer& answer, GetReport::Response& response)
 {
@@ -219,7 +202,8 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
                 findValueOutsideLimits(robot, job.columns, job.states.data(), job.states.size() / job.columns.size()))
         {
           response.message = shortLine("state " + std::to_string(outside->row) + ": " + outside->text);
-          logOnceInAWhile("check_states: " + response.message);
+          static OccasionalWarning warning;
+          warning.log("check_states: " + response.message);
         }
         job.keep_states = request.max_contacts != 0 || request.clearance;
         const bool inspects = job.keep_states;

@@ -4,11 +4,11 @@
 
 #include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/error.h"
+#include "model/joint_limits.h"
 #include "model/one_line.h"
 #include "node/from_messages.h"
 #include "node/respond.h"
 #include "node/to_messages.h"
-#include "node/topic_warnings.h"
 
 namespace gpu_planning_scene::core
 {
@@ -120,8 +120,20 @@ void SceneServices::take(const sensor_msgs::JointState& message)
     throw Error(std::to_string(message.position.size()) + " positions for " + std::to_string(message.name.size()) +
                 " names");
   std::map<std::string, double> variables;
+  std::vector<int> columns;
+  std::vector<double> values;
+  const std::shared_ptr<const PlanningScene> scene = store_.snapshot().scene;
   for (std::size_t i = 0; i < message.name.size(); ++i)
+  {
     variables[message.name[i]] = message.position[i];
+    if (const int variable = scene->robot->variableIndex(message.name[i]); variable >= 0)
+    {
+      columns.push_back(variable);
+      values.push_back(message.position[i]);
+    }
+  }
+  if (const auto outside = findValueOutsideLimits(*scene->robot, columns, values.data(), 1))
+    joint_warning_.log("joint_states: " + outside->text);
   store_.updateState(variables, static_cast<std::int64_t>(message.header.stamp.toNSec()));
 }
 }  // namespace gpu_planning_scene::core

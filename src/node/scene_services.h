@@ -4,6 +4,7 @@
 
 #include "node/frame_lookup.h"
 #include "node/messages.h"
+#include "node/topic_warnings.h"
 #include "service/memory_guard.h"
 #include "service/scene_store.h"
 
@@ -37,5 +38,6 @@ class SceneServices
   SceneStore& store_;
   const SceneStore::Lookup lookup_;
   const MemoryGuard& memory_;
+  OccasionalWarning joint_warning_;
 };
 }  // namespace gpu_planning_scene::core

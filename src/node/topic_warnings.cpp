@@ -10,6 +10,23 @@
 
 namespace gpu_planning_scene::core
 {
+namespace
+{
+constexpr std::chrono::seconds kOccasion{10};
+}  // namespace
+
+void OccasionalWarning::log(const std::string& text)
+{
+  const auto now = std::chrono::steady_clock::now();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (logged_ && now - *logged_ < kOccasion)
+      return;
+    logged_ = now;
+  }
+  ROS_WARN_STREAM(shortLine(text));
+}
+
 void warnOfMessage(const std::vector<std::string>& warnings)
 {
   using Clock = std::chrono::steady_clock;

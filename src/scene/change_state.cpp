@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
+#include "model/joint_limits.h"
 #include "scene/scene_changer.h"
 
 // The state of the robot, and its attached objects.
@@ -29,6 +30,8 @@ void SceneChanger::setVariables(const std::map<std::string, double>& variables)
     return;
   const bool is_known = !result_.state.empty() || variables.size() == robot.variables().size();
   std::vector<double> state = result_.state.empty() ? robot.defaultState() : result_.state;
+  std::vector<int> columns;
+  std::vector<double> values;
   for (const auto& [name, value] : variables)
   {
     const int variable = robot.variableIndex(name);
@@ -37,7 +40,11 @@ void SceneChanger::setVariables(const std::map<std::string, double>& variables)
     if (!std::isfinite(value))
       throw Error("robot_state: the position of '" + name + "' is not finite");
     state[static_cast<std::size_t>(variable)] = value;
+    columns.push_back(variable);
+    values.push_back(value);
   }
+  if (const auto outside = findValueOutsideLimits(robot, columns, values.data(), 1))
+    result_.warnings.push_back("robot_state: " + outside->text);
   // The values of only some joints are not a state. No values are invented for the other joints, so a change that needs
   // the pose of a link is refused.
   if (is_known)

@@ -1,7 +1,8 @@
 #include <algorithm>
-#include <set>
 
 #include "gpu_planning_scene/error.h"
+#include "model/full_states.h"
+#include "model/joint_limits.h"
 #include "scene/message_values.h"
 #include "scene/scene_reader.h"
 
@@ -31,16 +32,6 @@ std::string join(const std::vector<std::string>& names)
   for (const std::string& name : names)
     line += (line.empty() ? "" : ", ") + name;
   return line;
-}
-
-/// The variables of the SRDF's virtual joint, if there is one.
-std::set<int> virtualVariables(const RobotModel& robot)
-{
-  std::set<int> variables;
-  for (const Joint& joint : robot.joints())
-    for (int i = 0; joint.parent_link < 0 && i < variableCount(joint.type); ++i)
-      variables.insert(joint.first_variable + i);
-  return variables;
 }
 
 void readJointState(const YamlValue& value, const SceneReader& reader, GivenState& state)
@@ -149,12 +140,21 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
     return {};
   // The virtual joint is not in the URDF. Files of its users often leave it out, and mean the default.
   std::vector<std::string> missing;
-  const std::set<int> of_virtual_joint = virtualVariables(reader.robot);
+  std::vector<int> columns;
+  std::vector<double> values;
+  const std::vector<int> of_virtual_joint = virtualVariables(reader.robot);
   for (std::size_t i = 0; i < state.given.size(); ++i)
-    if (!state.given[i] && of_virtual_joint.count(static_cast<int>(i)) == 0)
+    if (state.given[i])
+    {
+      columns.push_back(static_cast<int>(i));
+      values.push_back(state.values[i]);
+    }
+    else if (std::find(of_virtual_joint.begin(), of_virtual_joint.end(), static_cast<int>(i)) == of_virtual_joint.end())
       missing.push_back(reader.robot.variables()[i].name);
   if (!missing.empty())
     reader.warn(start + "joints without a value get their default: " + join(missing));
+  if (const auto outside = findValueOutsideLimits(reader.robot, columns, values.data(), 1))
+    reader.warn(start + outside->text);
   return state.values;
 }
 }  // namespace gpu_planning_scene::core

@@ -50,13 +50,11 @@ PartialState Snapshot::partialState() const
 }
 
 SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits)
-  : state_(scene.robot->defaultState()),
-    known_(state_.size(), !scene.current_state.empty()),
-    defaults_(std::move(defaults)),
-    limits_(limits)
+  : defaults_(std::move(defaults)), limits_(limits)
 {
-  if (!scene.current_state.empty())
-    state_ = scene.current_state;
+  PartialState start(*scene.robot, scene.current_state);
+  state_ = std::move(start.values);
+  known_ = std::move(start.known);
   scene_ = std::make_shared<const PlanningScene>(std::move(scene));
 }
 

@@ -30,7 +30,7 @@ struct Snapshot
 class SceneStore
 {
  public:
-  /// The robot's state starts as the current state of `scene`; without one, it is unknown.
+  /// The robot's state starts as the current state of `scene`; without one, only the virtual joint is known.
   SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits);
 
   Snapshot snapshot() const;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <limits>
 
 #include "collision/checkers/open_checker.h"
 #include "collision/checkers/scene_text.h"
@@ -28,6 +29,7 @@ std::vector<Option> options()
   for (const Option& option : deviceOptions())
     all.push_back(option);
   all.push_back({"--out", "FILE", "file for the answers (default: the standard output)"});
+  all.push_back({"--save-states", "FILE", "file for the states, in the form that --states reads"});
   return all;
 }
 
@@ -74,6 +76,25 @@ void writeAnswers(std::ostream& out, const BatchResult& result, const PlanningSc
       out << "0," << names[result.colliding[i][0]] << ',' << names[result.colliding[i][1]] << '\n';
 }
 
+void writeStates(const std::string& path, StateSource& source, const RobotModel& robot)
+{
+  std::ofstream file(path);
+  file.precision(std::numeric_limits<double>::max_digits10);
+  const std::size_t width = robot.variables().size();
+  for (std::size_t v = 0; v < width; ++v)
+    file << (v == 0 ? "" : ",") << csvCell(robot.variables()[v].name);
+  file << '\n';
+  for (std::size_t i = 0; i < source.count(); ++i)
+  {
+    const double* state = source.next(1);
+    for (std::size_t v = 0; v < width; ++v)
+      file << (v == 0 ? "" : ",") << state[v];
+    file << '\n';
+  }
+  if (!file.flush())
+    throw Error(path + ": cannot write the file");
+}
+
 std::size_t countValid(const BatchResult& result)
 {
   return static_cast<std::size_t>(std::count(result.valid.begin(), result.valid.end(), 1));
@@ -116,6 +137,9 @@ void run(const CommandLine& arguments)
   const auto source = stateSourceFrom(arguments, *scene);
   if (const std::string warning = source->warning(); !warning.empty())
     printWarnings({warning});
+  // The same source gives the same states again.
+  if (arguments.has("--save-states"))
+    writeStates(arguments.required("--save-states"), *stateSourceFrom(arguments, *scene), *scene->robot);
   const std::string out_path = arguments.value("--out", "");
   std::ofstream out_file;
   if (!out_path.empty())

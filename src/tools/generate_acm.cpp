@@ -1,6 +1,7 @@
 // generate_acm: finds the pairs of links that need not be checked, and writes them into an SRDF.
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -66,6 +67,11 @@ void run(const CommandLine& arguments)
   if (arguments.has("--out"))
   {
     const std::string& path = arguments.required("--out");
+    // A file with groups and named states would be lost.
+    if (std::filesystem::exists(path) && path != arguments.value("--srdf", "") && !isGeneratedSrdf(readFile(path)))
+      throw Error(path +
+                  ": the file exists and was not written by generate_acm; to keep what it has, give it as --srdf " +
+                  "too, or choose another name for --out");
     std::ofstream file(path);
     if (!(file << srdf).flush())
       throw Error(path + ": cannot write the file");

@@ -49,11 +49,8 @@ std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene&
     randomise(*scene.robot, generator, startState(scene), true, state.data());
   }
   if (arguments.has("--state"))
-  {
-    setValues(*scene.robot, arguments.value("--state", ""), state);
-    if (const std::string warning = warningOfLimits(*scene.robot, state); !warning.empty())
+    if (const std::string warning = setValues(*scene.robot, arguments.value("--state", ""), state); !warning.empty())
       printWarnings({warning});
-  }
   return state;
 }
 

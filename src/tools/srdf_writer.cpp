@@ -66,6 +66,11 @@ void addGroups(const std::vector<std::string>& tips, const RobotModel& robot, ti
 }
 }  // namespace
 
+bool isGeneratedSrdf(const std::string& srdf)
+{
+  return srdf.find(std::string("<!--") + kCommentStart) != std::string::npos;
+}
+
 std::string srdfWith(const GeneratedMatrix& matrix, const RobotModel& robot, const SamplingOptions& options,
                      const std::string& srdf)
 {

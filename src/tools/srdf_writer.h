@@ -10,4 +10,7 @@ namespace gpu_planning_scene::core
 /// `srdf`: the XML of the robot's SRDF, or empty. All of it is kept except earlier generated entries of the matrix.
 std::string srdfWith(const GeneratedMatrix& matrix, const RobotModel& robot, const SamplingOptions& options,
                      const std::string& srdf);
+
+/// Whether srdfWith wrote the file with this content.
+bool isGeneratedSrdf(const std::string& srdf);
 }  // namespace gpu_planning_scene::core

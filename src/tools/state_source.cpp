@@ -53,8 +53,7 @@ class StateOfText : public StateSource
  public:
   StateOfText(const PlanningScene& scene, const std::string& text) : text_(text), state_(startState(scene))
   {
-    setValues(*scene.robot, text, state_);
-    warning_ = warningOfLimits(*scene.robot, state_);
+    warning_ = setValues(*scene.robot, text, state_);
   }
 
   std::size_t count() const override { return 1; }

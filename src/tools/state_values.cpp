@@ -1,7 +1,7 @@
 #include "tools/state_values.h"
 
 #include <algorithm>
-#include <numeric>
+#include <set>
 #include <sstream>
 
 #include "model/full_states.h"
@@ -16,8 +16,9 @@ std::vector<double> startState(const PlanningScene& scene)
   return scene.current_state.empty() ? scene.robot->defaultState() : scene.current_state;
 }
 
-void setValues(const RobotModel& robot, const std::string& text, std::vector<double>& state)
+std::string setValues(const RobotModel& robot, const std::string& text, std::vector<double>& state)
 {
+  std::set<int> columns;
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');)
   {
@@ -29,10 +30,12 @@ void setValues(const RobotModel& robot, const std::string& text, std::vector<dou
         const NamedState named = robot.namedState(word);
         for (std::size_t i = 0; i < named.variables.size(); ++i)
           state[static_cast<std::size_t>(named.variables[i])] = named.values[i];
+        columns.insert(named.variables.begin(), named.variables.end());
         continue;
       }
       const int variable = variableIndices(robot, {word.substr(0, equals)}).front();
       state[static_cast<std::size_t>(variable)] = numbersFrom("--state", word.substr(equals + 1), 1)[0];
+      columns.insert(variable);
     }
     catch (const UsageError&)
     {
@@ -43,13 +46,11 @@ void setValues(const RobotModel& robot, const std::string& text, std::vector<dou
       throw UsageError("--state: '" + word + "': " + error.what());
     }
   }
-}
-
-std::string warningOfLimits(const RobotModel& robot, const std::vector<double>& state)
-{
-  std::vector<int> all(state.size());
-  std::iota(all.begin(), all.end(), 0);
-  const auto outside = findValueOutsideLimits(robot, all, state.data(), 1);
+  const std::vector<int> variables(columns.begin(), columns.end());
+  std::vector<double> values;
+  for (const int variable : variables)
+    values.push_back(state[static_cast<std::size_t>(variable)]);
+  const auto outside = findValueOutsideLimits(robot, variables, values.data(), 1);
   return outside ? "--state: " + outside->text : "";
 }
 

@@ -13,11 +13,8 @@ std::vector<double> startState(const PlanningScene& scene);
 
 /// Sets variables of a state. `text`: items separated by commas, applied in this order; NAME=VALUE sets a variable, and
 /// NAME or GROUP/NAME a state that the SRDF names, for example "ready,joint_1=0.5". Throws UsageError that names the
-/// option --state.
-void setValues(const RobotModel& robot, const std::string& text, std::vector<double>& state);
-
-/// A warning for --state if a value of `state` is outside its joint's limits; otherwise empty.
-std::string warningOfLimits(const RobotModel& robot, const std::vector<double>& state);
+/// option --state. Returns a warning if one of these values is outside its joint's limits; otherwise an empty text.
+std::string setValues(const RobotModel& robot, const std::string& text, std::vector<double>& state);
 
 /// A random state within the limits. `keep_base`: planar and floating joints keep the values of `start`. Other joints
 /// have the same values for both settings.

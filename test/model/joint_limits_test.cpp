@@ -41,6 +41,7 @@ TEST_F(JointLimits, DegreesAreSuggestedForAnglesThatTheyWouldFit)
 {
   EXPECT_EQ(find({90.0, 0.0})->text,
             "joint 'arm' is 90, outside its limits -1 to 2 rad; values are in radians, and 90 degrees are 1.5708 rad");
+  EXPECT_EQ(find({2.5, 0.0})->text, "joint 'arm' is 2.5, outside its limits -1 to 2 rad") << "hardly degrees";
   EXPECT_EQ(find({-300.0, 0.0})->text, "joint 'arm' is -300, outside its limits -1 to 2 rad");
   EXPECT_EQ(find({0.0, 90.0})->text, "joint 'lift' is 90, outside its limits -1 to 2");
 }

@@ -33,8 +33,9 @@ class YourRobot(unittest.TestCase):
             for block in examples(os.path.join("docs", "your_robot.md"))
             if block
         ]
-        self.assertEqual(8, len(blocks))
-        (self.variables, self.generate, scene, self.launch, self.report, self.client, self.plan, self.picture) = blocks
+        self.assertEqual(9, len(blocks))
+        (self.variables, self.generate, scene, self.launch, self.report, self.client, self.plan, self.picture) = blocks[:8]
+        self.check_many = blocks[8]
         with open(os.path.join(self.folder.name, "my_scene.yaml"), "w", encoding="utf-8") as file:
             file.write(scene)
 
@@ -63,6 +64,10 @@ class YourRobot(unittest.TestCase):
                 node.wait(60)
         self.assertRegex(self.run_block(self.picture), r"collides: \w+ - \w+")
         self.assertTrue(os.path.exists(os.path.join(self.folder.name, "my_robot.png")))
+        self.assertIn("1000 states, ", self.run_block(self.check_many))
+        for name in ("answers.csv", "states.csv"):
+            with open(os.path.join(self.folder.name, name), encoding="utf-8") as file:
+                self.assertEqual(1001, len(file.readlines()), name)
 
     def test_the_scene_has_15_lines_with_each_kind_of_object(self):
         with open(os.path.join(self.folder.name, "my_scene.yaml"), encoding="utf-8") as file:

@@ -33,6 +33,13 @@ TEST_F(ChangeState, JointsThatAreNotNamedStayWhereTheyAre)
   EXPECT_TRUE(warnings_.empty());
 }
 
+TEST_F(ChangeState, JointValuesOutsideTheLimitsGiveAWarning)
+{
+  apply(stateChange(true, {{"turn", 90.0}}));
+  ASSERT_EQ(1u, warnings_.size());
+  EXPECT_EQ(0u, warnings_[0].find("robot_state: joint 'turn' is 90, outside its limits -3 to 3 rad")) << warnings_[0];
+}
+
 TEST_F(ChangeState, ValuesOfSomeJointsAloneAreNoState)
 {
   change(objectChange(Operation::Add, "c", {boxAt(0.1)}));

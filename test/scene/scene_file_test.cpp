@@ -356,6 +356,12 @@ TEST_F(SceneFile, AMissingVirtualJointGivesNoWarning)
   EXPECT_FALSE(warned("floor"));
 }
 
+TEST_F(SceneFile, JointValuesOutsideTheLimitsGiveAWarningWithTheLine)
+{
+  load("world: {}\nrobot_state: {joint_state: {name: [slide, turn], position: [0, 90]}}");
+  EXPECT_TRUE(warned(":2: robot_state: joint 'turn' is 90, outside its limits -3 to 3 rad; values are in radians"));
+}
+
 TEST_F(SceneFile, WithoutJointValuesThereIsNoState)
 {
   EXPECT_TRUE(load("world: {}\nname: a").current_state.empty());

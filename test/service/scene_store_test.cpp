@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/full_states.h"
 #include "scene/slider_robot.h"
 #include "service/scene_store.h"
 
@@ -47,6 +48,24 @@ TEST_F(Store, AChangeMakesANewRevisionAndLeavesOldScenesAlone)
   EXPECT_EQ(1u, store.snapshot().scene->revision);
   EXPECT_EQ(2u, store.clear().revision);
   EXPECT_TRUE(store.snapshot().scene->objects.empty());
+}
+
+/// As in MoveIt configurations for an arm on a table, whose drivers report no pose of the base.
+TEST_F(Store, TheVirtualJointStandsAtTheOriginUntilItIsSet)
+{
+  for (const char* type : {"planar", "floating"})
+  {
+    SceneStore on_floor{PlanningScene(sliderRobotOnFloor(type)), {}, {}};
+    const RobotModel& robot = *on_floor.snapshot().scene->robot;
+    const std::vector<double> row = {0.5, 0.25};
+    const std::vector<double> state =
+        fullStates(robot, variableIndices(robot, {"slide", "turn"}), row.data(), 1, on_floor.snapshot().partialState());
+    std::vector<double> expected = robot.defaultState();
+    expected[static_cast<std::size_t>(robot.variableIndex("slide"))] = 0.5;
+    expected[static_cast<std::size_t>(robot.variableIndex("turn"))] = 0.25;
+    EXPECT_EQ(expected, state) << type;
+    EXPECT_FALSE(on_floor.snapshot().allKnown()) << type << ": no value is made up for the joints of the URDF";
+  }
 }
 
 TEST_F(Store, ClearRemovesWhatTheMatrixAllowsTheObjects)

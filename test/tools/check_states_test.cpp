@@ -206,6 +206,23 @@ TEST_F(CheckStates, WarnsOnceOfValuesOutsideTheLimits)
   EXPECT_EQ(std::string::npos, check({"--random", "10"}).err.find("warning"));
 }
 
+TEST_F(CheckStates, BlamesTheSceneFileForTheSceneFilesValues)
+{
+  scene = folder.write("scene.yaml",
+                       std::string(kScene) + "robot_state: {joint_state: {name: [slide, turn], position: [0, 90]}}");
+  const std::string errors = check({"--state", "slide=0"}).err;
+  EXPECT_NE(std::string::npos, errors.find("robot_state: joint 'turn' is 90")) << errors;
+  EXPECT_EQ(std::string::npos, errors.find("--state: joint")) << errors;
+}
+
+TEST_F(CheckStates, SavedStatesHaveTheSameAnswers)
+{
+  const std::string path = folder.path("saved.csv");
+  const ProgramOutput random = check({"--random", "50", "--seed", "3", "--save-states", path});
+  EXPECT_EQ(0, random.exit_code) << random.err;
+  EXPECT_EQ(random.out, check({"--states", path}).out);
+}
+
 TEST_F(CheckStates, WritesToAFileWhereAsked)
 {
   const std::string path = folder.write("answers.csv", "something older\nthat is longer than the answers are\n");

@@ -136,6 +136,17 @@ TEST_F(GenerateAcm, KeepsWhatTheUserWroteInAnSrdf)
   EXPECT_EQ(once, contentOf(out));
 }
 
+TEST_F(GenerateAcm, DoesNotReplaceAFileThatItDidNotWrite)
+{
+  const std::string users = "<robot name=\"line--up\"><group name=\"all\"><joint name=\"slide\"/></group></robot>";
+  folder.write("out.srdf", users);
+  const ProgramOutput output = generate({"--samples", "10"});
+  EXPECT_EQ(1, output.exit_code);
+  EXPECT_NE(std::string::npos, output.err.find("was not written by generate_acm")) << output.err;
+  EXPECT_EQ(users, contentOf(out));
+  EXPECT_EQ(0, generate({"--samples", "10", "--srdf", out}).exit_code) << "it keeps what the file has";
+}
+
 TEST_F(GenerateAcm, WritesAGroupForTheChainFromTheRootToEachTip)
 {
   // A wrist with two fingers of their own: the arm up to the wrist, and the arm with each finger. The camera moves with
