@@ -18,7 +18,7 @@ constexpr BodyColor kTreeColor{31, 119, 180, 255};
 constexpr std::size_t kTrianglesOfBox = 8;
 
 /// Colliding bodies are translucent, so that the contact points inside of them are visible.
-constexpr BodyColor kTranslucentCollidingColor{kCollidingColor[0], kCollidingColor[1], kCollidingColor[2], 185};
+constexpr std::uint8_t kCollidingOpacity = 185;
 
 std::vector<std::size_t> triangleCounts(const PlanningScene& scene, std::size_t bodies)
 {
@@ -48,8 +48,13 @@ class MarkerMaker
     markers_.limitTriangles(options_.max_triangles, triangleCounts(scene_, poses_.size()));
     for (std::size_t body = 0; body < poses_.size(); ++body)
     {
-      markers_.begin(namespaceOf(body),
-                     colliding.count(body) != 0 ? kTranslucentCollidingColor : bodyColor(scene_, body));
+      BodyColor color = bodyColor(scene_, body);
+      if (colliding.count(body) != 0)
+      {
+        color = collidingColor(scene_, body);
+        color[3] = kCollidingOpacity;
+      }
+      markers_.begin(namespaceOf(body), color);
       for (const PlacedShape& shape : bodyShapes(scene_, body))
         markers_.addShape(shape.shape, poses_[body] * shape.pose);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "gpu_planning_scene/interpolation.h"
 #include "node/shape_markers.h"
@@ -19,10 +20,12 @@ constexpr double kMaxSteps = 200.0;      // per motion
 constexpr double kLineWidth = 0.005;     // metres
 constexpr double kPointDiameter = 0.02;  // metres
 
-constexpr std::size_t kMinGhosts = 2;
-constexpr std::size_t kMaxGhosts = 6;
-constexpr BodyColor kStartColor{70, 120, 255, 80};
-constexpr BodyColor kGoalColor{50, 210, 100, 80};
+constexpr std::size_t kMaxGhosts = 4;
+constexpr BodyColor kStartColor{70, 120, 255, 110};
+constexpr BodyColor kGoalColor{50, 210, 100, 110};
+constexpr std::uint8_t kFaint = 40;     // opacity of the ghosts between start and goal
+constexpr double kUnmoved = 1e-3;       // metres, or entries of a rotation
+constexpr double kLetterHeight = 0.06;  // metres
 constexpr BodyColor kLineColor{0, 204, 51, 255};
 constexpr BodyColor kPointColor{0, 204, 204, 255};
 
@@ -55,22 +58,44 @@ DensePath densePathOf(const RobotModel& robot, const std::vector<std::vector<dou
   return path;
 }
 
-/// Links that the group moves and that have no child link, such as the hand of an arm.
+/// Links that the group moves and that have no child link. For several such links with one parent, for example the
+/// fingers of a hand, the parent.
 std::vector<int> lastLinks(const RobotModel& robot, const Group& group)
 {
   std::vector<int> links = group.moved_links;
   for (const Joint& joint : robot.joints())
     links.erase(std::remove(links.begin(), links.end(), joint.parent_link), links.end());
-  return links;
+  const auto parent_of = [&robot](int link)
+  {
+    const int joint = robot.links()[static_cast<std::size_t>(link)].parent_joint;
+    return joint < 0 ? -1 : robot.joints()[static_cast<std::size_t>(joint)].parent_link;
+  };
+  std::set<int> ends;
+  for (const int link : links)
+  {
+    const int parent = parent_of(link);
+    const auto siblings =
+        std::count_if(links.begin(), links.end(), [&](int other) { return parent_of(other) == parent; });
+    ends.insert(siblings > 1 && parent >= 0 ? parent : link);
+  }
+  return {ends.begin(), ends.end()};
 }
 
-/// The links that the group moves, and the objects that are attached to them.
-std::vector<std::size_t> movedBodies(const PlanningScene& scene, const Group& group)
+/// The bodies that the group moves and that are not at the same place in all of the given poses.
+std::vector<std::size_t> movedBodies(const PlanningScene& scene, const Group& group,
+                                     const std::vector<std::vector<Eigen::Isometry3d>>& poses)
 {
   std::vector<std::size_t> bodies(group.moved_links.begin(), group.moved_links.end());
   for (std::size_t i = 0; i < scene.attached.size(); ++i)
     if (std::count(group.moved_links.begin(), group.moved_links.end(), scene.attached[i].link) != 0)
       bodies.push_back(scene.robot->links().size() + scene.objects.size() + i);
+  const auto stays = [&poses](std::size_t body)
+  {
+    return std::all_of(poses.begin(), poses.end(),
+                       [&](const std::vector<Eigen::Isometry3d>& at)
+                       { return (at[body].matrix() - poses[0][body].matrix()).cwiseAbs().maxCoeff() < kUnmoved; });
+  };
+  bodies.erase(std::remove_if(bodies.begin(), bodies.end(), stays), bodies.end());
   return bodies;
 }
 
@@ -85,7 +110,10 @@ BodyColor between(const BodyColor& from, const BodyColor& to, double share)
 void addGhosts(const PlanningScene& scene, const DensePath& path, const Group& group, std::size_t max_triangles,
                ShapeMarkers& markers)
 {
-  const std::vector<std::size_t> bodies = movedBodies(scene, group);
+  std::vector<std::vector<Eigen::Isometry3d>> poses;
+  for (std::size_t ghost = 0; ghost < kMaxGhosts; ++ghost)
+    poses.push_back(bodyPoses(scene, path.states[ghost * (path.states.size() - 1) / (kMaxGhosts - 1)].data()));
+  const std::vector<std::size_t> bodies = movedBodies(scene, group, poses);
   std::vector<std::size_t> shapes;
   std::size_t triangles = 0;
   for (const std::size_t body : bodies)
@@ -94,21 +122,24 @@ void addGhosts(const PlanningScene& scene, const DensePath& path, const Group& g
       shapes.push_back(trianglesOf(shape.shape));
       triangles += shapes.back();
     }
-  const std::size_t ghosts = std::clamp(max_triangles / std::max<std::size_t>(1, triangles), kMinGhosts, kMaxGhosts);
+  std::vector<std::size_t> drawn = {0, kMaxGhosts - 1};
+  if (max_triangles / kMaxGhosts >= triangles)
+    drawn = {0, 1, 2, kMaxGhosts - 1};
   std::vector<std::size_t> all_shapes;
-  for (std::size_t ghost = 0; ghost < ghosts; ++ghost)
+  for (std::size_t ghost = 0; ghost < drawn.size(); ++ghost)
     all_shapes.insert(all_shapes.end(), shapes.begin(), shapes.end());
   markers.limitTriangles(max_triangles, std::move(all_shapes));
-  for (std::size_t ghost = 0; ghost < ghosts; ++ghost)
+  for (const std::size_t ghost : drawn)
   {
-    const double share = static_cast<double>(ghost) / static_cast<double>(ghosts - 1);
-    const std::size_t at = ghost * (path.states.size() - 1) / (ghosts - 1);
-    const auto poses = bodyPoses(scene, path.states[at].data());
+    BodyColor color =
+        between(kStartColor, kGoalColor, static_cast<double>(ghost) / static_cast<double>(kMaxGhosts - 1));
+    if (ghost != drawn.front() && ghost != drawn.back())
+      color[3] = kFaint;
     for (const std::size_t body : bodies)
     {
-      markers.begin("ghosts", between(kStartColor, kGoalColor, share));
+      markers.begin("ghosts", color);
       for (const PlacedShape& shape : bodyShapes(scene, body))
-        markers.addShape(shape.shape, poses[body] * shape.pose);
+        markers.addShape(shape.shape, poses[ghost][body] * shape.pose);
     }
   }
 }
@@ -139,6 +170,17 @@ void addLines(const RobotModel& robot, const DensePath& path, const Group& group
   for (const std::size_t waypoint : path.waypoints)
     for (const int link : links)
       points.points.push_back(point_of(waypoint, link));
+  const auto label = [&](const char* text, std::size_t state, const BodyColor& color)
+  {
+    markers.begin("labels", {color[0], color[1], color[2], 255});
+    Marker& marker = markers.add(Marker::TEXT_VIEW_FACING, Eigen::Isometry3d::Identity());
+    marker.pose.position = point_of(state, links.front());
+    marker.pose.position.z += kLetterHeight;
+    marker.scale.z = kLetterHeight;
+    marker.text = text;
+  };
+  label("start", 0, kStartColor);
+  label("goal", path.states.size() - 1, kGoalColor);
 }
 }  // namespace
 

@@ -141,6 +141,12 @@ const std::vector<PlacedShape>& bodyShapes(const PlanningScene& scene, std::size
   return scene.attached[body - links - scene.objects.size()].shapes();
 }
 
+BodyColor collidingColor(const PlanningScene& scene, std::size_t body)
+{
+  const std::size_t links = scene.robot->links().size();
+  return body >= links && body < links + scene.objects.size() ? kCollidingObjectColor : kCollidingColor;
+}
+
 BodyColor bodyColor(const PlanningScene& scene, std::size_t body)
 {
   const auto chosen = scene.colors.find(scene.bodyName(static_cast<int>(body)));
@@ -199,7 +205,7 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
   bool has_plane = false;
   for (std::size_t body = 0; body < poses.size(); ++body)
   {
-    const BodyColor color = red.count(body) != 0 ? kCollidingColor : bodyColor(scene, body);
+    const BodyColor color = red.count(body) != 0 ? collidingColor(scene, body) : bodyColor(scene, body);
     for (const PlacedShape& shape : bodyShapes(scene, body))
     {
       const Eigen::Isometry3d pose = poses[body] * shape.pose;

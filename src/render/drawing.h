@@ -14,11 +14,15 @@ namespace gpu_planning_scene::core
 {
 using BodyColor = std::array<std::uint8_t, 4>;  ///< red, green, blue, opacity
 
-constexpr BodyColor kCollidingColor{214, 39, 40, 255};
+constexpr BodyColor kCollidingColor{224, 45, 45, 255};        // links and attached objects
+constexpr BodyColor kCollidingObjectColor{138, 16, 30, 255};  // objects; darker, so that the robot stands out
 constexpr BodyColor kContactColor{255, 221, 0, 255};
 
 /// The colour of a body that does not collide: its colour in the scene (object_colors) if it has one, else a default.
 BodyColor bodyColor(const PlanningScene& scene, std::size_t body);
+
+/// The colour of a body that collides: red, and dark red for objects of the world.
+BodyColor collidingColor(const PlanningScene& scene, std::size_t body);
 
 /// The shapes of a link, an object or an attached object.
 const std::vector<PlacedShape>& bodyShapes(const PlanningScene& scene, std::size_t body);

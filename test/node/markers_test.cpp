@@ -55,7 +55,7 @@ MarkerArray markers(const PlanningScene& scene, const std::vector<BodyPair>& col
 
 bool isRed(const Marker& marker)
 {
-  return marker.color.r > 0.8F && marker.color.g < 0.3F && marker.color.b < 0.3F;
+  return marker.color.r > 0.5F && marker.color.g < 0.3F && marker.color.b < 0.3F;
 }
 
 std::size_t countOf(const MarkerArray& array, const std::string& name, int type)
@@ -125,6 +125,14 @@ TEST(Markers, CollidingBodiesAreRedAndContactsShown)
   for (const Marker& marker : array.markers)
     if (marker.action == Marker::ADD)
       EXPECT_EQ(isRed(marker), marker.color.a < 0.9F);
+  const auto red_of = [&](const std::string& name)
+  {
+    for (const Marker& marker : array.markers)
+      if (marker.ns == name && isRed(marker))
+        return marker.color.r;
+    return 0.0F;
+  };
+  EXPECT_GT(red_of("robot"), red_of("objects") + 0.2F) << "the robot stands out";
 }
 
 TEST(Markers, BodiesHaveTheColoursOfTheScene)

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "model/model_testing.h"
 #include "node/path_markers.h"
 #include "scene/slider_robot.h"
 
@@ -63,13 +64,13 @@ TEST(PathMarkers, GhostsOfTheRobotStandAlongThePath)
 {
   const PlanningScene scene = carryingScene();
   const std::vector<Marker> ghosts = ghostsOf(scene, "drive", kManyTriangles);
-  ASSERT_EQ(ghosts.size(), 18u) << "cart, pole and sheet, six times";
+  ASSERT_EQ(ghosts.size(), 12u) << "cart, pole and sheet, four times";
   std::set<int> ids;
-  for (std::size_t i = 0; i < 6; ++i)
+  for (std::size_t i = 0; i < 4; ++i)
   {
     const Marker& cart = ghosts[3 * i];
     ASSERT_EQ(cart.type, Marker::CUBE_LIST);
-    EXPECT_NEAR(cart.points.at(0).x, -1.0 + 0.4 * static_cast<double>(i), 0.06);
+    EXPECT_NEAR(cart.points.at(0).x, -1.0 + 2.0 / 3.0 * static_cast<double>(i), 0.06);
     EXPECT_EQ(cart.header.frame_id, scene.robot->planningFrame());
     for (std::size_t k = 0; k < 3; ++k)
     {
@@ -78,14 +79,28 @@ TEST(PathMarkers, GhostsOfTheRobotStandAlongThePath)
     }
   }
   EXPECT_DOUBLE_EQ(ghosts[0].points[0].x, -1.0);
-  EXPECT_DOUBLE_EQ(ghosts[15].points[0].x, 1.0);
+  EXPECT_DOUBLE_EQ(ghosts[9].points[0].x, 1.0);
+  EXPECT_LT(ghosts[3].color.a, ghosts[0].color.a) << "start and goal stand out";
+  EXPECT_LT(ghosts[6].color.a, ghosts[9].color.a);
   EXPECT_GT(ghosts.front().color.b, ghosts.front().color.g);
   EXPECT_GT(ghosts.back().color.g, ghosts.back().color.b);
 }
 
 TEST(PathMarkers, GhostsShowOnlyWhatTheGroupMoves)
 {
-  EXPECT_EQ(ghostsOf(carryingScene(), "mast", kManyTriangles).size(), 6u) << "the pole, six times";
+  EXPECT_EQ(ghostsOf(carryingScene(), "mast", kManyTriangles).size(), 4u) << "the pole, four times";
+}
+
+TEST(PathMarkers, BodiesThatStayWhereTheyAreHaveNoGhost)
+{
+  const PlanningScene scene = carryingScene();
+  std::vector<std::vector<double>> turning(2, scene.robot->defaultState());
+  turning[1][static_cast<std::size_t>(scene.robot->variableIndex("turn"))] = 1.0;
+  const auto array = pathMarkers(scene, turning, groupOf(scene, "drive"), kManyTriangles);
+  EXPECT_EQ(std::count_if(array.markers.begin(), array.markers.end(),
+                          [](const Marker& marker) { return marker.ns == "ghosts"; }),
+            4)
+      << "the pole turns; the cart and its sheet stay";
 }
 
 TEST(PathMarkers, ThereAreAsManyGhostsAsTheTrianglesAllow)
@@ -97,8 +112,8 @@ TEST(PathMarkers, ThereAreAsManyGhostsAsTheTrianglesAllow)
     return std::count_if(ghosts.begin(), ghosts.end(),
                          [](const Marker& marker) { return marker.type == Marker::TRIANGLE_LIST; });
   };
-  EXPECT_EQ(sheets(399), 3);
-  EXPECT_EQ(sheets(200), 2);
+  EXPECT_EQ(sheets(kManyTriangles), 4);
+  EXPECT_EQ(sheets(399), 2);
   EXPECT_EQ(sheets(99), 0) << "drawn as boxes";
   EXPECT_EQ(ghostsOf(scene, "drive", 99).size(), 6u);
 }
@@ -114,7 +129,28 @@ TEST(PathMarkers, ThereIsOneLineForEachLastLinkAndAPointForEachWaypoint)
   };
   EXPECT_EQ(count("path"), 2) << "pennant and nut";
   EXPECT_EQ(count("waypoints"), 1);
-  EXPECT_EQ(array.markers.back().points.size(), 6u);
+  EXPECT_EQ(std::find_if(array.markers.begin(), array.markers.end(),
+                         [](const Marker& marker) { return marker.ns == "waypoints"; })
+                ->points.size(),
+            6u);
+  EXPECT_EQ(array.markers[array.markers.size() - 2].text, "start");
+  EXPECT_EQ(array.markers.back().text, "goal");
+}
+
+TEST(PathMarkers, FingersOfAHandShareOneLine)
+{
+  const std::string limits = "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>";
+  const PlanningScene scene(robotOf(
+      boxLink("base") + boxLink("hand") + boxLink("left") + boxLink("right") +
+          jointXml("wrist", "revolute", "base", "hand", limits) + jointXml("l", "prismatic", "hand", "left", limits) +
+          jointXml("r", "prismatic", "hand", "right", limits),
+      R"(<group name="all"><joint name="wrist"/><joint name="l"/><joint name="r"/></group>)"));
+  std::vector<std::vector<double>> waypoints(2, scene.robot->defaultState());
+  waypoints[1][0] = 1.0;
+  const auto array = pathMarkers(scene, waypoints, groupOf(scene, "all"), kManyTriangles);
+  EXPECT_EQ(std::count_if(array.markers.begin(), array.markers.end(),
+                          [](const Marker& marker) { return marker.ns == "path"; }),
+            1);
 }
 
 TEST(PathMarkers, AnEmptyPathOnlyDeletesTheLastOne)
