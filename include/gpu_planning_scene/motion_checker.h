@@ -19,8 +19,9 @@ enum class MotionRule
 {
   /// All samples are free, as in MoveIt and OMPL. A thin obstacle between two samples is missed.
   Samples,
-  /// All samples are free, and the motion is proven free between them. The clearance of each sample exceeds the
-  /// displacement of every point of the robot between the sample and the middle to a neighbouring sample.
+  /// All samples are free, and the motion is proven free between them. Around each sample lies a segment
+  /// that ends half way to the neighbouring samples. The clearance of the sample exceeds the displacement of every
+  /// point of the robot within this segment.
   Bound
 };
 

@@ -18,6 +18,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/mesh_reader.h"
 #include "model/mesh_pipe.h"
+#include "model/number_text.h"
 #include "model/one_line.h"
 
 namespace gpu_planning_scene::core
@@ -26,14 +27,6 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMaxErrorBytes = 4096;
-
-/// A text from which the same number is read back.
-std::string exact(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
 
 std::string megabytes(std::size_t bytes)
 {
@@ -199,7 +192,7 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
   Pipe out;
   Pipe err;
-  Child child({program, path, exact(scale.x()), exact(scale.y()), exact(scale.z()),
+  Child child({program, path, exactText(scale.x()), exactText(scale.y()), exactText(scale.z()),
                std::to_string(static_cast<long>(std::ceil(limits.seconds))), std::to_string(limits.memory),
                std::to_string(limits.file), std::to_string(limits.triangles)},
               out, err);
@@ -212,7 +205,7 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
     child.kill();
   const int status = child.wait();
   if (answer.late || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM)))
-    throw Error(file + "reading it takes longer than " + exact(limits.seconds) + " s (~mesh/seconds)");
+    throw Error(file + "reading it takes longer than " + exactText(limits.seconds) + " s (~mesh/seconds)");
   if (answer.too_long)
     throw Error(file + "the reader sent more data than a mesh of " + std::to_string(limits.triangles) +
                 " triangles has");

@@ -73,13 +73,20 @@ std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions
   return {options, static_cast<std::size_t>(all)};
 }
 
+void addWarning(const std::string& warning, std::string& message)
+{
+  if (!warning.empty())
+    message += (message.empty() ? "" : "; ") + warning;
+}
+
 /// A warning if a joint is beyond its limits in one of the states; otherwise empty. The rule "bound" proves no motion
 /// there, even if the group does not move the joint. `states`: full states, the starts or the ends of the motions.
 std::string beyondLimits(const RobotModel& robot, const std::vector<double>& states)
 {
   const std::size_t width = robot.variables().size();
+  const std::vector<VariableRange> ranges = limitRanges(robot);
   for (std::size_t row = 0; row < states.size(); row += width)
-    for (const VariableRange& range : limitRanges(robot))
+    for (const VariableRange& range : ranges)
       if (const double value = states[row + static_cast<std::size_t>(range.variable)];
           value < range.lower || value > range.upper)
         return "motion " + std::to_string(row / width) + ": " +
@@ -205,6 +212,7 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
           static OccasionalWarning warning;
           warning.log("check_states: " + response.message);
         }
+        addWarning(now.assumedBase(job.columns), response.message);
         job.keep_states = request.max_contacts != 0 || request.clearance;
         const bool inspects = job.keep_states;
         std::optional<Admission::Pass> pass;
@@ -326,6 +334,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         std::tie(job.motions, job.samples) =
             requestedMotions(request, robot, options_.motion_rule, starts, ends, options_.max_states);
         const MotionRule motion_rule = job.motions->rule;
+        const std::string assumed_base = now.assumedBase(job.columns);
         // The full states above serve to count the samples. For the check, the variables that the request does not name
         // come from the checked snapshot, which may be newer than `now`.
         job.states = request.starts;
@@ -348,6 +357,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
           if (response.message.empty())
             response.message = beyondLimits(robot, ends);
         }
+        addWarning(assumed_base, response.message);
         response.states_checked = answer.states_checked;
         response.scene_revision = answer.result.revision;
         response.seconds = answer.result.seconds;

@@ -10,9 +10,9 @@ namespace gpu_planning_scene::core
 {
 /// Markers of a path for RViz, in the planning frame. The first marker deletes all earlier markers. Namespaces:
 /// - ghosts: the bodies that the path moves, translucent, in states along the path at equal joint displacements. The
-///   start is blue and the goal is green; up to two fainter ghosts between them show the way. There are as many ghosts
-///   as `max_triangles` allows, at least start and goal. If even these have more triangles, the largest meshes are
-///   drawn as boxes.
+///   start is blue and the goal is green; up to two fainter ghosts show the robot between them. There are as many
+///   ghosts as `max_triangles` allows, at least start and goal. If even these have more triangles, the largest meshes
+///   are drawn as boxes.
 /// - path: for each end of the group, for example a hand, a line along its path.
 /// - waypoints: a point at each waypoint of these lines.
 /// - labels: "start" and "goal" at the ends of the first line.

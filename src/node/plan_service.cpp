@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "gpu_planning_scene/error.h"
+#include "model/full_states.h"
 #include "node/respond.h"
 #include "service/busy.h"
 
@@ -159,7 +160,9 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
   const PlannerConfig config = configs_.find(request.planner, request.group);
   const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type);
   const Snapshot now = store_.snapshot();
-  return {now.scene, queryFrom(request, now, config, configs_.ofGroup(request.group), options_), factory, config.type};
+  PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
+  return {now.scene, std::move(query), factory, config.type,
+          now.assumedBase(variableIndices(*now.scene->robot, request.start_names))};
 }
 
 PlanningResult PlanService::plan(const Task& task)
@@ -191,6 +194,8 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   const Group& group = task.scene->robot->group(request.group);
   response.status = statusOf(result.status);
   response.message = result.message;
+  if (!task.warning.empty())
+    response.message += (response.message.empty() ? "" : "; ") + task.warning;
   response.trajectory = trajectoryOf(*task.scene, result, group);
   response.planner = task.planner;
   response.planning_time = result.planning_seconds;

@@ -44,6 +44,7 @@ class PlanService
     PlanningQuery query;
     std::shared_ptr<const PlannerFactory> factory;
     std::string planner;  // plugin name of the planner
+    std::string warning;  // for the answer; empty: none
   };
 
   void fill(const PlanMotion::Request& request, PlanMotion::Response& response);

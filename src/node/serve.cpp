@@ -4,7 +4,6 @@
 #include <atomic>
 #include <optional>
 
-#include "model/full_states.h"
 #include "node/check_services.h"
 #include "node/checker_maker.h"
 #include "node/cloud_topic.h"
@@ -51,9 +50,6 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   warn(warnings);
 
   const std::string planning_frame = scene.robot->planningFrame();
-  if (scene.current_state.empty() && !virtualVariables(*scene.robot).empty())
-    ROS_INFO_STREAM("No state gives the pose of the virtual joint yet, so the robot stands at the origin of frame '"
-                    << planning_frame << "'");
   Diagnostics diagnostics;
   SceneStore store(std::move(scene), defaults, limits);
   const CheckServer::MakeChecker make_checker = checkerMaker(checker_options, resilience, open_device, diagnostics);

@@ -1,5 +1,7 @@
 #include "gpu_planning_scene/allowed_collision_matrix.h"
 
+#include <algorithm>
+
 namespace gpu_planning_scene::core
 {
 AllowedCollisionMatrix AllowedCollisionMatrix::fromRobot(const RobotModel& robot)
@@ -47,7 +49,13 @@ std::vector<std::string> AllowedCollisionMatrix::removeEntry(const std::string& 
         no_longer_forbidden.push_back(other);
       removeHalfOfEntry(other, body);
     }
+  const bool forbids_by_default = known->second.default_allowed == false;
   bodies_.erase(known);
+  // The default of the body forbade these pairs, too. A new body of the same name has no default.
+  for (const auto& [other, row] : bodies_)
+    if (forbids_by_default && row.default_allowed.value_or(false) &&
+        std::find(no_longer_forbidden.begin(), no_longer_forbidden.end(), other) == no_longer_forbidden.end())
+      no_longer_forbidden.push_back(other);
   return no_longer_forbidden;
 }
 

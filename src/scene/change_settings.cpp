@@ -59,6 +59,18 @@ void SceneChanger::changeMatrix(const SceneChange& change)
   }
 }
 
+/// Warns of links that a full scene does not name and that therefore become smaller: fewer states collide.
+void SceneChanger::warnOfReset(const char* what, const std::vector<double>& before, const std::vector<double>& after,
+                               const std::map<std::string, double>& named)
+{
+  for (std::size_t link = 0; link < std::min(before.size(), after.size()); ++link)
+    if (const std::string& name = result_.scene.robot->links()[link].name;
+        after[link] < before[link] && named.count(name) == 0)
+      result_.warnings.push_back("the " + std::string(what) + " of link '" + name + "' is " +
+                                 std::to_string(after[link]) + " again instead of " + std::to_string(before[link]) +
+                                 ", because the scene is not a diff and does not name it");
+}
+
 void SceneChanger::changePadding(const SceneChange& change)
 {
   std::vector<double> padding = change.is_diff ? result_.scene.link_padding : defaults_.link_padding;
@@ -70,6 +82,7 @@ void SceneChanger::changePadding(const SceneChange& change)
                   "; it must not be negative, nor above 1000 km");
     padding[static_cast<std::size_t>(requireLink(link, "link_padding"))] = metres;
   }
+  warnOfReset("padding", result_.scene.link_padding, padding, change.link_padding);
   const bool is_padded = std::any_of(padding.begin(), padding.end(), [](double metres) { return metres != 0.0; });
   result_.scene.link_padding = is_padded ? padding : std::vector<double>();
 }
@@ -80,6 +93,7 @@ void SceneChanger::changeScale(const SceneChange& change)
   scale.resize(result_.scene.robot->links().size(), 1.0);
   for (const auto& [link, factor] : change.link_scale)
     scale[static_cast<std::size_t>(requireLink(link, "link_scale"))] = factor;
+  warnOfReset("scale", result_.scene.robot->linkScale(), scale, change.link_scale);
   result_.scene.setLinkScale(scale);
 }
 

@@ -32,6 +32,8 @@ class SceneChanger
   void changeFixedFrames(const SceneChange& change);
   void changeMatrix(const SceneChange& change);
   void changePadding(const SceneChange& change);
+  void warnOfReset(const char* what, const std::vector<double>& before, const std::vector<double>& after,
+                   const std::map<std::string, double>& named);
   void changeScale(const SceneChange& change);
   void changeColors(const SceneChange& change);
 

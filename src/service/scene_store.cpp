@@ -29,8 +29,9 @@ bool hasAll(const ExternalFrames& frames, const std::vector<StampedFrame>& wante
 std::vector<double> startingState(const Snapshot& at, const std::map<std::string, double>& variables)
 {
   const RobotModel& robot = *at.scene->robot;
-  for (std::size_t i = 0; i < at.known.size(); ++i)
-    if (!at.known[i] && variables.count(robot.variables()[i].name) == 0)
+  const std::vector<bool> known = at.partialState().known;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (!known[i] && variables.count(robot.variables()[i].name) == 0)
       return {};
   return at.state;
 }
@@ -45,16 +46,26 @@ PartialState Snapshot::partialState() const
 {
   PartialState partial(*scene->robot);
   partial.values = state;
-  partial.known = known;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    partial.known[i] = partial.known[i] || known[i];
   return partial;
+}
+
+std::string Snapshot::assumedBase(const std::vector<int>& given) const
+{
+  const RobotModel& robot = *scene->robot;
+  for (const int variable : virtualVariables(robot))
+    if (!known[static_cast<std::size_t>(variable)] && std::find(given.begin(), given.end(), variable) == given.end())
+      return "no state has set " + robot.variables()[static_cast<std::size_t>(variable)].name +
+             " of the virtual joint, so the robot is assumed at the origin of frame '" + robot.planningFrame() + "'";
+  return "";
 }
 
 SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits)
   : defaults_(std::move(defaults)), limits_(limits)
 {
-  PartialState start(*scene.robot, scene.current_state);
-  state_ = std::move(start.values);
-  known_ = std::move(start.known);
+  state_ = PartialState(*scene.robot, scene.current_state).values;
+  known_.assign(state_.size(), !scene.current_state.empty());
   scene_ = std::make_shared<const PlanningScene>(std::move(scene));
 }
 

@@ -22,7 +22,10 @@ struct Snapshot
   std::vector<bool> known;    ///< one per variable; an unknown variable has its default value
 
   bool allKnown() const;
+  /// The virtual joint counts as known: without a value, the robot stands at the origin of the planning frame.
   PartialState partialState() const;
+  /// A warning if this is only assumed and the variables `given` do not set the virtual joint; otherwise empty.
+  std::string assumedBase(const std::vector<int>& given) const;
 };
 
 /// The scene of a running service. A change is made completely or not at all. Thread-safe; readers never wait for a
@@ -30,7 +33,7 @@ struct Snapshot
 class SceneStore
 {
  public:
-  /// The robot's state starts as the current state of `scene`; without one, only the virtual joint is known.
+  /// The robot's state starts as the current state of `scene`; without one, it is unknown.
   SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits);
 
   Snapshot snapshot() const;

@@ -28,7 +28,9 @@ std::vector<Option> options()
   all.push_back({"--seed", "S", "seed of the random states (default 0)"});
   all.push_back(
       {"--always-share", "P", "pairs that collide in at least this share of the states\nare Always (default 0.95)"});
-  all.push_back({"--out", "FILE", "the SRDF to write (default: the standard output)"});
+  all.push_back({"--out", "FILE",
+                 "the SRDF to write (default: the standard output). If it exists and\n--srdf is not given, it keeps "
+                 "what it has"});
   return all;
 }
 
@@ -63,15 +65,20 @@ void run(const CommandLine& arguments)
   const auto robot = robotFrom(arguments, &warnings);
   printWarnings(warnings);
   const GeneratedMatrix matrix = generateMatrix(robot, sampling);
-  const std::string srdf = srdfWith(matrix, *robot, sampling, readFile(arguments.value("--srdf", "")));
+  const std::string out_path = arguments.value("--out", "");
+  const bool goes_on = !arguments.has("--srdf") && !out_path.empty() && std::filesystem::exists(out_path);
+  const std::string base = readFile(goes_on ? out_path : arguments.value("--srdf", ""));
+  if (goes_on && robotNameOf(base) != robot->name())
+    throw Error(out_path + ": the file exists and is not an SRDF of robot '" + robot->name() +
+                "'; choose another name");
+  const std::string srdf = srdfWith(matrix, *robot, sampling, base);
   if (arguments.has("--out"))
   {
     const std::string& path = arguments.required("--out");
-    // A file with groups and named states would be lost.
-    if (std::filesystem::exists(path) && path != arguments.value("--srdf", "") && !isGeneratedSrdf(readFile(path)))
+    if (arguments.has("--srdf") && path != arguments.required("--srdf") && std::filesystem::exists(path) &&
+        readFile(path) != readFile(arguments.required("--srdf")))
       throw Error(path +
-                  ": the file exists and was not written by generate_acm; to keep what it has, give it as --srdf " +
-                  "too, or choose another name for --out");
+                  ": the file exists and differs from the one given as --srdf; remove it, or choose another name");
     std::ofstream file(path);
     if (!(file << srdf).flush())
       throw Error(path + ": cannot write the file");

@@ -66,9 +66,13 @@ void addGroups(const std::vector<std::string>& tips, const RobotModel& robot, ti
 }
 }  // namespace
 
-bool isGeneratedSrdf(const std::string& srdf)
+std::string robotNameOf(const std::string& srdf)
 {
-  return srdf.find(std::string("<!--") + kCommentStart) != std::string::npos;
+  tinyxml2::XMLDocument document;
+  const bool is_robot = document.Parse(srdf.c_str()) == tinyxml2::XML_SUCCESS && document.RootElement() != nullptr &&
+                        std::string(document.RootElement()->Name()) == "robot";
+  const char* const name = is_robot ? document.RootElement()->Attribute("name") : nullptr;
+  return name ? name : "";
 }
 
 std::string srdfWith(const GeneratedMatrix& matrix, const RobotModel& robot, const SamplingOptions& options,

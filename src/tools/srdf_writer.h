@@ -11,6 +11,6 @@ namespace gpu_planning_scene::core
 std::string srdfWith(const GeneratedMatrix& matrix, const RobotModel& robot, const SamplingOptions& options,
                      const std::string& srdf);
 
-/// Whether srdfWith wrote the file with this content.
-bool isGeneratedSrdf(const std::string& srdf);
+/// The name of the robot in an SRDF; empty if the text is not XML with the root <robot>.
+std::string robotNameOf(const std::string& srdf);
 }  // namespace gpu_planning_scene::core

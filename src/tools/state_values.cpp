@@ -58,10 +58,7 @@ void randomise(const RobotModel& robot, std::mt19937_64& generator, const std::v
                double* state)
 {
   robot.randomState(generator, state);
-  if (!keep_base)
-    return;
-  for (const Joint& joint : robot.joints())
-    if (joint.type == JointType::Planar || joint.type == JointType::Floating)
-      std::copy_n(start.begin() + joint.first_variable, variableCount(joint.type), state + joint.first_variable);
+  if (keep_base)
+    keepBase(robot, start.data(), state);
 }
 }  // namespace gpu_planning_scene::core

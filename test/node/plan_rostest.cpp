@@ -344,12 +344,12 @@ TEST_F(Planning, DrawsThePath)
   wait(
       [&]
       {
-        return of("ghosts").size() == 12 && of("waypoints").size() == 1 &&
+        return of("ghosts").size() == 8 && of("waypoints").size() == 1 &&
                of("waypoints")[0].points.size() == 2 * response.trajectory.points.size();
       });
   ASSERT_FALSE(drawn.markers.empty());
   EXPECT_EQ(drawn.markers[0].action, visualization_msgs::Marker::DELETEALL);
-  EXPECT_EQ(of("ghosts").size(), 12u) << "cart and pole, six times";
+  EXPECT_EQ(of("ghosts").size(), 8u) << "cart and pole, four times";
   ASSERT_EQ(of("path").size(), 2u) << "pennant and nut";
   EXPECT_NEAR(of("path")[0].points.front().x, -1.0, 1e-9);
   EXPECT_NEAR(of("path")[0].points.back().x, 1.0, 1e-9);

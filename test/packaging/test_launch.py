@@ -27,6 +27,10 @@ class LaunchFile(unittest.TestCase):
         self.assertEqual(config.params["/robot_description"].value, "<robot/>\n")
         self.assertEqual(config.params["/robot_description_semantic"].value, "<robot><group/></robot>\n")
 
+    def test_the_srdf_of_an_earlier_launch_does_not_stay(self):
+        config = self.load("urdf_command:=echo <robot/>")
+        self.assertEqual(config.params["/robot_description_semantic"].value, "")
+
     def test_sets_no_description_that_it_was_not_given(self):
         config = self.load()
         self.assertNotIn("/robot_description", config.params)

@@ -35,6 +35,17 @@ TEST(AllowedCollisionMatrix, ABodyWithADefaultKeepsItWhenItsLastPartnerIsRemoved
   EXPECT_TRUE(matrix.allowed("a", "b"));
 }
 
+TEST(AllowedCollisionMatrix, ADefaultThatForbadePairsIsReportedWhenItsBodyIsRemoved)
+{
+  AllowedCollisionMatrix matrix;
+  matrix.setDefault("palm", true);
+  matrix.setDefault("can", false);
+  matrix.setEntry("thumb", "can", false);
+  EXPECT_FALSE(matrix.allowed("palm", "can"));
+  EXPECT_EQ((std::vector<std::string>{"palm"}), matrix.removeEntry("can")) << "'palm' may touch a new 'can'";
+  EXPECT_TRUE(matrix.allowed("palm", "can"));
+}
+
 /// All links may touch 'big'.
 class AllowedObject : public SceneChanges
 {

@@ -82,6 +82,15 @@ TEST_F(ChangeSettings, FullScenesResetUnnamedSettings)
   EXPECT_EQ(MatrixSource::Srdf, scene_.matrix_source);
   EXPECT_EQ(0.01, padding("cart"));
   EXPECT_EQ(0.5, padding("pole"));
+  // A link that becomes smaller is checked less far.
+  const auto warned = [this](const std::string& text)
+  {
+    return std::count_if(warnings_.begin(), warnings_.end(),
+                         [&text](const std::string& warning) { return warning.find(text) == 0; });
+  };
+  EXPECT_EQ(1, warned("the padding of link 'cart' is 0.01"));
+  EXPECT_EQ(1, warned("the scale of link 'pole' is 1.5"));
+  EXPECT_EQ(2u, warnings_.size());
   EXPECT_EQ(1.5, scale("pole"));
   EXPECT_EQ(1.0, scale("cart"));
 }

@@ -64,7 +64,17 @@ TEST_F(Store, TheVirtualJointStandsAtTheOriginUntilItIsSet)
     expected[static_cast<std::size_t>(robot.variableIndex("slide"))] = 0.5;
     expected[static_cast<std::size_t>(robot.variableIndex("turn"))] = 0.25;
     EXPECT_EQ(expected, state) << type;
-    EXPECT_FALSE(on_floor.snapshot().allKnown()) << type << ": no value is made up for the joints of the URDF";
+    EXPECT_FALSE(on_floor.snapshot().allKnown()) << type;
+    // A mobile robot may be anywhere, so each answer says what was assumed.
+    const std::vector<int> floor = virtualVariables(robot);
+    EXPECT_NE(on_floor.snapshot().assumedBase({}).find("is assumed at the origin of frame"), std::string::npos);
+    EXPECT_EQ(on_floor.snapshot().assumedBase(floor), "") << "the request gives it";
+    std::map<std::string, double> received;
+    for (const int variable : floor)
+      received[robot.variables()[static_cast<std::size_t>(variable)].name] =
+          robot.defaultState()[static_cast<std::size_t>(variable)];
+    on_floor.updateState(received);
+    EXPECT_EQ(on_floor.snapshot().assumedBase({}), "") << "it was received";
   }
 }
 

@@ -136,15 +136,22 @@ TEST_F(GenerateAcm, KeepsWhatTheUserWroteInAnSrdf)
   EXPECT_EQ(once, contentOf(out));
 }
 
-TEST_F(GenerateAcm, DoesNotReplaceAFileThatItDidNotWrite)
+TEST_F(GenerateAcm, LosesNothingOfAnExistingFile)
 {
-  const std::string users = "<robot name=\"line--up\"><group name=\"all\"><joint name=\"slide\"/></group></robot>";
-  folder.write("out.srdf", users);
+  folder.write("out.srdf", "<robot name=\"line--up\"><group name=\"all\"><joint name=\"slide\"/></group></robot>");
+  EXPECT_EQ(0, generate({"--samples", "10"}).exit_code);
+  EXPECT_NE(std::string::npos, contentOf(out).find("<group name=\"all\">"));
+
+  const std::string of_another = "<robot name=\"another\"/>";
+  folder.write("out.srdf", of_another);
   const ProgramOutput output = generate({"--samples", "10"});
   EXPECT_EQ(1, output.exit_code);
-  EXPECT_NE(std::string::npos, output.err.find("was not written by generate_acm")) << output.err;
-  EXPECT_EQ(users, contentOf(out));
-  EXPECT_EQ(0, generate({"--samples", "10", "--srdf", out}).exit_code) << "it keeps what the file has";
+  EXPECT_NE(std::string::npos, output.err.find("is not an SRDF of robot 'line--up'; choose another name"))
+      << output.err;
+  const ProgramOutput given =
+      generate({"--samples", "10", "--srdf", folder.write("users.srdf", "<robot name=\"line--up\"/>")});
+  EXPECT_EQ(1, given.exit_code);
+  EXPECT_EQ(of_another, contentOf(out));
 }
 
 TEST_F(GenerateAcm, WritesAGroupForTheChainFromTheRootToEachTip)

@@ -98,7 +98,7 @@ void BatchChecker::Impl::checkAround(const double* states, std::size_t count, co
     if (margins.within[i] == 0)
     {
       result.valid[i] = 0;
-      result.colliding[i] = {-1, -1};
+      result.colliding[i] = kNoPair;
     }
 }
 

@@ -15,8 +15,8 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-// A new scene keeps the measured threshold until this many times the duration of the measurement has passed. So
-// frequent scene changes do not cause frequent measurements.
+// After a measurement of t seconds, new scenes keep the threshold for this many times t. So frequent scene changes do
+// not cause frequent measurements.
 constexpr double kMeasuringPause = 50.0;
 
 // Fewer states of the caller are not representative.

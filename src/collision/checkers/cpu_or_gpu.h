@@ -30,8 +30,8 @@ class CpuOrGpu
   /// fixed: the threshold of all groups; unset: the threshold is measured.
   explicit CpuOrGpu(std::optional<std::size_t> fixed) : fixed_(fixed) {}
 
-  /// The number of states from which on batches of the group go to the GPU. `states` are the batch for which the
-  /// question is asked. If it is large enough, its states are used for a measurement, otherwise random states are.
+  /// The threshold of the group: batches of at least this many states go to the GPU. `states`: the current batch. A
+  /// measurement uses these states if there are enough of them, else random states.
   std::size_t threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
                         const CollisionProblem& problem, const double* states, std::size_t count, const Checks& checks);
 

@@ -114,7 +114,7 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
     return;
   }
   result.valid.assign(count, 1);
-  result.colliding.assign(count, {-1, -1});
+  result.colliding.assign(count, kNoPair);
   prepare(group);
   const std::size_t width = scene_->robot->variables().size();
   for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)

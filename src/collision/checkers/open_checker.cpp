@@ -6,18 +6,33 @@
 
 namespace gpu_planning_scene::core
 {
+namespace
+{
+bool hasDevice()
+{
+  try
+  {
+    return !listDevices().empty();
+  }
+  catch (const Error&)
+  {
+    return false;  // a library of EGL or OpenGL is missing
+  }
+}
+}  // namespace
+
 std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
                                           const BatchCheckerOptions& options)
 {
   if (options.device == "cpu")
-    return std::make_unique<CpuChecker>(std::move(scene));
+    return std::make_unique<CpuChecker>(std::move(scene), options);
   try
   {
     return std::make_unique<BatchChecker>(std::move(scene), options);
   }
   catch (const Error& error)
   {
-    if (!listDevices().empty())
+    if (hasDevice())
       throw;
     throw Error(std::string(error.what()) + "; or choose the device 'cpu', which needs no GPU");
   }

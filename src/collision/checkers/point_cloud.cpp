@@ -135,7 +135,10 @@ void PointCloudFilter::Impl::removeRobot(const PlanningScene& scene, const doubl
   for (AttachedObject& attached : among.attached)
     attached.padding = 0.0;
   among.objects.push_back({"cloud", Isometry3d::Identity(), {}, 0.0});
-  for (const AttachedObject& attached : among.attached)  // a unique name: it contains the names of all attached objects
+  // A unique name: it is longer than the names of all links and attached objects.
+  for (const Link& link : scene.robot->links())
+    among.objects[0].id += link.name;
+  for (const AttachedObject& attached : among.attached)
     among.objects[0].id += attached.object.id;
   for (const std::size_t cube : near)
     among.objects[0].shapes.push_back(cubes[cube]);

@@ -9,9 +9,9 @@
 #include "collision/geometry/primitive_solid.h"
 
 // Branch and bound over the trees (Larsen, Gottschalk, Lin and Manocha, "Fast Distance Queries with Rectangular Swept
-// Sphere Volumes", 2000): the nearer nodes come first, and nodes that are not nearer than the best leaves so far are
-// left out. The leaves are decided by the exact tests of the collision query, so the distance is as exact as its
-// verdicts.
+// Sphere Volumes", 2000): the nearer nodes come first. A pair of nodes is skipped if it cannot be nearer than the best
+// pair of leaves so far. The leaves are decided by the exact tests of the collision query, so the distance is as exact
+// as its verdicts.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -4,6 +4,8 @@
 #include <iterator>
 #include <random>
 
+#include "model/full_states.h"
+
 namespace gpu_planning_scene::core
 {
 std::vector<BodyPair> collidingInSamples(const RobotModel& robot, const CollisionProblem& problem,
@@ -11,12 +13,14 @@ std::vector<BodyPair> collidingInSamples(const RobotModel& robot, const Collisio
 {
   std::mt19937_64 generator;  // the same states each time, so that the same scene has the same report
   std::vector<double> state(robot.variables().size());
+  const std::vector<double> base = robot.defaultState();
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   CpuTraversal::Scratch scratch;
   std::vector<BodyPair> pairs;
   for (std::size_t i = 0; i < kSampledStates; ++i)
   {
     robot.randomState(generator, state.data());
+    keepBase(robot, base.data(), state.data());
     if (!isValidFor(problem, state.data()))
       return {};
     robot.linkPoses(state.data(), poses.data());

@@ -158,7 +158,7 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
 {
   const std::vector<ShapeInstance>& robot = problem_->robot;
   result.valid.assign(count, 1);
-  result.colliding.assign(count, {-1, -1});
+  result.colliding.assign(count, kNoPair);
   requireUsableScene();
   Verdicts verdicts;
   try

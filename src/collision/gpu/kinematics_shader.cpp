@@ -1,7 +1,8 @@
 #include "collision/gpu/kinematics_shader.h"
 
-#include <cstdio>
 #include <functional>
+
+#include "model/number_text.h"
 
 // Forward kinematics as straight-line code: the pose of each link is the pose of its parent times the pose of its
 // joint. Rotations use Rodrigues' formula.
@@ -14,9 +15,7 @@ using Eigen::Vector3d;
 
 std::string literal(double value)
 {
-  char text[40];
-  std::snprintf(text, sizeof(text), "%.17e", value);
-  return std::string(text) + "lf";
+  return exactText(value) + "lf";
 }
 
 std::string vector(const std::function<std::string(int)>& entry)

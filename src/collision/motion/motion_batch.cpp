@@ -12,11 +12,13 @@ namespace
 // Short batches, because a call can only be stopped between two batches.
 constexpr BatchSize::Limits kBatch{0.05, 2048, 64, 65536};
 
-// First batch of samples of a motion: its ends and its middle. Each later round has kGrowth times as many in total.
+// First batch of samples of a motion: its ends and its middle. After each later round, kGrowth times as many samples
+// have been checked as before it.
 constexpr std::size_t kFirstSamples = 3;
 constexpr std::size_t kGrowth = 4;
 
-// If a motion cannot be proven to be free even for this joint travel around a sample, it is rejected there.
+// The smallest neighbourhood of a sample. If even this neighbourhood is not proven free, the motion is rejected at the
+// sample.
 constexpr double kLeastTravel = 1e-7;  // radians and metres
 
 /// The numbers n and 0, then the middles of the segments in between, level by level.
@@ -82,7 +84,7 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
     if (stopped_)
     {
       for (std::size_t i = 0; i < count; ++i)
-        visit(intervals[begin + i], false, {-1, -1});
+        visit(intervals[begin + i], false, kNoPair);
       continue;
     }
     states.resize(count * width);
@@ -157,7 +159,7 @@ std::vector<MotionBatch::Interval> MotionBatch::halves(const std::vector<Interva
   for (const Interval& interval : intervals)
     if (const Motion& motion = motions_[interval.motion];
         motion.samples >= options_.max_samples || motion.longest_travel * interval.half < kLeastTravel)
-      fail(interval, {-1, -1});
+      fail(interval, kNoPair);
   std::vector<Interval> result;
   for (const Interval& interval : intervals)
     if (isWanted(interval))
@@ -200,7 +202,7 @@ std::vector<MotionVerdict> MotionBatch::verdicts() const
   verdicts.reserve(motions_.size());
   for (const Motion& motion : motions_)
     if (motion.valid)
-      verdicts.push_back({true, 1.0, 1.0, {-1, -1}});
+      verdicts.push_back({true, 1.0, 1.0, kNoPair});
     else
       verdicts.push_back({false, last_valid_ ? motion.limit : 0.0, motion.first_invalid, motion.colliding});
   return verdicts;

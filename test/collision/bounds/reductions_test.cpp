@@ -12,6 +12,7 @@
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"
+#include "scene/slider_robot.h"
 #include "support/carrying_scene.h"
 #include "support/kept_trees.h"
 #include "support/repetitions.h"
@@ -304,6 +305,17 @@ TEST_F(SmallScene, CollidesInEveryStateWhereAFixedPairDoes)
   scene_->allowed_collisions.setEntry("mast", "on_mast", true);
   on_gpu.setScene(scene_);
   EXPECT_EQ(on_gpu.check(states.data(), 2).valid, std::vector<std::uint8_t>(2, 1));
+}
+
+/// A floating virtual joint does not hide that the base stands on the floor: requests leave the base where it is.
+TEST(ReportOfSamples, LeavesAFloatingBaseWhereItIs)
+{
+  const auto scene = std::make_shared<PlanningScene>(sliderRobotOnFloor("floating"));
+  scene->objects.push_back(
+      {"ground", Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.15)), {{Box{{10.0, 10.0, 0.2}}}}});
+  const auto pairs = CpuChecker(scene).report().colliding_in_samples;
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(scene->bodyName(pairs[0][0]) + " - " + scene->bodyName(pairs[0][1]), "cart - ground");
 }
 
 TEST_F(SmallScene, ReportsThePairsThatCollideInEverySample)
