@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 #include <thread>
 
 #include <fcntl.h>
@@ -205,7 +206,11 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
     child.kill();
   const int status = child.wait();
   if (answer.late || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM)))
-    throw Error(file + "reading it takes longer than " + exactText(limits.seconds) + " s (~mesh/seconds)");
+  {
+    std::ostringstream seconds;
+    seconds << limits.seconds;
+    throw Error(file + "reading it takes longer than " + seconds.str() + " s (~mesh/seconds)");
+  }
   if (answer.too_long)
     throw Error(file + "the reader sent more data than a mesh of " + std::to_string(limits.triangles) +
                 " triangles has");
