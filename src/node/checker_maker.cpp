@@ -77,7 +77,7 @@ CheckServer::MakeChecker checkerMaker(const BatchCheckerOptions& options, const 
   const auto maker = std::make_shared<CheckerMaker>(options, resilience, open_device);
   return [maker, &diagnostics](const Scene& scene)
   {
-    const std::shared_ptr<StateChecker> checker = maker->make(scene);
+    std::shared_ptr<StateChecker> checker = maker->make(scene);
     if (const std::string warning = checker->deviceWarning(); !warning.empty())
       ROS_WARN_STREAM(warning);
     diagnostics.watch(checker);
