@@ -1,8 +1,7 @@
 #include "model/full_states.h"
 
-#include <algorithm>
-
 #include "gpu_planning_scene/error.h"
+#include "model/base_joints.h"
 
 namespace gpu_planning_scene::core
 {
@@ -34,22 +33,6 @@ std::string whyNoVariable(const RobotModel& robot, const std::string& name)
   return "the robot has no variable '" + name + "'";
 }
 }  // namespace
-
-std::vector<int> virtualVariables(const RobotModel& robot)
-{
-  std::vector<int> variables;
-  for (const Joint& joint : robot.joints())
-    for (int i = 0; joint.parent_link < 0 && i < variableCount(joint.type); ++i)
-      variables.push_back(joint.first_variable + i);
-  return variables;
-}
-
-void keepBase(const RobotModel& robot, const double* from, double* state)
-{
-  for (const Joint& joint : robot.joints())
-    if (joint.type == JointType::Planar || joint.type == JointType::Floating)
-      std::copy_n(from + joint.first_variable, variableCount(joint.type), state + joint.first_variable);
-}
 
 PartialState::PartialState(const RobotModel& robot)
   : values(robot.defaultState()), known(robot.variables().size(), false)

@@ -19,13 +19,6 @@ struct PartialState
   std::vector<bool> known;
 };
 
-/// The variables of the SRDF's virtual joint. The joint is not in the URDF and no driver reports it, so a state that
-/// does not name them means their defaults: the robot stands at the origin of the planning frame.
-std::vector<int> virtualVariables(const RobotModel& robot);
-
-/// Sets planar and floating joints, which move the robot's base, to their values in another state.
-void keepBase(const RobotModel& robot, const double* from, double* state);
-
 /// Finds the variable of each column in a table of states. Throws Error if a name is not a variable of the robot, or is
 /// given twice.
 std::vector<int> variableIndices(const RobotModel& robot, const std::vector<std::string>& names);

@@ -73,12 +73,6 @@ std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions
   return {options, static_cast<std::size_t>(all)};
 }
 
-void addWarning(const std::string& warning, std::string& message)
-{
-  if (!warning.empty())
-    message += (message.empty() ? "" : "; ") + warning;
-}
-
 /// A warning if a joint is beyond its limits in one of the states; otherwise empty. The rule "bound" proves no motion
 /// there, even if the group does not move the joint. `states`: full states, the starts or the ends of the motions.
 std::string beyondLimits(const RobotModel& robot, const std::vector<double>& states)

@@ -194,8 +194,7 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   const Group& group = task.scene->robot->group(request.group);
   response.status = statusOf(result.status);
   response.message = result.message;
-  if (!task.warning.empty())
-    response.message += (response.message.empty() ? "" : "; ") + task.warning;
+  addWarning(task.warning, response.message);
   response.trajectory = trajectoryOf(*task.scene, result, group);
   response.planner = task.planner;
   response.planning_time = result.planning_seconds;

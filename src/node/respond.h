@@ -32,6 +32,13 @@ std::string errorOf(Work work)
   }
 }
 
+/// Appends a warning to the message of a response. An empty warning changes nothing.
+inline void addWarning(const std::string& warning, std::string& message)
+{
+  if (!warning.empty())
+    message += (message.empty() ? "" : "; ") + warning;
+}
+
 /// Returns the response that `work` fills in, with `success` set. If `work` throws, returns an empty response without
 /// `success` and with the error in `message`.
 template <class Response, class Work>

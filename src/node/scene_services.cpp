@@ -26,6 +26,14 @@ bool takesMemory(const SceneChange& change)
                      [&brings](const AttachedChange& candidate) { return brings(candidate.object); });
 }
 
+/// Whether the change places an object relative to a link, so that it depends on the robot's state.
+bool needsLinkPoses(const SceneChange& change, const RobotModel& robot)
+{
+  const auto is_at_link = [&robot](const ObjectChange& object)
+  { return object.frame.name != robot.planningFrame() && robot.linkIndex(object.frame.name) >= 0; };
+  return !change.state.attached.empty() || std::any_of(change.objects.begin(), change.objects.end(), is_at_link);
+}
+
 /// All warnings of a change, in one line.
 std::string joined(const std::vector<std::string>& warnings)
 {
@@ -45,7 +53,11 @@ SceneStore::Applied SceneServices::apply(const SceneChange& change, const SceneS
 {
   if (takesMemory(change))
     memory_.require();
-  return store_.apply(change, lookup);
+  SceneStore::Applied applied = store_.apply(change, lookup);
+  const Snapshot now = store_.snapshot();
+  if (const std::string warning = now.assumedBase({}); !warning.empty() && needsLinkPoses(change, *now.scene->robot))
+    applied.warnings.push_back(warning);
+  return applied;
 }
 
 ApplyPlanningScene::Response SceneServices::apply(const ApplyPlanningScene::Request& request)

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "gpu_planning_scene/error.h"
-#include "model/full_states.h"
+#include "model/base_joints.h"
 #include "model/joint_limits.h"
 #include "scene/message_values.h"
 #include "scene/scene_reader.h"

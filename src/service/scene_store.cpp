@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
+#include "model/base_joints.h"
 #include "scene/matrix_entries.h"
 
 namespace gpu_planning_scene::core

@@ -4,6 +4,7 @@
 #include <set>
 #include <sstream>
 
+#include "model/base_joints.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
 #include "tools/command_line.h"

@@ -174,6 +174,7 @@ TEST(MeshCache, ErrorsNameTheFileAndTheFault)
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   };
   expect_error(folder.path("missing.stl"), "does not exist");
+  expect_error(folder.path("nowhere/meshes/a.stl"), "there is no folder '" + folder.path("nowhere") + "'");
   expect_error(folder.path(""), "only .stl");
   expect_error(folder.write("part.step", "x"), "only .stl, .dae, .obj and .ply");
   expect_error(folder.write("text.stl", "This is no mesh."), "cannot be read");

@@ -508,6 +508,60 @@ TEST_F(Service, AFailureOfTheDeviceIsAnAnswer)
   EXPECT_EQ("device lost", response.message);
 }
 
+/// A mobile robot whose place nobody has told: its joints are known, its base is not.
+class UnknownBase : public testing::Test
+{
+ public:
+  std::string messageOf(const CheckStates::Request& asked)
+  {
+    const CheckStates::Response response = services.checkStates(asked);
+    EXPECT_TRUE(response.success) << response.message;
+    return response.message;
+  }
+
+  SceneStore store{PlanningScene(sliderRobotOnFloor("planar")), {}, {}};
+  CheckServer server{store,
+                     [](std::shared_ptr<const PlanningScene> scene)
+                     { return std::make_shared<CpuChecker>(std::move(scene)); },
+                     {}};
+  MemoryGuard memory{0};
+  CheckServices services{store, server, memory, {1000, 10}};
+};
+
+TEST_F(UnknownBase, IsAssumedAtTheOriginAndEachAnswerSaysSo)
+{
+  const CheckStates::Request joints = request({"turn", "slide"}, {0.5, 0.0});
+  EXPECT_NE(std::string::npos, messageOf(joints).find("assumed at the origin of frame")) << messageOf(joints);
+  EXPECT_EQ("", messageOf(request({"turn", "slide", "floor/x", "floor/y", "floor/theta"}, {0.5, 0, 1, 2, 0})));
+  store.updateState({{"floor/x", 1.0}, {"floor/y", 0.0}, {"floor/theta", 0.0}});
+  EXPECT_EQ("", messageOf(joints));
+}
+
+TEST_F(UnknownBase, IsMentionedWhereAnObjectIsPlacedAtALink)
+{
+  SceneServices scenes(store, nullptr, memory);
+  ApplyPlanningScene::Request add;
+  add.scene.is_diff = add.scene.robot_state.is_diff = 1;
+  add.scene.robot_state.joint_state.name = {"slide", "turn"};
+  add.scene.robot_state.joint_state.position = {0.0, 0.0};
+  CollisionObject box;
+  box.id = "box";
+  box.header.frame_id = "cart";
+  box.pose.orientation.w = 1.0;
+  box.primitives.resize(1);
+  box.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
+  box.primitives[0].dimensions = {0.1};
+  box.primitive_poses.resize(1);
+  box.primitive_poses[0].orientation.w = 1.0;
+  box.operation = CollisionObject::ADD;
+  add.scene.world.collision_objects = {box};
+  const auto at_link = scenes.apply(add);
+  EXPECT_TRUE(at_link.success) << at_link.message;
+  EXPECT_NE(std::string::npos, at_link.message.find("assumed at the origin of frame")) << at_link.message;
+  add.scene.world.collision_objects[0].header.frame_id = store.snapshot().scene->robot->planningFrame();
+  EXPECT_EQ("", scenes.apply(add).message);
+}
+
 class JointStates : public Service
 {
  public:

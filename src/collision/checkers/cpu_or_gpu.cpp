@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "model/base_joints.h"
 #include "model/seconds_since.h"
 
 // Times both checks at a few sizes, takes the fastest of several runs, and interpolates the size at which their times
@@ -72,6 +73,7 @@ std::vector<double> sampleOf(const RobotModel& robot, const CollisionProblem& pr
 {
   const std::size_t width = robot.variables().size();
   std::vector<double> sample(kMaxTimed * width);
+  const std::vector<double> base = robot.defaultState();
   std::mt19937_64 generator;
   for (std::size_t i = 0; i < kMaxTimed; ++i)
   {
@@ -80,7 +82,10 @@ std::vector<double> sampleOf(const RobotModel& robot, const CollisionProblem& pr
     if (count >= kEnough && isValidFor(problem, own))
       std::copy(own, own + width, row);
     else
+    {
       robot.randomState(generator, row);
+      keepBase(robot, base.data(), row);
+    }
   }
   return sample;
 }

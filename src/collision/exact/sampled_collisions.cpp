@@ -4,7 +4,7 @@
 #include <iterator>
 #include <random>
 
-#include "model/full_states.h"
+#include "model/base_joints.h"
 
 namespace gpu_planning_scene::core
 {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
 #include "support/obstacles.h"
@@ -125,6 +126,16 @@ TEST_F(CpuCheckerTest, AGroupLeavesOutWhatItDoesNotMove)
   }
   EXPECT_GT(freed, 0u);
   EXPECT_LT(checker_.report("head").world_pairs, checker_.report().world_pairs);
+}
+
+TEST(OpenChecker, TheCpuTakesTheOptions)
+{
+  BatchCheckerOptions options;
+  options.device = "cpu";
+  const auto scene = std::make_shared<PlanningScene>(robotOf(armUrdf()));
+  EXPECT_EQ(openChecker(scene, options)->deviceName(), "CPU");
+  options.tolerance = -1.0;
+  EXPECT_NE(errorOf([&] { openChecker(scene, options); }).find("tolerance"), std::string::npos);
 }
 
 TEST_F(CpuCheckerTest, RefusesWhatItCannotCheckAndGoesOn)

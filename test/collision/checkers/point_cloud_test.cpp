@@ -158,6 +158,15 @@ TEST(PointCloud, PointsOnTheRobotAndItsAttachedObjectsAreRemoved)
   }
 }
 
+TEST(PointCloud, ALinkMayHaveTheNameCloud)
+{
+  PlanningScene scene(robotOf(boxLink("cloud")));
+  const std::vector<Vector3f> points = {{0.0F, 0.0F, 0.0F}, {3.0F, 0.0F, 0.0F}};
+  const WorldObject object =
+      PointCloudFilter({0.02, 0.03, 10.0}).objectOf("points", points, at(0, 0, 0), scene, nullptr);
+  EXPECT_EQ(object.shapes.size(), 1u) << "the point in the link is removed";
+}
+
 TEST(PointCloud, PointsAreRemovedOnlyWithinTheRobotsPadding)
 {
   const PlanningScene scene = farRobot();  // with a box link of 1 m

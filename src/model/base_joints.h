@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "gpu_planning_scene/robot_model.h"
+
+namespace gpu_planning_scene::core
+{
+/// The variables of the SRDF's virtual joint. The joint is not in the URDF and no driver reports it, so a state that
+/// does not name them means their defaults: the robot stands at the origin of the planning frame.
+std::vector<int> virtualVariables(const RobotModel& robot);
+
+/// Sets planar and floating joints, which move the robot's base, to their values in another state.
+void keepBase(const RobotModel& robot, const double* from, double* state);
+}  // namespace gpu_planning_scene::core
