@@ -5,7 +5,6 @@
 
 #include "collision/bounds/problem_maker.h"
 #include "collision/problem/collision_problem.h"
-#include "support/fcl_peer.h"
 
 namespace gpu_planning_scene::core
 {
@@ -46,12 +45,12 @@ void judgeHit(const PlanningScene& scene, const FclPeer& peer, std::size_t state
 }
 }  // namespace
 
-FclAgreement compareWithFcl(const PlanningScene& scene, const std::vector<double>& states, const BatchResult& result)
+FclAgreement compareWithFcl(FclPeer& peer, const PlanningScene& scene, const std::vector<double>& states,
+                            const BatchResult& result)
 {
   const RobotModel& robot = *scene.robot;
   const auto first_object = static_cast<std::int32_t>(robot.links().size());
   const auto first_attached = first_object + static_cast<std::int32_t>(scene.objects.size());
-  FclPeer peer(std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr)));
   FclAgreement agreement;
   agreement.states = result.valid.size();
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
@@ -70,6 +69,12 @@ FclAgreement compareWithFcl(const PlanningScene& scene, const std::vector<double
       judgeHit(scene, peer, i, result.colliding[i], agreement);
   }
   return agreement;
+}
+
+FclAgreement compareWithFcl(const PlanningScene& scene, const std::vector<double>& states, const BatchResult& result)
+{
+  FclPeer peer(std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr)));
+  return compareWithFcl(peer, scene, states, result);
 }
 
 std::ostream& operator<<(std::ostream& out, const FclAgreement& agreement)

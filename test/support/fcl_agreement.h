@@ -7,6 +7,7 @@
 
 #include "gpu_planning_scene/planning_scene.h"
 #include "gpu_planning_scene/state_checker.h"
+#include "support/fcl_peer.h"
 
 namespace gpu_planning_scene::core
 {
@@ -24,6 +25,11 @@ struct FclAgreement
   std::vector<std::string> failures;  ///< one line each
 };
 
+/// `peer`: FCL with the scene's whole problem.
+FclAgreement compareWithFcl(FclPeer& peer, const PlanningScene& scene, const std::vector<double>& states,
+                            const BatchResult& result);
+
+/// The same with a new peer, which builds FCL's trees.
 FclAgreement compareWithFcl(const PlanningScene& scene, const std::vector<double>& states, const BatchResult& result);
 
 std::ostream& operator<<(std::ostream& out, const FclAgreement& agreement);

@@ -90,10 +90,23 @@ std::shared_ptr<const RobotModel> loadWithGeneratedSrdf(const RealRobot& robot)
   return RobotModel::fromXml(robot.urdfText(), srdf, options);
 }
 
-/// The model is loaded once per process, because generating the matrix of DRC-Hubo takes a while.
+/// Models of which several scenes exist are loaded once per process. Generating the matrix of DRC-Hubo takes a while,
+/// and checkers share the trees of meshes that are the same object.
 std::shared_ptr<const RobotModel> drchuboModel()
 {
   static const std::shared_ptr<const RobotModel> model = loadWithGeneratedSrdf(drchubo());
+  return model;
+}
+
+std::shared_ptr<const RobotModel> ur5Model()
+{
+  static const std::shared_ptr<const RobotModel> model = ur5Robotiq().load();
+  return model;
+}
+
+std::shared_ptr<const RobotModel> kr5Model()
+{
+  static const std::shared_ptr<const RobotModel> model = kr5().load();
   return model;
 }
 
@@ -106,7 +119,7 @@ const GeneratedArm& generatedArm()
 TestScene loadUr5(const std::string& name)
 {
   const std::string folder = problemFolderOf(name);
-  const auto model = ur5Robotiq().load();
+  const auto model = ur5Model();
   TestScene made = inFullRanges(name, loadSceneFile(folder + "/scene0001.yaml", model, {}));
   limitTo(goalOf(folder + "/request0001.yaml", *model), 0.7, made);
   return made;
@@ -174,7 +187,7 @@ TestScene load(const std::string& name)
     return loadDrchubo(name);
   PlanningScene scene(startsWith(name, kArmPrefix) ? generatedArm().load()
                       : name == "wam"              ? loadWithGeneratedSrdf(wam())
-                                                   : kr5().load());
+                                                   : kr5Model());
   scene.objects = objectsOf(name);
   return inFullRanges(name, scene);
 }

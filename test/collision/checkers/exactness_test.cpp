@@ -2,13 +2,13 @@
 // contact, and every checker, traversal and batch size gives the same verdict.
 
 #include <iostream>
+#include <map>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "support/carrying_scene.h"
 #include "support/exactness.h"
-#include "support/kept_trees.h"
 #include "support/near_contact.h"
 #include "support/repetitions.h"
 
@@ -31,6 +31,26 @@ void PrintTo(const Slice& slice, std::ostream* out)
   *out << slice.name;
 }
 
+/// A scene and its checkers.
+struct Compared
+{
+  explicit Compared(const TestScene& compared) : scene(compared), check(scene) {}
+  TestScene scene;
+  ExactnessCheck check;
+};
+
+/// The scene and the checkers of a slice, made once per process, because compiling shaders and building trees takes a
+/// while.
+Compared& comparedCalled(const Slice& slice)
+{
+  static std::map<std::string, Compared> made;
+  const bool carrying = std::string(slice.name) == "carrying";
+  const auto known = made.find(slice.name);
+  if (known != made.end())
+    return known->second;
+  return made.try_emplace(slice.name, carrying ? carryingScene() : testScene(slice.scene)).first->second;
+}
+
 class Exact : public testing::TestWithParam<Slice>
 {
  protected:
@@ -38,8 +58,7 @@ class Exact : public testing::TestWithParam<Slice>
   {
     if (const std::string missing = missingFor(GetParam().scene); !missing.empty())
       GTEST_SKIP() << "there is no " << missing;
-    scene_ = std::string(GetParam().name) == "carrying" ? carryingScene() : testScene(GetParam().scene);
-    keepTrees(*scene_.scene);
+    compared_ = &comparedCalled(GetParam());
   }
 
   void expectNothingWrong(const Exactness& exactness)
@@ -58,20 +77,19 @@ class Exact : public testing::TestWithParam<Slice>
     EXPECT_LE(20 * exactness.valid, 19 * exactness.states);
   }
 
-  TestScene scene_;
+  Compared* compared_ = nullptr;
 };
 
 TEST_P(Exact, InRandomStates)
 {
-  ExactnessCheck check(scene_);
-  expectNothingWrong(check.compare(scene_.randomStates(GetParam().random_states, kSeed), false, GetParam().name));
+  const std::vector<double> states = compared_->scene.randomStates(GetParam().random_states, kSeed);
+  expectNothingWrong(compared_->check.compare(states, false, GetParam().name));
 }
 
 TEST_P(Exact, CloseToContact)
 {
-  ExactnessCheck check(scene_);
-  const auto states = nearContactStates(scene_, GetParam().near_states, kSeed);
-  const Exactness exactness = check.compare(states, true, GetParam().name);
+  const auto states = nearContactStates(compared_->scene, GetParam().near_states, kSeed);
+  const Exactness exactness = compared_->check.compare(states, true, GetParam().name);
   expectNothingWrong(exactness);
   // Half of the states were moved back from contact, most of them by more than the tolerance of the contract, none by
   // much.

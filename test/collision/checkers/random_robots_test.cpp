@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -15,6 +16,7 @@
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/interpolation.h"
+#include "support/kept_trees.h"
 #include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
@@ -123,7 +125,23 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     }
   }
 
+  /// The scene of the seed, and the generator after it. The tests share the scene and its trees, because building the
+  /// trees of hundreds of objects takes a while.
   std::shared_ptr<const PlanningScene> scene()
+  {
+    using SceneAndGenerator = std::pair<std::shared_ptr<const PlanningScene>, std::mt19937_64>;
+    static std::map<std::uint64_t, SceneAndGenerator> made;
+    if (made.count(GetParam()) == 0)
+    {
+      const auto drawn = drawScene();
+      keepTrees(*drawn);
+      made[GetParam()] = {drawn, generator_};
+    }
+    generator_ = made.at(GetParam()).second;
+    return made.at(GetParam()).first;
+  }
+
+  std::shared_ptr<const PlanningScene> drawScene()
   {
     auto wavy = std::make_shared<Mesh>(*tessellate(Sphere{0.12}).mesh);
     for (Eigen::Vector3d& vertex : wavy->vertices)

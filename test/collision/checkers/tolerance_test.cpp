@@ -1,6 +1,7 @@
 // With a tolerance, all collisions are still found, and a pair that is reported is at most the tolerance apart.
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -37,6 +38,48 @@ std::unique_ptr<StateChecker> checkerWith(double tolerance, const std::string& m
   return std::make_unique<BatchChecker>(scene, options);
 }
 
+/// The method's checker with a tolerance, for a scene. Each checker is made once per process, because compiling shaders
+/// takes a while.
+StateChecker& keptCheckerWith(double tolerance, const std::string& method,
+                              const std::shared_ptr<const PlanningScene>& scene)
+{
+  static std::map<std::pair<double, std::string>, std::unique_ptr<StateChecker>> made;
+  std::unique_ptr<StateChecker>& checker = made[{tolerance, method}];
+  if (checker)
+    checker->setScene(scene);
+  else
+    checker = checkerWith(tolerance, method, scene);
+  return *checker;
+}
+
+/// A scene with the verdicts of the exact checker and with the oracle.
+struct ExactScene
+{
+  explicit ExactScene(const TestScene& from)
+    : scene(from.scene),
+      states(from.randomStates(kStates, kSeed)),
+      valid(CpuChecker(scene).check(states.data(), kStates).valid),
+      oracle(std::make_shared<const CollisionProblem>(makeProblem(*scene, "", nullptr)))
+  {
+    keepTrees(*scene);
+  }
+
+  std::shared_ptr<const PlanningScene> scene;
+  std::vector<double> states;
+  std::vector<std::uint8_t> valid;
+  oracle::ProblemOracle oracle;
+};
+
+/// The scene called `name`, which all methods share.
+const ExactScene& exactScene(const std::string& name)
+{
+  static std::map<std::string, ExactScene> made;
+  const auto known = made.find(name);
+  if (known != made.end())
+    return known->second;
+  return made.try_emplace(name, name == "carrying" ? carryingScene() : testScene(name)).first->second;
+}
+
 const auto kMethods = testing::Values("cpu", "breadth_first", "work_queue");
 
 class ToleranceIn : public testing::TestWithParam<std::tuple<const char*, const char*>>
@@ -49,31 +92,27 @@ TEST_P(ToleranceIn, FindsAllCollisionsAndAddsOnlyWhatIsWithinIt)
   const std::string method = std::get<1>(GetParam());
   if (const std::string missing = missingFor(name == "carrying" ? "ur5_table_pick" : name); !missing.empty())
     GTEST_SKIP() << "there is no " << missing;
-  const TestScene scene = name == "carrying" ? carryingScene() : testScene(name);
-  keepTrees(*scene.scene);
-  const RobotModel& robot = *scene.scene->robot;
-  const std::vector<double> states = scene.randomStates(kStates, kSeed);
-  const oracle::ProblemOracle oracle(std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr)));
-  const std::vector<std::uint8_t> exact = CpuChecker(scene.scene).check(states.data(), kStates).valid;
-  std::vector<std::uint8_t> before = exact;
+  const ExactScene& exact = exactScene(name);
+  const RobotModel& robot = *exact.scene->robot;
+  std::vector<std::uint8_t> before = exact.valid;
   std::size_t added = 0;
   for (const double tolerance : {0.001, 0.01, 0.05})
   {
     const std::vector<std::uint8_t> valid =
-        checkerWith(tolerance, method, scene.scene)->check(states.data(), kStates).valid;
+        keptCheckerWith(tolerance, method, exact.scene).check(exact.states.data(), kStates).valid;
     std::vector<std::size_t> measured;
     for (std::size_t i = 0; i < kStates; ++i)
     {
       EXPECT_LE(valid[i], before[i]) << "state " << i << " is free at " << tolerance << ", not at less, seed " << kSeed;
-      if (exact[i] && !valid[i] && measured.size() < kMaxMeasured)
+      if (exact.valid[i] && !valid[i] && measured.size() < kMaxMeasured)
         measured.push_back(i);
     }
     std::vector<double> clearances(measured.size());
     parallelFor(measured.size(), 1,
                 [&](std::size_t begin, std::size_t)
                 {
-                  const double* state = &states[measured[begin] * robot.variables().size()];
-                  clearances[begin] = oracle.clearance(oracle::linkPoses(robot, state), 2.0 * tolerance);
+                  const double* state = &exact.states[measured[begin] * robot.variables().size()];
+                  clearances[begin] = exact.oracle.clearance(oracle::linkPoses(robot, state), 2.0 * tolerance);
                 });
     for (std::size_t i = 0; i < measured.size(); ++i)
       EXPECT_LE(clearances[i], tolerance) << "state " << measured[i] << ", seed " << kSeed;

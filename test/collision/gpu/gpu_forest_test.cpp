@@ -160,7 +160,8 @@ TEST_F(GpuForest, CostsAtMostFifteenPercentMoreToTraverseThanBinnedSah)
       std::cout << "without " << name << ": there is no " << missing << std::endl;
       continue;
     }
-    for (const Link& link : testScene(name).scene->robot->links())
+    const auto robot = loadRobotOf(name);
+    for (const Link& link : robot->links())
       for (const PlacedShape& placed : link.shapes)
         if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&placed.shape))
           meshes.push_back(*mesh);
