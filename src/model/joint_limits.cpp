@@ -10,13 +10,13 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kLimitSlack = 1e-6;  // values are often written with six decimals
+constexpr double kWrittenDecimals = 1e-6;  // radians or metres: values are often written with six decimals
 
 constexpr double kTwoTurns = 4.0 * kPi;
 
 bool isOutside(const Variable& variable, double value)
 {
-  return variable.bounded && (value < variable.lower - kLimitSlack || value > variable.upper + kLimitSlack);
+  return variable.bounded && (value < variable.lower - kWrittenDecimals || value > variable.upper + kWrittenDecimals);
 }
 
 std::string text(double value)
