@@ -251,7 +251,9 @@ TEST_F(Service, WrongRequestsAreRefusedWithTheReason)
   expectRefusal(request({}, {1.0}), "joint_names is empty");
   expectRefusal(request({"turn", "slide"}, {0.0, 0.0, 0.0}), "3 positions are not rows of 2");
   expectRefusal(request({"turn", "slid"}, {0.0, 0.0}), "no variable 'slid'");
-  expectRefusal(request({"turn", "flag"}, {0.0, 0.0}), "'flag' follows another");
+  expectRefusal(request({"turn", "flag"}, {0.0, 0.0}),
+                "joint 'flag' mimics joint 'turn', from which its value follows; leave it out; the robot's variables "
+                "are slide, turn");
   expectRefusal(request({"turn", "turn"}, {0.0, 0.0}), "'turn' is given twice");
   expectRefusal(request({"turn", "slide"}, {0.0, 0.0, kNan, 0.0}), "state 1: the position of 'turn'");
   expectRefusal(request({"turn", "slide"}, {0.0, kInfinity}), "state 0: the position of 'slide'");

@@ -234,6 +234,30 @@ TEST_F(SceneFile, AnUnreadableFileAndAnEmptyFileAreToldApart)
   EXPECT_EQ(folder.path("") + ": this is a folder, not a file", error(folder.path("")));
 }
 
+TEST_F(SceneFile, AnUnknownKeyNamesTheKnownKeyThatIsSimilar)
+{
+  const std::map<std::string, std::string> objects = {{"primitivs", "primitives"},
+                                                      {"Primitives", "primitives"},
+                                                      {"mehses", "meshes"},
+                                                      {"subframe_name", "subframe_names"},
+                                                      {"primitive_pose", "primitive_poses"},
+                                                      {"mesh_posses", "mesh_poses"},
+                                                      {"colour", ""},
+                                                      {"frame", ""}};
+  for (const auto& [key, meant] : objects)
+  {
+    load("world: {collision_objects: [{id: a, " + key + ": 0, primitives: [{type: sphere, dimensions: [1]}]}]}");
+    EXPECT_TRUE(warned(meant.empty() ? "unknown key '" + key + "' is not used"
+                                     : "unknown key '" + key + "' is not used; did you mean '" + meant + "'?"))
+        << warnings.at(0);
+    EXPECT_EQ(meant.empty(), warnings.at(0).find("did you mean") == std::string::npos) << warnings.at(0);
+  }
+  load("wrold: {}\nworld: {}");
+  EXPECT_TRUE(warned("scene.yaml:1: unknown key 'wrold' is not used; did you mean 'world'?"));
+  load("world: {}\n" + std::string(100000, 'w') + ": 1");
+  EXPECT_FALSE(warned("did you mean"));
+}
+
 TEST_F(SceneFile, ObjectsMayBeGivenInLinksAndFixedFrames)
 {
   const std::string shape = "primitives: [{type: sphere, dimensions: [1]}]";
@@ -553,3 +577,4 @@ TEST_F(SceneFile, UnknownKeysGiveWarnings)
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
+  EXPECT_FALSE(warned("did you mean 'id'"));
