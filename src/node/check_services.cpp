@@ -80,12 +80,9 @@ std::string beyondLimits(const RobotModel& robot, const std::vector<double>& sta
   const std::size_t width = robot.variables().size();
   const std::vector<VariableRange> ranges = limitRanges(robot);
   for (std::size_t row = 0; row < states.size(); row += width)
-    for (const VariableRange& range : ranges)
-      if (const double value = states[row + static_cast<std::size_t>(range.variable)];
-          value < range.lower || value > range.upper)
-        return "motion " + std::to_string(row / width) + ": " +
-               robot.variables()[static_cast<std::size_t>(range.variable)].name + " is " + std::to_string(value) +
-               ", beyond its limits; the motion rule \"bound\" proves no motion there";
+    if (const ValuesOutsideLimits outside = valuesOutside(ranges, robot, &states[row]); outside.count() != 0)
+      return "motion " + std::to_string(row / width) + ": " + outside.text() +
+             "; the motion rule \"bound\" proves no motion there";
   return "";
 }
 

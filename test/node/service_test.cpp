@@ -92,6 +92,18 @@ TEST_F(Service, AnswersEachStateInOrder)
   EXPECT_EQ(5u, response.scene_revision);
 }
 
+TEST_F(Service, WarnsInTheLogOfJointStatesThatMayBeDegrees)
+{
+  SceneServices changes(store, nullptr, memory);
+  testing::internal::CaptureStderr();
+  changes.take(jointState({"slide", "turn"}, {2.5, 90.0}));
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_NE(std::string::npos,
+            log.find("joint_states: joint 'slide' is 2.5, outside its limits -2 to 2; values are in radians, and joint "
+                     "'turn' is 90: 90 degrees are 1.5708 rad; 1 more value is outside the limits"))
+      << log;
+}
+
 TEST_F(Service, OtherVariablesTakeTheCurrentState)
 {
   expectRefusal(request({"turn"}, {0.0}), "no value for slide");
@@ -405,7 +417,9 @@ TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)
   const CheckMotions::Response beyond = services.checkMotions(asked);
   EXPECT_TRUE(beyond.success);
   EXPECT_EQ(0, beyond.valid.at(0));
-  EXPECT_NE(std::string::npos, beyond.message.find("motion 0: slide is 7.000000, beyond its limits")) << beyond.message;
+  EXPECT_NE(std::string::npos,
+            beyond.message.find("motion 0: joint 'slide' is 7, outside its limits -2 to 2; the motion rule"))
+      << beyond.message;
   asked.ends[0] = 0.5;
   asked.motion_rule = "sample";
   EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("must be samples or bound"));
