@@ -42,14 +42,17 @@ std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedColli
   return std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message, limits));
 }
 
-/// The options for a request's motions, and the number of samples of all motions. Throws Error for more than
-/// `max_samples`. `starts`, `ends`: one full state per motion.
+/// The options for a request's motions, and the number of samples of all motions. Throws Error for more samples than
+/// `limits` allows. `starts`, `ends`: one full state per motion.
 std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions::Request& request,
                                                               const RobotModel& robot, MotionRule default_rule,
                                                               const std::vector<double>& starts,
-                                                              const std::vector<double>& ends, std::size_t max_samples)
+                                                              const std::vector<double>& ends,
+                                                              const CheckServicesOptions& limits)
 {
+  const std::size_t max_samples = limits.max_states;
   MotionCheckerOptions options;
+  options.max_checks = limits.max_motion_checks;
   options.rule = request.motion_rule.empty() ? default_rule : motionRuleFromName(request.motion_rule);
   options.steps = {request.resolution, request.translation_resolution};
   validateSteps(options.steps);
@@ -84,6 +87,19 @@ std::string beyondLimits(const RobotModel& robot, const std::vector<double>& sta
       return "motion " + std::to_string(row / width) + ": " + outside.text() +
              "; the motion rule \"bound\" proves no motion there";
   return "";
+}
+
+/// A warning if the limit of checks left motions undecided; otherwise empty.
+std::string givenUp(const std::vector<MotionVerdict>& motions, std::size_t max_checks)
+{
+  const auto is_given_up = [](const MotionVerdict& motion) { return motion.given_up; };
+  const auto first = std::find_if(motions.begin(), motions.end(), is_given_up);
+  if (first == motions.end())
+    return "";
+  const auto count = std::count_if(first, motions.end(), is_given_up);
+  return std::to_string(count) + " of " + std::to_string(motions.size()) + " motions are not proven free, because " +
+         std::to_string(max_checks) + " checks (limits/motion_checks) did not suffice; the first is motion " +
+         std::to_string(first - motions.begin()) + "; send fewer or shorter motions in one request";
 }
 
 std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
@@ -323,7 +339,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         validateStates(robot, starts.data(), count);
         validateStates(robot, ends.data(), count);
         std::tie(job.motions, job.samples) =
-            requestedMotions(request, robot, options_.motion_rule, starts, ends, options_.max_states);
+            requestedMotions(request, robot, options_.motion_rule, starts, ends, options_);
         const MotionRule motion_rule = job.motions->rule;
         const std::string assumed_base = now.assumedBase(job.columns);
         // The full states above serve to count the samples. For the check, the variables that the request does not name
@@ -338,6 +354,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
           response.valid.push_back(verdict.valid ? 1 : 0);
           response.last_valid_fraction.push_back(verdict.last_valid);
           response.first_invalid_fraction.push_back(verdict.first_invalid);
+          response.given_up.push_back(verdict.given_up ? 1 : 0);
           const bool collides = verdict.colliding != kNoPair;
           response.body_1.push_back(collides ? answer.scene->bodyName(verdict.colliding[0]) : "");
           response.body_2.push_back(collides ? answer.scene->bodyName(verdict.colliding[1]) : "");
@@ -348,6 +365,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
           if (response.message.empty())
             response.message = beyondLimits(robot, ends);
         }
+        addWarning(givenUp(answer.motions, options_.max_motion_checks), response.message);
         addWarning(assumed_base, response.message);
         response.states_checked = answer.states_checked;
         response.scene_revision = answer.result.revision;

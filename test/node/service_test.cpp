@@ -75,7 +75,7 @@ class Service : public testing::Test
                      { return std::make_shared<CpuChecker>(std::move(scene)); },
                      {}};
   MemoryGuard memory{0};
-  CheckServices services{store, server, memory, {1000, 10}};
+  CheckServices services{store, server, memory, {1000, 1000000, 10}};
 };
 
 TEST_F(Service, AnswersEachStateInOrder)
@@ -142,7 +142,7 @@ class WaitingService : public Service
                            [this](std::shared_ptr<const PlanningScene> scene)
                            { return std::make_shared<GatedChecker>(std::move(scene), gate); },
                            {}};
-  CheckServices gated{store, gated_server, memory, {1000, 10}};
+  CheckServices gated{store, gated_server, memory, {1000, 1000000, 10}};
 };
 
 TEST_F(WaitingService, VariablesThatARequestLeavesOutAreThoseOfTheRevisionThatItNames)
@@ -183,7 +183,7 @@ class WaitingInspections : public WaitingService
     answers.push_back(std::async(std::launch::async, [this, asked] { return bounded.checkStates(asked); }));
   }
 
-  CheckServices bounded{store, gated_server, memory, {1000, 10, 10, 1}};
+  CheckServices bounded{store, gated_server, memory, {1000, 1000000, 10, 10, 1}};
   std::vector<std::future<CheckStates::Response>> answers;
 };
 
@@ -314,7 +314,7 @@ TEST_F(Service, AMatrixOfARequestHasNoMoreEntriesThanTheLimit)
   for (AllowedCollisionEntry& row : asked.allowed_collision_matrix.entry_values)
     row.enabled = {0, 0};
   EXPECT_TRUE(answer(asked).success);
-  const std::string message = CheckServices(strict, server, memory, {1000, 10}).checkStates(asked).message;
+  const std::string message = CheckServices(strict, server, memory, {1000, 1000000, 10}).checkStates(asked).message;
   EXPECT_NE(std::string::npos, message.find("limits/matrix_entries")) << message;
 }
 
@@ -432,6 +432,33 @@ TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)
   EXPECT_NE(std::string::npos, message.find("more than 1000 samples")) << message;
 }
 
+TEST_F(Service, MotionsThatNeedTooManyChecksAreNotFreeAndMarked)
+{
+  CheckServices few{store, server, memory, {1000, 60, 10}};
+  CheckMotions::Request asked;
+  asked.joint_names = {"slide", "turn"};
+  asked.starts = {0.0, 0.0, -1.0, 0.0};
+  asked.ends = {0.7999, 0.0, -1.0, 0.0};  // the first ends 0.1 mm before the wall
+  asked.resolution = 0.3;
+  asked.translation_resolution = 0.3;
+  const CheckMotions::Response all = services.checkMotions(asked);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), all.valid) << all.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), all.given_up);
+  EXPECT_GT(all.states_checked, 60u);
+  EXPECT_EQ("", all.message);
+  const CheckMotions::Response response = few.checkMotions(asked);
+  EXPECT_TRUE(response.success);
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 1}), response.valid);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.given_up);
+  EXPECT_LT(response.last_valid_fraction.at(0), 1.0);
+  EXPECT_LE(response.states_checked, 60u);
+  EXPECT_EQ("", response.body_1.at(0));
+  EXPECT_EQ(
+      "1 of 2 motions are not proven free, because 60 checks (limits/motion_checks) did not suffice; the first is "
+      "motion 0; send fewer or shorter motions in one request",
+      response.message);
+}
+
 TEST_F(Service, AMatrixOfARequestReplacesTheScenes)
 {
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0});
@@ -541,7 +568,7 @@ class UnknownBase : public testing::Test
                      { return std::make_shared<CpuChecker>(std::move(scene)); },
                      {}};
   MemoryGuard memory{0};
-  CheckServices services{store, server, memory, {1000, 10}};
+  CheckServices services{store, server, memory, {1000, 1000000, 10}};
 };
 
 TEST_F(UnknownBase, IsAssumedAtTheOriginAndEachAnswerSaysSo)
