@@ -20,6 +20,7 @@
 #include "node/requested_states.h"
 #include "node/respond.h"
 #include "node/topic_warnings.h"
+#include "scene/matrix_entries.h"
 
 namespace gpu_planning_scene::core
 {
@@ -34,12 +35,16 @@ Error shuttingDown()
   return Error("shutting down: the request was not answered");
 }
 
+/// The matrix of a request; null if it has none. Adds a warning to `text` if the matrix has only default entries.
 std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedCollisionMatrixMessage& message,
-                                                              const SceneLimits& limits)
+                                                              const RobotModel& robot, const SceneLimits& limits,
+                                                              std::string& text)
 {
-  if (message.entry_names.empty() && message.default_entry_names.empty())
+  if (message.entry_names.empty() && message.entry_values.empty() && message.default_entry_names.empty())
     return nullptr;
-  return std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message, limits));
+  auto matrix = std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message, limits));
+  addWarning(warningOfDefaultsAlone(robot, *matrix), text);
+  return matrix;
 }
 
 /// The options for a request's motions, and the number of samples of all motions. Throws Error for more samples than
@@ -211,7 +216,6 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
             [this](std::size_t count) { server_.requireStateCount(count); });
         job.states = std::move(rows.values);
         job.group = request.group;
-        job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
         if (const auto outside =
                 findValueOutsideLimits(robot, job.columns, job.states.data(), job.states.size() / job.columns.size()))
         {
@@ -219,6 +223,7 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
           static OccasionalWarning warning;
           warning.log("check_states: " + response.message);
         }
+        job.matrix = requestedMatrix(request.allowed_collision_matrix, robot, store_.limits(), response.message);
         addWarning(now.assumedBase(job.columns), response.message);
         job.keep_states = request.max_contacts != 0 || request.clearance;
         const bool inspects = job.keep_states;
@@ -347,7 +352,8 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         job.states = request.starts;
         job.states.insert(job.states.end(), request.ends.begin(), request.ends.end());
         job.group = request.group;
-        job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
+        std::string matrix_warning;
+        job.matrix = requestedMatrix(request.allowed_collision_matrix, robot, store_.limits(), matrix_warning);
         const CheckAnswer answer = answerOf(std::move(job));
         for (const MotionVerdict& verdict : answer.motions)
         {
@@ -366,6 +372,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
             response.message = beyondLimits(robot, ends);
         }
         addWarning(givenUp(answer.motions, options_.max_motion_checks), response.message);
+        addWarning(matrix_warning, response.message);
         addWarning(assumed_base, response.message);
         response.states_checked = answer.states_checked;
         response.scene_revision = answer.result.revision;

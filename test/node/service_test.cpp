@@ -464,7 +464,12 @@ TEST_F(Service, AMatrixOfARequestReplacesTheScenes)
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0});
   asked.allowed_collision_matrix.default_entry_names = {"wall"};
   asked.allowed_collision_matrix.default_entry_values = {1};
-  EXPECT_EQ((std::vector<std::uint8_t>{1}), answer(asked).valid);
+  const CheckStates::Response response = answer(asked);
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), response.valid);
+  EXPECT_EQ(
+      "allowed_collision_matrix: it has only default entries, so the pairs that the SRDF allows are checked too (as in "
+      "MoveIt); give entry_names and entry_values for them",
+      response.message);
 }
 
 TEST_F(Service, ValuesOutsideTheLimitsAreCheckedWithAWarning)

@@ -217,21 +217,21 @@ TEST_F(SceneFile, AllowedCollisionsWithAnUnknownNameAreWarnings)
   EXPECT_TRUE(scene.allowed_collisions.allowed("can", "cart"));
 }
 
+TEST_F(SceneFile, AMatrixOfDefaultsAloneIsAWarning)
+{
+  const PlanningScene scene =
+      load("world: {}\nallowed_collision_matrix:\n  default_entry_names: [can]\n  default_entry_values: [true]\n");
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_TRUE(warned("scene.yaml:3: allowed_collision_matrix: it has only default entries, so the pairs that the SRDF"))
+      << warnings[0];
+  EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "pole"));
+}
+
 TEST_F(SceneFile, UnknownKeysAreNamedWithTheLineOfTheKey)
 {
   load("world:\n  collision_objects: []\nwrold:\n  collision_objects:\n    - {}\n");
   ASSERT_EQ(1u, warnings.size());
   EXPECT_TRUE(warned("scene.yaml:3: unknown key 'wrold'")) << warnings.at(0);
-}
-
-TEST_F(SceneFile, AnUnreadableFileAndAnEmptyFileAreToldApart)
-{
-  const auto error = [this](const std::string& path)
-  { return errorOf([&] { loadSceneFile(path, sliderRobot(), packages, &warnings); }); };
-  EXPECT_EQ(folder.path("none.yaml") + ": cannot read the file: No such file or directory",
-            error(folder.path("none.yaml")));
-  EXPECT_EQ(folder.path("empty.yaml") + ": the file is empty", error(folder.write("empty.yaml", "")));
-  EXPECT_EQ(folder.path("") + ": this is a folder, not a file", error(folder.path("")));
 }
 
 TEST_F(SceneFile, AnUnknownKeyNamesTheKnownKeyThatIsSimilar)
@@ -256,6 +256,16 @@ TEST_F(SceneFile, AnUnknownKeyNamesTheKnownKeyThatIsSimilar)
   EXPECT_TRUE(warned("scene.yaml:1: unknown key 'wrold' is not used; did you mean 'world'?"));
   load("world: {}\n" + std::string(100000, 'w') + ": 1");
   EXPECT_FALSE(warned("did you mean"));
+}
+
+TEST_F(SceneFile, AnUnreadableFileAndAnEmptyFileAreToldApart)
+{
+  const auto error = [this](const std::string& path)
+  { return errorOf([&] { loadSceneFile(path, sliderRobot(), packages, &warnings); }); };
+  EXPECT_EQ(folder.path("none.yaml") + ": cannot read the file: No such file or directory",
+            error(folder.path("none.yaml")));
+  EXPECT_EQ(folder.path("empty.yaml") + ": the file is empty", error(folder.write("empty.yaml", "")));
+  EXPECT_EQ(folder.path("") + ": this is a folder, not a file", error(folder.path("")));
 }
 
 TEST_F(SceneFile, ObjectsMayBeGivenInLinksAndFixedFrames)
@@ -572,9 +582,9 @@ TEST_F(SceneFile, UnknownKeysGiveWarnings)
   load("wrold: {}\nworld: {collision_objects: [{id: a, colour: red, primitives: [{type: sphere, dimensions: [1]}]}]}");
   EXPECT_TRUE(warned("scene.yaml:1: unknown key 'wrold'"));
   EXPECT_TRUE(warned("scene.yaml:2: unknown key 'colour'"));
+  EXPECT_FALSE(warned("did you mean 'id'"));
   load("robot_model_name: other\n");
   EXPECT_TRUE(warned("for robot 'other', the robot is 'slider'"));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
-  EXPECT_FALSE(warned("did you mean 'id'"));
