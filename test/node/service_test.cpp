@@ -358,7 +358,7 @@ TEST_F(Service, NoMoreStatesAreInspectedThanTheLimit)
 
 TEST_F(Service, MoreContactsThanTheLimitAreRefusedAndNotCutOff)
 {
-  CheckServices bounded(store, server, memory, {1000, 10, 2});
+  CheckServices bounded(store, server, memory, {1000, 1000000, 10, 2});
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0, 0.0, 1.0, 0.0, 1.0});
   asked.max_contacts = 1;
   const CheckStates::Response refused = bounded.checkStates(asked);
@@ -434,28 +434,30 @@ TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)
 
 TEST_F(Service, MotionsThatNeedTooManyChecksAreNotFreeAndMarked)
 {
-  CheckServices few{store, server, memory, {1000, 60, 10}};
+  CheckServices few{store, server, memory, {1000, 8, 10}};
   CheckMotions::Request asked;
   asked.joint_names = {"slide", "turn"};
-  asked.starts = {0.0, 0.0, -1.0, 0.0};
-  asked.ends = {0.7999, 0.0, -1.0, 0.0};  // the first ends 0.1 mm before the wall
+  asked.starts = {-1.0, 0.0, 0.0, 0.0};
+  asked.ends = {-1.0, 0.0, 0.7999, 0.0};  // the second ends 0.1 mm before the wall
   asked.resolution = 0.3;
   asked.translation_resolution = 0.3;
   const CheckMotions::Response all = services.checkMotions(asked);
   EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), all.valid) << all.message;
   EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), all.given_up);
-  EXPECT_GT(all.states_checked, 60u);
+  EXPECT_GT(all.states_checked, 8u);
   EXPECT_EQ("", all.message);
   const CheckMotions::Response response = few.checkMotions(asked);
   EXPECT_TRUE(response.success);
-  EXPECT_EQ((std::vector<std::uint8_t>{0, 1}), response.valid);
-  EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.given_up);
-  EXPECT_LT(response.last_valid_fraction.at(0), 1.0);
-  EXPECT_LE(response.states_checked, 60u);
-  EXPECT_EQ("", response.body_1.at(0));
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid);
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 1}), response.given_up);
+  ASSERT_EQ(2u, response.last_valid_fraction.size());
+  EXPECT_LT(response.last_valid_fraction[1], 1.0);
+  EXPECT_EQ(8u, response.states_checked);
+  EXPECT_EQ("", response.body_1.at(1));
   EXPECT_EQ(
-      "1 of 2 motions are not proven free, because 60 checks (limits/motion_checks) did not suffice; the first is "
-      "motion 0; send fewer or shorter motions in one request",
+      "1 of 2 motions are not proven free, because 8 checks (limits/motion_checks) did not suffice; the first is "
+      "motion "
+      "1; send fewer or shorter motions in one request",
       response.message);
 }
 

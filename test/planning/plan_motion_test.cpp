@@ -292,10 +292,11 @@ TEST_F(Turning, IsRefusedWhereAnotherJointIsBeyondItsLimits)
 
 TEST(PlanMotion, SuggestsDegreesForAGoalThatTheyWouldFit)
 {
-  const auto robot = robotOf(boxLink("base") + boxLink("a") + boxLink("b") +
-                                 jointXml("pan", "revolute", "base", "a", "<limit lower='-1' upper='1'/>") +
-                                 jointXml("tilt", "revolute", "a", "b", "<limit lower='-2' upper='2'/>"),
-                             "<group name='all'><joint name='pan'/><joint name='tilt'/></group>");
+  const auto robot =
+      robotOf(std::string("<link name='base'/><link name='a'/><link name='b'/>") +
+                  jointXml("pan", "revolute", "base", "a", "<limit lower='-1' upper='1' effort='1' velocity='1'/>") +
+                  jointXml("tilt", "revolute", "a", "b", "<limit lower='-2' upper='2' effort='1' velocity='1'/>"),
+              "<group name='all'><joint name='pan'/><joint name='tilt'/></group>");
   const auto scene = std::make_shared<const PlanningScene>(robot);
   PlanningQuery wanted = query({0.0, 0.0}, {{10.0, 90.0}});
   wanted.group = "all";
