@@ -71,12 +71,13 @@ void SceneChanger::warnOfMatrixReset(const SceneChange& change, const AllowedCol
   if (change.is_diff || change.matrix)
     return;
   const NewlyAllowed found = findNewlyAllowed(result_.scene, before);
-  if (found.pairs != 0)
-    result_.warnings.push_back(
-        "'" + found.body_1 + "' and '" + found.body_2 + "'" +
-        (found.pairs == 1 ? " are" : " and " + std::to_string(found.pairs - 1) + " more pairs of bodies are") +
-        " no longer checked: the scene is not a diff and has no allowed_collision_matrix, so the "
-        "robot's own matrix applies again");
+  if (found.pairs == 0)
+    return;
+  const std::string pair = "'" + found.body_1 + "' and '" + found.body_2 + "'";
+  result_.warnings.push_back(
+      (found.pairs == 1 ? pair + " are no longer checked against each other"
+                        : std::to_string(found.pairs) + " pairs of bodies are no longer checked, for example " + pair) +
+      ": the scene is not a diff and has no allowed_collision_matrix, so the robot's own matrix applies again");
 }
 
 /// Warns of links that a full scene does not name and that therefore become smaller: fewer states collide.
