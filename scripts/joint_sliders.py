@@ -18,11 +18,22 @@ RATE = 10  # messages per second, also without a change: a node that starts late
 
 
 class Slider:
-    """A named value between two limits."""
+    """A named value between two limits. It starts at `value`, or at the limit that is nearest to it; without a value at
+    0, if the limits include 0."""
 
-    def __init__(self, name, lower, upper, value):
+    def __init__(self, name, lower, upper, value=None):
         self.name, self.lower, self.upper = name, lower, upper
-        self.value = min(max(value, lower), upper)
+        self.value = min(max(value or 0.0, lower), upper)
+        self.moved_from = None if value in (None, self.value) else value
+
+    def warning(self):
+        """A line that says that the slider starts at another value than the scene. Empty if it does not."""
+        if self.moved_from is None:
+            return ""
+        return (
+            f"{self.name} of the scene is {self.moved_from:.6g}, outside the range of its slider,"
+            f" {self.lower:.6g} to {self.upper:.6g}; the slider starts at {self.value:.6g}"
+        )
 
 
 def sliders_of(variables, start):
@@ -32,7 +43,7 @@ def sliders_of(variables, start):
     for variable in variables:
         joint, _, part = variable.name.rpartition("/")
         if part not in ROTATION:
-            sliders.append(Slider(*variable, start.get(variable.name, 0.0)))
+            sliders.append(Slider(*variable, start.get(variable.name)))
         elif part == "rot_w":
             quaternion = [start.get(f"{joint}/{name}", 1.0 if name == "rot_w" else 0.0) for name in ROTATION]
             for name, angle in zip(ANGLES, angles_of(*quaternion)):
@@ -153,6 +164,8 @@ def main():
 
     publisher = rospy.Publisher("joint_states", JointState, queue_size=1)
     sliders = sliders_of(variables, start)
+    for warning in filter(None, (slider.warning() for slider in sliders)):
+        print(f"joint_sliders.py: {warning}", file=sys.stderr)
 
     def publish():
         message = JointState()

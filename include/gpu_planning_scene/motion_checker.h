@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,6 +36,9 @@ struct MotionCheckerOptions
   /// Limit for each motion. A motion that has more samples than this is rejected. Under MotionRule::Bound, a motion is
   /// also rejected if this many state checks do not prove it free. The checks of its samples count too.
   std::size_t max_samples = 20000;
+  /// Limit for each call of MotionChecker::check: the number of state checks for all its motions. Motions that are not
+  /// decided by then are not valid, and are given up.
+  std::size_t max_checks = std::numeric_limits<std::size_t>::max();
 };
 
 struct MotionVerdict
@@ -50,6 +54,9 @@ struct MotionVerdict
   /// The colliding pair at `first_invalid`; kNoPair if the motion is valid, or if no sample collides but the motion is
   /// not proven free.
   BodyPair colliding = kNoPair;
+  /// Some of its checks were left out, because of MotionCheckerOptions::max_checks. The motion is not valid, but its
+  /// free part may be longer than `last_valid`.
+  bool given_up = false;
 };
 
 enum class MotionQuery

@@ -27,9 +27,11 @@ std::string whyNoVariable(const RobotModel& robot, const std::string& name)
 {
   const int joint = robot.jointIndex(name);
   if (joint >= 0 && robot.joints()[joint].mimic)
-    return "joint '" + name + "' follows another joint and has no variable of its own";
+    return "joint '" + name + "' mimics joint '" +
+           robot.variables()[static_cast<std::size_t>(robot.joints()[joint].first_variable)].name +
+           "', from which its value follows; leave it out";
   if (joint >= 0 && robot.joints()[joint].type == JointType::Fixed)
-    return "joint '" + name + "' is fixed and has no variable";
+    return "joint '" + name + "' is fixed and has no variable; leave it out";
   return "the robot has no variable '" + name + "'";
 }
 }  // namespace
@@ -57,7 +59,7 @@ std::vector<int> variableIndices(const RobotModel& robot, const std::vector<std:
   {
     const int index = robot.variableIndex(name);
     if (index < 0)
-      throw Error(whyNoVariable(robot, name) + "; its variables are " + variableNames(robot));
+      throw Error(whyNoVariable(robot, name) + "; the robot's variables are " + variableNames(robot));
     if (seen[index])
       throw Error("variable '" + name + "' is given twice");
     seen[index] = true;

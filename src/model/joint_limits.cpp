@@ -10,20 +10,28 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kLimitSlack = 1e-6;  // values are often written with six decimals
+constexpr double kWrittenDecimals = 1e-6;  // radians or metres: values are often written with six decimals
 
 constexpr double kTwoTurns = 4.0 * kPi;
 
 bool isOutside(const Variable& variable, double value)
 {
-  return variable.bounded && (value < variable.lower - kLimitSlack || value > variable.upper + kLimitSlack);
+  return variable.bounded && (value < variable.lower - kWrittenDecimals || value > variable.upper + kWrittenDecimals);
 }
 
-std::string text(double value)
+std::string number(double value, int digits = 6)
 {
-  std::array<char, 32> digits;
-  std::snprintf(digits.data(), digits.size(), "%.6g", value);
-  return digits.data();
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  return text.data();
+}
+
+/// The value with as many digits as are needed to tell it from the variable's limits.
+std::string valueOf(const Variable& variable, double value)
+{
+  const std::string rounded = number(value);
+  const bool is_like_limit = rounded == number(variable.lower) || rounded == number(variable.upper);
+  return is_like_limit ? number(value, 17) : rounded;
 }
 
 bool isAngle(const RobotModel& robot, int variable)
@@ -34,36 +42,65 @@ bool isAngle(const RobotModel& robot, int variable)
   return false;
 }
 
-/// `value` is outside the limits of the variable.
-std::string describe(const RobotModel& robot, int index, double value)
+bool mayBeDegrees(const RobotModel& robot, int variable, double value)
 {
-  const Variable& variable = robot.variables()[static_cast<std::size_t>(index)];
-  const bool is_angle = isAngle(robot, index);
-  const double radians = value * kPi / 180.0;
   // A smaller value is hardly meant as degrees.
-  const bool may_be_degrees = is_angle && std::abs(value) > kTwoTurns && !isOutside(variable, radians);
-  return "joint '" + variable.name + "' is " + text(value) + ", outside its limits " + text(variable.lower) + " to " +
-         text(variable.upper) + (is_angle ? " rad" : "") +
-         (may_be_degrees ? "; values are in radians, and " + text(value) + " degrees are " + text(radians) + " rad"
-                         : "");
+  return std::abs(value) > kTwoTurns && isAngle(robot, variable) &&
+         !isOutside(robot.variables()[static_cast<std::size_t>(variable)], value * kPi / 180.0);
 }
 }  // namespace
+
+void ValuesOutsideLimits::add(int variable, double value)
+{
+  if (count_++ == 0)
+  {
+    first_variable_ = variable;
+    first_value_ = value;
+  }
+  if (!in_degrees_ && mayBeDegrees(robot_, variable, value))
+  {
+    in_degrees_ = variable;
+    degrees_ = value;
+  }
+}
+
+std::string ValuesOutsideLimits::text() const
+{
+  if (count_ == 0)
+    return "";
+  const auto variable = [this](int index) -> const Variable&
+  { return robot_.variables()[static_cast<std::size_t>(index)]; };
+  const Variable& first = variable(first_variable_);
+  std::string line = "joint '" + first.name + "' is " + valueOf(first, first_value_) + ", outside its limits " +
+                     number(first.lower) + " to " + number(first.upper) +
+                     (isAngle(robot_, first_variable_) ? " rad" : "");
+  if (in_degrees_)
+    line += "; values are in radians, and " +
+            (in_degrees_ == first_variable_ && degrees_ == first_value_
+                 ? ""
+                 : "joint '" + variable(*in_degrees_).name + "' is " + number(degrees_) + ": ") +
+            number(degrees_) + " degrees are " + number(degrees_ * kPi / 180.0) + " rad";
+  if (count_ > 1)
+    line += "; " + std::to_string(count_ - 1) + " more " + (count_ == 2 ? "value is" : "values are") +
+            " outside the limits";
+  return line;
+}
 
 std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot, const std::vector<int>& columns,
                                                          const double* rows, std::size_t count)
 {
-  std::size_t outside = 0;
-  ValueOutsideLimits first = {0, ""};
+  ValuesOutsideLimits outside(robot);
+  std::size_t first_row = 0;
   for (std::size_t row = 0; row < count; ++row)
     for (const int column : columns)
-      if (const double value = *rows++;
-          isOutside(robot.variables()[static_cast<std::size_t>(column)], value) && outside++ == 0)
-        first = {row, describe(robot, column, value)};
-  if (outside == 0)
+      if (const double value = *rows++; isOutside(robot.variables()[static_cast<std::size_t>(column)], value))
+      {
+        if (outside.count() == 0)
+          first_row = row;
+        outside.add(column, value);
+      }
+  if (outside.count() == 0)
     return std::nullopt;
-  if (outside > 1)
-    first.text += "; " + std::to_string(outside - 1) + " more " + (outside == 2 ? "value is" : "values are") +
-                  " outside the limits";
-  return first;
+  return ValueOutsideLimits{first_row, outside.text()};
 }
 }  // namespace gpu_planning_scene::core

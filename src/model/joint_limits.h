@@ -9,13 +9,34 @@
 
 namespace gpu_planning_scene::core
 {
+/// Collects values that are outside their joint limits, and describes them in one line.
+class ValuesOutsideLimits
+{
+ public:
+  explicit ValuesOutsideLimits(const RobotModel& robot) : robot_(robot) {}
+
+  /// `value` of a variable that has limits, and that is outside of them. Radians or metres.
+  void add(int variable, double value);
+
+  std::size_t count() const { return count_; }
+  /// The first joint with its value and its limits, and the number of further values. If any of the values would be
+  /// within its limits as degrees, the line says so. Empty without values.
+  std::string text() const;
+
+ private:
+  const RobotModel& robot_;
+  std::size_t count_ = 0;
+  int first_variable_ = -1;
+  double first_value_ = 0.0;
+  std::optional<int> in_degrees_;  // the first variable whose value would be within its limits as degrees
+  double degrees_ = 0.0;           // the value of that variable
+};
+
 /// The first value of a table that is outside its joint limits.
 struct ValueOutsideLimits
 {
   std::size_t row;
-  /// One line: the joint, the value, the limits, and the number of further such values. The line says so if the value
-  /// would be within the limits as degrees.
-  std::string text;
+  std::string text;  ///< the line of ValuesOutsideLimits for all such values of the table
 };
 
 /// `rows`: `count` rows of values for the variables `columns`. No value: nothing is outside the limits by more than

@@ -117,6 +117,8 @@ NamedState RobotModel::namedState(const std::string& name) const
     else
       merge(state, *this, result);
   }
+  if (result.name.empty() && !srdf_collisions_.has_srdf)
+    throw Error("there is no state '" + name + "', because the robot has no SRDF, which names states");
   if (result.name.empty())
     throw Error("the SRDF has no state '" + name + "'; " +
                 (names.empty() ? "it names no states" : "its states: " + names));

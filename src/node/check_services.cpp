@@ -20,6 +20,7 @@
 #include "node/requested_states.h"
 #include "node/respond.h"
 #include "node/topic_warnings.h"
+#include "scene/matrix_entries.h"
 
 namespace gpu_planning_scene::core
 {
@@ -34,22 +35,29 @@ Error shuttingDown()
   return Error("shutting down: the request was not answered");
 }
 
+/// The matrix of a request; null if it has none. Adds a warning to `text` if the matrix has only default entries.
 std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedCollisionMatrixMessage& message,
-                                                              const SceneLimits& limits)
+                                                              const RobotModel& robot, const SceneLimits& limits,
+                                                              std::string& text)
 {
-  if (message.entry_names.empty() && message.default_entry_names.empty())
+  if (message.entry_names.empty() && message.entry_values.empty() && message.default_entry_names.empty())
     return nullptr;
-  return std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message, limits));
+  auto matrix = std::make_shared<const AllowedCollisionMatrix>(matrixFrom(message, limits));
+  addWarning(warningOfDefaultsAlone(robot, *matrix), text);
+  return matrix;
 }
 
-/// The options for a request's motions, and the number of samples of all motions. Throws Error for more than
-/// `max_samples`. `starts`, `ends`: one full state per motion.
+/// The options for a request's motions, and the number of samples of all motions. Throws Error for more samples than
+/// `limits` allows. `starts`, `ends`: one full state per motion.
 std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions::Request& request,
                                                               const RobotModel& robot, MotionRule default_rule,
                                                               const std::vector<double>& starts,
-                                                              const std::vector<double>& ends, std::size_t max_samples)
+                                                              const std::vector<double>& ends,
+                                                              const CheckServicesOptions& limits)
 {
+  const std::size_t max_samples = limits.max_states;
   MotionCheckerOptions options;
+  options.max_checks = limits.max_motion_checks;
   options.rule = request.motion_rule.empty() ? default_rule : motionRuleFromName(request.motion_rule);
   options.steps = {request.resolution, request.translation_resolution};
   validateSteps(options.steps);
@@ -80,13 +88,23 @@ std::string beyondLimits(const RobotModel& robot, const std::vector<double>& sta
   const std::size_t width = robot.variables().size();
   const std::vector<VariableRange> ranges = limitRanges(robot);
   for (std::size_t row = 0; row < states.size(); row += width)
-    for (const VariableRange& range : ranges)
-      if (const double value = states[row + static_cast<std::size_t>(range.variable)];
-          value < range.lower || value > range.upper)
-        return "motion " + std::to_string(row / width) + ": " +
-               robot.variables()[static_cast<std::size_t>(range.variable)].name + " is " + std::to_string(value) +
-               ", beyond its limits; the motion rule \"bound\" proves no motion there";
+    if (const ValuesOutsideLimits outside = valuesOutside(ranges, robot, &states[row]); outside.count() != 0)
+      return "motion " + std::to_string(row / width) + ": " + outside.text() +
+             "; the motion rule \"bound\" proves no motion there";
   return "";
+}
+
+/// A warning if the limit of checks left motions undecided; otherwise empty.
+std::string givenUp(const std::vector<MotionVerdict>& motions, std::size_t max_checks)
+{
+  const auto is_given_up = [](const MotionVerdict& motion) { return motion.given_up; };
+  const auto first = std::find_if(motions.begin(), motions.end(), is_given_up);
+  if (first == motions.end())
+    return "";
+  const auto count = std::count_if(first, motions.end(), is_given_up);
+  return std::to_string(count) + " of " + std::to_string(motions.size()) + " motions are not proven free, because " +
+         std::to_string(max_checks) + " checks (limits/motion_checks) did not suffice; the first is motion " +
+         std::to_string(first - motions.begin()) + "; send fewer or shorter motions in one request";
 }
 
 std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
@@ -198,7 +216,6 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
             [this](std::size_t count) { server_.requireStateCount(count); });
         job.states = std::move(rows.values);
         job.group = request.group;
-        job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
         if (const auto outside =
                 findValueOutsideLimits(robot, job.columns, job.states.data(), job.states.size() / job.columns.size()))
         {
@@ -206,6 +223,7 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
           static OccasionalWarning warning;
           warning.log("check_states: " + response.message);
         }
+        job.matrix = requestedMatrix(request.allowed_collision_matrix, robot, store_.limits(), response.message);
         addWarning(now.assumedBase(job.columns), response.message);
         job.keep_states = request.max_contacts != 0 || request.clearance;
         const bool inspects = job.keep_states;
@@ -326,7 +344,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         validateStates(robot, starts.data(), count);
         validateStates(robot, ends.data(), count);
         std::tie(job.motions, job.samples) =
-            requestedMotions(request, robot, options_.motion_rule, starts, ends, options_.max_states);
+            requestedMotions(request, robot, options_.motion_rule, starts, ends, options_);
         const MotionRule motion_rule = job.motions->rule;
         const std::string assumed_base = now.assumedBase(job.columns);
         // The full states above serve to count the samples. For the check, the variables that the request does not name
@@ -334,13 +352,15 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         job.states = request.starts;
         job.states.insert(job.states.end(), request.ends.begin(), request.ends.end());
         job.group = request.group;
-        job.matrix = requestedMatrix(request.allowed_collision_matrix, store_.limits());
+        std::string matrix_warning;
+        job.matrix = requestedMatrix(request.allowed_collision_matrix, robot, store_.limits(), matrix_warning);
         const CheckAnswer answer = answerOf(std::move(job));
         for (const MotionVerdict& verdict : answer.motions)
         {
           response.valid.push_back(verdict.valid ? 1 : 0);
           response.last_valid_fraction.push_back(verdict.last_valid);
           response.first_invalid_fraction.push_back(verdict.first_invalid);
+          response.given_up.push_back(verdict.given_up ? 1 : 0);
           const bool collides = verdict.colliding != kNoPair;
           response.body_1.push_back(collides ? answer.scene->bodyName(verdict.colliding[0]) : "");
           response.body_2.push_back(collides ? answer.scene->bodyName(verdict.colliding[1]) : "");
@@ -351,6 +371,8 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
           if (response.message.empty())
             response.message = beyondLimits(robot, ends);
         }
+        addWarning(givenUp(answer.motions, options_.max_motion_checks), response.message);
+        addWarning(matrix_warning, response.message);
         addWarning(assumed_base, response.message);
         response.states_checked = answer.states_checked;
         response.scene_revision = answer.result.revision;

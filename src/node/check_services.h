@@ -16,6 +16,7 @@ namespace gpu_planning_scene::core
 struct CheckServicesOptions
 {
   std::size_t max_states = 1000000;            ///< samples of all motions of one request
+  std::size_t max_motion_checks = 10000000;    ///< state checks for all motions of one request
   std::size_t max_inspected_states = 10000;    ///< states of one request with contacts or clearance
   std::size_t max_contacts = 100000;           ///< in one response
   std::size_t max_waiting_inspections = 64;    ///< queued requests for contacts or clearance

@@ -167,6 +167,7 @@ ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own)
   ServiceOptions options;
   options.tf_timeout = lengthParameter(own, "tf_timeout", options.tf_timeout);
   options.full_scene_period = positiveParameter(own, "full_scene_period", options.full_scene_period);
+  options.max_motion_checks = countParameter(own, "limits/motion_checks", options.max_motion_checks, 1, kNoLimit);
   options.max_inspected_states =
       countParameter(own, "limits/inspected_states", options.max_inspected_states, 0, kNoLimit);
   options.max_contacts = countParameter(own, "limits/contacts", options.max_contacts, 1, kNoLimit);

@@ -40,6 +40,7 @@ struct ServiceOptions
 {
   double tf_timeout = 0.5;                   ///< seconds: ~tf_timeout
   double full_scene_period = 10.0;           ///< seconds: ~full_scene_period
+  std::size_t max_motion_checks = 10000000;  ///< for the motions of one request: ~limits/motion_checks
   std::size_t max_inspected_states = 10000;  ///< of one request, for contacts and clearance: ~limits/inspected_states
   std::size_t max_contacts = 100000;         ///< in one response: ~limits/contacts
   std::size_t max_memory = 0;                ///< bytes; 0: 80 % of the machine's memory: ~limits/memory

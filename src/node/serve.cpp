@@ -60,8 +60,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   std::atomic<bool> stopping{false};
   const FrameLookup lookup(planning_frame, options.tf_timeout, [&stopping] { return stopping || !ros::ok(); });
   CheckServices checks(store, server, memory,
-                       {server_options.max_states, options.max_inspected_states, options.max_contacts,
-                        server_options.max_waiting_requests, plan_options.motions.rule});
+                       {server_options.max_states, options.max_motion_checks, options.max_inspected_states,
+                        options.max_contacts, server_options.max_waiting_requests, plan_options.motions.rule});
   PathPublisher paths(own, options.marker_rate, options.marker_triangles);
   PlanService plans(own, store, make_checker, memory, paths, plan_options);
   const SceneStore::Lookup look_up = [&lookup](const StampedFrame& frame) { return lookup(frame, lookup.deadline()); };

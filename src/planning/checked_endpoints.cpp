@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "collision/bounds/reach.h"
+#include "collision/problem/state_validation.h"
+#include "model/joint_limits.h"
 
 namespace gpu_planning_scene::core
 {
@@ -33,27 +35,26 @@ bool hasRange(const RobotModel& robot, int variable)
 
 Fault outOfBounds(const RobotModel& robot, const GroupStateSpace& space, const double* row)
 {
+  ValuesOutsideLimits outside(robot);
   for (const int variable : space.variables())
   {
     const Variable& limits = robot.variables()[static_cast<std::size_t>(variable)];
-    const double value = row[variable];
-    if (hasRange(robot, variable) && (value < limits.lower || value > limits.upper))
-      return {PlanningStatus::OutOfBounds, "out of bounds: " + limits.name + " is " + std::to_string(value) +
-                                               ", outside of " + std::to_string(limits.lower) + " to " +
-                                               std::to_string(limits.upper)};
+    if (hasRange(robot, variable) && (row[variable] < limits.lower || row[variable] > limits.upper))
+      outside.add(variable, row[variable]);
   }
-  return {};
+  if (outside.count() == 0)
+    return {};
+  return {PlanningStatus::OutOfBounds, "out of bounds: " + outside.text()};
 }
 
 /// A joint beyond its limits makes every proof of a motion impossible, even if it is not planned for.
 Fault outsideOfProof(const RobotModel& robot, const double* row)
 {
-  for (const VariableRange& range : limitRanges(robot))
-    if (const double value = row[range.variable]; value < range.lower || value > range.upper)
-      return {PlanningStatus::OutOfBounds,
-              "out of bounds: " + robot.variables()[static_cast<std::size_t>(range.variable)].name + " is " +
-                  std::to_string(value) + ", beyond its limits; the motion rule \"bound\" proves no motion there"};
-  return {};
+  const ValuesOutsideLimits outside = valuesOutside(limitRanges(robot), robot, row);
+  if (outside.count() == 0)
+    return {};
+  return {PlanningStatus::OutOfBounds,
+          "out of bounds: " + outside.text() + "; the motion rule \"bound\" proves no motion there"};
 }
 
 /// The row of the start, then the rows of the goals. Variables that are not planned for have their values of the start.

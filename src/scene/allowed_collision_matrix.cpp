@@ -118,16 +118,16 @@ AllowedCollisionMatrix::Row AllowedCollisionMatrix::row(const std::string& body)
 
 bool AllowedCollisionMatrix::Row::allowed(const Row& other) const
 {
-  const std::optional<bool> first = body_ != nullptr ? body_->default_allowed : std::nullopt;
-  const std::optional<bool> second = other.body_ != nullptr ? other.body_->default_allowed : std::nullopt;
+  const std::optional<bool> none;
+  const std::optional<bool>& first = body_ != nullptr ? body_->default_allowed : none;
+  const std::optional<bool>& second = other.body_ != nullptr ? other.body_->default_allowed : none;
   if (body_ != nullptr && other.body_ != nullptr)
   {
     const auto entry = body_->entries.find(*other.name_);
     if (entry != body_->entries.end())
       return entry->second;
   }
-  if (first && second)
-    return *first && *second;
-  return first ? *first : second && *second;
+  // Each default that there is must allow the pair, and there must be one.
+  return (first || second) && first.value_or(true) && second.value_or(true);
 }
 }  // namespace gpu_planning_scene::core

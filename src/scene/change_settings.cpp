@@ -2,6 +2,8 @@
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
+#include "scene/matrix_entries.h"
+#include "scene/newly_allowed.h"
 #include "scene/scene_changer.h"
 
 // Names, fixed frames, the allowed collision matrix, padding, scale, colours.
@@ -50,6 +52,8 @@ void SceneChanger::changeMatrix(const SceneChange& change)
     count_.requireMatrix(*change.matrix);
     scene.allowed_collisions = *change.matrix;
     scene.matrix_source = MatrixSource::SceneFile;
+    if (const std::string warning = warningOfDefaultsAlone(*scene.robot, scene.allowed_collisions); !warning.empty())
+      result_.warnings.push_back(warning);
   }
   else if (!change.is_diff)
   {
@@ -57,6 +61,23 @@ void SceneChanger::changeMatrix(const SceneChange& change)
     scene.allowed_collisions = fresh.allowed_collisions;
     scene.matrix_source = fresh.matrix_source;
   }
+  keeps_matrix_ = true;
+}
+
+/// Warns of a full scene without a matrix: the matrix of the previous scene may have checked more pairs. A matrix that
+/// the change names is meant as it is.
+void SceneChanger::warnOfMatrixReset(const SceneChange& change, const AllowedCollisionMatrix& before)
+{
+  if (change.is_diff || change.matrix)
+    return;
+  const NewlyAllowed found = findNewlyAllowed(result_.scene, before);
+  if (found.pairs == 0)
+    return;
+  const std::string pair = "'" + found.body_1 + "' and '" + found.body_2 + "'";
+  result_.warnings.push_back(
+      (found.pairs == 1 ? pair + " are no longer checked against each other"
+                        : std::to_string(found.pairs) + " pairs of bodies are no longer checked, for example " + pair) +
+      ": the scene is not a diff and has no allowed_collision_matrix, so the robot's own matrix applies again");
 }
 
 /// Warns of links that a full scene does not name and that therefore become smaller: fewer states collide.

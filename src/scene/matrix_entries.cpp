@@ -11,4 +11,14 @@ std::vector<std::string> removeEntriesOfObject(AllowedCollisionMatrix& matrix, c
                        "', whose default in the matrix allows it");
   return warnings;
 }
+
+std::string warningOfDefaultsAlone(const RobotModel& robot, const AllowedCollisionMatrix& matrix)
+{
+  if (matrix.bodies().empty() || !matrix.bodiesWithEntries().empty() ||
+      AllowedCollisionMatrix::fromRobot(robot).bodiesWithEntries().empty())
+    return "";
+  return std::string("allowed_collision_matrix: it has only default entries, so the pairs that ") +
+         (robot.srdfCollisions().has_srdf ? "the SRDF allows" : "are adjacent") +
+         " are checked too (as in MoveIt); give entry_names and entry_values for them";
+}
 }  // namespace gpu_planning_scene::core

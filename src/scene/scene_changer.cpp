@@ -43,6 +43,9 @@ SceneChanger::SceneChanger(const PlanningScene& scene, const std::vector<double>
 Change SceneChanger::make(const SceneChange& change)
 {
   has_new_matrix_ = change.matrix.has_value();
+  keeps_matrix_ = change.is_diff && !has_new_matrix_;
+  const AllowedCollisionMatrix matrix_before =
+      keeps_matrix_ ? AllowedCollisionMatrix() : result_.scene.allowed_collisions;
   changeNames(change);
   if (!change.is_diff)
     clearWorld();
@@ -58,6 +61,7 @@ Change SceneChanger::make(const SceneChange& change)
   attached_.close();
   count_.requireTriangles(result_.scene);
   count_.requireFramesAndColors(result_.scene);
+  warnOfMatrixReset(change, matrix_before);
   result_.scene.current_state = result_.state;
   return std::move(result_);
 }
@@ -110,6 +114,8 @@ void SceneChanger::require(const ObjectChange& change)
 void SceneChanger::forget(const std::string& id)
 {
   result_.scene.colors.erase(id);
+  if (!keeps_matrix_)
+    return;
   for (std::string& warning : removeEntriesOfObject(result_.scene.allowed_collisions, id))
     result_.warnings.push_back(std::move(warning));
 }

@@ -31,6 +31,7 @@ class SceneChanger
   void changeNames(const SceneChange& change);
   void changeFixedFrames(const SceneChange& change);
   void changeMatrix(const SceneChange& change);
+  void warnOfMatrixReset(const SceneChange& change, const AllowedCollisionMatrix& before);
   void changePadding(const SceneChange& change);
   void warnOfReset(const char* what, const std::vector<double>& before, const std::vector<double>& after,
                    const std::map<std::string, double>& named);
@@ -67,7 +68,8 @@ class SceneChanger
   /// Throws Error if a pose, name or shape of the change cannot be used.
   void require(const ObjectChange& change);
   void requirePose(const Eigen::Isometry3d& pose, const std::string& where) const;
-  /// Removes the colour and the allowed collisions of an object that is gone.
+  /// Removes the colour and the allowed collisions of an object that is gone. A matrix that the change will replace
+  /// stays as it is.
   void forget(const std::string& id);
   /// Warns if earlier changes allow the new object to touch other bodies, because these pairs are not checked.
   void warnOfAllowedCollisions(const std::string& id);
@@ -89,6 +91,7 @@ class SceneChanger
   const SceneDefaults& defaults_;
   Lookup lookup_;
   bool has_new_matrix_ = false;          // this change sets the matrix
+  bool keeps_matrix_ = false;            // the matrix of the scene is the one that the change will leave
   std::set<std::string> attached_here_;  // ids of objects that this change attached
   std::set<const Mesh*> valid_meshes_;   // meshes of this change that were found valid
 };

@@ -2,6 +2,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/one_line.h"
+#include "scene/matrix_entries.h"
 #include "scene/scene_reader.h"
 #include "scene/scene_text_file.h"
 
@@ -64,7 +65,11 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
   if (const YamlValue* matrix = file.find("allowed_collision_matrix"))
   {
     if (readMatrix(*matrix, reader, scene.allowed_collisions))
+    {
       scene.matrix_source = MatrixSource::SceneFile;
+      if (const std::string warning = warningOfDefaultsAlone(*robot, scene.allowed_collisions); !warning.empty())
+        reader.warn(matrix->where() + ": " + warning);
+    }
     else
       reader.warn(matrix->where() + ": the allowed_collision_matrix is empty; the robot's own is kept");
   }

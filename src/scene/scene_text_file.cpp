@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
 
 #include "gpu_planning_scene/error.h"
+#include "model/open_file.h"
 #include "scene/message_values.h"
 #include "scene/shape_order.h"
 #include "scene/text_tokens.h"
@@ -16,6 +16,10 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+const char* const kOtherFormats =
+    "; a file whose name ends in .scene has the text format of RViz's MotionPlanning plugin, without comments; give a "
+    "YAML file another ending";
+
 class SceneTextReader
 {
  public:
@@ -29,11 +33,15 @@ class SceneTextReader
     scene_.name = tokens_.restOfLine();
     for (;;)
     {
-      const std::string marker = tokens_.word("'*' (an object) or '.' (the end)");
+      // Any text may be the name in the first line. So the line after it shows whether this is the format at all.
+      const std::string where = scene_.objects.empty() ? " after the scene's name in the first line" : "";
+      const std::string expected = "'*' (an object) or '.' (the end)" + where;
+      const std::string marker = tokens_.word(expected.c_str());
       if (marker == ".")
         return;
       if (marker != "*")
-        tokens_.fail("expected '*' (an object) or '.' (the end), found '" + marker.substr(0, 40) + "'");
+        tokens_.fail("expected " + expected + ", found '" + marker.substr(0, 40) + "'" +
+                     (where.empty() ? "" : kOtherFormats));
       scene_.objects.push_back(readObject());
     }
   }
@@ -168,6 +176,8 @@ class SceneTextReader
 PlanningScene readSceneText(const std::string& text, const std::string& file, std::shared_ptr<const RobotModel> robot,
                             const SceneDefaults& defaults)
 {
+  if (text.find_first_not_of(" \t\r\n\v\f") == std::string::npos)
+    throw Error(file + ": the file is empty; the shortest scene is a line with a name and a line with '.'");
   PlanningScene scene(std::move(robot), defaults);
   SceneTextReader(text, file, scene, defaults.object_padding).read();
   return scene;
@@ -176,10 +186,7 @@ PlanningScene readSceneText(const std::string& text, const std::string& file, st
 PlanningScene loadSceneTextFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                                 const SceneDefaults& defaults)
 {
-  std::error_code unreadable;
-  std::ifstream file(path, std::ios::binary);
-  if (!file.is_open() || std::filesystem::is_directory(path, unreadable))
-    throw Error("cannot read scene file '" + path + "'");
+  std::ifstream file = openFile(path);
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   return readSceneText(text, path, std::move(robot), defaults);
 }

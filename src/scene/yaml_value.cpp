@@ -11,6 +11,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/open_file.h"
+#include "scene/nearest_key.h"
 #include "scene/parse_number.h"
 
 namespace gpu_planning_scene::core
@@ -258,7 +259,10 @@ void YamlValue::warnOfUnknownKeys(std::initializer_list<const char*> known, std:
 {
   for (const auto& member : members())
     if (warnings && std::find(known.begin(), known.end(), member.first) == known.end())
+    {
+      const std::string nearest = nearestKey(member.first, known);
       warnings->push_back(*file_ + ":" + std::to_string(member.second.key_line_) + ": unknown key '" + member.first +
-                          "' is not used");
+                          "' is not used" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+    }
 }
 }  // namespace gpu_planning_scene::core

@@ -46,7 +46,7 @@ class YamlValue
   std::vector<double> numbers(std::size_t count) const;
 
   /// Adds a line to `warnings` (may be null) for each member whose key is not in `known`. The line has the place of the
-  /// key.
+  /// key, and the known key that is similar, if there is one.
   void warnOfUnknownKeys(std::initializer_list<const char*> known, std::vector<std::string>* warnings) const;
 
  private:

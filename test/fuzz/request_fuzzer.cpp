@@ -92,7 +92,7 @@ class Handlers
           store_,
           [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
           fewStates()),
-      checks_(store_, server_, memory_, {kMaxStates, 10}),
+      checks_(store_, server_, memory_, {kMaxStates, 100 * kMaxStates, 10}),
       scenes_(store_, frameOfTf, memory_),
       clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
   {

@@ -37,6 +37,13 @@ TEST_F(JointLimits, TheFirstValueOutsideThemIsNamedAndTheOthersAreCounted)
   EXPECT_EQ(found->text, "joint 'lift' is 2.5, outside its limits -1 to 2; 2 more values are outside the limits");
 }
 
+TEST_F(JointLimits, AValueHardlyOutsideThemHasEnoughDigits)
+{
+  ValuesOutsideLimits outside(*robot);
+  outside.add(robot->variableIndex("lift"), 2.0 + 1e-7);
+  EXPECT_EQ(outside.text(), "joint 'lift' is 2.0000000999999998, outside its limits -1 to 2");
+}
+
 TEST_F(JointLimits, DegreesAreSuggestedForAnglesThatTheyWouldFit)
 {
   EXPECT_EQ(find({90.0, 0.0})->text,
@@ -44,6 +51,17 @@ TEST_F(JointLimits, DegreesAreSuggestedForAnglesThatTheyWouldFit)
   EXPECT_EQ(find({2.5, 0.0})->text, "joint 'arm' is 2.5, outside its limits -1 to 2 rad") << "hardly degrees";
   EXPECT_EQ(find({-300.0, 0.0})->text, "joint 'arm' is -300, outside its limits -1 to 2 rad");
   EXPECT_EQ(find({0.0, 90.0})->text, "joint 'lift' is 90, outside its limits -1 to 2");
+}
+
+TEST_F(JointLimits, DegreesAreSuggestedAlsoIfTheFirstValueIsSmall)
+{
+  EXPECT_EQ(
+      find({5.0, 0.0, 90.0, 0.0})->text,
+      "joint 'arm' is 5, outside its limits -1 to 2 rad; values are in radians, and joint 'arm' is 90: 90 degrees "
+      "are 1.5708 rad; 1 more value is outside the limits");
+  EXPECT_EQ(find({0.0, 3.0, 90.0, 0.0})->text,
+            "joint 'lift' is 3, outside its limits -1 to 2; values are in radians, and joint 'arm' is 90: 90 degrees "
+            "are 1.5708 rad; 1 more value is outside the limits");
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -198,6 +198,8 @@ TEST(SrdfStates, HaveTheValuesOfTheirGroupsJoints)
   EXPECT_EQ(errorOf([&] { robot->namedState("home"); }),
             "the SRDF has no state 'home'; its states: arm/ready, grip/open");
   EXPECT_EQ(errorOf([] { robotOf(armUrdf())->namedState("home"); }),
+            "there is no state 'home', because the robot has no SRDF, which names states");
+  EXPECT_EQ(errorOf([] { robotOf(armUrdf(), kGroups)->namedState("home"); }),
             "the SRDF has no state 'home'; it names no states");
 }
 

@@ -98,6 +98,17 @@ TEST_F(Parameters, ExceededLimitsAreNamed)
   EXPECT_FALSE(long_name.success);
   EXPECT_NE(std::string::npos, long_name.message.find("limits/name_length")) << long_name.message;
 
+  CheckMotions::Request motion;
+  motion.joint_names = {"slide", "turn"};
+  motion.starts = {-1.0, 0.0};
+  motion.ends = {1.0, 0.0};
+  motion.resolution = motion.translation_resolution = 0.1;
+  const auto given_up = call<CheckMotions>("check_motions", motion);
+  EXPECT_TRUE(given_up.success);
+  EXPECT_EQ((std::vector<std::uint8_t>{0}), given_up.valid);
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), given_up.given_up);
+  EXPECT_NE(std::string::npos, given_up.message.find("limits/motion_checks")) << given_up.message;
+
   PlanningSceneMessage four = diffScene();
   for (const char* id : {"a", "b", "c", "d"})
     four.world.collision_objects.push_back(boxObject(id, farAway(), 0.02));

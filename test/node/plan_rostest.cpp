@@ -215,10 +215,10 @@ TEST_F(Planning, SaysWhatIsOutOfBounds)
 {
   PlanMotion::Request wanted = request();
   wanted.start = {-2.5, 0.0};
-  expectStatus(wanted, Response::OUT_OF_BOUNDS, "the start is out of bounds: slide is -2.5");
+  expectStatus(wanted, Response::OUT_OF_BOUNDS, "the start is out of bounds: joint 'slide' is -2.5");
   wanted = request();
   wanted.goals = {1.0, 3.5};
-  expectStatus(wanted, Response::OUT_OF_BOUNDS, "the goal is out of bounds: turn is 3.5");
+  expectStatus(wanted, Response::OUT_OF_BOUNDS, "the goal is out of bounds: joint 'turn' is 3.5");
 }
 
 TEST_F(Planning, TellsAnApproximateSolutionFromASolution)

@@ -75,7 +75,7 @@ class Service : public testing::Test
                      { return std::make_shared<CpuChecker>(std::move(scene)); },
                      {}};
   MemoryGuard memory{0};
-  CheckServices services{store, server, memory, {1000, 10}};
+  CheckServices services{store, server, memory, {1000, 1000000, 10}};
 };
 
 TEST_F(Service, AnswersEachStateInOrder)
@@ -90,6 +90,18 @@ TEST_F(Service, AnswersEachStateInOrder)
   EXPECT_EQ("cartwall",
             std::min(response.body_1[1], response.body_2[1]) + std::max(response.body_1[1], response.body_2[1]));
   EXPECT_EQ(5u, response.scene_revision);
+}
+
+TEST_F(Service, WarnsInTheLogOfJointStatesThatMayBeDegrees)
+{
+  SceneServices changes(store, nullptr, memory);
+  testing::internal::CaptureStderr();
+  changes.take(jointState({"slide", "turn"}, {2.5, 90.0}));
+  const std::string log = testing::internal::GetCapturedStderr();
+  EXPECT_NE(std::string::npos,
+            log.find("joint_states: joint 'slide' is 2.5, outside its limits -2 to 2; values are in radians, and joint "
+                     "'turn' is 90: 90 degrees are 1.5708 rad; 1 more value is outside the limits"))
+      << log;
 }
 
 TEST_F(Service, OtherVariablesTakeTheCurrentState)
@@ -130,7 +142,7 @@ class WaitingService : public Service
                            [this](std::shared_ptr<const PlanningScene> scene)
                            { return std::make_shared<GatedChecker>(std::move(scene), gate); },
                            {}};
-  CheckServices gated{store, gated_server, memory, {1000, 10}};
+  CheckServices gated{store, gated_server, memory, {1000, 1000000, 10}};
 };
 
 TEST_F(WaitingService, VariablesThatARequestLeavesOutAreThoseOfTheRevisionThatItNames)
@@ -171,7 +183,7 @@ class WaitingInspections : public WaitingService
     answers.push_back(std::async(std::launch::async, [this, asked] { return bounded.checkStates(asked); }));
   }
 
-  CheckServices bounded{store, gated_server, memory, {1000, 10, 10, 1}};
+  CheckServices bounded{store, gated_server, memory, {1000, 1000000, 10, 10, 1}};
   std::vector<std::future<CheckStates::Response>> answers;
 };
 
@@ -251,7 +263,9 @@ TEST_F(Service, WrongRequestsAreRefusedWithTheReason)
   expectRefusal(request({}, {1.0}), "joint_names is empty");
   expectRefusal(request({"turn", "slide"}, {0.0, 0.0, 0.0}), "3 positions are not rows of 2");
   expectRefusal(request({"turn", "slid"}, {0.0, 0.0}), "no variable 'slid'");
-  expectRefusal(request({"turn", "flag"}, {0.0, 0.0}), "'flag' follows another");
+  expectRefusal(request({"turn", "flag"}, {0.0, 0.0}),
+                "joint 'flag' mimics joint 'turn', from which its value follows; leave it out; the robot's variables "
+                "are slide, turn");
   expectRefusal(request({"turn", "turn"}, {0.0, 0.0}), "'turn' is given twice");
   expectRefusal(request({"turn", "slide"}, {0.0, 0.0, kNan, 0.0}), "state 1: the position of 'turn'");
   expectRefusal(request({"turn", "slide"}, {0.0, kInfinity}), "state 0: the position of 'slide'");
@@ -300,7 +314,7 @@ TEST_F(Service, AMatrixOfARequestHasNoMoreEntriesThanTheLimit)
   for (AllowedCollisionEntry& row : asked.allowed_collision_matrix.entry_values)
     row.enabled = {0, 0};
   EXPECT_TRUE(answer(asked).success);
-  const std::string message = CheckServices(strict, server, memory, {1000, 10}).checkStates(asked).message;
+  const std::string message = CheckServices(strict, server, memory, {1000, 1000000, 10}).checkStates(asked).message;
   EXPECT_NE(std::string::npos, message.find("limits/matrix_entries")) << message;
 }
 
@@ -344,7 +358,7 @@ TEST_F(Service, NoMoreStatesAreInspectedThanTheLimit)
 
 TEST_F(Service, MoreContactsThanTheLimitAreRefusedAndNotCutOff)
 {
-  CheckServices bounded(store, server, memory, {1000, 10, 2});
+  CheckServices bounded(store, server, memory, {1000, 1000000, 10, 2});
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0, 0.0, 1.0, 0.0, 1.0});
   asked.max_contacts = 1;
   const CheckStates::Response refused = bounded.checkStates(asked);
@@ -403,7 +417,9 @@ TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)
   const CheckMotions::Response beyond = services.checkMotions(asked);
   EXPECT_TRUE(beyond.success);
   EXPECT_EQ(0, beyond.valid.at(0));
-  EXPECT_NE(std::string::npos, beyond.message.find("motion 0: slide is 7.000000, beyond its limits")) << beyond.message;
+  EXPECT_NE(std::string::npos,
+            beyond.message.find("motion 0: joint 'slide' is 7, outside its limits -2 to 2; the motion rule"))
+      << beyond.message;
   asked.ends[0] = 0.5;
   asked.motion_rule = "sample";
   EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("must be samples or bound"));
@@ -416,12 +432,46 @@ TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)
   EXPECT_NE(std::string::npos, message.find("more than 1000 samples")) << message;
 }
 
+TEST_F(Service, MotionsThatNeedTooManyChecksAreNotFreeAndMarked)
+{
+  CheckServices few{store, server, memory, {1000, 8, 10}};
+  CheckMotions::Request asked;
+  asked.joint_names = {"slide", "turn"};
+  asked.starts = {-1.0, 0.0, 0.0, 0.0};
+  asked.ends = {-1.0, 0.0, 0.7999, 0.0};  // the second ends 0.1 mm before the wall
+  asked.resolution = 0.3;
+  asked.translation_resolution = 0.3;
+  const CheckMotions::Response all = services.checkMotions(asked);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), all.valid) << all.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), all.given_up);
+  EXPECT_GT(all.states_checked, 8u);
+  EXPECT_EQ("", all.message);
+  const CheckMotions::Response response = few.checkMotions(asked);
+  EXPECT_TRUE(response.success);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid);
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 1}), response.given_up);
+  ASSERT_EQ(2u, response.last_valid_fraction.size());
+  EXPECT_LT(response.last_valid_fraction[1], 1.0);
+  EXPECT_EQ(8u, response.states_checked);
+  EXPECT_EQ("", response.body_1.at(1));
+  EXPECT_EQ(
+      "1 of 2 motions are not proven free, because 8 checks (limits/motion_checks) did not suffice; the first is "
+      "motion "
+      "1; send fewer or shorter motions in one request",
+      response.message);
+}
+
 TEST_F(Service, AMatrixOfARequestReplacesTheScenes)
 {
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0});
   asked.allowed_collision_matrix.default_entry_names = {"wall"};
   asked.allowed_collision_matrix.default_entry_values = {1};
-  EXPECT_EQ((std::vector<std::uint8_t>{1}), answer(asked).valid);
+  const CheckStates::Response response = answer(asked);
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), response.valid);
+  EXPECT_EQ(
+      "allowed_collision_matrix: it has only default entries, so the pairs that the SRDF allows are checked too (as in "
+      "MoveIt); give entry_names and entry_values for them",
+      response.message);
 }
 
 TEST_F(Service, ValuesOutsideTheLimitsAreCheckedWithAWarning)
@@ -525,7 +575,7 @@ class UnknownBase : public testing::Test
                      { return std::make_shared<CpuChecker>(std::move(scene)); },
                      {}};
   MemoryGuard memory{0};
-  CheckServices services{store, server, memory, {1000, 10}};
+  CheckServices services{store, server, memory, {1000, 1000000, 10}};
 };
 
 TEST_F(UnknownBase, IsAssumedAtTheOriginAndEachAnswerSaysSo)

@@ -1,4 +1,5 @@
 """The Debian packages that the scripts install match the rosdep keys of package.xml."""
+import re
 import unittest
 import xml.etree.ElementTree
 
@@ -11,7 +12,36 @@ def listed():
     return [line.split(maxsplit=2) for line in lines if line and not line.startswith("#")]
 
 
+# The Debian packages of ROS commands.
+COMMANDS = {
+    "rosbag": "python3-rosbag",
+    "roslaunch": "python3-roslaunch",
+    "rosnode": "python3-rosnode",
+    "rosparam": "python3-rosparam",
+    "rosrun": "rosbash",
+    "rosservice": "python3-rosservice",
+    "rostopic": "python3-rostopic",
+}
+
+
+def ros_commands():
+    """The ROS commands that the documents print, in the form (file, command)."""
+    files = [ROOT / "README.md", *(ROOT / "docs").glob("*.md"), ROOT / "config" / "scene.rviz"]
+    for path in files + list((ROOT / "launch").iterdir()):
+        # In a document, a command is an indented line. In the other files, it is an indented line of a comment.
+        for command in re.findall(r"^#?\s+(ros[a-z]+) ", path.read_text(encoding="utf-8"), flags=re.MULTILINE):
+            yield path.name, command
+
+
 class Dependencies(unittest.TestCase):
+    def test_each_ros_command_of_the_documents_is_in_a_listed_package(self):
+        packages = {fields[0] for fields in listed()}
+        found = list(ros_commands())
+        self.assertIn(("node.md", "rosservice"), found)
+        self.assertIn(("scene.rviz", "roslaunch"), found)
+        for file, command in found:
+            self.assertIn(COMMANDS[command], packages, f"{file} prints a command with {command}")
+
     def test_each_package_has_a_key_and_a_reason(self):
         for fields in listed():
             self.assertEqual(len(fields), 3, fields)

@@ -33,6 +33,13 @@ class Sliders(unittest.TestCase):
         self.assertEqual(2.0, made["elbow"])
         self.assertEqual(0.5, made["base/y"])
 
+    def test_say_so_if_the_state_of_the_scene_is_outside_the_limits(self):
+        made = {slider.name: slider.warning() for slider in sliders({"elbow": 90.0, "base/y": 0.5})}
+        self.assertEqual(
+            "elbow of the scene is 90, outside the range of its slider, -1 to 2; the slider starts at 2", made.pop("elbow")
+        )
+        self.assertEqual({""}, set(made.values()))
+
     def test_give_the_values_with_which_they_started(self):
         half = math.sqrt(0.5)
         start = {"elbow": 0.25, "base/x": 0.5, "body/trans_z": 0.75}

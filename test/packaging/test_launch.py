@@ -1,5 +1,7 @@
 """The launch file: what it clears, and the commands that it runs for a robot's description."""
+import os
 import unittest
+import unittest.mock
 
 from repository import ROOT
 
@@ -8,16 +10,20 @@ try:
 except ImportError:
     roslaunch = None
 
-LAUNCH_FILE = str(ROOT / "launch" / "planning_scene.launch")
+LAUNCH_FILES = ROOT / "launch"
 
 
 @unittest.skipUnless(roslaunch, "needs roslaunch")
 class LaunchFile(unittest.TestCase):
-    def load(self, *arguments):
+    def load(self, *arguments, file="planning_scene.launch"):
+        path = str(LAUNCH_FILES / file)
         config = roslaunch.config.ROSLaunchConfig()
-        loader = roslaunch.xmlloader.XmlLoader()
-        loader.load(LAUNCH_FILE, config, argv=[LAUNCH_FILE, *arguments], verbose=False)
+        with unittest.mock.patch.dict(os.environ, ROS_PACKAGE_PATH=str(ROOT)):
+            roslaunch.xmlloader.XmlLoader().load(path, config, argv=[path, *arguments], verbose=False)
         return config
+
+    def arguments_of_show_scene(self, config):
+        return [node.args for node in config.nodes if node.type == "show_scene.py"]
 
     def test_clears_the_parameters_of_an_earlier_launch(self):
         self.assertEqual(self.load("name:=checker").clear_params, ["/checker/"])
@@ -35,6 +41,21 @@ class LaunchFile(unittest.TestCase):
         config = self.load()
         self.assertNotIn("/robot_description", config.params)
         self.assertNotIn("/robot_description_semantic", config.params)
+
+    def test_rviz_is_started_with_the_node_or_for_a_node_that_runs_already(self):
+        self.assertEqual([], self.arguments_of_show_scene(self.load()))
+        expected = ["--node checker --up=0,1,0"]
+        arguments = ["name:=checker", "up:=0,1,0"]
+        self.assertEqual(expected, self.arguments_of_show_scene(self.load("rviz:=true", *arguments)))
+        self.assertEqual(expected, self.arguments_of_show_scene(self.load(*arguments, file="show_scene.launch")))
+
+    def test_the_live_demo_has_sliders_unless_they_are_off(self):
+        def programs(*arguments):
+            return {node.type for node in self.load(*arguments, file="live_demo.launch").nodes}
+
+        self.assertEqual({"planning_scene_node", "show_scene.py", "joint_sliders.py"}, programs())
+        self.assertEqual({"planning_scene_node"}, programs("sliders:=false", "rviz:=false"))
+        self.assertIn("joint_state_publisher_gui", programs("joint_state_publisher_gui:=true"))
 
 
 if __name__ == "__main__":

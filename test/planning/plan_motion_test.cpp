@@ -169,10 +169,10 @@ TEST(PlanMotion, SaysWhatIsOutOfBounds)
 {
   const PlanningResult start = plan<BatchRrtConnect>({}, query({-2.5, 0.0}, {{0.0, 0.0}}));
   EXPECT_EQ(start.status, PlanningStatus::OutOfBounds);
-  EXPECT_EQ(start.message.find("the start is out of bounds: x is -2.5"), 0U) << start.message;
+  EXPECT_EQ(start.message.find("the start is out of bounds: joint 'x' is -2.5"), 0U) << start.message;
   const PlanningResult goal = plan<BatchRrtConnect>({}, query({0.0, 0.0}, {{0.0, 2.5}}));
   EXPECT_EQ(goal.status, PlanningStatus::OutOfBounds);
-  EXPECT_EQ(goal.message.find("the goal is out of bounds: y is 2.5"), 0U) << goal.message;
+  EXPECT_EQ(goal.message.find("the goal is out of bounds: joint 'y' is 2.5"), 0U) << goal.message;
 }
 
 /// The stop may come during planning, simplification or the final check of the path.
@@ -287,7 +287,25 @@ TEST_F(Turning, IsRefusedWhereAnotherJointIsBeyondItsLimits)
   EXPECT_EQ(plan(0.0, 1.0).status, PlanningStatus::Solved);
   const PlanningResult beyond = plan(0.0, 1.0, 1.5);
   EXPECT_EQ(beyond.status, PlanningStatus::OutOfBounds);
-  EXPECT_EQ(beyond.message.find("the start is out of bounds: lift is 1.5"), 0U) << beyond.message;
+  EXPECT_EQ(beyond.message.find("the start is out of bounds: joint 'lift' is 1.5"), 0U) << beyond.message;
+}
+
+TEST(PlanMotion, SuggestsDegreesForAGoalThatTheyWouldFit)
+{
+  const auto robot =
+      robotOf(std::string("<link name='base'/><link name='a'/><link name='b'/>") +
+                  jointXml("pan", "revolute", "base", "a", "<limit lower='-1' upper='1' effort='1' velocity='1'/>") +
+                  jointXml("tilt", "revolute", "a", "b", "<limit lower='-2' upper='2' effort='1' velocity='1'/>"),
+              "<group name='all'><joint name='pan'/><joint name='tilt'/></group>");
+  const auto scene = std::make_shared<const PlanningScene>(robot);
+  PlanningQuery wanted = query({0.0, 0.0}, {{10.0, 90.0}});
+  wanted.group = "all";
+  const PlanningResult goal =
+      planMotion(scene, std::make_shared<CpuChecker>(scene), wanted, Factory<BatchRrtConnect>());
+  EXPECT_EQ(goal.status, PlanningStatus::OutOfBounds);
+  EXPECT_EQ(goal.message,
+            "the goal is out of bounds: joint 'pan' is 10, outside its limits -1 to 1 rad; values are in radians, and "
+            "joint 'tilt' is 90: 90 degrees are 1.5708 rad; 1 more value is outside the limits");
 }
 
 /// A body that moves in the plane, and a body that floats.
@@ -316,8 +334,8 @@ TEST_P(Moving, IsToldWhichTranslationIsOutOfBounds)
 {
   const PlanningResult goal = plan(at(0.0, 0.0), at(1.5, 0.0));  // the default bound of unlimited translations is 1 m
   EXPECT_EQ(goal.status, PlanningStatus::OutOfBounds);
-  EXPECT_EQ(goal.message.find("the goal is out of bounds: move/"), 0U) << goal.message;
-  EXPECT_NE(goal.message.find("x is 1.5"), std::string::npos) << goal.message;
+  EXPECT_EQ(goal.message.find("the goal is out of bounds: joint 'move/"), 0U) << goal.message;
+  EXPECT_NE(goal.message.find("x' is 1.5"), std::string::npos) << goal.message;
   EXPECT_EQ(plan(at(-1.5, 0.0), at(0.0, 0.0)).status, PlanningStatus::OutOfBounds);
 }
 

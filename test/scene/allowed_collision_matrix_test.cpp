@@ -166,5 +166,139 @@ TEST_F(AllowedObject, IsWarnedOfWhenItsRemovalEndsAProhibition)
   EXPECT_TRUE(isAllowed());
   EXPECT_TRUE(warned("the matrix entry that forbids contact with 'cart'"));
 }
+
+/// Full scenes. The SRDF allows the collision of cart and pole, and of 'nut' with everything.
+class MatrixOfAFullScene : public SceneChanges
+{
+ protected:
+  MatrixOfAFullScene()
+  {
+    std::string urdf = sliderUrdf();
+    const std::string nut = "<link name=\"nut\"/>";
+    urdf.replace(urdf.find(nut), nut.size(),
+                 "<link name='nut'><collision><geometry><sphere radius='0.01'/></geometry></collision></link>");
+    std::string srdf = sliderSrdf();
+    srdf.insert(srdf.find("</robot>"), "<disable_default_collisions link=\"nut\"/>");
+    scene_ = PlanningScene(RobotModel::fromXml(urdf, srdf, {}));
+    robots_ = AllowedCollisionMatrix::fromRobot(*scene_.robot);
+    change(objectChange(Operation::Add, "can", {boxAt(0.1)}));
+    change(objectChange(Operation::Add, "mug", {boxAt(0.1)}));
+  }
+
+  void setMatrix(const AllowedCollisionMatrix& matrix)
+  {
+    SceneChange diff;
+    diff.is_diff = true;
+    diff.matrix = matrix;
+    apply(diff);
+  }
+
+  /// A full scene with these objects, and with the matrix, if there is one.
+  void replaceScene(const std::vector<std::string>& ids, const std::optional<AllowedCollisionMatrix>& matrix)
+  {
+    SceneChange full;
+    full.matrix = matrix;
+    for (const std::string& id : ids)
+      full.objects.push_back(objectChange(Operation::Add, id, {boxAt(0.1)}));
+    apply(full);
+  }
+
+  AllowedCollisionMatrix robots_;  // the robot's own matrix
+};
+
+TEST_F(MatrixOfAFullScene, WithoutOneAPairThatTheRobotsOwnMatrixAllowsIsNamed)
+{
+  AllowedCollisionMatrix checks_all;
+  checks_all.setEntry("cart", "pole", false);
+  setMatrix(checks_all);
+  replaceScene({}, std::nullopt);
+  ASSERT_EQ(1u, warnings_.size());
+  EXPECT_TRUE(warned("3 pairs of bodies are no longer checked, for example 'cart' and 'nut'")) << warnings_[0];
+  EXPECT_TRUE(warned("has no allowed_collision_matrix, so the robot's own matrix applies again")) << warnings_[0];
+  setMatrix(checks_all);
+  replaceScene({"can", "mug", "new"}, std::nullopt);
+  EXPECT_TRUE(warned("6 pairs of bodies")) << "the nut and each object: " << warnings_.at(0);
+}
+
+TEST_F(MatrixOfAFullScene, WithoutOneAnAttachedObjectCountsExceptWithItsOwnLinks)
+{
+  setMatrix(AllowedCollisionMatrix());
+  AttachedChange cup = attachedChange(Operation::Add, "cup", "pole", {boxAt(0.1)});
+  SceneChange full;
+  full.state.is_diff = false;
+  full.state.attached = {cup};
+  apply(full);
+  EXPECT_TRUE(warned("4 pairs of bodies")) << warnings_.at(0);
+  setMatrix(AllowedCollisionMatrix());
+  full.state.attached[0].touch_links = {"nut"};
+  apply(full);
+  EXPECT_TRUE(warned("3 pairs of bodies")) << warnings_.at(0);
+}
+
+TEST_F(MatrixOfAFullScene, WithoutOneNothingIsSaidIfNoPairIsLost)
+{
+  AllowedCollisionMatrix more = robots_;
+  more.setEntry("can", "pole", true);
+  setMatrix(more);
+  replaceScene({"can"}, std::nullopt);
+  EXPECT_TRUE(warnings_.empty()) << warnings_[0] << ": more pairs are checked";
+  replaceScene({"can"}, std::nullopt);
+  EXPECT_TRUE(warnings_.empty()) << warnings_[0];
+}
+
+TEST_F(MatrixOfAFullScene, WithOneItIsMeantAsItIs)
+{
+  setMatrix(AllowedCollisionMatrix());
+  replaceScene({"can"}, robots_);
+  EXPECT_TRUE(warnings_.empty()) << warnings_[0];
+  AllowedCollisionMatrix without_links;
+  without_links.setEntry("can", "mug", true);
+  replaceScene({"can", "mug"}, without_links);
+  EXPECT_TRUE(warnings_.empty()) << warnings_[0] << ": pairs of links that it does not name are checked";
+  EXPECT_FALSE(scene_.allowed_collisions.allowed("cart", "pole"));
+}
+
+TEST_F(MatrixOfAFullScene, NothingIsSaidOfTheEntriesOfObjectsThatItReplaces)
+{
+  AllowedCollisionMatrix forbids;
+  forbids.setDefault("pole", true);
+  forbids.setEntry("pole", "can", false);
+  forbids.setEntry("pole", "cup", false);
+  const auto fill = [&]
+  {
+    setMatrix(forbids);
+    SceneChange diff;
+    diff.is_diff = true;
+    diff.state.attached = {attachedChange(Operation::Add, "cup", "cart", {boxAt(0.1)})};
+    diff.objects = {objectChange(Operation::Add, "can", {boxAt(0.1)})};
+    apply(diff);
+  };
+  fill();
+  replaceScene({}, robots_);
+  EXPECT_FALSE(warned("was removed together with the matrix entry")) << warnings_[0];
+  fill();
+  replaceScene({}, forbids);
+  EXPECT_FALSE(warned("was removed together with the matrix entry")) << warnings_[0];
+  EXPECT_FALSE(scene_.allowed_collisions.allowed("pole", "can")) << "the new matrix still forbids it";
+  fill();
+  change(objectChange(Operation::Remove, "can"));
+  EXPECT_TRUE(warned("'can' was removed together with the matrix entry")) << "a diff keeps the matrix";
+}
+
+TEST_F(MatrixOfAFullScene, OfDefaultsAloneReplacesTheRobotsEntriesWithAWarning)
+{
+  AllowedCollisionMatrix defaults;
+  defaults.setDefault("can", true);
+  replaceScene({"can"}, defaults);
+  ASSERT_EQ(1u, warnings_.size());
+  EXPECT_TRUE(
+      warned("allowed_collision_matrix: it has only default entries, so the pairs that the SRDF allows are checked too "
+             "(as in MoveIt)"));
+  EXPECT_FALSE(scene_.allowed_collisions.allowed("cart", "pole"));
+  EXPECT_TRUE(scene_.allowed_collisions.allowed("cart", "can"));
+  defaults.setEntry("cart", "pole", true);
+  replaceScene({"can"}, defaults);
+  EXPECT_TRUE(warnings_.empty()) << warnings_[0];
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

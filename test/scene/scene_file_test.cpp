@@ -217,11 +217,45 @@ TEST_F(SceneFile, AllowedCollisionsWithAnUnknownNameAreWarnings)
   EXPECT_TRUE(scene.allowed_collisions.allowed("can", "cart"));
 }
 
+TEST_F(SceneFile, AMatrixOfDefaultsAloneIsAWarning)
+{
+  const PlanningScene scene =
+      load("world: {}\nallowed_collision_matrix:\n  default_entry_names: [can]\n  default_entry_values: [true]\n");
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_TRUE(warned("scene.yaml:3: allowed_collision_matrix: it has only default entries, so the pairs that the SRDF"))
+      << warnings[0];
+  EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "pole"));
+}
+
 TEST_F(SceneFile, UnknownKeysAreNamedWithTheLineOfTheKey)
 {
   load("world:\n  collision_objects: []\nwrold:\n  collision_objects:\n    - {}\n");
   ASSERT_EQ(1u, warnings.size());
   EXPECT_TRUE(warned("scene.yaml:3: unknown key 'wrold'")) << warnings.at(0);
+}
+
+TEST_F(SceneFile, AnUnknownKeyNamesTheKnownKeyThatIsSimilar)
+{
+  const std::map<std::string, std::string> objects = {{"primitivs", "primitives"},
+                                                      {"Primitives", "primitives"},
+                                                      {"mehses", "meshes"},
+                                                      {"subframe_name", "subframe_names"},
+                                                      {"primitive_pose", "primitive_poses"},
+                                                      {"mesh_posses", "mesh_poses"},
+                                                      {"colour", ""},
+                                                      {"frame", ""}};
+  for (const auto& [key, meant] : objects)
+  {
+    load("world: {collision_objects: [{id: a, " + key + ": 0, primitives: [{type: sphere, dimensions: [1]}]}]}");
+    EXPECT_TRUE(warned(meant.empty() ? "unknown key '" + key + "' is not used"
+                                     : "unknown key '" + key + "' is not used; did you mean '" + meant + "'?"))
+        << warnings.at(0);
+    EXPECT_EQ(meant.empty(), warnings.at(0).find("did you mean") == std::string::npos) << warnings.at(0);
+  }
+  load("wrold: {}\nworld: {}");
+  EXPECT_TRUE(warned("scene.yaml:1: unknown key 'wrold' is not used; did you mean 'world'?"));
+  load("world: {}\n" + std::string(500, 'w') + ": 1");
+  EXPECT_FALSE(warned("did you mean"));
 }
 
 TEST_F(SceneFile, AnUnreadableFileAndAnEmptyFileAreToldApart)
@@ -548,6 +582,7 @@ TEST_F(SceneFile, UnknownKeysGiveWarnings)
   load("wrold: {}\nworld: {collision_objects: [{id: a, colour: red, primitives: [{type: sphere, dimensions: [1]}]}]}");
   EXPECT_TRUE(warned("scene.yaml:1: unknown key 'wrold'"));
   EXPECT_TRUE(warned("scene.yaml:2: unknown key 'colour'"));
+  EXPECT_FALSE(warned("did you mean 'id'"));
   load("robot_model_name: other\n");
   EXPECT_TRUE(warned("for robot 'other', the robot is 'slider'"));
 }

@@ -138,7 +138,7 @@ TEST_F(SceneText, ASceneMayBeEmpty)
 TEST_F(SceneText, FaultsAreSaidWithTheirLine)
 {
   const std::string sphere = "sphere\n1\n0 0 0\n0 0 0 1\n0 0 0 0\n";
-  refused("a\n", 2, "the file ends");
+  refused("a\n", 2, "the file ends where '*' (an object) or '.' (the end) after the scene's name in the first line");
   refused("a\n* b\n1\n" + sphere, 9, "the file ends");
   refused("a\n+ b\n.\n", 2, "expected '*'");
   refused("a\n*\n1\n" + sphere + ".\n", 3, "has no name");
@@ -159,6 +159,26 @@ TEST_F(SceneText, FaultsAreSaidWithTheirLine)
           "subframe 'tip' is given twice");
   EXPECT_NE(std::string::npos,
             errorOf([&] { loadSceneFile(folder_.path("b.scene"), sliderRobot(), {}, nullptr); }).find("cannot read"));
+}
+
+TEST_F(SceneText, AnEmptyFileIsSaidToBeEmpty)
+{
+  for (const char* text : {"", "\n", " \n\t\r\n"})
+  {
+    const std::string message = errorOf([&] { load(text); });
+    EXPECT_NE(std::string::npos, message.find("a.scene: the file is empty")) << message;
+  }
+}
+
+TEST_F(SceneText, AFileOfAnotherFormatSaysWhatIsExpected)
+{
+  const std::string expected = "expected '*' (an object) or '.' (the end) after the scene's name in the first line";
+  const std::string format = "has the text format of RViz's MotionPlanning plugin, without comments; give a YAML file";
+  for (const char* text : {"# a comment\n# another one\n", "name: a\nworld: {}\n", "* a\n0 0 0\n0 0 0 1\n"})
+  {
+    refused(text, 2, expected);
+    refused(text, 2, format);
+  }
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -324,7 +324,7 @@ TEST_F(CheckStates, AStateIsGivenByVariablesAndByNamesOfTheSrdf)
   expectError(check({"--state", "ready"}), 2,
               "--state: 'ready': the SRDF has no state 'ready'; its states: drive/left, drive/right, drive/in_wall");
   expectError(check({"--state", "joint1=1"}), 2,
-              "--state: 'joint1=1': the robot has no variable 'joint1'; its variables are slide, turn");
+              "--state: 'joint1=1': the robot has no variable 'joint1'; the robot's variables are slide, turn");
   expectError(check({"--state", "slide=x"}), 2, "--state: 'x' is not a finite number");
   EXPECT_NE(std::string::npos, check({"--state", "turn=90"}).err.find("warning: --state: joint 'turn' is 90, outside"));
 }
@@ -393,8 +393,9 @@ TEST_F(CheckStates, BadInputEndsWithOne)
   expectError(checkCsv(""), 1, "states.csv: the file is empty");
   expectError(checkCsv("slide,turn\n"), 1, "no states");
   expectError(checkCsv("0,0\n1,1\n"), 1, "states.csv:1: column 1: the first line must name the variables");
-  expectError(checkCsv("slide,trun\n0,0\n"), 1, "no variable 'trun'; its variables are slide, turn");
-  expectError(checkCsv("slide,turn,flag\n0,0,0\n"), 1, "joint 'flag' follows another");
+  expectError(checkCsv("slide,trun\n0,0\n"), 1, "no variable 'trun'; the robot's variables are slide, turn");
+  expectError(checkCsv("slide,turn,flag\n0,0,0\n"), 1,
+              "joint 'flag' mimics joint 'turn', from which its value follows; leave it out");
   expectError(checkCsv("slide,turn,bolt\n0,0,0\n"), 1, "joint 'bolt' is fixed");
   expectError(checkCsv("slide,turn,slide\n0,0,0\n"), 1, "'slide' is given twice");
   expectError(checkCsv("slide,turn\n0,0\n0\n"), 1, "states.csv:3: 1 values for 2 variables");

@@ -18,7 +18,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 // A robot that holds a joint at its limit may report a position slightly outside of it.
-constexpr double kLimitSlack = 1e-3;  // radians or metres
+constexpr double kBeyondLimit = 1e-3;  // radians or metres
 
 // Exceeds the exact checker's slack of 1e-9 m plus the rounding of kinematics in double within a kilometre, 1e-11 m.
 constexpr double kReachMargin = 1e-6;  // metres
@@ -195,7 +195,7 @@ std::vector<VariableRange> limitRanges(const RobotModel& robot)
       continue;
     const Variable& variable = robot.variables()[static_cast<std::size_t>(joint.first_variable)];
     if (variable.bounded)
-      ranges.push_back({joint.first_variable, variable.lower - kLimitSlack, variable.upper + kLimitSlack});
+      ranges.push_back({joint.first_variable, variable.lower - kBeyondLimit, variable.upper + kBeyondLimit});
   }
   return ranges;
 }
@@ -203,9 +203,9 @@ std::vector<VariableRange> limitRanges(const RobotModel& robot)
 Reach::Reach(const RobotModel& robot) : ranges_(limitRanges(robot))
 {
   for (const Variable& variable : robot.variables())
-    intervals_.push_back(variable.bounded
-                             ? std::make_optional(Interval{variable.lower - kLimitSlack, variable.upper + kLimitSlack})
-                             : std::nullopt);
+    intervals_.push_back(
+        variable.bounded ? std::make_optional(Interval{variable.lower - kBeyondLimit, variable.upper + kBeyondLimit})
+                         : std::nullopt);
   for (const Link& link : robot.links())
   {
     const Joint joint = link.parent_joint < 0 ? Joint() : robot.joints()[static_cast<std::size_t>(link.parent_joint)];

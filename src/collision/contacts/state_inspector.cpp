@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -244,23 +243,12 @@ std::vector<Clearance> StateInspector::clearances(const double* states, std::siz
   const RobotModel& robot = *impl_->scene->robot;
   validateStates(robot, states, count);
   std::vector<Clearance> found(count);
-  std::vector<std::exception_ptr> errors(count);
   parallelFor(count, 1,
               [&, poses = std::vector<Eigen::Isometry3d>(robot.links().size())](std::size_t i, std::size_t) mutable
               {
-                try
-                {
-                  robot.linkPoses(states + i * robot.variables().size(), poses.data());
-                  found[i] = inspected.clearance->find(poses.data());
-                }
-                catch (...)
-                {
-                  errors[i] = std::current_exception();
-                }
+                robot.linkPoses(states + i * robot.variables().size(), poses.data());
+                found[i] = inspected.clearance->find(poses.data());
               });
-  for (const std::exception_ptr& error : errors)
-    if (error)
-      std::rethrow_exception(error);
   return found;
 }
 }  // namespace gpu_planning_scene::core

@@ -9,19 +9,18 @@
 
 namespace gpu_planning_scene::core
 {
-namespace
+float uploadedMargin(double margin)
 {
-/// The bits of the smallest float that is not below `value`.
-std::uint32_t roundedUp(double value)
-{
-  auto rounded = static_cast<float>(value);
-  if (static_cast<double>(rounded) < value)
-    rounded = std::nextafter(rounded, std::numeric_limits<float>::infinity());
-  std::uint32_t bits;
-  std::memcpy(&bits, &rounded, sizeof(bits));
-  return bits;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  constexpr float kLeast = std::numeric_limits<float>::min();  // a device may read a smaller number as 0
+  // Written so that NaN is above the range of a float. A conversion of such a number would be undefined.
+  if (!(margin <= static_cast<double>(std::numeric_limits<float>::max())))
+    return kInfinity;
+  if (margin <= 0.0)
+    return 0.0F;
+  const auto rounded = static_cast<float>(margin);
+  return std::max(kLeast, static_cast<double>(rounded) < margin ? std::nextafter(rounded, kInfinity) : rounded);
 }
-}  // namespace
 
 void GpuMargins::setPairs(const CollisionProblem& problem)
 {
@@ -54,7 +53,12 @@ void GpuMargins::write(const Margins& margins, std::size_t begin, std::size_t co
   for (std::size_t i = begin; i < begin + count; ++i)
     words.push_back(margins.rows[i] - *first);
   for (std::size_t i = *first * margins.width; i < (*last + std::size_t{1}) * margins.width; ++i)
-    words.push_back(roundedUp(margins.values[i]));
+  {
+    const float margin = uploadedMargin(margins.values[i]);
+    std::uint32_t bits;
+    std::memcpy(&bits, &margin, sizeof(bits));
+    words.push_back(bits);
+  }
   TexelBuffer& upload = uploads_[next_upload_];
   next_upload_ = 1 - next_upload_;
   upload.reserve((words.size() + 3) / 4 * TexelBuffer::kTexelBytes);

@@ -71,6 +71,12 @@ void MotionBatch::add(const double* from, const double* to)
   motions_.push_back(std::move(motion));
 }
 
+std::size_t MotionBatch::nextBatch(std::size_t wanted)
+{
+  stopped_ = stopped_ || (stop_ && stop_());
+  return stopped_ ? 0 : std::min({wanted, batch_size_.size(), options_.max_checks - states_checked_});
+}
+
 template <class Visit>
 void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit)
 {
@@ -79,13 +85,15 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
   std::size_t count = 0;
   for (std::size_t begin = 0; begin < intervals.size(); begin += count)
   {
-    count = std::min(batch_size_.size(), intervals.size() - begin);
-    stopped_ = stopped_ || (stop_ && stop_());
-    if (stopped_)
+    count = nextBatch(intervals.size() - begin);
+    if (count == 0)
     {
-      for (std::size_t i = 0; i < count; ++i)
-        visit(intervals[begin + i], false, kNoPair);
-      continue;
+      for (std::size_t i = begin; i < intervals.size(); ++i)
+      {
+        motions_[intervals[i].motion].given_up = !stopped_;
+        visit(intervals[i], false, kNoPair);
+      }
+      return;
     }
     states.resize(count * width);
     JointNeighbourhood around;
@@ -202,9 +210,10 @@ std::vector<MotionVerdict> MotionBatch::verdicts() const
   verdicts.reserve(motions_.size());
   for (const Motion& motion : motions_)
     if (motion.valid)
-      verdicts.push_back({true, 1.0, 1.0, kNoPair});
+      verdicts.push_back({true, 1.0, 1.0, kNoPair, false});
     else
-      verdicts.push_back({false, last_valid_ ? motion.limit : 0.0, motion.first_invalid, motion.colliding});
+      verdicts.push_back(
+          {false, last_valid_ ? motion.limit : 0.0, motion.first_invalid, motion.colliding, motion.given_up});
   return verdicts;
 }
 }  // namespace gpu_planning_scene::core

@@ -57,6 +57,7 @@ class MotionBatch
     double limit = 1.0;               // the motion is not checked beyond this fraction any more
     double first_invalid = 1.0;
     bool valid = true;
+    bool given_up = false;  // the call had no checks left for it
     BodyPair colliding = kNoPair;
 
     /// Rejects the whole motion, because it needs too many samples or is outside the joints' limits.
@@ -87,9 +88,11 @@ class MotionBatch
   }
 
   /// Checks the middles of the intervals, with or without margins, and calls visit(interval, free, colliding pair) for
-  /// each. After the call has been stopped, `free` is false.
+  /// each. After the call has been stopped, or when it has no checks left, `free` is false.
   template <class Visit>
   void checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit);
+  /// The number of the next intervals to check at once; 0: the call is stopped or has no checks left.
+  std::size_t nextBatch(std::size_t wanted);
   std::vector<Interval> firstIntervals() const;
   std::vector<Interval> halves(const std::vector<Interval>& intervals);
 

@@ -55,4 +55,14 @@ void validateStates(const RobotModel& robot, const double* states, std::size_t c
                                                     ", because no joint can move by more than 1000 km"
                                               : "not a finite number"));
 }
+
+ValuesOutsideLimits valuesOutside(const std::vector<VariableRange>& ranges, const RobotModel& robot,
+                                  const double* state)
+{
+  ValuesOutsideLimits outside(robot);
+  for (const VariableRange& range : ranges)
+    if (const double value = state[range.variable]; value < range.lower || value > range.upper)
+      outside.add(range.variable, value);
+  return outside;
+}
 }  // namespace gpu_planning_scene::core

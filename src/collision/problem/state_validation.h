@@ -2,9 +2,12 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
+#include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/planning_scene.h"
 #include "gpu_planning_scene/state_checker.h"
+#include "model/joint_limits.h"
 
 namespace gpu_planning_scene::core
 {
@@ -17,4 +20,8 @@ void validateNeighbourhood(const RobotModel& robot, const JointNeighbourhood& ar
 /// Throws Error if one of `count` states (rows of the robot's variables) has a value that is not finite or exceeds
 /// Variable::largest in magnitude.
 void validateStates(const RobotModel& robot, const double* states, std::size_t count);
+
+/// The values of a state (a row of the robot's variables) that are outside of `ranges`, which are joint limits.
+ValuesOutsideLimits valuesOutside(const std::vector<VariableRange>& ranges, const RobotModel& robot,
+                                  const double* state);
 }  // namespace gpu_planning_scene::core

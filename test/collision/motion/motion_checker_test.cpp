@@ -96,6 +96,47 @@ TEST_F(PointMotions, AreRefusedWhereTheirSamplesDoNotProveThem)
   EXPECT_FALSE(verdict(checker(MotionRule::Bound, 0.05, 2000000), {0.0, 0.0}, {1.0, 0.0}).valid);
 }
 
+TEST_F(PointMotions, AreGivenUpWhenTheCallHasNoChecksLeft)
+{
+  // The first motion needs thousands of checks beside the wall; the second needs few.
+  scene_->objects = {wall(0.5, 0.1, 0.51001, 1.0)};
+  const std::vector<double> starts = {0.0, 0.0, 0.0, -1.0};
+  const std::vector<double> ends = {1.0, 0.0, 1.0, -1.0};
+  for (const MotionRule rule : {MotionRule::Bound, MotionRule::Samples})
+    for (const MotionQuery question : {MotionQuery::Valid, MotionQuery::LastValid})
+    {
+      MotionCheckerOptions options;
+      options.rule = rule;
+      options.steps = {0.05, 0.05};
+      const auto check = [&](std::size_t max_checks)
+      {
+        options.max_checks = max_checks;
+        const MotionChecker checker(std::make_shared<CpuChecker>(scene_), scene_->robot, "", options);
+        const auto verdicts = checker.check(starts.data(), ends.data(), 2, question);
+        EXPECT_LE(checker.statesChecked(), max_checks);
+        return std::pair(verdicts, checker.statesChecked());
+      };
+      const auto [all, needed] = check(1000000);
+      for (const MotionVerdict& verdict : all)
+      {
+        EXPECT_TRUE(verdict.valid);
+        EXPECT_FALSE(verdict.given_up);
+      }
+      EXPECT_TRUE(check(needed).first[0].valid) << "the limit itself is allowed";
+      for (std::size_t max_checks = 0; max_checks < needed; max_checks += 1 + needed / 50)
+      {
+        const std::vector<MotionVerdict> verdicts = check(max_checks).first;
+        EXPECT_TRUE(verdicts[0].given_up || verdicts[1].given_up) << max_checks;
+        for (const MotionVerdict& verdict : verdicts)
+        {
+          EXPECT_NE(verdict.given_up, verdict.valid) << max_checks;
+          EXPECT_EQ(verdict.colliding, kNoPair);
+          EXPECT_LE(verdict.last_valid, verdict.valid ? 1.0 : 0.999) << max_checks;
+        }
+      }
+    }
+}
+
 TEST_F(PointMotions, EndTheirLastValidPartBeforeTheFirstCollision)
 {
   scene_->objects = {wall(0.8, 0.1, 0.0, 1.0), wall(0.4, 0.1, 0.0, 1.0)};
