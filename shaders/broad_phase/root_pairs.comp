@@ -1,6 +1,6 @@
 // One invocation per candidate: computes the relative pose, tests the root boxes, and tests whether one shape is inside
 // the other one, a primitive. A candidate that remains becomes a root pair (traversal/root_pairs.glsl) and the node
-// pair with which its traversal begins. Lengths are in metres.
+// pair with which its traversal begins. Sources: traversal/bounding_volume_overlap.glsl. Lengths are in metres.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

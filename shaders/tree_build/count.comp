@@ -1,4 +1,5 @@
-// One invocation per CHUNK clusters: counts the clusters that remain after the round's merges, and the merges.
+// One invocation per CHUNK clusters: counts the clusters that remain after the round's merges (merge.glsl), and the
+// merges.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,5 +1,5 @@
-// Radix sort, step 1 of 3. One invocation per CHUNK keys counts their digits. The digit is that of the key, or of the
-// key's mesh.
+// Radix sort (sort_digit.glsl), step 1 of 3. One invocation per CHUNK keys counts their digits. The digit is that of
+// the key, or of the key's mesh.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

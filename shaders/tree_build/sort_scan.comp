@@ -1,4 +1,4 @@
-// Radix sort, step 2 of 3. One work group computes the exclusive prefix sums of the counts, in place.
+// Radix sort (sort_digit.glsl), step 2 of 3. One work group computes the exclusive prefix sums of the counts, in place.
 layout(local_size_x = 256) in;
 #include "common/invocation.glsl"
 layout(location = LOCATION_VALUE_COUNT) uniform uint value_count;

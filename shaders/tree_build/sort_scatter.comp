@@ -1,5 +1,5 @@
-// Radix sort, step 3 of 3. One invocation per CHUNK keys moves them to their places in order, so that the sort is
-// stable.
+// Radix sort (sort_digit.glsl), step 3 of 3. One invocation per CHUNK keys moves them to their places in order, so that
+// the sort is stable.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,5 +1,5 @@
 // One invocation per CHUNK clusters: writes the clusters that remain, packed and in order, and the pairs of children of
-// the merged clusters.
+// the merged clusters (merge.glsl).
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -41,7 +41,8 @@ void main()
       const Cluster a = unpackCluster(low, high);
       const Cluster b = unpackCluster(other_low, other_high);
       Cluster merged = Cluster(min(a.low, b.low), max(a.high, b.high), at.y, a.count + b.count, false);
-      // The surface area heuristic decides whether a few triangles form a leaf (MacDonald and Booth 1990).
+      // The surface area heuristic decides whether a few triangles form a leaf (J. D. MacDonald, K. S. Booth:
+      // Heuristics for ray tracing using space subdivision, 1990).
       const float area = halfArea(merged.high - merged.low);
       const float closed_cost = TRIANGLE_COST * float(merged.count) * area;
       const float opened_cost = area + uintBitsToFloat(info.y) + uintBitsToFloat(info_in[j].y);

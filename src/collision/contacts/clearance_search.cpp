@@ -10,8 +10,9 @@
 #include "collision/exact/cpu_traversal.h"
 #include "collision/exact/pair_clearance.h"
 
-// Best-first search with bounding boxes: a pair is tested only if its boxes may be nearer than the best clearance so
-// far.
+// Branch and bound with bounding boxes: a pair is tested only if its boxes may be nearer than the best clearance so
+// far. The nearer pairs come first. pair_clearance.cpp does the same within a pair (Larsen, Gottschalk, Lin and
+// Manocha, "Fast Distance Queries with Rectangular Swept Sphere Volumes", 2000).
 namespace gpu_planning_scene::core
 {
 namespace

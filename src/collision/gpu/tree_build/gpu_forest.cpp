@@ -7,7 +7,8 @@
 #include "shader_constants.h"
 
 // Three steps: a radix sort of the Morton codes within each mesh; BUILD_ROUNDS rounds of merging, in which each round
-// computes the size of the next round's dispatches; the layout, which goes through the rounds in reverse order.
+// computes the size of the next round's dispatches; the layout, which goes through the rounds in reverse order. The
+// header names the sources.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -6,7 +6,8 @@
 #include "shader_constants.h"
 
 // One invocation fits the box of a small node. Nodes with many triangles are listed, and a work group fits each of
-// them. Nodes of more than FIT_MAX_TRIANGLES triangles keep their axis-aligned box.
+// them. Nodes of more than FIT_MAX_TRIANGLES triangles keep their axis-aligned box. The axes are chosen as in
+// Gottschalk, Lin and Manocha, "OBBTree", 1996 (shaders/tree_build/fit.glsl).
 namespace gpu_planning_scene::core
 {
 namespace
