@@ -4,7 +4,7 @@
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
-#define WRITES_ITEMS
+#define WRITES_ROOT_PAIRS
 #include "traversal/root_pairs.glsl"
 #include "problem/nodes.glsl"
 #include "geometry/error_bounds.glsl"

@@ -2,7 +2,6 @@
 // SCAN_INVOCATIONS invocations. Each invocation sums a contiguous part. One invocation scans the sums of the parts in
 // shared memory. Then each invocation writes its part. All invocations must call scanInPlace, and each gets the sum of
 // all values. Source: G. E. Blelloch, "Prefix Sums and Their Applications", 1990.
-#define SCAN_INVOCATIONS 256
 
 shared SCAN_TYPE part_sums[SCAN_INVOCATIONS];
 shared SCAN_TYPE sum_of_parts;

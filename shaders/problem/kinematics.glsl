@@ -86,10 +86,10 @@ dmat3 quaternionRotation(dvec4 q)
 void placeShapes(uint state, uint link, DoublePose link_pose)
 {
   const dvec3 origin = dvec3(twoDoubles(texelFetch(link_shapes, 0)), twoDoubles(texelFetch(link_shapes, 1)).x);
-  const uvec4 range = texelFetch(link_shapes, int(2u + link));
+  const uvec4 range = texelFetch(link_shapes, int(LINK_SHAPES_HEADER + link));
   for (uint record = range.x; record < range.y; ++record)
   {
-    const int at = int(range.z + 7u * record);
+    const int at = int(range.z + LINK_SHAPE_TEXELS * record);
     dvec2 halves[6];
     for (int i = 0; i < 6; ++i)
       halves[i] = twoDoubles(texelFetch(link_shapes, at + i));
@@ -98,7 +98,7 @@ void placeShapes(uint state, uint link, DoublePose link_pose)
     const DoublePose placed = compose(link_pose, shape);
     const mat3 rotation = mat3(transpose(placed.rotation));
     const vec3 translation = vec3(placed.translation - origin);
-    const uint to = 3u * poseIndex(state, texelFetch(link_shapes, at + 6).x);
+    const uint to = POSE_TEXELS * poseIndex(state, texelFetch(link_shapes, at + LINK_SHAPE_TEXELS - 1).x);
     for (uint row = 0u; row < 3u; ++row)
       poses[to + row] = vec4(rotation[row], translation[row]);
   }

@@ -2,7 +2,7 @@
 // the next level and of the leaf list, and the indirect arguments for both. It sets COUNTER_OVERFLOW if a list is too
 // short, before anything is written to it.
 #include "shader_constants.h"
-layout(local_size_x = 256) in;
+layout(local_size_x = SCAN_INVOCATIONS) in;
 #include "common/counters.glsl"
 #include "common/indirect_arguments.glsl"
 layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;

@@ -4,7 +4,7 @@
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/merge.glsl"
-layout(std430, binding = 4) writeonly buffer Sums { uvec2 sums[]; };  // clusters that remain, merges
+layout(std430, binding = BINDING_SUMS) writeonly buffer Sums { uvec2 sums[]; };  // clusters that remain, merges
 
 void main()
 {

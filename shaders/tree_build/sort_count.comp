@@ -4,7 +4,7 @@
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/sort_digit.glsl"
-layout(std430, binding = 4) writeonly buffer Counts { uint counts[]; };  // [digit][invocation]
+layout(std430, binding = BINDING_COUNTS) writeonly buffer Counts { uint counts[]; };  // [digit][invocation]
 
 void main()
 {

@@ -4,8 +4,8 @@
 layout(location = LOCATION_KEY_COUNT) uniform uint key_count;
 layout(location = LOCATION_SHIFT) uniform uint shift;
 layout(location = LOCATION_BY_MESH) uniform uint by_mesh;  // 1: sort by the primitive's mesh instead of the key
-layout(std430, binding = 0) readonly buffer KeysIn { uvec2 keys_in[]; };
-layout(std430, binding = 1) readonly buffer MeshOf { uint mesh_of[]; };
+layout(std430, binding = BINDING_KEYS_IN) readonly buffer KeysIn { uvec2 keys_in[]; };
+layout(std430, binding = BINDING_MESH_OF) readonly buffer MeshOf { uint mesh_of[]; };
 
 uint digitOf(uvec2 key)
 {

@@ -4,8 +4,8 @@
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/sort_digit.glsl"
-layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
-layout(std430, binding = 5) writeonly buffer KeysOut { uvec2 keys_out[]; };
+layout(std430, binding = BINDING_COUNTS) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = BINDING_KEYS_OUT) writeonly buffer KeysOut { uvec2 keys_out[]; };
 
 void main()
 {

@@ -1,5 +1,4 @@
 #include "gpu_planning_scene/point_cloud.h"
-#include "collision/geometry/shape_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/forest_cache.h"
 #include "collision/geometry/primitive_solid.h"
+#include "collision/geometry/shape_bounds.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "scene/rigid_pose.h"

@@ -112,9 +112,9 @@ void CpuTraversal::place(std::uint32_t instance, const Isometry3d* link_poses, S
 {
   if (scratch.placed[instance] == 0)
   {
-    const ShapeInstance& geometry = problem_->robot[instance];
-    scratch.poses[instance] = link_poses[geometry.link] * geometry.pose;
-    scratch.bounds[instance] = boundsOf(forest_->tree(geometry.tree), scratch.poses[instance]);
+    const ShapeInstance& shape = problem_->robot[instance];
+    scratch.poses[instance] = link_poses[shape.link] * shape.pose;
+    scratch.bounds[instance] = boundsOf(forest_->tree(shape.tree), scratch.poses[instance]);
     scratch.placed[instance] = 1;
   }
 }
