@@ -11,6 +11,8 @@
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
 
+// Uploads a problem as flat arrays of records. The tree over the world's objects lies in depth-first order with skip
+// pointers, so that its traversal needs no stack (B. Smits: Efficiency Issues for Ray Tracing, 1998).
 namespace gpu_planning_scene::core
 {
 namespace
