@@ -78,7 +78,7 @@
 #define LINK_SHAPES_HEADER 2    // texels before the links, see problem/kinematics.glsl
 #define LINK_SHAPE_TEXELS 7     // of one shape of a link, see problem/kinematics.glsl
 #define CLUSTER_TEXELS 2        // see tree_build/cluster.glsl
-#define PAIR_TEXELS (2 * CLUSTER_TEXELS)  // the two clusters that the tree build has merged
+#define PAIR_TEXELS 4           // the two clusters that the tree build has merged
 #define BOUNDS_WORDS 6          // the bounds of a mesh, see tree_build/bounds.comp
 #define OUTCOME_TEXELS 2        // of one case of self_test/float_arithmetic.comp
 
