@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <functional>
 
+#include "command_line/command_line.h"
 #include "support/carrying_scene.h"
 #include "support/exactness.h"
 #include "support/near_contact.h"
-#include "tools/command_line.h"
 
 using namespace gpu_planning_scene::core;
 

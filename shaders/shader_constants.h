@@ -4,6 +4,10 @@
 
 // Invocations of a work group. Work groups of the work queues have QUEUE_INVOCATIONS instead.
 #define GROUP_SIZE 64
+// Work groups that OpenGL lets a dispatch have along x.
+#define MAX_GROUPS 65535
+// Invocations of the one work group that computes prefix sums (common/prefix_sum.glsl).
+#define SCAN_INVOCATIONS 256
 
 // --- Uniforms ------------------------------------------------------------------------------------------------------
 // The location of each uniform. No two of these uniforms share a location.
@@ -59,6 +63,25 @@
 #define LOCATION_BACKGROUND 49
 #define LOCATION_FLAT_COLOR 50
 
+// --- Sizes of records ----------------------------------------------------------------------------------------------
+// A texel has 16 bytes: one element of a buffer texture, or one vec4 or uvec4 of a storage buffer.
+#define POSE_TEXELS 3           // three rows of [rotation | translation], see geometry/pose.glsl
+#define POSE_FLOATS 12
+#define NODE_TEXELS 2           // see problem/nodes.glsl
+#define ORIENTED_NODE_TEXELS 3  // see traversal/bounding_volume_overlap.glsl
+#define TRIANGLE_TEXELS 3       // one for each corner, see problem/triangles.glsl
+#define TRIANGLE_FLOATS 9       // three for each corner, in the input of the tree build
+#define INSTANCE_TEXELS 3       // see problem/instances.glsl
+#define ROOT_PAIR_TEXELS 5      // see traversal/root_pairs.glsl
+#define OBJECT_NODE_TEXELS 2    // see broad_phase/world_pairs.comp
+#define HALF_SPACE_TEXELS 2     // see broad_phase/half_spaces.comp
+#define LINK_SHAPES_HEADER 2    // texels before the links, see problem/kinematics.glsl
+#define LINK_SHAPE_TEXELS 7     // of one shape of a link, see problem/kinematics.glsl
+#define CLUSTER_TEXELS 2        // see tree_build/cluster.glsl
+#define PAIR_TEXELS 4           // the two clusters that the tree build has merged
+#define BOUNDS_WORDS 6          // the bounds of a mesh, see tree_build/bounds.comp
+#define OUTCOME_TEXELS 2        // of one case of self_test/float_arithmetic.comp
+
 // --- Building trees ------------------------------------------------------------------------------------------------
 // A leaf of a tree holds at most this many triangles.
 #define LEAF_TRIANGLES 4
@@ -95,6 +118,38 @@
 #define ROUND_PAIR_GROUPS 8      // indirect arguments: one invocation per pair that the round made
 #define ROUND_PAIRS 11           // number of pairs that the round made
 
+// Bindings of the storage buffers of the tree build. OpenGL grants a shader eight of them, so buffers that no shader
+// binds together share a number. Keys, clusters and their information are read from one buffer (IN) and written to
+// another one (OUT).
+#define BINDING_VERTICES 0
+#define BINDING_MESH_OF 1  // the mesh of each primitive
+#define BINDING_BOXES 2
+#define BINDING_BOUNDS 5
+#define BINDING_KEYS_IN 0
+#define BINDING_KEYS_OUT 3
+#define BINDING_COUNTS 4
+#define BINDING_CLUSTERS_IN 0
+#define BINDING_CLUSTER_INFO_IN 1
+#define BINDING_ROUNDS 2
+#define BINDING_NEAREST 3
+#define BINDING_SUMS 4
+#define BINDING_CLUSTERS_OUT 5
+#define BINDING_CLUSTER_INFO_OUT 6
+#define BINDING_PAIRS 7
+#define BINDING_CLUSTERS_EVEN 0
+#define BINDING_CLUSTERS_ODD 1
+#define BINDING_FIRST_PRIMITIVE 3
+#define BINDING_PAIR_STARTS 4
+#define BINDING_NODES 5
+#define BINDING_LEAF_ORDER 6
+#define BINDING_TRIANGLES 1
+#define BINDING_ORIENTED_NODES 0
+#define BINDING_LARGE_NODES 1
+#define BINDING_LARGE_COUNT 2
+
+// --- Drawing -------------------------------------------------------------------------------------------------------
+#define UNIT_SHADOW_MAP 0  // unit of the shadow map's texture
+
 // --- Checking batches of states ------------------------------------------------------------------------------------
 // Units of the buffer textures.
 #define UNIT_NODES 0
@@ -105,8 +160,8 @@
 #define UNIT_ENTRIES 5
 #define UNIT_LEAF_PAIRS 6
 #define UNIT_CANDIDATES 7
-#define UNIT_INSTANCES 8     // three texels each, see problem/instances.glsl; the robot's first, then the world's
-#define UNIT_OBJECT_TREE 9   // two texels a node, see broad_phase/world_pairs.comp
+#define UNIT_INSTANCES 8     // the robot's first, then the world's
+#define UNIT_OBJECT_TREE 9   // see broad_phase/world_pairs.comp
 #define UNIT_WORLD_PAIRS 10  // bits [robot][world], 128 a texel
 #define UNIT_QUERIES 11     // see broad_phase/queries.glsl
 #define UNIT_SPHERES 12      // [robot][state]
@@ -191,9 +246,6 @@
 #define NO_PARTNER 0xffffu
 // Marks an inner node in the tree over the world's objects.
 #define NO_OBJECT 0xffffffffu
-
-// Number of texels of one root pair, see traversal/root_pairs.glsl.
-#define ROOT_PAIR_TEXELS 5
 
 // Places of the counters (uints). Each list has a count. Its indirect arguments are written before each dispatch over
 // it.

@@ -18,10 +18,10 @@
 #include "benchmark/settings.h"
 #include "benchmark/state_kinds.h"
 #include "benchmark/statistics.h"
+#include "command_line/command_line.h"
 #include "gpu/egl_context.h"
 #include "model/real_robots.h"
 #include "support/test_scenes.h"
-#include "tools/command_line.h"
 
 using namespace gpu_planning_scene::core;
 using namespace gpu_planning_scene::core::benchmark;

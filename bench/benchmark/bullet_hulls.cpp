@@ -21,8 +21,8 @@ class BulletHulls : public PairwisePeer
   {
     for (const Shape& shape : problem->shapes)
       shapes_.push_back(bulletShape(shape, HullPoints::Corners));
-    for (const ShapeInstance& geometry : problem->world)
-      world_.push_back(placed(geometry, geometry.pose));
+    for (const ShapeInstance& instance : problem->world)
+      world_.push_back(placed(instance, instance.pose));
   }
 
   std::unique_ptr<Peer> copy() const override { return std::make_unique<BulletHulls>(*this); }
@@ -39,8 +39,8 @@ class BulletHulls : public PairwisePeer
   void place(const Eigen::Isometry3d* link_poses) override
   {
     robot_.clear();
-    for (const ShapeInstance& geometry : problem().robot)
-      robot_.push_back(placed(geometry, link_poses[geometry.link] * geometry.pose));
+    for (const ShapeInstance& instance : problem().robot)
+      robot_.push_back(placed(instance, link_poses[instance.link] * instance.pose));
   }
   bool collidesWithWorld(std::size_t robot, std::size_t world, double required) override
   {
@@ -51,9 +51,9 @@ class BulletHulls : public PairwisePeer
     return meet(robot_[first], robot_[second], 0);
   }
 
-  Placed placed(const ShapeInstance& geometry, const Eigen::Isometry3d& pose) const
+  Placed placed(const ShapeInstance& instance, const Eigen::Isometry3d& pose) const
   {
-    Placed result{shapes_[geometry.tree].get(), bulletPose(pose), {}, {}};
+    Placed result{shapes_[instance.tree].get(), bulletPose(pose), {}, {}};
     result.shape->getAabb(result.pose, result.lower, result.upper);
     return result;
   }

@@ -1,7 +1,8 @@
 #include "benchmark/geometric_error.h"
-#include "collision/bounds/problem_maker.h"
 
 #include <algorithm>
+
+#include "collision/bounds/problem_maker.h"
 
 namespace gpu_planning_scene::core::benchmark
 {
@@ -69,8 +70,8 @@ class Separation
   static std::size_t linkOf(const CollisionProblem& problem, const BodyPair& pair)
   {
     const auto moved = std::find_if(problem.robot.begin(), problem.robot.end(),
-                                    [&](const ShapeInstance& geometry)
-                                    { return geometry.body == pair[0] || geometry.body == pair[1]; });
+                                    [&](const ShapeInstance& instance)
+                                    { return instance.body == pair[0] || instance.body == pair[1]; });
     return static_cast<std::size_t>(moved->link);
   }
 

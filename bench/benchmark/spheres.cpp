@@ -75,21 +75,21 @@ class Spheres : public PairwisePeer
     std::vector<bool> made_of_balls;
     for (const Shape& shape : problem->shapes)
       made_of_balls.push_back(std::holds_alternative<std::shared_ptr<const Mesh>>(shape));
-    for (const ShapeInstance& geometry : problem->robot)
-      made_of_balls[geometry.tree] = true;
+    for (const ShapeInstance& instance : problem->robot)
+      made_of_balls[instance.tree] = true;
     for (std::size_t i = 0; i < problem->tessellations.size(); ++i)
     {
       const Mesh& mesh = *problem->tessellations[i].mesh;
       fitted->push_back({boundingBall(mesh), made_of_balls[i] ? fitBalls(mesh, count) : std::vector<Ball>()});
     }
     fitted_ = std::move(fitted);
-    for (const ShapeInstance& geometry : problem->robot)
-      robot_.push_back({&(*fitted_)[geometry.tree]});
-    for (const ShapeInstance& geometry : problem->world)
+    for (const ShapeInstance& instance : problem->robot)
+      robot_.push_back({&(*fitted_)[instance.tree]});
+    for (const ShapeInstance& instance : problem->world)
     {
-      Obstacle obstacle{&problem->shapes[geometry.tree], geometry.pose.inverse().cast<float>(), {}, {}};
-      const Fitted& fit = (*fitted_)[geometry.tree];
-      const Eigen::Isometry3f pose = geometry.pose.cast<float>();
+      Obstacle obstacle{&problem->shapes[instance.tree], instance.pose.inverse().cast<float>(), {}, {}};
+      const Fitted& fit = (*fitted_)[instance.tree];
+      const Eigen::Isometry3f pose = instance.pose.cast<float>();
       obstacle.bound = {pose * fit.bound.center, fit.bound.radius};
       if (std::holds_alternative<std::shared_ptr<const Mesh>>(*obstacle.shape))
         for (const Ball& ball : fit.balls)
@@ -122,8 +122,8 @@ class Spheres : public PairwisePeer
   {
     for (std::size_t i = 0; i < robot_.size(); ++i)
     {
-      const ShapeInstance& geometry = problem().robot[i];
-      robot_[i].pose = (link_poses[geometry.link] * geometry.pose).cast<float>();
+      const ShapeInstance& instance = problem().robot[i];
+      robot_[i].pose = (link_poses[instance.link] * instance.pose).cast<float>();
       robot_[i].bound = {robot_[i].pose * robot_[i].fit->bound.center, robot_[i].fit->bound.radius};
       robot_[i].placed = false;
     }

@@ -1,10 +1,11 @@
 #include "planning/fcl_checker.h"
-#include "collision/bounds/problem_maker.h"
 
 #include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "collision/bounds/problem_maker.h"
 
 namespace gpu_planning_scene::core::benchmark
 {

@@ -19,6 +19,7 @@
 
 #include "benchmark/csv_table.h"
 #include "benchmark/statistics.h"
+#include "command_line/command_line.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
@@ -27,7 +28,6 @@
 #include "gpu_planning_scene/planning/state_validity_checker.h"
 #include "planning/fcl_checker.h"
 #include "support/planning_problems.h"
-#include "tools/command_line.h"
 
 namespace gpu_planning_scene::core::benchmark
 {

@@ -24,7 +24,7 @@ std::uint32_t treeOf(const Shape& shape, CollisionProblem& problem)
   return static_cast<std::uint32_t>(problem.shapes.size() - 1);
 }
 
-BatchCheckerOptions engineOptions(const std::string& device, const std::string& shaders, Traversal traversal)
+BatchCheckerOptions gpuOptions(const std::string& device, const std::string& shaders, Traversal traversal)
 {
   BatchCheckerOptions options;
   options.device = device;
@@ -98,11 +98,11 @@ struct Ours::Impl
   GpuChecker work_queue;
   GpuChecker breadth_first;
 
-  static std::size_t append(GpuChecker& engine, const Part& part, std::vector<std::uint8_t>& answers)
+  static std::size_t append(GpuChecker& checker, const Part& part, std::vector<std::uint8_t>& answers)
   {
     BatchResult result;
-    engine.setProblem(part.problem);
-    engine.checkPoses(
+    checker.setProblem(part.problem);
+    checker.checkPoses(
         part.count, part.linkCount(), [&](std::size_t row, Eigen::Isometry3d* poses) { part.linkPoses(row, poses); },
         result);
     for (const std::uint8_t valid : result.valid)
@@ -125,8 +125,8 @@ struct Ours::Impl
 };
 
 Ours::Ours(const std::string& device, const std::string& shaders)
-  : impl_(new Impl{GpuChecker(engineOptions(device, shaders, Traversal::WorkQueue)),
-                   GpuChecker(engineOptions(device, shaders, Traversal::BreadthFirst))})
+  : impl_(new Impl{GpuChecker(gpuOptions(device, shaders, Traversal::WorkQueue)),
+                   GpuChecker(gpuOptions(device, shaders, Traversal::BreadthFirst))})
 {
 }
 

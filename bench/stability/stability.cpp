@@ -5,9 +5,9 @@
 #include <fstream>
 #include <iostream>
 
+#include "command_line/command_line.h"
 #include "model/seconds_since.h"
 #include "stability/judge.h"
-#include "tools/command_line.h"
 
 using namespace gpu_planning_scene::core;
 using namespace gpu_planning_scene::core::stability;

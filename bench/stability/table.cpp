@@ -33,6 +33,8 @@ void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& ro
   for (const Row& row : rows)
     cases += row.colliding + row.free + row.either;
   out << "# The stability table\n\n"
+      << "For people who want the numbers behind [stability.md](stability.md), which describes the methods and the "
+         "cases.\n\n"
       << cases << " cases, " << run.cases << " of most families, seed " << run.seed << ", on " << run.device << ".\n\n"
       << "A cell is *wrong answers: false \"free\" + false \"collision\"*; 0: no wrong answer; -: the method does not "
          "support\nthese cases.\n\n"

@@ -78,8 +78,8 @@ PlacedPairs placePairs(const TestScene& scene, const std::vector<double>& states
     placed.first.push_back(placed.pairs.size());
     robot.linkPoses(&states[row], link_poses.data());
     links.clear();
-    for (const ShapeInstance& geometry : problem.robot)
-      links.emplace_back(placed.forest, geometry.tree, link_poses[geometry.link] * geometry.pose);
+    for (const ShapeInstance& instance : problem.robot)
+      links.emplace_back(placed.forest, instance.tree, link_poses[instance.link] * instance.pose);
     for (std::size_t pair = 0; pair < problem.world_pairs.size(); ++pair)
       if (problem.world_pairs[pair] != 0)
         addPair(pair, links[pair / world.size()], world[pair % world.size()], placed.pairs);

@@ -10,8 +10,8 @@
 #include "benchmark/csv_table.h"
 #include "benchmark/state_kinds.h"
 #include "benchmark/statistics.h"
+#include "command_line/command_line.h"
 #include "gpu_planning_scene/cpu_checker.h"
-#include "tools/command_line.h"
 #include "volumes/methods.h"
 
 using namespace gpu_planning_scene::core;

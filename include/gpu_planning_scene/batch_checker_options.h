@@ -25,7 +25,7 @@ struct BatchCheckerOptions : CheckerOptions
   Traversal traversal = Traversal::WorkQueue;
   std::size_t max_batch = 16384;  ///< largest number of states sent to the GPU at once; larger requests are split
   /// The CPU checks batches of fewer states; 0: the GPU checks batches of every size. Unset: for each group, the
-  /// checker measures the batch size from which the GPU is faster.
+  /// checker measures at which batch size the GPU becomes faster.
   std::optional<std::size_t> cpu_below;
   std::string shader_folder;  ///< empty: the installed shaders, or those of the source tree (see shaderFolder())
 };
@@ -34,7 +34,7 @@ struct BatchCheckerOptions : CheckerOptions
 struct GpuWork
 {
   std::size_t states = 0;      ///< checked by the GPU
-  std::size_t candidates = 0;  ///< pairs of instances, counted per state, whose spheres or outer boxes overlap
+  std::size_t candidates = 0;  ///< pairs of instances whose spheres or outer boxes overlap; a pair counts in each state
   std::size_t root_pairs = 0;  ///< candidates whose root boxes overlap too: these are traversed
 };
 }  // namespace gpu_planning_scene::core

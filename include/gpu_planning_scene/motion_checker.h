@@ -33,8 +33,8 @@ struct MotionCheckerOptions
 {
   MotionRule rule = MotionRule::Bound;
   MotionSteps steps{0.02, 0.02};  ///< largest steps between samples, before any subdivision
-  /// Limit for each motion. A motion that has more samples than this is rejected. Under MotionRule::Bound, a motion is
-  /// also rejected if this many state checks do not prove it free. The checks of its samples count too.
+  /// Limit for each motion. A motion with more samples is rejected. Under MotionRule::Bound, a motion is also rejected
+  /// if this number of state checks does not prove it free. The checks of its samples count too.
   std::size_t max_samples = 20000;
   /// Limit for each call of MotionChecker::check: the number of state checks for all its motions. Motions that are not
   /// decided by then are not valid, and are given up.
@@ -44,9 +44,9 @@ struct MotionCheckerOptions
 struct MotionVerdict
 {
   bool valid = false;
-  /// Fraction of the motion (0 to 1) at the last free sample before the first collision. Under MotionRule::Bound: the
-  /// fraction up to which the motion is proven free. This fraction is at most that of the sample. 0 if the start
-  /// collides; 1 if the motion is valid.
+  /// Fraction of the motion, 0 to 1. Under MotionRule::Samples: at the last free sample before the first collision.
+  /// Under MotionRule::Bound: the fraction up to which the motion is proven free, which is never beyond that sample. 0
+  /// if the start collides; 1 if the motion is valid.
   double last_valid = 0.0;
   /// Fraction of the sample where the valid part ends: the sample collides, or the motion is not proven free around it.
   /// 1 if the motion is valid.

@@ -20,8 +20,8 @@ using PackageResolver = std::function<std::string(const std::string& package)>;
 /// A resolver for NAME -> DIR pairs and, after them, for the packages below the folders of ROS_PACKAGE_PATH. It needs
 /// no ROS, and finds packages as ROS does: a package is a folder with a package.xml, which has the package's name, and
 /// the first one on the path counts. The path is searched when a package is first needed. For an unknown package, the
-/// resolver throws Error. `remedy`: the end of its message, "or ...", where NAME stands for the package; it tells how
-/// the user of a program gives it a folder.
+/// resolver throws Error. `remedy` becomes the end of this message. It tells the user how to name the folder of a
+/// package; NAME in it is replaced by the name of the package.
 PackageResolver packageResolver(std::map<std::string, std::string> folders,
                                 std::string remedy = "give packageResolver the folder of NAME");
 

@@ -71,8 +71,8 @@ struct StateChange
   std::map<std::string, double> variables;  ///< by name of the variable
   std::vector<AttachedChange> attached;     ///< in order, after the variables are set
   /// True: links keep the objects that they carry. False: `attached` must use Add only, and it replaces all attached
-  /// objects. In a diff, it replaces them only if `variables` are given, and adds to them otherwise. A replaced object
-  /// that `attached` does not name is removed with a warning, and so are its entries in the allowed collision matrix.
+  /// objects; but in a diff without `variables`, it adds to the attached objects. A replaced object that `attached`
+  /// does not name is removed with a warning. Its entries in the allowed collision matrix are removed too.
   bool is_diff = true;
 };
 

@@ -1,6 +1,7 @@
 // One invocation per (state, robot instance): tests whether the shape reaches into one half-space of the world, and
-// reports the verdict. The lowest corner above the plane decides. A traversal of the shape's tree finds it. A
-// tessellation lies within its solid, so the slack is added to the gap. Lengths are in metres.
+// reports the verdict. The lowest corner above the plane decides. A traversal of the shape's tree finds it, with the
+// test of a box against a plane (Ericson 2005, "Real-Time Collision Detection", 5.2.3). A tessellation lies within its
+// solid, so the slack is added to the gap. Lengths are in metres.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -15,7 +16,7 @@ layout(location = LOCATION_HALF_SPACE_COUNT) uniform uint half_space_count;
 layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
 layout(location = LOCATION_HALF_SPACE) uniform uint half_space;
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
-// Two vec4 a half-space: the normal and the offset of its plane; its padding.
+// First texel of a half-space: the normal and the offset of its plane. Second texel: its padding.
 layout(std430, binding = BINDING_C) readonly buffer HalfSpaces { vec4 half_spaces[]; };
 // One bit per pair: [robot][half-space].
 layout(std430, binding = BINDING_D) readonly buffer HalfSpacePairs { uint half_space_pairs[]; };
@@ -69,8 +70,8 @@ void main()
     return;
   const Instance instance = fetchInstance(robot);
   const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
-  const vec4 plane = half_spaces[2u * half_space];
-  const float distance = instance.padding + half_spaces[2u * half_space + 1u].x + worldMargin(state, robot);
+  const vec4 plane = half_spaces[HALF_SPACE_TEXELS * half_space];
+  const float distance = instance.padding + half_spaces[HALF_SPACE_TEXELS * half_space + 1u].x + worldMargin(state, robot);
   const float error = planeError(pose, farCorner(fetchNode(instance.root).box), plane.w);
   const vec3 normal = plane.xyz * pose.rotation;
   precise const float offset = plane.w - dot(plane.xyz, pose.translation);

@@ -1,10 +1,10 @@
 // One invocation per candidate: computes the relative pose, tests the root boxes, and tests whether one shape is inside
 // the other one, a primitive. A candidate that remains becomes a root pair (traversal/root_pairs.glsl) and the node
-// pair with which its traversal begins. Lengths are in metres.
+// pair with which its traversal begins. Sources: traversal/bounding_volume_overlap.glsl. Lengths are in metres.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
-#define WRITES_ITEMS
+#define WRITES_ROOT_PAIRS
 #include "traversal/root_pairs.glsl"
 #include "problem/nodes.glsl"
 #include "geometry/error_bounds.glsl"

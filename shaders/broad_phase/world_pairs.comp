@@ -1,6 +1,6 @@
 // Broad phase against the world. One invocation per (state, query): finds the world instances near one robot instance.
 // It traverses the tree over the world instances with the bounding box of the robot instance. Overlapping boxes make a
-// candidate.
+// candidate. The tree has skip pointers instead of a stack (B. Smits: Efficiency Issues for Ray Tracing, 1998).
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -11,8 +11,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "broad_phase/placed_instance.glsl"
 #include "broad_phase/queries.glsl"
 layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
-// Two texels a node. First: the centre of its box, and the next node if the boxes are apart. Second: the half extents,
-// and the world instance or NO_OBJECT. If the boxes overlap, the next node is the next one in the list, so no stack is
+// First texel of a node: the centre of its box, and the next node if the boxes are apart. Second texel: the half
+// extents, and the world instance or NO_OBJECT. If the boxes overlap, the next node is the next one in the list, so no stack is
 // needed. The traversal ends behind the last node.
 layout(binding = UNIT_OBJECT_TREE) uniform usamplerBuffer object_tree;
 layout(binding = UNIT_WORLD_PAIRS) uniform usamplerBuffer world_pairs;
@@ -39,8 +39,8 @@ void main()
   uint at = 0u;
   for (uint steps = 0u; at < node_count && steps < INVOCATION_ITERATIONS / 2u; ++steps)
   {
-    const uvec4 head = texelFetch(object_tree, int(2u * at));
-    const uvec4 tail = texelFetch(object_tree, int(2u * at + 1u));
+    const uvec4 head = texelFetch(object_tree, int(OBJECT_NODE_TEXELS * at));
+    const uvec4 tail = texelFetch(object_tree, int(OBJECT_NODE_TEXELS * at + 1u));
     const bool apart = any(greaterThan(abs(uintBitsToFloat(head.xyz) - center), uintBitsToFloat(tail.xyz) + extent));
     // A loop instead of a branch: on llvmpipe, only the invocations that enter it pay for it.
     for (bool leaf = !apart && tail.w != NO_OBJECT && isChecked(robot, tail.w); leaf; leaf = false)

@@ -1,5 +1,5 @@
-// The place of an invocation in its dispatch. A dispatch of more than 65535 work groups is spread over y. Include this
-// file after the declaration of local_size_x.
+// The place of an invocation in its dispatch. A dispatch of more than MAX_GROUPS work groups is spread over y. Include
+// this file after the declaration of local_size_x.
 #include "shader_constants.h"
 
 uint groupIndex()

@@ -1,7 +1,7 @@
 // Exclusive prefix sums of SCAN_VALUES[0 .. count), an array of SCAN_TYPE, in place, by one work group of
 // SCAN_INVOCATIONS invocations. Each invocation sums a contiguous part. One invocation scans the sums of the parts in
-// shared memory. Then each invocation writes its part. All invocations must call scanInPlace, and each gets the sum of all values.
-#define SCAN_INVOCATIONS 256
+// shared memory. Then each invocation writes its part. All invocations must call scanInPlace, and each gets the sum of
+// all values. Source: G. E. Blelloch, "Prefix Sums and Their Applications", 1990.
 
 shared SCAN_TYPE part_sums[SCAN_INVOCATIONS];
 shared SCAN_TYPE sum_of_parts;

@@ -17,7 +17,7 @@ layout(location = LOCATION_GROUND) uniform vec4 ground;
 layout(location = LOCATION_BACKGROUND) uniform vec3 background;
 // With opacity above 0, all pixels have this colour, without light.
 layout(location = LOCATION_FLAT_COLOR) uniform vec4 flat_color;
-layout(binding = 0) uniform sampler2DShadow shadow_map;
+layout(binding = UNIT_SHADOW_MAP) uniform sampler2DShadow shadow_map;
 
 layout(location = 0) in vec3 place;        // metres, in the planning frame
 layout(location = 1) flat in vec3 facing;  // the triangle's normal, of unit length

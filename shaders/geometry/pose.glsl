@@ -13,7 +13,7 @@ Pose poseFromRows(vec4 x, vec4 y, vec4 z)
 
 Pose fetchPose(usamplerBuffer poses, uint index)
 {
-  const int at = int(3u * index);
+  const int at = int(POSE_TEXELS * index);
   return poseFromRows(uintBitsToFloat(texelFetch(poses, at)), uintBitsToFloat(texelFetch(poses, at + 1)),
                       uintBitsToFloat(texelFetch(poses, at + 2)));
 }

@@ -16,8 +16,8 @@ vec4 product(vec4 a, vec4 b)
   return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz));
 }
 
-// The quaternion of a rotation matrix (Shepperd 1978). It is computed from the largest of the
-// quaternion's four entries, so that no digits cancel.
+// The quaternion of a rotation matrix (Shepperd 1978, "Quaternion from Rotation Matrix"). It is computed from the
+// largest of the quaternion's four entries, so that no digits cancel.
 vec4 quaternionOf(mat3 m)
 {
   const vec4 squares = vec4(1.0 + m[0].x - m[1].y - m[2].z, 1.0 - m[0].x + m[1].y - m[2].z, 1.0 - m[0].x - m[1].y + m[2].z,

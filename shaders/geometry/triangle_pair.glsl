@@ -2,9 +2,9 @@
 // else STATE_UNDECIDED. In: the corners of a and b in one frame (metres). The shape of b was placed with its origin at
 // `origin_b`; the corners of b are off by at most `error` relative to the corners of a.
 // The test uses the six distances of corners to the plane of the other triangle, and the nine volumes that an edge of a
-// spans with an edge of b. Devillers and Guigue (2002) decide by their signs. A hit is an edge that pierces the other
-// triangle. The triangles are apart if one of eleven axes separates them: the two normals and the nine cross products
-// of edges.
+// spans with an edge of b. Devillers and Guigue ("Faster Triangle-Triangle Intersection Tests", 2002) decide by their
+// signs. A hit is an edge that pierces the other triangle. The triangles are apart if one of eleven axes separates
+// them: the two normals and the nine cross products of edges.
 // A sign counts only if the value exceeds its error bound. An axis need not be exact, but it counts only if all corners
 // lie on their sides of it (docs/error_bounds.md). Comparisons are written so that a NaN proves nothing.
 uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)

@@ -1,6 +1,7 @@
 // Tests whether a point is inside the solid that the closed components of a mesh bound. The signed crossings of a ray
-// along a coordinate axis add up to the winding number of the point, which is 0 outside. A ray that passes too near to
-// an edge, or begins too near to the surface, decides nothing.
+// along a coordinate axis add up to the winding number of the point, which is 0 outside (Jacobson, Kavan and
+// Sorkine-Hornung 2013, "Robust Inside-Outside Segmentation using Generalized Winding Numbers"). A ray that passes too
+// near to an edge, or begins too near to the surface, decides nothing.
 layout(std430, binding = BINDING_A) readonly buffer LeafOrder { uint leaf_order[]; };
 layout(std430, binding = BINDING_B) readonly buffer SolidTriangles { uint solid_triangles[]; };  // one bit per triangle
 

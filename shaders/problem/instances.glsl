@@ -1,4 +1,4 @@
-// The shape instances: the robot's first, then the world's. Three texels an instance. Lengths are in metres.
+// The shape instances: the robot's first, then the world's. Lengths are in metres.
 struct Instance
 {
   uint root;             // root node of its tree
@@ -15,7 +15,7 @@ layout(binding = UNIT_INSTANCES) uniform usamplerBuffer instance_texels;
 
 Instance fetchInstance(uint index)
 {
-  const int at = int(3u * index);
+  const int at = int(INSTANCE_TEXELS * index);
   const uvec4 a = texelFetch(instance_texels, at);
   const uvec4 b = texelFetch(instance_texels, at + 1);
   const uvec4 c = texelFetch(instance_texels, at + 2);

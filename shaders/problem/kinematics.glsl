@@ -1,6 +1,7 @@
 // Parts of the kinematics shader that the C++ code generates for a robot (src/collision/gpu/kinematics_shader.cpp). It
 // computes in double precision, so that link poses are as accurate as the CPU's (src/model/kinematics.cpp). The only
-// loss is the rounding of the poses to float (docs/error_bounds.md). Lengths are in metres, angles in radians.
+// loss is the rounding of the poses to float (docs/error_bounds.md). The method is that of src/model/kinematics.cpp,
+// the sine and cosine those of src/model/sine.cpp. Lengths are in metres, angles in radians.
 #include "problem/instances.glsl"
 #include "problem/instance_lists.glsl"
 // The variables of the states, two doubles a texel, state after state.
@@ -85,10 +86,10 @@ dmat3 quaternionRotation(dvec4 q)
 void placeShapes(uint state, uint link, DoublePose link_pose)
 {
   const dvec3 origin = dvec3(twoDoubles(texelFetch(link_shapes, 0)), twoDoubles(texelFetch(link_shapes, 1)).x);
-  const uvec4 range = texelFetch(link_shapes, int(2u + link));
+  const uvec4 range = texelFetch(link_shapes, int(LINK_SHAPES_HEADER + link));
   for (uint record = range.x; record < range.y; ++record)
   {
-    const int at = int(range.z + 7u * record);
+    const int at = int(range.z + LINK_SHAPE_TEXELS * record);
     dvec2 halves[6];
     for (int i = 0; i < 6; ++i)
       halves[i] = twoDoubles(texelFetch(link_shapes, at + i));
@@ -97,7 +98,7 @@ void placeShapes(uint state, uint link, DoublePose link_pose)
     const DoublePose placed = compose(link_pose, shape);
     const mat3 rotation = mat3(transpose(placed.rotation));
     const vec3 translation = vec3(placed.translation - origin);
-    const uint to = 3u * poseIndex(state, texelFetch(link_shapes, at + 6).x);
+    const uint to = POSE_TEXELS * poseIndex(state, texelFetch(link_shapes, at + LINK_SHAPE_TEXELS - 1).x);
     for (uint row = 0u; row < 3u; ++row)
       poses[to + row] = vec4(rotation[row], translation[row]);
   }

@@ -1,4 +1,4 @@
-// Nodes of the bounding volume trees, with axis-aligned boxes in the frame of the shape (metres). Two texels a node.
+// Nodes of the bounding volume trees, with axis-aligned boxes in the frame of the shape (metres).
 struct Box
 {
   vec3 center;
@@ -16,8 +16,8 @@ layout(binding = UNIT_NODES) uniform usamplerBuffer node_texels;
 
 TreeNode fetchNode(uint index)
 {
-  const uvec4 a = texelFetch(node_texels, int(2u * index));
-  const uvec4 b = texelFetch(node_texels, int(2u * index + 1u));
+  const uvec4 a = texelFetch(node_texels, int(NODE_TEXELS * index));
+  const uvec4 b = texelFetch(node_texels, int(NODE_TEXELS * index + 1u));
   return TreeNode(Box(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz)), a.w, b.w);
 }
 

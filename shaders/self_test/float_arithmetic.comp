@@ -7,7 +7,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 layout(location = LOCATION_CASE_COUNT) uniform uint case_count;
 layout(std430, binding = BINDING_C) readonly buffer Numbers { vec2 numbers[]; };
-// Two vec4 a case. First: the sum and its error, the product and its error. Second: x * y minus the product, which
+// First texel of a case: the sum and its error, the product and its error. Second texel: x * y minus the product, which
 // is 0 unless the compiler contracts the two operations; the length of (x, y, x); 1 if a comparison with NaN holds; the
 // dot product of (x, y, x) and (y, y, x).
 layout(std430, binding = BINDING_A) writeonly buffer Results { vec4 results[]; };
@@ -41,6 +41,6 @@ void main()
   precise const float left = x * y - product;
   const float no_number = (numbers[i].x - x) / (numbers[i].y - y);
   const bool holds = no_number > 1.0 || no_number < 1.0 || no_number == 1.0;
-  results[2u * i] = vec4(sum, sum_error, product, product_error);
-  results[2u * i + 1u] = vec4(left, length(vec3(x, y, x)), holds ? 1.0 : 0.0, dot(vec3(x, y, x), vec3(y, y, x)));
+  results[OUTCOME_TEXELS * i] = vec4(sum, sum_error, product, product_error);
+  results[OUTCOME_TEXELS * i + 1u] = vec4(left, length(vec3(x, y, x)), holds ? 1.0 : 0.0, dot(vec3(x, y, x), vec3(y, y, x)));
 }

@@ -1,5 +1,5 @@
 // The bounding volumes of the traversals: nodes with oriented bounding boxes (OBB), and the test whether two of them
-// overlap. Three texels a node, in the order of the axis-aligned nodes. Lengths are in metres.
+// overlap. They have the order of the axis-aligned nodes. Lengths are in metres.
 #include "geometry/quaternion.glsl"
 
 struct OrientedNode
@@ -14,9 +14,9 @@ layout(binding = UNIT_ORIENTED_NODES) uniform usamplerBuffer oriented_texels;
 
 OrientedNode fetchOrientedNode(uint index)
 {
-  const uvec4 a = texelFetch(oriented_texels, int(3u * index));
-  const uvec4 b = texelFetch(oriented_texels, int(3u * index + 1u));
-  const vec4 q = uintBitsToFloat(texelFetch(oriented_texels, int(3u * index + 2u)));
+  const uvec4 a = texelFetch(oriented_texels, int(ORIENTED_NODE_TEXELS * index));
+  const uvec4 b = texelFetch(oriented_texels, int(ORIENTED_NODE_TEXELS * index + 1u));
+  const vec4 q = uintBitsToFloat(texelFetch(oriented_texels, int(ORIENTED_NODE_TEXELS * index + 2u)));
   return OrientedNode(Box(uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz)), rotationOf(q), a.w, b.w);
 }
 

@@ -1,6 +1,7 @@
 // A list of leaf pairs that a work group shares, and the tests of their triangles. Most leaves hold fewer than
 // LEAF_TRIANGLES triangles. Each invocation therefore takes one triangle of a pair's smaller leaf and tests it against
-// the larger leaf. In the programs for solids, it takes one triangle and tests it against the solid.
+// the larger leaf. In the programs for solids, it takes one triangle and tests it against the solid. Own method: an
+// invocation that tested its own leaves would leave the others waiting.
 #include "traversal/leaf_pair.glsl"
 #if SOLIDS
 #include "traversal/solid_leaf.glsl"

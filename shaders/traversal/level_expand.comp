@@ -1,6 +1,6 @@
-// One invocation per LEVEL_CHUNK node pairs: writes the overlapping child pairs to their places in the lists. In: the
-// masks of level_overlap.comp, and the prefix sums of level_scan.comp. Out: the node pairs of the next level, and the
-// leaf pairs.
+// Step 3 of a level (level.glsl). One invocation per LEVEL_CHUNK node pairs: writes the overlapping child pairs to
+// their places in the lists. In: the masks of level_overlap.comp, and the prefix sums of level_scan.comp. Out: the node
+// pairs of the next level, and the leaf pairs.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,6 +1,6 @@
-// One invocation per LEVEL_CHUNK node pairs: tests which child pairs overlap. Out: one mask per node pair (low four
-// bits: pairs for the next level, next four bits: leaf pairs), and the sums of both for the chunk. A pair that is
-// proven to collide is reported, and its mask is 0.
+// Step 1 of a level (level.glsl). One invocation per LEVEL_CHUNK node pairs: tests which child pairs overlap. Out: one
+// mask per node pair (low four bits: pairs for the next level, next four bits: leaf pairs), and the sums of both for
+// the chunk. A pair that is proven to collide is reported, and its mask is 0.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,8 +1,8 @@
-// One work group: computes the exclusive prefix sums of the chunks' sums, the sizes of the next level and of the leaf
-// list, and the indirect arguments for both. It sets COUNTER_OVERFLOW if a list is too short, before anything is
-// written to it.
+// Step 2 of a level (level.glsl). One work group: computes the exclusive prefix sums of the chunks' sums, the sizes of
+// the next level and of the leaf list, and the indirect arguments for both. It sets COUNTER_OVERFLOW if a list is too
+// short, before anything is written to it.
 #include "shader_constants.h"
-layout(local_size_x = 256) in;
+layout(local_size_x = SCAN_INVOCATIONS) in;
 #include "common/counters.glsl"
 #include "common/indirect_arguments.glsl"
 layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;

@@ -1,4 +1,5 @@
-// One work group per GROUP_SIZE leaf pairs: tests their triangles and reports the verdicts.
+// Step 4 of a level (level.glsl). One work group per GROUP_SIZE leaf pairs: tests their triangles and reports the
+// verdicts.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -13,26 +13,26 @@ struct RootPair
   float gap;    // a pair of triangles with a larger distance does not make the pair collide
 };
 
-#ifndef WRITES_ITEMS
-layout(binding = UNIT_ROOT_PAIRS) uniform usamplerBuffer item_texels;
+#ifndef WRITES_ROOT_PAIRS
+layout(binding = UNIT_ROOT_PAIRS) uniform usamplerBuffer root_pair_texels;
 
 RootPair fetchRootPair(uint index)
 {
   const int at = int(index) * ROOT_PAIR_TEXELS;
-  const uvec4 tail = texelFetch(item_texels, at + 3);
-  const Pose pose = poseFromRows(uintBitsToFloat(texelFetch(item_texels, at)), uintBitsToFloat(texelFetch(item_texels, at + 1)),
-                                 uintBitsToFloat(texelFetch(item_texels, at + 2)));
+  const uvec4 tail = texelFetch(root_pair_texels, at + 3);
+  const Pose pose = poseFromRows(uintBitsToFloat(texelFetch(root_pair_texels, at)), uintBitsToFloat(texelFetch(root_pair_texels, at + 1)),
+                                 uintBitsToFloat(texelFetch(root_pair_texels, at + 2)));
   return RootPair(pose, tail.x, tail.y, uintBitsToFloat(tail.z), uintBitsToFloat(tail.w));
 }
 
 uint fetchState(uint index)
 {
-  return texelFetch(item_texels, int(index) * ROOT_PAIR_TEXELS + 3).x;
+  return texelFetch(root_pair_texels, int(index) * ROOT_PAIR_TEXELS + 3).x;
 }
 
 // The required distance in metres: the pair collides at this distance and below.
 float fetchDistance(uint index)
 {
-  return uintBitsToFloat(texelFetch(item_texels, int(index) * ROOT_PAIR_TEXELS + 4).x);
+  return uintBitsToFloat(texelFetch(root_pair_texels, int(index) * ROOT_PAIR_TEXELS + 4).x);
 }
 #endif

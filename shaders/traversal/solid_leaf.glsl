@@ -1,4 +1,5 @@
-// Tests one triangle of a leaf against a solid. Lengths are in metres.
+// Tests one triangle of a leaf against a solid: separating axes prove that they are apart, alternating projections
+// prove a hit. triangleSolid names the sources. Lengths are in metres.
 #include "geometry/error_bounds.glsl"
 #include "problem/triangles.glsl"
 #include "geometry/solid.glsl"
@@ -49,7 +50,8 @@ bool liesBeyond(vec3 corners[3], Instance solid, vec3 n, float beyond)
 // STATE_HIT if the distance is proven to be at most `distance`, 0 if it is proven to be more than `gap`, else
 // STATE_UNDECIDED.
 // Apart: an axis beyond which all corners lie. The first axes are those that separate a triangle from a box
-// (Akenine-Moeller 2001). The later axes are the lines between the two points of the search for a hit.
+// (T. Akenine-Moeller: Fast 3D triangle-box overlap testing, 2001). The later axes are the lines between the two points
+// of the search for a hit.
 // Hit: von Neumann's alternating projections between the triangle and a core of the solid, which lies a depth below the
 // surface. A point of the triangle is inside the solid if its distance from the core is less than that depth. The depth
 // shrinks from step to step. Two of three steps are prolonged to the plane that bounds the core at the point found.

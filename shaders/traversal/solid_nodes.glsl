@@ -1,5 +1,6 @@
 // Tests nodes against solids, in the programs for solids. These tests separate more pairs than tests of two boxes,
-// because the box around a curved solid has corners that the solid does not fill. Lengths are in metres.
+// because the box around a curved solid has corners that the solid does not fill. A separating axis test with
+// one axis, whose choice is our own. Lengths are in metres.
 #include "geometry/solid.glsl"
 
 // Returns true if a box is proven to lie beyond the solid by more than `margin`. The axis is the line from the nearest

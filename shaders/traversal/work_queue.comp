@@ -2,7 +2,8 @@
 // own. It adds leaf pairs to a list that the work group shares. As soon as that list holds QUEUE_FLUSH pairs, all
 // invocations of the work group test its triangles. All invocations of a work group meet at the same barriers: the
 // outer loop is uniform, and an invocation makes at most QUEUE_STEPS steps between two barriers. Node pairs go to the
-// next entry list if they do not fit the stack or are left when the iterations run out.
+// next entry list if they do not fit the stack or are left when the iterations run out. The sources are in
+// src/collision/gpu/traversal/work_queue.cpp.
 //
 // On llvmpipe a branch skips nothing, so each invocation pays for every store and atomic every time. A step therefore
 // has only one store: the memory of an invocation holds node pairs from below and leaf pairs from above. All other

@@ -5,9 +5,9 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/cluster.glsl"
 layout(location = LOCATION_PRIMITIVE_COUNT) uniform uint primitive_count;
-layout(std430, binding = 0) readonly buffer Boxes { uvec4 boxes[]; };
-layout(std430, binding = 1) readonly buffer MeshOf { uint mesh_of[]; };
-layout(std430, binding = 2) buffer Bounds { uint bounds[]; };  // six a mesh: ~(lowest x, y, z), highest x, y, z
+layout(std430, binding = BINDING_BOXES) readonly buffer Boxes { uvec4 boxes[]; };
+layout(std430, binding = BINDING_MESH_OF) readonly buffer MeshOf { uint mesh_of[]; };
+layout(std430, binding = BINDING_BOUNDS) buffer Bounds { uint bounds[]; };  // of a mesh: ~(lowest x, y, z), highest x, y, z
 
 // Maps floats to unsigned integers of the same order (Herf 2001, "Radix Tricks").
 uint ordered(float value)
@@ -21,9 +21,9 @@ void main()
   const uint i = invocationIndex();
   if (i >= primitive_count)
     return;
-  const Cluster box = unpackCluster(boxes[2u * i], boxes[2u * i + 1u]);
+  const Cluster box = unpackCluster(boxes[CLUSTER_TEXELS * i], boxes[CLUSTER_TEXELS * i + 1u]);
   const vec3 center = 0.5 * box.low + 0.5 * box.high;
-  const uint mesh = 6u * mesh_of[i];
+  const uint mesh = BOUNDS_WORDS * mesh_of[i];
   for (uint axis = 0u; axis < 3u; ++axis)
   {
     // The complement turns a minimum into a maximum, so a buffer of zeros is the right start for both.

@@ -1,17 +1,17 @@
 // One invocation per triangle: computes its box, rounded outwards so that it holds the double-precision vertices from
-// which the floats were rounded. In: nine floats a triangle, metres, in the mesh's frame. Out: two uvec4 a triangle
-// (cluster.glsl).
+// which the floats were rounded. In: TRIANGLE_FLOATS a triangle, metres, in the mesh's frame. Out: a cluster for each
+// triangle (cluster.glsl).
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/cluster.glsl"
 layout(location = LOCATION_TRIANGLE_COUNT) uniform uint triangle_count;
-layout(std430, binding = 0) readonly buffer Vertices { float vertices[]; };
-layout(std430, binding = 1) writeonly buffer Boxes { uvec4 boxes[]; };
+layout(std430, binding = BINDING_VERTICES) readonly buffer Vertices { float vertices[]; };
+layout(std430, binding = BINDING_BOXES) writeonly buffer Boxes { uvec4 boxes[]; };
 
 vec3 vertex(uint triangle, uint corner)
 {
-  const uint at = triangle * 9u + corner * 3u;
+  const uint at = triangle * TRIANGLE_FLOATS + corner * 3u;
   return vec3(vertices[at], vertices[at + 1u], vertices[at + 2u]);
 }
 
@@ -28,11 +28,11 @@ void main()
   // A relative 2^-23 covers the conversion's half unit in the last place; 1e-37 covers numbers that are flushed to
   // zero.
   Cluster box;
-  box.low = low - (abs(low) * 1.1920929e-7 + 1e-37);
-  box.high = high + (abs(high) * 1.1920929e-7 + 1e-37);
+  box.low = low - (abs(low) * UNIT_ROUNDOFF + 1e-37);
+  box.high = high + (abs(high) * UNIT_ROUNDOFF + 1e-37);
   box.reference = i;
   box.count = 1u;
   box.opened = false;
-  boxes[2u * i] = packLow(box);
-  boxes[2u * i + 1u] = packHigh(box);
+  boxes[CLUSTER_TEXELS * i] = packLow(box);
+  boxes[CLUSTER_TEXELS * i + 1u] = packHigh(box);
 }

@@ -1,9 +1,10 @@
-// One invocation per CHUNK clusters: counts the clusters that remain after the round's merges, and the merges.
+// One invocation per CHUNK clusters: counts the clusters that remain after the round's merges (merge.glsl), and the
+// merges.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/merge.glsl"
-layout(std430, binding = 4) writeonly buffer Sums { uvec2 sums[]; };  // clusters that remain, merges
+layout(std430, binding = BINDING_SUMS) writeonly buffer Sums { uvec2 sums[]; };  // clusters that remain, merges
 
 void main()
 {

@@ -11,8 +11,8 @@ layout(local_size_x = GROUP_SIZE) in;
 layout(location = LOCATION_FIRST_NODE) uniform uint first_node;
 layout(location = LOCATION_NODE_COUNT) uniform uint node_count;
 // For each listed node, its place, its first triangle and its number of triangles.
-layout(std430, binding = 1) buffer LargeNodes { uvec4 large_nodes[]; };
-layout(std430, binding = 2) buffer LargeCount { uint large_count; };
+layout(std430, binding = BINDING_LARGE_NODES) buffer LargeNodes { uvec4 large_nodes[]; };
+layout(std430, binding = BINDING_LARGE_COUNT) buffer LargeCount { uint large_count; };
 
 // The first triangle below a node, and the number of triangles below it. The triangles of a subtree are contiguous.
 uvec2 trianglesBelow(TreeNode node)

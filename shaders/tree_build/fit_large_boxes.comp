@@ -9,7 +9,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "tree_build/fit.glsl"
 layout(location = LOCATION_FIRST_LISTED) uniform uint first_listed;
 layout(location = LOCATION_LISTED_COUNT) uniform uint listed_count;
-layout(std430, binding = 1) readonly buffer LargeNodes { uvec4 large_nodes[]; };
+layout(std430, binding = BINDING_LARGE_NODES) readonly buffer LargeNodes { uvec4 large_nodes[]; };
 
 shared Spread spreads[GROUP_SIZE];
 shared Extents all_extents[GROUP_SIZE];

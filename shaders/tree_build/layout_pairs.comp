@@ -6,8 +6,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "tree_build/layout.glsl"
 layout(location = LOCATION_ROUND_INDEX) uniform uint round_index;
 layout(location = LOCATION_MESH_COUNT) uniform uint mesh_count;
-layout(std430, binding = 2) readonly buffer Rounds { uint rounds[]; };
-layout(std430, binding = 4) readonly buffer Pairs { uvec4 pairs[]; };
+layout(std430, binding = BINDING_ROUNDS) readonly buffer Rounds { uint rounds[]; };
+layout(std430, binding = BINDING_PAIRS) readonly buffer Pairs { uvec4 pairs[]; };
 
 void main()
 {
@@ -17,8 +17,8 @@ void main()
   const uint pair = rounds[round_index * ROUND_STRIDE + ROUND_FIRST_PAIR] + i;
   const uint first_pair_node = root_base + mesh_count;
   const uint start = pair_starts[pair];
-  const Cluster left = unpackCluster(pairs[4u * pair], pairs[4u * pair + 1u]);
-  const Cluster right = unpackCluster(pairs[4u * pair + 2u], pairs[4u * pair + 3u]);
+  const Cluster left = unpackCluster(pairs[PAIR_TEXELS * pair], pairs[PAIR_TEXELS * pair + 1u]);
+  const Cluster right = unpackCluster(pairs[PAIR_TEXELS * pair + CLUSTER_TEXELS], pairs[PAIR_TEXELS * pair + CLUSTER_TEXELS + 1u]);
   place(left, first_pair_node + 2u * pair, start, first_pair_node);
   place(right, first_pair_node + 2u * pair + 1u, start + left.count, first_pair_node);
 }

@@ -6,10 +6,10 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/cluster.glsl"
 layout(location = LOCATION_PRIMITIVE_COUNT) uniform uint primitive_count;
-layout(std430, binding = 0) readonly buffer Boxes { uvec4 boxes[]; };
-layout(std430, binding = 1) readonly buffer MeshOf { uint mesh_of[]; };
-layout(std430, binding = 2) readonly buffer Bounds { uint bounds[]; };
-layout(std430, binding = 3) writeonly buffer Keys { uvec2 keys[]; };  // (Morton code, primitive)
+layout(std430, binding = BINDING_BOXES) readonly buffer Boxes { uvec4 boxes[]; };
+layout(std430, binding = BINDING_MESH_OF) readonly buffer MeshOf { uint mesh_of[]; };
+layout(std430, binding = BINDING_BOUNDS) readonly buffer Bounds { uint bounds[]; };
+layout(std430, binding = BINDING_KEYS_OUT) writeonly buffer Keys { uvec2 keys[]; };  // (Morton code, primitive)
 
 // The inverse of `ordered` in bounds.comp.
 float unordered(uint key)
@@ -32,9 +32,9 @@ void main()
   const uint i = invocationIndex();
   if (i >= primitive_count)
     return;
-  const Cluster box = unpackCluster(boxes[2u * i], boxes[2u * i + 1u]);
+  const Cluster box = unpackCluster(boxes[CLUSTER_TEXELS * i], boxes[CLUSTER_TEXELS * i + 1u]);
   const vec3 center = 0.5 * box.low + 0.5 * box.high;
-  const uint mesh = 6u * mesh_of[i];
+  const uint mesh = BOUNDS_WORDS * mesh_of[i];
   vec3 low;
   vec3 high;
   for (uint axis = 0u; axis < 3u; ++axis)

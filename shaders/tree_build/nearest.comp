@@ -7,10 +7,10 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/cluster.glsl"
 layout(location = LOCATION_ROUND_INDEX) uniform uint round_index;
-layout(std430, binding = 0) readonly buffer Clusters { uvec4 clusters[]; };
-layout(std430, binding = 1) readonly buffer ClusterInfo { uvec2 cluster_info[]; };
-layout(std430, binding = 2) readonly buffer Rounds { uint rounds[]; };
-layout(std430, binding = 3) writeonly buffer Nearest { uint nearest[]; };
+layout(std430, binding = BINDING_CLUSTERS_IN) readonly buffer Clusters { uvec4 clusters[]; };
+layout(std430, binding = BINDING_CLUSTER_INFO_IN) readonly buffer ClusterInfo { uvec2 cluster_info[]; };
+layout(std430, binding = BINDING_ROUNDS) readonly buffer Rounds { uint rounds[]; };
+layout(std430, binding = BINDING_NEAREST) writeonly buffer Nearest { uint nearest[]; };
 
 void main()
 {
@@ -25,16 +25,16 @@ void main()
     nearest[i] = partner < cluster_count && cluster_info[partner].x == mesh ? partner : i;
     return;
   }
-  const vec3 low = uintBitsToFloat(clusters[2u * i].xyz);
-  const vec3 high = uintBitsToFloat(clusters[2u * i + 1u].xyz);
+  const vec3 low = uintBitsToFloat(clusters[CLUSTER_TEXELS * i].xyz);
+  const vec3 high = uintBitsToFloat(clusters[CLUSTER_TEXELS * i + 1u].xyz);
   const uint begin = i < SEARCH_RADIUS ? 0u : i - SEARCH_RADIUS;
   const uint end = min(i + SEARCH_RADIUS + 1u, cluster_count);
   uint best = i;
   float best_area = 3.4e38;
   for (uint j = begin; j < end; ++j)
   {
-    const vec3 union_low = min(low, uintBitsToFloat(clusters[2u * j].xyz));
-    const vec3 union_high = max(high, uintBitsToFloat(clusters[2u * j + 1u].xyz));
+    const vec3 union_low = min(low, uintBitsToFloat(clusters[CLUSTER_TEXELS * j].xyz));
+    const vec3 union_high = max(high, uintBitsToFloat(clusters[CLUSTER_TEXELS * j + 1u].xyz));
     const float area = halfArea(union_high - union_low);
     const bool better = best == i || area < best_area || (area == best_area && (i ^ j) < (i ^ best));
     if (j != i && cluster_info[j].x == mesh && better)

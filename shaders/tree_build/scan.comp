@@ -1,11 +1,12 @@
 // One work group: computes the exclusive prefix sums of a round's counts, the number of pairs that the round makes, and
 // the next round's record. As soon as each mesh has only one cluster, the rounds that follow get zero work groups.
-layout(local_size_x = 256) in;
+#include "shader_constants.h"
+layout(local_size_x = SCAN_INVOCATIONS) in;
 #include "common/invocation.glsl"
 layout(location = LOCATION_ROUND_INDEX) uniform uint round_index;
 layout(location = LOCATION_MESH_COUNT) uniform uint mesh_count;
-layout(std430, binding = 2) buffer Rounds { uint rounds[]; };
-layout(std430, binding = 4) buffer Sums { uvec2 sums[]; };
+layout(std430, binding = BINDING_ROUNDS) buffer Rounds { uint rounds[]; };
+layout(std430, binding = BINDING_SUMS) buffer Sums { uvec2 sums[]; };
 
 #define SCAN_TYPE uvec2
 #define SCAN_VALUES sums
@@ -14,7 +15,7 @@ layout(std430, binding = 4) buffer Sums { uvec2 sums[]; };
 void setGroups(uint at, uint invocations)
 {
   const uint groups = (invocations + GROUP_SIZE - 1u) / GROUP_SIZE;
-  const uint rows = (groups + 65534u) / 65535u;
+  const uint rows = (groups + MAX_GROUPS - 1u) / MAX_GROUPS;
   rounds[at] = rows == 0u ? 0u : (groups + rows - 1u) / rows;
   rounds[at + 1u] = rows;
   rounds[at + 2u] = 1u;

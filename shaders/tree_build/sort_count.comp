@@ -1,10 +1,10 @@
-// Radix sort, step 1 of 3. One invocation per CHUNK keys counts their digits. The digit is that of the key, or of the
-// key's mesh.
+// Radix sort (sort_digit.glsl), step 1 of 3. One invocation per CHUNK keys counts their digits. The digit is that of
+// the key, or of the key's mesh.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/sort_digit.glsl"
-layout(std430, binding = 4) writeonly buffer Counts { uint counts[]; };  // [digit][invocation]
+layout(std430, binding = BINDING_COUNTS) writeonly buffer Counts { uint counts[]; };  // [digit][invocation]
 
 void main()
 {

@@ -1,9 +1,11 @@
-// The digit that a pass of the radix sort uses, from the least significant one on (Knuth, TAOCP 3, 5.2.5).
+// The digit that a pass of the radix sort uses, from the least significant one on (Knuth, "The Art of Computer
+// Programming", vol. 3, 5.2.5). The three parallel steps are those of M. Zagha and G. E. Blelloch, "Radix Sort for
+// Vector Multiprocessors", 1991.
 layout(location = LOCATION_KEY_COUNT) uniform uint key_count;
 layout(location = LOCATION_SHIFT) uniform uint shift;
 layout(location = LOCATION_BY_MESH) uniform uint by_mesh;  // 1: sort by the primitive's mesh instead of the key
-layout(std430, binding = 0) readonly buffer KeysIn { uvec2 keys_in[]; };
-layout(std430, binding = 1) readonly buffer MeshOf { uint mesh_of[]; };
+layout(std430, binding = BINDING_KEYS_IN) readonly buffer KeysIn { uvec2 keys_in[]; };
+layout(std430, binding = BINDING_MESH_OF) readonly buffer MeshOf { uint mesh_of[]; };
 
 uint digitOf(uvec2 key)
 {

@@ -1,8 +1,9 @@
-// Radix sort, step 2 of 3. One work group computes the exclusive prefix sums of the counts, in place.
-layout(local_size_x = 256) in;
+// Radix sort (sort_digit.glsl), step 2 of 3. One work group computes the exclusive prefix sums of the counts, in place.
+#include "shader_constants.h"
+layout(local_size_x = SCAN_INVOCATIONS) in;
 #include "common/invocation.glsl"
 layout(location = LOCATION_VALUE_COUNT) uniform uint value_count;
-layout(std430, binding = 4) buffer Counts { uint counts[]; };
+layout(std430, binding = BINDING_COUNTS) buffer Counts { uint counts[]; };
 
 #define SCAN_TYPE uint
 #define SCAN_VALUES counts

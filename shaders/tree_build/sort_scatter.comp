@@ -1,11 +1,11 @@
-// Radix sort, step 3 of 3. One invocation per CHUNK keys moves them to their places in order, so that the sort is
-// stable.
+// Radix sort (sort_digit.glsl), step 3 of 3. One invocation per CHUNK keys moves them to their places in order, so that
+// the sort is stable.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/sort_digit.glsl"
-layout(std430, binding = 4) readonly buffer Counts { uint counts[]; };
-layout(std430, binding = 5) writeonly buffer KeysOut { uvec2 keys_out[]; };
+layout(std430, binding = BINDING_COUNTS) readonly buffer Counts { uint counts[]; };
+layout(std430, binding = BINDING_KEYS_OUT) writeonly buffer KeysOut { uvec2 keys_out[]; };
 
 void main()
 {

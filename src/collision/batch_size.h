@@ -6,7 +6,8 @@
 namespace gpu_planning_scene::core
 {
 /// Adapts the number of states in a batch, so that a batch takes about a given time. Short batches keep the device
-/// available to others, and a call can be stopped between two batches.
+/// available to others, and a call can be stopped between two batches. Own method: doubles the number while batches are
+/// short, and computes it from the measured rate after a batch that took too long.
 class BatchSize
 {
  public:

@@ -22,7 +22,7 @@ struct Outcome
   float sum, sum_error, product, product_error;
   float left, length, comparison_holds, dot;
 };
-static_assert(sizeof(Outcome) == 32, "two vec4");
+static_assert(sizeof(Outcome) == OUTCOME_TEXELS * TexelBuffer::kTexelBytes, "the layout of the shader");
 
 /// Numbers of 24 random bits, most of them between 2^-12 and 2^12. The sum and the product of two are exact in double.
 std::vector<std::array<float, 2>> someNumbers()

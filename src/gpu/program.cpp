@@ -19,7 +19,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kMaxGroups = 65535;
+constexpr std::size_t kMaxGroups = MAX_GROUPS;
 
 /// Orders the next dispatch after earlier writes that it may read: storage buffers, buffer textures, indirect
 /// arguments.

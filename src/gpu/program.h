@@ -36,8 +36,8 @@ class Program
   void set(int location, std::uint32_t value) const;
   void setFloat(int location, float value) const;
 
-  /// Runs `groups` work groups after all earlier dispatches. OpenGL grants 65535 of them along x; more are spread over
-  /// y. Zero groups do nothing. Throws Error if OpenGL cannot run that many.
+  /// Runs `groups` work groups after all earlier dispatches. OpenGL grants MAX_GROUPS of them along x; more are spread
+  /// over y. Zero groups do nothing. Throws Error if OpenGL cannot run that many.
   void dispatch(std::size_t groups) const;
   /// The same with the numbers of work groups that lie in `arguments` at `offset` (three uints).
   void dispatchIndirect(const Buffer& arguments, std::size_t offset) const;

@@ -9,8 +9,8 @@
 #include "gpu_planning_scene/shapes.h"
 
 // Triangles for solids: boxes exactly, cylinders and cones by inscribed regular polygons, spheres by a subdivided
-// icosahedron. All vertices are on the true surface. The sagitta is the largest distance from the true surface to the
-// triangles.
+// icosahedron (M. J. Wenninger: Spherical Models, 1979). All vertices are on the true surface. The sagitta is the
+// largest distance from the true surface to the triangles.
 
 namespace gpu_planning_scene::core
 {

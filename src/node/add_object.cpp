@@ -4,11 +4,11 @@
 
 #include <ros/ros.h>
 
+#include "command_line/command_line.h"
+#include "command_line/robot_arguments.h"
+#include "command_line/scene_arguments.h"
 #include "gpu_planning_scene/error.h"
 #include "node/messages.h"
-#include "tools/command_line.h"
-#include "tools/robot_arguments.h"
-#include "tools/scene_arguments.h"
 
 namespace gpu_planning_scene::core
 {

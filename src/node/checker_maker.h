@@ -15,9 +15,9 @@ using OpenDevice = std::function<std::unique_ptr<StateChecker>(std::shared_ptr<c
                                                                const BatchCheckerOptions& options)>;
 
 /// Returns a function that makes checkers. A checker survives the loss of its device and is registered with
-/// `diagnostics`, which must outlive the function. If the first checker cannot open a device that the options name, the
-/// error is thrown. With the device "auto", the CPU checks all states from then on, with a warning. For later checkers
-/// the CPU answers if the device cannot be opened.
+/// `diagnostics`, which must outlive the function. If the first checker cannot open its device, the function throws the
+/// error; but with the device "auto", it warns, and the CPU checks all states from then on. If a later checker cannot
+/// open its device, the CPU answers for it.
 CheckServer::MakeChecker checkerMaker(const BatchCheckerOptions& options, const ResilientOptions& resilience,
                                       const OpenDevice& open_device, Diagnostics& diagnostics);
 }  // namespace gpu_planning_scene::core

@@ -24,7 +24,7 @@ class Diagnostics
   void refused(const std::string& why);
 
   /// The level is WARN if the CPU answers for a lost device, ERROR if the device could not be opened again, else OK.
-  /// The rate of states is that since the last call.
+  /// The rate of states is counted since the last call.
   diagnostic_msgs::DiagnosticStatus status(const SceneStore& store, const CheckServer& server);
 
  private:

@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
+#include <gpu_planning_scene/PlanMotion.h>
 #include <ros/node_handle.h>
 
-#include "gpu_planning_scene/PlanMotion.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "node/planner_configs.h"
 #include "service/scene_store.h"

@@ -30,8 +30,8 @@ struct NamedRow
   std::vector<double> values;
 };
 
-/// The row of a state that the SRDF names. `field`: the field of the request that has the name. `others_empty`: whether
-/// the request has no names and values besides. Throws Error if it has, and if the SRDF has no such state.
+/// The row of a state that the SRDF names. `field`: the field of the request that has the name. `others_empty`: true if
+/// the request has neither names nor values. Throws Error if this is false, or if the SRDF has no such state.
 NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::string>& field, bool others_empty);
 
 /// Throws Error if the columns have only some of the four variables of a floating joint's rotation: a motion between

@@ -32,8 +32,8 @@ SceneWatch::SceneWatch(ros::NodeHandle& own, const SceneStore& store, CheckServe
   timer_ = own.createWallTimer(ros::WallDuration(kPeriod), [this](const ros::WallTimerEvent&) { look(); });
 }
 
-/// Never waits, because other timers share the thread. Errors are left to the requests of clients: they meet the same
-/// checker and get its error as their answer.
+/// Never waits, because other timers share the thread. Ignores errors of the checker: the requests of clients get
+/// the same errors as their answers.
 void SceneWatch::look()
 {
   try

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+// A run of motions is no longer than the motion between its ends if it is straight. Own method: it undoes what planners
+// do to long motions, and no length is gained or lost.
 namespace gpu_planning_scene::core
 {
 using ompl::geometric::PathGeometric;

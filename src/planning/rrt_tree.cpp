@@ -5,6 +5,8 @@
 
 #include <ompl/tools/config/SelfConfig.h>
 
+// The tree of S. M. LaValle: Rapidly-exploring random trees: A new tool for path planning. TR 98-11, 1998. OMPL finds
+// the nearest state. A removed vertex stays in memory, because its children point to it.
 namespace gpu_planning_scene::core
 {
 const RrtTree::Vertex& RrtTree::Vertex::root() const

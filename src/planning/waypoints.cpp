@@ -7,6 +7,8 @@
 
 #include "gpu_planning_scene/interpolation.h"
 
+// Adds whole turns to angles and changes the sign of quaternions, so that each value continues from the previous row.
+// Own method: readers of a path may interpolate its numbers, while OMPL interpolates in its state space.
 namespace gpu_planning_scene::core
 {
 namespace

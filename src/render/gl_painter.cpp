@@ -194,7 +194,7 @@ void GlPainter::castShadows(const Eigen::Vector3d& lamp)
   glProgramUniform3fv(fragment_stage_, LOCATION_LAMP, 1, direction.data());
   glProgramUniform1f(fragment_stage_, LOCATION_SOFTNESS, static_cast<float>(kSoftness));
   glProgramUniform1f(fragment_stage_, LOCATION_LIFT, static_cast<float>(2.0 * radius * kSoftness));
-  glBindTextureUnit(0, shadow_map_);
+  glBindTextureUnit(UNIT_SHADOW_MAP, shadow_map_);
 }
 
 void GlPainter::aim(const Camera& camera, int width, int height)

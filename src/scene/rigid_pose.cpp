@@ -7,6 +7,8 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/shapes.h"
 
+// The orthogonal matrix that is nearest to a matrix follows from its singular value decomposition U S V^T: it is U V^T
+// (P. H. Schoenemann: A generalized solution of the orthogonal Procrustes problem. Psychometrika 31, 1966).
 namespace gpu_planning_scene::core
 {
 namespace

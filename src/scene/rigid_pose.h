@@ -6,7 +6,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Returns true if rigid() accepts the pose.
+/// Returns true if nearestRigid() accepts the pose.
 bool isRigid(const Eigen::Isometry3d& pose);
 
 /// The pose with the rotation that is nearest to its matrix. Later computations use the transpose of a rotation as its

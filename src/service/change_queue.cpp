@@ -16,9 +16,9 @@ bool changesNoSettings(const SceneChange& change)
          change.link_scale.empty() && change.colors.empty();
 }
 
-/// Whether both changes together equal the first one with the second one's objects, or its attached objects, appended.
-/// They do not if one has objects and the other has attached objects: one change applies the two kinds in a fixed
-/// order.
+/// Whether two changes can be merged: the objects, or the attached objects, of the second one are then appended to the
+/// first one. Changes cannot be merged if one has objects and the other has attached objects, because a change applies
+/// the two kinds in a fixed order.
 bool canBeOne(const SceneChange& first, const SceneChange& second)
 {
   if (!changesNoSettings(second))

@@ -76,13 +76,13 @@ CheckAnswer part(const CheckAnswer& whole, std::size_t first, std::size_t count,
 }  // namespace
 
 CheckQueue::CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_checker,
-                       const CheckServerOptions& options, std::size_t largest_batch)
+                       const CheckServerOptions& options, std::size_t max_merged_states)
   : store_(store),
     make_checker_(std::move(make_checker)),
     options_(options),
-    largest_batch_(largest_batch),
+    max_merged_states_(max_merged_states),
     width_(store.snapshot().scene->robot->variables().size()),
-    batch_size_({kBatchSeconds, kFirstBatch, kLeastBatch, options.largest_batch}),
+    batch_size_({kBatchSeconds, kFirstBatch, kLeastBatch, options.max_batch_states}),
     thread_()
 {
 }
@@ -169,7 +169,7 @@ CheckQueue::Batch CheckQueue::nextBatch()
   {
     const CheckJob& first = batch.front().job;
     const bool joins = !first.report && !request.job.report && !first.motions && !request.job.motions &&
-                       states + request.count <= largest_batch_ && request.job.group == first.group &&
+                       states + request.count <= max_merged_states_ && request.job.group == first.group &&
                        isEqual(request.job.matrix, first.matrix);
     states += joins ? request.count : 0;
     (joins ? batch : others).push_back(std::move(request));

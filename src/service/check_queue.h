@@ -14,9 +14,9 @@ namespace gpu_planning_scene::core
 class CheckQueue
 {
  public:
-  /// `largest_batch`: the largest number of states in a batch of merged requests; 0: requests are not merged.
+  /// `max_merged_states`: the largest number of states in a batch of merged requests; 0: requests are not merged.
   CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_checker, const CheckServerOptions& options,
-             std::size_t largest_batch);
+             std::size_t max_merged_states);
   ~CheckQueue();
 
   /// Makes the checker before the first request arrives. Throws the errors of `make_checker`.
@@ -51,7 +51,7 @@ class CheckQueue
   const SceneStore& store_;
   const CheckServer::MakeChecker make_checker_;
   const CheckServerOptions options_;
-  const std::size_t largest_batch_;
+  const std::size_t max_merged_states_;
   const std::size_t width_;
 
   // Used by the queue's thread only. open() uses them too, before the thread starts.

@@ -18,7 +18,7 @@ bool isSmall(const CheckJob& job)
 
 CheckServer::CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options)
   : options_(options),
-    small_(std::make_unique<CheckQueue>(store, make_checker, options, options.largest_batch)),
+    small_(std::make_unique<CheckQueue>(store, make_checker, options, options.max_batch_states)),
     large_(std::make_unique<CheckQueue>(store, make_checker, options, 0))
 {
   small_->open();

@@ -22,7 +22,7 @@ struct CheckServerOptions
   std::size_t max_waiting_requests = 64;     ///< in each queue
   std::size_t max_waiting_states = 4000000;  ///< in each queue; one request always fits
   std::size_t max_states = 1000000;          ///< in one request
-  std::size_t largest_batch = 16384;         ///< states that are checked at once
+  std::size_t max_batch_states = 16384;      ///< states that are checked at once
 };
 
 /// A request to check states or motions. States are rows of values for some of the robot's variables. The other
@@ -69,11 +69,11 @@ class CheckQueue;
 
 /// Checks states and motions for many clients at once. It has two queues, each with its own thread and checker. One
 /// queue merges small requests that have the same group and matrix. The other queue answers large requests one by one.
-/// So a small request never waits for a large one. Motions count by their samples; with the rule Bound a motion may
-/// need more checks (MotionCheckerOptions::max_samples), and other small requests wait for these. A request with a
-/// large matrix counts as large, because the checker needs long to take the matrix over. A queue takes the store's
-/// newest scene when it starts a batch. So each answer belongs to one snapshot, which is at least as new as the store's
-/// snapshot at the arrival of the request.
+/// So a small request never waits for a large one. A motion counts as its samples. Under
+/// MotionRule::Bound, it may need more checks (MotionCheckerOptions::max_samples), and other small requests wait for
+/// these. A request with a large matrix counts as large, because a checker needs long to adopt such a matrix. A queue
+/// takes the store's newest scene when it starts a batch. So each answer belongs to one snapshot, which is at least as
+/// new as the store's snapshot at the arrival of the request.
 class CheckServer
 {
  public:

@@ -10,8 +10,8 @@ namespace gpu_planning_scene::core
 std::size_t residentMemory();
 
 /// Refuses operations that need more memory while the process uses more than its bound. Before that, free heap memory
-/// is returned to the system. A bound of the system such as RLIMIT_AS does not serve here: it counts address space, and
-/// drivers map much more than they use.
+/// is returned to the system. The system's own bound, RLIMIT_AS, is not suitable: it counts address space, and drivers
+/// map much more address space than they use.
 class MemoryGuard
 {
  public:

@@ -24,7 +24,7 @@ struct Snapshot
   bool allKnown() const;
   /// The virtual joint counts as known: without a value, the robot stands at the origin of the planning frame.
   PartialState partialState() const;
-  /// A warning if this is only assumed and the variables `given` do not set the virtual joint; otherwise empty.
+  /// A warning if this pose of the robot is only assumed and `given` does not set the virtual joint; otherwise empty.
   std::string assumedBase(const std::vector<int>& given) const;
 };
 
@@ -52,8 +52,8 @@ class SceneStore
   Applied apply(const SceneChange& change, const Lookup& lookup);
 
   /// Removes all objects and attached objects with their entries in the allowed collision matrix, and all colours.
-  /// Warns of bodies that an entry forbade to touch an object, and that their default allows to touch a new object of
-  /// the same name.
+  /// Warns of each body that an entry forbade to touch an object, if the default of the body allows it to touch a new
+  /// object of the same name.
   Applied clear();
 
   /// Sets the robot's variables, by name; names that the robot lacks are ignored. The revision stays the same. If a

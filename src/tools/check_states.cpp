@@ -8,9 +8,9 @@
 
 #include "collision/checkers/open_checker.h"
 #include "collision/checkers/scene_text.h"
+#include "command_line/robot_arguments.h"
+#include "command_line/scene_arguments.h"
 #include "tools/progress_bar.h"
-#include "tools/robot_arguments.h"
-#include "tools/scene_arguments.h"
 #include "tools/state_source.h"
 #include "tools/state_table.h"
 

@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "collision/checkers/scene_text.h"
+#include "command_line/robot_arguments.h"
 #include "tools/acm_generator.h"
-#include "tools/robot_arguments.h"
 #include "tools/srdf_writer.h"
 
 namespace gpu_planning_scene::core

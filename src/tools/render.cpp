@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "collision/checkers/scene_text.h"
+#include "command_line/robot_arguments.h"
+#include "command_line/scene_arguments.h"
 #include "gpu_planning_scene/state_inspector.h"
 #include "render/renderer.h"
-#include "tools/robot_arguments.h"
-#include "tools/scene_arguments.h"
 #include "tools/state_values.h"
 
 namespace gpu_planning_scene::core

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "command_line/command_line.h"
 #include "gpu_planning_scene/planning_scene.h"
-#include "tools/command_line.h"
 
 namespace gpu_planning_scene::core
 {

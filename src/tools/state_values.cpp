@@ -4,11 +4,11 @@
 #include <set>
 #include <sstream>
 
+#include "command_line/command_line.h"
+#include "command_line/scene_arguments.h"
 #include "model/base_joints.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
-#include "tools/command_line.h"
-#include "tools/scene_arguments.h"
 
 namespace gpu_planning_scene::core
 {

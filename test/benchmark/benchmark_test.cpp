@@ -1,14 +1,14 @@
 // The benchmark program writes its tables and the script draws them. Wrong answers are counted. Wrong answers of an
 // exact method are an error.
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
+
+#include <gtest/gtest.h>
 
 #include "benchmark/statistics.h"
 #include "support/shader_folder.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <thread>
 
+#include <gpu_planning_scene/PlanMotion.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "gpu_planning_scene/PlanMotion.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/motion_checker.h"
 #include "node/node_client.h"

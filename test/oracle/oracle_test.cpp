@@ -1,9 +1,9 @@
 // Tests the oracle against distances that are known in closed form, also after random rigid motions.
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
+
+#include <gtest/gtest.h>
 
 #include "oracle/oracle.h"
 

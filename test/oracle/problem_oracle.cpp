@@ -120,8 +120,8 @@ struct ProblemOracle::Impl
 
   Placed robotInstance(const std::vector<Motion>& link_poses, std::size_t i) const
   {
-    const ShapeInstance& geometry = problem->robot[i];
-    return {shapes[geometry.tree].get(), link_poses[geometry.link] * robot[i], geometry.padding};
+    const ShapeInstance& instance = problem->robot[i];
+    return {shapes[instance.tree].get(), link_poses[instance.link] * robot[i], instance.padding};
   }
 
   Placed worldInstance(std::size_t i) const
@@ -167,10 +167,10 @@ ProblemOracle::ProblemOracle(std::shared_ptr<const CollisionProblem> problem)
     impl->shapes.push_back(std::make_unique<PreparedShape>(shape));
   for (const WorldHalfSpace& plane : problem->half_spaces)
     impl->half_spaces.push_back(std::make_unique<PreparedShape>(HalfSpace{plane.normal, plane.offset}));
-  for (const ShapeInstance& geometry : problem->robot)
-    impl->robot.emplace_back(geometry.pose);
-  for (const ShapeInstance& geometry : problem->world)
-    impl->world.emplace_back(geometry.pose);
+  for (const ShapeInstance& instance : problem->robot)
+    impl->robot.emplace_back(instance.pose);
+  for (const ShapeInstance& instance : problem->world)
+    impl->world.emplace_back(instance.pose);
   impl->problem = std::move(problem);
   impl_ = std::move(impl);
 }

@@ -1,4 +1,4 @@
-"""All C++ follows .clang-format, includes give whole paths, and test names are in upper camel case."""
+"""All C++ follows .clang-format; includes have one order and give whole paths; test names are in upper camel case."""
 import re
 import shutil
 import subprocess
@@ -7,10 +7,38 @@ import unittest
 from repository import ROOT
 
 FOLDERS = ["include", "src", "test", "bench", "examples"]
+# Paths of our own includes begin in one of these folders.
+INCLUDE_FOLDERS = ["include", "src", "shaders", "test", "bench"]
+# The order of the includes of a file.
+OWN_HEADER, STANDARD, LIBRARY, PROJECT = range(4)
 
 
 def sources():
     return [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*")) if path.suffix in (".h", ".cpp")]
+
+
+def includes(path):
+    """The included files, with their brackets or quotes."""
+    return re.findall(r'(?m)^#include ([<"][^">]+[">])', path.read_text())
+
+
+def kinds_of_includes(path):
+    """OWN_HEADER is the first include of X.cpp or X_test.cpp if it is X.h."""
+    kinds = []
+    for include in includes(path):
+        if include[0] == "<":
+            kinds.append(LIBRARY if "/" in include or "." in include else STANDARD)
+        else:
+            header = re.sub("_test$", "", path.stem) + ".h"
+            own = not kinds and path.suffix == ".cpp" and include[1:-1].split("/")[-1] == header
+            kinds.append(OWN_HEADER if own else PROJECT)
+    return kinds
+
+
+def wrong_names(text):
+    """The names of tests and suites in a file that are not in upper camel case."""
+    macros = re.findall(r"(?m)^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),\s+(\w+)\)", text)
+    return [name for names in macros for name in names if not re.fullmatch(r"[A-Z][A-Za-z0-9]*", name)]
 
 
 class CodeFormat(unittest.TestCase):
@@ -22,21 +50,33 @@ class CodeFormat(unittest.TestCase):
         wrong = sorted({line.split(":")[0] for line in result.stderr.splitlines() if "error:" in line})
         self.assertEqual(wrong, [], "run clang-format -i on these")
 
-    def test_includes_give_the_path_from_src_test_or_bench(self):
+    def test_includes_in_quotes_are_files_of_this_repository_by_their_whole_paths(self):
         wrong = [
             f"{path.relative_to(ROOT)}: {include}"
             for path in sources()
-            for include in re.findall(r'(?m)^#include "([^"]+)"', path.read_text())
-            if "/" not in include and include != "shader_constants.h"
+            for include in includes(path)
+            if include[0] == '"' and not any((ROOT / folder / include[1:-1]).is_file() for folder in INCLUDE_FOLDERS)
         ]
         self.assertEqual([], wrong)
 
-    def test_tests_are_named_in_upper_camel_case(self):
-        macro = re.compile(r"(?m)^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),\s+(\w+)\)")
-        names = [name for path in (ROOT / "test").rglob("*.cpp") for name in macro.findall(path.read_text())]
-        self.assertGreater(len(names), 500)
-        wrong = [f"{suite}.{name}" for suite, name in names if not re.fullmatch(r"[A-Z][A-Za-z0-9]*", suite + name)]
+    def test_includes_begin_with_the_own_header_then_the_standard_library_other_libraries_and_this_project(self):
+        wrong = []
+        for path in sources():
+            kinds = kinds_of_includes(path)
+            if kinds != sorted(kinds):
+                wrong.append(str(path.relative_to(ROOT)))
         self.assertEqual([], wrong)
+
+    def test_tests_and_suites_are_named_in_upper_camel_case(self):
+        wrong = [f"{path.relative_to(ROOT)}: {name}"
+                 for path in (ROOT / "test").rglob("*.cpp") for name in wrong_names(path.read_text())]
+        self.assertEqual([], wrong)
+
+    def test_a_wrong_name_of_a_test_or_a_suite_is_found(self):
+        self.assertEqual(["isFree"], wrong_names("TEST(Box, isFree)\n"))
+        self.assertEqual(["box"], wrong_names("TEST_F(box, IsFree)\n"))
+        self.assertEqual(["Is_free"], wrong_names("TYPED_TEST(Box,\n           Is_free)\n"))
+        self.assertEqual([], wrong_names("TEST_P(Box, IsFree)\n"))
 
 
 if __name__ == "__main__":

@@ -21,9 +21,10 @@ LAYERS = {
     "planning": ["collision/checkers"],
     "service": ["collision/checkers"],
     "render": ["collision/checkers"],
-    "tools": ["collision/checkers", "render"],
+    "command_line": ["collision/checkers"],
+    "tools": ["command_line", "render"],
     "plugins": ["planning"],
-    "node": ["planning", "service", "tools", "render"],
+    "node": ["planning", "service", "command_line", "render"],
 }
 
 

@@ -7,10 +7,10 @@
 #include <iostream>
 #include <thread>
 
+#include <gpu_planning_scene/PlanMotion.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
-#include "gpu_planning_scene/PlanMotion.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "model/seconds_since.h"

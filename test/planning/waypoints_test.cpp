@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/SpaceInformation.h>
 
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "model/model_testing.h"
 #include "planning/waypoints.h"
-
-#include <ompl/base/ScopedState.h>
-#include <ompl/base/SpaceInformation.h>
 
 namespace gpu_planning_scene::core
 {

@@ -22,7 +22,7 @@ CheckServerOptions options()
   options.max_waiting_requests = 5;
   options.max_waiting_states = 200;
   options.max_states = 100;
-  options.largest_batch = 3 * kSmall;
+  options.max_batch_states = 3 * kSmall;
   return options;
 }
 

@@ -11,6 +11,7 @@
 #include "model/full_states.h"
 #include "scene/slider_robot.h"
 #include "service/scene_store.h"
+#include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
 {
@@ -227,7 +228,7 @@ TEST_F(Store, ASnapshotIsOfOneInstantWhileOthersChangeTheScene)
   others.emplace_back(look);
   others.emplace_back(look);
   others.emplace_back(turn);
-  for (int i = 0; i < 40000; ++i)
+  for (int i = 0; i < repetitions(10000, 40000); ++i)
     swap(i % 2 == 0 ? 1.0 : 0.0);
   done = true;
   for (std::thread& other : others)

@@ -1,5 +1,4 @@
 #include "support/exactness.h"
-#include "model/seconds_since.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +8,7 @@
 #include "collision/bounds/problem_maker.h"
 #include "collision/parallel_for.h"
 #include "collision/problem/collision_problem.h"
+#include "model/seconds_since.h"
 #include "tools/progress_bar.h"
 
 namespace gpu_planning_scene::core

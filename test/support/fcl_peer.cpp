@@ -1,5 +1,4 @@
 #include "support/fcl_peer.h"
-#include "model/seconds_since.h"
 
 #include <algorithm>
 #include <chrono>
@@ -9,6 +8,7 @@
 #include <fcl/narrowphase/distance.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/seconds_since.h"
 #include "support/fcl_broad_phase.h"
 #include "support/inside.h"
 #include "support/learned_order.h"
@@ -28,7 +28,7 @@ void refuseUnsupported(const CollisionProblem& problem, FclTree kind)
 {
   if (!problem.half_spaces.empty())
     throw Error("the FCL peer does not support half-spaces; use a scene without half-spaces");
-  const auto is_padded = [](const ShapeInstance& geometry) { return geometry.padding > 0.0; };
+  const auto is_padded = [](const ShapeInstance& instance) { return instance.padding > 0.0; };
   if (kind != FclTree::Obbrss && kind != FclTree::Kios &&
       (std::any_of(problem.robot.begin(), problem.robot.end(), is_padded) ||
        std::any_of(problem.world.begin(), problem.world.end(), is_padded)))
@@ -38,7 +38,7 @@ void refuseUnsupported(const CollisionProblem& problem, FclTree kind)
 
 struct FclPeer::Impl
 {
-  /// An instance of a geometry with its place in the planning frame.
+  /// An instance of a shape with its place in the planning frame.
   struct Placed
   {
     std::int32_t body;
@@ -205,12 +205,12 @@ FclPeer::FclPeer(std::shared_ptr<const CollisionProblem> problem, FclTree tree, 
   const CollisionProblem& p = *impl_->problem;
   for (std::size_t i = 0; i < p.tessellations.size(); ++i)
     impl_->geometries.push_back(makeFclGeometry(p.shapes[i], p.tessellations[i], tree));
-  for (const ShapeInstance& geometry : p.robot)
-    impl_->robot.push_back({geometry.body, geometry.tree, geometry.pose, {}, geometry.padding, nullptr});
-  for (const ShapeInstance& geometry : p.world)
+  for (const ShapeInstance& instance : p.robot)
+    impl_->robot.push_back({instance.body, instance.tree, instance.pose, {}, instance.padding, nullptr});
+  for (const ShapeInstance& instance : p.world)
   {
-    impl_->world.push_back({geometry.body, geometry.tree, geometry.pose, impl_->boundsOf(geometry.tree, geometry.pose),
-                            geometry.padding, nullptr});
+    impl_->world.push_back({instance.body, instance.tree, instance.pose, impl_->boundsOf(instance.tree, instance.pose),
+                            instance.padding, nullptr});
   }
   if (order == FclOrder::Learned)
     impl_->order.emplace(p.robot.size() + p.self_pairs.size());
@@ -229,8 +229,8 @@ void FclPeer::setState(const Isometry3d* link_poses)
   for (std::size_t i = 0; i < impl_->robot.size(); ++i)
   {
     Impl::Placed& placed = impl_->robot[i];
-    const ShapeInstance& geometry = impl_->problem->robot[i];
-    placed.pose = link_poses[geometry.link] * geometry.pose;
+    const ShapeInstance& instance = impl_->problem->robot[i];
+    placed.pose = link_poses[instance.link] * instance.pose;
     placed.bounds = impl_->boundsOf(placed.tree, placed.pose);
   }
 }

@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/contacts/fcl_models.h"
 #include "collision/problem/collision_problem.h"
+#include "support/fcl_trees.h"
 
 namespace gpu_planning_scene::core
 {

@@ -42,12 +42,12 @@ DisplacementBounds::DisplacementBounds(const RobotModel& robot, const CollisionP
     Term term;
   };
   std::vector<std::vector<Step>> chains;
-  for (const ShapeInstance& geometry : problem.robot)
+  for (const ShapeInstance& instance : problem.robot)
   {
-    const SweptBody body = reach.sweep({PlacedShape{problem.shapes[geometry.tree], Eigen::Isometry3d::Identity()}},
-                                       geometry.pose, geometry.link);
+    const SweptBody body = reach.sweep({PlacedShape{problem.shapes[instance.tree], Eigen::Isometry3d::Identity()}},
+                                       instance.pose, instance.link);
     std::vector<Step> chain;
-    int link = geometry.link;
+    int link = instance.link;
     for (std::size_t above = 0; link >= 0; ++above)
     {
       const int number = robot.links()[static_cast<std::size_t>(link)].parent_joint;

@@ -29,16 +29,16 @@ CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::strin
   CheckedPairs pairs = findCheckedPairs(scene, bodies, movedLinks(*scene.robot, group), counts);
   std::vector<VariableRange> ranges;
   if (options_.reductions.reach)
-    ranges = reducer_.leaveOutUnreachable(scene, bodies, pairs, counts);
+    ranges = reachability_filter_.leaveOutUnreachable(scene, bodies, pairs, counts);
   if (options_.reductions.unmoved_pairs)
   {
-    const CheckedPairs fixed = RigidPairs::take(*scene.robot, bodies, pairs);
-    const std::size_t self = countMoved(fixed.self);
-    const std::size_t world = countMoved(fixed.world);
+    const CheckedPairs rigid = RigidPairs::take(*scene.robot, bodies, pairs);
+    const std::size_t self = countMoved(rigid.self);
+    const std::size_t world = countMoved(rigid.world);
     counts.self_pairs -= self;
     counts.world_pairs -= world;
     counts.settled_pairs = self + world;
-    counts.colliding_in_samples = fixed_pairs_.collisions(scene, bodies, fixed);
+    counts.colliding_in_samples = rigid_pairs_.collisions(scene, bodies, rigid);
     if (!counts.colliding_in_samples.empty())
       counts.always_colliding = counts.colliding_in_samples.front();
   }

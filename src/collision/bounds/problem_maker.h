@@ -24,9 +24,9 @@ class ProblemMaker
  private:
   CheckerOptions options_;
   SceneValidator validator_;
-  ReachabilityFilter reducer_;
+  ReachabilityFilter reachability_filter_;
   TessellationCache tessellations_;
-  RigidPairs fixed_pairs_;
+  RigidPairs rigid_pairs_;
 };
 
 /// Checker options that leave no pair out of a problem.

@@ -8,7 +8,9 @@
 #include "scene/rigid_pose.h"
 
 // Covers each shape with balls, and sweeps the balls through the joints from the link up to the planning frame. After
-// each joint, neighbouring balls are merged until kMaxBalls remain.
+// each joint, neighbouring balls are merged until kMaxBalls remain. The balls are merged as in a top-down build of a
+// sphere tree, by splitting at the median (Ericson, "Real-Time Collision Detection", 2005, chapter 6). The sweep is our
+// own method: the usual estimate of a workspace samples the joints, and samples prove nothing.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -8,7 +8,8 @@
 #include "scene/rigid_pose.h"
 
 // Compares the swept bodies of Reach with each other and with the objects of the world. A new scene invalidates only
-// the rows and columns of the objects that have changed.
+// the rows and columns of the objects that have changed. Own method: MoveIt's Setup Assistant also leaves out pairs,
+// but it concludes from random states that a pair never collides. Here, the bounds of Reach prove it.
 namespace gpu_planning_scene::core
 {
 namespace

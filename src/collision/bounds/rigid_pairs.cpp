@@ -4,7 +4,7 @@
 #include <iterator>
 
 // Two links are fixed to each other if the same link is their anchor. The exact checker decides each pair once, with
-// the link poses in the frames of the anchors.
+// the link poses in the frames of the anchors. Own method: it follows from the definition of a rigid pair.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -48,11 +48,11 @@ CheckedPairs RigidPairs::take(const RobotModel& robot, const std::vector<RobotBo
   std::vector<int> anchors;
   for (const RobotBody& body : bodies)
     anchors.push_back(anchorOf(robot, body.link));
-  CheckedPairs fixed;
+  CheckedPairs rigid;
   takePairs(
-      pairs.self, fixed.self, [&](const CheckedPair& pair) { return anchors[pair.body] == anchors[pair.other]; });
-  takePairs(pairs.world, fixed.world, [&](const CheckedPair& pair) { return anchors[pair.body] == -1; });
-  return fixed;
+      pairs.self, rigid.self, [&](const CheckedPair& pair) { return anchors[pair.body] == anchors[pair.other]; });
+  takePairs(pairs.world, rigid.world, [&](const CheckedPair& pair) { return anchors[pair.body] == -1; });
+  return rigid;
 }
 
 std::unique_ptr<const CpuTraversal> RigidPairs::traversalOf(const PlanningScene& scene,
@@ -66,7 +66,7 @@ std::unique_ptr<const CpuTraversal> RigidPairs::traversalOf(const PlanningScene&
 /// The relative pose of a rigid pair is the same in all states, up to rounding. Rounding can change the verdict only if
 /// the distance is within the checker's slack of the required distance, and there the contract allows both verdicts.
 std::vector<BodyPair> RigidPairs::collisions(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
-                                             CheckedPairs fixed)
+                                             CheckedPairs rigid)
 {
   if (robot_ != scene.robot)
   {
@@ -78,10 +78,10 @@ std::vector<BodyPair> RigidPairs::collisions(const PlanningScene& scene, const s
   const auto names = [&](const CheckedPair& pair) { return BodyPair{bodies[pair.body].body, bodies[pair.other].body}; };
   const auto not_moved = [](const CheckedPair& pair) { return !pair.moved; };
   std::vector<CheckedPair> left_out;
-  takePairs(fixed.self, left_out, not_moved);
-  takePairs(fixed.world, left_out, not_moved);
+  takePairs(rigid.self, left_out, not_moved);
+  takePairs(rigid.world, left_out, not_moved);
   std::vector<CheckedPair> links;
-  takePairs(fixed.self, links, of_links);
+  takePairs(rigid.self, links, of_links);
 
   CheckedPairs unknown;
   std::copy_if(links.begin(), links.end(), std::back_inserter(unknown.self),
@@ -97,10 +97,10 @@ std::vector<BodyPair> RigidPairs::collisions(const PlanningScene& scene, const s
       links_collide_[names(pair)] = std::find(found.begin(), found.end(), names(pair)) != found.end();
   }
   std::vector<BodyPair> colliding;
-  if (!fixed.self.empty() || !fixed.world.empty())
+  if (!rigid.self.empty() || !rigid.world.empty())
   {
     CpuTraversal::Scratch scratch;
-    colliding = traversalOf(scene, bodies, fixed, forest_)->allCollisions(poses.data(), scratch);
+    colliding = traversalOf(scene, bodies, rigid, forest_)->allCollisions(poses.data(), scratch);
   }
   for (const CheckedPair& pair : links)
     if (links_collide_[names(pair)])

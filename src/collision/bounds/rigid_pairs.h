@@ -23,7 +23,7 @@ class RigidPairs
   /// The colliding pairs among the pairs that the group moves, each once, in ascending order. They collide in every
   /// state.
   std::vector<BodyPair> collisions(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
-                                   CheckedPairs fixed);
+                                   CheckedPairs rigid);
 
  private:
   std::unique_ptr<const CpuTraversal> traversalOf(const PlanningScene& scene, const std::vector<RobotBody>& bodies,

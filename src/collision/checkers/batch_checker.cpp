@@ -17,7 +17,7 @@ namespace gpu_planning_scene::core
 struct BatchChecker::Impl
 {
   explicit Impl(const BatchCheckerOptions& options)
-    : cpu_or_gpu(options.cpu_below), on_cpu(options), engine(options, on_cpu.trees())
+    : cpu_or_gpu(options.cpu_below), on_cpu(options), gpu_checker(options, on_cpu.trees())
   {
   }
 
@@ -32,9 +32,9 @@ struct BatchChecker::Impl
   std::mutex mutex;
   CpuOrGpu cpu_or_gpu;
   CpuScene on_cpu;
-  GpuChecker engine;
+  GpuChecker gpu_checker;
   GpuWork work;                               // work of the last batch
-  std::optional<std::string> selected_group;  // group whose pairs the engine holds
+  std::optional<std::string> selected_group;  // group whose pairs the GPU checker holds
 };
 
 /// The group's problem must be valid for the states.
@@ -44,12 +44,12 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
   if (selected_group != group)
   {
     const auto& problem = on_cpu.problem(group);
-    selected_group.reset();  // in case selectPairs throws: the engine's pairs are then unknown
-    engine.selectPairs(problem);
+    selected_group.reset();  // in case selectPairs throws: the GPU checker's pairs are then unknown
+    gpu_checker.selectPairs(problem);
     selected_group = group;
   }
-  engine.check(states, count, result, margins);
-  work = engine.lastWork();
+  gpu_checker.check(states, count, result, margins);
+  work = gpu_checker.lastWork();
 }
 
 /// Sends the states for which the group's problem is not valid to the CPU; only the CPU can decide them.
@@ -125,7 +125,7 @@ void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   impl_->on_cpu.setScene(std::move(scene));
   try
   {
-    impl_->engine.setProblem(impl_->on_cpu.problem(""), impl_->on_cpu.scene()->robot);
+    impl_->gpu_checker.setProblem(impl_->on_cpu.problem(""), impl_->on_cpu.scene()->robot);
   }
   catch (...)
   {
@@ -151,7 +151,7 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
     const std::size_t on_gpu =
         impl_->threshold(group, states, count);  // any measurement happens here, before the check is timed
     if (around && count >= on_gpu)
-      impl_->engine.prepareMargins();
+      impl_->gpu_checker.prepareMargins();
   }
   impl_->work = {};
   BatchResult result;
@@ -182,11 +182,11 @@ GpuWork BatchChecker::lastWork() const
 
 std::string BatchChecker::deviceWarning() const
 {
-  return impl_->engine.floatFault();
+  return impl_->gpu_checker.floatFault();
 }
 
 std::string BatchChecker::deviceName() const
 {
-  return impl_->engine.device().renderer;
+  return impl_->gpu_checker.device().renderer;
 }
 }  // namespace gpu_planning_scene::core

@@ -9,7 +9,7 @@
 #include "model/seconds_since.h"
 
 // Times both checks at a few sizes, takes the fastest of several runs, and interpolates the size at which their times
-// are equal.
+// are equal. Own method: the size depends on the machine and the scene, so no constant fits.
 namespace gpu_planning_scene::core
 {
 namespace

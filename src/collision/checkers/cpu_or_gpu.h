@@ -13,9 +13,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// Decides whether a batch goes to the CPU or to the GPU. Small batches are faster on the CPU. The batch size from
-/// which on the GPU is faster is fixed, or measured for each group with both checks and kept for a while. One caller at
-/// a time.
+/// Decides whether a batch goes to the CPU or to the GPU. Small batches are faster on the CPU. Batches of at least a
+/// threshold go to the GPU. The threshold is fixed, or it is measured for each group with both checks and kept for a
+/// while. One caller at a time.
 class CpuOrGpu
 {
  public:
@@ -35,7 +35,7 @@ class CpuOrGpu
   std::size_t threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
                         const CollisionProblem& problem, const double* states, std::size_t count, const Checks& checks);
 
-  /// Forgets all measurements. A new robot may have groups with the names of the last one's.
+  /// Forgets all measurements. A new robot may have groups of the same names.
   void forget() { thresholds_.clear(); }
 
  private:
@@ -57,7 +57,7 @@ constexpr std::size_t kNoBatch = std::numeric_limits<std::size_t>::max();
 /// Does work of a given size and returns its duration in seconds.
 using TimedWork = std::function<double(std::size_t)>;
 
-/// The size from which on `bulk`, which has a high fixed cost, is clearly faster (1.2 times) than `direct`. kNoBatch if
+/// The size above which `bulk`, which has a high fixed cost, is clearly faster (1.2 times) than `direct`. kNoBatch if
 /// bulk does not seem to become faster. Both are timed at growing sizes up to kMaxTimed. This takes some tens of
 /// milliseconds, or longer if already a few items take longer.
 std::size_t breakEven(const TimedWork& direct, const TimedWork& bulk);

@@ -48,10 +48,10 @@ std::vector<Eigen::Isometry3d> rigidPoses(const std::vector<Eigen::Isometry3d>& 
 
 struct MeshPairChecker::Impl
 {
-  explicit Impl(const BatchCheckerOptions& options) : engine(options, std::make_shared<ForestCache>()) {}
+  explicit Impl(const BatchCheckerOptions& options) : gpu_checker(options, std::make_shared<ForestCache>()) {}
 
   mutable std::mutex mutex;
-  GpuChecker engine;
+  GpuChecker gpu_checker;
   BatchResult last;
 };
 
@@ -59,7 +59,7 @@ MeshPairChecker::MeshPairChecker(const Shape& a, const Shape& b, const BatchChec
   : impl_(std::make_unique<Impl>(options))
 {
   validateTolerance(options.tolerance);
-  impl_->engine.setProblem(pairProblem(a, b, options.tolerance));
+  impl_->gpu_checker.setProblem(pairProblem(a, b, options.tolerance));
 }
 
 MeshPairChecker::~MeshPairChecker() = default;
@@ -70,7 +70,7 @@ std::vector<std::uint8_t> MeshPairChecker::collide(const std::vector<Eigen::Isom
   const std::vector<Eigen::Isometry3d> poses = rigidPoses(b_in_a);
   const auto start = std::chrono::steady_clock::now();
   BatchResult result;
-  impl_->engine.checkPoses(
+  impl_->gpu_checker.checkPoses(
       poses.size(), 1, [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses[row]; }, result);
   result.seconds = secondsSince(start);
   std::vector<std::uint8_t> hits;

@@ -1,5 +1,4 @@
 #include "gpu_planning_scene/point_cloud.h"
-#include "collision/geometry/shape_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +8,14 @@
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/forest_cache.h"
 #include "collision/geometry/primitive_solid.h"
+#include "collision/geometry/shape_bounds.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "scene/rigid_pose.h"
 
-// Sorts the points into voxels, makes a cube for each occupied voxel, and removes the cubes that touch the robot.
+// Sorts the points into voxels, makes a cube for each occupied voxel, and removes the cubes that touch the robot. The
+// grid of voxels is that of PCL's VoxelGrid filter (R. B. Rusu, S. Cousins: 3D is here: Point Cloud Library. ICRA
+// 2011).
 namespace gpu_planning_scene::core
 {
 namespace

@@ -10,8 +10,9 @@
 #include "collision/exact/cpu_traversal.h"
 #include "collision/exact/pair_clearance.h"
 
-// Best-first search with bounding boxes: a pair is tested only if its boxes may be nearer than the best clearance so
-// far.
+// Branch and bound with bounding boxes: a pair is tested only if its boxes may be nearer than the best clearance so
+// far. The nearer pairs come first. pair_clearance.cpp does the same within a pair (Larsen, Gottschalk, Lin and
+// Manocha, "Fast Distance Queries with Rectangular Swept Sphere Volumes", 2000).
 namespace gpu_planning_scene::core
 {
 namespace
@@ -70,10 +71,10 @@ class Search
       objects_(objects),
       world_bounds_(world_bounds)
   {
-    for (const ShapeInstance& geometry : problem.robot)
+    for (const ShapeInstance& instance : problem.robot)
     {
-      poses_.push_back(link_poses[geometry.link] * geometry.pose);
-      bounds_.push_back(boundsOf(forest_->tree(geometry.tree), poses_.back()));
+      poses_.push_back(link_poses[instance.link] * instance.pose);
+      bounds_.push_back(boundsOf(forest_->tree(instance.tree), poses_.back()));
     }
   }
 
@@ -209,8 +210,8 @@ ClearanceSearch::ClearanceSearch(std::shared_ptr<const CollisionProblem> problem
   : problem_(std::move(problem)), forest_(std::move(forest)), objects_(std::move(objects))
 {
   world_bounds_.reserve(problem_->world.size());
-  for (const ShapeInstance& geometry : problem_->world)
-    world_bounds_.push_back(boundsOf(forest_->tree(geometry.tree), geometry.pose));
+  for (const ShapeInstance& instance : problem_->world)
+    world_bounds_.push_back(boundsOf(forest_->tree(instance.tree), instance.pose));
 }
 
 Clearance ClearanceSearch::find(const Isometry3d* link_poses) const

@@ -15,10 +15,9 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-template <class BoundingVolume>
-std::shared_ptr<fcl::BVHModel<BoundingVolume>> makeTree(const Mesh& mesh)
+FclGeometry makeTree(const Mesh& mesh)
 {
-  auto model = std::make_shared<fcl::BVHModel<BoundingVolume>>();
+  auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
   std::vector<fcl::Triangle> triangles;
   for (const auto& t : mesh.triangles)
     triangles.emplace_back(t[0], t[1], t[2]);
@@ -27,61 +26,9 @@ std::shared_ptr<fcl::BVHModel<BoundingVolume>> makeTree(const Mesh& mesh)
   model->endModel();
   return model;
 }
-
-FclGeometry makeTree(const Mesh& mesh, FclTree tree)
-{
-  switch (tree)
-  {
-    case FclTree::Obb:
-      return makeTree<fcl::OBBd>(mesh);
-    case FclTree::Aabb:
-      return makeTree<fcl::AABBd>(mesh);
-    case FclTree::Kios:
-      return makeTree<fcl::kIOSd>(mesh);
-    case FclTree::Kdop24:
-      return makeTree<fcl::KDOP<double, 24>>(mesh);
-    default:
-      return makeTree<fcl::OBBRSSd>(mesh);
-  }
-}
-
-bool isRound(const Shape& shape)
-{
-  return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Cylinder>(shape) ||
-         std::holds_alternative<Cone>(shape);
-}
-
-template <class BoundingVolume>
-class MovedTree : public FclMovedTree
-{
- public:
-  explicit MovedTree(std::shared_ptr<const Mesh> mesh)
-    : mesh_(std::move(mesh)), model_(makeTree<BoundingVolume>(*mesh_)), vertices_(mesh_->vertices)
-  {
-  }
-
-  const fcl::CollisionGeometryd* at(const Eigen::Isometry3d& pose) override
-  {
-    if (pose.matrix() == pose_.matrix())
-      return model_.get();
-    pose_ = pose;
-    for (std::size_t i = 0; i < vertices_.size(); ++i)
-      vertices_[i] = pose * mesh_->vertices[i];
-    model_->beginReplaceModel();
-    model_->replaceSubModel(vertices_);
-    model_->endReplaceModel(true, true);
-    return model_.get();
-  }
-
- private:
-  std::shared_ptr<const Mesh> mesh_;
-  std::shared_ptr<fcl::BVHModel<BoundingVolume>> model_;
-  std::vector<Eigen::Vector3d> vertices_;
-  Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
-};
 }  // namespace
 
-FclGeometry makeFclGeometry(const Shape& shape, const Tessellation& tessellation, FclTree tree)
+FclGeometry makeFclRound(const Shape& shape)
 {
   FclGeometry geometry;
   if (const auto* sphere = std::get_if<Sphere>(&shape))
@@ -91,27 +38,21 @@ FclGeometry makeFclGeometry(const Shape& shape, const Tessellation& tessellation
   else if (const auto* cone = std::get_if<Cone>(&shape))
     geometry = std::make_shared<fcl::Coned>(cone->radius, cone->length);
   else
-    geometry = makeTree(*tessellation.mesh, tree);
+    return nullptr;
   geometry->computeLocalAABB();
   return geometry;
 }
 
 FclGeometry makeFclSolid(const Shape& shape, const Tessellation& tessellation)
 {
-  const auto* box = std::get_if<Box>(&shape);
-  if (box == nullptr)
-    return makeFclGeometry(shape, tessellation, FclTree::Obbrss);
-  auto geometry = std::make_shared<fcl::Boxd>(box->size);
+  FclGeometry geometry = makeFclRound(shape);
+  if (geometry)
+    return geometry;
+  if (const auto* box = std::get_if<Box>(&shape))
+    geometry = std::make_shared<fcl::Boxd>(box->size);
+  else
+    geometry = makeTree(*tessellation.mesh);
   geometry->computeLocalAABB();
   return geometry;
-}
-
-std::shared_ptr<FclMovedTree> makeFclMovedTree(const Shape& shape, const Tessellation& tessellation, FclTree tree)
-{
-  if (isOriented(tree) || isRound(shape))
-    return nullptr;
-  if (tree == FclTree::Aabb)
-    return std::make_shared<MovedTree<fcl::AABBd>>(tessellation.mesh);
-  return std::make_shared<MovedTree<fcl::KDOP<double, 24>>>(tessellation.mesh);
 }
 }  // namespace gpu_planning_scene::core

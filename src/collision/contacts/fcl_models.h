@@ -14,40 +14,12 @@ class CollisionGeometry;
 
 namespace gpu_planning_scene::core
 {
-/// Bounding volumes of FCL's trees.
-enum class FclTree
-{
-  Obbrss,  ///< the default of FCL and MoveIt
-  Obb,     ///< as in RAPID (Gottschalk 1996)
-  Aabb,    ///< not oriented, see FclMovedTree
-  Kios,
-  Kdop24  ///< not oriented
-};
-
-inline bool isOriented(FclTree tree)
-{
-  return tree != FclTree::Aabb && tree != FclTree::Kdop24;
-}
-
 using FclGeometry = std::shared_ptr<fcl::CollisionGeometry<double>>;
 
-/// Makes FCL's primitive for a sphere, cylinder or cone, and a tree over the tessellation for any other shape.
-FclGeometry makeFclGeometry(const Shape& shape, const Tessellation& tessellation, FclTree tree);
+/// Makes FCL's primitive for a sphere, cylinder or cone; null for any other shape.
+FclGeometry makeFclRound(const Shape& shape);
 
-/// Makes the same geometry as MoveIt: as makeFclGeometry with OBBRSS trees, but a box becomes FCL's box. FCL then
-/// reports contacts of whole faces.
+/// Makes the same geometry as MoveIt: FCL's primitive for a sphere, cylinder, cone or box, and a tree of OBBRSS volumes
+/// over a mesh. FCL reports contacts of whole faces for its own box, but not for a mesh of a box.
 FclGeometry makeFclSolid(const Shape& shape, const Tessellation& tessellation);
-
-/// A tree of bounding volumes that are not oriented. It must be refitted for each pose. FCL would rebuild it for each
-/// query unless its vertices are already in the planning frame; this class keeps them there. Not thread-safe.
-class FclMovedTree
-{
- public:
-  virtual ~FclMovedTree() = default;
-  /// The tree in the planning frame, for a mesh at `pose`.
-  virtual const fcl::CollisionGeometry<double>* at(const Eigen::Isometry3d& pose) = 0;
-};
-
-/// Makes such a tree. Null if none is needed: for oriented volumes, and for FCL's primitives.
-std::shared_ptr<FclMovedTree> makeFclMovedTree(const Shape& shape, const Tessellation& tessellation, FclTree tree);
 }  // namespace gpu_planning_scene::core

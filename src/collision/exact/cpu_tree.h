@@ -25,8 +25,8 @@ struct alignas(64) CpuNode
 };
 static_assert(sizeof(CpuNode) == 128, "two cache lines");
 
-/// Which node of a pair a traversal opens: whether it is the first. It is the larger one, unless that is a leaf. They
-/// must not both be leaves.
+/// Whether a traversal opens the first node of a pair rather than the second. It opens the larger node, unless this
+/// node is a leaf. At most one of the two may be a leaf.
 inline bool opensFirst(const CpuNode& a, const CpuNode& b)
 {
   return b.isLeaf() || (!a.isLeaf() && a.box.half.squaredNorm() >= b.box.half.squaredNorm());

@@ -2,8 +2,10 @@
 
 #include <utility>
 
-// Refits the previous tree from the leaves to the root. The surface area heuristic tells when the refitted tree has
-// become too slow and a new one is built.
+// Refits the previous tree from the leaves to the root (G. van den Bergen: Efficient Collision Detection of Complex
+// Deformable Models using AABB Trees. Journal of Graphics Tools 2(4), 1997). The areas of the nodes tell when the
+// refitted tree has become too slow and a new one is built (the idea of C. Lauterbach et al.: RT-DEFORM: Interactive
+// Ray Tracing of Dynamic Scenes using BVHs, 2006).
 namespace gpu_planning_scene::core
 {
 namespace

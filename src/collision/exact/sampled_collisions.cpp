@@ -6,6 +6,8 @@
 
 #include "model/base_joints.h"
 
+// Intersects the sets of colliding pairs of random states. MoveIt's Setup Assistant finds pairs that always collide in
+// a similar way.
 namespace gpu_planning_scene::core
 {
 std::vector<BodyPair> collidingInSamples(const RobotModel& robot, const CollisionProblem& problem,

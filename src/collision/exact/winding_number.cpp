@@ -7,7 +7,8 @@
 #include "collision/geometry/exact_orientation.h"
 
 // Sums the signed crossings of a segment from the point to a point outside of the mesh. If the segment meets an edge, a
-// vertex or a coplanar triangle, another segment is tried.
+// vertex or a coplanar triangle, another segment is tried. For closed components, this sum is the winding number of
+// Jacobson, Kavan and Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers", 2013.
 namespace gpu_planning_scene::core
 {
 namespace

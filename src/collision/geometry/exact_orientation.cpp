@@ -1,5 +1,6 @@
-// The only file that includes CGAL. It uses CGAL's kernel (LGPL, headers only), which filters by interval arithmetic.
-// This arithmetic needs the option -frounding-math.
+// The only file that includes CGAL. It uses CGAL's kernel (LGPL, headers only), which filters by interval arithmetic
+// (H. Broennimann, C. Burnikel, S. Pion: Interval arithmetic yields efficient dynamic filters for computational
+// geometry, 2001). This arithmetic needs the option -frounding-math.
 #include "collision/geometry/exact_orientation.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

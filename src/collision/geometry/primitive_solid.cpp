@@ -9,8 +9,8 @@
 #include "collision/geometry/precise_distance.h"
 #include "model/math_constants.h"
 
-// Spheres are decided by the distance of a point. The other primitives have support functions and are decided by
-// convexWithin (Gilbert, Johnson and Keerthi 1988).
+// Spheres are decided by the distance of a point from a shape (Ericson, "Real-Time Collision Detection", 2005, 5.1).
+// The other primitives have support functions and are decided by convexWithin (Gilbert, Johnson and Keerthi 1988).
 namespace gpu_planning_scene::core
 {
 namespace

@@ -5,7 +5,8 @@
 #include "shader_constants.h"
 
 // Counts the reported collisions per query and sorts the queries by these counts. A new order is due when the number of
-// states has doubled, and at least every kMaxStatesPerOrder states.
+// states has doubled, and at least every kMaxStatesPerOrder states. The rule of CpuTraversal's order (Simon and Kadane
+// 1975), for queries that cost the same.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -19,8 +19,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Checks a collision problem on a GPU, with the CPU behind it: a double-precision traversal of the same problem
-/// decides the states that float32 leaves undecided. One caller at a time, on any thread. Each method throws DeviceLost
+/// Checks a collision problem on a GPU. The states that float32 leaves undecided are decided on the CPU, by a traversal
+/// of the same problem in double precision. One caller at a time, on any thread. Each method throws DeviceLost
 /// if the device fails or its context is lost; the object is then unusable.
 class GpuChecker
 {

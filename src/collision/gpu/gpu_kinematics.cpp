@@ -62,7 +62,7 @@ void GpuKinematics::setInstances(const CollisionProblem& problem)
     of_link[static_cast<std::size_t>(problem.robot[i].link)].push_back(static_cast<std::uint32_t>(i));
 
   std::vector<Texel> texels = {twoDoubles(problem.origin.x(), problem.origin.y()), twoDoubles(problem.origin.z(), 0.0)};
-  const auto first_record = static_cast<std::uint32_t>(texels.size() + link_count);
+  const auto first_record = static_cast<std::uint32_t>(LINK_SHAPES_HEADER + link_count);
   std::uint32_t record = 0;
   for (const auto& instances : of_link)
   {

@@ -229,7 +229,7 @@ void GpuPairChecker::start(const Batch& batch, Part& part)
   part.answers.reserve(offsets.end);
   part.answers.clear(offsets.flags, offsets.words);
   lists_.counters.clear();
-  poses_.reserve(part.count * scene_.robotCount() * 12 * sizeof(float));
+  poses_.reserve(part.count * scene_.robotCount() * POSE_TEXELS * TexelBuffer::kTexelBytes);
   batch.poses.write(part.begin, part.count, poses_);
   if (batch.margins)
   {

@@ -11,6 +11,8 @@
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
 
+// Uploads a problem as flat arrays of records. The tree over the world's objects lies in depth-first order with skip
+// pointers, so that its traversal needs no stack (B. Smits: Efficiency Issues for Ray Tracing, 1998).
 namespace gpu_planning_scene::core
 {
 namespace
@@ -38,7 +40,7 @@ struct InstanceRecord
   std::array<float, 3> size;
   float padding;
 };
-static_assert(sizeof(InstanceRecord) == 48, "three uvec4");
+static_assert(sizeof(InstanceRecord) == INSTANCE_TEXELS * TexelBuffer::kTexelBytes, "the layout of the shaders");
 
 /// Fills in the description of a solid for the shaders. Its core is a box around the origin that lies inside the solid.
 /// A point in the core is inside the solid without a test of the surface.
@@ -102,7 +104,7 @@ struct ObjectNode
   std::array<float, 3> half;
   std::uint32_t object;
 };
-static_assert(sizeof(ObjectNode) == 32, "two texels");
+static_assert(sizeof(ObjectNode) == OBJECT_NODE_TEXELS * TexelBuffer::kTexelBytes, "the layout of the shaders");
 
 /// Appends a subtree in depth-first order. The boxes are enlarged by the rounding error of the box tests (as in
 /// shaders/tree_build/layout.glsl). The recursion depth is bounded, see buildBinnedSah.
@@ -154,28 +156,28 @@ void GpuScene::writeInstances(const CollisionProblem& problem)
 {
   padded_ = false;
   has_mesh_solids_ = false;
-  std::vector<InstanceRecord> instances;
-  for (const std::vector<ShapeInstance>* geometries : {&problem.robot, &problem.world})
-    for (const ShapeInstance& geometry : *geometries)
+  std::vector<InstanceRecord> records;
+  for (const std::vector<ShapeInstance>* instances : {&problem.robot, &problem.world})
+    for (const ShapeInstance& instance : *instances)
     {
-      const double sagitta = problem.tessellations[geometry.tree].sagitta;
+      const double sagitta = problem.tessellations[instance.tree].sagitta;
       InstanceRecord record{};
-      const GpuTrees::Tree& tree = trees_.tree(geometry.tree);
+      const GpuTrees::Tree& tree = trees_.tree(instance.tree);
       record.root = tree.root;
       record.slack = sagitta > 0.0 ? std::nextafter(static_cast<float>(sagitta), 1.0F) : 0.0F;
       record.first_component = tree.first_component;
       record.component_count = tree.component_count;
-      record.padding = static_cast<float>(geometry.padding);
-      padded_ = padded_ || geometry.padding > 0.0;
-      describeSolid(problem.shapes[geometry.tree], record);
-      if (tree.has_solid && isMesh(problem.shapes[geometry.tree]))
+      record.padding = static_cast<float>(instance.padding);
+      padded_ = padded_ || instance.padding > 0.0;
+      describeSolid(problem.shapes[instance.tree], record);
+      if (tree.has_solid && isMesh(problem.shapes[instance.tree]))
       {
         record.kind = SOLID_MESH;
         has_mesh_solids_ = true;
       }
-      instances.push_back(record);
+      records.push_back(record);
     }
-  write(instances, instances_);
+  write(records, instances_);
 }
 
 /// Writes a node for each instance. The node of a primitive is a leaf that contains the whole primitive.
@@ -185,10 +187,10 @@ void GpuScene::writeSolids(const CollisionProblem& problem)
   if (!problem.direct_primitives)
     return;
   std::vector<Node> nodes;
-  for (const std::vector<ShapeInstance>* geometries : {&problem.robot, &problem.world})
-    for (const ShapeInstance& geometry : *geometries)
+  for (const std::vector<ShapeInstance>* instances : {&problem.robot, &problem.world})
+    for (const ShapeInstance& instance : *instances)
     {
-      const Shape& shape = problem.shapes[geometry.tree];
+      const Shape& shape = problem.shapes[instance.tree];
       Node node{};
       if (!isMesh(shape))
       {
@@ -204,29 +206,30 @@ void GpuScene::writeSolids(const CollisionProblem& problem)
 void GpuScene::writeHalfSpaces(const CollisionProblem& problem)
 {
   half_space_count_ = static_cast<std::uint32_t>(problem.half_spaces.size());
-  std::vector<std::array<float, 4>> records;
+  using Record = std::array<std::array<float, 4>, HALF_SPACE_TEXELS>;
+  std::vector<Record> records;
   for (const WorldHalfSpace& half_space : problem.half_spaces)
   {
     const Eigen::Vector3f normal = half_space.normal.cast<float>();
     const auto offset = static_cast<float>(half_space.offset - half_space.normal.dot(problem.origin));
-    records.push_back({normal.x(), normal.y(), normal.z(), offset});
-    records.push_back({static_cast<float>(half_space.padding), 0.0F, 0.0F, 0.0F});
+    const auto padding = static_cast<float>(half_space.padding);
+    records.push_back({{{normal.x(), normal.y(), normal.z(), offset}, {padding, 0.0F, 0.0F, 0.0F}}});
   }
-  half_spaces_.reserve(records.size() * sizeof(std::array<float, 4>));
+  half_spaces_.reserve(records.size() * sizeof(Record));
   half_spaces_.write(records);
 }
 
 void GpuScene::writeWorld(const CollisionProblem& problem)
 {
   std::vector<Eigen::AlignedBox3d> bounds;
-  std::vector<float> poses(12 * problem.world.size());
+  std::vector<float> poses(POSE_FLOATS * problem.world.size());
   for (std::size_t i = 0; i < problem.world.size(); ++i)
   {
     const ShapeInstance& object = problem.world[i];
     const Eigen::Isometry3d pose = Eigen::Translation3d(-problem.origin) * object.pose;
     bounds.push_back(placedBounds(trees_.tree(object.tree).bounds, problem.tessellations[object.tree].sagitta, pose,
                                   object.padding));
-    writePoseRows(pose, &poses[12 * i]);
+    writePoseRows(pose, &poses[POSE_FLOATS * i]);
   }
   object_tree_ = ObjectTree(std::move(bounds), object_tree_);
   write(poses, world_poses_);

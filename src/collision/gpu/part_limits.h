@@ -13,7 +13,7 @@ namespace gpu_planning_scene::core
 /// index wraps in 32 bits. `queries`: length of the longer list of broad-phase queries.
 inline std::size_t maxStatesOfPart(std::size_t texture_bytes, std::size_t robot_instances, std::size_t queries)
 {
-  constexpr std::size_t kPoseBytes = 12 * sizeof(float);
+  constexpr std::size_t kPoseBytes = POSE_TEXELS * TexelBuffer::kTexelBytes;
   constexpr std::size_t kMaxTexels = (std::size_t{1} << 31) - 3;  // texel indices are int
   const std::size_t instances = std::max<std::size_t>(1, robot_instances);
   const std::size_t by_poses =

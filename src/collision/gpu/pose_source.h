@@ -12,8 +12,8 @@ class PoseSource
  public:
   virtual ~PoseSource() = default;
 
-  /// Writes the poses for the states [begin, begin + count) of a batch. A pose takes three texels
-  /// (shaders/geometry/pose.glsl). The poses are ordered by instance, then by state (poseIndex in
+  /// Writes the poses for the states [begin, begin + count) of a batch. A pose takes POSE_TEXELS
+  /// texels (shaders/geometry/pose.glsl). The poses are ordered by instance, then by state (poseIndex in
   /// shaders/problem/instance_lists.glsl). `poses` must be large enough.
   virtual void write(std::size_t begin, std::size_t count, TexelBuffer& poses) = 0;
 };

@@ -4,6 +4,7 @@
 
 #include "collision/gpu/gpu_scene.h"
 #include "collision/parallel_for.h"
+#include "shader_constants.h"
 
 namespace gpu_planning_scene::core
 {
@@ -17,7 +18,7 @@ constexpr std::size_t kStatesPerChunk = 256;
 void UploadedPoses::write(std::size_t begin, std::size_t count, TexelBuffer& poses)
 {
   const std::vector<ShapeInstance>& instances = problem_.robot;
-  std::vector<float> rows(count * instances.size() * 12);
+  std::vector<float> rows(count * instances.size() * POSE_FLOATS);
   parallelFor(count, kStatesPerChunk,
               [&, links = std::vector<Eigen::Isometry3d>(link_count_)](std::size_t from, std::size_t to) mutable
               {
@@ -28,7 +29,7 @@ void UploadedPoses::write(std::size_t begin, std::size_t count, TexelBuffer& pos
                   {
                     Eigen::Isometry3d pose = links[static_cast<std::size_t>(instances[k].link)] * instances[k].pose;
                     pose.translation() -= problem_.origin;
-                    writePoseRows(pose, &rows[(k * count + i) * 12]);
+                    writePoseRows(pose, &rows[(k * count + i) * POSE_FLOATS]);
                   }
                 }
               });

@@ -1,13 +1,12 @@
 // Pairs that are left out of a problem change no answer, even with extreme numbers: unrealistic joint limits, poses
 // that are slightly off rigid, and a system that refuses threads.
-#include <pthread.h>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <type_traits>
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include "collision/bounds/problem_maker.h"
 #include "collision/parallel_for.h"

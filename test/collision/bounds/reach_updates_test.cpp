@@ -58,11 +58,11 @@ struct Step
 void expectProblemsOfANewMaker(PlanningScene scene, const std::vector<Step>& steps)
 {
   ProblemMaker maker{CheckerOptions()};
-  const auto bodies = [](const std::vector<ShapeInstance>& geometries)
+  const auto bodies = [](const std::vector<ShapeInstance>& instances)
   {
     std::vector<std::int32_t> result;
-    for (const ShapeInstance& geometry : geometries)
-      result.push_back(geometry.body);
+    for (const ShapeInstance& instance : instances)
+      result.push_back(instance.body);
     return result;
   };
   CollisionProblem before = maker.make(scene, "", nullptr);

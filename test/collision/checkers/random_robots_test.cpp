@@ -313,8 +313,8 @@ class PlacedPoints
  private:
   Eigen::Isometry3d poseOf(std::uint32_t shape, int viewer) const
   {
-    const ShapeInstance& geometry = problem_.robot[shape];
-    const Eigen::Isometry3d pose = links_[static_cast<std::size_t>(geometry.link)] * geometry.pose;
+    const ShapeInstance& instance = problem_.robot[shape];
+    const Eigen::Isometry3d pose = links_[static_cast<std::size_t>(instance.link)] * instance.pose;
     return viewer < 0 ? pose : links_[static_cast<std::size_t>(viewer)].inverse() * pose;
   }
 

@@ -1,7 +1,5 @@
 // Pairs of triangles of every kind at and near contact, compared with distances in 100-digit arithmetic. With this
 // precision the signs of all expressions in a pair's double coordinates are certain.
-#include "collision/geometry/triangle_pair.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
+#include "collision/geometry/triangle_pair.h"
 #include "support/moving_shape.h"
 
 namespace gpu_planning_scene::core

@@ -72,10 +72,10 @@ class BatchLimits : public testing::TestWithParam<Traversal>
     BatchCheckerOptions options;
     options.traversal = GetParam();
     options.shader_folder = folder_.path();
-    GpuChecker engine(options);
-    engine.setProblem(problem_);
+    GpuChecker checker(options);
+    checker.setProblem(problem_);
     BatchResult result;
-    engine.checkPoses(
+    checker.checkPoses(
         kStates, 1, [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses_[row]; }, result);
     return result;
   }

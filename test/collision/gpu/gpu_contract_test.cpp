@@ -71,17 +71,17 @@ class GpuContract : public testing::TestWithParam<Traversal>
     problem.world_pairs.push_back(1);
   }
 
-  static void TearDownTestSuite() { engines().clear(); }
+  static void TearDownTestSuite() { checkers().clear(); }
 
-  /// The suite's engine for this traversal. To start one takes longer than most tests.
-  GpuChecker& engine() const { return engines().try_emplace(GetParam(), options()).first->second; }
+  /// The suite's checker for this traversal. To start one takes longer than most tests.
+  GpuChecker& checker() const { return checkers().try_emplace(GetParam(), options()).first->second; }
 
   BatchResult check(const CollisionProblem& problem, const std::vector<Isometry3d>& poses)
   {
-    GpuChecker& engine = this->engine();
-    engine.setProblem(std::make_shared<const CollisionProblem>(problem));
+    GpuChecker& checker = this->checker();
+    checker.setProblem(std::make_shared<const CollisionProblem>(problem));
     BatchResult result;
-    engine.checkPoses(
+    checker.checkPoses(
         poses.size(), 1, [&](std::size_t row, Isometry3d* pose) { *pose = poses[row]; }, result);
     return result;
   }
@@ -94,10 +94,10 @@ class GpuContract : public testing::TestWithParam<Traversal>
   }
 
  private:
-  static std::map<Traversal, GpuChecker>& engines()
+  static std::map<Traversal, GpuChecker>& checkers()
   {
-    static std::map<Traversal, GpuChecker> engines;
-    return engines;
+    static std::map<Traversal, GpuChecker> checkers;
+    return checkers;
   }
 };
 
@@ -121,10 +121,10 @@ TEST_P(GpuContract, PaddingDoesNotCountBetweenLinks)
   problem.robot[0].padding = 0.05;
   problem.robot.push_back({0, 1, 1, at(0.0), 0.05});
   problem.self_pairs = {{0, 1}};
-  GpuChecker& engine = this->engine();
-  engine.setProblem(std::make_shared<const CollisionProblem>(problem));
+  GpuChecker& checker = this->checker();
+  checker.setProblem(std::make_shared<const CollisionProblem>(problem));
   BatchResult result;
-  engine.checkPoses(
+  checker.checkPoses(
       2, 2,
       [](std::size_t row, Isometry3d* poses)
       {
@@ -253,13 +253,13 @@ TEST_P(GpuContract, ADeviceWithOtherArithmeticIsReportedAndAnswersAreRightAllThe
   folder.replace("self_test/float_arithmetic.comp", "4097.0 * x", "1.0 * x");
   BatchCheckerOptions other = options();
   other.shader_folder = folder.path();
-  GpuChecker engine(other);
-  EXPECT_NE(engine.floatFault().find("two-product"), std::string::npos) << engine.floatFault();
+  GpuChecker checker(other);
+  EXPECT_NE(checker.floatFault().find("two-product"), std::string::npos) << checker.floatFault();
   CollisionProblem problem = problemOf(meshOf(Sphere{0.1}));
   addObject(problem, meshOf(Box{{0.2, 0.2, 0.2}}), at(0.5));
-  engine.setProblem(std::make_shared<const CollisionProblem>(problem));
+  checker.setProblem(std::make_shared<const CollisionProblem>(problem));
   BatchResult result;
-  engine.checkPoses(
+  checker.checkPoses(
       3, 1, [](std::size_t row, Isometry3d* pose) { *pose = at(row == 0   ? 0.1
                                                                : row == 1 ? 0.29
                                                                           : 0.35); }, result);

@@ -175,7 +175,7 @@ TEST(CollisionProblem, PlacesLinkShapesInTheLinkAndObjectsInThePlanningFrame)
   const CollisionProblem problem = makeProblem(scene, "", nullptr);
   const int upper = scene.robot->linkIndex("upper");
   const auto of_upper = std::find_if(problem.robot.begin(), problem.robot.end(),
-                                     [upper](const ShapeInstance& geometry) { return geometry.body == upper; });
+                                     [upper](const ShapeInstance& instance) { return instance.body == upper; });
   ASSERT_NE(problem.robot.end(), of_upper);
   EXPECT_TRUE(of_upper->pose.translation().isApprox(Eigen::Vector3d(0, 0, 0.3)));
   EXPECT_TRUE(problem.world[1].pose.translation().isApprox(Eigen::Vector3d(1.5, 0.0, 0.0)));
@@ -190,7 +190,7 @@ TEST(CollisionProblem, LeavesOutBodiesThatAreInNoCheckedPair)
   const int right = static_cast<int>(scene.robot->links().size()) + 1;
   EXPECT_EQ(2u, problem.world.size());
   EXPECT_TRUE(std::all_of(problem.world.begin(), problem.world.end(),
-                          [right](const ShapeInstance& geometry) { return geometry.body == right; }));
+                          [right](const ShapeInstance& instance) { return instance.body == right; }));
 }
 
 TEST(CollisionProblem, HasTheSameTreesAndGeometriesForEveryGroup)
@@ -311,7 +311,7 @@ TEST(CollisionProblem, PlacesCarriedObjectsInTheirLink)
   const int body = static_cast<int>(scene.robot->links().size() + scene.objects.size());
   std::vector<ShapeInstance> carried;
   std::copy_if(problem.robot.begin(), problem.robot.end(), std::back_inserter(carried),
-               [body](const ShapeInstance& geometry) { return geometry.body == body; });
+               [body](const ShapeInstance& instance) { return instance.body == body; });
   ASSERT_EQ(2u, carried.size());
   EXPECT_EQ(upper, carried[1].link);
   EXPECT_EQ(0.01, carried[1].padding);  // of its link: the object's own padding counts only in the world
@@ -325,11 +325,11 @@ TEST(CollisionProblem, NumbersTheRobotsTreesFirst)
   scene.objects.push_back({"ball", Eigen::Isometry3d::Identity(), {{Sphere{0.7}}}});
   const CollisionProblem problem = makeProblem(scene, "", nullptr);
   std::uint32_t robot_trees = 0;
-  for (const ShapeInstance& geometry : problem.robot)
-    robot_trees = std::max(robot_trees, geometry.tree + 1);
+  for (const ShapeInstance& instance : problem.robot)
+    robot_trees = std::max(robot_trees, instance.tree + 1);
   std::set<std::uint32_t> used;
-  for (const ShapeInstance& geometry : problem.robot)
-    used.insert(geometry.tree);
+  for (const ShapeInstance& instance : problem.robot)
+    used.insert(instance.tree);
   EXPECT_EQ(robot_trees, used.size());
   EXPECT_EQ(robot_trees, problem.world.back().tree);
 }
@@ -341,10 +341,10 @@ TEST(CollisionProblem, PadsLinksAndObjects)
   ASSERT_EQ(scene.link_padding.size(), scene.robot->links().size());
   scene.objects[1].padding = 0.5;
   const CollisionProblem problem = makeProblem(scene, "", nullptr);
-  for (const ShapeInstance& geometry : problem.robot)
-    EXPECT_EQ(scene.link_padding[geometry.link], geometry.padding);
-  for (const ShapeInstance& geometry : problem.world)
-    EXPECT_EQ(scene.bodyName(geometry.body) == "right" ? 0.5 : 0.0, geometry.padding);
+  for (const ShapeInstance& instance : problem.robot)
+    EXPECT_EQ(scene.link_padding[instance.link], instance.padding);
+  for (const ShapeInstance& instance : problem.world)
+    EXPECT_EQ(scene.bodyName(instance.body) == "right" ? 0.5 : 0.0, instance.padding);
 }
 
 TEST(CollisionProblem, PlacesHalfSpacesInThePlanningFrame)

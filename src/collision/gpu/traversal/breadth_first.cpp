@@ -42,9 +42,9 @@ void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
   if (task.tolerance > 0.0F)
     overlap.setFloat(LOCATION_TOLERANCE, task.tolerance);
   const std::uint32_t capacity = lists.capacity.node_pairs;
-  const auto chunk_lanes = std::uint32_t{LEVEL_CHUNK} * GROUP_SIZE;
+  const auto group_node_pairs = std::uint32_t{LEVEL_CHUNK} * GROUP_SIZE;
   std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
-  arguments_.prepare(in_counter, lists.capacity.root_pairs, chunk_lanes, COUNTER_ENTRIES_ODD);
+  arguments_.prepare(in_counter, lists.capacity.root_pairs, group_node_pairs, COUNTER_ENTRIES_ODD);
   for (const Program* program : level_programs)
   {
     program->set(LOCATION_ENTRY_CAPACITY, capacity);

@@ -64,8 +64,8 @@ class TaskPrograms
   std::array<std::optional<Program>, 8> programs_;
 };
 
-/// Traverses the trees of all root pairs of a batch down to the leaves. Each pair of overlapping leaves has its
-/// triangles tested. Used on the context's thread, with the scene and the lists bound.
+/// Traverses the trees of all root pairs of a batch down to the leaves, and tests the triangles of each pair of
+/// overlapping leaves. Used on the context's thread, with the scene and the lists bound.
 class GpuTraversal
 {
  public:

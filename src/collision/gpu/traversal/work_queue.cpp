@@ -4,6 +4,10 @@
 
 // Runs a fixed number of passes without waiting. Before each pass a small dispatch computes the size of the pass on the
 // device; the last one sets the overflow counter if node pairs remain.
+// Sources: invocations fetch new work until none remains (T. Aila, S. Laine: Understanding the Efficiency of Ray
+// Traversal on GPUs. HPG 2009); work groups with queues traverse pairs of trees (C. Lauterbach, Q. Mo, D. Manocha:
+// gProximity: Hierarchical GPU-based Operations for Collision and Distance Queries. Computer Graphics Forum 29(2),
+// 2010). The shared list of leaf pairs is our own method: it keeps all invocations busy with triangle tests.
 namespace gpu_planning_scene::core
 {
 namespace

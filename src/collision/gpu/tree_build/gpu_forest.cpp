@@ -7,12 +7,15 @@
 #include "shader_constants.h"
 
 // Three steps: a radix sort of the Morton codes within each mesh; BUILD_ROUNDS rounds of merging, in which each round
-// computes the size of the next round's dispatches; the layout, which goes through the rounds in reverse order.
+// computes the size of the next round's dispatches; the layout, which goes through the rounds in reverse order. The
+// header names the sources.
 namespace gpu_planning_scene::core
 {
 namespace
 {
 constexpr std::size_t kUint = sizeof(std::uint32_t);
+constexpr std::size_t kTexel = TexelBuffer::kTexelBytes;
+static_assert(sizeof(Node) == NODE_TEXELS * kTexel, "the layout of shaders/problem/nodes.glsl");
 
 /// With at most this many primitives, no invocation of the prefix sums comes near 65535 iterations, after which
 /// llvmpipe ends it.
@@ -29,7 +32,7 @@ std::vector<float> floatVertices(const std::vector<const Mesh*>& meshes)
   for (const Mesh* mesh : meshes)
     count += mesh->triangles.size();
   std::vector<float> vertices;
-  vertices.reserve(9 * count);
+  vertices.reserve(TRIANGLE_FLOATS * count);
   for (const Mesh* mesh : meshes)
     for (const auto& triangle : mesh->triangles)
       for (const std::uint32_t corner : triangle)
@@ -67,7 +70,7 @@ void GpuForestBuilder::buildTriangles(const std::vector<const Mesh*>& meshes, Fo
                                       Buffer& leaf_order, TexelBuffer& triangles)
 {
   const std::vector<float> vertices = floatVertices(meshes);
-  const std::size_t count = vertices.size() / 9;
+  const std::size_t count = vertices.size() / TRIANGLE_FLOATS;
   std::vector<std::uint32_t> first;
   std::uint32_t next = 0;
   for (const Mesh* mesh : meshes)
@@ -77,18 +80,18 @@ void GpuForestBuilder::buildTriangles(const std::vector<const Mesh*>& meshes, Fo
   }
   vertices_.reserve(vertices.size() * sizeof(float));
   vertices_.write(vertices);
-  boxes_.reserve(count * 32);
-  vertices_.bindStorage(0);
-  boxes_.bindStorage(1);
+  boxes_.reserve(count * CLUSTER_TEXELS * kTexel);
+  vertices_.bindStorage(BINDING_VERTICES);
+  boxes_.bindStorage(BINDING_BOXES);
   boxes_program_.set(LOCATION_TRIANGLE_COUNT, static_cast<std::uint32_t>(count));
   boxes_program_.dispatch(groupsFor(count));
 
   build(count, first, LEAF_TRIANGLES, region, nodes, leaf_order);
 
-  triangles.reserve((region.first_primitive + count) * 48);
-  vertices_.bindStorage(0);
-  leaf_order.bindStorage(1);
-  triangles.buffer().bindStorage(2);
+  triangles.reserve((region.first_primitive + count) * TRIANGLE_TEXELS * kTexel);
+  vertices_.bindStorage(BINDING_VERTICES);
+  leaf_order.bindStorage(BINDING_LEAF_ORDER);
+  triangles.buffer().bindStorage(BINDING_TRIANGLES);
   triangles_program_.set(LOCATION_FIRST_TRIANGLE, region.first_primitive);
   triangles_program_.set(LOCATION_TRIANGLE_COUNT, region.primitive_count);
   triangles_program_.dispatch(groupsFor(count));
@@ -129,17 +132,17 @@ void GpuForestBuilder::build(std::size_t count, const std::vector<std::uint32_t>
 void GpuForestBuilder::sortByMorton(std::size_t count, std::size_t mesh_count)
 {
   const auto n = static_cast<std::uint32_t>(count);
-  bounds_.reserve(mesh_count * 6 * kUint);
+  bounds_.reserve(mesh_count * BOUNDS_WORDS * kUint);
   bounds_.clear();
   for (Buffer& keys : keys_)
     keys.reserve(count * 2 * kUint);
   const std::size_t invocations = divideUp(count, CHUNK);
   counts_.reserve(invocations * RADIX_SIZE * kUint);
 
-  boxes_.bindStorage(0);
-  mesh_of_.bindStorage(1);
-  bounds_.bindStorage(2);
-  keys_[0].bindStorage(3);
+  boxes_.bindStorage(BINDING_BOXES);
+  mesh_of_.bindStorage(BINDING_MESH_OF);
+  bounds_.bindStorage(BINDING_BOUNDS);
+  keys_[0].bindStorage(BINDING_KEYS_OUT);
   bounds_program_.set(LOCATION_PRIMITIVE_COUNT, n);
   bounds_program_.dispatch(groupsFor(count));
   morton_program_.set(LOCATION_PRIMITIVE_COUNT, n);
@@ -147,10 +150,10 @@ void GpuForestBuilder::sortByMorton(std::size_t count, std::size_t mesh_count)
 
   const auto pass = [&](std::uint32_t shift, std::uint32_t by_mesh)
   {
-    keys_[0].bindStorage(0);
-    mesh_of_.bindStorage(1);
-    counts_.bindStorage(4);
-    keys_[1].bindStorage(5);
+    keys_[0].bindStorage(BINDING_KEYS_IN);
+    mesh_of_.bindStorage(BINDING_MESH_OF);
+    counts_.bindStorage(BINDING_COUNTS);
+    keys_[1].bindStorage(BINDING_KEYS_OUT);
     for (const Program* program : {&sort_count_program_, &sort_scatter_program_})
     {
       program->set(LOCATION_KEY_COUNT, n);
@@ -173,18 +176,18 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
 {
   for (int i = 0; i < 2; ++i)
   {
-    clusters_[i].reserve(count * 32);
+    clusters_[i].reserve(count * CLUSTER_TEXELS * kTexel);
     cluster_info_[i].reserve(count * 2 * kUint);
   }
   nearest_.reserve(count * kUint);
   sums_.reserve(divideUp(count, CHUNK) * 2 * kUint);
-  pairs_.reserve((count - mesh_count) * 64);
+  pairs_.reserve((count - mesh_count) * PAIR_TEXELS * kTexel);
 
-  keys_[0].bindStorage(0);
-  mesh_of_.bindStorage(1);
-  boxes_.bindStorage(2);
-  clusters_[0].bindStorage(3);
-  cluster_info_[0].bindStorage(4);
+  keys_[0].bindStorage(BINDING_KEYS_IN);
+  mesh_of_.bindStorage(BINDING_MESH_OF);
+  boxes_.bindStorage(BINDING_BOXES);
+  clusters_[0].bindStorage(BINDING_CLUSTERS_OUT);
+  cluster_info_[0].bindStorage(BINDING_CLUSTER_INFO_OUT);
   gather_program_.set(LOCATION_PRIMITIVE_COUNT, static_cast<std::uint32_t>(count));
   gather_program_.dispatch(groupsFor(count));
 
@@ -193,10 +196,10 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   rounds_.clear();
   const std::size_t invocations = count == mesh_count ? 0 : count;
   std::vector<std::uint32_t> first(ROUND_STRIDE, 0);
-  const auto set_groups = [&](std::size_t at, std::size_t lane_count)
+  const auto set_groups = [&](std::size_t at, std::size_t invocation_count)
   {
-    const std::size_t groups = groupsFor(lane_count);
-    const std::size_t rows = divideUp(groups, 65535);
+    const std::size_t groups = groupsFor(invocation_count);
+    const std::size_t rows = divideUp(groups, MAX_GROUPS);
     first[at] = static_cast<std::uint32_t>(rows == 0 ? 0 : divideUp(groups, rows));
     first[at + 1] = static_cast<std::uint32_t>(rows);
     first[at + 2] = 1;
@@ -209,17 +212,17 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
     return 0;
 
   scan_program_.set(LOCATION_MESH_COUNT, static_cast<std::uint32_t>(mesh_count));
-  rounds_.bindStorage(2);
-  nearest_.bindStorage(3);
-  sums_.bindStorage(4);
-  pairs_.bindStorage(7);
+  rounds_.bindStorage(BINDING_ROUNDS);
+  nearest_.bindStorage(BINDING_NEAREST);
+  sums_.bindStorage(BINDING_SUMS);
+  pairs_.bindStorage(BINDING_PAIRS);
   for (std::uint32_t round = 0; round < BUILD_ROUNDS; ++round)
   {
     const std::size_t record = kUint * round * ROUND_STRIDE;
-    clusters_[round & 1].bindStorage(0);
-    cluster_info_[round & 1].bindStorage(1);
-    clusters_[~round & 1].bindStorage(5);
-    cluster_info_[~round & 1].bindStorage(6);
+    clusters_[round & 1].bindStorage(BINDING_CLUSTERS_IN);
+    cluster_info_[round & 1].bindStorage(BINDING_CLUSTER_INFO_IN);
+    clusters_[~round & 1].bindStorage(BINDING_CLUSTERS_OUT);
+    cluster_info_[~round & 1].bindStorage(BINDING_CLUSTER_INFO_OUT);
     for (const Program* program : {&nearest_program_, &count_program_, &scan_program_, &write_program_})
       program->set(LOCATION_ROUND_INDEX, round);
     nearest_program_.dispatchIndirect(rounds_, record + ROUND_CLUSTER_GROUPS * kUint);
@@ -243,13 +246,13 @@ void GpuForestBuilder::layOut(std::size_t mesh_count, std::uint32_t leaf_size, c
                               const TexelBuffer& nodes, const Buffer& leaf_order)
 {
   pair_starts_.reserve((region.primitive_count - mesh_count) * kUint);
-  clusters_[0].bindStorage(0);
-  clusters_[1].bindStorage(1);
-  rounds_.bindStorage(2);
-  first_primitive_.bindStorage(3);
-  pair_starts_.bindStorage(5);
-  nodes.buffer().bindStorage(6);
-  leaf_order.bindStorage(7);
+  clusters_[0].bindStorage(BINDING_CLUSTERS_EVEN);
+  clusters_[1].bindStorage(BINDING_CLUSTERS_ODD);
+  rounds_.bindStorage(BINDING_ROUNDS);
+  first_primitive_.bindStorage(BINDING_FIRST_PRIMITIVE);
+  pair_starts_.bindStorage(BINDING_PAIR_STARTS);
+  nodes.buffer().bindStorage(BINDING_NODES);
+  leaf_order.bindStorage(BINDING_LEAF_ORDER);
   for (const Program* program : {&layout_roots_program_, &layout_pairs_program_})
   {
     program->set(LOCATION_ROOT_BASE, region.first_node);
@@ -258,7 +261,7 @@ void GpuForestBuilder::layOut(std::size_t mesh_count, std::uint32_t leaf_size, c
   }
   layout_roots_program_.set(LOCATION_MESH_COUNT, static_cast<std::uint32_t>(mesh_count));
   layout_roots_program_.dispatch(groupsFor(mesh_count));
-  pairs_.bindStorage(4);
+  pairs_.bindStorage(BINDING_PAIRS);
   layout_pairs_program_.set(LOCATION_MESH_COUNT, static_cast<std::uint32_t>(mesh_count));
   for (std::uint32_t round = BUILD_ROUNDS; round-- > 0;)
   {

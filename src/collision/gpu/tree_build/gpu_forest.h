@@ -24,8 +24,9 @@ struct ForestRegion
 };
 
 /// Builds bounding volume hierarchies on the GPU, many at once. Primitives are sorted in Morton order (Lauterbach et
-/// al. 2009). Nearest neighbours by surface area are then merged from the leaves up (PLOC, Meister and Bittner 2018).
-/// This gives trees of SAH quality without a separate optimisation pass. Finally leaves and nodes are laid out from the
+/// al., "Fast BVH Construction on GPUs", 2009). Nearest neighbours by surface area are then merged from the leaves up
+/// (Meister and Bittner, "Parallel Locally-Ordered Clustering for Bounding Volume Hierarchy Construction", 2018). This
+/// gives trees of SAH quality without a separate optimisation pass. Finally leaves and nodes are laid out from the
 /// roots down.
 ///
 /// Each primitive is in exactly one leaf, also zero-area and duplicate triangles. The depth is at most BUILD_ROUNDS.

@@ -6,7 +6,8 @@
 #include "shader_constants.h"
 
 // One invocation fits the box of a small node. Nodes with many triangles are listed, and a work group fits each of
-// them. Nodes of more than FIT_MAX_TRIANGLES triangles keep their axis-aligned box.
+// them. Nodes of more than FIT_MAX_TRIANGLES triangles keep their axis-aligned box. The axes are chosen as in
+// Gottschalk, Lin and Manocha, "OBBTree", 1996 (shaders/tree_build/fit.glsl).
 namespace gpu_planning_scene::core
 {
 namespace
@@ -31,9 +32,9 @@ void GpuOrientedBoxes::fit(const ForestRegion& region, const TexelBuffer& nodes,
   large_count_.clear();
   nodes.bindTexture(UNIT_NODES);
   triangles.bindTexture(UNIT_TRIANGLES);
-  oriented.buffer().bindStorage(0);
-  large_nodes_.bindStorage(1);
-  large_count_.bindStorage(2);
+  oriented.buffer().bindStorage(BINDING_ORIENTED_NODES);
+  large_nodes_.bindStorage(BINDING_LARGE_NODES);
+  large_count_.bindStorage(BINDING_LARGE_COUNT);
   for (std::uint32_t first = 0; first < region.node_count; first += kNodesAtOnce)
   {
     const std::uint32_t count = std::min(kNodesAtOnce, region.node_count - first);

@@ -7,6 +7,7 @@
 #include "collision/gpu/tree_build/gpu_forest.h"
 #include "gpu/buffer.h"
 #include "gpu/program.h"
+#include "shader_constants.h"
 
 namespace gpu_planning_scene::core
 {
@@ -20,7 +21,7 @@ struct OrientedNode
   std::uint32_t count;               ///< as in Node
   std::array<float, 4> orientation;  ///< quaternion x, y, z, w of the box in the mesh's frame
 };
-static_assert(sizeof(OrientedNode) == 48, "three RGBA32UI texels");
+static_assert(sizeof(OrientedNode) == ORIENTED_NODE_TEXELS * TexelBuffer::kTexelBytes, "the layout of the shaders");
 
 /// Fits an oriented box to the triangles of each node on the GPU, see shaders/tree_build/fit.glsl (Gottschalk, Lin and
 /// Manocha, "OBBTree", 1996). Used on the context's thread.

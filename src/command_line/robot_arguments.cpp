@@ -1,4 +1,4 @@
-#include "tools/robot_arguments.h"
+#include "command_line/robot_arguments.h"
 
 #include <iostream>
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "command_line/command_line.h"
 #include "gpu_planning_scene/planning_scene.h"
-#include "tools/command_line.h"
 
 namespace gpu_planning_scene::core
 {

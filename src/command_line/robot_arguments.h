@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "command_line/command_line.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/robot_model.h"
-#include "tools/command_line.h"
 
 namespace gpu_planning_scene::core
 {

@@ -1,11 +1,11 @@
-#include "tools/scene_arguments.h"
+#include "command_line/scene_arguments.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "command_line/robot_arguments.h"
 #include "scene/parse_number.h"
-#include "tools/robot_arguments.h"
 
 namespace gpu_planning_scene::core
 {

@@ -1,0 +1,94 @@
+#include "support/fcl_trees.h"
+
+#include <vector>
+
+// Must precede BVH_model.h, whose templates need this header but do not include it.
+#include <fcl/math/bv/utility.h>
+
+#include <fcl/geometry/bvh/BVH_model.h>
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+template <class BoundingVolume>
+std::shared_ptr<fcl::BVHModel<BoundingVolume>> makeTree(const Mesh& mesh)
+{
+  auto model = std::make_shared<fcl::BVHModel<BoundingVolume>>();
+  std::vector<fcl::Triangle> triangles;
+  for (const auto& t : mesh.triangles)
+    triangles.emplace_back(t[0], t[1], t[2]);
+  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(mesh.vertices.size()));
+  model->addSubModel(mesh.vertices, triangles);
+  model->endModel();
+  return model;
+}
+
+FclGeometry makeTree(const Mesh& mesh, FclTree tree)
+{
+  switch (tree)
+  {
+    case FclTree::Obb:
+      return makeTree<fcl::OBBd>(mesh);
+    case FclTree::Aabb:
+      return makeTree<fcl::AABBd>(mesh);
+    case FclTree::Kios:
+      return makeTree<fcl::kIOSd>(mesh);
+    case FclTree::Kdop24:
+      return makeTree<fcl::KDOP<double, 24>>(mesh);
+    default:
+      return makeTree<fcl::OBBRSSd>(mesh);
+  }
+}
+
+template <class BoundingVolume>
+class MovedTree : public FclMovedTree
+{
+ public:
+  explicit MovedTree(std::shared_ptr<const Mesh> mesh)
+    : mesh_(std::move(mesh)), model_(makeTree<BoundingVolume>(*mesh_)), vertices_(mesh_->vertices)
+  {
+  }
+
+  const fcl::CollisionGeometryd* at(const Eigen::Isometry3d& pose) override
+  {
+    if (pose.matrix() == pose_.matrix())
+      return model_.get();
+    pose_ = pose;
+    for (std::size_t i = 0; i < vertices_.size(); ++i)
+      vertices_[i] = pose * mesh_->vertices[i];
+    model_->beginReplaceModel();
+    model_->replaceSubModel(vertices_);
+    model_->endReplaceModel(true, true);
+    return model_.get();
+  }
+
+ private:
+  std::shared_ptr<const Mesh> mesh_;
+  std::shared_ptr<fcl::BVHModel<BoundingVolume>> model_;
+  std::vector<Eigen::Vector3d> vertices_;
+  Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
+};
+}  // namespace
+
+FclGeometry makeFclGeometry(const Shape& shape, const Tessellation& tessellation, FclTree tree)
+{
+  if (FclGeometry round = makeFclRound(shape))
+    return round;
+  FclGeometry model = makeTree(*tessellation.mesh, tree);
+  model->computeLocalAABB();
+  return model;
+}
+
+std::shared_ptr<FclMovedTree> makeFclMovedTree(const Shape& shape, const Tessellation& tessellation, FclTree tree)
+{
+  if (std::holds_alternative<Sphere>(shape) || std::holds_alternative<Cylinder>(shape) ||
+      std::holds_alternative<Cone>(shape))
+    return nullptr;
+  if (tree == FclTree::Aabb)
+    return std::make_shared<MovedTree<fcl::AABBd>>(tessellation.mesh);
+  if (tree == FclTree::Kdop24)
+    return std::make_shared<MovedTree<fcl::KDOP<double, 24>>>(tessellation.mesh);
+  return nullptr;
+}
+}  // namespace gpu_planning_scene::core
