@@ -13,10 +13,11 @@ LAYERS = {
     "collision/problem": ["collision/geometry", "collision", "scene"],
     "collision/exact": ["collision/problem"],
     "collision/bounds": ["collision/exact"],
+    "collision/filter": ["collision/exact"],
     "collision/gpu": ["collision/bounds", "gpu"],
     "collision/contacts": ["collision/bounds"],
     "collision/motion": ["collision/bounds"],
-    "collision/checkers": ["collision/gpu", "collision/contacts", "collision/motion"],
+    "collision/checkers": ["collision/filter", "collision/gpu", "collision/contacts", "collision/motion"],
     "collision": [],  # shared by all rooms
     "planning": ["collision/checkers"],
     "service": ["collision/checkers"],

@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kStatesPerChunk = 16;
+constexpr std::size_t kStatesPerChunk = 32;
 
 // Checking this many states takes less time than starting threads. The calling thread also keeps its learned order of
 // checks.
@@ -61,8 +61,12 @@ const SceneReport& CpuScene::report(const std::string& name)
 
 void CpuScene::prepare(Group& group)
 {
-  if (!group.within)
-    group.within = forest_->traversalOf(group.problem);
+  if (group.within)
+    return;
+  group.within = forest_->traversalOf(group.problem);
+  // With a tolerance, the traversal may call states colliding that the proofs call free.
+  if (options_.tolerance == 0.0 && !group.problem->always_colliding)
+    group.lanes = std::make_unique<LaneChecker>(scene_->robot, group.problem, forest_->forest(), *group.within);
 }
 
 void CpuScene::prepareOutside(const std::string& name, Group& group)
@@ -93,6 +97,20 @@ void CpuScene::checkRow(const double* state, std::size_t row, const Group& group
   }
 }
 
+/// Checks states begin to end - 1. `by_lanes`: the proofs of the lane checker are ready.
+void CpuScene::checkBlock(const double* states, std::size_t begin, std::size_t end, const Group& group,
+                          const Margins* margins, bool by_lanes, Scratch& scratch, BatchResult& result) const
+{
+  const std::size_t width = scene_->robot->variables().size();
+  bool is_taken = by_lanes && end - begin > 1;
+  for (std::size_t i = begin; i < end && is_taken; ++i)
+    is_taken = isValidFor(*group.problem, states + i * width) && group.lanes->takes(states + i * width);
+  if (is_taken)
+    return group.lanes->check(states + begin * width, end - begin, begin, scratch.lanes, result);
+  for (std::size_t i = begin; i < end; ++i)
+    checkRow(states + i * width, i, group, margins, scratch, result);
+}
+
 Margins CpuScene::margins(const JointNeighbourhood& around, const double* states, std::size_t count,
                           const std::string& name)
 {
@@ -120,17 +138,15 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
   for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)
     if (!isValidFor(*group.problem, states + i * width))
       prepareOutside(name, group);
-  if (count <= kFewStates)
+  const bool by_lanes = !margins && group.lanes && group.lanes->isReady();
+  const auto check_range = [&](std::size_t begin, std::size_t end, Scratch& scratch)
   {
-    for (std::size_t i = 0; i < count; ++i)
-      checkRow(states + i * width, i, group, margins, group.scratch, result);
-    return;
-  }
-  parallelFor(count, kStatesPerChunk,
-              [&, scratch = group.scratch](std::size_t begin, std::size_t end) mutable
-              {
-                for (std::size_t i = begin; i < end; ++i)
-                  checkRow(states + i * width, i, group, margins, scratch, result);
-              });
+    for (std::size_t i = begin; i < end; i += lanes::kLanes)
+      checkBlock(states, i, std::min<std::size_t>(i + lanes::kLanes, end), group, margins, by_lanes, scratch, result);
+  };
+  if (count <= kFewStates)
+    return check_range(0, count, group.scratch);
+  parallelFor(count, kStatesPerChunk, [&, scratch = group.scratch](std::size_t begin, std::size_t end) mutable
+              { check_range(begin, end, scratch); });
 }
 }  // namespace gpu_planning_scene::core

@@ -9,6 +9,7 @@
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/exact/forest_cache.h"
+#include "collision/filter/lane_checker.h"
 
 namespace gpu_planning_scene::core
 {
@@ -50,6 +51,7 @@ class CpuScene
     CpuTraversal::Scratch within;   // for states for which the problem is valid
     CpuTraversal::Scratch outside;  // for the other states
     CpuTraversal::Scratch near;     // for states with margins
+    LaneChecker::Scratch lanes;     // for blocks of states for which the problem is valid
     std::vector<Eigen::Isometry3d> poses;
   };
   struct Group
@@ -58,6 +60,7 @@ class CpuScene
     bool is_sampled = false;  // the report has the pairs of collidingInSamples
     std::shared_ptr<const CollisionProblem> problem;
     std::unique_ptr<const CpuTraversal> within;   // traversal of this problem
+    std::unique_ptr<LaneChecker> lanes;           // for states for which the problem is valid; null: not used
     std::unique_ptr<const CpuTraversal> outside;  // all pairs, for states for which the problem is not valid
     std::unique_ptr<const DisplacementBounds> displacements;
     Scratch scratch;
@@ -66,6 +69,8 @@ class CpuScene
   Group& groupOf(const std::string& group);
   void prepare(Group& group);
   void prepareOutside(const std::string& name, Group& group);
+  void checkBlock(const double* states, std::size_t begin, std::size_t end, const Group& group, const Margins* margins,
+                  bool by_lanes, Scratch& scratch, BatchResult& result) const;
   void checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins, Scratch& scratch,
                 BatchResult& result) const;
 

@@ -20,6 +20,7 @@ class CpuForest
   CpuForest(const CollisionProblem& problem, const Forest& forest);
 
   const CpuTree& tree(std::uint32_t number) const { return *trees_[number]; }
+  const std::shared_ptr<const CpuTree>& shared(std::uint32_t number) const { return trees_[number]; }
 
  private:
   std::vector<std::shared_ptr<const CpuTree>> trees_;

@@ -210,6 +210,40 @@ std::optional<BodyPair> CpuTraversal::firstCollision(const Isometry3d* link_pose
   return found;
 }
 
+std::optional<BodyPair> CpuTraversal::firstCollisionOf(const InstancePair* pairs, std::size_t count,
+                                                       const Isometry3d* link_poses, Scratch& scratch,
+                                                       std::size_t& found) const
+{
+  const auto& robot = problem_->robot;
+  const auto collides = [&](const InstancePair& pair)
+  {
+    const ShapeInstance& first = robot[pair[0]];
+    if (pair[1] < robot.size())
+      return pair_.collide(first.tree, scratch.poses[pair[0]], robot[pair[1]].tree, scratch.poses[pair[1]], 0.0,
+                           scratch.pair);
+    const std::size_t object = pair[1] - robot.size();
+    if (object < problem_->world.size())
+    {
+      const ShapeInstance& other = problem_->world[object];
+      return pair_.collide(first.tree, scratch.poses[pair[0]], other.tree, other.pose, first.padding + other.padding,
+                           scratch.pair);
+    }
+    const WorldHalfSpace& other = problem_->half_spaces[object - problem_->world.size()];
+    return pair_.collide(first.tree, scratch.poses[pair[0]], {other.normal, other.offset},
+                         first.padding + other.padding, scratch.pair);
+  };
+  scratch.poses.resize(robot.size());
+  for (found = 0; found < count; ++found)
+  {
+    for (const std::uint32_t instance : pairs[found])
+      if (instance < robot.size())
+        scratch.poses[instance] = link_poses[robot[instance].link] * robot[instance].pose;
+    if (collides(pairs[found]))
+      return bodiesOf(pairs[found]);
+  }
+  return std::nullopt;
+}
+
 std::vector<BodyPair> CpuTraversal::allCollisions(const Isometry3d* link_poses, Scratch& scratch) const
 {
   std::vector<BodyPair> found;

@@ -1,0 +1,220 @@
+#include "collision/filter/ball_cover.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "collision/filter/shape_samples.h"
+#include "collision/geometry/triangle_pair.h"
+
+// The candidates for centres are points inside the shape. A candidate's ball may have the radius "depth of the centre +
+// gap", so it reaches at most the gap beyond the surface. A greedy set cover finds balls for a gap; bisection finds the
+// least gap for which the allowed number of balls suffices. The certified radii follow from the parts that each ball
+// then has to contain, and not from the samples that chose the balls.
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector3d;
+
+constexpr std::size_t kCandidates = 1200;
+constexpr std::size_t kFewCandidates = 200;
+constexpr std::size_t kSamples = 1500;  // of the surface, and as many of the solid
+constexpr int kBisections = 9;
+constexpr int kEnclosingSteps = 2000;
+constexpr double kHalfDiagonal = 0.8660254037844387;  // of a cube of edge length 1
+constexpr double kRounding = 1e-9;                    // metres: exceeds the rounding error of the radii
+
+/// Keeps about `count` elements, evenly spread.
+template <class T>
+std::vector<T> thinned(const std::vector<T>& all, std::size_t count)
+{
+  const std::size_t step = std::max<std::size_t>(1, all.size() / count);
+  std::vector<T> kept;
+  for (std::size_t i = 0; i < all.size(); i += step)
+    kept.push_back(all[i]);
+  return kept;
+}
+
+std::vector<SolidCell> candidatesOf(const ShapeSamples& samples)
+{
+  std::vector<SolidCell> candidates = thinned(samples.inside, kCandidates);
+  if (candidates.size() < kFewCandidates)
+    for (const Vector3d& point : thinned(samples.points, 2 * kFewCandidates))
+      candidates.push_back({point, 0.0});
+  return candidates;
+}
+
+/// The gaps for which each candidate's ball contains each sample.
+class GapTable
+{
+ public:
+  GapTable(const ShapeSamples& samples, const std::vector<SolidCell>& candidates)
+    : candidates_(candidates.size())
+  {
+    const std::vector<Vector3d> points = thinned(samples.points, kSamples);
+    const std::vector<SolidCell> cells = thinned(samples.cells, kSamples);
+    samples_ = points.size() + cells.size();
+    gaps_.reserve(candidates_ * samples_);
+    for (const SolidCell& candidate : candidates)
+    {
+      const auto add = [&](const Vector3d& point, double radius)
+      { gaps_.push_back(static_cast<float>((point - candidate.center).norm() + radius - candidate.depth)); };
+      for (const Vector3d& point : points)
+        add(point, 0.0);
+      for (const SolidCell& cell : cells)
+        add(cell.center, kHalfDiagonal * samples.cell);
+    }
+  }
+
+  /// Indices of at most `most` candidates that contain all samples for a gap; empty if the greedy choice needs more.
+  std::vector<std::size_t> cover(float gap, std::size_t most) const
+  {
+    const std::size_t words = (samples_ + 63) / 64;
+    std::vector<std::uint64_t> contained(candidates_ * words, 0);
+    for (std::size_t c = 0; c < candidates_; ++c)
+      for (std::size_t s = 0; s < samples_; ++s)
+        contained[c * words + s / 64] |= static_cast<std::uint64_t>(gaps_[c * samples_ + s] <= gap) << (s % 64);
+    std::vector<std::uint64_t> left(words, ~std::uint64_t{0});
+    if (samples_ % 64 != 0)
+      left.back() = (std::uint64_t{1} << (samples_ % 64)) - 1;
+    std::vector<std::size_t> chosen;
+    while (std::any_of(left.begin(), left.end(), [](std::uint64_t word) { return word != 0; }))
+    {
+      std::size_t best = 0;
+      int most_new = 0;
+      for (std::size_t c = 0; c < candidates_; ++c)
+      {
+        int count = 0;
+        for (std::size_t w = 0; w < words; ++w)
+          count += __builtin_popcountll(contained[c * words + w] & left[w]);
+        if (count > most_new)
+        {
+          most_new = count;
+          best = c;
+        }
+      }
+      if (most_new == 0 || chosen.size() == most)
+        return {};
+      chosen.push_back(best);
+      for (std::size_t w = 0; w < words; ++w)
+        left[w] &= ~contained[best * words + w];
+    }
+    return chosen;
+  }
+
+ private:
+  std::size_t candidates_;
+  std::size_t samples_;
+  std::vector<float> gaps_;  // candidates_ rows
+};
+
+/// A ball that is being fitted.
+struct Fit
+{
+  Vector3d center;
+  double depth;  // approximate, 0 if unknown
+  double outer = 0.0;
+};
+
+/// The centre of a small ball around points (Badoiu and Clarkson, "Smaller core-sets for balls", 2003).
+Vector3d enclosingCenter(const std::vector<Vector3d>& points)
+{
+  Vector3d center = points.front();
+  for (int step = 1; step <= kEnclosingSteps; ++step)
+  {
+    const auto farthest = std::max_element(points.begin(), points.end(),
+                                           [&center](const Vector3d& a, const Vector3d& b)
+                                           { return (a - center).squaredNorm() < (b - center).squaredNorm(); });
+    center += (*farthest - center) / (step + 1.0);
+  }
+  return center;
+}
+
+/// Grows a ball so that it contains a part. It is the first ball that contains the part already, or else the ball that
+/// then reaches least beyond the surface. `radius_from` returns the radius that a centre needs for the part.
+template <class RadiusFrom>
+void contain(std::vector<Fit>& fits, const RadiusFrom& radius_from)
+{
+  Fit* best = nullptr;
+  double least = std::numeric_limits<double>::max();
+  double radius = 0.0;
+  for (Fit& fit : fits)
+  {
+    const double needed = radius_from(fit.center);
+    if (needed <= fit.outer)
+      return;
+    if (needed - fit.depth < least)
+    {
+      least = needed - fit.depth;
+      best = &fit;
+      radius = needed;
+    }
+  }
+  best->outer = radius;
+}
+
+CoverBall certified(const CpuTree& tree, const ShapeSamples& samples, const Fit& fit, double sagitta)
+{
+  CoverBall ball{fit.center, fit.outer + sagitta + kRounding, fit.center, 0.0};
+  // A curved primitive is larger than its triangles, by at most the sagitta.
+  const double depth = (1.0 - 1e-6) * distanceFromSurface(tree, fit.center) - sagitta - kRounding;
+  if (depth > 0.0 && hasSolid(tree) && insideSolid(tree, fit.center))
+    ball.inner = depth;
+  else
+    ball.witness = *std::min_element(samples.points.begin(), samples.points.end(),
+                                     [&fit](const Vector3d& a, const Vector3d& b)
+                                     { return (a - fit.center).squaredNorm() < (b - fit.center).squaredNorm(); });
+  return ball;
+}
+}  // namespace
+
+BallCover coverOf(const CpuTree& tree, double sagitta)
+{
+  const ShapeSamples samples = samplesOf(tree);
+  const std::vector<SolidCell> candidates = candidatesOf(samples);
+  const GapTable gaps(samples, candidates);
+  BallCover cover;
+  cover.layer = hasSolid(tree) ? 2.0 * kHalfDiagonal * samples.cell + sagitta : 0.0;
+  for (std::size_t level = 0; level < kCoverBalls.size(); ++level)
+  {
+    std::vector<Fit> fits;
+    if (level == 0)
+      fits.push_back({enclosingCenter(samples.points), 0.0});
+    else
+    {
+      float low = 0.0F;
+      auto high = static_cast<float>(2.0 * cover.levels[0].front().outer);
+      std::vector<std::size_t> chosen{0};
+      for (int step = 0; step < kBisections; ++step)
+      {
+        const float gap = 0.5F * (low + high);
+        const std::vector<std::size_t> found = gaps.cover(gap, kCoverBalls[level]);
+        (found.empty() ? low : high) = gap;
+        if (!found.empty())
+          chosen = found;
+      }
+      for (const std::size_t candidate : chosen)
+        fits.push_back({candidates[candidate].center, candidates[candidate].depth});
+    }
+    for (const Triangle& piece : samples.pieces)
+      contain(fits,
+              [&piece](const Vector3d& center)
+              {
+                return std::sqrt(std::max({(piece[0] - center).squaredNorm(), (piece[1] - center).squaredNorm(),
+                                           (piece[2] - center).squaredNorm()}));
+              });
+    for (const SolidCell& cell : samples.cells)
+      contain(fits, [&](const Vector3d& center)
+              { return (cell.center - center).norm() + kHalfDiagonal * samples.cell; });
+    for (const Fit& fit : fits)
+      cover.levels[level].push_back(certified(tree, samples, fit, sagitta));
+  }
+  if (hasSolid(tree) && tree.components.components.size() <= 1)  // a primitive has no components
+    for (const auto& level : cover.levels)
+      for (const CoverBall& ball : level)
+        cover.thickness = std::max(cover.thickness, ball.inner);
+  return cover;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,323 @@
+#include "collision/filter/lane_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "collision/filter/lane_objects.h"
+#include "model/math_constants.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// The error bounds are derived in docs/error_bounds.md, "The lane kernel".
+constexpr double kUnit = 0x1p-24;           // rounding unit of float
+constexpr double kTurnError = 1.5e-6;       // of a vector of length 1 that a turning joint rotates
+constexpr double kProductError = 12.0 * kUnit;  // of a vector of length 1, by the product of two rotations
+constexpr double kSumError = 8.0 * kUnit;   // of a transformed point, times its largest coordinates
+constexpr double kDistanceError = 32.0 * kUnit;
+
+constexpr double kLargestAngle = 1e4;  // radians: beyond it, an angle modulo 2 pi is not accurate
+constexpr double kLargestGiven = 32.0;  // metres: distance of a planar or floating joint's frame from the origin
+constexpr std::size_t kGroup = 8;       // world pairs of a group
+
+float above(double x)
+{
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::max());
+}
+
+float below(double x)
+{
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::lowest());
+}
+
+Matrix3d crossProductMatrix(const Vector3d& a)
+{
+  Matrix3d matrix;
+  matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return matrix;
+}
+
+void writeRotation(const Matrix3d& rotation, float* rows)
+{
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      rows[4 * row + column] = static_cast<float>(rotation(row, column));
+}
+
+void writeBall(const Vector3d& center, float radius, int place, lanes::Balls& balls)
+{
+  balls.x[place] = static_cast<float>(center.x());
+  balls.y[place] = static_cast<float>(center.y());
+  balls.z[place] = static_cast<float>(center.z());
+  balls.radius[place] = radius;
+}
+
+template <class T>
+lanes::Array<T> arrayOf(const std::vector<T>& values)
+{
+  return {values.data(), static_cast<std::uint32_t>(values.size())};
+}
+}  // namespace
+
+LaneScene::LaneScene(std::shared_ptr<const RobotModel> robot, const CollisionProblem& problem, const CpuForest& forest,
+                     std::shared_ptr<const RobotProofs> proofs)
+  : robot_(std::move(robot)), proofs_(std::move(proofs)), origin_(problem.origin)
+{
+  addFrames();
+  for (std::size_t i = 0; i < problem.robot.size(); ++i)
+    addBody(problem.robot[i], *proofs_->covers[i]);
+  addSelfPairs(problem);
+  addWorld(problem, forest);
+  model_ = {robot_->variables().size(), arrayOf(frames_),     arrayOf(bodies_),      arrayOf(objects_),
+            arrayOf(tables_),           arrayOf(self_pairs_), arrayOf(world_pairs_), arrayOf(world_groups_)};
+}
+
+/// Links that are rigidly connected share a frame.
+void LaneScene::addFrames()
+{
+  largest_.assign(robot_->variables().size(), std::numeric_limits<double>::max());
+  for (std::size_t link = 0; link < robot_->links().size(); ++link)
+  {
+    const int number = robot_->links()[link].parent_joint;
+    const Joint fixed;
+    const Joint& joint = number < 0 ? fixed : robot_->joints()[static_cast<std::size_t>(number)];
+    const bool has_parent = joint.parent_link >= 0;
+    const auto parent = static_cast<std::size_t>(joint.parent_link);
+    Isometry3d base = Isometry3d::Identity();
+    base.translation() = -origin_;
+    const Isometry3d origin = (has_parent ? in_frame_[parent] : base) * joint.origin;
+    if (joint.type == JointType::Fixed && has_parent)
+    {
+      frame_of_link_.push_back(frame_of_link_[parent]);
+      in_frame_.push_back(origin);
+      continue;
+    }
+    frame_of_link_.push_back(
+        addFrame(joint, static_cast<int>(link), has_parent ? frame_of_link_[parent] : -1, origin));
+    in_frame_.push_back(Isometry3d::Identity());
+  }
+}
+
+/// Adds the frame that a joint moves. `origin`: the joint's frame in the parent frame.
+int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry3d& origin)
+{
+  lanes::Frame frame{};
+  frame.kind = lanes::FrameKind::Fixed;
+  frame.parent = parent;
+  frame.variable = joint.first_variable;
+  frame.multiplier = joint.multiplier;
+  frame.offset = joint.offset;
+  writePose(origin, frame.constant);
+  const FrameError before = parent < 0 ? FrameError() : frame_errors_[static_cast<std::size_t>(parent)];
+  double step = origin.translation().norm();
+  double turn = 4.0 * kUnit;
+  const Matrix3d rotation = origin.linear();
+  if (joint.type == JointType::Revolute || joint.type == JointType::Continuous)
+  {
+    frame.kind = lanes::FrameKind::Turning;
+    const Matrix3d along = joint.axis * joint.axis.transpose();
+    writeRotation(rotation * along, frame.constant);
+    writeRotation(rotation * (Matrix3d::Identity() - along), frame.first);
+    writeRotation(rotation * crossProductMatrix(joint.axis), frame.second);
+    double& largest = largest_[static_cast<std::size_t>(joint.first_variable)];
+    largest = std::min(largest, kLargestAngle);
+    turn = kTurnError;
+  }
+  else if (joint.type == JointType::Prismatic)
+  {
+    frame.kind = lanes::FrameKind::Sliding;
+    Isometry3d slide = Isometry3d::Identity();
+    slide.translation() = rotation * joint.axis;
+    writePose(slide, frame.first);
+    const Variable& variable = robot_->variables()[static_cast<std::size_t>(joint.first_variable)];
+    double& largest = largest_[static_cast<std::size_t>(joint.first_variable)];
+    largest = std::min(largest, std::max(std::abs(variable.lower), std::abs(variable.upper)) + 1e-6);
+    step += std::abs(joint.multiplier) * largest + std::abs(joint.offset);
+  }
+  FrameError error{before.far + step, before.rotation + turn + kProductError,
+                   before.position + before.rotation * step + kSumError * (before.far + step)};
+  const bool given = joint.type == JointType::Planar || joint.type == JointType::Floating;
+  if (given)
+  {
+    frame.kind = lanes::FrameKind::Given;
+    frame.parent = -1;
+    error = {kLargestGiven, kUnit * 4.0, kSumError * kLargestGiven};
+  }
+  has_given_ = has_given_ || given;
+  link_of_given_.push_back(given ? link : -1);
+  frames_.push_back(frame);
+  frame_errors_.push_back(error);
+  return static_cast<int>(frames_.size()) - 1;
+}
+
+void LaneScene::addBody(const ShapeInstance& instance, const BallCover& cover)
+{
+  const auto link = static_cast<std::size_t>(instance.link);
+  const Isometry3d pose = in_frame_[link] * instance.pose;
+  lanes::Body body{};
+  body.frame = frame_of_link_[link];
+  body.same_centers = true;
+  double far = 0.0;
+  const auto is_same = [](const CoverBall& ball) { return ball.witness == ball.center; };
+  for (std::size_t level = 1; level < cover.levels.size(); ++level)
+  {
+    const std::vector<CoverBall>& balls = cover.levels[level];
+    body.same_centers = body.same_centers && std::all_of(balls.begin(), balls.end(), is_same);
+    const int first = level == 1 ? 0 : lanes::kCoarseBalls;
+    const int count = level == 1 ? lanes::kCoarseBalls : lanes::kFineBalls;
+    for (int i = 0; i < count; ++i)
+    {
+      const CoverBall& ball = balls[std::min<std::size_t>(static_cast<std::size_t>(i), balls.size() - 1)];
+      writeBall(pose * ball.center, above(ball.outer), first + i, body.outer_balls);
+      writeBall(pose * ball.witness, below(ball.inner), first + i, body.inner_balls);
+      far = std::max({far, (pose * ball.center).norm(), (pose * ball.witness).norm()});
+    }
+  }
+  const CoverBall& enclosing = cover.levels[0].front();
+  const Vector3d center = pose * enclosing.center;
+  for (int axis = 0; axis < 3; ++axis)
+    body.center[axis] = static_cast<float>(center[axis]);
+  body.outer = above(enclosing.outer);
+  body.inner = is_same(enclosing) ? below(enclosing.inner) : -1.0F;
+  far = std::max(far, center.norm());
+  bodies_.push_back(body);
+  const FrameError& frame = frame_errors_[static_cast<std::size_t>(body.frame)];
+  body_errors_.push_back(
+      {frame.far + far, frame.position + frame.rotation * far + kSumError * (frame.far + far)});
+}
+
+double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
+{
+  const BodyError& first = body_errors_[a];
+  const BodyError& second = body_errors_[b];
+  const double lengths = first.far + second.far + static_cast<double>(bodies_[a].outer + bodies_[b].outer);
+  return first.position + second.position + kDistanceError * lengths;
+}
+
+/// Pairs with a table come first, see lanes::Model.
+void LaneScene::addSelfPairs(const CollisionProblem& problem)
+{
+  for (const bool with_table : {true, false})
+    for (std::size_t p = 0; p < problem.self_pairs.size(); ++p)
+    {
+      const JointTable* table = proofs_->tables[p].get();
+      if ((table != nullptr) != with_table)
+        continue;
+      const auto [a, b] = problem.self_pairs[p];
+      if (table)
+      {
+        lanes::Table made{};
+        made.pair = static_cast<std::uint32_t>(self_pairs_.size());
+        made.variables = static_cast<int>(table->variables.size());
+        for (std::size_t k = 0; k < table->variables.size(); ++k)
+        {
+          const TableVariable& variable = table->variables[k];
+          made.variable[k] = {variable.variable, variable.wraps, variable.lower, 1.0 / variable.cell_width,
+                              variable.cells};
+        }
+        made.cells = table->cells.data();
+        tables_.push_back(made);
+      }
+      const double error = selfError(a, b);
+      // If a body could be inside the other without touching its balls, it is within the layer that these leave open.
+      const BallCover& cover_a = *proofs_->covers[a];
+      const BallCover& cover_b = *proofs_->covers[b];
+      const double layer = std::max(cover_b.thickness > cover_a.layer ? 0.0 : cover_a.layer,
+                                    cover_a.thickness > cover_b.layer ? 0.0 : cover_b.layer);
+      self_pairs_.push_back({a, b, {above(error), above(layer + error), below(-error)}});
+      pairs_.push_back({a, b});
+    }
+}
+
+void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& forest)
+{
+  const std::vector<LaneObject> objects = laneObjects(problem, forest, origin_);
+  for (const LaneObject& object : objects)
+    objects_.push_back(object.object);
+  const std::vector<std::uint32_t> order = nearOrder(objects);
+  const auto is_checked = [&](std::size_t body, std::size_t object)
+  {
+    return object < problem.world.size()
+               ? problem.world_pairs[body * problem.world.size() + object] != 0
+               : problem.half_space_pairs[body * problem.half_spaces.size() + object - problem.world.size()] != 0;
+  };
+  for (std::uint32_t b = 0; b < bodies_.size(); ++b)
+  {
+    const BallCover& cover = *proofs_->covers[b];
+    Eigen::AlignedBox3d bounds;
+    const auto end_group = [&](std::uint32_t first)
+    {
+      const auto end = static_cast<std::uint32_t>(world_pairs_.size());
+      if (first == end)
+        return;
+      lanes::WorldGroup group{b, first, end, {}, {}};
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        group.center[axis] = static_cast<float>(bounds.center()[axis]);
+        const double rounding = 4.0 * kUnit * (std::abs(bounds.center()[axis]) + 0.5 * bounds.sizes()[axis]);
+        group.half[axis] = above(0.5 * bounds.sizes()[axis] + rounding);
+      }
+      world_groups_.push_back(group);
+      bounds.setEmpty();
+    };
+    auto first = static_cast<std::uint32_t>(world_pairs_.size());
+    for (const std::uint32_t o : order)
+    {
+      if (!is_checked(b, o))
+        continue;
+      const LaneObject& object = objects[o];
+      const double required = problem.robot[b].padding + object.padding;
+      const double error = body_errors_[b].position +
+                           kDistanceError * (body_errors_[b].far + object.far + required +
+                                             static_cast<double>(bodies_[b].outer));
+      const double layer = object.thickness > cover.layer ? 0.0 : cover.layer;
+      const lanes::Thresholds thresholds = {above(required + error), above(required + layer + error),
+                                            below(required - error)};
+      const Vector3d growth = Vector3d::Constant(static_cast<double>(thresholds.enclosing));
+      bounds.extend(object.bounds.min() - growth);
+      bounds.extend(object.bounds.max() + growth);
+      world_pairs_.push_back({b, o, thresholds});
+      pairs_.push_back({b, static_cast<std::uint32_t>(problem.robot.size()) + o});
+      if (world_pairs_.size() - first == kGroup)
+      {
+        end_group(first);
+        first = static_cast<std::uint32_t>(world_pairs_.size());
+      }
+    }
+    end_group(first);
+  }
+}
+
+bool LaneScene::isWithinBounds(const double* state) const
+{
+  for (std::size_t v = 0; v < largest_.size(); ++v)
+    if (!(std::abs(state[v]) <= largest_[v]))
+      return false;
+  return true;
+}
+
+bool LaneScene::fillGiven(const Isometry3d* link_poses, int lane, float* given) const
+{
+  for (std::size_t f = 0; f < frames_.size(); ++f)
+  {
+    if (link_of_given_[f] < 0)
+      continue;
+    Isometry3d pose = link_poses[link_of_given_[f]];
+    pose.translation() -= origin_;
+    if (!(pose.translation().norm() <= kLargestGiven))
+      return false;
+    float rows[12];
+    writePose(pose, rows);
+    for (std::size_t k = 0; k < 12; ++k)
+      given[(f * 12 + k) * lanes::kLanes + static_cast<std::size_t>(lane)] = rows[k];
+  }
+  return true;
+}
+}  // namespace gpu_planning_scene::core

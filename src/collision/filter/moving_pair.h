@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "collision/exact/cpu_tree.h"
+
+namespace gpu_planning_scene::core
+{
+/// A joint between two bodies, in the frame of the first body's tree, for the joints' middle values.
+struct JointAxis
+{
+  bool prismatic;
+  Eigen::Vector3d point;      ///< on the axis of rotation
+  Eigen::Vector3d direction;  ///< unit length
+  double travel;              ///< largest distance from the middle value: radians or metres, at least 0
+};
+
+/// Upper bound of the displacement of points of the second body relative to the first. `axes`: the joints between the
+/// bodies, in the order from the first body to the second. The points are in a ball around `center` for the middle
+/// values. A joint displaces a point by at most its travel times the point's distance from the axis (Schwarzer, Saha
+/// and Latombe, "Exact collision checking of robot paths", 2002); here the distance is that of the points themselves and
+/// not of the whole body.
+double displacementBound(const std::vector<JointAxis>& axes, const Eigen::Vector3d& center, double radius);
+
+/// Whether the surfaces of two bodies are proven apart for all joint values within the travel: each part of the second
+/// body is farther from the first body than the part can move. `b_in_a`: pose of b in the frame of a for the middle
+/// values. `required`: metres by which the surfaces must be apart. Gives up, with false, after a limited number of node
+/// pairs.
+bool surfacesApartWhileMoving(const CpuTree& a, const CpuTree& b, const Eigen::Isometry3d& b_in_a,
+                              const std::vector<JointAxis>& axes, double required);
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,118 @@
+#include "collision/filter/proof_worker.h"
+
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <new>
+#include <thread>
+#include <utility>
+
+namespace gpu_planning_scene::core
+{
+/// A thread that makes proofs, one job after the other.
+class ProofWorker
+{
+ public:
+  static ProofWorker& instance()
+  {
+    static ProofWorker worker;
+    return worker;
+  }
+
+  ~ProofWorker()
+  {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ending_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable())
+      thread_.join();
+  }
+  ProofWorker(const ProofWorker&) = delete;
+  ProofWorker& operator=(const ProofWorker&) = delete;
+
+  std::shared_ptr<ProofJob> add(std::shared_ptr<const RobotModel> robot,
+                                std::shared_ptr<const CollisionProblem> problem,
+                                std::shared_ptr<const CpuForest> forest)
+  {
+    auto job = std::make_shared<ProofJob>();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      tasks_.push_back({job, std::move(robot), std::move(problem), std::move(forest)});
+      if (!thread_.joinable())
+        thread_ = std::thread([this] { work(); });
+    }
+    changed_.notify_all();
+    return job;
+  }
+
+  void wait()
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return tasks_.empty() && !busy_; });
+  }
+
+ private:
+  struct Task
+  {
+    std::weak_ptr<ProofJob> job;
+    std::shared_ptr<const RobotModel> robot;
+    std::shared_ptr<const CollisionProblem> problem;
+    std::shared_ptr<const CpuForest> forest;
+  };
+
+  ProofWorker() = default;
+
+  void work()
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (true)
+    {
+      changed_.wait(lock, [this] { return ending_ || !tasks_.empty(); });
+      if (ending_)
+        return;
+      Task task = std::move(tasks_.front());
+      tasks_.pop_front();
+      busy_ = true;
+      lock.unlock();
+      const auto is_stopped = [&] { return ending_ || task.job.expired(); };
+      std::shared_ptr<const RobotProofs> proofs;
+      try
+      {
+        proofs = prover_.prove(*task.robot, task.problem, task.forest, is_stopped);
+      }
+      catch (const std::bad_alloc&)
+      {
+        // Without proofs, the exact checker decides all states.
+      }
+      if (const std::shared_ptr<ProofJob> job = task.job.lock())
+        std::atomic_store(&job->proofs_, proofs);
+      task = {};  // the last references to large objects may end here, not under the lock
+      lock.lock();
+      busy_ = false;
+      changed_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;  // guards the tasks and busy_
+  std::condition_variable changed_;
+  std::deque<Task> tasks_;
+  bool busy_ = false;
+  std::atomic<bool> ending_{false};
+  RobotProver prover_;  // used by the thread only
+  std::thread thread_;
+};
+
+std::shared_ptr<ProofJob> proveInBackground(std::shared_ptr<const RobotModel> robot,
+                                            std::shared_ptr<const CollisionProblem> problem,
+                                            std::shared_ptr<const CpuForest> forest)
+{
+  return ProofWorker::instance().add(std::move(robot), std::move(problem), std::move(forest));
+}
+
+void waitForProofs()
+{
+  ProofWorker::instance().wait();
+}
+}  // namespace gpu_planning_scene::core

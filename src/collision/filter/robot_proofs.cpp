@@ -1,0 +1,93 @@
+#include "collision/filter/robot_proofs.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+template <class T>
+bool isSame(const std::weak_ptr<T>& a, const std::weak_ptr<T>& b)
+{
+  return !a.owner_before(b) && !b.owner_before(a);
+}
+}  // namespace
+
+void RobotProver::forgetUnused()
+{
+  const auto is_unused = [](const KnownTable& known)
+  { return known.robot.expired() || known.sides[0].tree.expired() || known.sides[1].tree.expired(); };
+  tables_.erase(std::remove_if(tables_.begin(), tables_.end(), is_unused), tables_.end());
+  covers_.erase(
+      std::remove_if(covers_.begin(), covers_.end(), [](const KnownCover& known) { return known.tree.expired(); }),
+      covers_.end());
+}
+
+std::shared_ptr<const BallCover> RobotProver::cover(const std::shared_ptr<const CpuTree>& tree, double sagitta)
+{
+  for (const KnownCover& known : covers_)
+    if (known.tree.lock() == tree)
+      return known.cover;
+  covers_.push_back({tree, std::make_shared<const BallCover>(coverOf(*tree, sagitta))});
+  return covers_.back().cover;
+}
+
+const RobotProver::KnownTable* RobotProver::known(const RobotModel& robot, const std::array<Side, 2>& sides) const
+{
+  const auto is_it = [&](const KnownTable& table)
+  {
+    const auto is_side = [&](std::size_t k)
+    {
+      return isSame(table.sides[k].tree, sides[k].tree) && table.sides[k].link == sides[k].link &&
+             table.sides[k].pose.matrix() == sides[k].pose.matrix();
+    };
+    return table.robot.lock().get() == &robot && is_side(0) && is_side(1);
+  };
+  const auto found = std::find_if(tables_.begin(), tables_.end(), is_it);
+  return found == tables_.end() ? nullptr : &*found;
+}
+
+std::shared_ptr<const RobotProofs> RobotProver::prove(const RobotModel& robot,
+                                                      const std::shared_ptr<const CollisionProblem>& problem,
+                                                      const std::shared_ptr<const CpuForest>& forest,
+                                                      const std::function<bool()>& stopped)
+{
+  forgetUnused();
+  auto proofs = std::make_shared<RobotProofs>();
+  for (const ShapeInstance& instance : problem->robot)
+  {
+    if (stopped())
+      return nullptr;
+    proofs->covers.push_back(cover(forest->shared(instance.tree), problem->tessellations[instance.tree].sagitta));
+  }
+  const CpuShapePair pairs(forest);
+  const auto side = [&](std::uint32_t number)
+  {
+    const ShapeInstance& instance = problem->robot[number];
+    return Side{forest->shared(instance.tree), instance.link, instance.pose};
+  };
+  const auto covered = [&](std::uint32_t number)
+  {
+    const ShapeInstance& instance = problem->robot[number];
+    return CoveredInstance{&instance, &forest->tree(instance.tree), proofs->covers[number].get(),
+                           problem->tessellations[instance.tree].sagitta};
+  };
+  for (const auto& [first, second] : problem->self_pairs)
+  {
+    if (stopped())
+      return nullptr;
+    const std::array<Side, 2> sides = {side(first), side(second)};
+    const KnownTable* table = known(robot, sides);
+    if (!table)
+    {
+      std::optional<JointTable> made = makeJointTable(robot, covered(first), covered(second), pairs);
+      tables_.push_back({robot.weak_from_this(), sides,
+                         made ? std::make_shared<const JointTable>(std::move(*made)) : nullptr});
+      table = &tables_.back();
+    }
+    proofs->tables.push_back(table->table);
+  }
+  return proofs;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,222 @@
+#include "collision/filter/shape_samples.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "collision/exact/winding_number.h"
+#include "collision/geometry/triangle_pair.h"
+#include "collision/geometry/primitive_solid.h"
+#include "model/math_constants.h"
+
+// A grid of cubes over the shape's box. Cubes that the surface enters are found with the exact test of triangle and box;
+// the winding number tells which of the other cubes are inside.
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+using Eigen::Vector3i;
+
+constexpr double kCells = 32768.0;             // of the grid, about
+constexpr std::size_t kFewInside = 100;
+constexpr double kOnSurface = 1e-7;  // metres: exceeds the rounding error of distances
+constexpr std::size_t kWindingTriangles = 4000;  // meshes without a solid: more triangles would take too long
+
+void cut(const Triangle& triangle, double longest, std::vector<Triangle>& pieces)
+{
+  int edge = 0;
+  std::array<double, 3> lengths;
+  for (int i = 0; i < 3; ++i)
+  {
+    lengths[i] = (triangle[(i + 1) % 3] - triangle[i]).norm();
+    edge = lengths[i] > lengths[edge] ? i : edge;
+  }
+  if (lengths[edge] <= longest)
+  {
+    pieces.push_back(triangle);
+    return;
+  }
+  const Vector3d middle = 0.5 * (triangle[edge] + triangle[(edge + 1) % 3]);
+  cut({triangle[edge], middle, triangle[(edge + 2) % 3]}, longest, pieces);
+  cut({middle, triangle[(edge + 1) % 3], triangle[(edge + 2) % 3]}, longest, pieces);
+}
+
+/// A grid of cubes.
+struct Grid
+{
+  Vector3d origin;
+  double cell;
+  Vector3i count;
+
+  Vector3i cubeOf(const Vector3d& point) const
+  {
+    const Vector3i cube = ((point - origin) / cell).array().floor().cast<int>();
+    return cube.cwiseMax(0).cwiseMin(count - Vector3i::Ones());
+  }
+  std::size_t numberOf(const Vector3i& cube) const
+  {
+    return (static_cast<std::size_t>(cube.z()) * static_cast<std::size_t>(count.y()) +
+            static_cast<std::size_t>(cube.y())) *
+               static_cast<std::size_t>(count.x()) +
+           static_cast<std::size_t>(cube.x());
+  }
+  Vector3d centerOf(const Vector3i& cube) const { return origin + cell * (cube.cast<double>().array() + 0.5).matrix(); }
+
+  template <class Visit>
+  void each(const Vector3i& first, const Vector3i& last, const Visit& visit) const
+  {
+    for (int z = first.z(); z <= last.z(); ++z)
+      for (int y = first.y(); y <= last.y(); ++y)
+        for (int x = first.x(); x <= last.x(); ++x)
+          visit(Vector3i(x, y, z));
+  }
+};
+
+Grid gridAround(const AlignedBox3d& box)
+{
+  const double largest = box.sizes().maxCoeff();
+  const Vector3d sizes = box.sizes().cwiseMax(1e-2 * largest);
+  Grid grid;
+  grid.cell = std::cbrt(sizes.prod() / kCells);
+  grid.origin = box.center() - 0.5 * sizes;
+  grid.count = (sizes / grid.cell).array().ceil().cast<int>();
+  return grid;
+}
+
+/// The winding number of all triangles around a point (Jacobson et al. 2013). It is near 1 inside a mesh that is closed
+/// but for cracks.
+double windingNumber(const std::vector<Triangle>& triangles, const Vector3d& point)
+{
+  double sum = 0.0;
+  for (const Triangle& t : triangles)
+  {
+    const Vector3d a = t[0] - point;
+    const Vector3d b = t[1] - point;
+    const Vector3d c = t[2] - point;
+    const double la = a.norm();
+    const double lb = b.norm();
+    const double lc = c.norm();
+    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  return sum / (2.0 * kPi);
+}
+
+double nearest(const std::vector<Vector3d>& points, const Vector3d& point)
+{
+  double best = std::numeric_limits<double>::max();
+  for (const Vector3d& other : points)
+    best = std::min(best, (other - point).squaredNorm());
+  return std::sqrt(best);
+}
+
+/// Which cubes the surface enters.
+std::vector<bool> entered(const Grid& grid, const std::vector<Triangle>& pieces)
+{
+  std::vector<bool> is_entered(static_cast<std::size_t>(grid.count.prod()), false);
+  // Rounding must not hide a piece that touches a cube.
+  const Shape cube = Box{Vector3d::Constant(grid.cell * (1.0 + 1e-9))};
+  for (const Triangle& piece : pieces)
+  {
+    AlignedBox3d box(piece[0]);
+    box.extend(piece[1]).extend(piece[2]);
+    const Vector3d rounding = Vector3d::Constant(1e-6 * grid.cell);
+    grid.each(grid.cubeOf(box.min() - rounding), grid.cubeOf(box.max() + rounding),
+              [&](const Vector3i& at)
+              {
+                const Vector3d center = grid.centerOf(at);
+                if (!is_entered[grid.numberOf(at)] &&
+                    triangleWithinSolid({piece[0] - center, piece[1] - center, piece[2] - center}, cube, 0.0))
+                  is_entered[grid.numberOf(at)] = true;
+              });
+  }
+  return is_entered;
+}
+}  // namespace
+
+bool hasSolid(const CpuTree& tree)
+{
+  return !tree.mesh || !tree.solid_bounds.isEmpty();
+}
+
+bool insideSolid(const CpuTree& tree, const Vector3d& point)
+{
+  if (!tree.mesh)
+    return distanceToSolid(tree.shape, point) == 0.0;
+  std::vector<std::uint32_t> stack;
+  // The winding number of a point on the surface is not defined.
+  return tree.solid_bounds.contains(point) && distanceFromSurface(tree, point) > kOnSurface &&
+         isInsideSolid(tree, point, stack);
+}
+
+double distanceFromSurface(const CpuTree& tree, const Vector3d& point)
+{
+  double best = std::numeric_limits<double>::max();
+  for (const Triangle& triangle : tree.triangles)
+    best = std::min(best, (nearestPoint(triangle, point) - point).norm());
+  return best;
+}
+
+ShapeSamples samplesOf(const CpuTree& tree)
+{
+  AlignedBox3d box;
+  for (const Triangle& triangle : tree.triangles)
+    for (const Vector3d& vertex : triangle)
+      box.extend(vertex);
+  const Grid grid = gridAround(box);
+  ShapeSamples samples;
+  samples.cell = grid.cell;
+  for (const Triangle& triangle : tree.triangles)
+    cut(triangle, grid.cell, samples.pieces);
+
+  const std::vector<bool> is_entered = entered(grid, samples.pieces);
+  std::vector<bool> has_point(is_entered.size(), false);
+  for (const Triangle& piece : samples.pieces)
+    for (const Vector3d& vertex : piece)
+    {
+      const std::size_t number = grid.numberOf(grid.cubeOf(vertex));
+      if (!has_point[number])
+        samples.points.push_back(vertex);
+      has_point[number] = true;
+    }
+
+  const bool solid = hasSolid(tree);
+  const bool by_winding = !solid && tree.triangles.size() <= kWindingTriangles;
+  std::vector<std::uint32_t> stack;
+  const auto is_inside = [&](const Vector3d& center, bool empty)
+  {
+    if (!solid)
+      return by_winding && windingNumber(tree.triangles, center) > 0.5;
+    // In empty cubes, no point is on the surface, so the expensive test of insideSolid is not needed.
+    return tree.mesh && empty ? isInsideSolid(tree, center, stack) : insideSolid(tree, center);
+  };
+  const auto add = [&](const Vector3i& cube, bool empty)
+  {
+    const Vector3d center = grid.centerOf(cube);
+    if (!is_inside(center, empty))
+      return;
+    const SolidCell cell{center, nearest(samples.points, center)};
+    if (solid && empty)
+      samples.cells.push_back(cell);
+    samples.inside.push_back(cell);
+  };
+  const Vector3i last = grid.count - Vector3i::Ones();
+  grid.each(Vector3i::Zero(), last,
+            [&](const Vector3i& cube)
+            {
+              if (!is_entered[grid.numberOf(cube)] && (solid || cube.sum() % 4 == 0))
+                add(cube, true);
+            });
+  // In thin shapes, the surface enters nearly all cubes.
+  if (solid && samples.inside.size() < kFewInside)
+    grid.each(Vector3i::Zero(), last,
+              [&](const Vector3i& cube)
+              {
+                if (is_entered[grid.numberOf(cube)] && cube.sum() % 4 == 0)
+                  add(cube, false);
+              });
+  return samples;
+}
+}  // namespace gpu_planning_scene::core
