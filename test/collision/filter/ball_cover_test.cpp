@@ -1,0 +1,176 @@
+// The balls of a cover enclose and fill their shape, for primitives, meshes with and without a solid, and real links.
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/exact/winding_number.h"
+#include "collision/filter/ball_cover.h"
+#include "collision/filter/shape_samples.h"
+#include "collision/geometry/primitive_solid.h"
+#include "collision/geometry/triangle_pair.h"
+#include "support/test_scenes.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector3d;
+
+constexpr std::uint64_t kSeed = 31;
+
+struct Covered
+{
+  std::string name;
+  Shape shape;
+};
+
+std::shared_ptr<const Mesh> withoutSomeTriangles(const Shape& shape)
+{
+  auto mesh = std::make_shared<Mesh>(*tessellate(shape).mesh);
+  mesh->triangles.resize(mesh->triangles.size() * 4 / 5);
+  return mesh;
+}
+
+std::vector<Covered> shapes()
+{
+  std::vector<Covered> all = {{"box", Box{{0.3, 0.2, 0.1}}},
+                              {"plate", Box{{0.3, 0.2, 0.002}}},
+                              {"ball", Sphere{0.1}},
+                              {"cylinder", Cylinder{0.05, 0.4}},
+                              {"cone", Cone{0.1, 0.2}},
+                              {"mesh of a box", tessellate(Box{{0.3, 0.2, 0.1}}).mesh},
+                              {"mesh of a ball", tessellate(Sphere{0.1}).mesh},
+                              {"open mesh", withoutSomeTriangles(Cylinder{0.05, 0.4})}};
+  for (const char* name : {"kr5", "ur5_cage"})
+    if (missingFor(name).empty())
+      for (const Link& link : testScene(name).scene->robot->links())
+        for (const PlacedShape& placed : link.shapes)
+          all.push_back({std::string(name) + " " + link.name, placed.shape});
+  return all;
+}
+
+bool isIn(const Vector3d& point, const std::vector<CoverBall>& balls)
+{
+  return std::any_of(balls.begin(), balls.end(), [&point](const CoverBall& ball)
+                     { return (ball.center - point).norm() <= ball.outer; });
+}
+
+/// A random point of a triangle.
+Vector3d pointOf(const Triangle& triangle, std::mt19937_64& generator)
+{
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  double a = share(generator);
+  double b = share(generator);
+  if (a + b > 1.0)
+  {
+    a = 1.0 - a;
+    b = 1.0 - b;
+  }
+  return triangle[0] + a * (triangle[1] - triangle[0]) + b * (triangle[2] - triangle[0]);
+}
+
+Vector3d direction(std::mt19937_64& generator)
+{
+  std::normal_distribution<double> normal;
+  return Vector3d(normal(generator), normal(generator), normal(generator)).normalized();
+}
+
+class BallCoverTest : public testing::Test
+{
+ protected:
+  template <class Test>
+  void forEachShape(const Test& test)
+  {
+    for (const Covered& covered : shapes())
+    {
+      const Tessellation tessellation = tessellate(covered.shape);
+      const auto tree = cpuTreeOf(covered.shape, tessellation);
+      SCOPED_TRACE(covered.name + ", seed " + std::to_string(kSeed));
+      test(*tree, coverOf(*tree, tessellation.sagitta), tessellation.sagitta);
+      if (HasFatalFailure())
+        return;
+    }
+  }
+
+  std::mt19937_64 generator_{kSeed};
+};
+
+TEST_F(BallCoverTest, EachPointOfTheSurfaceIsInABallOfEachLevel)
+{
+  forEachShape(
+      [this](const CpuTree& tree, const BallCover& cover, double sagitta)
+      {
+        for (const auto& level : cover.levels)
+        {
+          ASSERT_FALSE(level.empty());
+          for (int i = 0; i < 2000; ++i)
+          {
+            const Triangle& triangle = tree.triangles[generator_() % tree.triangles.size()];
+            // The true surface of a curved primitive is up to the sagitta away from its triangles.
+            const Vector3d point = pointOf(triangle, generator_) + sagitta * direction(generator_);
+            ASSERT_TRUE(isIn(point, level)) << level.size() << " balls";
+          }
+        }
+      });
+}
+
+TEST_F(BallCoverTest, PointsOfTheSolidBelowTheLayerAreInABall)
+{
+  forEachShape(
+      [this](const CpuTree& tree, const BallCover& cover, double)
+      {
+        if (!hasSolid(tree))
+          return;
+        std::size_t deep = 0;
+        for (int i = 0; i < 3000; ++i)
+        {
+          const Vector3d share = 0.5 * (Vector3d::Ones() + Vector3d::Random());
+          const Vector3d point = tree.center + (2.0 * share - Vector3d::Ones()).cwiseProduct(tree.half);
+          if (!insideSolid(tree, point) || distanceFromSurface(tree, point) <= cover.layer)
+            continue;
+          ++deep;
+          for (const auto& level : cover.levels)
+            ASSERT_TRUE(isIn(point, level)) << level.size() << " balls";
+        }
+        std::cout << deep << " points below the layer of " << cover.layer << " m" << std::endl;
+      });
+}
+
+TEST_F(BallCoverTest, InnerBallsAreInTheShape)
+{
+  forEachShape(
+      [this](const CpuTree& tree, const BallCover& cover, double)
+      {
+        for (const auto& level : cover.levels)
+          for (const CoverBall& ball : level)
+          {
+            ASSERT_GE(ball.inner, 0.0);
+            if (ball.inner == 0.0)
+            {
+              ASSERT_LT(distanceFromSurface(tree, ball.witness), 1e-9) << "the witness is on the surface";
+              continue;
+            }
+            for (int i = 0; i < 20; ++i)
+              ASSERT_TRUE(insideSolid(tree, ball.witness + 0.999999 * ball.inner * direction(generator_)));
+          }
+      });
+}
+
+TEST_F(BallCoverTest, EachComponentContainsABallOfTheThickness)
+{
+  forEachShape(
+      [](const CpuTree& tree, const BallCover& cover, double)
+      {
+        if (cover.thickness == 0.0)
+          return;
+        ASSERT_LE(tree.components.components.size(), 1u);
+        bool found = false;
+        for (const auto& level : cover.levels)
+          for (const CoverBall& ball : level)
+            found = found || ball.inner >= cover.thickness;
+        ASSERT_TRUE(found);
+      });
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
