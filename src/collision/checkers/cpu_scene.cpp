@@ -13,6 +13,9 @@ namespace
 {
 constexpr std::size_t kStatesPerChunk = 32;
 
+// Making the proofs of a robot takes seconds of a core. Before this many states were checked, they are not worth it.
+constexpr std::size_t kStatesBeforeProofs = 20'000;
+
 // Checking this many states takes less time than starting threads. The calling thread also keeps its learned order of
 // checks.
 constexpr std::size_t kFewStates = 128;
@@ -138,7 +141,8 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
   for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)
     if (!isValidFor(*group.problem, states + i * width))
       prepareOutside(name, group);
-  const bool by_lanes = !margins && group.lanes && group.lanes->isReady();
+  checked_ += count;
+  const bool by_lanes = !margins && group.lanes && checked_ > kStatesBeforeProofs && group.lanes->isReady();
   const auto check_range = [&](std::size_t begin, std::size_t end, Scratch& scratch)
   {
     for (std::size_t i = begin; i < end; i += lanes::kLanes)
@@ -146,7 +150,8 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
   };
   if (count <= kFewStates)
     return check_range(0, count, group.scratch);
-  parallelFor(count, kStatesPerChunk, [&, scratch = group.scratch](std::size_t begin, std::size_t end) mutable
+  parallelFor(count, kStatesPerChunk,
+              [&, scratch = group.scratch](std::size_t begin, std::size_t end) mutable
               { check_range(begin, end, scratch); });
 }
 }  // namespace gpu_planning_scene::core

@@ -78,6 +78,7 @@ class CpuScene
   ProblemMaker maker_;
   std::shared_ptr<const PlanningScene> scene_;
   std::map<std::string, Group> groups_;
+  std::size_t checked_ = 0;  // states, of all scenes
   std::shared_ptr<ForestCache> forest_ = std::make_shared<ForestCache>();
   ForestCache forest_outside_;
 };

@@ -50,8 +50,7 @@ std::vector<SolidCell> candidatesOf(const ShapeSamples& samples)
 class GapTable
 {
  public:
-  GapTable(const ShapeSamples& samples, const std::vector<SolidCell>& candidates)
-    : candidates_(candidates.size())
+  GapTable(const ShapeSamples& samples, const std::vector<SolidCell>& candidates) : candidates_(candidates.size())
   {
     const std::vector<Vector3d> points = thinned(samples.points, kSamples);
     const std::vector<SolidCell> cells = thinned(samples.cells, kSamples);
@@ -206,8 +205,8 @@ BallCover coverOf(const CpuTree& tree, double sagitta)
                                            (piece[2] - center).squaredNorm()}));
               });
     for (const SolidCell& cell : samples.cells)
-      contain(fits, [&](const Vector3d& center)
-              { return (cell.center - center).norm() + kHalfDiagonal * samples.cell; });
+      contain(fits,
+              [&](const Vector3d& center) { return (cell.center - center).norm() + kHalfDiagonal * samples.cell; });
     for (const Fit& fit : fits)
       cover.levels[level].push_back(certified(tree, samples, fit, sagitta));
   }

@@ -29,8 +29,8 @@ struct BallCover
 {
   /// A level may have fewer balls than kCoverBalls; each has at least one.
   std::array<std::vector<CoverBall>, kCoverBalls.size()> levels;
-  /// Metres: all points of the shape that are in no ball of levels 1 and 2 are in its solid, at most this deep below its
-  /// surface. Level 0 contains the whole shape. 0 for shapes without a solid.
+  /// Metres: all points of the shape that are in no ball of levels 1 and 2 are in its solid, at most this deep below
+  /// its surface. Level 0 contains the whole shape. 0 for shapes without a solid.
   double layer = 0.0;
   /// Metres: each component of the shape contains a ball of this radius. 0: unknown.
   double thickness = 0.0;

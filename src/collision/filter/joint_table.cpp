@@ -21,9 +21,10 @@ using Eigen::Vector3d;
 
 constexpr int kCellsOfOne = 1024;
 constexpr int kCellsOfTwo = 128;
-constexpr double kWiden = 1e-3;       // boxes are wider than their cells by this share, against rounding of the lookup
-constexpr double kLargestMove = 0.5;  // metres: boxes with larger displacements prove nothing, so they are halved at once
-constexpr double kMargin = 1e-8;      // metres: exceeds the rounding error of distances
+constexpr double kWiden = 1e-3;  // boxes are wider than their cells by this share, against rounding of the lookup
+constexpr double kLargestMove =
+    0.5;                          // metres: boxes with larger displacements prove nothing, so they are halved at once
+constexpr double kMargin = 1e-8;  // metres: exceeds the rounding error of distances
 
 /// The joints between two links, from the first link to the second.
 std::vector<int> jointsBetween(const RobotModel& robot, int from, int to)
@@ -169,8 +170,8 @@ class TableMaker
     for (const Joint* joint : joints_)
     {
       const std::size_t k = joint->first_variable == table_.variables[0].variable ? 0 : 1;
-      const Isometry3d parent = joint->parent_link < 0 ? Isometry3d::Identity()
-                                                       : poses_[static_cast<std::size_t>(joint->parent_link)];
+      const Isometry3d parent =
+          joint->parent_link < 0 ? Isometry3d::Identity() : poses_[static_cast<std::size_t>(joint->parent_link)];
       const Isometry3d origin = relativePose(frame, parent * joint->origin);
       axes.push_back({joint->type == JointType::Prismatic, origin.translation(),
                       (origin.linear() * joint->axis).normalized(), std::abs(joint->multiplier) * travel[k]});

@@ -23,8 +23,8 @@ struct TableVariable
 };
 
 /// The verdicts of a pair of robot instances whose relative pose depends on one or two variables, for boxes of these
-/// variables (a precomputed map of the configuration space, as in Lozano-Perez, "Spatial planning: a configuration space
-/// approach", 1983). A verdict holds for each state in its box. Immutable.
+/// variables (a precomputed map of the configuration space, as in Lozano-Perez, "Spatial planning: a configuration
+/// space approach", 1983). A verdict holds for each state in its box. Immutable.
 struct JointTable
 {
   std::vector<TableVariable> variables;  ///< one or two

@@ -11,16 +11,20 @@ LaneChecker::LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_pt
     problem_(std::move(problem)),
     forest_(std::move(forest)),
     traversal_(traversal),
-    job_(proveInBackground(robot_, problem_, forest_)),
     kernel_(lanes::availableKernels().front().kernel)
 {
 }
 
 bool LaneChecker::isReady()
 {
-  if (!scene_)
-    if (std::shared_ptr<const RobotProofs> proofs = job_->proofs())
-      scene_ = std::make_unique<const LaneScene>(robot_, *problem_, *forest_, std::move(proofs));
+  if (!job_)
+    job_ = proveInBackground(robot_, problem_, forest_);
+  const std::shared_ptr<const RobotProofs> proofs = job_->proofs();
+  if (proofs != proofs_)
+  {
+    proofs_ = proofs;
+    scene_ = std::make_unique<const LaneScene>(robot_, *problem_, *forest_, proofs);
+  }
   return scene_ != nullptr;
 }
 

@@ -32,19 +32,20 @@ class LaneChecker
     CpuTraversal::Scratch exact;
   };
 
-  /// Starts to make the proofs in the background. `traversal` must outlive the checker.
+  /// `traversal` must outlive the checker.
   LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_ptr<const CollisionProblem> problem,
               std::shared_ptr<const CpuForest> forest, const CpuTraversal& traversal);
 
-  /// Whether the proofs are made. One caller at a time.
+  /// Whether there are proofs, so that `check` may be called. The first call starts to make them in the background.
+  /// Takes over better proofs when they are made. One caller at a time.
   bool isReady();
 
   /// Whether `check` may be called for a state.
   bool takes(const double* state) const { return scene_->isWithinBounds(state); }
 
   /// Checks `count` states (1 to lanes::kLanes rows) and sets rows `row` and following of `result`, which must be
-  /// initialised as free. The problem must be valid for the states, and `takes` true. Thread-safe if each thread has its
-  /// own scratch.
+  /// initialised as free. The problem must be valid for the states, and `takes` true. Thread-safe if each thread has
+  /// its own scratch.
   void check(const double* states, std::size_t count, std::size_t row, Scratch& scratch, BatchResult& result) const;
 
  private:
@@ -54,8 +55,9 @@ class LaneChecker
   std::shared_ptr<const CollisionProblem> problem_;
   std::shared_ptr<const CpuForest> forest_;
   const CpuTraversal& traversal_;
-  std::shared_ptr<ProofJob> job_;
-  std::unique_ptr<const LaneScene> scene_;  // null until the proofs are made
+  std::shared_ptr<ProofJob> job_;  // null before the first call of isReady
+  std::shared_ptr<const RobotProofs> proofs_;
+  std::unique_ptr<const LaneScene> scene_;  // made with proofs_; null until there are proofs
   lanes::Kernel kernel_;
 };
 }  // namespace gpu_planning_scene::core

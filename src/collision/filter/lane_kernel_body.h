@@ -1,5 +1,5 @@
-// The source of the lane kernel, included once for each instruction set, see lane_kernel.h. It uses the vector extension
-// of GCC and Clang: operators work on eight numbers at a time.
+// The source of the lane kernel, included once for each instruction set, see lane_kernel.h. It uses the vector
+// extension of GCC and Clang: operators work on eight numbers at a time.
 //
 // Eight states are checked side by side (as in Thomason, Kingston and Kavraki, "Motions in microseconds via vectorized
 // sampling-based planning", 2024), first by joint tables and enclosing balls. The few pairs that remain are checked one
@@ -81,9 +81,9 @@ inline void sineCosine(const Floats& x, Floats& sine, Floats& cosine)
   // pi / 2 = 1.5707964 - 4.371139e-8
   const Floats r = x - whole * 1.57079637F + whole * 4.37113883e-8F;
   const Floats s = r * r;
-  const Floats sine_of_r = r + r * s * (-1.66666667e-1F + s * (8.33333333e-3F + s * (-1.98412698e-4F + s * 2.75573e-6F)));
-  const Floats cosine_of_r =
-      1.0F + s * (-0.5F + s * (4.16666667e-2F + s * (-1.38888889e-3F + s * 2.48015873e-5F)));
+  const Floats sine_of_r =
+      r + r * s * (-1.66666667e-1F + s * (8.33333333e-3F + s * (-1.98412698e-4F + s * 2.75573e-6F)));
+  const Floats cosine_of_r = 1.0F + s * (-0.5F + s * (4.16666667e-2F + s * (-1.38888889e-3F + s * 2.48015873e-5F)));
   const Ints odd = -(quarter & 1);
   const Floats in_sine = odd ? cosine_of_r : sine_of_r;
   const Floats in_cosine = odd ? sine_of_r : cosine_of_r;
@@ -275,7 +275,7 @@ inline Floats squaredDistanceTo(const Object& object, const Points& points)
 /// What is proven for all lanes of a block.
 struct Lanes
 {
-  int active;     ///< bits: lanes with a state that is not known to collide
+  int active;  ///< bits: lanes with a state that is not known to collide
   Block& block;
   std::uint32_t* open;
   std::uint32_t pairs;
@@ -531,10 +531,9 @@ inline void proveByCovers(const Model& model, const Scratch& scratch, int lane, 
     for (int k = 0; k < lanes.block.open_count[lane]; ++k)
     {
       const std::uint32_t number = open[k];
-      const Proof proof =
-          number < model.self_pairs.count
-              ? proveSelfPair(model, model.self_pairs[number], balls, level)
-              : proveWorldPair(model, model.world_pairs[number - model.self_pairs.count], balls, level);
+      const Proof proof = number < model.self_pairs.count
+                              ? proveSelfPair(model, model.self_pairs[number], balls, level)
+                              : proveWorldPair(model, model.world_pairs[number - model.self_pairs.count], balls, level);
       if (proof == Proof::Colliding)
         return lanes.collide(1 << lane, number);
       if (proof == Proof::None)

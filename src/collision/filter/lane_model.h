@@ -6,8 +6,8 @@
 #include "collision/filter/proof.h"
 
 /// The scene as the lane kernel reads it: plain arrays of numbers, because the kernel is compiled for instruction sets
-/// that other code must not use. Lengths are in metres. A *lane* is one of the states that the kernel checks at the same
-/// time.
+/// that other code must not use. Lengths are in metres. A *lane* is one of the states that the kernel checks at the
+/// same time.
 namespace gpu_planning_scene::core::lanes
 {
 constexpr int kLanes = 8;
@@ -133,8 +133,8 @@ struct Array
   const T& operator[](std::size_t i) const { return data[i]; }
 };
 
-/// Pairs are numbered: first the self pairs, then the world pairs. The self pairs with tables come first, in the order of
-/// the tables.
+/// Pairs are numbered: first the self pairs, then the world pairs. The self pairs with tables come first, in the order
+/// of the tables.
 struct Model
 {
   std::size_t width;  ///< variables of a state

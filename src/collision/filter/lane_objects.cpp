@@ -38,8 +38,8 @@ Size sizeOf(const Shape& shape)
   const auto& cone = std::get<Cone>(shape);
   // The radius of the inscribed ball is area / half perimeter of the triangle through the axis.
   const double side = std::hypot(cone.radius, cone.length);
-  return {lanes::ObjectKind::Cone, {cone.radius, 0.5 * cone.length, 0.0},
-          cone.radius * cone.length / (cone.radius + side)};
+  return {
+      lanes::ObjectKind::Cone, {cone.radius, 0.5 * cone.length, 0.0}, cone.radius * cone.length / (cone.radius + side)};
 }
 
 LaneObject placed(const Size& size, const Isometry3d& pose, const Vector3d& origin, double padding)
@@ -74,7 +74,8 @@ void order(std::vector<std::uint32_t>::iterator begin, std::vector<std::uint32_t
   int axis;
   centers.sizes().maxCoeff(&axis);
   const auto middle = begin + (end - begin) / 2;
-  std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b)
+  std::nth_element(begin, middle, end,
+                   [&](std::uint32_t a, std::uint32_t b)
                    { return objects[a].bounds.center()[axis] < objects[b].bounds.center()[axis]; });
   order(begin, middle, objects);
   order(middle, end, objects);

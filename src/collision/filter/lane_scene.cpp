@@ -17,13 +17,13 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // The error bounds are derived in docs/error_bounds.md, "The lane kernel".
-constexpr double kUnit = 0x1p-24;           // rounding unit of float
-constexpr double kTurnError = 1.5e-6;       // of a vector of length 1 that a turning joint rotates
+constexpr double kUnit = 0x1p-24;               // rounding unit of float
+constexpr double kTurnError = 1.5e-6;           // of a vector of length 1 that a turning joint rotates
 constexpr double kProductError = 12.0 * kUnit;  // of a vector of length 1, by the product of two rotations
-constexpr double kSumError = 8.0 * kUnit;   // of a transformed point, times its largest coordinates
+constexpr double kSumError = 8.0 * kUnit;       // of a transformed point, times its largest coordinates
 constexpr double kDistanceError = 32.0 * kUnit;
 
-constexpr double kLargestAngle = 1e4;  // radians: beyond it, an angle modulo 2 pi is not accurate
+constexpr double kLargestAngle = 1e4;   // radians: beyond it, an angle modulo 2 pi is not accurate
 constexpr double kLargestGiven = 32.0;  // metres: distance of a planar or floating joint's frame from the origin
 constexpr std::size_t kGroup = 8;       // world pairs of a group
 
@@ -99,8 +99,7 @@ void LaneScene::addFrames()
       in_frame_.push_back(origin);
       continue;
     }
-    frame_of_link_.push_back(
-        addFrame(joint, static_cast<int>(link), has_parent ? frame_of_link_[parent] : -1, origin));
+    frame_of_link_.push_back(addFrame(joint, static_cast<int>(link), has_parent ? frame_of_link_[parent] : -1, origin));
     in_frame_.push_back(Isometry3d::Identity());
   }
 }
@@ -189,8 +188,7 @@ void LaneScene::addBody(const ShapeInstance& instance, const BallCover& cover)
   far = std::max(far, center.norm());
   bodies_.push_back(body);
   const FrameError& frame = frame_errors_[static_cast<std::size_t>(body.frame)];
-  body_errors_.push_back(
-      {frame.far + far, frame.position + frame.rotation * far + kSumError * (frame.far + far)});
+  body_errors_.push_back({frame.far + far, frame.position + frame.rotation * far + kSumError * (frame.far + far)});
 }
 
 double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
@@ -274,9 +272,8 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
         continue;
       const LaneObject& object = objects[o];
       const double required = problem.robot[b].padding + object.padding;
-      const double error = body_errors_[b].position +
-                           kDistanceError * (body_errors_[b].far + object.far + required +
-                                             static_cast<double>(bodies_[b].outer));
+      const double error = body_errors_[b].position + kDistanceError * (body_errors_[b].far + object.far + required +
+                                                                        static_cast<double>(bodies_[b].outer));
       const double layer = object.thickness > cover.layer ? 0.0 : cover.layer;
       const lanes::Thresholds thresholds = {above(required + error), above(required + layer + error),
                                             below(required - error)};

@@ -7,7 +7,7 @@ namespace gpu_planning_scene::core
 /// What is proven for a pair or a state.
 enum class Proof : std::uint8_t
 {
-  Apart,      ///< a pair; for a state: free
+  Apart,  ///< a pair; for a state: free
   Colliding,
   None
 };

@@ -77,17 +77,19 @@ class ProofWorker
       busy_ = true;
       lock.unlock();
       const auto is_stopped = [&] { return ending_ || task.job.expired(); };
-      std::shared_ptr<const RobotProofs> proofs;
+      const auto publish = [&](RobotProofs proofs)
+      {
+        if (const std::shared_ptr<ProofJob> job = task.job.lock())
+          std::atomic_store(&job->proofs_, std::make_shared<const RobotProofs>(std::move(proofs)));
+      };
       try
       {
-        proofs = prover_.prove(*task.robot, task.problem, task.forest, is_stopped);
+        prover_.prove(*task.robot, *task.problem, task.forest, publish, is_stopped);
       }
       catch (const std::bad_alloc&)
       {
-        // Without proofs, the exact checker decides all states.
+        // The exact checker decides what is not proven.
       }
-      if (const std::shared_ptr<ProofJob> job = task.job.lock())
-        std::atomic_store(&job->proofs_, proofs);
       task = {};  // the last references to large objects may end here, not under the lock
       lock.lock();
       busy_ = false;

@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 class ProofJob
 {
  public:
-  /// Null until the proofs are made.
+  /// Null until there are proofs. They are replaced by better ones while the work goes on.
   std::shared_ptr<const RobotProofs> proofs() const { return std::atomic_load(&proofs_); }
 
  private:

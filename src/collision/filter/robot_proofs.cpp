@@ -48,46 +48,51 @@ const RobotProver::KnownTable* RobotProver::known(const RobotModel& robot, const
   return found == tables_.end() ? nullptr : &*found;
 }
 
-std::shared_ptr<const RobotProofs> RobotProver::prove(const RobotModel& robot,
-                                                      const std::shared_ptr<const CollisionProblem>& problem,
-                                                      const std::shared_ptr<const CpuForest>& forest,
-                                                      const std::function<bool()>& stopped)
+void RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem,
+                        const std::shared_ptr<const CpuForest>& forest, const std::function<void(RobotProofs)>& publish,
+                        const std::function<bool()>& stopped)
 {
   forgetUnused();
-  auto proofs = std::make_shared<RobotProofs>();
-  for (const ShapeInstance& instance : problem->robot)
+  RobotProofs proofs;
+  for (const ShapeInstance& instance : problem.robot)
   {
     if (stopped())
-      return nullptr;
-    proofs->covers.push_back(cover(forest->shared(instance.tree), problem->tessellations[instance.tree].sagitta));
+      return;
+    proofs.covers.push_back(cover(forest->shared(instance.tree), problem.tessellations[instance.tree].sagitta));
   }
-  const CpuShapePair pairs(forest);
   const auto side = [&](std::uint32_t number)
   {
-    const ShapeInstance& instance = problem->robot[number];
+    const ShapeInstance& instance = problem.robot[number];
     return Side{forest->shared(instance.tree), instance.link, instance.pose};
   };
+  std::vector<std::size_t> unknown;
+  for (const auto& [first, second] : problem.self_pairs)
+  {
+    const KnownTable* table = known(robot, {side(first), side(second)});
+    if (!table)
+      unknown.push_back(proofs.tables.size());
+    proofs.tables.push_back(table ? table->table : nullptr);
+  }
+  publish(proofs);
+  if (unknown.empty())
+    return;
+  const CpuShapePair pairs(forest);
   const auto covered = [&](std::uint32_t number)
   {
-    const ShapeInstance& instance = problem->robot[number];
-    return CoveredInstance{&instance, &forest->tree(instance.tree), proofs->covers[number].get(),
-                           problem->tessellations[instance.tree].sagitta};
+    const ShapeInstance& instance = problem.robot[number];
+    return CoveredInstance{&instance, &forest->tree(instance.tree), proofs.covers[number].get(),
+                           problem.tessellations[instance.tree].sagitta};
   };
-  for (const auto& [first, second] : problem->self_pairs)
+  for (const std::size_t p : unknown)
   {
     if (stopped())
-      return nullptr;
-    const std::array<Side, 2> sides = {side(first), side(second)};
-    const KnownTable* table = known(robot, sides);
-    if (!table)
-    {
-      std::optional<JointTable> made = makeJointTable(robot, covered(first), covered(second), pairs);
-      tables_.push_back({robot.weak_from_this(), sides,
-                         made ? std::make_shared<const JointTable>(std::move(*made)) : nullptr});
-      table = &tables_.back();
-    }
-    proofs->tables.push_back(table->table);
+      return;
+    const auto [first, second] = problem.self_pairs[p];
+    std::optional<JointTable> made = makeJointTable(robot, covered(first), covered(second), pairs);
+    if (made)
+      proofs.tables[p] = std::make_shared<const JointTable>(std::move(*made));
+    tables_.push_back({robot.weak_from_this(), {side(first), side(second)}, proofs.tables[p]});
   }
-  return proofs;
+  publish(std::move(proofs));
 }
 }  // namespace gpu_planning_scene::core

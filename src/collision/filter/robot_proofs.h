@@ -26,12 +26,11 @@ struct RobotProofs
 class RobotProver
 {
  public:
-  /// Takes seconds for a new robot. `stopped` is called between the parts of the work, which take up to a second; if it
-  /// returns true, the result is null.
-  std::shared_ptr<const RobotProofs> prove(const RobotModel& robot,
-                                           const std::shared_ptr<const CollisionProblem>& problem,
-                                           const std::shared_ptr<const CpuForest>& forest,
-                                           const std::function<bool()>& stopped);
+  /// Takes seconds for a new robot. Calls `publish` as soon as the covers are made, with the tables that are known, and
+  /// again when all tables are made. `stopped` is called between the parts of the work, which take up to a second; if
+  /// it returns true, the work ends.
+  void prove(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
+             const std::function<void(RobotProofs)>& publish, const std::function<bool()>& stopped);
 
  private:
   struct KnownCover

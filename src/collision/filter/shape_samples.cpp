@@ -6,12 +6,12 @@
 #include <limits>
 
 #include "collision/exact/winding_number.h"
-#include "collision/geometry/triangle_pair.h"
 #include "collision/geometry/primitive_solid.h"
+#include "collision/geometry/triangle_pair.h"
 #include "model/math_constants.h"
 
-// A grid of cubes over the shape's box. Cubes that the surface enters are found with the exact test of triangle and box;
-// the winding number tells which of the other cubes are inside.
+// A grid of cubes over the shape's box. Cubes that the surface enters are found with the exact test of triangle and
+// box; the winding number tells which of the other cubes are inside.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -20,9 +20,9 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-constexpr double kCells = 32768.0;             // of the grid, about
+constexpr double kCells = 32768.0;  // of the grid, about
 constexpr std::size_t kFewInside = 100;
-constexpr double kOnSurface = 1e-7;  // metres: exceeds the rounding error of distances
+constexpr double kOnSurface = 1e-7;              // metres: exceeds the rounding error of distances
 constexpr std::size_t kWindingTriangles = 4000;  // meshes without a solid: more triangles would take too long
 
 void cut(const Triangle& triangle, double longest, std::vector<Triangle>& pieces)

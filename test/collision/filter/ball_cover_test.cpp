@@ -52,8 +52,9 @@ std::vector<Covered> shapes()
 
 bool isIn(const Vector3d& point, const std::vector<CoverBall>& balls)
 {
-  return std::any_of(balls.begin(), balls.end(), [&point](const CoverBall& ball)
-                     { return (ball.center - point).norm() <= ball.outer; });
+  return std::any_of(
+      balls.begin(), balls.end(),
+      [&point](const CoverBall& ball) { return (ball.center - point).norm() <= ball.outer; });
 }
 
 /// A random point of a triangle.

@@ -29,7 +29,9 @@ class LaneProofs : public testing::TestWithParam<const char*>
     problem_ = std::make_shared<const CollisionProblem>(makeProblem(*scene_.scene, "", nullptr));
     traversal_ = forest_.traversalOf(problem_);
     RobotProver prover;
-    const auto proofs = prover.prove(robot(), problem_, forest_.forest(), [] { return false; });
+    std::shared_ptr<const RobotProofs> proofs;
+    const auto publish = [&proofs](RobotProofs made) { proofs = std::make_shared<const RobotProofs>(std::move(made)); };
+    prover.prove(robot(), *problem_, forest_.forest(), publish, [] { return false; });
     lanes_ = std::make_unique<const LaneScene>(scene_.scene->robot, *problem_, *forest_.forest(), proofs);
   }
 
@@ -46,8 +48,8 @@ class LaneProofs : public testing::TestWithParam<const char*>
     float* const frames = floats.data();
     float* const given = frames + 12 * lanes::kLanes * model.frames.count;
     float* const centers = given + 12 * lanes::kLanes * model.frames.count;
-    const lanes::Scratch scratch = {frames, given, centers, centers + 3 * lanes::kLanes * model.bodies.count,
-                                    placed.data(), open.data()};
+    const lanes::Scratch scratch = {
+        frames, given, centers, centers + 3 * lanes::kLanes * model.bodies.count, placed.data(), open.data()};
     std::vector<Eigen::Isometry3d> poses(robot().links().size());
     CpuTraversal::Scratch exact;
     const std::size_t width = robot().variables().size();
