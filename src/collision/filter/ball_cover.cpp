@@ -1,11 +1,13 @@
 #include "collision/filter/ball_cover.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <queue>
+#include <utility>
 
-#include "collision/filter/shape_samples.h"
 #include "collision/geometry/triangle_pair.h"
 
 // The candidates for centres are points inside the shape. A candidate's ball may have the radius "depth of the centre +
@@ -19,7 +21,7 @@ namespace
 using Eigen::Vector3d;
 
 constexpr std::size_t kCandidates = 1200;
-constexpr std::size_t kFewCandidates = 200;
+constexpr std::size_t kSurfaceCandidates = 300;
 constexpr std::size_t kSamples = 1500;  // of the surface, and as many of the solid
 constexpr int kBisections = 9;
 constexpr int kEnclosingSteps = 2000;
@@ -37,11 +39,15 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t count)
   return kept;
 }
 
-std::vector<SolidCell> candidatesOf(const ShapeSamples& samples)
+/// Points inside the shape; points of the surface too where the shape has open parts or hardly any inside.
+std::vector<SolidCell> candidatesOf(const CpuTree& tree, const ShapeSamples& samples)
 {
+  const std::vector<Component>& components = tree.components.components;
+  const bool is_closed =
+      hasSolid(tree) && std::all_of(components.begin(), components.end(), [](const Component& c) { return c.closed; });
   std::vector<SolidCell> candidates = thinned(samples.inside, kCandidates);
-  if (candidates.size() < kFewCandidates)
-    for (const Vector3d& point : thinned(samples.points, 2 * kFewCandidates))
+  if (!is_closed || candidates.size() < kSurfaceCandidates)
+    for (const Vector3d& point : thinned(samples.points, kSurfaceCandidates))
       candidates.push_back({point, 0.0});
   return candidates;
 }
@@ -63,11 +69,12 @@ class GapTable
       for (const Vector3d& point : points)
         add(point, 0.0);
       for (const SolidCell& cell : cells)
-        add(cell.center, kHalfDiagonal * samples.cell);
+        add(cell.center, kHalfDiagonal * samples.grid.cell);
     }
   }
 
   /// Indices of at most `most` candidates that contain all samples for a gap; empty if the greedy choice needs more.
+  /// The greedy choice is lazy (Minoux, "Accelerated greedy algorithms for maximizing submodular set functions", 1978).
   std::vector<std::size_t> cover(float gap, std::size_t most) const
   {
     const std::size_t words = (samples_ + 63) / 64;
@@ -78,23 +85,31 @@ class GapTable
     std::vector<std::uint64_t> left(words, ~std::uint64_t{0});
     if (samples_ % 64 != 0)
       left.back() = (std::uint64_t{1} << (samples_ % 64)) - 1;
+    const auto count_new = [&](std::size_t c)
+    {
+      std::size_t count = 0;
+      for (std::size_t w = 0; w < words; ++w)
+        count += std::bitset<64>(contained[c * words + w] & left[w]).count();
+      return count;
+    };
+    // A candidate never gains new samples, so an old count is an upper bound.
+    std::priority_queue<std::pair<std::size_t, std::size_t>> counts;
+    for (std::size_t c = 0; c < candidates_; ++c)
+      counts.push({count_new(c), c});
     std::vector<std::size_t> chosen;
     while (std::any_of(left.begin(), left.end(), [](std::uint64_t word) { return word != 0; }))
     {
-      std::size_t best = 0;
-      int most_new = 0;
-      for (std::size_t c = 0; c < candidates_; ++c)
+      if (counts.empty())
+        return {};
+      const auto [bound, best] = counts.top();
+      counts.pop();
+      const std::size_t count = count_new(best);
+      if (count < bound && !counts.empty() && count < counts.top().first)
       {
-        int count = 0;
-        for (std::size_t w = 0; w < words; ++w)
-          count += __builtin_popcountll(contained[c * words + w] & left[w]);
-        if (count > most_new)
-        {
-          most_new = count;
-          best = c;
-        }
+        counts.push({count, best});
+        continue;
       }
-      if (most_new == 0 || chosen.size() == most)
+      if (count == 0 || chosen.size() == most)
         return {};
       chosen.push_back(best);
       for (std::size_t w = 0; w < words; ++w)
@@ -129,6 +144,23 @@ Vector3d enclosingCenter(const std::vector<Vector3d>& points)
     center += (*farthest - center) / (step + 1.0);
   }
   return center;
+}
+
+/// Sorts balls so that neighbours in the sequence are near each other: halves of the sequence are the halves along the
+/// longest extent.
+void sortByPlace(std::vector<Fit>::iterator begin, std::vector<Fit>::iterator end)
+{
+  if (end - begin < 2)
+    return;
+  Eigen::AlignedBox3d bounds;
+  for (auto fit = begin; fit != end; ++fit)
+    bounds.extend(fit->center);
+  int axis;
+  bounds.sizes().maxCoeff(&axis);
+  const auto middle = begin + (end - begin) / 2;
+  std::nth_element(begin, middle, end, [axis](const Fit& a, const Fit& b) { return a.center[axis] < b.center[axis]; });
+  sortByPlace(begin, middle);
+  sortByPlace(middle, end);
 }
 
 /// Grows a ball so that it contains a part. It is the first ball that contains the part already, or else the ball that
@@ -169,13 +201,12 @@ CoverBall certified(const CpuTree& tree, const ShapeSamples& samples, const Fit&
 }
 }  // namespace
 
-BallCover coverOf(const CpuTree& tree, double sagitta)
+BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagitta)
 {
-  const ShapeSamples samples = samplesOf(tree);
-  const std::vector<SolidCell> candidates = candidatesOf(samples);
+  const std::vector<SolidCell> candidates = candidatesOf(tree, samples);
   const GapTable gaps(samples, candidates);
   BallCover cover;
-  cover.layer = hasSolid(tree) ? 2.0 * kHalfDiagonal * samples.cell + sagitta : 0.0;
+  cover.layer = hasSolid(tree) ? 2.0 * kHalfDiagonal * samples.grid.cell + sagitta : 0.0;
   for (std::size_t level = 0; level < kCoverBalls.size(); ++level)
   {
     std::vector<Fit> fits;
@@ -205,8 +236,9 @@ BallCover coverOf(const CpuTree& tree, double sagitta)
                                            (piece[2] - center).squaredNorm()}));
               });
     for (const SolidCell& cell : samples.cells)
-      contain(fits,
-              [&](const Vector3d& center) { return (cell.center - center).norm() + kHalfDiagonal * samples.cell; });
+      contain(fits, [&](const Vector3d& center)
+              { return (cell.center - center).norm() + kHalfDiagonal * samples.grid.cell; });
+    sortByPlace(fits.begin(), fits.end());
     for (const Fit& fit : fits)
       cover.levels[level].push_back(certified(tree, samples, fit, sagitta));
   }

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/exact/cpu_tree.h"
+#include "collision/filter/shape_samples.h"
 
 namespace gpu_planning_scene::core
 {
@@ -21,7 +22,7 @@ struct CoverBall
 /// The number of balls of each level of a cover.
 constexpr std::array<std::size_t, 3> kCoverBalls = {1, 8, 32};
 
-/// Balls that enclose and fill a shape, on three levels. One distance between two balls proves either verdict: if the
+/// Balls that enclose and fill a shape, on several levels. One distance between two balls proves either verdict: if the
 /// outer balls of two shapes are apart, the shapes are apart; if two inner balls overlap, the shapes collide. Outer
 /// balls and inscribed balls of one centre: Weller and Zachmann, "Inner sphere trees", 2009; the choice of the balls is
 /// a greedy set cover as in Wang et al., "Variational sphere set approximation", 2006, without their optimisation.
@@ -29,13 +30,13 @@ struct BallCover
 {
   /// A level may have fewer balls than kCoverBalls; each has at least one.
   std::array<std::vector<CoverBall>, kCoverBalls.size()> levels;
-  /// Metres: all points of the shape that are in no ball of levels 1 and 2 are in its solid, at most this deep below
+  /// Metres: all points of the shape that are in no ball of a level from 1 are in its solid, at most this deep below
   /// its surface. Level 0 contains the whole shape. 0 for shapes without a solid.
   double layer = 0.0;
   /// Metres: each component of the shape contains a ball of this radius. 0: unknown.
   double thickness = 0.0;
 };
 
-/// The cover of a tree's shape. `sagitta`: see Tessellation. Takes about 0.2 s.
-BallCover coverOf(const CpuTree& tree, double sagitta);
+/// The cover of a tree's shape. `samples`: of the tree; `sagitta`: see Tessellation. Takes about 0.2 s.
+BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagitta);
 }  // namespace gpu_planning_scene::core

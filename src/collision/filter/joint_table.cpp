@@ -20,11 +20,11 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr int kCellsOfOne = 1024;
-constexpr int kCellsOfTwo = 128;
+constexpr int kCellsOfTwo = 256;
 constexpr double kWiden = 1e-3;  // boxes are wider than their cells by this share, against rounding of the lookup
 constexpr double kLargestMove =
-    0.5;                          // metres: boxes with larger displacements prove nothing, so they are halved at once
-constexpr double kMargin = 1e-8;  // metres: exceeds the rounding error of distances
+    0.5;  // metres: boxes with larger displacements prove nothing, so they are halved at once
+constexpr double kBallMargin = 1e-8;  // metres: exceeds the rounding error of distances
 
 /// The joints between two links, from the first link to the second.
 std::vector<int> jointsBetween(const RobotModel& robot, int from, int to)
@@ -72,7 +72,7 @@ std::optional<TableVariable> rangeOf(const RobotModel& robot, int number, const 
 class TableMaker
 {
  public:
-  TableMaker(const RobotModel& robot, const CoveredInstance& a, const CoveredInstance& b, const CpuShapePair& pairs)
+  TableMaker(const RobotModel& robot, const TableBody& a, const TableBody& b, const CpuShapePair& pairs)
     : robot_(robot), a_(a), b_(b), pairs_(pairs), state_(robot.defaultState()), poses_(robot.links().size())
   {
     for (const int joint : jointsBetween(robot, a.instance->link, b.instance->link))
@@ -156,7 +156,8 @@ class TableMaker
     const Isometry3d b_in_a = relativePose(pose_a, pose_b);
     if (displacementBound(axes, b_in_a * b_.tree->center, 0.0) > kLargestMove)
       return Proof::None;
-    if (innerBallsMeet(b_in_a, axes))
+    if (innerBallsMeet(b_in_a, axes) || penetrates(b_, a_, b_in_a, axes) ||
+        penetrates(a_, b_, b_in_a.inverse(), seenFrom(b_in_a, axes)))
       return Proof::Colliding;
     if (surfacesApartWhileMoving(*a_.tree, *b_.tree, b_in_a, axes, a_.sagitta + b_.sagitta) &&
         !pairs_.collide(a_.instance->tree, pose_a, b_.instance->tree, pose_b, 0.0, scratch_))
@@ -185,7 +186,7 @@ class TableMaker
     for (const CoverBall& ball : b_.cover->levels.back())
     {
       const Vector3d center = b_in_a * ball.witness;
-      const double reach = ball.inner - displacementBound(axes, center, 0.0) - kMargin;
+      const double reach = ball.inner - displacementBound(axes, center, 0.0) - kBallMargin;
       for (const CoverBall& other : a_.cover->levels.back())
         if ((other.witness - center).norm() < other.inner + reach)
           return true;
@@ -193,9 +194,35 @@ class TableMaker
     return false;
   }
 
+  /// The axes between the bodies, in the order from the second body to the first, in the frame of the second body.
+  static std::vector<JointAxis> seenFrom(const Isometry3d& b_in_a, const std::vector<JointAxis>& axes)
+  {
+    const Isometry3d a_in_b = b_in_a.inverse();
+    std::vector<JointAxis> seen(axes.rbegin(), axes.rend());
+    for (JointAxis& axis : seen)
+    {
+      axis.point = a_in_b * axis.point;
+      axis.direction = a_in_b.linear() * axis.direction;
+    }
+    return seen;
+  }
+
+  /// Whether a point of `body` stays inside the solid of `other` wherever the joints are within their travel. `pose`:
+  /// of the body in the frame of the other one, for the middle values.
+  static bool penetrates(const TableBody& body, const TableBody& other, const Isometry3d& pose,
+                         const std::vector<JointAxis>& axes)
+  {
+    const auto is_inside = [&](const Vector3d& point)
+    {
+      const double depth = other.depth->at(pose * point);
+      return depth > kBallMargin && depth > displacementBound(axes, pose * point, 0.0) + kBallMargin;
+    };
+    return std::any_of(body.depth->points().begin(), body.depth->points().end(), is_inside);
+  }
+
   const RobotModel& robot_;
-  const CoveredInstance& a_;
-  const CoveredInstance& b_;
+  const TableBody& a_;
+  const TableBody& b_;
   const CpuShapePair& pairs_;
   std::vector<const Joint*> joints_;  // between the bodies, without fixed joints
   JointTable table_;
@@ -205,7 +232,7 @@ class TableMaker
 };
 }  // namespace
 
-std::optional<JointTable> makeJointTable(const RobotModel& robot, const CoveredInstance& a, const CoveredInstance& b,
+std::optional<JointTable> makeJointTable(const RobotModel& robot, const TableBody& a, const TableBody& b,
                                          const CpuShapePair& pairs)
 {
   return TableMaker(robot, a, b, pairs).make();

@@ -7,6 +7,7 @@
 #include "collision/exact/cpu_shape_pair.h"
 #include "collision/filter/ball_cover.h"
 #include "collision/filter/proof.h"
+#include "collision/filter/solid_depth.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/robot_model.h"
 
@@ -31,18 +32,19 @@ struct JointTable
   std::vector<Proof> cells;              ///< row-major
 };
 
-/// A robot instance of a table, with the tree and the cover of its shape.
-struct CoveredInstance
+/// A robot instance of a table, with what is known about its shape.
+struct TableBody
 {
   const ShapeInstance* instance;
   const CpuTree* tree;
   const BallCover* cover;
+  const SolidDepth* depth;
   double sagitta;  ///< see Tessellation
 };
 
 /// Makes the table of a self pair. No value if the pair depends on more than two variables, on a planar or floating
 /// joint, or on a joint without limits that is not continuous. `pairs` decides whether two trees collide. Takes up to a
 /// second.
-std::optional<JointTable> makeJointTable(const RobotModel& robot, const CoveredInstance& a, const CoveredInstance& b,
+std::optional<JointTable> makeJointTable(const RobotModel& robot, const TableBody& a, const TableBody& b,
                                          const CpuShapePair& pairs);
 }  // namespace gpu_planning_scene::core

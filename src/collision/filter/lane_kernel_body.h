@@ -388,13 +388,6 @@ class PlacedBalls
       scratch.placed[b] = 0;
   }
 
-  struct Range
-  {
-    int begin;
-    int end;
-  };
-  static Range rangeOf(int level) { return level == 0 ? Range{0, kCoarseBalls} : Range{kCoarseBalls, kBalls}; }
-
   /// Coordinates x, y, z in arrays of kBalls: the outer balls, then the inner ones.
   const float* of(std::uint32_t body, int level) const
   {
@@ -426,8 +419,7 @@ class PlacedBalls
     for (int k = 0; k < 12; ++k)
       pose[k] = scratch_.frames[(static_cast<unsigned>(frame) * 12U + static_cast<unsigned>(k)) * kLanes +
                                 static_cast<unsigned>(lane_)];
-    const Range range = rangeOf(level);
-    for (int i = range.begin; i < range.end; i += kLanes)
+    for (int i = kLevelBegin[level]; i < kLevelBegin[level + 1]; i += kLanes)
     {
       const Floats x = load(balls.x + i);
       const Floats y = load(balls.y + i);
@@ -454,9 +446,8 @@ inline Proof proveWorldPair(const Model& model, const WorldPair& pair, const Pla
   const Object& object = model.objects[pair.object];
   const float* outer = balls.of(pair.body, level);
   const float* inner = balls.innerOf(pair.body, level);
-  const PlacedBalls::Range range = PlacedBalls::rangeOf(level);
   Ints near = {};
-  for (int i = range.begin; i < range.end; i += kLanes)
+  for (int i = kLevelBegin[level]; i < kLevelBegin[level + 1]; i += kLanes)
   {
     const Floats squared = squaredDistanceTo(object, pointsAt(outer, i));
     const Floats apart = load(body.outer_balls.radius + i) + pair.thresholds.cover;
@@ -471,29 +462,45 @@ inline Proof proveWorldPair(const Model& model, const WorldPair& pair, const Pla
   return bits(near) == 0 ? Proof::Apart : Proof::None;
 }
 
-/// Proves by the balls of both bodies that are near the other body's enclosing ball.
+/// The balls of `b` on a level that are near the balls of `a` on the first level. Returns their number.
+inline int nearBalls(const Body& a, const float* balls_of_a, const Body& b, const float* balls_of_b, float threshold,
+                     int level, int* near)
+{
+  int count = 0;
+  for (int i = kLevelBegin[level]; i < kLevelBegin[level + 1]; i += kLanes)
+  {
+    const Points points = pointsAt(balls_of_b, i);
+    const Floats reach = load(b.outer_balls.radius + i) + threshold;
+    Ints is_near = {};
+    for (int j = 0; j < kLevelBegin[1]; ++j)
+    {
+      const Points other = {all(balls_of_a[j]), all(balls_of_a[kBalls + j]), all(balls_of_a[2 * kBalls + j])};
+      const Floats sum = reach + a.outer_balls.radius[j];
+      is_near |= squaredDistance(points, other) <= sum * sum;
+    }
+    for (int left = bits(is_near); left != 0; left &= left - 1)
+      near[count++] = i + __builtin_ctz(static_cast<unsigned>(left));
+  }
+  return count;
+}
+
+/// Proves by the balls of both bodies that are near the other body.
 inline Proof proveSelfPair(const Model& model, const SelfPair& pair, const PlacedBalls& balls, int level)
 {
   const Body& a = model.bodies[pair.a];
   const Body& b = model.bodies[pair.b];
-  const PlacedBalls::Range range = PlacedBalls::rangeOf(level);
   const float* outer_a = balls.of(pair.a, level);
   const float* inner_a = balls.innerOf(pair.a, level);
   const float* outer_b = balls.of(pair.b, level);
   const float* inner_b = balls.innerOf(pair.b, level);
-  const Points center_a = {all(balls.center(pair.a, 0)), all(balls.center(pair.a, 1)), all(balls.center(pair.a, 2))};
   const Points center_b = {all(balls.center(pair.b, 0)), all(balls.center(pair.b, 1)), all(balls.center(pair.b, 2))};
 
-  int near_b[kFineBalls];
-  int near_count = 0;
-  for (int i = range.begin; i < range.end; i += kLanes)
-  {
-    const Floats reach = load(b.outer_balls.radius + i) + (a.outer + pair.thresholds.cover);
-    for (int left = bits(squaredDistance(pointsAt(outer_b, i), center_a) <= reach * reach); left != 0; left &= left - 1)
-      near_b[near_count++] = i + __builtin_ctz(static_cast<unsigned>(left));
-  }
+  int near_b[kMostBalls];
+  const int near_count = nearBalls(a, balls.of(pair.a, 0), b, outer_b, pair.thresholds.cover, level, near_b);
+  if (near_count == 0)
+    return Proof::Apart;
   Ints near = {};
-  for (int i = range.begin; i < range.end; i += kLanes)
+  for (int i = kLevelBegin[level]; i < kLevelBegin[level + 1]; i += kLanes)
   {
     const Points points = pointsAt(outer_a, i);
     const Floats reach = load(a.outer_balls.radius + i) + (b.outer + pair.thresholds.cover);
@@ -520,12 +527,12 @@ inline Proof proveSelfPair(const Model& model, const SelfPair& pair, const Place
   return bits(near) == 0 ? Proof::Apart : Proof::None;
 }
 
-/// Proves the open pairs of one lane by the balls of the covers, first the coarse ones, then the fine ones.
+/// Proves the open pairs of one lane by the balls of the covers, the coarse ones first.
 inline void proveByCovers(const Model& model, const Scratch& scratch, int lane, Lanes& lanes)
 {
   const PlacedBalls balls(model, scratch, lane);
   std::uint32_t* open = lanes.open + static_cast<unsigned>(lane) * lanes.pairs;
-  for (int level = 0; level < 2; ++level)
+  for (int level = 0; level < kLevels; ++level)
   {
     int kept = 0;
     for (int k = 0; k < lanes.block.open_count[lane]; ++k)

@@ -11,9 +11,12 @@
 namespace gpu_planning_scene::core::lanes
 {
 constexpr int kLanes = 8;
-constexpr int kCoarseBalls = 8;
-constexpr int kFineBalls = 32;
-constexpr int kBalls = kCoarseBalls + kFineBalls;
+
+/// Levels 1 and 2 of a cover are stored one after the other: level k has balls kLevelBegin[k - 1] to kLevelBegin[k] - 1.
+constexpr int kLevels = 2;
+constexpr int kLevelBegin[kLevels + 1] = {0, 8, 40};
+constexpr int kBalls = kLevelBegin[kLevels];
+constexpr int kMostBalls = kBalls - kLevelBegin[kLevels - 1];  ///< of a level
 
 enum class FrameKind : std::uint8_t
 {
@@ -36,7 +39,7 @@ struct Frame
   float second[12];
 };
 
-/// Balls as arrays of coordinates: first the coarse ones, then the fine ones. Unused places hold copies of used ones.
+/// Balls as arrays of coordinates. Unused places hold copies of used ones.
 struct Balls
 {
   float x[kBalls];

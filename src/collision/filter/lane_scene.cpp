@@ -156,6 +156,8 @@ int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry
   return static_cast<int>(frames_.size()) - 1;
 }
 
+static_assert(kCoverBalls.size() == lanes::kLevels + 1, "levels of the kernel");
+
 void LaneScene::addBody(const ShapeInstance& instance, const BallCover& cover)
 {
   const auto link = static_cast<std::size_t>(instance.link);
@@ -169,8 +171,8 @@ void LaneScene::addBody(const ShapeInstance& instance, const BallCover& cover)
   {
     const std::vector<CoverBall>& balls = cover.levels[level];
     body.same_centers = body.same_centers && std::all_of(balls.begin(), balls.end(), is_same);
-    const int first = level == 1 ? 0 : lanes::kCoarseBalls;
-    const int count = level == 1 ? lanes::kCoarseBalls : lanes::kFineBalls;
+    const int first = lanes::kLevelBegin[level - 1];
+    const int count = lanes::kLevelBegin[level] - first;
     for (int i = 0; i < count; ++i)
     {
       const CoverBall& ball = balls[std::min<std::size_t>(static_cast<std::size_t>(i), balls.size() - 1)];

@@ -15,7 +15,7 @@ namespace
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kMargin = 1e-8;           // metres: exceeds the rounding error of bounds and distances
+constexpr double kBoundMargin = 1e-8;      // metres: exceeds the rounding error of bounds and distances
 constexpr std::size_t kMostSteps = 20000;  // pairs of nodes
 
 bool leavesApart(const CpuTree& a, const CpuNode& node_a, const CpuTree& b, const CpuNode& node_b,
@@ -53,7 +53,7 @@ double displacementBound(const std::vector<JointAxis>& axes, const Vector3d& cen
 bool surfacesApartWhileMoving(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a,
                               const std::vector<JointAxis>& axes, double required)
 {
-  const double margin = required + kMargin;
+  const double margin = required + kBoundMargin;
   std::vector<std::array<std::uint32_t, 2>> pairs(1, {0, 0});
   for (std::size_t steps = 0; !pairs.empty(); ++steps)
   {

@@ -19,18 +19,20 @@ void RobotProver::forgetUnused()
   const auto is_unused = [](const KnownTable& known)
   { return known.robot.expired() || known.sides[0].tree.expired() || known.sides[1].tree.expired(); };
   tables_.erase(std::remove_if(tables_.begin(), tables_.end(), is_unused), tables_.end());
-  covers_.erase(
-      std::remove_if(covers_.begin(), covers_.end(), [](const KnownCover& known) { return known.tree.expired(); }),
-      covers_.end());
+  const auto is_expired = [](const std::shared_ptr<const KnownShape>& known) { return known->tree.expired(); };
+  shapes_.erase(std::remove_if(shapes_.begin(), shapes_.end(), is_expired), shapes_.end());
 }
 
-std::shared_ptr<const BallCover> RobotProver::cover(const std::shared_ptr<const CpuTree>& tree, double sagitta)
+std::shared_ptr<const RobotProver::KnownShape> RobotProver::shape(const std::shared_ptr<const CpuTree>& tree,
+                                                                  double sagitta)
 {
-  for (const KnownCover& known : covers_)
-    if (known.tree.lock() == tree)
-      return known.cover;
-  covers_.push_back({tree, std::make_shared<const BallCover>(coverOf(*tree, sagitta))});
-  return covers_.back().cover;
+  for (const auto& known : shapes_)
+    if (known->tree.lock() == tree)
+      return known;
+  const ShapeSamples samples = samplesOf(*tree);
+  shapes_.push_back(std::make_shared<const KnownShape>(
+      KnownShape{tree, std::make_shared<const BallCover>(coverOf(*tree, samples, sagitta)), {samples, sagitta}}));
+  return shapes_.back();
 }
 
 const RobotProver::KnownTable* RobotProver::known(const RobotModel& robot, const std::array<Side, 2>& sides) const
@@ -54,11 +56,13 @@ void RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem
 {
   forgetUnused();
   RobotProofs proofs;
+  std::vector<std::shared_ptr<const KnownShape>> shapes;  // of each instance
   for (const ShapeInstance& instance : problem.robot)
   {
     if (stopped())
       return;
-    proofs.covers.push_back(cover(forest->shared(instance.tree), problem.tessellations[instance.tree].sagitta));
+    shapes.push_back(shape(forest->shared(instance.tree), problem.tessellations[instance.tree].sagitta));
+    proofs.covers.push_back(shapes.back()->cover);
   }
   const auto side = [&](std::uint32_t number)
   {
@@ -77,18 +81,18 @@ void RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem
   if (unknown.empty())
     return;
   const CpuShapePair pairs(forest);
-  const auto covered = [&](std::uint32_t number)
+  const auto body = [&](std::uint32_t number)
   {
     const ShapeInstance& instance = problem.robot[number];
-    return CoveredInstance{&instance, &forest->tree(instance.tree), proofs.covers[number].get(),
-                           problem.tessellations[instance.tree].sagitta};
+    return TableBody{&instance, &forest->tree(instance.tree), shapes[number]->cover.get(), &shapes[number]->depth,
+                     problem.tessellations[instance.tree].sagitta};
   };
   for (const std::size_t p : unknown)
   {
     if (stopped())
       return;
     const auto [first, second] = problem.self_pairs[p];
-    std::optional<JointTable> made = makeJointTable(robot, covered(first), covered(second), pairs);
+    std::optional<JointTable> made = makeJointTable(robot, body(first), body(second), pairs);
     if (made)
       proofs.tables[p] = std::make_shared<const JointTable>(std::move(*made));
     tables_.push_back({robot.weak_from_this(), {side(first), side(second)}, proofs.tables[p]});

@@ -21,7 +21,7 @@ struct RobotProofs
   std::vector<std::shared_ptr<const JointTable>> tables;  ///< one per self pair; null: the pair has none
 };
 
-/// Makes the proofs of consecutive problems, for any robots. Covers and tables are kept as long as their trees are in
+/// Makes the proofs of consecutive problems, for any robots. Their parts are kept as long as their trees are in
 /// use. One caller at a time.
 class RobotProver
 {
@@ -33,10 +33,11 @@ class RobotProver
              const std::function<void(RobotProofs)>& publish, const std::function<bool()>& stopped);
 
  private:
-  struct KnownCover
+  struct KnownShape
   {
     std::weak_ptr<const CpuTree> tree;
     std::shared_ptr<const BallCover> cover;
+    SolidDepth depth;
   };
   /// One side of a pair with a table.
   struct Side
@@ -53,10 +54,10 @@ class RobotProver
   };
 
   void forgetUnused();
-  std::shared_ptr<const BallCover> cover(const std::shared_ptr<const CpuTree>& tree, double sagitta);
+  std::shared_ptr<const KnownShape> shape(const std::shared_ptr<const CpuTree>& tree, double sagitta);
   const KnownTable* known(const RobotModel& robot, const std::array<Side, 2>& sides) const;
 
-  std::vector<KnownCover> covers_;
+  std::vector<std::shared_ptr<const KnownShape>> shapes_;
   std::vector<KnownTable> tables_;
 };
 }  // namespace gpu_planning_scene::core

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "collision/exact/winding_number.h"
 #include "collision/geometry/primitive_solid.h"
@@ -44,42 +45,11 @@ void cut(const Triangle& triangle, double longest, std::vector<Triangle>& pieces
   cut({middle, triangle[(edge + 1) % 3], triangle[(edge + 2) % 3]}, longest, pieces);
 }
 
-/// A grid of cubes.
-struct Grid
-{
-  Vector3d origin;
-  double cell;
-  Vector3i count;
-
-  Vector3i cubeOf(const Vector3d& point) const
-  {
-    const Vector3i cube = ((point - origin) / cell).array().floor().cast<int>();
-    return cube.cwiseMax(0).cwiseMin(count - Vector3i::Ones());
-  }
-  std::size_t numberOf(const Vector3i& cube) const
-  {
-    return (static_cast<std::size_t>(cube.z()) * static_cast<std::size_t>(count.y()) +
-            static_cast<std::size_t>(cube.y())) *
-               static_cast<std::size_t>(count.x()) +
-           static_cast<std::size_t>(cube.x());
-  }
-  Vector3d centerOf(const Vector3i& cube) const { return origin + cell * (cube.cast<double>().array() + 0.5).matrix(); }
-
-  template <class Visit>
-  void each(const Vector3i& first, const Vector3i& last, const Visit& visit) const
-  {
-    for (int z = first.z(); z <= last.z(); ++z)
-      for (int y = first.y(); y <= last.y(); ++y)
-        for (int x = first.x(); x <= last.x(); ++x)
-          visit(Vector3i(x, y, z));
-  }
-};
-
-Grid gridAround(const AlignedBox3d& box)
+CubeGrid gridAround(const AlignedBox3d& box)
 {
   const double largest = box.sizes().maxCoeff();
   const Vector3d sizes = box.sizes().cwiseMax(1e-2 * largest);
-  Grid grid;
+  CubeGrid grid;
   grid.cell = std::cbrt(sizes.prod() / kCells);
   grid.origin = box.center() - 0.5 * sizes;
   grid.count = (sizes / grid.cell).array().ceil().cast<int>();
@@ -104,16 +74,8 @@ double windingNumber(const std::vector<Triangle>& triangles, const Vector3d& poi
   return sum / (2.0 * kPi);
 }
 
-double nearest(const std::vector<Vector3d>& points, const Vector3d& point)
-{
-  double best = std::numeric_limits<double>::max();
-  for (const Vector3d& other : points)
-    best = std::min(best, (other - point).squaredNorm());
-  return std::sqrt(best);
-}
-
 /// Which cubes the surface enters.
-std::vector<bool> entered(const Grid& grid, const std::vector<Triangle>& pieces)
+std::vector<bool> entered(const CubeGrid& grid, const std::vector<Triangle>& pieces)
 {
   std::vector<bool> is_entered(static_cast<std::size_t>(grid.count.prod()), false);
   // Rounding must not hide a piece that touches a cube.
@@ -151,11 +113,35 @@ bool insideSolid(const CpuTree& tree, const Vector3d& point)
          isInsideSolid(tree, point, stack);
 }
 
+/// Branch and bound over the tree's boxes, the nearer child first.
 double distanceFromSurface(const CpuTree& tree, const Vector3d& point)
 {
+  const auto distance_to = [&](std::uint32_t node)
+  {
+    const OrientedBox& box = tree.nodes[node].box;
+    const Vector3d beyond = (box.axes.transpose() * (point - box.center)).cwiseAbs() - box.half;
+    return (1.0 - 1e-9) * beyond.cwiseMax(0.0).norm();
+  };
   double best = std::numeric_limits<double>::max();
-  for (const Triangle& triangle : tree.triangles)
-    best = std::min(best, (nearestPoint(triangle, point) - point).norm());
+  std::vector<std::pair<double, std::uint32_t>> open{{0.0, 0}};
+  while (!open.empty())
+  {
+    const auto [distance, number] = open.back();
+    open.pop_back();
+    if (distance >= best)
+      continue;
+    const CpuNode& node = tree.nodes[number];
+    for (std::uint32_t t = node.first; t < node.first + node.count; ++t)
+      best = std::min(best, (nearestPoint(tree.triangles[t], point) - point).norm());
+    if (node.isLeaf())
+      continue;
+    std::pair<double, std::uint32_t> far = {distance_to(node.first), node.first};
+    std::pair<double, std::uint32_t> near = {distance_to(node.first + 1), node.first + 1};
+    if (far < near)
+      std::swap(far, near);
+    open.push_back(far);
+    open.push_back(near);
+  }
   return best;
 }
 
@@ -165,9 +151,9 @@ ShapeSamples samplesOf(const CpuTree& tree)
   for (const Triangle& triangle : tree.triangles)
     for (const Vector3d& vertex : triangle)
       box.extend(vertex);
-  const Grid grid = gridAround(box);
+  const CubeGrid grid = gridAround(box);
   ShapeSamples samples;
-  samples.cell = grid.cell;
+  samples.grid = grid;
   for (const Triangle& triangle : tree.triangles)
     cut(triangle, grid.cell, samples.pieces);
 
@@ -197,7 +183,7 @@ ShapeSamples samplesOf(const CpuTree& tree)
     const Vector3d center = grid.centerOf(cube);
     if (!is_inside(center, empty))
       return;
-    const SolidCell cell{center, nearest(samples.points, center)};
+    const SolidCell cell{center, distanceFromSurface(tree, center)};
     if (solid && empty)
       samples.cells.push_back(cell);
     samples.inside.push_back(cell);
