@@ -349,7 +349,7 @@ inline void proveByEnclosingBalls(const Model& model, const Scratch& scratch, La
     const Body& a = model.bodies[pair.a];
     const Body& b = model.bodies[pair.b];
     const Floats squared = squaredDistance(centersOf(pair.a, scratch), centersOf(pair.b, scratch));
-    const int near = bits(squared <= square(a.outer + b.outer + pair.thresholds.enclosing));
+    const int near = bits(~(squared > square(a.outer + b.outer + pair.thresholds.enclosing)));
     const float inner = a.inner + b.inner + pair.thresholds.inner;
     if (a.inner >= 0.0F && b.inner >= 0.0F && inner > 0.0F)
       lanes.collide(bits(squared < square(inner)), p);
@@ -362,7 +362,7 @@ inline void proveByEnclosingBalls(const Model& model, const Scratch& scratch, La
     const Points center = centersOf(group.body, scratch);
     const Floats to_group = squaredDistanceToBox(center.x - group.center[0], center.y - group.center[1],
                                                  center.z - group.center[2], group.half);
-    if ((bits(to_group <= square(body.outer)) & lanes.active) == 0)
+    if ((bits(~(to_group > square(body.outer))) & lanes.active) == 0)
       continue;
     for (std::uint32_t w = group.first; w < group.end && lanes.active != 0; ++w)
     {
@@ -373,7 +373,7 @@ inline void proveByEnclosingBalls(const Model& model, const Scratch& scratch, La
       const float inner = body.inner + pair.thresholds.inner;
       if (body.inner >= 0.0F && inner > 0.0F && object.kind != ObjectKind::Hull)
         lanes.collide(bits(squared < square(inner)), number);
-      lanes.keepOpen(bits(squared <= square(body.outer + pair.thresholds.enclosing)), number);
+      lanes.keepOpen(bits(~(squared > square(body.outer + pair.thresholds.enclosing))), number);
     }
   }
 }
@@ -451,7 +451,7 @@ inline Proof proveWorldPair(const Model& model, const WorldPair& pair, const Pla
   {
     const Floats squared = squaredDistanceTo(object, pointsAt(outer, i));
     const Floats apart = load(body.outer_balls.radius + i) + pair.thresholds.cover;
-    near |= squared <= apart * apart;
+    near |= ~(squared > apart * apart);
     if (object.kind == ObjectKind::Hull)
       continue;
     const Floats within = load(body.inner_balls.radius + i) + pair.thresholds.inner;
@@ -476,7 +476,7 @@ inline int nearBalls(const Body& a, const float* balls_of_a, const Body& b, cons
     {
       const Points other = {all(balls_of_a[j]), all(balls_of_a[kBalls + j]), all(balls_of_a[2 * kBalls + j])};
       const Floats sum = reach + a.outer_balls.radius[j];
-      is_near |= squaredDistance(points, other) <= sum * sum;
+      is_near |= ~(squaredDistance(points, other) > sum * sum);
     }
     for (int left = bits(is_near); left != 0; left &= left - 1)
       near[count++] = i + __builtin_ctz(static_cast<unsigned>(left));
@@ -504,7 +504,7 @@ inline Proof proveSelfPair(const Model& model, const SelfPair& pair, const Place
   {
     const Points points = pointsAt(outer_a, i);
     const Floats reach = load(a.outer_balls.radius + i) + (b.outer + pair.thresholds.cover);
-    if (bits(squaredDistance(points, center_b) <= reach * reach) == 0)
+    if (bits(~(squaredDistance(points, center_b) > reach * reach)) == 0)
       continue;
     const Points witnesses = a.same_centers ? points : pointsAt(inner_a, i);
     const Floats apart = load(a.outer_balls.radius + i) + pair.thresholds.cover;
@@ -515,7 +515,7 @@ inline Proof proveSelfPair(const Model& model, const SelfPair& pair, const Place
       const Points other = {all(outer_b[j]), all(outer_b[kBalls + j]), all(outer_b[2 * kBalls + j])};
       const Floats squared = squaredDistance(points, other);
       const Floats sum = apart + b.outer_balls.radius[j];
-      near |= squared <= sum * sum;
+      near |= ~(squared > sum * sum);
       const Floats inner_sum = within + b.inner_balls.radius[j];
       const Points other_witness = {all(inner_b[j]), all(inner_b[kBalls + j]), all(inner_b[2 * kBalls + j])};
       const Floats squared_inner =

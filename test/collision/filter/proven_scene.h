@@ -1,0 +1,44 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "collision/bounds/problem_maker.h"
+#include "collision/exact/forest_cache.h"
+#include "collision/filter/lane_scene.h"
+#include "support/test_scenes.h"
+
+namespace gpu_planning_scene::core
+{
+/// A scene with its proofs, and the exact checker.
+struct ProvenScene
+{
+  TestScene scene;
+  std::shared_ptr<const CollisionProblem> problem;
+  ForestCache forest;
+  std::unique_ptr<const CpuTraversal> exact;
+  std::shared_ptr<const RobotProofs> proofs;
+  std::unique_ptr<const LaneScene> lanes;
+};
+
+/// A scene by its name, with the proofs made once per process.
+inline const ProvenScene& provenScene(const std::string& name)
+{
+  static std::map<std::string, ProvenScene> kept;
+  const auto [found, is_new] = kept.try_emplace(name);
+  ProvenScene& made = found->second;
+  if (!is_new)
+    return made;
+  made.scene = testScene(name);
+  made.problem = std::make_shared<const CollisionProblem>(makeProblem(*made.scene.scene, "", nullptr));
+  made.exact = made.forest.traversalOf(made.problem);
+  RobotProver prover;
+  const auto publish = [&made](RobotProofs proofs)
+  { made.proofs = std::make_shared<const RobotProofs>(std::move(proofs)); };
+  prover.prove(*made.scene.scene->robot, *made.problem, made.forest.forest(), publish, [] { return false; });
+  made.lanes =
+      std::make_unique<const LaneScene>(made.scene.scene->robot, *made.problem, *made.forest.forest(), made.proofs);
+  return made;
+}
+}  // namespace gpu_planning_scene::core
