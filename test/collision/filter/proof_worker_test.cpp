@@ -1,0 +1,86 @@
+// While and after the proofs of a robot are made in the background, checkers answer as the exact checker does.
+
+#include "collision/filter/proof_worker.h"
+
+#include <random>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "scene/slider_robot.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Isometry3d;
+using Eigen::Translation3d;
+
+constexpr std::size_t kManyStates = 25000;  // more than are checked before proofs are made
+constexpr std::uint64_t kSeed = 43;
+
+/// The slider robot, with a padded pole and a carried ball, among one object of each kind.
+std::shared_ptr<PlanningScene> sceneOf(const std::shared_ptr<const RobotModel>& robot)
+{
+  auto scene = std::make_shared<PlanningScene>(robot);
+  const auto add = [&scene](const std::string& id, const Shape& shape, const Isometry3d& pose) {
+    scene->objects.push_back({id, pose, {{shape, Isometry3d::Identity()}}, 0.0});
+  };
+  const Isometry3d tilted(Eigen::AngleAxisd(0.6, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()));
+  add("box", Box{{0.2, 0.3, 0.1}}, Translation3d(0.5, 0.3, 0.4) * tilted);
+  add("ball", Sphere{0.15}, Isometry3d(Translation3d(-0.5, 0.2, 0.5)));
+  add("can", Cylinder{0.1, 0.3}, Translation3d(0.1, -0.3, 0.5) * tilted);
+  add("cone", Cone{0.1, 0.3}, Translation3d(-0.8, -0.2, 0.5) * tilted);
+  add("stone", tessellate(Sphere{0.1}).mesh, Isometry3d(Translation3d(0.9, -0.1, 0.6)));
+  add("floor", HalfSpace{Eigen::Vector3d::UnitZ(), -0.4}, Isometry3d::Identity());
+  scene->link_padding.assign(robot->links().size(), 0.01);
+  scene->attached.push_back(
+      {{"load", Isometry3d(Translation3d(0.3, 0.0, 0.0)), {{Sphere{0.08}, Isometry3d::Identity()}}, 0.0},
+       robot->linkIndex("pole")});
+  return scene;
+}
+
+/// The verdicts of single states: the exact checker decides them alone.
+std::vector<std::uint8_t> exactVerdicts(const std::shared_ptr<const PlanningScene>& scene,
+                                        const std::vector<double>& states)
+{
+  CpuChecker checker(scene);
+  const std::size_t width = scene->robot->variables().size();
+  std::vector<std::uint8_t> valid;
+  for (std::size_t i = 0; i < states.size(); i += width)
+    valid.push_back(checker.check(states.data() + i, 1).valid[0]);
+  return valid;
+}
+
+void compare(const std::shared_ptr<const RobotModel>& robot)
+{
+  const auto scene = sceneOf(robot);
+  std::mt19937_64 generator(kSeed);
+  std::vector<double> states(kManyStates * robot->variables().size());
+  for (std::size_t i = 0; i < kManyStates; ++i)
+    robot->randomState(generator, states.data() + i * robot->variables().size());
+  const std::vector<std::uint8_t> exact = exactVerdicts(scene, states);
+  const auto free = static_cast<std::size_t>(std::count(exact.begin(), exact.end(), 1));
+  EXPECT_GT(free, kManyStates / 20);
+  EXPECT_LT(free, kManyStates * 19 / 20);
+  CpuChecker checker(scene);
+  for (int round = 0; round < 3; ++round)
+  {
+    EXPECT_EQ(checker.check(states.data(), kManyStates).valid, exact) << "round " << round << ", seed " << kSeed;
+    if (round == 1)  // the second round has started to make the proofs
+      waitForProofs();
+  }
+}
+
+TEST(ProofWorker, ChangesNoVerdictOfCheckersInSeveralThreads)
+{
+  std::vector<std::thread> threads;
+  threads.emplace_back([] { compare(sliderRobot()); });
+  threads.emplace_back([] { compare(sliderRobotOnFloor("planar")); });
+  threads.emplace_back([] { compare(sliderRobotOnFloor("floating")); });
+  for (std::thread& thread : threads)
+    thread.join();
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
