@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 constexpr double kUnit = 0x1p-24;               // rounding unit of float
 constexpr double kTurnError = 1.5e-6;           // of a vector of length 1 that a turning joint rotates
 constexpr double kProductError = 12.0 * kUnit;  // of a vector of length 1, by the product of two rotations
-constexpr double kSumError = 8.0 * kUnit;       // of a transformed point, times its largest coordinates
+constexpr double kSumError = 12.0 * kUnit;      // of a transformed point, times its largest coordinates
 constexpr double kDistanceError = 32.0 * kUnit;
 
 constexpr double kLargestAngle = 1e4;   // radians: beyond it, an angle modulo 2 pi is not accurate
@@ -57,6 +57,14 @@ void writeBall(const Vector3d& center, float radius, int place, lanes::Balls& ba
   balls.y[place] = static_cast<float>(center.y());
   balls.z[place] = static_cast<float>(center.z());
   balls.radius[place] = radius;
+}
+
+/// How far the balls of two shapes may be apart although `inner` is inside `outer`, in metres. The inner shape's
+/// surface is in its balls. Either a point of it is in a ball of the outer shape, or it is in the layer that these
+/// leave open. A ball of the inner shape that is thicker than both layers has its centre in balls of both.
+double openLayer(const BallCover& outer, const BallCover& inner)
+{
+  return inner.thickness > std::max(outer.layer, inner.layer) ? 0.0 : outer.layer;
 }
 
 template <class T>
@@ -126,7 +134,7 @@ int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry
     writeRotation(rotation * (Matrix3d::Identity() - along), frame.first);
     writeRotation(rotation * crossProductMatrix(joint.axis), frame.second);
     double& largest = largest_[static_cast<std::size_t>(joint.first_variable)];
-    largest = std::min(largest, kLargestAngle);
+    largest = std::min(largest, (kLargestAngle - std::abs(joint.offset)) / std::max(1.0, std::abs(joint.multiplier)));
     turn = kTurnError;
   }
   else if (joint.type == JointType::Prismatic)
@@ -226,11 +234,9 @@ void LaneScene::addSelfPairs(const CollisionProblem& problem)
         tables_.push_back(made);
       }
       const double error = selfError(a, b);
-      // If a body could be inside the other without touching its balls, it is within the layer that these leave open.
       const BallCover& cover_a = *proofs_->covers[a];
       const BallCover& cover_b = *proofs_->covers[b];
-      const double layer = std::max(cover_b.thickness > cover_a.layer ? 0.0 : cover_a.layer,
-                                    cover_a.thickness > cover_b.layer ? 0.0 : cover_b.layer);
+      const double layer = std::max(openLayer(cover_a, cover_b), openLayer(cover_b, cover_a));
       self_pairs_.push_back({a, b, {above(error), above(layer + error), below(-error)}});
       pairs_.push_back({a, b});
     }
