@@ -13,6 +13,8 @@
 
 #include "collision/bounds/displacement_bounds.h"
 #include "collision/bounds/problem_maker.h"
+#include "collision/exact/forest_cache.h"
+#include "collision/filter/lane_checker.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/interpolation.h"
@@ -476,6 +478,53 @@ TEST_P(RandomRobots, AreAsFreeAroundAStateOnTheGpuAsOnTheCpu)
     EXPECT_EQ(checker.check(states.data(), kStates).valid, plain) << "after margins, seed " << GetParam();
   }
 }
+/// Making the proofs takes seconds a robot under sanitizers, so this suite has fewer seeds.
+class ProofsOfRandomRobots : public RandomRobots
+{
+};
+
+TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
+{
+  const auto scene = this->scene();
+  const RobotModel& robot = *scene->robot;
+  const std::size_t width = robot.variables().size();
+  const auto problem = std::make_shared<const CollisionProblem>(makeProblem(*scene, "", nullptr));
+  if (problem->always_colliding)
+    return;  // there is nothing to prove
+  ForestCache trees;
+  const auto exact = trees.traversalOf(problem);
+  LaneChecker checker(scene->robot, problem, trees.forest(), *exact);
+  EXPECT_FALSE(checker.isReady());
+  waitForProofs();
+  ASSERT_TRUE(checker.isReady());
+  const std::vector<double> states = randomStates(robot);
+  LaneChecker::Scratch scratch;
+  CpuTraversal::Scratch exact_scratch;
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  std::size_t free = 0;
+  for (std::size_t i = 0; i + lanes::kLanes <= kStates; i += lanes::kLanes)
+  {
+    const double* block = &states[i * width];
+    BatchResult result;
+    result.valid.assign(lanes::kLanes, 1);
+    result.colliding.assign(lanes::kLanes, kNoPair);
+    checker.check(block, lanes::kLanes, 0, scratch, result);
+    for (std::size_t lane = 0; lane < lanes::kLanes; ++lane)
+    {
+      ASSERT_TRUE(isValidFor(*problem, block + lane * width) && checker.takes(block + lane * width));
+      robot.linkPoses(block + lane * width, poses.data());
+      const std::vector<BodyPair> colliding = exact->allCollisions(poses.data(), exact_scratch);
+      ASSERT_EQ(result.valid[lane] != 0, colliding.empty()) << "seed " << GetParam() << ", state " << i + lane;
+      free += colliding.empty() ? 1 : 0;
+      if (!colliding.empty())
+        ASSERT_EQ(std::count(colliding.begin(), colliding.end(), result.colliding[lane]), 1) << "seed " << GetParam();
+    }
+  }
+  std::cout << free << " of " << kStates << " states are free, seed " << GetParam() << std::endl;
+}
+INSTANTIATE_TEST_SUITE_P(Seeds, ProofsOfRandomRobots,
+                         testing::Range<std::uint64_t>(1, 1 + repetitions<std::uint64_t>(1, 60)));
+
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomRobots, testing::Range<std::uint64_t>(0, repetitions(3, 16)));
 }  // namespace
 }  // namespace gpu_planning_scene::core
