@@ -68,7 +68,7 @@ void CpuScene::prepare(Group& group)
     return;
   group.within = forest_->traversalOf(group.problem);
   // With a tolerance, the traversal may call states colliding that the proofs call free.
-  if (options_.tolerance == 0.0 && !group.problem->always_colliding)
+  if (options_.tolerance == 0.0 && LaneChecker::suits(*group.problem))
     group.lanes = std::make_unique<LaneChecker>(scene_->robot, group.problem, forest_->forest(), *group.within);
 }
 

@@ -5,6 +5,11 @@
 
 namespace gpu_planning_scene::core
 {
+namespace
+{
+constexpr std::size_t kMostPairs = 20'000;
+}  // namespace
+
 LaneChecker::LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_ptr<const CollisionProblem> problem,
                          std::shared_ptr<const CpuForest> forest, const CpuTraversal& traversal)
   : robot_(std::move(robot)),
@@ -15,6 +20,12 @@ LaneChecker::LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_pt
 {
 }
 
+bool LaneChecker::suits(const CollisionProblem& problem)
+{
+  const std::size_t objects = problem.world.size() + problem.half_spaces.size();
+  return !problem.always_colliding && problem.robot.size() * objects + problem.self_pairs.size() <= kMostPairs;
+}
+
 bool LaneChecker::isReady()
 {
   if (!job_)
@@ -22,8 +33,8 @@ bool LaneChecker::isReady()
   const std::shared_ptr<const RobotProofs> proofs = job_->proofs();
   if (proofs != proofs_)
   {
-    proofs_ = proofs;
     scene_ = std::make_unique<const LaneScene>(robot_, *problem_, *forest_, proofs);
+    proofs_ = proofs;
   }
   return scene_ != nullptr;
 }

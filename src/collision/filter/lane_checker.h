@@ -32,6 +32,10 @@ class LaneChecker
     CpuTraversal::Scratch exact;
   };
 
+  /// Whether a checker pays for a problem. With many thousands of pairs it does not: the kernel looks at each pair of a
+  /// link and an object, while the exact checker has a tree of the objects.
+  static bool suits(const CollisionProblem& problem);
+
   /// `traversal` must outlive the checker.
   LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_ptr<const CollisionProblem> problem,
               std::shared_ptr<const CpuForest> forest, const CpuTraversal& traversal);

@@ -12,9 +12,11 @@ const std::vector<NamedKernel>& availableKernels()
   {
     std::vector<NamedKernel> found;
 #ifdef __x86_64__
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
+    const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (has_avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512dq"))
       found.push_back({"AVX-512", proveAvx512});
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    if (has_avx2)
       found.push_back({"AVX2", proveAvx2});
 #endif
     found.push_back({"baseline", proveBaseline});

@@ -57,9 +57,10 @@ inline Floats squareRoot(const Floats& x)
 #endif
 }
 
+/// NaN stays NaN, so that it proves nothing.
 inline Floats atLeastZero(const Floats& x)
 {
-  return x > 0.0F ? x : all(0.0F);
+  return x < 0.0F ? all(0.0F) : x;
 }
 
 inline Floats magnitude(const Floats& x)

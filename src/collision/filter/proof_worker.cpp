@@ -2,8 +2,9 @@
 
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <mutex>
-#include <new>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -40,8 +41,15 @@ class ProofWorker
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       tasks_.push_back({job, std::move(robot), std::move(problem), std::move(forest)});
-      if (!thread_.joinable())
-        thread_ = std::thread([this] { work(); });
+      try
+      {
+        if (!thread_.joinable())
+          thread_ = std::thread([this] { work(); });
+      }
+      catch (const std::system_error&)
+      {
+        tasks_.clear();  // without a thread there are no proofs, and the exact checker decides all states
+      }
     }
     changed_.notify_all();
     return job;
@@ -86,7 +94,7 @@ class ProofWorker
       {
         prover_.prove(*task.robot, *task.problem, task.forest, publish, is_stopped);
       }
-      catch (const std::bad_alloc&)
+      catch (const std::exception&)
       {
         // The exact checker decides what is not proven.
       }

@@ -7,6 +7,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+constexpr std::size_t kMostTables = 1000;  // of a problem; a table takes up to 64 kB and a second
+
 template <class T>
 bool isSame(const std::weak_ptr<T>& a, const std::weak_ptr<T>& b)
 {
@@ -69,11 +71,14 @@ void RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem
     const ShapeInstance& instance = problem.robot[number];
     return Side{forest->shared(instance.tree), instance.link, instance.pose};
   };
+  // A carried object has a new pose after each grasp, so its tables would seldom be used again.
+  const auto is_of_link = [&](std::uint32_t number)
+  { return static_cast<std::size_t>(problem.robot[number].body) < robot.links().size(); };
   std::vector<std::size_t> unknown;
   for (const auto& [first, second] : problem.self_pairs)
   {
     const KnownTable* table = known(robot, {side(first), side(second)});
-    if (!table)
+    if (!table && is_of_link(first) && is_of_link(second) && unknown.size() < kMostTables)
       unknown.push_back(proofs.tables.size());
     proofs.tables.push_back(table ? table->table : nullptr);
   }

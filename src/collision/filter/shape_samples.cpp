@@ -21,12 +21,15 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-constexpr double kCells = 32768.0;  // of the grid, about
+constexpr double kCells = 32768.0;            // of the grid, about
+constexpr std::size_t kMostPieces = 200'000;  // in addition to the triangles
 constexpr std::size_t kFewInside = 100;
 constexpr double kOnSurface = 1e-7;              // metres: exceeds the rounding error of distances
 constexpr std::size_t kWindingTriangles = 4000;  // meshes without a solid: more triangles would take too long
 
-void cut(const Triangle& triangle, double longest, std::vector<Triangle>& pieces)
+/// Cuts a triangle by halving its longest edge until no edge is longer than `longest`. Gives up if there are more than
+/// `most` pieces.
+void cut(const Triangle& triangle, double longest, std::size_t most, std::vector<Triangle>& pieces)
 {
   int edge = 0;
   std::array<double, 3> lengths;
@@ -35,19 +38,36 @@ void cut(const Triangle& triangle, double longest, std::vector<Triangle>& pieces
     lengths[i] = (triangle[(i + 1) % 3] - triangle[i]).norm();
     edge = lengths[i] > lengths[edge] ? i : edge;
   }
-  if (lengths[edge] <= longest)
+  if (lengths[edge] <= longest || pieces.size() > most)
   {
     pieces.push_back(triangle);
     return;
   }
   const Vector3d middle = 0.5 * (triangle[edge] + triangle[(edge + 1) % 3]);
-  cut({triangle[edge], middle, triangle[(edge + 2) % 3]}, longest, pieces);
-  cut({middle, triangle[(edge + 1) % 3], triangle[(edge + 2) % 3]}, longest, pieces);
+  cut({triangle[edge], middle, triangle[(edge + 2) % 3]}, longest, most, pieces);
+  cut({middle, triangle[(edge + 1) % 3], triangle[(edge + 2) % 3]}, longest, most, pieces);
+}
+
+/// Pieces with edges of at most `longest`, or of a multiple of it if slivers would need too many pieces.
+std::vector<Triangle> piecesOf(const std::vector<Triangle>& triangles, double longest)
+{
+  const std::size_t most = triangles.size() + kMostPieces;
+  std::vector<Triangle> pieces;
+  for (;; longest *= 2.0)
+  {
+    pieces.clear();
+    for (const Triangle& triangle : triangles)
+      cut(triangle, longest, most, pieces);
+    if (pieces.size() <= most)
+      return pieces;
+  }
 }
 
 CubeGrid gridAround(const AlignedBox3d& box)
 {
-  const double largest = box.sizes().maxCoeff();
+  // A mesh may have no extent, or one of the size of rounding errors.
+  const double least = 1e-9 * (1.0 + box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).maxCoeff());
+  const double largest = std::max(box.sizes().maxCoeff(), least);
   const Vector3d sizes = box.sizes().cwiseMax(1e-2 * largest);
   CubeGrid grid;
   grid.cell = std::cbrt(sizes.prod() / kCells);
@@ -154,8 +174,7 @@ ShapeSamples samplesOf(const CpuTree& tree)
   const CubeGrid grid = gridAround(box);
   ShapeSamples samples;
   samples.grid = grid;
-  for (const Triangle& triangle : tree.triangles)
-    cut(triangle, grid.cell, samples.pieces);
+  samples.pieces = piecesOf(tree.triangles, grid.cell);
 
   const std::vector<bool> is_entered = entered(grid, samples.pieces);
   std::vector<bool> has_point(is_entered.size(), false);

@@ -54,7 +54,7 @@ struct CubeGrid
 /// The surface and the solid of a shape in small parts, in the shape's frame.
 struct ShapeSamples
 {
-  std::vector<Triangle> pieces;  ///< triangles with edges of at most a cube's edge; together they are the surface
+  std::vector<Triangle> pieces;         ///< small triangles that together are the surface
   std::vector<Eigen::Vector3d> points;  ///< of the surface, at most one in each cube of a grid
   std::vector<SolidCell> cells;         ///< cubes of the grid that no part of the surface enters
   /// Points inside the shape, by its solid or, without a solid, by its winding number.

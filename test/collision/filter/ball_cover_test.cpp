@@ -177,6 +177,45 @@ TEST_F(BallCoverTest, InnerBallsAreInTheShape)
       });
 }
 
+/// A surface of long slivers would need millions of small pieces.
+TEST_F(BallCoverTest, SliversAreCutIntoALimitedNumberOfPieces)
+{
+  auto tube = std::make_shared<Mesh>();
+  constexpr unsigned kFacets = 2000;
+  for (unsigned i = 0; i < kFacets; ++i)
+  {
+    const double angle = 2.0 * EIGEN_PI * i / kFacets;
+    for (const double x : {0.0, 1.0})
+      tube->vertices.emplace_back(x, 0.05 * std::cos(angle), 0.05 * std::sin(angle));
+    const unsigned next = (i + 1) % kFacets;
+    tube->triangles.push_back({2 * i, 2 * next, 2 * i + 1});
+    tube->triangles.push_back({2 * i + 1, 2 * next, 2 * next + 1});
+  }
+  const Shape shape(std::shared_ptr<const Mesh>(std::move(tube)));
+  const ShapeSamples samples = samplesOf(*cpuTreeOf(shape, tessellate(shape)));
+  EXPECT_LT(samples.pieces.size(), 300000u);
+}
+
+TEST_F(BallCoverTest, OfAMeshWithoutExtentIsABall)
+{
+  auto point = std::make_shared<Mesh>();
+  point->vertices.assign(3, Vector3d(1.0, 2.0, 3.0));
+  point->triangles.push_back({0, 1, 2});
+  auto ulp = std::make_shared<Mesh>();
+  ulp->vertices = {Vector3d(1.0, 0.0, 0.0), Vector3d(1.0 + 2.3e-16, 0.0, 0.0), Vector3d(1.0, 0.0, 0.0)};
+  ulp->triangles.push_back({0, 1, 2});
+  for (const auto& mesh : {point, ulp})
+  {
+    const Shape shape(std::shared_ptr<const Mesh>{mesh});
+    const auto tree = cpuTreeOf(shape, tessellate(shape));
+    const BallCover cover = coverOf(*tree, samplesOf(*tree), 0.0);
+    for (const auto& level : cover.levels)
+      for (const Vector3d& vertex : mesh->vertices)
+        EXPECT_TRUE(isIn(vertex, level));
+    EXPECT_LT(cover.levels[0].front().outer, 1e-6);
+  }
+}
+
 TEST_F(BallCoverTest, EachComponentContainsABallOfTheThickness)
 {
   forEachShape(
