@@ -36,7 +36,7 @@ class CheckerMethod : public Method
   std::size_t undecided_ = 0;
 };
 
-/// Only the exact checker.
+/// Only the CPU: proofs for most states, and the exact checker.
 class CpuMethod : public CheckerMethod
 {
  public:

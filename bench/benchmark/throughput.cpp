@@ -13,6 +13,7 @@
 #include "benchmark/state_kinds.h"
 #include "benchmark/statistics.h"
 #include "benchmark/truth.h"
+#include "collision/filter/proof_worker.h"
 #include "collision/parallel_for.h"
 #include "support/test_scenes.h"
 #include "tools/progress_bar.h"
@@ -109,6 +110,9 @@ void warmUp(Run& run, const Batch& batch, const Settings& settings)
   run.rates.clear();
   run.cpu.clear();
   run.answers = checkAll(run, batch);
+  // After many states, checkers on the CPU make proofs in the background.
+  run.method->check(batch.states.data(), 1);
+  waitForProofs();
 }
 
 /// NaN if the method `name` was not measured.
