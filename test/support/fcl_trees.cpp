@@ -2,42 +2,26 @@
 
 #include <vector>
 
-// Must precede BVH_model.h, whose templates need this header but do not include it.
-#include <fcl/math/bv/utility.h>
-
-#include <fcl/geometry/bvh/BVH_model.h>
+#include "collision/contacts/fcl_tree.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-template <class BoundingVolume>
-std::shared_ptr<fcl::BVHModel<BoundingVolume>> makeTree(const Mesh& mesh)
-{
-  auto model = std::make_shared<fcl::BVHModel<BoundingVolume>>();
-  std::vector<fcl::Triangle> triangles;
-  for (const auto& t : mesh.triangles)
-    triangles.emplace_back(t[0], t[1], t[2]);
-  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(mesh.vertices.size()));
-  model->addSubModel(mesh.vertices, triangles);
-  model->endModel();
-  return model;
-}
-
 FclGeometry makeTree(const Mesh& mesh, FclTree tree)
 {
   switch (tree)
   {
     case FclTree::Obb:
-      return makeTree<fcl::OBBd>(mesh);
+      return makeFclTree<fcl::OBBd>(mesh);
     case FclTree::Aabb:
-      return makeTree<fcl::AABBd>(mesh);
+      return makeFclTree<fcl::AABBd>(mesh);
     case FclTree::Kios:
-      return makeTree<fcl::kIOSd>(mesh);
+      return makeFclTree<fcl::kIOSd>(mesh);
     case FclTree::Kdop24:
-      return makeTree<fcl::KDOP<double, 24>>(mesh);
+      return makeFclTree<fcl::KDOP<double, 24>>(mesh);
     default:
-      return makeTree<fcl::OBBRSSd>(mesh);
+      return makeFclTree<fcl::OBBRSSd>(mesh);
   }
 }
 
@@ -46,7 +30,7 @@ class MovedTree : public FclMovedTree
 {
  public:
   explicit MovedTree(std::shared_ptr<const Mesh> mesh)
-    : mesh_(std::move(mesh)), model_(makeTree<BoundingVolume>(*mesh_)), vertices_(mesh_->vertices)
+    : mesh_(std::move(mesh)), model_(makeFclTree<BoundingVolume>(*mesh_)), vertices_(mesh_->vertices)
   {
   }
 

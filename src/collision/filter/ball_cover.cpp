@@ -128,7 +128,7 @@ class GapTable
 struct Fit
 {
   Vector3d center;
-  double depth;  // approximate, 0 if unknown
+  double depth;  // metres: of the centre below the surface; 0 if it is not known to be inside
   double outer = 0.0;
 };
 

@@ -273,7 +273,7 @@ inline Floats squaredDistanceTo(const Object& object, const Points& points)
   }
 }
 
-/// What is proven for all lanes of a block.
+/// The proofs of all lanes of a block, and the pairs that are still open.
 struct Lanes
 {
   int active;  ///< bits: lanes with a state that is not known to collide

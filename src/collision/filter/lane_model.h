@@ -12,8 +12,7 @@ namespace gpu_planning_scene::core::lanes
 {
 constexpr int kLanes = 8;
 
-/// Levels 1 and 2 of a cover are stored one after the other: level k has balls kLevelBegin[k - 1] to kLevelBegin[k]
-/// - 1.
+/// The balls of levels 1 and 2 of a cover follow each other. kLevelBegin[k - 1] is the first ball of level k.
 constexpr int kLevels = 2;
 constexpr int kLevelBegin[kLevels + 1] = {0, 8, 40};
 constexpr int kBalls = kLevelBegin[kLevels];

@@ -4,7 +4,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// What is proven for a pair or a state.
+/// The verdict that is proven for a pair or a state.
 enum class Proof : std::uint8_t
 {
   Apart,  ///< a pair; for a state: free

@@ -8,7 +8,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Proves that a shape penetrates another one: points of the first shape are deep inside the second one. Immutable.
+/// The depth of points inside a shape, and points of the shape. With them, a shape is proven to penetrate another one:
+/// a point of the one is deep inside the other. Own method. Immutable.
 class SolidDepth
 {
  public:
