@@ -168,7 +168,7 @@ void sortByPlace(std::vector<Fit>::iterator begin, std::vector<Fit>::iterator en
 template <class RadiusFrom>
 void contain(std::vector<Fit>& fits, const RadiusFrom& radius_from)
 {
-  Fit* best = nullptr;
+  Fit* best = &fits.front();
   double least = std::numeric_limits<double>::max();
   double radius = 0.0;
   for (Fit& fit : fits)

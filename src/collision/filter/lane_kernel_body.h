@@ -32,6 +32,17 @@ inline void store(const Floats& values, float* to)
   __builtin_memcpy(to, &values, sizeof values);
 }
 
+/// Group `i` of kLanes floats.
+inline const float* group(const float* groups, std::size_t i)
+{
+  return groups + i * kLanes;
+}
+
+inline float* group(float* groups, std::size_t i)
+{
+  return groups + i * kLanes;
+}
+
 /// Bit i: element i is true.
 inline int bits(const Ints& truth)
 {
@@ -140,8 +151,8 @@ inline void relativePose(const Frame& frame, const float* given, const Model& mo
       break;
     }
     case FrameKind::Given:
-      for (int k = 0; k < 12; ++k)
-        pose[k] = load(given + k * kLanes);
+      for (std::size_t k = 0; k < 12; ++k)
+        pose[k] = load(group(given, k));
       break;
   }
 }
@@ -149,30 +160,30 @@ inline void relativePose(const Frame& frame, const float* given, const Model& mo
 /// Forward kinematics of all lanes.
 inline void placeFrames(const Model& model, const double* states, int count, const Scratch& scratch)
 {
-  for (std::uint32_t i = 0; i < model.frames.count; ++i)
+  for (std::size_t i = 0; i < model.frames.count; ++i)
   {
     const Frame& frame = model.frames[i];
-    float* placed = scratch.frames + i * 12U * kLanes;
+    float* placed = group(scratch.frames, 12 * i);
     Floats relative[12];
-    relativePose(frame, scratch.given + i * 12U * kLanes, model, states, count, relative);
+    relativePose(frame, group(scratch.given, 12 * i), model, states, count, relative);
     if (frame.parent < 0)
     {
-      for (int k = 0; k < 12; ++k)
-        store(relative[k], placed + k * kLanes);
+      for (std::size_t k = 0; k < 12; ++k)
+        store(relative[k], group(placed, k));
       continue;
     }
-    const float* parent = scratch.frames + static_cast<unsigned>(frame.parent) * 12U * kLanes;
-    for (int row = 0; row < 3; ++row)
+    const float* parent = group(scratch.frames, 12 * static_cast<std::size_t>(frame.parent));
+    for (std::size_t row = 0; row < 3; ++row)
     {
-      const Floats x = load(parent + 4 * row * kLanes);
-      const Floats y = load(parent + (4 * row + 1) * kLanes);
-      const Floats z = load(parent + (4 * row + 2) * kLanes);
-      for (int column = 0; column < 4; ++column)
+      const Floats x = load(group(parent, 4 * row));
+      const Floats y = load(group(parent, 4 * row + 1));
+      const Floats z = load(group(parent, 4 * row + 2));
+      for (std::size_t column = 0; column < 4; ++column)
       {
         Floats sum = x * relative[column] + y * relative[4 + column] + z * relative[8 + column];
         if (column == 3)
-          sum += load(parent + (4 * row + 3) * kLanes);
-        store(sum, placed + (4 * row + column) * kLanes);
+          sum += load(group(parent, 4 * row + 3));
+        store(sum, group(placed, 4 * row + column));
       }
     }
   }
@@ -188,21 +199,21 @@ struct Points
 /// The centres of the enclosing balls in all lanes.
 inline void placeCenters(const Model& model, const Scratch& scratch)
 {
-  for (std::uint32_t b = 0; b < model.bodies.count; ++b)
+  for (std::size_t b = 0; b < model.bodies.count; ++b)
   {
     const Body& body = model.bodies[b];
-    const float* frame = scratch.frames + static_cast<unsigned>(body.frame) * 12U * kLanes;
-    for (int row = 0; row < 3; ++row)
-      store(load(frame + 4 * row * kLanes) * body.center[0] + load(frame + (4 * row + 1) * kLanes) * body.center[1] +
-                load(frame + (4 * row + 2) * kLanes) * body.center[2] + load(frame + (4 * row + 3) * kLanes),
-            scratch.centers + (b * 3U + static_cast<unsigned>(row)) * kLanes);
+    const float* frame = group(scratch.frames, 12 * static_cast<std::size_t>(body.frame));
+    for (std::size_t row = 0; row < 3; ++row)
+      store(load(group(frame, 4 * row)) * body.center[0] + load(group(frame, 4 * row + 1)) * body.center[1] +
+                load(group(frame, 4 * row + 2)) * body.center[2] + load(group(frame, 4 * row + 3)),
+            group(scratch.centers, 3 * b + row));
   }
 }
 
-inline Points centersOf(std::uint32_t body, const Scratch& scratch)
+inline Points centersOf(std::size_t body, const Scratch& scratch)
 {
-  const float* from = scratch.centers + body * 3U * kLanes;
-  return {load(from), load(from + kLanes), load(from + 2 * kLanes)};
+  const float* centers = group(scratch.centers, 3 * body);
+  return {load(centers), load(group(centers, 1)), load(group(centers, 2))};
 }
 
 inline Floats squaredDistance(const Points& a, const Points& b)
@@ -296,7 +307,7 @@ struct Lanes
   {
     for (lanes &= active; lanes != 0; lanes &= lanes - 1)
     {
-      const auto lane = static_cast<unsigned>(__builtin_ctz(static_cast<unsigned>(lanes)));
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(lanes)));
       open[lane * pairs + static_cast<unsigned>(block.open_count[lane]++)] = pair;
     }
   }
@@ -379,6 +390,9 @@ inline void proveByEnclosingBalls(const Model& model, const Scratch& scratch, La
   }
 }
 
+/// The distance between arrays of coordinates of placed balls.
+constexpr std::ptrdiff_t kAxis = kBalls;
+
 /// The balls of the bodies in one lane, in the planning frame.
 class PlacedBalls
 {
@@ -392,42 +406,38 @@ class PlacedBalls
   /// Coordinates x, y, z in arrays of kBalls: the outer balls, then the inner ones.
   const float* of(std::uint32_t body, int level) const
   {
-    float* placed = scratch_.balls + body * static_cast<unsigned>(kBallNumbers);
+    float* placed = scratch_.balls + std::size_t{kBallNumbers} * body;
     if ((scratch_.placed[body] & (1 << level)) == 0)
     {
       const Body& shape = model_.bodies[body];
       place(shape.frame, shape.outer_balls, level, placed);
       if (!shape.same_centers)
-        place(shape.frame, shape.inner_balls, level, placed + 3 * kBalls);
+        place(shape.frame, shape.inner_balls, level, placed + 3 * kAxis);
       scratch_.placed[body] = static_cast<std::uint8_t>(scratch_.placed[body] | (1 << level));
     }
     return placed;
   }
   const float* innerOf(std::uint32_t body, int level) const
   {
-    return of(body, level) + (model_.bodies[body].same_centers ? 0 : 3 * kBalls);
+    return of(body, level) + (model_.bodies[body].same_centers ? 0 : 3 * kAxis);
   }
 
-  float center(std::uint32_t body, int axis) const
-  {
-    return scratch_.centers[(body * 3U + static_cast<unsigned>(axis)) * kLanes + static_cast<unsigned>(lane_)];
-  }
+  float center(std::size_t body, std::size_t axis) const { return group(scratch_.centers, 3 * body + axis)[lane_]; }
 
  private:
   void place(int frame, const Balls& balls, int level, float* placed) const
   {
     float pose[12];
-    for (int k = 0; k < 12; ++k)
-      pose[k] = scratch_.frames[(static_cast<unsigned>(frame) * 12U + static_cast<unsigned>(k)) * kLanes +
-                                static_cast<unsigned>(lane_)];
+    for (std::size_t k = 0; k < 12; ++k)
+      pose[k] = group(scratch_.frames, 12 * static_cast<std::size_t>(frame) + k)[lane_];
     for (int i = kLevelBegin[level]; i < kLevelBegin[level + 1]; i += kLanes)
     {
       const Floats x = load(balls.x + i);
       const Floats y = load(balls.y + i);
       const Floats z = load(balls.z + i);
-      for (int row = 0; row < 3; ++row)
+      for (std::size_t row = 0; row < 3; ++row)
         store(pose[4 * row] * x + pose[4 * row + 1] * y + pose[4 * row + 2] * z + pose[4 * row + 3],
-              placed + row * kBalls + i);
+              placed + row * kAxis + i);
     }
   }
 
@@ -438,7 +448,7 @@ class PlacedBalls
 
 inline Points pointsAt(const float* placed, int i)
 {
-  return {load(placed + i), load(placed + kBalls + i), load(placed + 2 * kBalls + i)};
+  return {load(placed + i), load(placed + kAxis + i), load(placed + 2 * kAxis + i)};
 }
 
 inline Proof proveWorldPair(const Model& model, const WorldPair& pair, const PlacedBalls& balls, int level)
@@ -475,7 +485,7 @@ inline int nearBalls(const Body& a, const float* balls_of_a, const Body& b, cons
     Ints is_near = {};
     for (int j = 0; j < kLevelBegin[1]; ++j)
     {
-      const Points other = {all(balls_of_a[j]), all(balls_of_a[kBalls + j]), all(balls_of_a[2 * kBalls + j])};
+      const Points other = {all(balls_of_a[j]), all(balls_of_a[kAxis + j]), all(balls_of_a[2 * kAxis + j])};
       const Floats sum = reach + a.outer_balls.radius[j];
       is_near |= ~(squaredDistance(points, other) > sum * sum);
     }
@@ -513,12 +523,12 @@ inline Proof proveSelfPair(const Model& model, const SelfPair& pair, const Place
     for (int k = 0; k < near_count; ++k)
     {
       const int j = near_b[k];
-      const Points other = {all(outer_b[j]), all(outer_b[kBalls + j]), all(outer_b[2 * kBalls + j])};
+      const Points other = {all(outer_b[j]), all(outer_b[kAxis + j]), all(outer_b[2 * kAxis + j])};
       const Floats squared = squaredDistance(points, other);
       const Floats sum = apart + b.outer_balls.radius[j];
       near |= ~(squared > sum * sum);
       const Floats inner_sum = within + b.inner_balls.radius[j];
-      const Points other_witness = {all(inner_b[j]), all(inner_b[kBalls + j]), all(inner_b[2 * kBalls + j])};
+      const Points other_witness = {all(inner_b[j]), all(inner_b[kAxis + j]), all(inner_b[2 * kAxis + j])};
       const Floats squared_inner =
           a.same_centers && b.same_centers ? squared : squaredDistance(witnesses, other_witness);
       if (bits((inner_sum > 0.0F) & (squared_inner < inner_sum * inner_sum)) != 0)
@@ -532,7 +542,7 @@ inline Proof proveSelfPair(const Model& model, const SelfPair& pair, const Place
 inline void proveByCovers(const Model& model, const Scratch& scratch, int lane, Lanes& lanes)
 {
   const PlacedBalls balls(model, scratch, lane);
-  std::uint32_t* open = lanes.open + static_cast<unsigned>(lane) * lanes.pairs;
+  std::uint32_t* open = lanes.open + static_cast<std::size_t>(lane) * lanes.pairs;
   for (int level = 0; level < kLevels; ++level)
   {
     int kept = 0;

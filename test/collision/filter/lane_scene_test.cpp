@@ -30,15 +30,15 @@ class LaneProofs : public testing::TestWithParam<const char*>
   std::size_t compare(const lanes::NamedKernel& kernel, const std::vector<double>& states)
   {
     const lanes::Model& model = proven_->lanes->model();
-    std::vector<float> floats((24 * lanes::kLanes) * model.frames.count + 3 * lanes::kLanes * model.bodies.count +
-                              lanes::kBallNumbers * model.bodies.count);
+    const std::size_t poses_size = std::size_t{12} * lanes::kLanes * model.frames.count;
+    const std::size_t centers_size = std::size_t{3} * lanes::kLanes * model.bodies.count;
+    std::vector<float> floats(2 * poses_size + centers_size + std::size_t{lanes::kBallNumbers} * model.bodies.count);
     std::vector<std::uint8_t> placed(model.bodies.count);
     std::vector<std::uint32_t> open(lanes::kLanes * proven_->lanes->pairCount());
     float* const frames = floats.data();
-    float* const given = frames + 12 * lanes::kLanes * model.frames.count;
-    float* const centers = given + 12 * lanes::kLanes * model.frames.count;
-    const lanes::Scratch scratch = {
-        frames, given, centers, centers + 3 * lanes::kLanes * model.bodies.count, placed.data(), open.data()};
+    float* const given = frames + poses_size;
+    float* const centers = given + poses_size;
+    const lanes::Scratch scratch = {frames, given, centers, centers + centers_size, placed.data(), open.data()};
     std::vector<Eigen::Isometry3d> poses(robot().links().size());
     CpuTraversal::Scratch exact;
     const std::size_t width = robot().variables().size();
