@@ -14,21 +14,14 @@ namespace
 {
 constexpr std::uint64_t kSeed = 37;
 
-class JointTables : public testing::TestWithParam<const char*>
+TEST_P(ProvenScenes, CellsOfJointTablesHoldInRandomStates)
 {
-};
-
-TEST_P(JointTables, HoldForRandomStatesOfTheirCells)
-{
-  if (const std::string missing = missingFor(GetParam()); !missing.empty())
-    GTEST_SKIP() << "there is no " << missing;
-  const ProvenScene& proven = provenScene(GetParam());
+  const ProvenScene& proven = *proven_;
   const PlanningScene& scene = *proven.scene.scene;
-  const RobotModel& robot = *scene.robot;
   const CpuShapePair exact(proven.forest.forest());
   CpuShapePair::Scratch scratch;
   std::mt19937_64 generator(kSeed);
-  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  std::vector<Eigen::Isometry3d> poses(robot().links().size());
   std::size_t tables = 0;
   std::map<Proof, std::size_t> cells;
   for (std::size_t p = 0; p < proven.proofs->tables.size(); ++p)
@@ -41,8 +34,8 @@ TEST_P(JointTables, HoldForRandomStatesOfTheirCells)
     ++tables;
     for (int i = 0; i < repetitions(1000, 20000); ++i)
     {
-      std::vector<double> state(robot.variables().size());
-      robot.randomState(generator, state.data());
+      std::vector<double> state(robot().variables().size());
+      robot().randomState(generator, state.data());
       std::size_t cell = 0;
       for (const TableVariable& variable : table->variables)
       {
@@ -57,7 +50,7 @@ TEST_P(JointTables, HoldForRandomStatesOfTheirCells)
       ++cells[proof];
       if (proof == Proof::None)
         continue;
-      robot.linkPoses(state.data(), poses.data());
+      robot().linkPoses(state.data(), poses.data());
       const auto pose_of = [&](const ShapeInstance& instance)
       { return poses[static_cast<std::size_t>(instance.link)] * instance.pose; };
       ASSERT_EQ(exact.collide(a.tree, pose_of(a), b.tree, pose_of(b), 0.0, scratch), proof == Proof::Colliding)
@@ -66,10 +59,17 @@ TEST_P(JointTables, HoldForRandomStatesOfTheirCells)
   }
   std::cout << tables << " tables; apart " << cells[Proof::Apart] << ", colliding " << cells[Proof::Colliding]
             << ", none " << cells[Proof::None] << ", seed " << kSeed << std::endl;
+  if (GetParam() == std::string("arm_boxes"))  // its pairs depend on more joints
+    return EXPECT_EQ(tables, 0u);
   EXPECT_GT(tables, 0u);
   EXPECT_GT(cells[Proof::Apart], 1000u);
   EXPECT_GT(cells[Proof::Colliding], 10u);
 }
-INSTANTIATE_TEST_SUITE_P(Scenes, JointTables, testing::Values("kr5"));
 }  // namespace
+
+#ifdef GPS_SOAK
+INSTANTIATE_TEST_SUITE_P(Filter, ProvenScenes, testing::Values("kr5", "kr5_crowded", "ur5_cage", "wam", "arm_boxes"));
+#else
+INSTANTIATE_TEST_SUITE_P(Filter, ProvenScenes, testing::Values("kr5", "arm_boxes"));
+#endif
 }  // namespace gpu_planning_scene::core

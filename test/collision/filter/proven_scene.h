@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include <gtest/gtest.h>
+
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/forest_cache.h"
 #include "collision/filter/lane_scene.h"
@@ -41,4 +43,20 @@ inline const ProvenScene& provenScene(const std::string& name)
       std::make_unique<const LaneScene>(made.scene.scene->robot, *made.problem, *made.forest.forest(), made.proofs);
   return made;
 }
+
+/// Tests of proofs. They are one suite, hence one process: making the proofs takes seconds.
+class ProvenScenes : public testing::TestWithParam<const char*>
+{
+ protected:
+  void SetUp() override
+  {
+    if (const std::string missing = missingFor(GetParam()); !missing.empty())
+      GTEST_SKIP() << "there is no " << missing;
+    proven_ = &provenScene(GetParam());
+  }
+
+  const RobotModel& robot() const { return *proven_->scene.scene->robot; }
+
+  const ProvenScene* proven_ = nullptr;
+};
 }  // namespace gpu_planning_scene::core

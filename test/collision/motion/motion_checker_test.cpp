@@ -154,7 +154,7 @@ TEST_F(PointMotions, EndTheirLastValidPartBeforeTheFirstCollision)
   }
 }
 
-/// A checker in which a state collides if its first variable has one of the values in hits_.
+/// A checker in which a state collides if its first variable has one of the values in hits.
 class ScriptedChecker : public StateChecker
 {
  public:
@@ -165,17 +165,17 @@ class ScriptedChecker : public StateChecker
     BatchResult result;
     for (std::size_t i = 0; i < count; ++i)
     {
-      const bool hits =
-          std::any_of(hits_.begin(), hits_.end(), [&](double hit) { return std::abs(states[2 * i] - hit) < 1e-6; });
-      result.valid.push_back(hits ? 0 : 1);
-      result.colliding.push_back(hits ? BodyPair{2, static_cast<std::int32_t>(i)} : kNoPair);
+      const bool collides =
+          std::any_of(hits.begin(), hits.end(), [&](double hit) { return std::abs(states[2 * i] - hit) < 1e-6; });
+      result.valid.push_back(collides ? 0 : 1);
+      result.colliding.push_back(collides ? BodyPair{2, static_cast<std::int32_t>(i)} : kNoPair);
     }
     return result;
   }
   SceneReport report(const std::string& /*group*/) override { return {}; }
   std::string deviceName() const override { return "scripted"; }
 
-  std::vector<double> hits_;
+  std::vector<double> hits;
 };
 
 TEST_F(PointMotions, AreJudgedByTheFirstSampleThatCollides)
@@ -189,10 +189,10 @@ TEST_F(PointMotions, AreJudgedByTheFirstSampleThatCollides)
   const std::vector<double> ends = {0.0, 1.0, 1.0, 1.0};
   for (unsigned hits = 0; hits < 32; ++hits)  // all combinations of colliding samples
   {
-    scripted->hits_.clear();
+    scripted->hits.clear();
     for (unsigned i = 0; i < 5; ++i)
       if ((hits >> i & 1u) != 0)
-        scripted->hits_.push_back(0.25 * i);
+        scripted->hits.push_back(0.25 * i);
     unsigned first = 0;
     while (first < 5 && (hits >> first & 1u) == 0)
       ++first;
