@@ -5,8 +5,7 @@
 #include <set>
 
 #include "collision/bounds/problem_maker.h"
-#include "collision/exact/binned_sah.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/forest_cache.h"
 #include "collision/parallel_for.h"
 #include "collision/problem/collision_problem.h"
 #include "tools/progress_bar.h"
@@ -30,13 +29,13 @@ BodyPair ordered(int first, int second)
 class PairSampler
 {
  public:
-  explicit PairSampler(std::shared_ptr<const RobotModel> robot) : robot_(std::move(robot))
+  /// Leaves out the pairs that `decided` allows. `trees` keeps the trees of the links for the next sampler.
+  PairSampler(std::shared_ptr<const RobotModel> robot, const AllowedCollisionMatrix& decided, ForestCache& trees)
+    : robot_(std::move(robot))
   {
     PlanningScene scene(robot_);
-    scene.allowed_collisions = AllowedCollisionMatrix();  // check every pair
-    const auto problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
-    const auto forest = std::make_shared<const Forest>(buildBinnedSah(problem->tessellations));
-    traversal_ = std::make_unique<const CpuTraversal>(problem, forest);
+    scene.allowed_collisions = decided;
+    traversal_ = trees.traversalOf(std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr)));
   }
 
   void add(const std::vector<double>& states, std::size_t count, HitCounts& counts) const
@@ -120,13 +119,23 @@ bool isUsersReason(const std::string& reason)
 
 GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const SamplingOptions& options)
 {
-  const PairSampler sampler(robot);
-  HitCounts in_default_state;
-  sampler.add(robot->defaultState(), 1, in_default_state);
-  const HitCounts hits = countInRandomStates(*robot, sampler, options);
   const auto adjacent_links = robot->adjacentLinks();
   const std::set<std::pair<int, int>> adjacent(adjacent_links.begin(), adjacent_links.end());
   const std::set<BodyPair> users = usersPairs(robot->srdfCollisions());
+  // Random states are checked for undecided pairs only: links that always touch take most of the time.
+  AllowedCollisionMatrix decided;
+  const auto decide = [&](int first, int second)
+  { decided.setEntry(robot->links()[first].name, robot->links()[second].name, true); };
+  for (const auto& [first, second] : adjacent)
+    decide(first, second);
+  for (const auto& [first, second] : users)
+    decide(first, second);
+  ForestCache trees;
+  HitCounts in_default_state;
+  PairSampler(robot, decided, trees).add(robot->defaultState(), 1, in_default_state);
+  for (const auto& [pair, count] : in_default_state)
+    decide(pair[0], pair[1]);
+  const HitCounts hits = countInRandomStates(*robot, PairSampler(robot, decided, trees), options);
   const double always = options.always_share * static_cast<double>(options.samples);
 
   GeneratedMatrix matrix;
