@@ -23,19 +23,51 @@ constexpr double kToleranceMargin = 1e-9;  // metres
 
 // The test of two solids costs about as much as visiting this many nodes.
 constexpr std::uint64_t kStepsOfSolids = 20;
+// Testing eight boxes costs about as much as visiting this many nodes of a binary tree.
+constexpr std::uint64_t kStepsOfNode = 2;
 
-bool leavesMeet(const CpuTree& tree_a, const CpuNode& a, const CpuTree& tree_b, const CpuNode& b,
-                const Isometry3d& b_in_a, double required)
+bool leavesMeet(const CpuTree& tree_a, WideBox a, const CpuTree& tree_b, WideBox b, const Isometry3d& b_in_a,
+                double required)
 {
-  for (std::uint32_t j = b.first; j < b.first + b.count; ++j)
+  const Triangle* first_a = &tree_a.triangles[tree_a.wide.firstTriangle(a)];
+  const Triangle* first_b = &tree_b.triangles[tree_b.wide.firstTriangle(b)];
+  for (const Triangle* t = first_b; t != first_b + tree_b.wide.triangleCount(b); ++t)
   {
-    const Triangle& t = tree_b.triangles[j];
-    const Triangle triangle_b = {b_in_a * t[0], b_in_a * t[1], b_in_a * t[2]};
-    for (std::uint32_t i = a.first; i < a.first + a.count; ++i)
-      if (trianglesWithin(tree_a.triangles[i], triangle_b, required))
+    const Triangle triangle_b = {b_in_a * (*t)[0], b_in_a * (*t)[1], b_in_a * (*t)[2]};
+    for (const Triangle* triangle_a = first_a; triangle_a != first_a + tree_a.wide.triangleCount(a); ++triangle_a)
+      if (trianglesWithin(*triangle_a, triangle_b, required))
         return true;
   }
   return false;
+}
+
+/// Whether a traversal opens the first box of a pair rather than the second. It opens the larger one, unless that one
+/// is a leaf. At most one of the two may be a leaf.
+bool opensFirst(const WideTree& tree_a, WideBox a, const WideTree& tree_b, WideBox b)
+{
+  return tree_b.isLeaf(b) || (!tree_a.isLeaf(a) && tree_a.radius(a) >= tree_b.radius(b));
+}
+
+bool leafMeetsSolid(const CpuTree& mesh, WideBox leaf, const Shape& shape, const Isometry3d& mesh_in_solid,
+                    double required)
+{
+  const Triangle* first = &mesh.triangles[mesh.wide.firstTriangle(leaf)];
+  return std::any_of(
+      first, first + mesh.wide.triangleCount(leaf),
+      [&](const Triangle& t) {
+        return triangleWithinSolid({mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]}, shape, required);
+      });
+}
+
+/// No point of one box is farther from a point of the other, up to the rounding of the centres.
+double farthest(const WideTree& tree_a, WideBox a, const WideTree& tree_b, WideBox b, const Isometry3d& b_in_a)
+{
+  return (b_in_a * tree_b.center(b) - tree_a.center(a)).norm() + tree_a.radius(a) + tree_b.radius(b);
+}
+
+unsigned lowestBit(unsigned bits)
+{
+  return static_cast<unsigned>(__builtin_ctz(bits));
 }
 
 /// Whether a component of one mesh lies inside the solid of the other. The surfaces must not meet. Then each point of a
@@ -97,48 +129,47 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
                                      double required, Scratch& scratch) const
 {
   const Shape& shape = solid.shape;
-  const bool box = std::holds_alternative<Box>(shape);
+  // The box around a box is the solid itself; that around another solid is larger, so nodes are also tested by
+  // distance.
+  const bool by_distance = !std::holds_alternative<Box>(shape) || required > 0.0 || tolerance_ > 0.0;
   const double margin = required + kBoxMargin;
-  const Vector3d grown = solid.half.array() + margin;
   const double near_enough = required + tolerance_ - kToleranceMargin;
+  const WideTree& tree = mesh.wide;
+  const FloatBox around = floatBox(placed(solid.box, mesh_in_solid.inverse()), tree, margin);
 
-  scratch.nodes.assign(1, 0);
+  scratch.nodes.assign(1, WideTree::kRoot);
   while (!scratch.nodes.empty())
   {
-    const CpuNode& node = mesh.nodes[scratch.nodes.back()];
+    const WideBox box = scratch.nodes.back();
     scratch.nodes.pop_back();
-    ++scratch.steps;
-    const OrientedBox around = placed(node.box, mesh_in_solid);
-    if (!BoxPairTest(around.axes).overlap(grown, around.half, around.center))
-      continue;
-    if (!box || required > 0.0 || tolerance_ > 0.0)
+    if (tree.isLeaf(box))
     {
-      const double distance = distanceToSolid(shape, around.center);
-      const double radius = around.half.norm();
-      if (distance > radius + margin)
-        continue;
-      // All triangles of a node are within `radius` of the node's centre, and each node has a triangle.
-      if (tolerance_ > 0.0 && distance + radius <= near_enough)
+      if (leafMeetsSolid(mesh, box, shape, mesh_in_solid, required))
         return true;
-    }
-    if (!node.isLeaf())
-    {
-      scratch.nodes.push_back(node.first);
-      scratch.nodes.push_back(node.first + 1);
       continue;
     }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+    scratch.steps += kStepsOfNode;
+    for (unsigned hits = overlaps_(tree.below(box), around); hits != 0; hits &= hits - 1)
     {
-      const Triangle& t = mesh.triangles[i];
-      if (triangleWithinSolid({mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]}, shape, required))
-        return true;
+      const WideBox child = tree.child(box, lowestBit(hits));
+      if (by_distance)
+      {
+        const double distance = distanceToSolid(shape, mesh_in_solid * tree.center(child));
+        const double radius = tree.radius(child) + tree.centerError();
+        if (distance > radius + margin)
+          continue;
+        // All triangles of a node are within `radius` of the node's centre, and each node has a triangle.
+        if (tolerance_ > 0.0 && distance + radius <= near_enough)
+          return true;
+      }
+      scratch.nodes.push_back(child);
     }
   }
   return false;
 }
 
-/// Simultaneous traversal of two trees. The boxes of each pair of nodes overlap; the caller has tested the root boxes.
-/// The larger node of a pair is opened.
+/// Simultaneous traversal of two trees. The boxes of each pair overlap; the caller has tested the root boxes. The
+/// larger box of a pair is opened: the boxes below it are tested together.
 ///
 /// With a tolerance, the traversal stops at two nodes that are close enough to count as a collision. Each node has a
 /// triangle, and all points of this triangle are within the node's radius (half the diagonal of its box) of the box's
@@ -151,34 +182,32 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
 bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, double required,
                                 Scratch& scratch) const
 {
-  const Isometry3d a_in_b = b_in_a.inverse();
-  const double growth = required + kBoxMargin;
-  const double near_enough = required + tolerance_ - kToleranceMargin;
-  scratch.node_pairs.assign(1, {0, 0});
+  const double near_enough = required + tolerance_ - kToleranceMargin - a.wide.centerError() - b.wide.centerError();
+  const FloatFrame in_a(b.wide, b_in_a, a.wide, required + kBoxMargin);
+  const FloatFrame in_b(a.wide, b_in_a.inverse(), b.wide, required + kBoxMargin);
+  scratch.node_pairs.assign(1, {WideTree::kRoot, WideTree::kRoot});
   while (!scratch.node_pairs.empty())
   {
-    const auto [index_a, index_b] = scratch.node_pairs.back();
+    const auto [box_a, box_b] = scratch.node_pairs.back();
     scratch.node_pairs.pop_back();
-    const CpuNode& node_a = a.nodes[index_a];
-    const CpuNode& node_b = b.nodes[index_b];
-    if (node_a.isLeaf() && node_b.isLeaf())
+    if (a.wide.isLeaf(box_a) && b.wide.isLeaf(box_b))
     {
-      if (leavesMeet(a, node_a, b, node_b, b_in_a, required))
+      if (leavesMeet(a, box_a, b, box_b, b_in_a, required))
         return true;
       continue;
     }
-    const bool open_a = opensFirst(node_a, node_b);
-    const OrientedBox other = open_a ? placed(node_b.box, b_in_a) : placed(node_a.box, a_in_b);
-    const std::uint32_t first = open_a ? node_a.first : node_b.first;
-    for (const std::uint32_t child : {first, first + 1})
+    const bool open_a = opensFirst(a.wide, box_a, b.wide, box_b);
+    const WideTree& opened = open_a ? a.wide : b.wide;
+    const WideBox box = open_a ? box_a : box_b;
+    const FloatBox other = open_a ? in_a.place(b.wide, box_b) : in_b.place(a.wide, box_a);
+    scratch.steps += kStepsOfNode;
+    for (unsigned hits = overlaps_(opened.below(box), other); hits != 0; hits &= hits - 1)
     {
-      const OrientedBox& box = (open_a ? a : b).nodes[child].box;
-      ++scratch.steps;
-      if (!overlap(box, other, growth))
-        continue;
-      if (tolerance_ > 0.0 && (box.center - other.center).norm() + box.half.norm() + other.half.norm() <= near_enough)
+      const WideBox child = opened.child(box, lowestBit(hits));
+      const std::array<WideBox, 2> pair = {open_a ? child : box_a, open_a ? box_b : child};
+      if (tolerance_ > 0.0 && farthest(a.wide, pair[0], b.wide, pair[1], b_in_a) <= near_enough)
         return true;
-      scratch.node_pairs.push_back({open_a ? child : index_a, open_a ? index_b : child});
+      scratch.node_pairs.push_back(pair);
     }
   }
   return false;

@@ -38,7 +38,7 @@ class CpuShapePair
 
   /// `tolerance`: metres, at least 0.
   explicit CpuShapePair(std::shared_ptr<const CpuForest> forest, double tolerance = 0.0)
-    : forest_(std::move(forest)), tolerance_(tolerance)
+    : forest_(std::move(forest)), tolerance_(tolerance), overlaps_(availableOverlapTests().front().test)
   {
   }
 
@@ -57,6 +57,7 @@ class CpuShapePair
 
   std::shared_ptr<const CpuForest> forest_;
   double tolerance_;
+  OverlapTest overlaps_;
 };
 
 /// An axis-aligned box in the frame of `pose` that contains the shape; it is enlarged by more than the rounding error.

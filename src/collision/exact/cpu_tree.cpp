@@ -149,6 +149,8 @@ std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Mesh& mesh,
   copyTree(forest, number, mesh, *tree);
   fitBoxes(*tree);
   tree->box = tree->mesh ? tree->nodes[0].box : OrientedBox{Matrix3d::Identity(), tree->center, tree->half};
+  if (tree->mesh)
+    tree->wide = WideTree(tree->nodes, tree->center);
   return tree;
 }
 

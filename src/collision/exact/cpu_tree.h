@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/exact/forest.h"
+#include "collision/exact/wide_tree.h"
 #include "collision/geometry/components.h"
 #include "collision/geometry/oriented_box.h"
 #include "collision/geometry/triangle_pair.h"
@@ -45,6 +46,7 @@ struct CpuTree
 
   std::vector<CpuNode> nodes;              ///< node 0 is the root; children come after their parents
   std::vector<Triangle> triangles;         ///< in the order of the leaves; a leaf's `first` and `count` index them
+  WideTree wide;                           ///< the same tree for tests of eight boxes at a time; meshes only
   std::vector<std::uint8_t> bounds_solid;  ///< one per triangle: 1 if it belongs to a closed component
 };
 

@@ -1,5 +1,4 @@
-// The source of the lane kernel, included once for each instruction set, see lane_kernel.h. It uses the vector
-// extension of GCC and Clang: operators work on eight numbers at a time.
+// The source of the lane kernel, included once for each instruction set, see lane_kernel.h.
 //
 // Eight states are checked side by side (as in Thomason, Kingston and Kavraki, "Motions in microseconds via vectorized
 // sampling-based planning", 2024), first by joint tables and enclosing balls. The few pairs that remain are checked one
@@ -8,30 +7,12 @@
 #error "define the kernel's name before this file is included"
 #endif
 
+#include "collision/geometry/eight_floats.h"
+
 namespace gpu_planning_scene::core::lanes
 {
 namespace
 {
-typedef float Floats __attribute__((vector_size(32)));
-typedef int Ints __attribute__((vector_size(32)));
-
-inline Floats all(float x)
-{
-  return Floats{x, x, x, x, x, x, x, x};
-}
-
-inline Floats load(const float* from)
-{
-  Floats loaded;
-  __builtin_memcpy(&loaded, from, sizeof loaded);
-  return loaded;
-}
-
-inline void store(const Floats& values, float* to)
-{
-  __builtin_memcpy(to, &values, sizeof values);
-}
-
 /// Group `i` of kLanes floats.
 inline const float* group(const float* groups, std::size_t i)
 {
@@ -43,40 +24,10 @@ inline float* group(float* groups, std::size_t i)
   return groups + i * kLanes;
 }
 
-/// Bit i: element i is true.
-inline int bits(const Ints& truth)
-{
-#ifdef __AVX__
-  return __builtin_ia32_movmskps256(reinterpret_cast<Floats>(truth));
-#else
-  int found = 0;
-  for (int i = 0; i < kLanes; ++i)
-    found |= (truth[i] & 1) << i;
-  return found;
-#endif
-}
-
-inline Floats squareRoot(const Floats& x)
-{
-#ifdef __AVX__
-  return __builtin_ia32_sqrtps256(x);
-#else
-  Floats root;
-  for (int i = 0; i < kLanes; ++i)
-    root[i] = __builtin_sqrtf(x[i]);
-  return root;
-#endif
-}
-
 /// NaN stays NaN, so that it proves nothing.
 inline Floats atLeastZero(const Floats& x)
 {
   return x < 0.0F ? all(0.0F) : x;
-}
-
-inline Floats magnitude(const Floats& x)
-{
-  return x < 0.0F ? -x : x;
 }
 
 inline Floats smaller(const Floats& a, const Floats& b)

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace gpu_planning_scene::core
+{
+constexpr unsigned kWideSlots = 8;
+
+/// Up to eight oriented boxes, with the number of each coordinate side by side.
+struct alignas(64) WideNode
+{
+  float axes[3][3][kWideSlots];  ///< [i][k]: coordinate k of axis i
+  float center[3][kWideSlots];
+  float half[3][kWideSlots];
+  float radius[kWideSlots];         ///< half the diagonal, rounded up
+  std::uint32_t first[kWideSlots];  ///< leaf: its first triangle; otherwise the node below
+  std::uint32_t count[kWideSlots];  ///< leaf: the number of its triangles; otherwise 0
+  std::uint32_t boxes;
+};
+
+/// A box in the frame of a wide tree.
+struct FloatBox
+{
+  float axes[3][3];  ///< [j][k]: coordinate k of axis j
+  float center[3];
+  float half[3];
+};
+
+/// Tests the boxes of a node against one box by their 15 possible separating axes (Gottschalk, Lin and Manocha,
+/// "OBBTree", 1996). Bit i of the result is 0 only if box i and `box` do not overlap, provided that `box` has been
+/// grown by the rounding errors, see FloatFrame. Thread-safe.
+using OverlapTest = unsigned (*)(const WideNode& node, const FloatBox& box);
+
+struct NamedOverlapTest
+{
+  const char* instructions;
+  OverlapTest test;
+};
+
+/// The tests that this machine can run, the widest instruction set first. All have one source, wide_overlap_body.h.
+const std::vector<NamedOverlapTest>& availableOverlapTests();
+}  // namespace gpu_planning_scene::core

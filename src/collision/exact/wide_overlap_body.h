@@ -1,0 +1,61 @@
+// The source of the overlap test of wide trees, included once for each instruction set, see wide_overlap.h.
+#ifndef GPS_OVERLAP_TEST
+#error "define the test's name before this file is included"
+#endif
+
+#include "collision/geometry/eight_floats.h"
+
+namespace gpu_planning_scene::core
+{
+unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box);
+
+unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
+{
+  // Keeps edges that are parallel up to rounding from separating the boxes, see docs/error_bounds.md.
+  constexpr float kParallel = 64.0F * 5.9604645e-8F;  // 64 times 2^-24
+
+  const int present = (1 << node.boxes) - 1;
+  const Floats between[3] = {box.center[0] - load(node.center[0]), box.center[1] - load(node.center[1]),
+                             box.center[2] - load(node.center[2])};
+  const Floats a[3] = {load(node.half[0]), load(node.half[1]), load(node.half[2])};
+  const float* b = box.half;
+  Floats r[3][3];  // the axes of `box` in the frames of the node's boxes
+  Floats abs_r[3][3];
+  Floats t[3];
+  Ints apart = {};
+  for (int i = 0; i < 3; ++i)
+  {
+    const Floats x = load(node.axes[i][0]);
+    const Floats y = load(node.axes[i][1]);
+    const Floats z = load(node.axes[i][2]);
+    for (int j = 0; j < 3; ++j)
+    {
+      r[i][j] = x * box.axes[j][0] + y * box.axes[j][1] + z * box.axes[j][2];
+      abs_r[i][j] = magnitude(r[i][j]) + kParallel;
+    }
+    t[i] = x * between[0] + y * between[1] + z * between[2];
+    apart |= magnitude(t[i]) > a[i] + abs_r[i][0] * b[0] + abs_r[i][1] * b[1] + abs_r[i][2] * b[2];
+  }
+  for (int j = 0; j < 3; ++j)
+    apart |= magnitude(t[0] * r[0][j] + t[1] * r[1][j] + t[2] * r[2][j]) >
+             a[0] * abs_r[0][j] + a[1] * abs_r[1][j] + a[2] * abs_r[2][j] + b[j];
+  // A NaN is not greater, so its boxes count as overlapping.
+  int left = ~bits(apart) & present;
+  if (left == 0)
+    return 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    const int i1 = (i + 1) % 3;
+    const int i2 = (i + 2) % 3;
+    for (int j = 0; j < 3; ++j)
+    {
+      const int j1 = (j + 1) % 3;
+      const int j2 = (j + 2) % 3;
+      apart |= magnitude(t[i2] * r[i1][j] - t[i1] * r[i2][j]) >
+               a[i1] * abs_r[i2][j] + a[i2] * abs_r[i1][j] + b[j1] * abs_r[i][j2] + b[j2] * abs_r[i][j1];
+    }
+  }
+  left &= ~bits(apart);
+  return static_cast<unsigned>(left);
+}
+}  // namespace gpu_planning_scene::core

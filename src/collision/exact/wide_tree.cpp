@@ -1,0 +1,152 @@
+#include "collision/exact/wide_tree.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "collision/exact/cpu_tree.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// The rounding errors of both trees, of the placed box and of the overlap test are below this share of the lengths that
+// FloatFrame adds up: 64 times 2^-24. docs/error_bounds.md derives 29.
+constexpr double kFloatErrors = 64.0 * 0.5 * std::numeric_limits<float>::epsilon();
+
+/// The least float that is not below `value`, or a little more.
+float roundedUp(double value)
+{
+  return static_cast<float>(value * (1.0 + std::numeric_limits<float>::epsilon()));
+}
+
+/// The boxes of the node that has `top` and what is below it: the largest inner box is opened as long as there is room.
+std::vector<std::uint32_t> boxesOf(const std::vector<CpuNode>& nodes, std::uint32_t top)
+{
+  std::vector<std::uint32_t> boxes = {nodes[top].first, nodes[top].first + 1};
+  const auto size = [&nodes](std::uint32_t i) { return nodes[i].isLeaf() ? -1.0 : nodes[i].box.half.squaredNorm(); };
+  while (boxes.size() < kWideSlots)
+  {
+    const auto largest = std::max_element(boxes.begin(), boxes.end(),
+                                          [&size](std::uint32_t i, std::uint32_t j) { return size(i) < size(j); });
+    if (nodes[*largest].isLeaf())
+      break;
+    const std::uint32_t first = nodes[*largest].first;
+    *largest = first;
+    boxes.push_back(first + 1);
+  }
+  return boxes;
+}
+
+void setBox(const OrientedBox& box, const Vector3d& origin, unsigned slot, WideNode& node)
+{
+  const Vector3d center = box.center - origin;
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int i = 0; i < 3; ++i)
+      node.axes[i][k][slot] = static_cast<float>(box.axes(k, i));
+    node.center[k][slot] = static_cast<float>(center[k]);
+    node.half[k][slot] = roundedUp(box.half[k]);
+  }
+  node.radius[slot] = roundedUp(box.half.norm());
+}
+
+/// `growth` and the rounding errors. `distance` is that of the origins.
+float grownBy(double growth, double distance, double reaches)
+{
+  return roundedUp(growth + kFloatErrors * (2.0 * distance + 3.0 * reaches + growth));
+}
+}  // namespace
+
+WideTree::WideTree(const std::vector<CpuNode>& nodes, const Vector3d& origin) : origin_(origin)
+{
+  for (const CpuNode& node : nodes)
+    reach_ = std::max(reach_, (node.box.center - origin).norm() + node.box.half.norm());
+
+  struct Open
+  {
+    std::uint32_t node;  // of the binary tree
+    WideBox box;
+  };
+  std::vector<Open> open;
+  const auto add = [&](const std::vector<std::uint32_t>& boxes)
+  {
+    const auto index = static_cast<std::uint32_t>(nodes_.size());
+    WideNode& node = nodes_.emplace_back();
+    for (const std::uint32_t from : boxes)
+    {
+      setBox(nodes[from].box, origin_, node.boxes, node);
+      node.count[node.boxes] = nodes[from].count;
+      node.first[node.boxes] = nodes[from].first;
+      if (!nodes[from].isLeaf())
+        open.push_back({from, kWideSlots * index + node.boxes});
+      ++node.boxes;
+    }
+    return index;
+  };
+  add({0});
+  while (!open.empty())
+  {
+    const Open top = open.back();
+    open.pop_back();
+    const std::uint32_t below = add(boxesOf(nodes, top.node));
+    nodes_[top.box / kWideSlots].first[slot(top.box)] = below;
+  }
+}
+
+Vector3d WideTree::center(WideBox box) const
+{
+  const WideNode& from = node(box);
+  const unsigned i = slot(box);
+  return origin_ + Vector3d(from.center[0][i], from.center[1][i], from.center[2][i]);
+}
+
+FloatFrame::FloatFrame(const WideTree& from, const Isometry3d& from_in_to, const WideTree& to, double growth)
+{
+  const Vector3d translation = from_in_to * from.origin() - to.origin();
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+      rotation_[row][column] = static_cast<float>(from_in_to.linear()(row, column));
+    translation_[row] = static_cast<float>(translation[row]);
+  }
+  growth_ = grownBy(growth, translation.norm(), from.reach() + to.reach());
+}
+
+FloatBox FloatFrame::place(const WideTree& from, WideBox box) const
+{
+  const WideNode& node = from.node(box);
+  const unsigned slot = WideTree::slot(box);
+  FloatBox placed;
+  const float x = node.center[0][slot];
+  const float y = node.center[1][slot];
+  const float z = node.center[2][slot];
+  for (int row = 0; row < 3; ++row)
+  {
+    const float* r = rotation_[row];
+    for (int axis = 0; axis < 3; ++axis)
+      placed.axes[axis][row] =
+          r[0] * node.axes[axis][0][slot] + r[1] * node.axes[axis][1][slot] + r[2] * node.axes[axis][2][slot];
+    placed.center[row] = r[0] * x + r[1] * y + r[2] * z + translation_[row];
+    placed.half[row] = node.half[row][slot] + growth_;
+  }
+  return placed;
+}
+
+FloatBox floatBox(const OrientedBox& box, const WideTree& tree, double growth)
+{
+  const Vector3d center = box.center - tree.origin();
+  const float added = grownBy(growth, center.norm(), box.half.norm() + tree.reach());
+  FloatBox converted;
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+      converted.axes[axis][k] = static_cast<float>(box.axes(k, axis));
+    converted.center[k] = static_cast<float>(center[k]);
+    converted.half[k] = static_cast<float>(box.half[k]) + added;
+  }
+  return converted;
+}
+}  // namespace gpu_planning_scene::core

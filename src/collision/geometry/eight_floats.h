@@ -1,0 +1,60 @@
+// Eight floats side by side, in the vector extension of GCC and Clang: operators work on all eight. Each user is
+// compiled for several instruction sets, so the functions are private to the file that includes this one, and they call
+// no function that other files define inline.
+#pragma once
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+typedef float Floats __attribute__((vector_size(32)));
+typedef int Ints __attribute__((vector_size(32)));
+
+inline Floats all(float x)
+{
+  return Floats{x, x, x, x, x, x, x, x};
+}
+
+inline Floats load(const float* from)
+{
+  Floats loaded;
+  __builtin_memcpy(&loaded, from, sizeof loaded);
+  return loaded;
+}
+
+inline void store(const Floats& values, float* to)
+{
+  __builtin_memcpy(to, &values, sizeof values);
+}
+
+/// Bit i: element i is true.
+inline int bits(const Ints& truth)
+{
+#ifdef __AVX__
+  return __builtin_ia32_movmskps256(reinterpret_cast<Floats>(truth));
+#else
+  int found = 0;
+  for (int i = 0; i < 8; ++i)
+    found |= (truth[i] & 1) << i;
+  return found;
+#endif
+}
+
+inline Floats squareRoot(const Floats& x)
+{
+#ifdef __AVX__
+  return __builtin_ia32_sqrtps256(x);
+#else
+  Floats root;
+  for (int i = 0; i < 8; ++i)
+    root[i] = __builtin_sqrtf(x[i]);
+  return root;
+#endif
+}
+
+inline Floats magnitude(const Floats& x)
+{
+  return x < 0.0F ? -x : x;
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
