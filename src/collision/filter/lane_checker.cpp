@@ -48,6 +48,7 @@ lanes::Scratch LaneChecker::kernelScratch(Scratch& scratch) const
   scratch.floats.resize(2 * frames + centers + balls);
   scratch.placed.resize(model.bodies.count);
   scratch.open.resize(lanes::kLanes * scene_->pairCount());
+  scratch.trials.resize(std::size_t{lanes::kLevels} * scene_->pairCount(), lanes::Trial{});
   scratch.hits.resize(scene_->pairCount(), 0);
   scratch.poses.resize(robot_->links().size());
   float* const first = scratch.floats.data();
@@ -56,7 +57,8 @@ lanes::Scratch LaneChecker::kernelScratch(Scratch& scratch) const
           first + 2 * frames,
           first + 2 * frames + centers,
           scratch.placed.data(),
-          scratch.open.data()};
+          scratch.open.data(),
+          scratch.trials.data()};
 }
 
 void LaneChecker::check(const double* states, std::size_t count, std::size_t row, Scratch& scratch,

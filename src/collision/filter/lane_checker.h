@@ -26,6 +26,7 @@ class LaneChecker
     std::vector<float> floats;
     std::vector<std::uint8_t> placed;
     std::vector<std::uint32_t> open;
+    std::vector<lanes::Trial> trials;
     std::vector<Eigen::Isometry3d> poses;
     std::vector<CpuTraversal::InstancePair> pairs;
     std::vector<std::uint32_t> hits;  // of each pair: collisions that the exact checker found

@@ -489,6 +489,27 @@ inline Proof proveSelfPair(const Model& model, const SelfPair& pair, const Place
   return bits(near) == 0 ? Proof::Apart : Proof::None;
 }
 
+/// Whether the balls of a level are worth testing: they decide the pair often enough, or too little is known, or it is
+/// time to try again. The test of a level takes about 1 / kWorth of the time of the exact test.
+inline bool isWorthwhile(Trial& trial, int level)
+{
+  constexpr unsigned kWorth[kLevels] = {25, 6};
+  constexpr unsigned kFewTrials = 32;
+  constexpr unsigned kAgain = 64;
+  return trial.tried < kFewTrials || trial.decided * kWorth[level] >= trial.tried || ++trial.left_out % kAgain == 0;
+}
+
+inline void record(bool decided, Trial& trial)
+{
+  constexpr unsigned kManyTrials = 4096;
+  if (++trial.tried == kManyTrials)  // so that the latest trials count most
+  {
+    trial.tried /= 2;
+    trial.decided /= 2;
+  }
+  trial.decided = static_cast<std::uint16_t>(trial.decided + (decided ? 1 : 0));
+}
+
 /// Proves the open pairs of one lane by the balls of the covers, the coarse ones first.
 inline void proveByCovers(const Model& model, const Scratch& scratch, int lane, Lanes& lanes)
 {
@@ -500,9 +521,16 @@ inline void proveByCovers(const Model& model, const Scratch& scratch, int lane, 
     for (int k = 0; k < lanes.block.open_count[lane]; ++k)
     {
       const std::uint32_t number = open[k];
+      Trial& trial = scratch.trials[std::size_t{kLevels} * number + static_cast<std::size_t>(level)];
+      if (!isWorthwhile(trial, level))
+      {
+        open[kept++] = number;
+        continue;
+      }
       const Proof proof = number < model.self_pairs.count
                               ? proveSelfPair(model, model.self_pairs[number], balls, level)
                               : proveWorldPair(model, model.world_pairs[number - model.self_pairs.count], balls, level);
+      record(proof != Proof::None, trial);
       if (proof == Proof::Colliding)
         return lanes.collide(1 << lane, number);
       if (proof == Proof::None)

@@ -150,7 +150,15 @@ struct Model
   Array<WorldGroup> world_groups;
 };
 
-/// Work space of one thread, see Workspace.
+/// How often the balls of a level have decided a pair. A level that hardly ever decides a pair is left out.
+struct Trial
+{
+  std::uint16_t tried;
+  std::uint16_t decided;
+  std::uint16_t left_out;
+};
+
+/// Work space of one thread.
 struct Scratch
 {
   float* frames;         ///< of each frame: 12 numbers in all lanes
@@ -159,6 +167,7 @@ struct Scratch
   float* balls;          ///< of each body: the coordinates of its outer and inner balls in one lane
   std::uint8_t* placed;  ///< of each body: which of these balls are set
   std::uint32_t* open;   ///< of each lane: the pairs without a proof; room for all pairs
+  Trial* trials;         ///< of each pair: its levels; all 0 at first, kept between calls
 };
 constexpr int kBallNumbers = 6 * kBalls;
 
