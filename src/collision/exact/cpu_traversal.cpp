@@ -212,7 +212,7 @@ std::optional<BodyPair> CpuTraversal::firstCollision(const Isometry3d* link_pose
 
 std::optional<BodyPair> CpuTraversal::firstCollisionOf(const InstancePair* pairs, std::size_t count,
                                                        const Isometry3d* link_poses, Scratch& scratch,
-                                                       std::size_t& found) const
+                                                       std::vector<std::uint64_t>& steps) const
 {
   const auto& robot = problem_->robot;
   const auto collides = [&](const InstancePair& pair)
@@ -233,13 +233,17 @@ std::optional<BodyPair> CpuTraversal::firstCollisionOf(const InstancePair* pairs
                          first.padding + other.padding, scratch.pair);
   };
   scratch.poses.resize(robot.size());
-  for (found = 0; found < count; ++found)
+  steps.clear();
+  for (std::size_t i = 0; i < count; ++i)
   {
-    for (const std::uint32_t instance : pairs[found])
+    for (const std::uint32_t instance : pairs[i])
       if (instance < robot.size())
         scratch.poses[instance] = link_poses[robot[instance].link] * robot[instance].pose;
-    if (collides(pairs[found]))
-      return bodiesOf(pairs[found]);
+    const std::uint64_t before = scratch.pair.steps;
+    const bool collide = collides(pairs[i]);
+    steps.push_back(scratch.pair.steps - before);
+    if (collide)
+      return bodiesOf(pairs[i]);
   }
   return std::nullopt;
 }

@@ -55,11 +55,12 @@ class CpuTraversal
   std::optional<BodyPair> firstCollision(const Eigen::Isometry3d* link_poses, Scratch& scratch,
                                          const double* margins = nullptr) const;
 
-  /// The bodies of the first of `count` pairs that collides, if one does; `found` is then its index. The pairs are
-  /// checked in the given order, without margins, and without a broad phase.
+  /// The bodies of the first of `count` pairs that collides, if one does. The pairs are tested in the given order,
+  /// without margins, and without a broad phase. `steps` is set to the cost of each tested pair; the last tested pair
+  /// is the one that collides, if one does.
   std::optional<BodyPair> firstCollisionOf(const InstancePair* pairs, std::size_t count,
                                            const Eigen::Isometry3d* link_poses, Scratch& scratch,
-                                           std::size_t& found) const;
+                                           std::vector<std::uint64_t>& steps) const;
 
   /// All colliding pairs of bodies, each once.
   std::vector<BodyPair> allCollisions(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;

@@ -49,7 +49,7 @@ lanes::Scratch LaneChecker::kernelScratch(Scratch& scratch) const
   scratch.placed.resize(model.bodies.count);
   scratch.open.resize(lanes::kLanes * scene_->pairCount());
   scratch.trials.resize(std::size_t{lanes::kLevels} * scene_->pairCount(), lanes::Trial{});
-  scratch.hits.resize(scene_->pairCount(), 0);
+  scratch.records.resize(scene_->pairCount());
   scratch.poses.resize(robot_->links().size());
   float* const first = scratch.floats.data();
   return {first,
@@ -107,17 +107,21 @@ void LaneChecker::check(const double* states, std::size_t count, std::size_t row
     else if (block.proof[lane] == Proof::None)
     {
       std::uint32_t* const open = kernel_scratch.open + lane * scene_->pairCount();
+      // By collisions found per cost, as in CpuTraversal::learnOrder.
+      const auto gain = [&](std::uint32_t pair) { return scratch.records[pair].hits / scratch.records[pair].cost; };
       std::sort(open, open + block.open_count[lane],
-                [&](std::uint32_t a, std::uint32_t b) { return scratch.hits[a] > scratch.hits[b]; });
+                [&](std::uint32_t a, std::uint32_t b) { return gain(a) > gain(b); });
       scratch.pairs.clear();
       for (int k = 0; k < block.open_count[lane]; ++k)
         scratch.pairs.push_back(scene_->instancesOf(open[k]));
       robot_->linkPoses(states + lane * width, scratch.poses.data());
-      std::size_t found = 0;
-      if (const auto pair = traversal_.firstCollisionOf(scratch.pairs.data(), scratch.pairs.size(),
-                                                        scratch.poses.data(), scratch.exact, found))
+      const auto pair = traversal_.firstCollisionOf(scratch.pairs.data(), scratch.pairs.size(), scratch.poses.data(),
+                                                    scratch.exact, scratch.steps);
+      for (std::size_t k = 0; k < scratch.steps.size(); ++k)
+        scratch.records[open[k]].cost += static_cast<double>(scratch.steps[k]) + 1.0;
+      if (pair)
       {
-        ++scratch.hits[open[found]];
+        scratch.records[open[scratch.steps.size() - 1]].hits += 1.0;
         collide(*pair);
       }
     }

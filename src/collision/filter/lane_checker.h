@@ -20,6 +20,13 @@ namespace gpu_planning_scene::core
 class LaneChecker
 {
  public:
+  /// What the exact tests of a pair have found, and what they have cost.
+  struct PairRecord
+  {
+    double hits = 0.0;
+    double cost = 1.0;  // steps, see CpuShapePair::Scratch
+  };
+
   /// Work space of one thread.
   struct Scratch
   {
@@ -29,7 +36,8 @@ class LaneChecker
     std::vector<lanes::Trial> trials;
     std::vector<Eigen::Isometry3d> poses;
     std::vector<CpuTraversal::InstancePair> pairs;
-    std::vector<std::uint32_t> hits;  // of each pair: collisions that the exact checker found
+    std::vector<PairRecord> records;  // of each pair
+    std::vector<std::uint64_t> steps;
     CpuTraversal::Scratch exact;
   };
 

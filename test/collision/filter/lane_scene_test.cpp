@@ -42,15 +42,18 @@ std::size_t compare(const ProvenScene& proven, const lanes::NamedKernel& kernel,
   std::vector<float> floats(2 * poses_size + centers_size + std::size_t{lanes::kBallNumbers} * model.bodies.count);
   std::vector<std::uint8_t> placed(model.bodies.count);
   std::vector<std::uint32_t> open(lanes::kLanes * proven.lanes->pairCount());
+  std::vector<lanes::Trial> trials(std::size_t{lanes::kLevels} * proven.lanes->pairCount());
   float* const frames = floats.data();
   float* const given = frames + poses_size;
   float* const centers = given + poses_size;
-  const lanes::Scratch scratch = {frames, given, centers, centers + centers_size, placed.data(), open.data()};
+  const lanes::Scratch scratch = {frames,        given,       centers,      centers + centers_size,
+                                  placed.data(), open.data(), trials.data()};
   const std::size_t width = states.size() / colliding.size();
   std::size_t proven_states = 0;
   for (std::size_t first = 0; first < colliding.size(); first += lanes::kLanes)
   {
     const int size = static_cast<int>(std::min<std::size_t>(lanes::kLanes, colliding.size() - first));
+    std::fill(trials.begin(), trials.end(), lanes::Trial{});  // so that no level of balls is left out
     lanes::Block block;
     kernel.kernel(model, states.data() + first * width, size, scratch, block);
     for (int lane = 0; lane < size; ++lane)
