@@ -23,19 +23,23 @@ constexpr double kToleranceMargin = 1e-9;  // metres
 
 // The test of two solids costs about as much as visiting this many nodes.
 constexpr std::uint64_t kStepsOfSolids = 20;
+// Boxes whose radius is below this multiple of the float errors are also tested in double: in a mesh with a large
+// reach, the errors exceed the size of many boxes, and the float test would keep nearly all of these.
+constexpr double kSmallBox = 64.0;
 // Testing eight boxes costs about as much as visiting this many nodes of a binary tree.
 constexpr std::uint64_t kStepsOfNode = 2;
 
-bool leavesMeet(const CpuTree& tree_a, WideBox a, const CpuTree& tree_b, WideBox b, const Isometry3d& b_in_a,
+bool leavesMeet(const CpuTree& tree_a, BoxIndex a, const CpuTree& tree_b, BoxIndex b, const Isometry3d& b_in_a,
                 double required)
 {
-  const Triangle* first_a = &tree_a.triangles[tree_a.wide.firstTriangle(a)];
-  const Triangle* first_b = &tree_b.triangles[tree_b.wide.firstTriangle(b)];
-  for (const Triangle* t = first_b; t != first_b + tree_b.wide.triangleCount(b); ++t)
+  const CpuNode& leaf_a = tree_a.nodes[tree_a.wide.source(a)];
+  const CpuNode& leaf_b = tree_b.nodes[tree_b.wide.source(b)];
+  for (std::uint32_t j = leaf_b.first; j < leaf_b.first + leaf_b.count; ++j)
   {
-    const Triangle triangle_b = {b_in_a * (*t)[0], b_in_a * (*t)[1], b_in_a * (*t)[2]};
-    for (const Triangle* triangle_a = first_a; triangle_a != first_a + tree_a.wide.triangleCount(a); ++triangle_a)
-      if (trianglesWithin(*triangle_a, triangle_b, required))
+    const Triangle& t = tree_b.triangles[j];
+    const Triangle triangle_b = {b_in_a * t[0], b_in_a * t[1], b_in_a * t[2]};
+    for (std::uint32_t i = leaf_a.first; i < leaf_a.first + leaf_a.count; ++i)
+      if (trianglesWithin(tree_a.triangles[i], triangle_b, required))
         return true;
   }
   return false;
@@ -43,24 +47,25 @@ bool leavesMeet(const CpuTree& tree_a, WideBox a, const CpuTree& tree_b, WideBox
 
 /// Whether a traversal opens the first box of a pair rather than the second. It opens the larger one, unless that one
 /// is a leaf. At most one of the two may be a leaf.
-bool opensFirst(const WideTree& tree_a, WideBox a, const WideTree& tree_b, WideBox b)
+bool opensFirst(const WideTree& tree_a, BoxIndex a, const WideTree& tree_b, BoxIndex b)
 {
   return tree_b.isLeaf(b) || (!tree_a.isLeaf(a) && tree_a.radius(a) >= tree_b.radius(b));
 }
 
-bool leafMeetsSolid(const CpuTree& mesh, WideBox leaf, const Shape& shape, const Isometry3d& mesh_in_solid,
+bool leafMeetsSolid(const CpuTree& mesh, BoxIndex leaf, const Shape& shape, const Isometry3d& mesh_in_solid,
                     double required)
 {
-  const Triangle* first = &mesh.triangles[mesh.wide.firstTriangle(leaf)];
+  const CpuNode& node = mesh.nodes[mesh.wide.source(leaf)];
+  const auto first = mesh.triangles.begin() + node.first;
   return std::any_of(
-      first, first + mesh.wide.triangleCount(leaf),
+      first, first + node.count,
       [&](const Triangle& t) {
         return triangleWithinSolid({mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]}, shape, required);
       });
 }
 
-/// No point of one box is farther from a point of the other, up to the rounding of the centres.
-double farthest(const WideTree& tree_a, WideBox a, const WideTree& tree_b, WideBox b, const Isometry3d& b_in_a)
+/// An upper bound of the distance of any two points of two boxes, up to the rounding of the centres.
+double distanceAtMost(const WideTree& tree_a, BoxIndex a, const WideTree& tree_b, BoxIndex b, const Isometry3d& b_in_a)
 {
   return (b_in_a * tree_b.center(b) - tree_a.center(a)).norm() + tree_a.radius(a) + tree_b.radius(b);
 }
@@ -129,18 +134,21 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
                                      double required, Scratch& scratch) const
 {
   const Shape& shape = solid.shape;
-  // The box around a box is the solid itself; that around another solid is larger, so nodes are also tested by
-  // distance.
+  // The overlap test is enough if it is that of the solid itself: a box without a required distance, which would round
+  // its corners.
   const bool by_distance = !std::holds_alternative<Box>(shape) || required > 0.0 || tolerance_ > 0.0;
   const double margin = required + kBoxMargin;
   const double near_enough = required + tolerance_ - kToleranceMargin;
   const WideTree& tree = mesh.wide;
-  const FloatBox around = floatBox(placed(solid.box, mesh_in_solid.inverse()), tree, margin);
+  const OrientedBox around = placed(solid.box, mesh_in_solid.inverse());
+  const FloatBox around_in_floats = floatBox(around, tree, margin);
+  const double small =
+      kSmallBox * floatErrors((around.center - tree.origin()).norm(), around.half.norm() + tree.reach(), margin);
 
   scratch.nodes.assign(1, WideTree::kRoot);
   while (!scratch.nodes.empty())
   {
-    const WideBox box = scratch.nodes.back();
+    const BoxIndex box = scratch.nodes.back();
     scratch.nodes.pop_back();
     if (tree.isLeaf(box))
     {
@@ -149,9 +157,11 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
       continue;
     }
     scratch.steps += kStepsOfNode;
-    for (unsigned hits = overlaps_(tree.below(box), around); hits != 0; hits &= hits - 1)
+    for (unsigned hits = overlaps_(tree.below(box), around_in_floats); hits != 0; hits &= hits - 1)
     {
-      const WideBox child = tree.child(box, lowestBit(hits));
+      const BoxIndex child = tree.child(box, lowestBit(hits));
+      if (tree.radius(child) < small && !overlap(mesh.nodes[tree.source(child)].box, around, margin))
+        continue;
       if (by_distance)
       {
         const double distance = distanceToSolid(shape, mesh_in_solid * tree.center(child));
@@ -183,8 +193,11 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
                                 Scratch& scratch) const
 {
   const double near_enough = required + tolerance_ - kToleranceMargin - a.wide.centerError() - b.wide.centerError();
-  const FloatFrame in_a(b.wide, b_in_a, a.wide, required + kBoxMargin);
-  const FloatFrame in_b(a.wide, b_in_a.inverse(), b.wide, required + kBoxMargin);
+  const double growth = required + kBoxMargin;
+  const BoxPlacement in_a(b.wide, b_in_a, a.wide, growth);
+  const BoxPlacement in_b(a.wide, b_in_a.inverse(), b.wide, growth);
+  const double small = kSmallBox * floatErrors((b_in_a * b.wide.origin() - a.wide.origin()).norm(),
+                                               a.wide.reach() + b.wide.reach(), growth);
   scratch.node_pairs.assign(1, {WideTree::kRoot, WideTree::kRoot});
   while (!scratch.node_pairs.empty())
   {
@@ -198,14 +211,17 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
     }
     const bool open_a = opensFirst(a.wide, box_a, b.wide, box_b);
     const WideTree& opened = open_a ? a.wide : b.wide;
-    const WideBox box = open_a ? box_a : box_b;
+    const BoxIndex box = open_a ? box_a : box_b;
     const FloatBox other = open_a ? in_a.place(b.wide, box_b) : in_b.place(a.wide, box_a);
     scratch.steps += kStepsOfNode;
     for (unsigned hits = overlaps_(opened.below(box), other); hits != 0; hits &= hits - 1)
     {
-      const WideBox child = opened.child(box, lowestBit(hits));
-      const std::array<WideBox, 2> pair = {open_a ? child : box_a, open_a ? box_b : child};
-      if (tolerance_ > 0.0 && farthest(a.wide, pair[0], b.wide, pair[1], b_in_a) <= near_enough)
+      const BoxIndex child = opened.child(box, lowestBit(hits));
+      const std::array<BoxIndex, 2> pair = {open_a ? child : box_a, open_a ? box_b : child};
+      if (opened.radius(child) < small &&
+          !overlap(a.nodes[a.wide.source(pair[0])].box, placed(b.nodes[b.wide.source(pair[1])].box, b_in_a), growth))
+        continue;
+      if (tolerance_ > 0.0 && distanceAtMost(a.wide, pair[0], b.wide, pair[1], b_in_a) <= near_enough)
         return true;
       scratch.node_pairs.push_back(pair);
     }

@@ -24,7 +24,7 @@ struct PlacedHalfSpace
 ///
 /// With a tolerance above 0, a pair with a mesh may be reported as colliding without a test of its triangles, if nodes
 /// of the trees prove a distance of at most the required distance plus the tolerance. Then verdicts within the
-/// tolerance do depend on the trees.
+/// tolerance do depend on the trees and on the instruction set.
 class CpuShapePair
 {
  public:
@@ -33,7 +33,7 @@ class CpuShapePair
   {
     std::vector<std::array<std::uint32_t, 2>> node_pairs;
     std::vector<std::uint32_t> nodes;
-    std::uint64_t steps = 0;  // nodes visited so far: the cost of the pairs
+    std::uint64_t steps = 0;  // the cost of the pairs so far, in visits of nodes of a binary tree
   };
 
   /// `tolerance`: metres, at least 0.

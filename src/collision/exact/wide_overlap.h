@@ -7,15 +7,15 @@ namespace gpu_planning_scene::core
 {
 constexpr unsigned kWideSlots = 8;
 
-/// Up to eight oriented boxes, with the number of each coordinate side by side.
+/// Up to eight oriented boxes, as a structure of arrays: each array has one number of each box.
 struct alignas(64) WideNode
 {
   float axes[3][3][kWideSlots];  ///< [i][k]: coordinate k of axis i
   float center[3][kWideSlots];
   float half[3][kWideSlots];
-  float radius[kWideSlots];         ///< half the diagonal, rounded up
-  std::uint32_t first[kWideSlots];  ///< leaf: its first triangle; otherwise the node below
-  std::uint32_t count[kWideSlots];  ///< leaf: the number of its triangles; otherwise 0
+  float radius[kWideSlots];          ///< half the diagonal, rounded up
+  std::uint32_t below[kWideSlots];   ///< the node with the boxes below this box; 0: a leaf
+  std::uint32_t source[kWideSlots];  ///< the node of the binary tree that has the same triangles
   std::uint32_t boxes;
 };
 
@@ -28,8 +28,8 @@ struct FloatBox
 };
 
 /// Tests the boxes of a node against one box by their 15 possible separating axes (Gottschalk, Lin and Manocha,
-/// "OBBTree", 1996). Bit i of the result is 0 only if box i and `box` do not overlap, provided that `box` has been
-/// grown by the rounding errors, see FloatFrame. Thread-safe.
+/// "OBBTree", 1996). `box` must have been grown by the rounding errors, see BoxPlacement. Then bit i of the result is 0
+/// only if box i and `box` do not overlap. Thread-safe.
 using OverlapTest = unsigned (*)(const WideNode& node, const FloatBox& box);
 
 struct NamedOverlapTest

@@ -40,8 +40,8 @@ unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
     apart |= magnitude(t[0] * r[0][j] + t[1] * r[1][j] + t[2] * r[2][j]) >
              a[0] * abs_r[0][j] + a[1] * abs_r[1][j] + a[2] * abs_r[2][j] + b[j];
   // A NaN is not greater, so its boxes count as overlapping.
-  int left = ~bits(apart) & present;
-  if (left == 0)
+  int kept = ~bits(apart) & present;
+  if (kept == 0)
     return 0;
   for (int i = 0; i < 3; ++i)
   {
@@ -55,7 +55,7 @@ unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
                a[i1] * abs_r[i2][j] + a[i2] * abs_r[i1][j] + b[j1] * abs_r[i][j2] + b[j2] * abs_r[i][j1];
     }
   }
-  left &= ~bits(apart);
-  return static_cast<unsigned>(left);
+  kept &= ~bits(apart);
+  return static_cast<unsigned>(kept);
 }
 }  // namespace gpu_planning_scene::core

@@ -13,7 +13,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 // The rounding errors of both trees, of the placed box and of the overlap test are below this share of the lengths that
-// FloatFrame adds up: 64 times 2^-24. docs/error_bounds.md derives 29.
+// floatErrors adds up: 64 times 2^-24. docs/error_bounds.md derives 30.
 constexpr double kFloatErrors = 64.0 * 0.5 * std::numeric_limits<float>::epsilon();
 
 /// The least float that is not below `value`, or a little more.
@@ -22,7 +22,8 @@ float roundedUp(double value)
   return static_cast<float>(value * (1.0 + std::numeric_limits<float>::epsilon()));
 }
 
-/// The boxes of the node that has `top` and what is below it: the largest inner box is opened as long as there is room.
+/// The nodes of the binary tree whose boxes become one wide node below `top`: its two children, and then the children
+/// of the largest inner node in its place, as long as there is room.
 std::vector<std::uint32_t> boxesOf(const std::vector<CpuNode>& nodes, std::uint32_t top)
 {
   std::vector<std::uint32_t> boxes = {nodes[top].first, nodes[top].first + 1};
@@ -53,11 +54,6 @@ void setBox(const OrientedBox& box, const Vector3d& origin, unsigned slot, WideN
   node.radius[slot] = roundedUp(box.half.norm());
 }
 
-/// `growth` and the rounding errors. `distance` is that of the origins.
-float grownBy(double growth, double distance, double reaches)
-{
-  return roundedUp(growth + kFloatErrors * (2.0 * distance + 3.0 * reaches + growth));
-}
 }  // namespace
 
 WideTree::WideTree(const std::vector<CpuNode>& nodes, const Vector3d& origin) : origin_(origin)
@@ -68,7 +64,7 @@ WideTree::WideTree(const std::vector<CpuNode>& nodes, const Vector3d& origin) : 
   struct Open
   {
     std::uint32_t node;  // of the binary tree
-    WideBox box;
+    BoxIndex box;
   };
   std::vector<Open> open;
   const auto add = [&](const std::vector<std::uint32_t>& boxes)
@@ -78,8 +74,7 @@ WideTree::WideTree(const std::vector<CpuNode>& nodes, const Vector3d& origin) : 
     for (const std::uint32_t from : boxes)
     {
       setBox(nodes[from].box, origin_, node.boxes, node);
-      node.count[node.boxes] = nodes[from].count;
-      node.first[node.boxes] = nodes[from].first;
+      node.source[node.boxes] = from;
       if (!nodes[from].isLeaf())
         open.push_back({from, kWideSlots * index + node.boxes});
       ++node.boxes;
@@ -92,18 +87,18 @@ WideTree::WideTree(const std::vector<CpuNode>& nodes, const Vector3d& origin) : 
     const Open top = open.back();
     open.pop_back();
     const std::uint32_t below = add(boxesOf(nodes, top.node));
-    nodes_[top.box / kWideSlots].first[slot(top.box)] = below;
+    nodes_[top.box / kWideSlots].below[slot(top.box)] = below;
   }
 }
 
-Vector3d WideTree::center(WideBox box) const
+Vector3d WideTree::center(BoxIndex box) const
 {
   const WideNode& from = node(box);
   const unsigned i = slot(box);
   return origin_ + Vector3d(from.center[0][i], from.center[1][i], from.center[2][i]);
 }
 
-FloatFrame::FloatFrame(const WideTree& from, const Isometry3d& from_in_to, const WideTree& to, double growth)
+BoxPlacement::BoxPlacement(const WideTree& from, const Isometry3d& from_in_to, const WideTree& to, double growth)
 {
   const Vector3d translation = from_in_to * from.origin() - to.origin();
   for (int row = 0; row < 3; ++row)
@@ -112,10 +107,10 @@ FloatFrame::FloatFrame(const WideTree& from, const Isometry3d& from_in_to, const
       rotation_[row][column] = static_cast<float>(from_in_to.linear()(row, column));
     translation_[row] = static_cast<float>(translation[row]);
   }
-  growth_ = grownBy(growth, translation.norm(), from.reach() + to.reach());
+  growth_ = roundedUp(growth + floatErrors(translation.norm(), from.reach() + to.reach(), growth));
 }
 
-FloatBox FloatFrame::place(const WideTree& from, WideBox box) const
+FloatBox BoxPlacement::place(const WideTree& from, BoxIndex box) const
 {
   const WideNode& node = from.node(box);
   const unsigned slot = WideTree::slot(box);
@@ -138,15 +133,20 @@ FloatBox FloatFrame::place(const WideTree& from, WideBox box) const
 FloatBox floatBox(const OrientedBox& box, const WideTree& tree, double growth)
 {
   const Vector3d center = box.center - tree.origin();
-  const float added = grownBy(growth, center.norm(), box.half.norm() + tree.reach());
+  const float added = roundedUp(growth + floatErrors(center.norm(), box.half.norm() + tree.reach(), growth));
   FloatBox converted;
   for (int k = 0; k < 3; ++k)
   {
     for (int axis = 0; axis < 3; ++axis)
       converted.axes[axis][k] = static_cast<float>(box.axes(k, axis));
     converted.center[k] = static_cast<float>(center[k]);
-    converted.half[k] = static_cast<float>(box.half[k]) + added;
+    converted.half[k] = roundedUp(box.half[k]) + added;
   }
   return converted;
+}
+
+double floatErrors(double distance, double reaches, double growth)
+{
+  return kFloatErrors * (2.0 * distance + 3.0 * reaches + growth);
 }
 }  // namespace gpu_planning_scene::core

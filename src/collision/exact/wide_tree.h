@@ -13,42 +13,44 @@ namespace gpu_planning_scene::core
 {
 struct CpuNode;
 
-/// One of the boxes of a wide tree.
-using WideBox = std::uint32_t;
+/// The number of a box in a wide tree.
+using BoxIndex = std::uint32_t;
 
 /// A tree of oriented boxes in which a node has up to eight boxes, for a test of all of them at a time (wide bounding
-/// volume hierarchy; Dammertz, Hanika and Keller, "Shallow Bounding Volume Hierarchies", 2008). The boxes are floats
-/// relative to `origin`, so they contain their triangles only up to rounding: FloatFrame grows the boxes that they are
-/// compared with.
+/// volume hierarchy; Dammertz, Hanika and Keller, "Shallow Bounding Volume Hierarchies", 2008). The numbers of a box
+/// are floats relative to `origin`, so a box contains its triangles only up to rounding. For this, BoxPlacement grows
+/// the other box of each comparison.
 class WideTree
 {
  public:
   WideTree() = default;
-  /// Joins the nodes of a binary tree; node 0 is its root.
+  /// Collapses a binary tree; its node 0 is the root.
   WideTree(const std::vector<CpuNode>& nodes, const Eigen::Vector3d& origin);
 
   /// The box around the whole tree.
-  static constexpr WideBox kRoot = 0;
+  static constexpr BoxIndex kRoot = 0;
 
-  bool isLeaf(WideBox box) const { return node(box).count[slot(box)] != 0; }
-  std::uint32_t firstTriangle(WideBox leaf) const { return node(leaf).first[slot(leaf)]; }
-  std::uint32_t triangleCount(WideBox leaf) const { return node(leaf).count[slot(leaf)]; }
+  bool isLeaf(BoxIndex box) const { return node(box).below[slot(box)] == 0; }
+  /// The node of the binary tree that has the same triangles.
+  std::uint32_t source(BoxIndex box) const { return node(box).source[slot(box)]; }
   /// The node with the boxes directly below an inner box.
-  const WideNode& below(WideBox inner) const { return nodes_[node(inner).first[slot(inner)]]; }
+  const WideNode& below(BoxIndex inner) const { return nodes_[node(inner).below[slot(inner)]]; }
   /// Box `slot` of the node below an inner box.
-  WideBox child(WideBox inner, unsigned slot) const { return kWideSlots * node(inner).first[this->slot(inner)] + slot; }
+  BoxIndex child(BoxIndex inner, unsigned slot) const
+  {
+    return kWideSlots * node(inner).below[this->slot(inner)] + slot;
+  }
 
   /// Half the diagonal, rounded up.
-  float radius(WideBox box) const { return node(box).radius[slot(box)]; }
-  Eigen::Vector3d center(WideBox box) const;  ///< in the frame of the shape; see centerError
-  const WideNode& node(WideBox box) const { return nodes_[box / kWideSlots]; }
-  static unsigned slot(WideBox box) { return box % kWideSlots; }
+  float radius(BoxIndex box) const { return node(box).radius[slot(box)]; }
+  Eigen::Vector3d center(BoxIndex box) const;  ///< in the frame of the shape; see centerError
+  const WideNode& node(BoxIndex box) const { return nodes_[box / kWideSlots]; }
+  static unsigned slot(BoxIndex box) { return box % kWideSlots; }
 
   const Eigen::Vector3d& origin() const { return origin_; }
   /// No corner of a box is farther from the origin.
   double reach() const { return reach_; }
-  /// The centre of a box is rounded to floats, by at most this distance: half a unit in the last place of each of three
-  /// coordinates.
+  /// The centre of a box is rounded to floats, by less than this distance.
   double centerError() const { return std::numeric_limits<float>::epsilon() * reach_; }
 
  private:
@@ -57,15 +59,15 @@ class WideTree
   double reach_ = 0.0;
 };
 
-/// Places boxes of one wide tree in the frame of another tree, as floats. The boxes are grown by the rounding errors of
-/// both trees and of the overlap test (docs/error_bounds.md, "Wide trees").
-class FloatFrame
+/// Places boxes of one wide tree in the frame of another tree, as floats. The boxes are grown by `growth` and by the
+/// rounding errors of both trees and of the overlap test (docs/error_bounds.md, "Wide trees").
+class BoxPlacement
 {
  public:
-  /// Boxes of `from`, at the pose `from_in_to`, in the frame of `to`, grown by `growth` metres on all sides.
-  FloatFrame(const WideTree& from, const Eigen::Isometry3d& from_in_to, const WideTree& to, double growth);
+  /// For boxes of `from`, at the pose `from_in_to`, in the frame of `to`. `growth`: metres, on all sides.
+  BoxPlacement(const WideTree& from, const Eigen::Isometry3d& from_in_to, const WideTree& to, double growth);
 
-  FloatBox place(const WideTree& from, WideBox box) const;
+  FloatBox place(const WideTree& from, BoxIndex box) const;
 
  private:
   float rotation_[3][3];  // rows
@@ -73,6 +75,10 @@ class FloatFrame
   float growth_;
 };
 
-/// A box in the frame of `tree`'s shape, as floats relative to the tree's origin, grown as by FloatFrame.
+/// A box in the frame of `tree`'s shape, as floats relative to the tree's origin, grown as by BoxPlacement.
 FloatBox floatBox(const OrientedBox& box, const WideTree& tree, double growth);
+
+/// The rounding errors by which BoxPlacement and floatBox grow a box. `distance`: of the origins. `reaches`: the sum of
+/// both reaches.
+double floatErrors(double distance, double reaches, double growth);
 }  // namespace gpu_planning_scene::core

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/exact/cpu_shape_pair.h"
 #include "collision/exact/cpu_tree.h"
 #include "collision/geometry/cpu_box_pair.h"
 
@@ -22,7 +23,7 @@ using Eigen::Vector3d;
 constexpr std::uint64_t kSeed = 47;
 
 /// Counts in which leaf each triangle is. Expects that it is in the box of the leaf and of all boxes above.
-void countTriangles(const CpuTree& tree, WideBox box, std::vector<OrientedBox> above, std::vector<int>& counts)
+void countTriangles(const CpuTree& tree, BoxIndex box, std::vector<OrientedBox> above, std::vector<int>& counts)
 {
   const WideTree& wide = tree.wide;
   const WideNode& node = wide.node(box);
@@ -41,7 +42,8 @@ void countTriangles(const CpuTree& tree, WideBox box, std::vector<OrientedBox> a
       countTriangles(tree, wide.child(box, i), above, counts);
     return;
   }
-  for (std::uint32_t i = wide.firstTriangle(box); i < wide.firstTriangle(box) + wide.triangleCount(box); ++i)
+  const CpuNode& leaf = tree.nodes[wide.source(box)];
+  for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i)
   {
     ++counts.at(i);
     for (const OrientedBox& around : above)
@@ -71,6 +73,43 @@ TEST(WideTrees, HoldEachTriangleOnce)
     countTriangles(*tree, WideTree::kRoot, {}, counts);
     EXPECT_EQ(counts, std::vector<int>(counts.size(), 1));
   }
+}
+
+/// A square plate of triangles with sides of 5 mm.
+std::shared_ptr<Mesh> plate(unsigned cells)
+{
+  auto mesh = std::make_shared<Mesh>();
+  for (unsigned i = 0; i <= cells; ++i)
+    for (unsigned j = 0; j <= cells; ++j)
+      mesh->vertices.emplace_back(0.005 * i, 0.005 * j, 0.0);
+  for (unsigned i = 0; i < cells; ++i)
+    for (unsigned j = 0; j < cells; ++j)
+    {
+      const unsigned corner = i * (cells + 1) + j;
+      mesh->triangles.push_back({corner, corner + 1, corner + cells + 1});
+      mesh->triangles.push_back({corner + 1, corner + cells + 1, corner + cells + 2});
+    }
+  return mesh;
+}
+
+/// The float errors grow with the reach of a mesh. Without tests in double, all triangles near the other plate would be
+/// tested.
+TEST(WideTrees, OfAMeshWithAStrayTriangleFarAwayCostLittle)
+{
+  const auto mesh = plate(100);
+  const auto first = static_cast<unsigned>(mesh->vertices.size());
+  for (const Vector3d& corner : {Vector3d(100.0, 0.0, 0.0), Vector3d(100.0, 1.0, 0.0), Vector3d(100.0, 0.0, 1.0)})
+    mesh->vertices.push_back(corner);
+  mesh->triangles.push_back({first, first + 1, first + 2});
+  CollisionProblem problem;
+  problem.shapes = {Shape(std::shared_ptr<const Mesh>(mesh)), Shape(std::shared_ptr<const Mesh>(plate(40)))};
+  for (const Shape& shape : problem.shapes)
+    problem.tessellations.push_back(tessellate(shape));
+  const CpuShapePair pair(std::make_shared<const CpuForest>(problem));
+  CpuShapePair::Scratch scratch;
+  const Isometry3d above(Translation3d(0.1, 0.1, 0.0003));
+  EXPECT_FALSE(pair.collide(0, Isometry3d::Identity(), 1, above, 0.0, scratch));
+  EXPECT_LT(scratch.steps, 200u);
 }
 
 class WideOverlap : public testing::TestWithParam<NamedOverlapTest>
@@ -155,18 +194,21 @@ class WideOverlap : public testing::TestWithParam<NamedOverlapTest>
            box.axes * box.half.cwiseProduct(along.unaryExpr([](double x) { return x < 0.0 ? -1.0 : 1.0; }));
   }
 
-  /// Whether the test under test keeps the pair.
-  static bool overlap(const OrientedBox& a, const OrientedBox& b, const Isometry3d& b_in_a)
+  /// Whether the test keeps the pair if b is grown by `growth`, as a box of another tree and as the box of a primitive.
+  static bool keeps(const Pair& pair, double growth)
   {
-    const WideTree tree_a({leaf(a)}, a.center);
-    const WideTree tree_b({leaf(b)}, Vector3d::Zero());
-    const FloatFrame frame(tree_b, b_in_a, tree_a, 0.0);
-    return GetParam().test(tree_a.node(WideTree::kRoot), frame.place(tree_b, WideTree::kRoot)) != 0;
+    const WideTree tree_a({leaf(pair.a)}, pair.a.center);
+    const WideTree tree_b({leaf(pair.b)}, Vector3d::Zero());
+    const WideNode& node = tree_a.node(WideTree::kRoot);
+    const BoxPlacement placement(tree_b, pair.b_in_a, tree_a, growth);
+    return GetParam().test(node, placement.place(tree_b, WideTree::kRoot)) != 0 &&
+           GetParam().test(node, floatBox(placed(pair.b, pair.b_in_a), tree_a, growth)) != 0;
   }
 
-  static double lengthsOf(const OrientedBox& a, const OrientedBox& b, const Isometry3d& b_in_a)
+  static double lengthsOf(const Pair& pair)
   {
-    return (b_in_a.translation() - a.center).norm() + a.half.norm() + b.half.norm() + b.center.norm();
+    return (pair.b_in_a.translation() - pair.a.center).norm() + pair.a.half.norm() + pair.b.half.norm() +
+           pair.b.center.norm();
   }
 
   std::mt19937_64 generator_{kSeed};
@@ -182,14 +224,16 @@ class WideOverlap : public testing::TestWithParam<NamedOverlapTest>
   }
 };
 
-TEST_P(WideOverlap, KeepsBoxesThatTouch)
+TEST_P(WideOverlap, KeepsBoxesAtTheRequiredDistance)
 {
   for (int i = 0; i < 100000; ++i)
   {
-    auto [a, b, b_in_a] = pair();
-    const Vector3d normal = contactNormal(a, b_in_a.linear() * b.axes);
-    b_in_a.translation() = support(a, normal) - b_in_a.linear() * support(b, b_in_a.linear().transpose() * -normal);
-    ASSERT_TRUE(overlap(a, b, b_in_a)) << "pair " << i << ", seed " << kSeed;
+    Pair pair = this->pair();
+    const double required = i % 2 == 0 ? 0.0 : size(1e-3, 10.0);
+    const Vector3d normal = contactNormal(pair.a, pair.b_in_a.linear() * pair.b.axes);
+    pair.b_in_a.translation() = support(pair.a, normal) + required * normal -
+                                pair.b_in_a.linear() * support(pair.b, pair.b_in_a.linear().transpose() * -normal);
+    ASSERT_TRUE(keeps(pair, required)) << "pair " << i << ", seed " << kSeed;
   }
 }
 
@@ -198,13 +242,13 @@ TEST_P(WideOverlap, SeparatesBoxesThatAreApartByMoreThanTheRoundingErrors)
   std::size_t separated = 0;
   for (int i = 0; i < 100000; ++i)
   {
-    auto [a, b, b_in_a] = pair();
-    b_in_a.translation() = a.center + size(1e-3, 10.0) * direction();
-    // Grown by 1e-4 of the lengths, ten times the largest margin of the test, the boxes must still be apart.
-    if (core::overlap(a, placed(b, b_in_a), 1e-4 * lengthsOf(a, b, b_in_a)))
+    Pair pair = this->pair();
+    pair.b_in_a.translation() = pair.a.center + size(1e-3, 10.0) * direction();
+    // Grown by 1e-4 of the lengths, several times the errors that the test allows for, the boxes must still be apart.
+    if (overlap(pair.a, placed(pair.b, pair.b_in_a), 1e-4 * lengthsOf(pair)))
       continue;
     ++separated;
-    ASSERT_FALSE(overlap(a, b, b_in_a)) << "pair " << i << ", seed " << kSeed;
+    ASSERT_FALSE(keeps(pair, 0.0)) << "pair " << i << ", seed " << kSeed;
   }
   EXPECT_GT(separated, 10000u);
 }
