@@ -107,6 +107,8 @@ def call(arguments):
         if not response.success:
             print(f"demo_client: {response.message}", file=sys.stderr)
             return 1
+    if response.message:  # a warning, which is the same for each of the calls
+        print(f"demo_client: {response.message}", file=sys.stderr)
     seconds, response = sorted(calls, key=lambda call: call[0])[len(calls) // 2]
     where = f"within {arguments.spread} of the scene's state" if around else "within the joints' limits"
     print(f"states: {len(states)}, random {where}, seed {arguments.seed}")

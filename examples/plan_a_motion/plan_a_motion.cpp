@@ -1,6 +1,6 @@
 // plan_a_motion URDF SRDF GROUP START GOAL [SCENE]: plans a path of a planning group between two states, and prints it.
 // START and GOAL: one value per variable of the group, "0,0.5,-1", or the name of a state of the SRDF, "ready".
-// SCENE: a scene file with the objects around the robot.
+// SCENE: a scene file with the objects around the robot. Meshes of package://NAME/... are found on ROS_PACKAGE_PATH.
 #include <iostream>
 #include <sstream>
 
@@ -45,8 +45,8 @@ try
 {
   if (argc != 6 && argc != 7)
     throw Error("usage: plan_a_motion URDF SRDF GROUP START GOAL [SCENE]");
-  ompl::msg::setLogLevel(ompl::msg::LOG_WARN);           // its information would stand between the waypoints
-  const PackageResolver packages = packageResolver({});  // finds packages on ROS_PACKAGE_PATH
+  ompl::msg::setLogLevel(ompl::msg::LOG_WARN);               // its information would stand between the waypoints
+  const PackageResolver packages = packageResolver({}, "");  // finds packages on ROS_PACKAGE_PATH
   RobotModelOptions options;
   options.packages = packages;
   const auto robot = RobotModel::fromFiles(argv[1], argv[2], options);

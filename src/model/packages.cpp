@@ -127,14 +127,20 @@ PackageResolver packageResolver(std::map<std::string, std::string> folders, std:
   {
     const auto given = folders.find(package);
     if (given != folders.end())
+    {
+      if (std::error_code error; !fs::is_directory(given->second, error))
+        throw Error("the folder '" + given->second + "' does not exist; check the folder given for package '" +
+                    package + "'");
       return given->second;
+    }
     std::string folder = path->find(package);
     if (!folder.empty())
       return folder;
     std::string how = remedy;
     if (const std::size_t name = how.find("NAME"); name != std::string::npos)
       how.replace(name, 4, package);
-    throw Error("the folder of package '" + package + "' is not known; put the package on ROS_PACKAGE_PATH, or " + how);
+    throw Error("the folder of package '" + package + "' is not known; put the package on ROS_PACKAGE_PATH" +
+                (how.empty() ? "" : ", or " + how));
   };
 }
 }  // namespace gpu_planning_scene::core

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <optional>
+#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -47,6 +49,17 @@ std::shared_ptr<const AllowedCollisionMatrix> requestedMatrix(const AllowedColli
   return matrix;
 }
 
+/// The value of a field of the request: the largest step between two samples.
+double requestedStep(const char* field, double value, const char* unit)
+{
+  if (std::isfinite(value) && value > 0.0)
+    return value;
+  std::ostringstream text;
+  text << field << " is " << value << "; give the largest step between two samples: a finite number of " << unit
+       << " above 0, for example 0.02";
+  throw Error(text.str());
+}
+
 /// The options for a request's motions, and the number of samples of all motions. Throws Error for more samples than
 /// `limits` allows. `starts`, `ends`: one full state per motion.
 std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions::Request& request,
@@ -59,8 +72,8 @@ std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const CheckMotions
   MotionCheckerOptions options;
   options.max_checks = limits.max_motion_checks;
   options.rule = request.motion_rule.empty() ? default_rule : motionRuleFromName(request.motion_rule);
-  options.steps = {request.resolution, request.translation_resolution};
-  validateSteps(options.steps);
+  options.steps = {requestedStep("resolution", request.resolution, "radians"),
+                   requestedStep("translation_resolution", request.translation_resolution, "metres")};
   if (options.rule == MotionRule::Samples)
     options.max_samples = max_samples;
   const std::size_t width = robot.variables().size();
@@ -211,6 +224,10 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         if (!request.named_state.empty())
           rows = requestedNamedState(robot, {"named_state", request.named_state},
                                      request.joint_names.empty() && request.positions.empty());
+        else if (rows.names.empty() && rows.values.empty())
+          throw Error(
+              "joint_names is empty; name at least one variable. To check the current state, "
+              "give one variable its current value: all others keep theirs");
         job.columns = requestedColumns(
             robot, {"joint_names", rows.names}, {"positions", rows.values},
             [this](std::size_t count) { server_.requireStateCount(count); });

@@ -158,7 +158,7 @@ PlanMotion::Response PlanService::plan(const PlanMotion::Request& request)
 PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
 {
   const PlannerConfig config = configs_.find(request.planner, request.group);
-  const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type);
+  const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type, configs_.names());
   const Snapshot now = store_.snapshot();
   PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
   return {now.scene, std::move(query), factory, config.type,

@@ -160,6 +160,14 @@ PlannerConfig PlannerConfigs::find(const std::string& name, const std::string& g
   return config->second;
 }
 
+std::vector<std::string> PlannerConfigs::names() const
+{
+  std::vector<std::string> names;
+  for (const auto& [name, config] : configs_)
+    names.push_back(name);
+  return names;
+}
+
 const GroupPlanners& PlannerConfigs::ofGroup(const std::string& group) const
 {
   static const GroupPlanners none;

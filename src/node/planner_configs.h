@@ -38,6 +38,9 @@ class PlannerConfigs
   /// configuration that the group may not use.
   PlannerConfig find(const std::string& name, const std::string& group) const;
 
+  /// The names of all configurations.
+  std::vector<std::string> names() const;
+
   const GroupPlanners& ofGroup(const std::string& group) const;
 
  private:

@@ -6,6 +6,7 @@
 #include <pluginlib/class_loader.hpp>
 
 #include "gpu_planning_scene/error.h"
+#include "node/unknown_planner.h"
 
 namespace gpu_planning_scene::core
 {
@@ -36,7 +37,8 @@ void PlannerPlugins::prepareEnvironment()
 
 PlannerPlugins::~PlannerPlugins() = default;
 
-std::shared_ptr<const PlannerFactory> PlannerPlugins::find(const std::string& name)
+std::shared_ptr<const PlannerFactory> PlannerPlugins::find(const std::string& name,
+                                                           const std::vector<std::string>& configs)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   const auto known = impl_->loaded.find(name);
@@ -46,12 +48,7 @@ std::shared_ptr<const PlannerFactory> PlannerPlugins::find(const std::string& na
   {
     Impl::Loader& loader = impl_->theLoader();
     if (!loader.isClassAvailable(name))
-    {
-      std::string all;
-      for (const std::string& one : loader.getDeclaredClasses())
-        all += (all.empty() ? "" : ", ") + one;
-      throw Error("planner '" + name + "' is neither in planners.yaml nor a plugin; plugins: " + all);
-    }
+      throw Error(unknownPlannerText(name, configs, loader.getDeclaredClasses()));
     const boost::shared_ptr<PlannerFactory> made = loader.createInstance(name);
     const std::shared_ptr<const PlannerFactory> factory(made.get(), [made](const PlannerFactory*) {});
     return impl_->loaded.emplace(name, factory).first->second;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "gpu_planning_scene/planning/planner_factory.h"
 
@@ -20,9 +21,10 @@ class PlannerPlugins
   /// the index of ROS 2, and throws if that variable is not set. Call this before the start of other threads.
   static void prepareEnvironment();
 
-  /// The plugin of that name. Each plugin is loaded once. Throws Error, which lists the known names, for an unknown
-  /// name. Throws std::runtime_error if the plugin cannot be loaded.
-  std::shared_ptr<const PlannerFactory> find(const std::string& name);
+  /// The plugin of that name. Each plugin is loaded once. Throws Error for an unknown name: the message suggests a
+  /// similar name and lists the plugins and `configs`, the names of the configurations in ~planners. Throws
+  /// std::runtime_error if the plugin cannot be loaded.
+  std::shared_ptr<const PlannerFactory> find(const std::string& name, const std::vector<std::string>& configs);
 
  private:
   struct Impl;

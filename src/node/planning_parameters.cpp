@@ -5,6 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "node/parameter_values.h"
+#include "scene/missing_link.h"
 
 namespace gpu_planning_scene::core
 {
@@ -29,7 +30,7 @@ void setOfLinks(const ros::NodeHandle& node, const std::string& name, const Robo
     if (link >= 0)
       values[static_cast<std::size_t>(link)] = value;
     else if (warnings != nullptr)
-      warnings->push_back("parameter " + node.resolveName(name) + ": the robot has no link '" + entry.first + "'");
+      warnings->push_back("parameter " + node.resolveName(name) + ": the robot " + noLinkText(robot, entry.first));
   }
 }
 

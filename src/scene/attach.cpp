@@ -3,6 +3,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning_scene.h"
 #include "scene/frame.h"
+#include "scene/missing_link.h"
 #include "scene/validate_scene.h"
 
 // Attaching objects to links, and detaching them.
@@ -15,7 +16,7 @@ int requireLink(const RobotModel& robot, const std::string& name, const std::str
 {
   const int link = robot.linkIndex(name);
   if (link < 0)
-    throw Error(where + ": robot '" + robot.name() + "' has no link '" + name + "'");
+    throw Error(where + ": robot '" + robot.name() + "' " + noLinkText(robot, name));
   return link;
 }
 }  // namespace

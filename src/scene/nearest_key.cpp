@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 namespace gpu_planning_scene::core
 {
@@ -33,20 +32,30 @@ std::size_t typingErrors(const std::string& a, const std::string& b)
 }
 }  // namespace
 
-std::string nearestKey(const std::string& word, std::initializer_list<const char*> known)
+std::string nearestKey(const std::string& word, const std::vector<std::string>& known)
 {
   constexpr std::size_t kLettersPerError = 3;
-  constexpr std::size_t kLongest = 64;  // no key is longer; a file may hold words of any length
+  constexpr std::size_t kLongest = 64;  // a file or request may hold words of any length
   if (word.size() > kLongest)
     return "";
   std::string nearest;
   std::size_t least = word.size() / kLettersPerError + 1;
-  for (const char* key : known)
+  for (const std::string& key : known)
+  {
+    if (key.size() >= word.size() + least)
+      continue;  // each further letter is an error
     if (const std::size_t errors = typingErrors(word, key); errors < least)
     {
       nearest = key;
       least = errors;
     }
+  }
   return nearest;
+}
+
+std::string didYouMean(const std::string& word, const std::vector<std::string>& known)
+{
+  const std::string nearest = nearestKey(word, known);
+  return nearest.empty() ? "" : "; did you mean '" + nearest + "'?";
 }
 }  // namespace gpu_planning_scene::core

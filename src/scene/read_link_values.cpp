@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "scene/missing_link.h"
 #include "scene/scene_reader.h"
 
 // Padding and scale of links, and colours of bodies.
@@ -31,7 +32,7 @@ std::vector<double> readLinkValues(const YamlValue& scene, const SceneReader& re
     const int link = reader.robot.linkIndex(name.text());
     if (link < 0)
     {
-      reader.warn(name.where() + ": " + member + " ignored: the robot has no link '" + name.text() + "'");
+      reader.warn(name.where() + ": " + member + " ignored: the robot " + noLinkText(reader.robot, name.text()));
       continue;
     }
     if (given[static_cast<std::size_t>(link)])

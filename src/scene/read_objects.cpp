@@ -2,6 +2,7 @@
 #include <cctype>
 #include <set>
 
+#include "scene/missing_link.h"
 #include "scene/scene_reader.h"
 #include "scene/validate_scene.h"
 
@@ -61,9 +62,10 @@ std::map<std::string, Eigen::Isometry3d> readSubframes(const YamlValue& object)
 /// Reads an object. Its pose is in the frame that its header names.
 WorldObject readObject(const YamlValue& value, SceneReader& reader)
 {
-  value.warnOfUnknownKeys({"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes", "mesh_poses",
-                           "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"},
-                          reader.warnings);
+  const std::initializer_list<const char*> keys = {
+      "header",     "pose",   "id",          "type",           "primitives",     "primitive_poses", "meshes",
+      "mesh_poses", "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"};
+  value.warnOfUnknownKeys(keys, reader.warnings);
   requireAdd(value);
   WorldObject object;
   object.id = value.at("id").text();
@@ -71,7 +73,8 @@ WorldObject readObject(const YamlValue& value, SceneReader& reader)
     value.fail("the object has no id");
   object.shapes = readShapes(value, reader);
   if (object.shapes.empty())
-    value.fail("object '" + object.id + "' has no shapes");
+    value.fail("object '" + object.id + "' has no shapes; give it primitives, meshes or planes" +
+               value.unknownKeyText(keys));
   const YamlValue* pose = value.find("pose");
   if (pose && !isUnsetPose(*pose))
     object.pose = readPose(*pose);
@@ -87,7 +90,7 @@ int readLink(const YamlValue& value, const SceneReader& reader)
 {
   const int link = reader.robot.linkIndex(value.text());
   if (link < 0)
-    value.fail("the robot has no link '" + value.text() + "'");
+    value.fail("the robot " + noLinkText(reader.robot, value.text()));
   return link;
 }
 

@@ -6,6 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/frame.h"
 #include "scene/matrix_entries.h"
+#include "scene/missing_link.h"
 #include "scene/rigid_pose.h"
 #include "scene/shape_order.h"
 
@@ -78,7 +79,7 @@ int SceneChanger::requireLink(const std::string& name, const std::string& where)
   const RobotModel& robot = *result_.scene.robot;
   const int link = robot.linkIndex(name);
   if (link < 0)
-    throw Error(where + ": robot '" + robot.name() + "' has no link '" + name + "'");
+    throw Error(where + ": robot '" + robot.name() + "' " + noLinkText(robot, name));
   return link;
 }
 

@@ -192,7 +192,13 @@ const YamlValue& YamlValue::at(const std::string& key) const
 {
   const YamlValue* member = find(key);
   if (!member)
-    fail("'" + key + "' is missing");
+  {
+    std::string meant;
+    for (const auto& [other, value] : members())
+      if (other != key && meant.empty() && !nearestKey(other, {key}).empty())
+        meant = "; did you mean '" + key + "' with '" + other + "'?";
+    fail("'" + key + "' is missing" + meant);
+  }
   return *member;
 }
 
@@ -259,10 +265,15 @@ void YamlValue::warnOfUnknownKeys(std::initializer_list<const char*> known, std:
 {
   for (const auto& member : members())
     if (warnings && std::find(known.begin(), known.end(), member.first) == known.end())
-    {
-      const std::string nearest = nearestKey(member.first, known);
       warnings->push_back(*file_ + ":" + std::to_string(member.second.key_line_) + ": unknown key '" + member.first +
-                          "' is not used" + (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
-    }
+                          "' is not used" + didYouMean(member.first, {known.begin(), known.end()}));
+}
+
+std::string YamlValue::unknownKeyText(std::initializer_list<const char*> known) const
+{
+  for (const auto& member : members())
+    if (std::find(known.begin(), known.end(), member.first) == known.end())
+      return "; unknown key '" + member.first + "'" + didYouMean(member.first, {known.begin(), known.end()});
+  return "";
 }
 }  // namespace gpu_planning_scene::core

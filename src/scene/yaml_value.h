@@ -31,7 +31,7 @@ class YamlValue
 
   /// A map's member; null if it is missing or empty. Fails if this is not a map.
   const YamlValue* find(const std::string& key) const;
-  /// A map's member; fails if it is missing or empty.
+  /// A map's member; fails if it is missing or empty. The message suggests the key for a member with a similar one.
   const YamlValue& at(const std::string& key) const;
   /// Fails if this is not a map.
   const std::vector<std::pair<std::string, YamlValue>>& members() const;
@@ -48,6 +48,9 @@ class YamlValue
   /// Adds a line to `warnings` (may be null) for each member whose key is not in `known`. The line has the place of the
   /// key, and the known key that is similar, if there is one.
   void warnOfUnknownKeys(std::initializer_list<const char*> known, std::vector<std::string>* warnings) const;
+  /// The end of an error message: "; unknown key 'KEY'" with the first member whose key is not in `known`, and the
+  /// known key that is similar, if there is one. Empty if all keys are known.
+  std::string unknownKeyText(std::initializer_list<const char*> known) const;
 
  private:
   friend class YamlTreeBuilder;

@@ -40,7 +40,9 @@ std::string readFile(const std::string& path)
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-void printSummary(const GeneratedMatrix& matrix, const SamplingOptions& sampling)
+/// `groups`: the names of the planning groups in the SRDF.
+void printSummary(const GeneratedMatrix& matrix, const SamplingOptions& sampling,
+                  const std::vector<std::string>& groups)
 {
   std::cerr << counted(sampling.samples, "random state") << ", seed " << sampling.seed << "\ndisabled pairs of links:";
   for (const DisabledReason reason :
@@ -49,7 +51,10 @@ void printSummary(const GeneratedMatrix& matrix, const SamplingOptions& sampling
               << std::count_if(matrix.disabled.begin(), matrix.disabled.end(),
                                [&](const DisabledPair& pair) { return pair.reason == reason; })
               << " " << nameOf(reason);
-  std::cerr << "\npairs that remain to be checked: " << matrix.remaining_pairs << "\n";
+  std::cerr << "\npairs that remain to be checked: " << matrix.remaining_pairs << "\nplanning groups: ";
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    std::cerr << (i == 0 ? "" : ", ") << groups[i];
+  std::cerr << (groups.empty() ? "none\n" : "\n");
 }
 
 void run(const CommandLine& arguments)
@@ -87,7 +92,7 @@ void run(const CommandLine& arguments)
   {
     std::cout << srdf;
   }
-  printSummary(matrix, sampling);
+  printSummary(matrix, sampling, groupNamesOf(srdf));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -75,6 +75,19 @@ std::string robotNameOf(const std::string& srdf)
   return name ? name : "";
 }
 
+std::vector<std::string> groupNamesOf(const std::string& srdf)
+{
+  tinyxml2::XMLDocument document;
+  document.Parse(srdf.c_str());
+  std::vector<std::string> names;
+  const tinyxml2::XMLElement* const root = document.RootElement();
+  for (const auto* group = root == nullptr ? nullptr : root->FirstChildElement("group"); group != nullptr;
+       group = group->NextSiblingElement("group"))
+    if (const char* const name = group->Attribute("name"); name != nullptr)
+      names.emplace_back(name);
+  return names;
+}
+
 std::string srdfWith(const GeneratedMatrix& matrix, const RobotModel& robot, const SamplingOptions& options,
                      const std::string& srdf)
 {

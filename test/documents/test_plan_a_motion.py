@@ -2,6 +2,7 @@
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 
@@ -38,6 +39,22 @@ class PlanAMotion(unittest.TestCase):
         self.assertEqual(
             answer.stderr, "plan_a_motion: '-1' has 1 values; the group has the variables slide,turn\n"
         )
+
+    def test_plans_between_the_states_of_the_demos_arm(self):
+        arm = f"{SOURCE}/config/demo/arm"
+        answer = self.plan(f"{arm}.urdf", f"{arm}.srdf", "arm", "ready", "extended", f"{arm}_scene.yaml")
+        rows = self.rows(answer)
+        self.assertEqual((rows[0][0], rows[-1][0]), (0.0, -0.6))
+
+    def test_a_missing_package_is_named_with_what_the_user_can_do(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".urdf") as urdf:
+            urdf.write('<robot name="slider"><link name="rail"><collision><geometry>'
+                       '<mesh filename="package://crane/rail.stl"/></geometry></collision></link></robot>')
+            urdf.flush()
+            answer = self.plan(urdf.name, f"{SOURCE}/test/scene/slider.srdf", "drive", "left", "right")
+        self.assertEqual(answer.returncode, 1)
+        self.assertTrue(answer.stderr.endswith(
+            "the folder of package 'crane' is not known; put the package on ROS_PACKAGE_PATH\n"), answer.stderr)
 
     def test_plans_for_the_seven_joints_of_panda(self):
         resources = pathlib.Path(SHARED) / "moveit" / "resources"

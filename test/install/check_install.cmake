@@ -61,11 +61,14 @@ endforeach()
 
 # The example finds a path from its start to its goal.
 run("find_package does not find it for the example" ${CMAKE_COMMAND} -S ${EXAMPLE} -B ${folder}/example -G ${GENERATOR}
-  -DCMAKE_PREFIX_PATH=${prefix} ${build_options} "-DCMAKE_CXX_FLAGS=-Wall -Wextra")
+  -DCMAKE_PREFIX_PATH=${prefix} ${build_options} "-DCMAKE_CXX_FLAGS=-Wall -Wextra"
+  -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
 require_no_warning("finding the package" "${output}")
 run("the example does not build" ${CMAKE_COMMAND} --build ${folder}/example)
 require_no_warning("building the example" "${output}")
-run("the example finds no path" ${folder}/example/plan_a_motion ${ROBOT}.urdf ${ROBOT}.srdf drive left right)
+# rosrun looks for programs in this folder.
+set(program ${folder}/example/devel/lib/plan_a_motion/plan_a_motion)
+run("the example finds no path" ${program} ${ROBOT}.urdf ${ROBOT}.srdf drive left right)
 if(NOT output MATCHES "-1 0\\.8[^\n]*\n(.*\n)+1 0\\.8")
   fail("the example's path is another one:\n${output}")
 endif()

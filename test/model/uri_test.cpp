@@ -12,7 +12,7 @@ namespace
 {
 /// The tests of URIs need no packages of this machine, and searching for them takes long.
 const bool kNoPackages = setenv("ROS_PACKAGE_PATH", "/none", 1) == 0;
-const PackageResolver kPackages = packageResolver({{"arm", "/opt/arm"}});
+const PackageResolver kPackages = packageResolver({{"arm", "/opt"}});
 
 std::string resolved(const std::string& uri)
 {
@@ -26,16 +26,16 @@ std::string errorFor(const std::string& uri)
 
 TEST(Uri, PackagePathsLieInThePackagesFolder)
 {
-  EXPECT_EQ(resolved("package://arm/meshes/link 1.stl"), "/opt/arm/meshes/link 1.stl");
-  EXPECT_EQ(resolved("package://arm/./meshes//a/../link.stl"), "/opt/arm/meshes/link.stl");
+  EXPECT_EQ(resolved("package://arm/meshes/link 1.stl"), "/opt/meshes/link 1.stl");
+  EXPECT_EQ(resolved("package://arm/./meshes//a/../link.stl"), "/opt/meshes/link.stl");
 }
 
 TEST(Uri, PercentEscapesAreDecodedInUris)
 {
-  EXPECT_EQ(resolved("package://arm/KR5%20sixx%2fR650.stl"), "/opt/arm/KR5 sixx/R650.stl");
+  EXPECT_EQ(resolved("package://arm/KR5%20sixx%2fR650.stl"), "/opt/KR5 sixx/R650.stl");
   EXPECT_EQ(resolved("file:///a%20b.stl"), "/a b.stl");
-  EXPECT_EQ(resolved("package://arm/100%.stl"), "/opt/arm/100%.stl");
-  EXPECT_EQ(resolved("package://arm/50%zz"), "/opt/arm/50%zz");
+  EXPECT_EQ(resolved("package://arm/100%.stl"), "/opt/100%.stl");
+  EXPECT_EQ(resolved("package://arm/50%zz"), "/opt/50%zz");
 }
 
 TEST(Uri, PlainPathsAreTakenAsTheyAre)
@@ -76,6 +76,14 @@ TEST(Uri, TheRemedyIsThatOfTheProgram)
             "ROS_PACKAGE_PATH, or name its folder (packages:={leg: DIR})");
 }
 
+TEST(Uri, AGivenFolderThatDoesNotExistIsNamedWithItsPackage)
+{
+  const PackageResolver packages = packageResolver({{"leg", "/no/leg"}});
+  EXPECT_EQ(errorOf([&] { resolveUri("package://leg/a.stl", "", packages); }),
+            "mesh URI 'package://leg/a.stl': the folder '/no/leg' does not exist; check the folder given for package "
+            "'leg'");
+}
+
 /// Sets ROS_PACKAGE_PATH while it lives.
 class RosPackagePath
 {
@@ -106,9 +114,9 @@ TEST(PackageResolver, FindsPackagesAsRosDoes)
   std::filesystem::create_directory_symlink(folder.path("first"), folder.path("first/circle"));
 
   const RosPackagePath path(folder.path("none") + "::" + folder.path("first") + ":" + folder.path("second"));
-  const PackageResolver packages = packageResolver({{"given", "/given"}, {"hand", "/mine"}});
-  EXPECT_EQ("/given", packages("given"));
-  EXPECT_EQ("/mine", packages("hand")) << "given folders come first";
+  const PackageResolver packages = packageResolver({{"given", "/opt"}, {"hand", "/usr"}});
+  EXPECT_EQ("/opt", packages("given"));
+  EXPECT_EQ("/usr", packages("hand")) << "given folders come first";
   EXPECT_EQ(folder.path("first/other_name"), packages("leg"));
   EXPECT_EQ(folder.path("first/repository/arm"), packages("arm"));
   EXPECT_EQ(folder.path("second/hand"), packageResolver({})("hand"));

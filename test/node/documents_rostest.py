@@ -22,8 +22,9 @@ def examples(document):
 
 class DocumentExamples(unittest.TestCase):
     def test_each_call_from_a_shell_succeeds(self):
-        for document, least in (("README.md", 1), (os.path.join("docs", "node.md"), 8),
-                                (os.path.join("docs", "planning.md"), 1)):
+        # The calls of docs/node.md set the current state. The others must work on a fresh node.
+        for document, least in (("README.md", 1), (os.path.join("docs", "planning.md"), 1),
+                                (os.path.join("docs", "node.md"), 8)):
             lines = [line for block in examples(document) for line in block.split("\n")]
             calls = [line for line in lines if line.startswith("rosservice call")]
             self.assertGreaterEqual(len(calls), least, document)

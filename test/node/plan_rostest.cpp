@@ -278,7 +278,8 @@ TEST_F(Planning, RefusesInvalidRequests)
   expectStatus(wanted, Response::BAD_REQUEST, "crane");
   wanted = request();
   wanted.planner = "geometric::Best";
-  expectStatus(wanted, Response::BAD_REQUEST, "planner 'geometric::Best' is neither in planners.yaml nor a plugin");
+  expectStatus(wanted, Response::BAD_REQUEST,
+               "planner 'geometric::Best' is neither in the planner_configs of ~planners nor a plugin");
   wanted = request();
   wanted.group = "mast";
   wanted.goal_names = {"turn"};

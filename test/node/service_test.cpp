@@ -259,7 +259,9 @@ TEST_F(Service, NoStatesGetNoAnswers)
 
 TEST_F(Service, WrongRequestsAreRefusedWithTheReason)
 {
-  expectRefusal(request({}, {}), "joint_names is empty");
+  expectRefusal(request({}, {}),
+                "joint_names is empty; name at least one variable. To check the current state, give "
+                "one variable its current value: all others keep theirs");
   expectRefusal(request({}, {1.0}), "joint_names is empty");
   expectRefusal(request({"turn", "slide"}, {0.0, 0.0, 0.0}), "3 positions are not rows of 2");
   expectRefusal(request({"turn", "slid"}, {0.0, 0.0}), "no variable 'slid'");
@@ -430,6 +432,37 @@ TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)
   asked.translation_resolution = 1e-9;
   const std::string message = services.checkMotions(asked).message;
   EXPECT_NE(std::string::npos, message.find("more than 1000 samples")) << message;
+}
+
+TEST_F(Service, AMissingStepOfMotionsIsNamedAsInTheRequest)
+{
+  CheckMotions::Request asked;
+  asked.joint_names = {"slide", "turn"};
+  asked.starts = {0.0, 0.0};
+  asked.ends = {0.5, 0.0};
+  asked.translation_resolution = 0.1;
+  EXPECT_EQ(
+      "resolution is 0; give the largest step between two samples: a finite number of radians above 0, for "
+      "example 0.02",
+      services.checkMotions(asked).message);
+  asked.resolution = 0.1;
+  asked.translation_resolution = -1.0;
+  EXPECT_EQ(0u, services.checkMotions(asked).message.find("translation_resolution is -1; "));
+}
+
+TEST_F(Service, ANamedStateOfFixedJointsIsRefused)
+{
+  std::string srdf = sliderSrdf();
+  srdf.insert(srdf.find("</robot>"),
+              "<group name=\"bolts\"><joint name=\"bolt\"/></group>"
+              "<group_state name=\"tight\" group=\"bolts\"><joint name=\"bolt\" "
+              "value=\"0\"/></group_state>");
+  const auto robot = RobotModel::fromXml(sliderUrdf(), srdf, {});
+  const std::string error = errorOf([&] { requestedNamedState(*robot, {"named_state", "tight"}, true); });
+  EXPECT_EQ(
+      "named_state is 'tight', which sets no variable: in the SRDF, this state has only joints that are fixed or "
+      "follow other joints; name another state",
+      error);
 }
 
 TEST_F(Service, MotionsThatNeedTooManyChecksAreNotFreeAndMarked)

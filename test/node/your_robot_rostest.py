@@ -33,9 +33,9 @@ class YourRobot(unittest.TestCase):
             for block in examples(os.path.join("docs", "your_robot.md"))
             if block
         ]
-        self.assertEqual(9, len(blocks))
-        (self.variables, self.generate, scene, self.launch, self.report, self.client, self.plan, self.picture) = blocks[:8]
-        self.check_many = blocks[8]
+        self.assertEqual(11, len(blocks))
+        self.variables, self.generate, scene, self.launch, self.report, self.set_state, self.collides_now = blocks[:7]
+        self.client, self.plan, self.picture, self.check_many = blocks[7:]
         with open(os.path.join(self.folder.name, "my_scene.yaml"), "w", encoding="utf-8") as file:
             file.write(scene)
 
@@ -47,12 +47,16 @@ class YourRobot(unittest.TestCase):
         return answer.stdout + answer.stderr
 
     def test_each_step_of_the_page_works(self):
-        self.run_block(self.generate)
+        self.assertIn("planning groups: palm\n", self.run_block(self.generate))
         with subprocess.Popen(["bash", "-c", self.variables + "\nexec " + self.launch + " device:=cpu"]) as node:
             try:
                 rospy.wait_for_service("/planning_scene/check_states", 60)
                 report = self.run_block(self.report)
                 self.assertRegex(report, r"scene: \d+ objects")
+                self.run_block(self.set_state)
+                answer = self.run_block(self.collides_now)
+                self.assertRegex(answer, r'body_1:\s+- "?(wrist|palm)')
+                self.assertIn("depth:", answer)
                 answer = subprocess.run([sys.executable, "-c", self.client], capture_output=True, text=True, timeout=60,
                                         check=False)
                 self.assertEqual(0, answer.returncode, answer.stderr)

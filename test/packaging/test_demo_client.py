@@ -1,7 +1,10 @@
 """The demo's client: the variables that it reads from a URDF, its random states, and its summary of answers."""
 import collections
+import contextlib
 import importlib.util
+import io
 import unittest
+from unittest import mock
 
 import numpy
 
@@ -72,6 +75,22 @@ class Summary(unittest.TestCase):
         self.assertEqual(lines[0], "valid: 25.0 %")
         self.assertTrue(lines[1].startswith("rate: 8 states/s "), lines[1])
         self.assertEqual(lines[3:], ["  a - b: 2 states", "  a - c: 1 states"])
+
+
+class Call(unittest.TestCase):
+    def test_prints_a_warning_of_the_node_once(self):
+        Response = collections.namedtuple("Response", "success message valid body_1 body_2 seconds")
+        response = Response(True, "values are in radians", bytes([1, 1]), ["", ""], ["", ""], 0.5)
+        rospy = mock.Mock()
+        rospy.get_param.return_value = URDF
+        rospy.ServiceProxy.return_value = lambda **request: response
+        arguments = mock.Mock(around=None, states=2, seed=1, spread=0.2, group="")
+        modules = {"rospy": rospy, "gpu_planning_scene": mock.Mock(), "gpu_planning_scene.srv": mock.Mock()}
+        errors = io.StringIO()
+        with mock.patch.dict("sys.modules", modules), contextlib.redirect_stderr(errors), \
+                contextlib.redirect_stdout(io.StringIO()):
+            self.assertEqual(0, demo_client.call(arguments))
+        self.assertEqual("demo_client: values are in radians\n", errors.getvalue())
 
 
 class DemoScenes(unittest.TestCase):

@@ -176,7 +176,8 @@ TEST_F(ChangeAttached, InvalidChangesAreRefused)
   change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
   change(objectChange(Operation::Add, "floor", {{HalfSpace{Eigen::Vector3d::UnitZ(), 0.0}}}));
   change(attachedChange(Operation::Add, "held", "pole", {boxAt(0.1)}));
-  refused("no link 'crane'", attachedChange(Operation::Add, "a", "crane"));
+  refused("no link 'crane'; its links: rail, cart, nut, pole, pennant", attachedChange(Operation::Add, "a", "crane"));
+  refused("no link 'pennat'; did you mean 'pennant'?", attachedChange(Operation::Add, "a", "pennat"));
   refused("no link ''", attachedChange(Operation::Add, "a", ""));
   refused("no such object", attachedChange(Operation::Add, "b", "pole"));
   refused("attached to link 'pole' already", attachedChange(Operation::Add, "held", "cart"));

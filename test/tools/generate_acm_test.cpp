@@ -166,7 +166,9 @@ TEST_F(GenerateAcm, WritesAGroupForTheChainFromTheRootToEachTip)
                                        jointXml("grip_left", "revolute", "wrist", "left", turn) +
                                        jointXml("grip_right", "revolute", "wrist", "right", turn) +
                                        jointXml("nail", "fixed", "foot", "sign") + "</robot>");
-  ASSERT_EQ(0, generate({"--samples", "10"}).exit_code);
+  const ProgramOutput output = generate({"--samples", "10"});
+  ASSERT_EQ(0, output.exit_code);
+  EXPECT_NE(std::string::npos, output.err.find("\nplanning groups: wrist, left, right\n")) << output.err;
   std::map<std::string, std::vector<std::string>> groups;
   const auto robot = RobotModel::fromFiles(urdf, out, {});
   for (const Group& group : robot->groups())
