@@ -118,6 +118,15 @@ std::string packagePath()
   const char* path = std::getenv("ROS_PACKAGE_PATH");
   return path != nullptr ? path : "/usr/share";  // the default of Debian's rospack
 }
+
+/// Shows a misspelt name beside the names that were given.
+std::string givenNames(const std::map<std::string, std::string>& folders)
+{
+  std::string names;
+  for (const auto& [name, folder] : folders)
+    names += (names.empty() ? "" : ", ") + name;
+  return names.empty() ? "" : " (folders are given for: " + names + ")";
+}
 }  // namespace
 
 PackageResolver packageResolver(std::map<std::string, std::string> folders, std::string remedy)
@@ -139,8 +148,8 @@ PackageResolver packageResolver(std::map<std::string, std::string> folders, std:
     std::string how = remedy;
     if (const std::size_t name = how.find("NAME"); name != std::string::npos)
       how.replace(name, 4, package);
-    throw Error("the folder of package '" + package + "' is not known; put the package on ROS_PACKAGE_PATH" +
-                (how.empty() ? "" : ", or " + how));
+    throw Error("the folder of package '" + package + "' is not known" + givenNames(folders) +
+                "; put the package on ROS_PACKAGE_PATH" + (how.empty() ? "" : ", or " + how));
   };
 }
 }  // namespace gpu_planning_scene::core

@@ -76,7 +76,8 @@ const Group& RobotModel::group(const std::string& name) const
       return group;
     names += (names.empty() ? "" : ", ") + group.name;
   }
-  throw Error("robot '" + name_ + "' has no group '" + name + "'; " +
+  throw Error((name.empty() ? "give group, the name of a planning group of robot '" + name_ + "'; "
+                            : "robot '" + name_ + "' has no group '" + name + "'; ") +
               (names.empty() ? "it has no groups (groups come from an SRDF)" : "its groups: " + names));
 }
 

@@ -1,5 +1,7 @@
 #include "node/marker_publisher.h"
 
+#include <algorithm>
+
 #include "node/respond.h"
 
 namespace gpu_planning_scene::core
@@ -7,6 +9,17 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kMaxContacts = 1000;
+
+/// A robot in a state that nobody gave may be drawn in collision, while the services refuse to check that state.
+void warnOfUnknownState(const Snapshot& now)
+{
+  const std::vector<bool> known = now.partialState().known;
+  if (std::find(known.begin(), known.end(), false) != known.end())
+    ROS_WARN_ONCE(
+        "the current state is not known yet, so RViz shows the robot with default joint values; set it with "
+        "the topic joint_states, with robot_state.joint_state in the scene file, or with "
+        "~apply_planning_scene");
+}
 }  // namespace
 
 MarkerPublisher::MarkerPublisher(ros::NodeHandle& own, const SceneStore& store, double rate, std::size_t max_triangles)
@@ -49,6 +62,7 @@ void MarkerPublisher::publish()
       points.push_back(contact.point);
     }
     options_.stamp = ros::Time::now();
+    warnOfUnknownState(now);
     publisher_.publish(markersOf(*now.scene, now.state.data(), colliding, points, options_));
     drawn_ = std::move(now);
     changed_ = false;

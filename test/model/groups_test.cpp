@@ -112,6 +112,14 @@ TEST(Groups, ASharedSubgroupIsNoLoop)
   EXPECT_EQ(robot->group("top").variables, robot->group("c").variables);
 }
 
+TEST(Groups, TheErrorForAMissingNameAsksForOneAndListsTheGroups)
+{
+  const auto robot = robotOf(armUrdf(), "<group name=\"g\"><joint name=\"pan\"/></group>");
+  EXPECT_EQ("give group, the name of a planning group of robot '" + robot->name() + "'; its groups: g",
+            errorOf([&] { robot->group(""); }));
+  EXPECT_EQ("robot '" + robot->name() + "' has no group 'h'; its groups: g", errorOf([&] { robot->group("h"); }));
+}
+
 TEST(Groups, MissingAttributesAreErrors)
 {
   expectError("<group/>", "test.srdf:1: <group> lacks the attribute 'name'");

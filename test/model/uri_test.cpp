@@ -76,6 +76,14 @@ TEST(Uri, TheRemedyIsThatOfTheProgram)
             "ROS_PACKAGE_PATH, or name its folder (packages:={leg: DIR})");
 }
 
+TEST(Uri, AnUnknownPackageIsShownBesideThePackagesWhoseFoldersAreGiven)
+{
+  const PackageResolver packages = packageResolver({{"arm", "/opt"}, {"leg", "/opt"}}, "");
+  EXPECT_EQ(errorOf([&] { resolveUri("package://lge/a.stl", "", packages); }),
+            "mesh URI 'package://lge/a.stl': the folder of package 'lge' is not known (folders are given for: arm, "
+            "leg); put the package on ROS_PACKAGE_PATH");
+}
+
 TEST(Uri, AGivenFolderThatDoesNotExistIsNamedWithItsPackage)
 {
   const PackageResolver packages = packageResolver({{"leg", "/no/leg"}});

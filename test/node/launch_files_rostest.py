@@ -6,6 +6,7 @@ import unittest
 import rospy
 import rostest
 from gpu_planning_scene.srv import CheckStates, GetReport, PlanMotion
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from visualization_msgs.msg import MarkerArray
 
@@ -46,6 +47,18 @@ class LaunchFiles(unittest.TestCase):
     def test_bodies_turn_red_while_they_collide(self):
         for positions, red in ((FREE, set()), (IN_THE_BALL, {"robot", "objects"}), (FREE, set())):
             self.assertEqual(red, self.red_bodies(positions, red))
+
+    def test_a_robot_that_is_drawn_in_a_state_that_nobody_gave_is_logged(self):
+        logged = []
+        log = rospy.Subscriber("/rosout", Log, lambda message: logged.append(message.name + ": " + message.msg))
+        markers = rospy.Subscriber("/without_srdf/markers", MarkerArray, lambda message: None)
+        wanted = "/without_srdf: the current state is not known yet, so RViz shows the robot with default joint values"
+        end = time.monotonic() + PATIENCE
+        while not any(line.startswith(wanted) for line in logged) and time.monotonic() < end:
+            time.sleep(0.05)
+        markers.unregister()
+        log.unregister()
+        self.assertTrue(any(line.startswith(wanted) for line in logged), logged)
 
     def test_without_an_srdf_states_are_checked_and_only_adjacent_links_are_left_out(self):
         check = rospy.ServiceProxy("/without_srdf/check_states", CheckStates)

@@ -106,7 +106,9 @@ TEST_F(Service, WarnsInTheLogOfJointStatesThatMayBeDegrees)
 
 TEST_F(Service, OtherVariablesTakeTheCurrentState)
 {
-  expectRefusal(request({"turn"}, {0.0}), "no value for slide");
+  expectRefusal(request({"turn"}, {0.0}),
+                "no value for slide; give one, or set the current state: with the topic joint_states, with "
+                "robot_state.joint_state in the scene file, or with ~apply_planning_scene");
   store.updateState({{"slide", 1.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);
 }

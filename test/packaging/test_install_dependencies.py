@@ -66,6 +66,12 @@ class InstallDependencies(unittest.TestCase):
         install = self.calls.read_text().splitlines()[-1]
         self.assertTrue(install.endswith("--no-install-recommends " + " ".join(self.packages[:2])), install)
 
+    def test_says_before_the_wait_where_the_output_of_apt_is(self):
+        self.have(self.packages[1:])
+        self.stub("apt-get", "echo text of apt")
+        line = self.run_script().stdout.splitlines()[0]
+        self.assertRegex(line, rf"^== installing 1 packages, some minutes; meanwhile {self.folder}/\S+ has the output")
+
     def test_uses_sudo_where_the_user_is_not_root(self):
         self.have(self.packages[1:])
         self.stub("id", "echo 1000")
