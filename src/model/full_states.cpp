@@ -2,25 +2,18 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/base_joints.h"
+#include "model/name_list.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-std::string joined(const std::vector<std::string>& names)
-{
-  std::string line;
-  for (const std::string& name : names)
-    line += (line.empty() ? "" : ", ") + name;
-  return line;
-}
-
 std::string variableNames(const RobotModel& robot)
 {
   std::vector<std::string> names;
   for (const Variable& variable : robot.variables())
     names.push_back(variable.name);
-  return joined(names);
+  return nameList(names);
 }
 
 std::string whyNoVariable(const RobotModel& robot, const std::string& name)
@@ -80,7 +73,7 @@ std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& 
     if (!given[i] && !current.known[i])
       missing.push_back(robot.variables()[i].name);
   if (!missing.empty())
-    throw Error("no value for " + joined(missing) +
+    throw Error("no value for " + nameList(missing) +
                 "; give one, or set the current state: with the topic joint_states, with robot_state.joint_state in "
                 "the scene file, or with ~apply_planning_scene");
 

@@ -14,6 +14,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/resources.h"
+#include "model/name_list.h"
 
 namespace gpu_planning_scene::core
 {
@@ -122,10 +123,10 @@ std::string packagePath()
 /// Shows a misspelt name beside the names that were given.
 std::string givenNames(const std::map<std::string, std::string>& folders)
 {
-  std::string names;
+  std::vector<std::string> names;
   for (const auto& [name, folder] : folders)
-    names += (names.empty() ? "" : ", ") + name;
-  return names.empty() ? "" : " (folders are given for: " + names + ")";
+    names.push_back(name);
+  return names.empty() ? "" : " (folders are given for: " + nameList(names) + ")";
 }
 }  // namespace
 

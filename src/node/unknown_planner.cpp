@@ -3,20 +3,13 @@
 #include <algorithm>
 #include <cctype>
 
+#include "model/name_list.h"
 #include "scene/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-std::string listOf(const std::vector<std::string>& names)
-{
-  std::string list;
-  for (const std::string& name : names)
-    list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
 std::string inLowerCase(std::string text)
 {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -52,7 +45,7 @@ std::string unknownPlannerText(const std::string& name, const std::vector<std::s
   const std::string nearest = nearestPlanner(name, known);
   return "planner '" + name + "' is " +
          (configs.empty() ? "not a plugin" : "neither in the planner_configs of ~planners nor a plugin") +
-         (configs.empty() ? "" : "; planner_configs: " + listOf(configs)) + "; plugins: " + listOf(plugins) +
+         (configs.empty() ? "" : "; planner_configs: " + nameList(configs)) + "; plugins: " + nameList(plugins) +
          (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
 }
 }  // namespace gpu_planning_scene::core

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "model/name_list.h"
 #include "scene/nearest_key.h"
 
 namespace gpu_planning_scene::core
@@ -17,11 +18,8 @@ std::string noLinkText(const RobotModel& robot, const std::string& name)
     return start + suggestion;
   constexpr std::size_t kListed = 30;
   const std::size_t listed = std::min(names.size(), kListed);
-  std::string list;
-  for (std::size_t i = 0; i < listed; ++i)
-    list += (list.empty() ? "" : ", ") + names[i];
-  if (listed < names.size())
-    list += " and " + std::to_string(names.size() - listed) + " more";
-  return start + "; its links: " + list;
+  const std::size_t more = names.size() - listed;
+  names.resize(listed);
+  return start + "; its links: " + nameList(names) + (more == 0 ? "" : " and " + std::to_string(more) + " more");
 }
 }  // namespace gpu_planning_scene::core

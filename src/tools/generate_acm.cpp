@@ -9,6 +9,7 @@
 
 #include "collision/checkers/scene_text.h"
 #include "command_line/robot_arguments.h"
+#include "model/name_list.h"
 #include "tools/acm_generator.h"
 #include "tools/srdf_writer.h"
 
@@ -51,10 +52,8 @@ void printSummary(const GeneratedMatrix& matrix, const SamplingOptions& sampling
               << std::count_if(matrix.disabled.begin(), matrix.disabled.end(),
                                [&](const DisabledPair& pair) { return pair.reason == reason; })
               << " " << nameOf(reason);
-  std::cerr << "\npairs that remain to be checked: " << matrix.remaining_pairs << "\nplanning groups: ";
-  for (std::size_t i = 0; i < groups.size(); ++i)
-    std::cerr << (i == 0 ? "" : ", ") << groups[i];
-  std::cerr << (groups.empty() ? "none\n" : "\n");
+  std::cerr << "\npairs that remain to be checked: " << matrix.remaining_pairs
+            << "\nplanning groups: " << (groups.empty() ? "none" : nameList(groups)) << "\n";
 }
 
 void run(const CommandLine& arguments)

@@ -27,7 +27,7 @@ constexpr std::uint64_t kStepsOfSolids = 20;
 // reach, the errors exceed the size of many boxes, and the float test would keep nearly all of these.
 constexpr double kSmallBox = 64.0;
 // Testing eight boxes costs about as much as visiting this many nodes of a binary tree.
-constexpr std::uint64_t kStepsOfNode = 2;
+constexpr std::uint64_t kStepsOfEightBoxes = 2;
 
 bool leavesMeet(const CpuTree& tree_a, BoxIndex a, const CpuTree& tree_b, BoxIndex b, const Isometry3d& b_in_a,
                 double required)
@@ -156,7 +156,7 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
         return true;
       continue;
     }
-    scratch.steps += kStepsOfNode;
+    scratch.steps += kStepsOfEightBoxes;
     for (unsigned hits = overlaps_(tree.below(box), around_in_floats); hits != 0; hits &= hits - 1)
     {
       const BoxIndex child = tree.child(box, lowestBit(hits));
@@ -196,8 +196,7 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
   const double growth = required + kBoxMargin;
   const BoxPlacement in_a(b.wide, b_in_a, a.wide, growth);
   const BoxPlacement in_b(a.wide, b_in_a.inverse(), b.wide, growth);
-  const double small = kSmallBox * floatErrors((b_in_a * b.wide.origin() - a.wide.origin()).norm(),
-                                               a.wide.reach() + b.wide.reach(), growth);
+  const double small = kSmallBox * in_a.errors();
   scratch.node_pairs.assign(1, {WideTree::kRoot, WideTree::kRoot});
   while (!scratch.node_pairs.empty())
   {
@@ -213,7 +212,7 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
     const WideTree& opened = open_a ? a.wide : b.wide;
     const BoxIndex box = open_a ? box_a : box_b;
     const FloatBox other = open_a ? in_a.place(b.wide, box_b) : in_b.place(a.wide, box_a);
-    scratch.steps += kStepsOfNode;
+    scratch.steps += kStepsOfEightBoxes;
     for (unsigned hits = overlaps_(opened.below(box), other); hits != 0; hits &= hits - 1)
     {
       const BoxIndex child = opened.child(box, lowestBit(hits));

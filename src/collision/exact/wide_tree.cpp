@@ -53,7 +53,6 @@ void setBox(const OrientedBox& box, const Vector3d& origin, unsigned slot, WideN
   }
   node.radius[slot] = roundedUp(box.half.norm());
 }
-
 }  // namespace
 
 WideTree::WideTree(const std::vector<CpuNode>& nodes, const Vector3d& origin) : origin_(origin)
@@ -107,7 +106,8 @@ BoxPlacement::BoxPlacement(const WideTree& from, const Isometry3d& from_in_to, c
       rotation_[row][column] = static_cast<float>(from_in_to.linear()(row, column));
     translation_[row] = static_cast<float>(translation[row]);
   }
-  growth_ = roundedUp(growth + floatErrors(translation.norm(), from.reach() + to.reach(), growth));
+  errors_ = floatErrors(translation.norm(), from.reach() + to.reach(), growth);
+  growth_ = roundedUp(growth + errors_);
 }
 
 FloatBox BoxPlacement::place(const WideTree& from, BoxIndex box) const

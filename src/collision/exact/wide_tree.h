@@ -68,10 +68,12 @@ class BoxPlacement
   BoxPlacement(const WideTree& from, const Eigen::Isometry3d& from_in_to, const WideTree& to, double growth);
 
   FloatBox place(const WideTree& from, BoxIndex box) const;
+  double errors() const { return errors_; }  ///< see floatErrors
 
  private:
   float rotation_[3][3];  // rows
   float translation_[3];
+  double errors_;
   float growth_;
 };
 

@@ -20,10 +20,10 @@ namespace gpu_planning_scene::core
 class LaneChecker
 {
  public:
-  /// What the exact tests of a pair have found, and what they have cost.
+  /// The results and the cost of the exact tests of a pair.
   struct PairRecord
   {
-    double hits = 0.0;
+    double hits = 0.0;  // collisions found
     double cost = 1.0;  // steps, see CpuShapePair::Scratch
   };
 
