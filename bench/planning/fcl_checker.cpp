@@ -13,7 +13,7 @@ FclChecker::FclChecker(std::shared_ptr<const PlanningScene> scene, const std::st
   : scene_(std::move(scene)),
     group_(group),
     problem_(std::make_shared<const CollisionProblem>(makeProblem(*scene_, group, nullptr))),
-    displacements_(*scene_->robot, *problem_),
+    displacements_(scene_->robot, *problem_, levers_),
     fcl_(problem_, FclTree::Obbrss, FclOrder::Learned),
     near_(fcl_)
 {

@@ -30,6 +30,7 @@ class FclChecker : public StateChecker
   std::shared_ptr<const PlanningScene> scene_;
   std::string group_;
   std::shared_ptr<const CollisionProblem> problem_;
+  JointLevers levers_;
   DisplacementBounds displacements_;
   FclPeer fcl_;
   FclPeer near_;  // for states with margins; learns its own order of pairs

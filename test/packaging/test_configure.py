@@ -9,7 +9,8 @@ from repository import ROOT
 class Configure(unittest.TestCase):
     def test_prints_no_warning(self):
         with tempfile.TemporaryDirectory() as folder:
-            options = ["-DPYTHON_EXECUTABLE=/usr/bin/python3", "-DBUILD_TESTING=OFF", "-DGPU_PLANNING_SCENE_BENCH=OFF"]
+            options = ["-G", "Ninja", "-DPYTHON_EXECUTABLE=/usr/bin/python3", "-DBUILD_TESTING=OFF",
+                       "-DGPU_PLANNING_SCENE_BENCH=OFF"]
             answer = subprocess.run(["cmake", "-S", str(ROOT), "-B", folder, *options], capture_output=True, text=True,
                                     timeout=100, check=False)
         self.assertEqual(0, answer.returncode, answer.stderr)

@@ -5,7 +5,7 @@
 
 #include "collision/bounds/reach.h"
 
-// Each robot instance gets one term for each joint between its link and the root; a self pair gets the terms of the
+// Each robot instance gets one lever for each joint between its link and the root; a self pair gets the levers of the
 // joints that move only one of the two (Schwarzer, Saha, Latombe 2002).
 namespace gpu_planning_scene::core
 {
@@ -29,62 +29,93 @@ double armOf(const Joint& joint, const Region& region)
   }
   return arm;
 }
+
+JointLevers::Chain chainOf(const RobotModel& robot, const Reach& reach, const Shape& shape,
+                           const ShapeInstance& instance)
+{
+  const SweptBody body = reach.sweep({PlacedShape{shape, Eigen::Isometry3d::Identity()}}, instance.pose, instance.link);
+  JointLevers::Chain chain;
+  int link = instance.link;
+  for (std::size_t above = 0; link >= 0; ++above)
+  {
+    const int number = robot.links()[static_cast<std::size_t>(link)].parent_joint;
+    if (number < 0)
+    {
+      chain.steps.push_back({link, std::nullopt});
+      break;
+    }
+    const Joint& joint = robot.joints()[static_cast<std::size_t>(number)];
+    std::optional<JointLever> lever;
+    if (joint.type != JointType::Fixed)
+      lever = {number, 1.0,
+               above < body.region_by_level.size() ? armOf(joint, body.region_by_level[above]) : kUnbounded};
+    chain.steps.push_back({link, lever});
+    link = joint.parent_link;
+  }
+  return chain;
+}
 }  // namespace
 
-DisplacementBounds::DisplacementBounds(const RobotModel& robot, const CollisionProblem& problem)
-  : joints_(robot.joints().size()), variables_(robot.variables().size()), ranges_(limitRanges(robot))
+std::vector<std::shared_ptr<const JointLevers::Chain>> JointLevers::of(const std::shared_ptr<const RobotModel>& robot,
+                                                                       const CollisionProblem& problem)
 {
-  const Reach reach(robot);
-  // The terms of each instance, from its own link up to the root.
-  struct Step
-  {
-    int link;
-    Term term;
-  };
-  std::vector<std::vector<Step>> chains;
+  if (robot != robot_)
+    known_.clear();
+  robot_ = robot;
+  std::optional<Reach> reach;
+  std::vector<Known> used;
+  std::vector<std::shared_ptr<const Chain>> chains;
   for (const ShapeInstance& instance : problem.robot)
   {
-    const SweptBody body = reach.sweep({PlacedShape{problem.shapes[instance.tree], Eigen::Isometry3d::Identity()}},
-                                       instance.pose, instance.link);
-    std::vector<Step> chain;
-    int link = instance.link;
-    for (std::size_t above = 0; link >= 0; ++above)
+    const Shape& shape = problem.shapes[instance.tree];
+    const auto is_it = [&](const Known& known)
     {
-      const int number = robot.links()[static_cast<std::size_t>(link)].parent_joint;
-      Term term{number, 0.0, 0.0};
-      if (number >= 0)
-      {
-        const Joint& joint = robot.joints()[static_cast<std::size_t>(number)];
-        if (joint.type != JointType::Fixed)
-          term = {number, 1.0,
-                  above < body.region_by_level.size() ? armOf(joint, body.region_by_level[above]) : kUnbounded};
-      }
-      chain.push_back({link, term});
-      link = number < 0 ? -1 : robot.joints()[static_cast<std::size_t>(number)].parent_link;
+      return known.link == instance.link && known.pose.matrix() == instance.pose.matrix() &&
+             sameShape(known.shape, shape);
+    };
+    const auto found = std::find_if(known_.begin(), known_.end(), is_it);
+    if (found != known_.end())
+      used.push_back(*found);
+    else
+    {
+      if (!reach)
+        reach.emplace(*robot);
+      used.push_back({shape, instance.pose, instance.link,
+                      std::make_shared<const Chain>(chainOf(*robot, *reach, shape, instance))});
     }
-    chains.push_back(std::move(chain));
+    chains.push_back(used.back().chain);
   }
-  const auto add = [&](const std::vector<Step>& chain, const std::vector<Step>& other)
+  known_ = std::move(used);
+  return chains;
+}
+
+DisplacementBounds::DisplacementBounds(const std::shared_ptr<const RobotModel>& robot, const CollisionProblem& problem,
+                                       JointLevers& levers)
+  : joints_(robot->joints().size()), variables_(robot->variables().size()), ranges_(limitRanges(*robot))
+{
+  const std::vector<std::shared_ptr<const JointLevers::Chain>> chains = levers.of(robot, problem);
+  const auto add = [&](const JointLevers::Chain& chain, const JointLevers::Chain& other)
   {
-    for (const Step& step : chain)
+    for (const auto& [link, lever] : chain.steps)
     {
-      if (std::any_of(other.begin(), other.end(), [&](const Step& theirs) { return theirs.link == step.link; }))
+      if (std::any_of(other.steps.begin(), other.steps.end(),
+                      [link = link](const JointLevers::Chain::Step& theirs) { return theirs.link == link; }))
         break;  // joints further up move both instances
-      if (step.term.length != 0.0)
-        terms_.push_back(step.term);
+      if (lever)
+        levers_.push_back(*lever);
     }
   };
   first_.push_back(0);
   for (const auto& chain : chains)
   {
-    add(chain, {});
-    first_.push_back(terms_.size());
+    add(*chain, {});
+    first_.push_back(levers_.size());
   }
   for (const auto& [a, b] : problem.self_pairs)
   {
-    add(chains[a], chains[b]);
-    add(chains[b], chains[a]);
-    first_.push_back(terms_.size());
+    add(*chains[a], *chains[b]);
+    add(*chains[b], *chains[a]);
+    first_.push_back(levers_.size());
   }
 }
 
@@ -107,10 +138,10 @@ void DisplacementBounds::margins(const JointTravel* travel, double* margins) con
     double sum = 0.0;
     for (std::size_t k = first_[i]; k < first_[i + 1]; ++k)
     {
-      const JointTravel& joint = travel[terms_[k].joint];
-      sum += terms_[k].length * joint.length;
+      const JointTravel& joint = travel[levers_[k].joint];
+      sum += levers_[k].length * joint.length;
       if (joint.angle != 0.0)
-        sum += terms_[k].angle * joint.angle;
+        sum += levers_[k].angle * joint.angle;
     }
     margins[i] = sum == 0.0 ? 0.0 : std::min(kLargestLength, sum * (1.0 + 1e-9) + kDisplacementRounding);
   }

@@ -2,7 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/robot_model.h"
@@ -21,6 +25,48 @@ struct Margins
   const double* of(std::size_t state) const { return values.data() + rows[state] * width; }
 };
 
+/// How far a joint moves the points of a body: at most `length` metres per metre of the joint's travel, and `angle`
+/// metres per radian.
+struct JointLever
+{
+  int joint;
+  double length;
+  double angle;
+};
+
+/// The levers of a robot's instances. They take milliseconds for a robot, so they are kept for the next scene. One
+/// caller at a time.
+class JointLevers
+{
+ public:
+  /// The joints between the root and an instance.
+  struct Chain
+  {
+    struct Step
+    {
+      int link;                         // the child link of the joint
+      std::optional<JointLever> lever;  // empty: the joint does not move
+    };
+    std::vector<Step> steps;  // from the instance's link up to the root
+  };
+
+  /// The chains of the problem's robot instances.
+  std::vector<std::shared_ptr<const Chain>> of(const std::shared_ptr<const RobotModel>& robot,
+                                               const CollisionProblem& problem);
+
+ private:
+  struct Known
+  {
+    Shape shape;
+    Eigen::Isometry3d pose;
+    int link;
+    std::shared_ptr<const Chain> chain;
+  };
+
+  std::shared_ptr<const RobotModel> robot_;
+  std::vector<Known> known_;  // of the latest problem
+};
+
 /// Upper bounds of the displacement of a robot's points while each joint moves by at most a given travel within its
 /// limits. The bound is a sum over the joints: the joint's travel times the largest distance from the joint's axis that
 /// the body can have (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"). Reach provides these
@@ -29,7 +75,8 @@ class DisplacementBounds
 {
  public:
   /// Prepares the bounds of the problem's robot instances and self pairs.
-  DisplacementBounds(const RobotModel& robot, const CollisionProblem& problem);
+  DisplacementBounds(const std::shared_ptr<const RobotModel>& robot, const CollisionProblem& problem,
+                     JointLevers& levers);
 
   /// The number of margins: one for each robot instance, then one for each self pair.
   std::size_t count() const { return first_.size() - 1; }
@@ -43,17 +90,10 @@ class DisplacementBounds
  private:
   void margins(const JointTravel* travel, double* margins) const;
 
-  struct Term
-  {
-    int joint;
-    double length;  // metres of displacement per metre of joint travel
-    double angle;   // metres of displacement per radian of joint travel
-  };
-
   std::size_t joints_;
   std::size_t variables_;
   std::vector<VariableRange> ranges_;
-  std::vector<Term> terms_;
-  std::vector<std::size_t> first_;  // index of the first term of each margin; the last entry is the number of terms
+  std::vector<JointLever> levers_;
+  std::vector<std::size_t> first_;  // index of the first lever of each margin; the last entry is the number of levers
 };
 }  // namespace gpu_planning_scene::core

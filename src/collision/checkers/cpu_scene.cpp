@@ -1,6 +1,7 @@
 #include "collision/checkers/cpu_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "collision/exact/sampled_collisions.h"
@@ -107,9 +108,17 @@ void CpuScene::checkBlock(const double* states, std::size_t begin, std::size_t e
   const std::size_t width = scene_->robot->variables().size();
   bool is_taken = by_lanes && end - begin > 1;
   for (std::size_t i = begin; i < end && is_taken; ++i)
-    is_taken = isValidFor(*group.problem, states + i * width) && group.lanes->takes(states + i * width);
+    is_taken = (margins ? margins->within[i] != 0 : isValidFor(*group.problem, states + i * width)) &&
+               group.lanes->takes(states + i * width);
+  if (is_taken && margins)
+  {
+    std::array<const double*, lanes::kLanes> rows;
+    for (std::size_t i = begin; i < end; ++i)
+      rows[i - begin] = margins->of(i);
+    return group.lanes->check(states + begin * width, end - begin, begin, rows.data(), scratch.near_lanes, result);
+  }
   if (is_taken)
-    return group.lanes->check(states + begin * width, end - begin, begin, scratch.lanes, result);
+    return group.lanes->check(states + begin * width, end - begin, begin, nullptr, scratch.lanes, result);
   for (std::size_t i = begin; i < end; ++i)
     checkRow(states + i * width, i, group, margins, scratch, result);
 }
@@ -120,7 +129,7 @@ Margins CpuScene::margins(const JointNeighbourhood& around, const double* states
   validateNeighbourhood(*scene_->robot, around, count);
   Group& group = groupOf(name);
   if (!group.displacements)
-    group.displacements = std::make_unique<const DisplacementBounds>(*scene_->robot, *group.problem);
+    group.displacements = std::make_unique<const DisplacementBounds>(scene_->robot, *group.problem, levers_);
   return group.displacements->margins(around, states, count);
 }
 
@@ -142,7 +151,7 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
     if (!isValidFor(*group.problem, states + i * width))
       prepareOutside(name, group);
   checked_ += count;
-  const bool by_lanes = !margins && group.lanes && checked_ > kStatesBeforeProofs && group.lanes->isReady();
+  const bool by_lanes = group.lanes && checked_ > kStatesBeforeProofs && group.lanes->isReady();
   const auto check_range = [&](std::size_t begin, std::size_t end, Scratch& scratch)
   {
     for (std::size_t i = begin; i < end; i += lanes::kLanes)

@@ -48,10 +48,11 @@ class CpuScene
   /// Work space of one thread, including the learned order of checks.
   struct Scratch
   {
-    CpuTraversal::Scratch within;   // for states for which the problem is valid
-    CpuTraversal::Scratch outside;  // for the other states
-    CpuTraversal::Scratch near;     // for states with margins
-    LaneChecker::Scratch lanes;     // for blocks of states for which the problem is valid
+    CpuTraversal::Scratch within;     // for states for which the problem is valid
+    CpuTraversal::Scratch outside;    // for the other states
+    CpuTraversal::Scratch near;       // for states with margins
+    LaneChecker::Scratch lanes;       // for blocks of states for which the problem is valid
+    LaneChecker::Scratch near_lanes;  // for such blocks with margins
     std::vector<Eigen::Isometry3d> poses;
   };
   struct Group
@@ -76,6 +77,7 @@ class CpuScene
 
   CheckerOptions options_;
   ProblemMaker maker_;
+  JointLevers levers_;
   std::shared_ptr<const PlanningScene> scene_;
   std::map<std::string, Group> groups_;
   std::size_t checked_ = 0;  // states, of all scenes

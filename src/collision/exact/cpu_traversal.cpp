@@ -34,6 +34,13 @@ std::int32_t bodyOf(const CollisionProblem& problem, std::size_t instance)
                                          : problem.half_spaces[instance - problem.world.size()].body;
 }
 
+BodyPair bodiesOf(const CollisionProblem& problem, const CpuTraversal::InstancePair& pair)
+{
+  const std::int32_t first = bodyOf(problem, pair[0]);
+  const std::int32_t second = bodyOf(problem, pair[1]);
+  return {std::min(first, second), std::max(first, second)};
+}
+
 std::vector<AlignedBox3d> worldBounds(const CollisionProblem& problem, const CpuForest& forest)
 {
   std::vector<AlignedBox3d> bounds;
@@ -83,13 +90,6 @@ void CpuTraversal::findNearObjects(const AlignedBox3d& bounds, Scratch& scratch)
     if (objects_->box(object).intersects(bounds))
       scratch.near_objects.push_back(object);
   }
-}
-
-BodyPair CpuTraversal::bodiesOf(const InstancePair& pair) const
-{
-  const std::int32_t first = bodyOf(*problem_, pair[0]);
-  const std::int32_t second = bodyOf(*problem_, pair[1]);
-  return {std::min(first, second), std::max(first, second)};
 }
 
 void CpuTraversal::startState(Scratch& scratch) const
@@ -196,7 +196,7 @@ std::optional<BodyPair> CpuTraversal::firstCollision(const Isometry3d* link_pose
     const std::uint32_t number = scratch.order[k];
     const auto visit = [this, &found](const InstancePair& pair)
     {
-      found = bodiesOf(pair);
+      found = bodiesOf(*problem_, pair);
       return true;
     };
     const std::uint64_t before = scratch.pair.steps;
@@ -210,40 +210,41 @@ std::optional<BodyPair> CpuTraversal::firstCollision(const Isometry3d* link_pose
   return found;
 }
 
-std::optional<BodyPair> CpuTraversal::firstCollisionOf(const InstancePair* pairs, std::size_t count,
+std::optional<BodyPair> CpuTraversal::firstCollisionOf(const OpenPair* pairs, std::size_t count,
                                                        const Isometry3d* link_poses, Scratch& scratch,
                                                        std::vector<std::uint64_t>& steps) const
 {
   const auto& robot = problem_->robot;
-  const auto collides = [&](const InstancePair& pair)
+  const auto collides = [&](const InstancePair& pair, double margin)
   {
     const ShapeInstance& first = robot[pair[0]];
     if (pair[1] < robot.size())
-      return pair_.collide(first.tree, scratch.poses[pair[0]], robot[pair[1]].tree, scratch.poses[pair[1]], 0.0,
+      return pair_.collide(first.tree, scratch.poses[pair[0]], robot[pair[1]].tree, scratch.poses[pair[1]], margin,
                            scratch.pair);
+    const double padding = first.padding + margin;
     const std::size_t object = pair[1] - robot.size();
     if (object < problem_->world.size())
     {
       const ShapeInstance& other = problem_->world[object];
-      return pair_.collide(first.tree, scratch.poses[pair[0]], other.tree, other.pose, first.padding + other.padding,
+      return pair_.collide(first.tree, scratch.poses[pair[0]], other.tree, other.pose, padding + other.padding,
                            scratch.pair);
     }
     const WorldHalfSpace& other = problem_->half_spaces[object - problem_->world.size()];
-    return pair_.collide(first.tree, scratch.poses[pair[0]], {other.normal, other.offset},
-                         first.padding + other.padding, scratch.pair);
+    return pair_.collide(first.tree, scratch.poses[pair[0]], {other.normal, other.offset}, padding + other.padding,
+                         scratch.pair);
   };
   scratch.poses.resize(robot.size());
   steps.clear();
   for (std::size_t i = 0; i < count; ++i)
   {
-    for (const std::uint32_t instance : pairs[i])
+    for (const std::uint32_t instance : pairs[i].instances)
       if (instance < robot.size())
         scratch.poses[instance] = link_poses[robot[instance].link] * robot[instance].pose;
     const std::uint64_t before = scratch.pair.steps;
-    const bool collide = collides(pairs[i]);
+    const bool collide = collides(pairs[i].instances, pairs[i].margin);
     steps.push_back(scratch.pair.steps - before);
     if (collide)
-      return bodiesOf(pairs[i]);
+      return bodiesOf(*problem_, pairs[i].instances);
   }
   return std::nullopt;
 }
@@ -258,7 +259,7 @@ std::vector<BodyPair> CpuTraversal::allCollisions(const Isometry3d* link_poses, 
   {
     const auto visit = [this, &found](const InstancePair& pair)
     {
-      found.push_back(bodiesOf(pair));
+      found.push_back(bodiesOf(*problem_, pair));
       return false;
     };
     check(number, link_poses, 0.0, scratch, visit);

@@ -55,10 +55,17 @@ class CpuTraversal
   std::optional<BodyPair> firstCollision(const Eigen::Isometry3d* link_poses, Scratch& scratch,
                                          const double* margins = nullptr) const;
 
+  /// A pair, and the distance that it must keep in addition to its required distance.
+  struct OpenPair
+  {
+    InstancePair instances;
+    double margin;
+  };
+
   /// The bodies of the first of `count` pairs that collides, if one does. The pairs are tested in the given order,
-  /// without margins, and without a broad phase. `steps` is set to the cost of each tested pair; the last tested pair
-  /// is the one that collides, if one does.
-  std::optional<BodyPair> firstCollisionOf(const InstancePair* pairs, std::size_t count,
+  /// without a broad phase. `steps` is set to the cost of each tested pair; the last tested pair is the one that
+  /// collides, if one does.
+  std::optional<BodyPair> firstCollisionOf(const OpenPair* pairs, std::size_t count,
                                            const Eigen::Isometry3d* link_poses, Scratch& scratch,
                                            std::vector<std::uint64_t>& steps) const;
 
@@ -78,7 +85,6 @@ class CpuTraversal
              const Visit& visit) const;
   template <class Visit>
   bool checkWorld(std::uint32_t instance, double margin, Scratch& scratch, const Visit& visit) const;
-  BodyPair bodiesOf(const InstancePair& pair) const;
   void startState(Scratch& scratch) const;
   static void learnOrder(Scratch& scratch);
   void place(std::uint32_t instance, const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
@@ -92,6 +98,9 @@ class CpuTraversal
 
 /// The body of an instance; the index counts as in the second index of CpuTraversal::InstancePair.
 std::int32_t bodyOf(const CollisionProblem& problem, std::size_t instance);
+
+/// The bodies of a pair of instances.
+BodyPair bodiesOf(const CollisionProblem& problem, const CpuTraversal::InstancePair& pair);
 
 /// The boxes of the world's instances, grown by their padding. ObjectTree is built over them.
 std::vector<Eigen::AlignedBox3d> worldBounds(const CollisionProblem& problem, const CpuForest& forest);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -31,11 +32,12 @@ class LaneChecker
   struct Scratch
   {
     std::vector<float> floats;
+    std::vector<float> margins;
     std::vector<std::uint8_t> placed;
     std::vector<std::uint32_t> open;
     std::vector<lanes::Trial> trials;
     std::vector<Eigen::Isometry3d> poses;
-    std::vector<CpuTraversal::InstancePair> pairs;
+    std::vector<CpuTraversal::OpenPair> pairs;
     std::vector<PairRecord> records;  // of each pair
     std::vector<std::uint64_t> steps;
     CpuTraversal::Scratch exact;
@@ -57,12 +59,19 @@ class LaneChecker
   bool takes(const double* state) const { return scene_->isWithinBounds(state); }
 
   /// Checks `count` states (1 to lanes::kLanes rows) and sets rows `row` and following of `result`, which must be
-  /// initialised as free. The problem must be valid for the states, and `takes` true. Thread-safe if each thread has
-  /// its own scratch.
-  void check(const double* states, std::size_t count, std::size_t row, Scratch& scratch, BatchResult& result) const;
+  /// initialised as free. `margins`: of each state, see CpuTraversal::firstCollision; null: no margins. The problem
+  /// must be valid for the states, and `takes` true. Thread-safe if each thread has its own scratch; states with and
+  /// without margins should have different ones, because the scratch learns which tests pay.
+  void check(const double* states, std::size_t count, std::size_t row, const double* const* margins, Scratch& scratch,
+             BatchResult& result) const;
 
  private:
   lanes::Scratch kernelScratch(Scratch& scratch) const;
+  bool fillGiven(const double* states, std::size_t count, Scratch& scratch, float* given) const;
+  const float* kernelMargins(const double* const* margins, std::size_t count, Scratch& scratch) const;
+  double marginOf(std::uint32_t pair, const double* margins) const;
+  std::optional<BodyPair> decideOpenPairs(const double* state, std::uint32_t* open, std::size_t open_count,
+                                          const double* margins, Scratch& scratch) const;
 
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;

@@ -2,9 +2,12 @@
 
 namespace gpu_planning_scene::core::lanes
 {
-void proveAvx512(const Model& model, const double* states, int count, const Scratch& scratch, Block& block);
-void proveAvx2(const Model& model, const double* states, int count, const Scratch& scratch, Block& block);
-void proveBaseline(const Model& model, const double* states, int count, const Scratch& scratch, Block& block);
+void proveAvx512(const Model& model, const double* states, int count, const float* margins, const Scratch& scratch,
+                 Block& block);
+void proveAvx2(const Model& model, const double* states, int count, const float* margins, const Scratch& scratch,
+               Block& block);
+void proveBaseline(const Model& model, const double* states, int count, const float* margins, const Scratch& scratch,
+                   Block& block);
 
 const std::vector<NamedKernel>& availableKernels()
 {

@@ -1,15 +1,25 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "collision/filter/lane_model.h"
 
 namespace gpu_planning_scene::core::lanes
 {
-/// Proves verdicts for `count` states (1 to kLanes rows of doubles). Every verdict other than Proof::None holds.
-/// Another instruction set may prove a verdict where this one proves none. Thread-safe if each thread has its own
-/// scratch.
-using Kernel = void (*)(const Model& model, const double* states, int count, const Scratch& scratch, Block& block);
+/// Proves verdicts for `count` states (1 to kLanes rows of doubles). `margins`: the distances that pairs must keep in
+/// addition, in metres, each in all lanes: of each body from the world, then of each self pair; null: none. Every
+/// verdict other than Proof::None holds. Another instruction set may prove a verdict where this one proves none.
+/// Thread-safe if each thread has its own scratch.
+using Kernel = void (*)(const Model& model, const double* states, int count, const float* margins,
+                        const Scratch& scratch, Block& block);
+
+/// A margin as the kernel takes it: the rounding of its sums with other lengths is included.
+inline float kernelMargin(double margin)
+{
+  return std::nextafter(static_cast<float>(margin * (1.0 + 0x1p-18)), std::numeric_limits<float>::max());
+}
 
 struct NamedKernel
 {

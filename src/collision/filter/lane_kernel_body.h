@@ -303,20 +303,42 @@ inline float square(float x)
   return x * x;
 }
 
-/// Proves by enclosing balls, for all lanes at once.
-inline void proveByEnclosingBalls(const Model& model, const Scratch& scratch, Lanes& lanes)
+/// Margins of the bodies and self pairs, if there are any.
+template <bool kGiven>
+struct MarginRows
 {
-  for (std::uint32_t p = model.tables.count; p < model.self_pairs.count && lanes.active != 0; ++p)
+  const float* rows;
+
+  /// The squared sum of a length and the margins of a row.
+  Floats squaredSum(float length, std::size_t row) const
+  {
+    if constexpr (kGiven)
+    {
+      const Floats sum = length + load(group(rows, row));
+      return sum * sum;
+    }
+    return all(square(length));
+  }
+  float of(std::size_t row, int lane) const { return kGiven ? group(rows, row)[lane] : 0.0F; }
+};
+
+/// Proves by enclosing balls, for all lanes at once. Without margins, the tables have decided their pairs before.
+template <bool kWithMargins>
+inline void proveByEnclosingBalls(const Model& model, const Scratch& scratch, const MarginRows<kWithMargins>& margins,
+                                  Lanes& lanes)
+{
+  const std::uint32_t first = kWithMargins ? 0 : model.tables.count;
+  for (std::uint32_t p = first; p < model.self_pairs.count && lanes.active != 0; ++p)
   {
     const SelfPair& pair = model.self_pairs[p];
     const Body& a = model.bodies[pair.a];
     const Body& b = model.bodies[pair.b];
     const Floats squared = squaredDistance(centersOf(pair.a, scratch), centersOf(pair.b, scratch));
-    const int near = bits(~(squared > square(a.outer + b.outer + pair.thresholds.enclosing)));
+    const Floats apart = margins.squaredSum(a.outer + b.outer + pair.thresholds.enclosing, model.bodies.count + p);
     const float inner = a.inner + b.inner + pair.thresholds.inner;
     if (a.inner >= 0.0F && b.inner >= 0.0F && inner > 0.0F)
       lanes.collide(bits(squared < square(inner)), p);
-    lanes.keepOpen(near, p);
+    lanes.keepOpen(bits(~(squared > apart)), p);
   }
   for (std::uint32_t g = 0; g < model.world_groups.count && lanes.active != 0; ++g)
   {
@@ -325,7 +347,7 @@ inline void proveByEnclosingBalls(const Model& model, const Scratch& scratch, La
     const Points center = centersOf(group.body, scratch);
     const Floats to_group = squaredDistanceToBox(center.x - group.center[0], center.y - group.center[1],
                                                  center.z - group.center[2], group.half);
-    if ((bits(~(to_group > square(body.outer))) & lanes.active) == 0)
+    if ((bits(~(to_group > margins.squaredSum(body.outer, group.body))) & lanes.active) == 0)
       continue;
     for (std::uint32_t w = group.first; w < group.end && lanes.active != 0; ++w)
     {
@@ -336,7 +358,8 @@ inline void proveByEnclosingBalls(const Model& model, const Scratch& scratch, La
       const float inner = body.inner + pair.thresholds.inner;
       if (body.inner >= 0.0F && inner > 0.0F && object.kind != ObjectKind::Hull)
         lanes.collide(bits(squared < square(inner)), number);
-      lanes.keepOpen(bits(~(squared > square(body.outer + pair.thresholds.enclosing))), number);
+      const Floats apart = margins.squaredSum(body.outer + pair.thresholds.enclosing, group.body);
+      lanes.keepOpen(bits(~(squared > apart)), number);
     }
   }
 }
@@ -402,17 +425,19 @@ inline Points pointsAt(const float* placed, int i)
   return {load(placed + i), load(placed + kAxis + i), load(placed + 2 * kAxis + i)};
 }
 
-inline Proof proveWorldPair(const Model& model, const WorldPair& pair, const PlacedBalls& balls, int level)
+inline Proof proveWorldPair(const Model& model, const WorldPair& pair, float margin, const PlacedBalls& balls,
+                            int level)
 {
   const Body& body = model.bodies[pair.body];
   const Object& object = model.objects[pair.object];
   const float* outer = balls.of(pair.body, level);
   const float* inner = balls.innerOf(pair.body, level);
+  const float cover = pair.thresholds.cover + margin;
   Ints near = {};
   for (int i = kLevelBegin[level]; i < kLevelBegin[level + 1]; i += kLanes)
   {
     const Floats squared = squaredDistanceTo(object, pointsAt(outer, i));
-    const Floats apart = load(body.outer_balls.radius + i) + pair.thresholds.cover;
+    const Floats apart = load(body.outer_balls.radius + i) + cover;
     near |= ~(squared > apart * apart);
     if (object.kind == ObjectKind::Hull)
       continue;
@@ -447,10 +472,11 @@ inline int nearBalls(const Body& a, const float* balls_of_a, const Body& b, cons
 }
 
 /// Proves by the balls of both bodies that are near the other body.
-inline Proof proveSelfPair(const Model& model, const SelfPair& pair, const PlacedBalls& balls, int level)
+inline Proof proveSelfPair(const Model& model, const SelfPair& pair, float margin, const PlacedBalls& balls, int level)
 {
   const Body& a = model.bodies[pair.a];
   const Body& b = model.bodies[pair.b];
+  const float cover = pair.thresholds.cover + margin;
   const float* outer_a = balls.of(pair.a, level);
   const float* inner_a = balls.innerOf(pair.a, level);
   const float* outer_b = balls.of(pair.b, level);
@@ -458,18 +484,18 @@ inline Proof proveSelfPair(const Model& model, const SelfPair& pair, const Place
   const Points center_b = {all(balls.center(pair.b, 0)), all(balls.center(pair.b, 1)), all(balls.center(pair.b, 2))};
 
   int near_b[kMostBalls];
-  const int near_count = nearBalls(a, balls.of(pair.a, 0), b, outer_b, pair.thresholds.cover, level, near_b);
+  const int near_count = nearBalls(a, balls.of(pair.a, 0), b, outer_b, cover, level, near_b);
   if (near_count == 0)
     return Proof::Apart;
   Ints near = {};
   for (int i = kLevelBegin[level]; i < kLevelBegin[level + 1]; i += kLanes)
   {
     const Points points = pointsAt(outer_a, i);
-    const Floats reach = load(a.outer_balls.radius + i) + (b.outer + pair.thresholds.cover);
+    const Floats reach = load(a.outer_balls.radius + i) + (b.outer + cover);
     if (bits(~(squaredDistance(points, center_b) > reach * reach)) == 0)
       continue;
     const Points witnesses = a.same_centers ? points : pointsAt(inner_a, i);
-    const Floats apart = load(a.outer_balls.radius + i) + pair.thresholds.cover;
+    const Floats apart = load(a.outer_balls.radius + i) + cover;
     const Floats within = load(a.inner_balls.radius + i) + pair.thresholds.inner;
     for (int k = 0; k < near_count; ++k)
     {
@@ -511,8 +537,18 @@ inline void record(bool decided, Trial& trial)
 }
 
 /// Proves the open pairs of one lane by the balls of the covers, the coarse ones first.
-inline void proveByCovers(const Model& model, const Scratch& scratch, int lane, Lanes& lanes)
+template <bool kWithMargins>
+inline void proveByCovers(const Model& model, const Scratch& scratch, const MarginRows<kWithMargins>& margins, int lane,
+                          Lanes& lanes)
 {
+  const auto prove = [&](std::uint32_t number, const PlacedBalls& balls, int level)
+  {
+    if (number < model.self_pairs.count)
+      return proveSelfPair(model, model.self_pairs[number], margins.of(model.bodies.count + number, lane), balls,
+                           level);
+    const WorldPair& pair = model.world_pairs[number - model.self_pairs.count];
+    return proveWorldPair(model, pair, margins.of(pair.body, lane), balls, level);
+  };
   const PlacedBalls balls(model, scratch, lane);
   std::uint32_t* open = lanes.open + static_cast<std::size_t>(lane) * lanes.pairs;
   for (int level = 0; level < kLevels; ++level)
@@ -527,9 +563,7 @@ inline void proveByCovers(const Model& model, const Scratch& scratch, int lane, 
         open[kept++] = number;
         continue;
       }
-      const Proof proof = number < model.self_pairs.count
-                              ? proveSelfPair(model, model.self_pairs[number], balls, level)
-                              : proveWorldPair(model, model.world_pairs[number - model.self_pairs.count], balls, level);
+      const Proof proof = prove(number, balls, level);
       record(proof != Proof::None, trial);
       if (proof == Proof::Colliding)
         return lanes.collide(1 << lane, number);
@@ -539,9 +573,10 @@ inline void proveByCovers(const Model& model, const Scratch& scratch, int lane, 
     lanes.block.open_count[lane] = kept;
   }
 }
-}  // namespace
 
-void GPS_LANE_KERNEL(const Model& model, const double* states, int count, const Scratch& scratch, Block& block)
+template <bool kWithMargins>
+inline void proveBlock(const Model& model, const double* states, int count, const MarginRows<kWithMargins>& margins,
+                       const Scratch& scratch, Block& block)
 {
   Lanes lanes{(1 << count) - 1, block, scratch.open, model.self_pairs.count + model.world_pairs.count};
   for (int lane = 0; lane < kLanes; ++lane)
@@ -549,19 +584,30 @@ void GPS_LANE_KERNEL(const Model& model, const double* states, int count, const 
     block.proof[lane] = Proof::Apart;
     block.open_count[lane] = 0;
   }
-  proveByTables(model, states, lanes);
+  if constexpr (!kWithMargins)
+    proveByTables(model, states, lanes);
   if (lanes.active == 0)
     return;
   placeFrames(model, states, count, scratch);
   placeCenters(model, scratch);
-  proveByEnclosingBalls(model, scratch, lanes);
+  proveByEnclosingBalls(model, scratch, margins, lanes);
   for (int lane = 0; lane < count; ++lane)
   {
     if ((lanes.active & (1 << lane)) == 0 || block.open_count[lane] == 0)
       continue;
-    proveByCovers(model, scratch, lane, lanes);
+    proveByCovers(model, scratch, margins, lane, lanes);
     if (block.proof[lane] != Proof::Colliding && block.open_count[lane] > 0)
       block.proof[lane] = Proof::None;
   }
+}
+}  // namespace
+
+void GPS_LANE_KERNEL(const Model& model, const double* states, int count, const float* margins, const Scratch& scratch,
+                     Block& block)
+{
+  if (margins)
+    proveBlock(model, states, count, MarginRows<true>{margins}, scratch, block);
+  else
+    proveBlock(model, states, count, MarginRows<false>{nullptr}, scratch, block);
 }
 }  // namespace gpu_planning_scene::core::lanes

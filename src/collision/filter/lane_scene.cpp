@@ -239,6 +239,7 @@ void LaneScene::addSelfPairs(const CollisionProblem& problem)
       const double layer = std::max(openLayer(cover_a, cover_b), openLayer(cover_b, cover_a));
       self_pairs_.push_back({a, b, {above(error), above(layer + error), below(-error)}});
       pairs_.push_back({a, b});
+      self_pair_of_.push_back(p);
     }
 }
 

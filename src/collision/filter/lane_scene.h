@@ -40,6 +40,9 @@ class LaneScene
   const CpuTraversal::InstancePair& instancesOf(std::uint32_t pair) const { return pairs_[pair]; }
   std::size_t pairCount() const { return pairs_.size(); }
 
+  /// The place of a kernel's self pair in CollisionProblem::self_pairs.
+  std::size_t selfPairOf(std::uint32_t pair) const { return self_pair_of_[pair]; }
+
  private:
   /// Error bounds of the kernel for a frame, in metres.
   struct FrameError
@@ -83,6 +86,7 @@ class LaneScene
   std::vector<lanes::WorldPair> world_pairs_;
   std::vector<lanes::WorldGroup> world_groups_;
   std::vector<CpuTraversal::InstancePair> pairs_;
+  std::vector<std::size_t> self_pair_of_;
   lanes::Model model_ = {};
 };
 }  // namespace gpu_planning_scene::core

@@ -40,6 +40,13 @@ int clearSign(double value, double error)
 
 /// Projects the vertices of two triangles, relative to a vertex of the second, with an upper bound of the rounding
 /// error.
+enum class TriangleVerdict
+{
+  Hit,
+  Apart,
+  Undecided
+};
+
 class PairProjections
 {
  public:
@@ -71,16 +78,48 @@ class PairProjections
     return squared > kUnderflow && gap > (distance + error_) * std::sqrt(squared);
   }
 
+  /// Decides by two points of the triangles that approach each other. Hit: the points are within `distance`. Apart: see
+  /// apartAlong, with the axis through the points. Each step adds the vertices that are next to each other along the
+  /// axis (Gilbert, "An Iterative Procedure for Computing the Minimum of a Quadratic Form on a Convex Set", 1966).
+  TriangleVerdict approach(double distance) const
+  {
+    constexpr int kSteps = 4;
+    Vector3d axis = (vertices_[0] + vertices_[1] + vertices_[2] - vertices_[3] - vertices_[4]) / 3.0;
+    for (int step = 0; step < kSteps; ++step)
+    {
+      if (axis.norm() + error_ <= distance)
+        return TriangleVerdict::Hit;
+      if (apartAlong(axis, distance))
+        return TriangleVerdict::Apart;
+      const Vector3d next = axis - (leastOfFirst(axis) - largestOfSecond(axis));
+      const double length = next.squaredNorm();
+      if (!(length > kUnderflow))
+        break;
+      axis -= std::clamp(axis.dot(next) / length, 0.0, 1.0) * next;
+    }
+    return TriangleVerdict::Undecided;
+  }
+
  private:
+  /// The vertex of the first triangle with the least projection.
+  const Vector3d& leastOfFirst(const Vector3d& axis) const
+  {
+    return *std::min_element(
+        vertices_.begin(), vertices_.begin() + 3,
+        [&](const Vector3d& a, const Vector3d& b) { return axis.dot(a) < axis.dot(b); });
+  }
+  /// The vertex of the second triangle with the largest projection.
+  Vector3d largestOfSecond(const Vector3d& axis) const
+  {
+    const double a = axis.dot(vertices_[3]);
+    const double b = axis.dot(vertices_[4]);
+    if (std::max(a, b) <= 0.0)
+      return Vector3d::Zero();
+    return a > b ? vertices_[3] : vertices_[4];
+  }
+
   std::array<Vector3d, 5> vertices_;
   double error_;
-};
-
-enum class TriangleVerdict
-{
-  Hit,
-  Apart,
-  Undecided
 };
 
 /// Decides the pairs that double arithmetic can prove. Apart: an axis separates the triangles by more than `distance`.
@@ -292,6 +331,12 @@ bool trianglesWithin(const Triangle& a, const Triangle& b, double required)
   // triangles.
   const double threshold = required + kSlack;
   const PairProjections projections(a, b);
+  if (required > 0.0)
+  {
+    const TriangleVerdict verdict = projections.approach(threshold);
+    if (verdict != TriangleVerdict::Undecided)
+      return verdict == TriangleVerdict::Hit;
+  }
   const TriangleVerdict verdict = decideBySigns(a, b, projections, threshold);
   if (verdict != TriangleVerdict::Undecided)
     return verdict == TriangleVerdict::Hit;

@@ -444,7 +444,8 @@ TEST_P(RandomRobots, MotionsStayWithinMargins)
     const PlanningScene alone(robot());
     const RobotModel& robot = *alone.robot;
     const CollisionProblem problem = makeProblem(alone, "", nullptr);
-    const DisplacementBounds displacements(robot, problem);
+    JointLevers levers;
+    const DisplacementBounds displacements(alone.robot, problem, levers);
     followers +=
         std::count_if(robot.joints().begin(), robot.joints().end(), [](const Joint& joint) { return joint.mimic; });
     for (int motion = 0; motion < kMotions && !HasFailure(); ++motion)
@@ -508,7 +509,7 @@ TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
     BatchResult result;
     result.valid.assign(lanes::kLanes, 1);
     result.colliding.assign(lanes::kLanes, kNoPair);
-    checker.check(block, lanes::kLanes, 0, scratch, result);
+    checker.check(block, lanes::kLanes, 0, nullptr, scratch, result);
     for (std::size_t lane = 0; lane < lanes::kLanes; ++lane)
     {
       ASSERT_TRUE(isValidFor(*problem, block + lane * width) && checker.takes(block + lane * width));

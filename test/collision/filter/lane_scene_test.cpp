@@ -31,10 +31,18 @@ std::vector<InstancePairs> collidingPairs(const ProvenScene& proven, const std::
   return all;
 }
 
-/// Runs a kernel on all states and compares its proofs with the pairs that collide. Returns the number of proven
-/// states.
-std::size_t compare(const ProvenScene& proven, const lanes::NamedKernel& kernel, const std::vector<double>& states,
-                    const std::vector<InstancePairs>& colliding)
+/// The result of a kernel for one state.
+struct Proven
+{
+  Proof proof;
+  std::uint32_t pair;               // if it collides
+  std::vector<std::uint32_t> open;  // pairs without a proof, unless it collides
+};
+
+/// Runs a kernel on all states and calls visit(state, its result).
+template <class Visit>
+void proveAll(const ProvenScene& proven, const lanes::NamedKernel& kernel, const std::vector<double>& states,
+              const float* margins, const Visit& visit)
 {
   const lanes::Model& model = proven.lanes->model();
   const std::size_t poses_size = std::size_t{12} * lanes::kLanes * model.frames.count;
@@ -48,25 +56,39 @@ std::size_t compare(const ProvenScene& proven, const lanes::NamedKernel& kernel,
   float* const centers = given + poses_size;
   const lanes::Scratch scratch = {frames,        given,       centers,      centers + centers_size,
                                   placed.data(), open.data(), trials.data()};
-  const std::size_t width = states.size() / colliding.size();
-  std::size_t proven_states = 0;
-  for (std::size_t first = 0; first < colliding.size(); first += lanes::kLanes)
+  const std::size_t count = states.size() / model.width;
+  for (std::size_t first = 0; first < count; first += lanes::kLanes)
   {
-    const int size = static_cast<int>(std::min<std::size_t>(lanes::kLanes, colliding.size() - first));
+    const int size = static_cast<int>(std::min<std::size_t>(lanes::kLanes, count - first));
     std::fill(trials.begin(), trials.end(), lanes::Trial{});  // so that no level of balls is left out
     lanes::Block block;
-    kernel.kernel(model, states.data() + first * width, size, scratch, block);
+    kernel.kernel(model, states.data() + first * model.width, size, margins, scratch, block);
     for (int lane = 0; lane < size; ++lane)
     {
-      const InstancePairs& pairs = colliding[first + static_cast<std::size_t>(lane)];
-      if (block.proof[lane] == Proof::Apart)
-        EXPECT_TRUE(pairs.empty()) << kernel.instructions << ", seed " << kSeed;
-      if (block.proof[lane] == Proof::Colliding)
-        EXPECT_EQ(std::count(pairs.begin(), pairs.end(), proven.lanes->instancesOf(block.pair[lane])), 1)
-            << kernel.instructions << ", seed " << kSeed;
-      proven_states += block.proof[lane] == Proof::None ? 0 : 1;
+      const std::uint32_t* const begin = open.data() + static_cast<std::size_t>(lane) * proven.lanes->pairCount();
+      visit(first + static_cast<std::size_t>(lane),
+            Proven{block.proof[lane], block.pair[lane], {begin, begin + block.open_count[lane]}});
     }
   }
+}
+
+/// Runs a kernel on all states and compares its proofs with the pairs that collide. Returns the number of proven
+/// states.
+std::size_t compare(const ProvenScene& proven, const lanes::NamedKernel& kernel, const std::vector<double>& states,
+                    const std::vector<InstancePairs>& colliding)
+{
+  std::size_t proven_states = 0;
+  proveAll(proven, kernel, states, nullptr,
+           [&](std::size_t state, const Proven& result)
+           {
+             const InstancePairs& pairs = colliding[state];
+             if (result.proof == Proof::Apart)
+               EXPECT_TRUE(pairs.empty()) << kernel.instructions << ", seed " << kSeed;
+             if (result.proof == Proof::Colliding)
+               EXPECT_EQ(std::count(pairs.begin(), pairs.end(), proven.lanes->instancesOf(result.pair)), 1)
+                   << kernel.instructions << ", seed " << kSeed;
+             proven_states += result.proof == Proof::None ? 0 : 1;
+           });
   return proven_states;
 }
 
@@ -80,6 +102,53 @@ TEST_P(ProvenScenes, ProofsHoldInRandomStatesWithEachInstructionSet)
     const std::size_t proven = compare(*proven_, kernel, states, colliding);
     std::cout << kernel.instructions << ": " << proven << " of " << kStates << " states proven" << std::endl;
     EXPECT_GT(proven, kStates / 3);
+  }
+}
+
+TEST_P(ProvenScenes, PairsThatAreProvenApartKeepTheirMargins)
+{
+  constexpr std::size_t kStates = repetitions(2000, 20000);
+  constexpr double kLargestMargin = 0.05;  // metres
+  const std::vector<double> states = proven_->scene.randomStates(kStates, kSeed + 1);
+  const std::size_t bodies = proven_->problem->robot.size();
+  std::mt19937_64 generator(kSeed + 2);
+  std::uniform_real_distribution<double> distances(0.0, kLargestMargin);
+  std::vector<double> margins(bodies + proven_->problem->self_pairs.size());  // in the order of the kernel
+  std::generate(margins.begin(), margins.end(), [&] { return distances(generator); });
+  std::vector<float> in_lanes;
+  for (const double margin : margins)
+    in_lanes.insert(in_lanes.end(), lanes::kLanes, lanes::kernelMargin(margin));
+  std::vector<CpuTraversal::OpenPair> pairs;
+  for (std::uint32_t p = 0; p < proven_->lanes->pairCount(); ++p)
+  {
+    const CpuTraversal::InstancePair& instances = proven_->lanes->instancesOf(p);
+    pairs.push_back({instances, margins[instances[1] < bodies ? bodies + p : instances[0]]});
+  }
+  std::vector<Eigen::Isometry3d> poses(robot().links().size());
+  CpuTraversal::Scratch exact;
+  std::vector<std::uint64_t> steps;
+  for (const lanes::NamedKernel& kernel : lanes::availableKernels())
+  {
+    std::size_t apart = 0;
+    std::size_t open = 0;
+    proveAll(*proven_, kernel, states, in_lanes.data(),
+             [&](std::size_t state, const Proven& result)
+             {
+               if (result.proof == Proof::Colliding)
+                 return;
+               robot().linkPoses(states.data() + state * robot().variables().size(), poses.data());
+               std::vector<CpuTraversal::OpenPair> proven_apart;
+               for (std::uint32_t p = 0; p < pairs.size(); ++p)
+                 if (std::find(result.open.begin(), result.open.end(), p) == result.open.end())
+                   proven_apart.push_back(pairs[p]);
+               apart += proven_apart.size();
+               open += result.open.size();
+               EXPECT_FALSE(proven_->exact->firstCollisionOf(proven_apart.data(), proven_apart.size(), poses.data(),
+                                                             exact, steps))
+                   << kernel.instructions << ", seed " << kSeed << ", state " << state;
+             });
+    std::cout << kernel.instructions << ": " << apart << " pairs proven apart, " << open << " open" << std::endl;
+    EXPECT_GT(apart, open);
   }
 }
 }  // namespace
