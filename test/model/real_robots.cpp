@@ -29,6 +29,12 @@ std::string dartRobot(const std::string& path)
 {
   return chosenOr(GPS_DART_DATA_DIR) + "/urdf/" + path;
 }
+
+std::string readFile(const std::string& path)
+{
+  std::ifstream file(path);
+  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+}
 }  // namespace
 
 void useDataFolder(const std::string& folder)
@@ -48,8 +54,12 @@ bool RealRobot::available() const
 
 std::string RealRobot::urdfText() const
 {
-  std::ifstream file(urdf);
-  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  return readFile(urdf);
+}
+
+std::string RealRobot::srdfText() const
+{
+  return readFile(srdf);
 }
 
 std::shared_ptr<const RobotModel> RealRobot::load(std::vector<std::string>* warnings) const
@@ -80,10 +90,19 @@ RealRobot ur5Robotiq()
   return {"ur5_robotiq", folder + "/urdf/ur5.urdf", folder + "/srdf/ur5.srdf", {{"ur5_robotiq", folder}}};
 }
 
+RealRobot panda()
+{
+  const std::string folder = chosenOr(GPS_SHARED_DIR) + "/moveit/resources/panda_";
+  return {"panda",
+          folder + "description/urdf/panda.urdf",
+          folder + "moveit_config/config/panda.srdf",
+          {{"moveit_resources_panda_description", folder + "description"}}};
+}
+
 std::vector<RealRobot> realRobots()
 {
   std::vector<RealRobot> robots;
-  for (const RealRobot& robot : {kr5(), wam(), drchubo(), ur5Robotiq()})
+  for (const RealRobot& robot : {kr5(), wam(), drchubo(), ur5Robotiq(), panda()})
     if (robot.available())
       robots.push_back(robot);
   return robots;

@@ -26,6 +26,7 @@ struct RealRobot
 
   bool available() const;
   std::string urdfText() const;
+  std::string srdfText() const;
   std::shared_ptr<const RobotModel> load(std::vector<std::string>* warnings = nullptr) const;
 };
 
@@ -33,6 +34,8 @@ RealRobot kr5();
 RealRobot wam();
 RealRobot drchubo();
 RealRobot ur5Robotiq();
+/// Panda with the SRDF of MoveIt's tests, whose virtual joint is floating.
+RealRobot panda();
 
 /// The robots whose files exist.
 std::vector<RealRobot> realRobots();

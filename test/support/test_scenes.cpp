@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <random>
+#include <regex>
 
 #include <yaml-cpp/yaml.h>
 
@@ -20,6 +21,7 @@ namespace
 constexpr std::uint64_t kObstacleSeed = 1;
 
 const std::string kUr5Prefix = "ur5_";
+const std::string kPandaPrefix = "panda_";
 const std::string kArmPrefix = "arm_";
 constexpr std::size_t kArmTriangles = 10000;
 
@@ -38,6 +40,8 @@ RealRobot robotOf(const std::string& name)
 {
   if (startsWith(name, kUr5Prefix))
     return ur5Robotiq();
+  if (startsWith(name, kPandaPrefix))
+    return panda();
   if (name == "wam")
     return wam();
   return startsWith(name, "drchubo") ? drchubo() : kr5();
@@ -104,6 +108,20 @@ std::shared_ptr<const RobotModel> ur5Model()
   return model;
 }
 
+/// Panda with a base that stands on the floor: MoveIt's tests move it.
+std::shared_ptr<const RobotModel> pandaModel()
+{
+  static const std::shared_ptr<const RobotModel> model = []
+  {
+    const RealRobot robot = panda();
+    const std::string srdf = std::regex_replace(robot.srdfText(), std::regex("type=\"floating\""), "type=\"fixed\"");
+    RobotModelOptions options;
+    options.packages = packageResolver(robot.packages);
+    return RobotModel::fromXml(robot.urdfText(), srdf, options);
+  }();
+  return model;
+}
+
 std::shared_ptr<const RobotModel> kr5Model()
 {
   static const std::shared_ptr<const RobotModel> model = kr5().load();
@@ -163,7 +181,7 @@ std::vector<WorldObject> forKr5(std::vector<WorldObject> objects)
 /// Objects in a frame whose z axis points up and whose origin is the robot's foot.
 std::vector<WorldObject> furnitureOf(const std::string& name)
 {
-  const bool boxes = name == "kr5_boxes" || name == "arm_boxes";
+  const bool boxes = name == "kr5_boxes" || name == "arm_boxes" || name == "panda_boxes";
   return boxes ? boxesAround({0.0, 0.0, 0.5}, 8, 0.5, 0.3) : shelf({0.5, 0.0, 0.0}, {0.5, 1.4, 1.5}, 4);
 }
 
@@ -174,6 +192,8 @@ std::vector<WorldObject> objectsOf(const std::string& name)
     return generateObstacles({12, shoulder, 0.5, 0.9, 0.3}, kObstacleSeed);
   if (name == "kr5")
     return generateObstacles({24, shoulder, 0.3, 0.7, 0.3}, kObstacleSeed);
+  if (name == "panda_table")
+    return table({0.5, 0.0, 0.2}, {0.5, 1.0, 0.3});
   if (name == "kr5_crowded")
     return generateObstacles({400, shoulder, 0.6, 4.0, 0.2}, kObstacleSeed);
   return startsWith(name, "kr5") ? forKr5(furnitureOf(name)) : furnitureOf(name);
@@ -185,9 +205,10 @@ TestScene load(const std::string& name)
     return loadUr5(name);
   if (startsWith(name, "drchubo"))
     return loadDrchubo(name);
-  PlanningScene scene(startsWith(name, kArmPrefix) ? generatedArm().load()
-                      : name == "wam"              ? loadWithGeneratedSrdf(wam())
-                                                   : kr5Model());
+  PlanningScene scene(startsWith(name, kArmPrefix)     ? generatedArm().load()
+                      : startsWith(name, kPandaPrefix) ? pandaModel()
+                      : name == "wam"                  ? loadWithGeneratedSrdf(wam())
+                                                       : kr5Model());
   scene.objects = objectsOf(name);
   return inFullRanges(name, scene);
 }
@@ -226,7 +247,8 @@ const std::vector<std::string>& benchmarkSceneNames()
   static const std::vector<std::string> names = []
   {
     std::vector<std::string> all = testSceneNames();
-    for (const char* name : {"kr5_boxes", "kr5_shelf", "drchubo_table", "drchubo_corridor", "arm_boxes", "arm_shelf"})
+    for (const char* name : {"kr5_boxes", "kr5_shelf", "drchubo_table", "drchubo_corridor", "arm_boxes", "arm_shelf",
+                             "panda_boxes", "panda_shelf", "panda_table"})
       all.emplace_back(name);
     return all;
   }();
