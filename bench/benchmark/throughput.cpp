@@ -13,6 +13,7 @@
 #include "benchmark/state_kinds.h"
 #include "benchmark/statistics.h"
 #include "benchmark/truth.h"
+#include "collision/checkers/cpu_scene.h"
 #include "collision/filter/proof_worker.h"
 #include "collision/parallel_for.h"
 #include "support/test_scenes.h"
@@ -24,6 +25,7 @@ namespace
 {
 constexpr std::size_t kTrial = 64;            // states of the first trial
 constexpr std::size_t kWorkStates = 4096;     // upper bound on the states whose work is counted
+constexpr std::size_t kManyStates = 4096;     // batches of so many states are timed with proofs
 constexpr std::size_t kErrorsMeasured = 100;  // upper bound, for each kind of wrong answer of a method
 
 /// A method with one batch size.
@@ -110,8 +112,9 @@ void warmUp(Run& run, const Batch& batch, const Settings& settings)
   run.rates.clear();
   run.cpu.clear();
   run.answers = checkAll(run, batch);
-  // After many states, checkers on the CPU make proofs in the background.
-  run.method->check(batch.states.data(), 1);
+  if (run.info->exact && run.count >= kManyStates)
+    for (std::size_t checked = 0; checked <= kStatesBeforeProofs; checked += run.count)
+      run.method->check(batch.states.data(), run.count);
   waitForProofs();
 }
 

@@ -14,9 +14,6 @@ namespace
 {
 constexpr std::size_t kStatesPerChunk = 32;
 
-// Making the proofs of a robot takes seconds of a core. Before this many states were checked, they are not worth it.
-constexpr std::size_t kStatesBeforeProofs = 20'000;
-
 // Checking this many states takes less time than starting threads. The calling thread also keeps its learned order of
 // checks.
 constexpr std::size_t kFewStates = 128;

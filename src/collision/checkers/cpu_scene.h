@@ -13,6 +13,9 @@
 
 namespace gpu_planning_scene::core
 {
+/// Making the proofs of a robot takes seconds of a core. Before this many states were checked, they are not worth it.
+constexpr std::size_t kStatesBeforeProofs = 20'000;
+
 /// The collision problems of a scene, one per group, and their checks on the CPU. A problem is made when it is first
 /// needed. Trees are kept for the next scene with the same shapes. One caller at a time.
 class CpuScene
