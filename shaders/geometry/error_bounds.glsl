@@ -17,7 +17,7 @@ float lengthAtMost(vec3 axis)
   return length(axis) + LOST_LENGTH;
 }
 
-// The corner of a box that is furthest from its shape's origin, mirrored to positive coordinates.
+// The corner of a box that is farthest from its shape's origin, mirrored to positive coordinates.
 vec3 farCorner(Box box)
 {
   return abs(box.center) + box.extent;

@@ -595,7 +595,7 @@ TEST_F(Service, AFailureOfTheDeviceIsAnAnswer)
   EXPECT_EQ("device lost", response.message);
 }
 
-/// A mobile robot whose place nobody has told: its joints are known, its base is not.
+/// A mobile robot with known joint values. The pose of its base is unknown.
 class UnknownBase : public testing::Test
 {
  public:
