@@ -1,5 +1,8 @@
-// Bounds on the errors of float32 computations with a pair of placed shapes. docs/error_bounds.md derives each bound.
-// Lengths are in metres.
+// Error bounds of float32 computations that several tests of two placed shapes share: poses, boxes, planes. The bounds
+// of one test are in the file of this test. In geometry/: triangle_pair.glsl (signs of determinants, separation along
+// an axis), triangle_distance.glsl and winding_number.glsl. In traversal/: solid_leaf.glsl, solid_nodes.glsl,
+// tolerance.glsl and bounding_volume_overlap.glsl (sizeError). docs/error_bounds.md derives each bound. Lengths are in
+// metres.
 // The relative error of one operation, in every rounding mode.
 const float u = UNIT_ROUNDOFF;
 // A product smaller than this may have lost all its digits to underflow.
