@@ -3,6 +3,7 @@
 // an axis), triangle_distance.glsl and winding_number.glsl. In traversal/: solid_leaf.glsl, solid_nodes.glsl,
 // tolerance.glsl and bounding_volume_overlap.glsl (sizeError). docs/error_bounds.md derives each bound. Lengths are in
 // metres.
+
 // The relative error of one operation, in every rounding mode.
 const float u = UNIT_ROUNDOFF;
 // A product smaller than this may have lost all its digits to underflow.
