@@ -11,7 +11,6 @@
 #include "scene/shape_order.h"
 
 // Functions that all parts of a change use.
-
 namespace gpu_planning_scene::core
 {
 namespace
