@@ -103,6 +103,14 @@ class CodeFormat(unittest.TestCase):
         self.assertFalse(comment_is_elsewhere("#include <map>\n\n// The idea.\nnamespace a\n{\n}\n"))
         self.assertFalse(comment_is_elsewhere("// A program.\n\n#include <map>\n\nnamespace a\n{\n}\n\nint main()\n{\n}\n"))
 
+    def test_lines_of_shaders_and_scripts_have_at_most_120_characters(self):
+        # clang-format limits the lines of C++.
+        paths = [path for folder in ("shaders", "scripts") for path in sorted((ROOT / folder).rglob("*"))
+                 if path.is_file() and "__pycache__" not in path.parts]
+        wrong = [f"{path.relative_to(ROOT)}:{number}" for path in paths
+                 for number, line in enumerate(path.read_text().splitlines(), 1) if len(line) > 120]
+        self.assertEqual([], wrong)
+
     def test_tests_and_suites_are_named_in_upper_camel_case(self):
         wrong = [f"{path.relative_to(ROOT)}: {name}"
                  for path in (ROOT / "test").rglob("*.cpp") for name in wrong_names(path.read_text())]
