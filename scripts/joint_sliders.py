@@ -2,8 +2,8 @@
 """A window with sliders for the joints of the robot on the parameter server. Publishes their values on the topic
 joint_states. It starts with the current state of a planning_scene_node.
 
-It needs only python3-tk. joint_state_publisher_gui, which Debian 12 has too, ends with an error there (its version 1.15.1
-does not work with Python 3.11), and has no sliders for planar and floating joints."""
+It needs only python3-tk. Debian 12 has joint_state_publisher_gui too, but its version 1.15.1 does not work with Python
+3.11. It also has no sliders for planar and floating joints."""
 import argparse
 import math
 import pathlib
@@ -37,8 +37,8 @@ class Slider:
 
 
 def sliders_of(variables, start):
-    """The sliders for the variables of the robot. The rotation of a floating joint has three sliders instead of the four
-    components of a quaternion. `start`: name -> value."""
+    """The sliders for the variables of the robot. The rotation of a floating joint has three sliders instead of the
+    four components of a quaternion. `start`: name -> value."""
     sliders = []
     for variable in variables:
         joint, _, part = variable.name.rpartition("/")

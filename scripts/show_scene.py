@@ -42,7 +42,7 @@ def upright(up):
 
 
 def points_of(marker):
-    """Points of a marker in its frame, one per row: vertices of triangles, or the corners of boxes around the solids."""
+    """Points of a marker in its frame, one per row: vertices of triangles, or corners of boxes around the solids."""
     chosen = marker.points[:: max(1, len(marker.points) // MAX_POINTS)]
     points = numpy.array([[point.x, point.y, point.z] for point in chosen]).reshape(-1, 3)
     if marker.type != marker.TRIANGLE_LIST:

@@ -152,10 +152,10 @@ std::vector<WorldObject> world(std::size_t objects)
   std::vector<WorldObject> kept;
   for (WorldObject& object : generateObstacles({2 * objects + 10, center, inner, outer, 0.2}, 1))
   {
-    const Eigen::Vector3d way = object.pose.translation() - center;
-    const double share = (way.norm() - inner) / (outer - inner);
+    const Eigen::Vector3d offset = object.pose.translation() - center;
+    const double share = (offset.norm() - inner) / (outer - inner);
     const double distance = std::cbrt(inner * inner * inner + share * (outer * outer * outer - inner * inner * inner));
-    object.pose.translation() = center + distance * way.normalized();
+    object.pose.translation() = center + distance * offset.normalized();
     const bool at_base = object.pose.translation().head<2>().norm() < off_base && object.pose.translation().z() < 0.5;
     if (!at_base && kept.size() < objects)
       kept.push_back(std::move(object));

@@ -124,7 +124,8 @@ class Study
   {
     std::vector<std::string> names = planningProblemNames();
     if (names.empty())
-      throw Error("there are no problems in " + planningProblemFolder());
+      throw Error("there are no problems in " + planningProblemFolder() +
+                  "; CONTRIBUTING.md (Data that is not in the repository) names their source");
     // Evenly spread over all problems, so each set has some.
     std::vector<std::string> chosen;
     const std::size_t count = std::min(settings_.problems, names.size());

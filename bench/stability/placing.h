@@ -23,7 +23,7 @@ Case placed(Random& random, Shape a, Shape b, const Eigen::Isometry3d& b_in_a, c
 Case withPadding(Random& random, Case made);
 
 /// A pose of b in a's frame near contact. b gets a random rotation, and a point of b is placed on a point of a. Then b
-/// is moved in a random direction until the shapes are just apart, and by `offset` (metres) further.
+/// is moved in a random direction until the shapes are just apart, and by `offset` (metres) farther.
 Eigen::Isometry3d poseNearContact(Random& random, const Shape& a, const Eigen::Vector3d& point_a, const Shape& b,
                                   const Eigen::Vector3d& point_b, double offset);
 

@@ -1,7 +1,6 @@
 // Boxes, spheres, cylinders, cones and half-spaces, against each other and against meshes; required distances.
 
 #include "stability/case.h"
-
 #include "stability/placing.h"
 #include "stability/shapes.h"
 

@@ -9,8 +9,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// The allowed collision matrix: tells by name which pairs of bodies (links and objects) may touch. The rules are
-/// MoveIt's:
+/// The allowed collision matrix: names the pairs of bodies (links and objects) that may touch. The rules are MoveIt's:
 /// 1. An entry for the pair decides.
 /// 2. Without an entry, the defaults of the two bodies decide. If both bodies have a default, both must allow the pair.
 /// If one body has a default, this default decides.
@@ -27,8 +26,8 @@ class AllowedCollisionMatrix
   /// Sets the entry of a pair. The order of the two names does not matter.
   void setEntry(const std::string& body_1, const std::string& body_2, bool allowed);
   void setDefault(const std::string& body, bool allowed);
-  /// Removes all entries of a body and its default. Returns the bodies, sorted by name, that were forbidden to touch
-  /// `body` and may touch it now because their default allows it.
+  /// Removes all entries of a body and its default. Some bodies had an entry that forbids contact with `body`. Returns
+  /// those whose default now allows the contact, sorted by name.
   std::vector<std::string> removeEntry(const std::string& body);
   bool allowed(const std::string& body_1, const std::string& body_2) const;
 

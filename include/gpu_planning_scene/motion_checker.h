@@ -33,8 +33,8 @@ struct MotionCheckerOptions
 {
   MotionRule rule = MotionRule::Bound;
   MotionSteps steps{0.02, 0.02};  ///< largest steps between samples, before any subdivision
-  /// Limit for each motion. A motion with more samples is rejected. Under MotionRule::Bound, a motion is also rejected
-  /// if this number of state checks does not prove it free. The checks of its samples count too.
+  /// Largest number of samples of a motion. Under MotionRule::Bound, it is also the largest number of all state checks
+  /// of a motion, samples included. A motion that needs more is rejected.
   std::size_t max_samples = 20000;
   /// Limit for each call of MotionChecker::check: the number of state checks for all its motions. Motions that are not
   /// decided by then are not valid, and are given up.
@@ -54,7 +54,7 @@ struct MotionVerdict
   /// The colliding pair at `first_invalid`; kNoPair if the motion is valid, or if no sample collides but the motion is
   /// not proven free.
   BodyPair colliding = kNoPair;
-  /// Some of its checks were left out, because of MotionCheckerOptions::max_checks. The motion is not valid, but its
+  /// True: MotionCheckerOptions::max_checks ended the checks of this motion too early. The motion is not valid, but its
   /// free part may be longer than `last_valid`.
   bool given_up = false;
 };

@@ -20,7 +20,7 @@ constexpr BodyPair kNoPair = {-1, -1};
 struct Reductions
 {
   bool reach = true;              ///< pairs that can never meet, as proven by bounds on reach from the joint limits
-  bool unmoved_pairs = true;      ///< pairs that no joint moves relative to each other are decided once per scene
+  bool rigid_pairs = true;        ///< pairs that no joint moves relative to each other are decided once per scene
   bool shared_trees = true;       ///< equal meshes and equal primitives share a tree
   bool direct_primitives = true;  ///< the GPU tests primitives as solids, not as triangles
 };
@@ -70,17 +70,19 @@ struct SceneReport
   std::size_t world_pairs = 0;         ///< checked: a world object and a link or attached object
   std::size_t allowed_self_pairs = 0;  ///< left out: the allowed collision matrix allows them
   std::size_t allowed_world_pairs = 0;
-  std::size_t touch_pairs = 0;    ///< left out: an attached object with its link, touch links, or objects of its link
-  std::size_t unmoved_pairs = 0;  ///< left out: the group does not move either body
+  /// Left out: an attached object with its link, its touch links, or the other objects of its link.
+  std::size_t touch_pairs = 0;
+  std::size_t pairs_outside_group = 0;      ///< left out: the group does not move either body
   std::size_t links_without_shapes = 0;     ///< left out: they cannot collide
   std::size_t unreachable_self_pairs = 0;   ///< left out: within the joint limits the bodies never meet
   std::size_t unreachable_world_pairs = 0;  ///< left out: within the joint limits the bodies never meet
   std::size_t unreachable_objects = 0;      ///< left out: no link or attached object reaches them
-  std::size_t settled_pairs = 0;  ///< left out: decided once, because no joint moves one body relative to the other
-  /// Body indices of a settled pair that collides. Every state then collides.
+  /// Left out: decided once per scene, because no joint moves one body relative to the other.
+  std::size_t rigid_pairs = 0;
+  /// Body indices of a rigid pair that collides. Every state then collides.
   std::optional<BodyPair> always_colliding;
   /// Pairs that collided in each of kSampledStates random states within the joint limits, in ascending order. All
-  /// settled pairs that collide are among them.
+  /// rigid pairs that collide are among them.
   std::vector<BodyPair> colliding_in_samples;
   std::size_t triangles = 0;     ///< in all trees
   std::size_t trees = 0;         ///< one per distinct shape
@@ -89,7 +91,7 @@ struct SceneReport
   std::optional<std::size_t> cpu_below;
 };
 
-/// Tells for many robot states at once which of them are free of collision. Implementations: BatchChecker (GPU) and
+/// Reports for many robot states at once which of them are free of collision. Implementations: BatchChecker (GPU) and
 /// CpuChecker. Thread-safe: calls are served one after the other.
 class StateChecker
 {

@@ -54,8 +54,8 @@ class StateInspector
   /// beyond Variable::largest. Points, normals and depths come from FCL, except for half-spaces: their single contact
   /// is the deepest point of the other shape. A pair also has a single contact if FCL finds no crossing surfaces. If
   /// the bodies touch, or are within the required distance, this contact is at FCL's nearest points. If one body is
-  /// inside the other, it is at the inner body. Its depth is then the distance by which the inner body must move, away
-  /// from the centre of the other body, to come free.
+  /// inside the other, this contact is at the inner body. The depth of this contact is then the distance by which the
+  /// inner body must move, away from the centre of the other body, to come free.
   std::vector<Contact> contacts(const double* state, const std::string& group, std::size_t max_contacts,
                                 std::size_t max_per_pair) const;
 

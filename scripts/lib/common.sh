@@ -33,5 +33,6 @@ use_build_folder()
   mkdir -p "$1" 2> /dev/null || die "cannot make ${1#"$repository"/}"
   foreign="$(find "$1" ! -writable -print -quit)"
   [[ -z "$foreign" ]] ||
-    die "cannot write to ${foreign#"$repository"/}, which belongs to $(stat -c %U "$foreign"): remove ${1#"$repository"/}, or run as that user"
+    die "cannot write to ${foreign#"$repository"/}, which belongs to $(stat -c %U "$foreign"):" \
+      "remove ${1#"$repository"/}, or run as that user"
 }

@@ -3,8 +3,8 @@
 
 usage: count_tests.py JUNIT_FILE REPORTS MORE_FAILED
 
-REPORTS is the folder of GoogleTest's XML reports. A report has the name of a ctest test that runs one suite. The cases of
-the report are counted instead of the suite. MORE_FAILED is added to the number of failed tests.
+REPORTS is the folder of GoogleTest's XML reports. A report has the name of a ctest test that runs one suite. The cases
+of the report are counted instead of the suite. MORE_FAILED is added to the number of failed tests.
 """
 import pathlib
 import sys
@@ -14,7 +14,8 @@ OUTCOMES = ("passed", "failed", "skipped")
 
 
 def of_suite(report, suite_passed):
-    """Outcomes of the cases. A suite fails although each case passed if the program crashes or leaks after the last one."""
+    """Outcomes of the cases. If the program crashes or leaks after the last case, the suite fails although each case
+    has passed."""
     outcomes = []
     for case in xml.etree.ElementTree.parse(report).getroot().iter("testcase"):
         if case.get("status") == "notrun":

@@ -53,9 +53,9 @@ includer_of()
   grep "/${name%.h}\.cpp$" <<< "$includers" | head -1 | grep . || head -1 <<< "$includers"
 }
 
-# lint: prints the findings of clang-tidy in the changed files; fails if there are any. clang-tidy needs a compile command
-# for each file, which a unity build does not have. So lint configures a second build folder, and builds only the
-# messages there.
+# lint: prints the findings of clang-tidy in the changed files; fails if there are any. clang-tidy needs a compile
+# command for each file, which a unity build does not have. So lint configures a second build folder, and builds only
+# the messages there.
 lint()
 {
   local list="$temporary/lint" folder="$build/lint" target=gpu_planning_scene_generate_messages_cpp

@@ -14,8 +14,10 @@ source_workspace()
 start_master()
 {
   local port log="$temporary/roscore.log" tries=200
-  port="$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')"
-  export ROS_MASTER_URI="http://127.0.0.1:$port" ROS_IP=127.0.0.1 ROS_HOME="$temporary/ros" ROS_LOG_DIR="$temporary/ros/log"
+  port="$(/usr/bin/python3 -c \
+    'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])')"
+  export ROS_MASTER_URI="http://127.0.0.1:$port" ROS_IP=127.0.0.1
+  export ROS_HOME="$temporary/ros" ROS_LOG_DIR="$temporary/ros/log"
   unset ROS_HOSTNAME
   start "$log" roscore -p "$port"
   until (: < "/dev/tcp/127.0.0.1/$port") 2> /dev/null; do

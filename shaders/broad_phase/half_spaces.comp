@@ -29,7 +29,8 @@ uint reachesDown(uint root, vec3 normal, float offset, float error, float distan
   stack[0] = root;
   int top = 1;
   uint found = 0u;
-  for (uint steps = 0u; top > 0 && (found & STATE_HIT) == 0u && steps < uint(INVOCATION_ITERATIONS) / (4u * LEAF_TRIANGLES); ++steps)
+  for (uint steps = 0u;
+       top > 0 && (found & STATE_HIT) == 0u && steps < uint(INVOCATION_ITERATIONS) / (4u * LEAF_TRIANGLES); ++steps)
   {
     const TreeNode node = fetchNode(stack[--top]);
     const float height = dot(normal, node.box.center) - offset;
@@ -50,7 +51,8 @@ uint reachesDown(uint root, vec3 normal, float offset, float error, float distan
       for (int k = 0; k < 3; ++k)
       {
         const float above = dot(normal, corners[k]) - offset;
-        found |= above + error <= distance ? STATE_HIT : (above > gap + error && FLOAT32_TRUSTED != 0 ? 0u : STATE_UNDECIDED);
+        found |= above + error <= distance ? STATE_HIT
+                                           : (above > gap + error && FLOAT32_TRUSTED != 0 ? 0u : STATE_UNDECIDED);
       }
     }
   }
@@ -71,11 +73,13 @@ void main()
   const Instance instance = fetchInstance(robot);
   const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
   const vec4 plane = half_spaces[HALF_SPACE_TEXELS * half_space];
-  const float distance = instance.padding + half_spaces[HALF_SPACE_TEXELS * half_space + 1u].x + worldMargin(state, robot);
+  const float distance =
+      instance.padding + half_spaces[HALF_SPACE_TEXELS * half_space + 1u].x + worldMargin(state, robot);
   const float error = planeError(pose, farCorner(fetchNode(instance.root).box), plane.w);
   const vec3 normal = plane.xyz * pose.rotation;
   precise const float offset = plane.w - dot(plane.xyz, pose.translation);
-  const uint found = reachesDown(instance.root, normal, offset, error, distance * (1.0 - 4.0 * u), requiredGap(distance, instance.slack));
+  const uint found = reachesDown(instance.root, normal, offset, error, distance * (1.0 - 4.0 * u),
+                                 requiredGap(distance, instance.slack));
   if (found != 0u)
     report(state, packPair(robot, robot_count + world_count + half_space), found);
 }

@@ -12,8 +12,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "broad_phase/queries.glsl"
 layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
 // First texel of a node: the centre of its box, and the next node if the boxes are apart. Second texel: the half
-// extents, and the world instance or NO_OBJECT. If the boxes overlap, the next node is the next one in the list, so no stack is
-// needed. The traversal ends behind the last node.
+// extents, and the world instance or NO_OBJECT. If the boxes overlap, the next node is the next one in the list, so no
+// stack is needed. The traversal ends behind the last node.
 layout(binding = UNIT_OBJECT_TREE) uniform usamplerBuffer object_tree;
 layout(binding = UNIT_WORLD_PAIRS) uniform usamplerBuffer world_pairs;
 
@@ -32,8 +32,8 @@ void main()
   const uint robot = fetchQuery(rowOf(i)).x;
   const PlacedInstance placed = place(robot, state);
   const vec3 center = placed.center;
-  const vec3 extent =
-      absolute(placed.pose.rotation) * placed.box.extent + placed.instance.padding + placed.world_margin + placed.margin;
+  const vec3 extent = absolute(placed.pose.rotation) * placed.box.extent + placed.instance.padding +
+                      placed.world_margin + placed.margin;
 
   const uint node_count = max(2u * world_count, 1u) - 1u;
   uint at = 0u;

@@ -1,5 +1,9 @@
-// Bounds on the errors of float32 computations with a pair of placed shapes. docs/error_bounds.md derives each bound.
-// Lengths are in metres.
+// Error bounds of float32 computations that several tests of two placed shapes share: poses, boxes, planes. The bounds
+// of one test are in the file of this test. In geometry/: triangle_pair.glsl (signs of determinants, separation along
+// an axis), triangle_distance.glsl and winding_number.glsl. In traversal/: solid_leaf.glsl, solid_nodes.glsl,
+// tolerance.glsl and bounding_volume_overlap.glsl (sizeError). docs/error_bounds.md derives each bound. Lengths are in
+// metres.
+
 // The relative error of one operation, in every rounding mode.
 const float u = UNIT_ROUNDOFF;
 // A product smaller than this may have lost all its digits to underflow.
@@ -17,7 +21,7 @@ float lengthAtMost(vec3 axis)
   return length(axis) + LOST_LENGTH;
 }
 
-// The corner of a box that is furthest from its shape's origin, mirrored to positive coordinates.
+// The corner of a box that is farthest from its shape's origin, mirrored to positive coordinates.
 vec3 farCorner(Box box)
 {
   return abs(box.center) + box.extent;

@@ -20,8 +20,8 @@ vec4 product(vec4 a, vec4 b)
 // largest of the quaternion's four entries, so that no digits cancel.
 vec4 quaternionOf(mat3 m)
 {
-  const vec4 squares = vec4(1.0 + m[0].x - m[1].y - m[2].z, 1.0 - m[0].x + m[1].y - m[2].z, 1.0 - m[0].x - m[1].y + m[2].z,
-                            1.0 + m[0].x + m[1].y + m[2].z);
+  const vec4 squares = vec4(1.0 + m[0].x - m[1].y - m[2].z, 1.0 - m[0].x + m[1].y - m[2].z,
+                            1.0 - m[0].x - m[1].y + m[2].z, 1.0 + m[0].x + m[1].y + m[2].z);
   const float xy = m[1].x + m[0].y;
   const float yz = m[2].y + m[1].z;
   const float zx = m[0].z + m[2].x;

@@ -87,9 +87,11 @@ uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
       precise const vec3 axis = cross(ea[i], eb[j]);
       precise const float volume = dot(axis, b[j] - a[i]);
       precise const float span_a = -dot(na, eb[j]);  // extent of a
-      const float separation = max(volume + min(0.0, span_b) - max(0.0, span_a), min(0.0, span_a) - volume - max(0.0, span_b));
+      const float separation =
+          max(volume + min(0.0, span_b) - max(0.0, span_a), min(0.0, span_a) - volume - max(0.0, span_b));
       const float certain = separation - error_span;
-      apart = apart || (certain > LEAST_SQUARED && certain * certain > squared_beyond * (dot(axis, axis) + LOST_SQUARE));
+      apart = apart ||
+              (certain > LEAST_SQUARED && certain * certain > squared_beyond * (dot(axis, axis) + LOST_SQUARE));
       all_above = all_above && volume > error_v;
       all_below = all_below && volume < -error_v;
       b_edge_above[j] = b_edge_above[j] && volume > error_v;

@@ -58,7 +58,8 @@ int crossing(vec3 c[3], float error)
     return UNCERTAIN_CROSSING;
   // The height at which the z axis meets the plane of the triangle, times the sum of the areas.
   precise const float height = area[1] * c[0].z + area[2] * c[1].z + area[0] * c[2].z;
-  const float height_error = 3.0 * (area_error * size + (abs(area[0]) + abs(area[1]) + abs(area[2])) * (error + 4.0 * u * size)) + TINY;
+  const float height_error =
+      3.0 * (area_error * size + (abs(area[0]) + abs(area[1]) + abs(area[2])) * (error + 4.0 * u * size)) + TINY;
   const int direction = above ? 1 : -1;
   const float along = above ? height : -height;
   return along > height_error ? direction : (along < -height_error ? 0 : UNCERTAIN_CROSSING);

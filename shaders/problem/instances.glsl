@@ -19,7 +19,8 @@ Instance fetchInstance(uint index)
   const uvec4 a = texelFetch(instance_texels, at);
   const uvec4 b = texelFetch(instance_texels, at + 1);
   const uvec4 c = texelFetch(instance_texels, at + 2);
-  return Instance(a.x, uintBitsToFloat(a.y), a.z, a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), uintBitsToFloat(c.w));
+  return Instance(a.x, uintBitsToFloat(a.y), a.z, a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz),
+                  uintBitsToFloat(c.w));
 }
 
 bool isPrimitive(Instance instance)

@@ -78,8 +78,9 @@ dmat3 quaternionRotation(dvec4 q)
   q /= sqrt(dot(q, q));
   const dvec3 d = 2.0lf * q.xyz;
   const dvec3 w = q.w * d;
-  return dmat3(1.0lf - q.y * d.y - q.z * d.z, q.x * d.y + w.z, q.x * d.z - w.y, q.x * d.y - w.z, 1.0lf - q.x * d.x - q.z * d.z,
-               q.y * d.z + w.x, q.x * d.z + w.y, q.y * d.z - w.x, 1.0lf - q.x * d.x - q.y * d.y);
+  return dmat3(1.0lf - q.y * d.y - q.z * d.z, q.x * d.y + w.z, q.x * d.z - w.y,
+               q.x * d.y - w.z, 1.0lf - q.x * d.x - q.z * d.z, q.y * d.z + w.x,
+               q.x * d.z + w.y, q.y * d.z - w.x, 1.0lf - q.x * d.x - q.y * d.y);
 }
 
 // Writes the poses of all shapes that move with a link. Each pose is rounded to float once.
@@ -93,7 +94,8 @@ void placeShapes(uint state, uint link, DoublePose link_pose)
     dvec2 halves[6];
     for (int i = 0; i < 6; ++i)
       halves[i] = twoDoubles(texelFetch(link_shapes, at + i));
-    const dmat3 rows = dmat3(dvec3(halves[0], halves[1].x), dvec3(halves[2], halves[3].x), dvec3(halves[4], halves[5].x));
+    const dmat3 rows =
+        dmat3(dvec3(halves[0], halves[1].x), dvec3(halves[2], halves[3].x), dvec3(halves[4], halves[5].x));
     const DoublePose shape = DoublePose(transpose(rows), dvec3(halves[1].y, halves[3].y, halves[5].y));
     const DoublePose placed = compose(link_pose, shape);
     const mat3 rotation = mat3(transpose(placed.rotation));

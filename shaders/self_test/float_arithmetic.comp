@@ -42,5 +42,6 @@ void main()
   const float no_number = (numbers[i].x - x) / (numbers[i].y - y);
   const bool holds = no_number > 1.0 || no_number < 1.0 || no_number == 1.0;
   results[OUTCOME_TEXELS * i] = vec4(sum, sum_error, product, product_error);
-  results[OUTCOME_TEXELS * i + 1u] = vec4(left, length(vec3(x, y, x)), holds ? 1.0 : 0.0, dot(vec3(x, y, x), vec3(y, y, x)));
+  results[OUTCOME_TEXELS * i + 1u] =
+      vec4(left, length(vec3(x, y, x)), holds ? 1.0 : 0.0, dot(vec3(x, y, x), vec3(y, y, x)));
 }

@@ -33,7 +33,8 @@ uint meshContainment(Instance inner, Instance solid, Pose pose, float error, ino
     // that box.
     const uint component = inner.first_component + i;
     const vec3 point = apply(pose, componentPoint(component));
-    if (componentSize(component) > diagonal || any(greaterThan(abs(point - bounds.center) - bounds.extent, vec3(error))))
+    if (componentSize(component) > diagonal ||
+        any(greaterThan(abs(point - bounds.center) - bounds.extent, vec3(error))))
       continue;
     found |= insideMesh(solid.root, point, error, iterations);
   }
@@ -51,10 +52,12 @@ void main()
     return;
   const Instance a = fetchInstance(pairOther(root_pair.pair));
   const Instance b = fetchInstance(pairRobot(root_pair.pair));
-  uint iterations = INVOCATION_ITERATIONS / (4u * LEAF_TRIANGLES);  // small, because the loops contain short inner loops
+  // Small, because the loops contain short inner loops.
+  uint iterations = INVOCATION_ITERATIONS / (4u * LEAF_TRIANGLES);
   uint found = meshContainment(b, a, root_pair.pose, boxError(root_pair.error), iterations);
   if ((found & STATE_HIT) == 0u)
-    found |= meshContainment(a, b, inversePose(root_pair.pose), inverseError(root_pair.error, farCorner(fetchNode(a.root).box)), iterations);
+    found |= meshContainment(a, b, inversePose(root_pair.pose),
+                             inverseError(root_pair.error, farCorner(fetchNode(a.root).box)), iterations);
   if (found != 0u)
     report(root_pair.state, root_pair.pair, found);
 }

@@ -13,7 +13,8 @@ void testTriangles(uint root_pair_index, RootPair root_pair, uint triangle_a, ui
   fetchTriangle(triangle_b, b);
   for (int k = 0; k < 3; ++k)
     b[k] = apply(root_pair.pose, b[k]);
-  uint found = FLOAT32_TRUSTED != 0 ? trianglePair(a, b, root_pair.pose.translation, root_pair.error, root_pair.gap) : STATE_UNDECIDED;
+  uint found = FLOAT32_TRUSTED != 0 ? trianglePair(a, b, root_pair.pose.translation, root_pair.error, root_pair.gap)
+                                    : STATE_UNDECIDED;
 #if PADDED && FLOAT32_TRUSTED
   // The distance of triangles that are not proven to meet may still be too small. A loop instead of a branch: on
   // llvmpipe, only the invocations that enter it pay for it.

@@ -56,7 +56,8 @@ uint testLeafPairs(uint count)
       testLeafRow(leaf_pairs[row / LEAF_TRIANGLES], row % LEAF_TRIANGLES);
 #endif
     }
-    iterations += CHUNK_ITERATIONS * (LEAF_CHUNK / gl_WorkGroupSize.x + 1u) + ROW_ITERATIONS * (todo / gl_WorkGroupSize.x + 1u);
+    iterations += CHUNK_ITERATIONS * (LEAF_CHUNK / gl_WorkGroupSize.x + 1u) +
+                  ROW_ITERATIONS * (todo / gl_WorkGroupSize.x + 1u);
     barrier();
   }
   return iterations;

@@ -45,7 +45,8 @@ void main()
       bool apart = nodesApart(child_a, child_b, root_pair.pose, boxMargin(root_pair.gap, root_pair.error));
 #if SOLIDS
       apart = apart || nodeBeyondSolid(child_a, child_b, instance_a, instance_b, root_pair);
-      inside = inside || nodeInCore(child_a, child_b, instance_a.core, instance_b.core, root_pair.pose, boxError(root_pair.error));
+      inside = inside || nodeInCore(child_a, child_b, instance_a.core, instance_b.core, root_pair.pose,
+                                    boxError(root_pair.error));
 #endif
 #if TOLERANT
       inside = inside || isCloseEnough(entry.x, root_pair, child_a, child_b);

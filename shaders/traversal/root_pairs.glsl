@@ -20,7 +20,8 @@ RootPair fetchRootPair(uint index)
 {
   const int at = int(index) * ROOT_PAIR_TEXELS;
   const uvec4 tail = texelFetch(root_pair_texels, at + 3);
-  const Pose pose = poseFromRows(uintBitsToFloat(texelFetch(root_pair_texels, at)), uintBitsToFloat(texelFetch(root_pair_texels, at + 1)),
+  const Pose pose = poseFromRows(uintBitsToFloat(texelFetch(root_pair_texels, at)),
+                                 uintBitsToFloat(texelFetch(root_pair_texels, at + 1)),
                                  uintBitsToFloat(texelFetch(root_pair_texels, at + 2)));
   return RootPair(pose, tail.x, tail.y, uintBitsToFloat(tail.z), uintBitsToFloat(tail.w));
 }

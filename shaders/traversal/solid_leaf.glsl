@@ -105,9 +105,11 @@ void testSolidRow(uvec4 pair, uint i)
   fetchTriangle(leafFirst(a_is_solid ? pair.z : pair.y) + i, corners);
   const float far = max(length(corners[0]), max(length(corners[1]), length(corners[2])));
   for (int k = 0; k < 3; ++k)
-    corners[k] = a_is_solid ? apply(root_pair.pose, corners[k]) : (corners[k] - root_pair.pose.translation) * root_pair.pose.rotation;
+    corners[k] = a_is_solid ? apply(root_pair.pose, corners[k])
+                            : (corners[k] - root_pair.pose.translation) * root_pair.pose.rotation;
   const float error = a_is_solid ? root_pair.error : inverseError(root_pair.error, vec3(far, 0.0, 0.0));
-  const uint found = FLOAT32_TRUSTED != 0 ? triangleSolid(corners, solid, error, fetchDistance(pair.x), root_pair.gap) : STATE_UNDECIDED;
+  const uint found = FLOAT32_TRUSTED != 0 ? triangleSolid(corners, solid, error, fetchDistance(pair.x), root_pair.gap)
+                                          : STATE_UNDECIDED;
   if (found != 0u)
     report(root_pair.state, root_pair.pair, found);
 }

@@ -19,7 +19,8 @@ bool nodeBeyondSolid(OrientedNode a, OrientedNode b, Instance instance_a, Instan
 {
   const float margin = boxMargin(root_pair.gap, root_pair.error) + sizeError(a.box, b.box);
   if (isPrimitive(instance_a))
-    return boxBeyondSolid(instance_a, apply(root_pair.pose, b.box.center), root_pair.pose.rotation * b.axes, b.box.extent, margin);
+    return boxBeyondSolid(instance_a, apply(root_pair.pose, b.box.center), root_pair.pose.rotation * b.axes,
+                          b.box.extent, margin);
   const float inverse = inverseError(0.0, abs(a.box.center) + dot(a.box.extent, vec3(1.0)));
   return boxBeyondSolid(instance_b, (a.box.center - root_pair.pose.translation) * root_pair.pose.rotation,
                         transpose(root_pair.pose.rotation) * a.axes, a.box.extent, margin + inverse);

@@ -10,8 +10,10 @@ bool isCloseEnough(uint root_pair_index, RootPair root_pair, OrientedNode a, Ori
   const vec3 between = apply(root_pair.pose, b.box.center) - a.box.center;
 #if SOLIDS
   // Only the solid of a box fills its node. Other solids do not end a traversal early.
-  const bool a_is_box = isSolidLeaf(a.first) && a.count != 0u && fetchInstance(pairOther(root_pair.pair)).kind == SOLID_BOX;
-  const bool b_is_box = isSolidLeaf(b.first) && b.count != 0u && fetchInstance(pairRobot(root_pair.pair)).kind == SOLID_BOX;
+  const bool a_is_box =
+      isSolidLeaf(a.first) && a.count != 0u && fetchInstance(pairOther(root_pair.pair)).kind == SOLID_BOX;
+  const bool b_is_box =
+      isSolidLeaf(b.first) && b.count != 0u && fetchInstance(pairRobot(root_pair.pair)).kind == SOLID_BOX;
   const vec3 beyond_a = max(abs(between) - a.box.extent, 0.0);
   const vec3 beyond_b = max(abs(between * root_pair.pose.rotation) - b.box.extent, 0.0);
   const float reach = a_is_box ? length(beyond_a) + length(b.box.extent) :

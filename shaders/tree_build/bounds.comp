@@ -7,7 +7,8 @@ layout(local_size_x = GROUP_SIZE) in;
 layout(location = LOCATION_PRIMITIVE_COUNT) uniform uint primitive_count;
 layout(std430, binding = BINDING_BOXES) readonly buffer Boxes { uvec4 boxes[]; };
 layout(std430, binding = BINDING_MESH_OF) readonly buffer MeshOf { uint mesh_of[]; };
-layout(std430, binding = BINDING_BOUNDS) buffer Bounds { uint bounds[]; };  // of a mesh: ~(lowest x, y, z), highest x, y, z
+// Of each mesh: ~(lowest x, y, z), highest x, y, z.
+layout(std430, binding = BINDING_BOUNDS) buffer Bounds { uint bounds[]; };
 
 // Maps floats to unsigned integers of the same order (Herf 2001, "Radix Tricks").
 uint ordered(float value)

@@ -132,7 +132,8 @@ void chooseAxes(Spread spread, uint count, vec3 origin, out vec4 axes[FIT_BOXES]
   vec3 corners[3];
   fetchAround(spread.triangle, origin, corners);
   axes[0] = vec4(0.0, 0.0, 0.0, 1.0);
-  axes[1] = mainAxes(mat3(squares.x, products.z, products.y, products.z, squares.y, products.x, products.y, products.x, squares.z));
+  axes[1] = mainAxes(mat3(squares.x, products.z, products.y, products.z, squares.y, products.x, products.y, products.x,
+                          squares.z));
   const vec3 edge = middleEdge(corners);
   const vec3 normal = normalize(cross(normalize(corners[1] - corners[0]), corners[2] - corners[0]));
   axes[2] = axesFrom(edge, normal);

@@ -18,6 +18,7 @@ void main()
   for (uint corner = 0u; corner < 3u; ++corner)
   {
     const uint at = source + 3u * corner;
-    triangles[TRIANGLE_TEXELS * (first_triangle + i) + corner] = uvec4(floatBitsToUint(vec3(vertices[at], vertices[at + 1u], vertices[at + 2u])), 0u);
+    triangles[TRIANGLE_TEXELS * (first_triangle + i) + corner] =
+        uvec4(floatBitsToUint(vec3(vertices[at], vertices[at + 1u], vertices[at + 2u])), 0u);
   }
 }

@@ -5,7 +5,8 @@
 layout(location = LOCATION_ROOT_BASE) uniform uint root_base;      // place of this forest's first root among the nodes
 layout(location = LOCATION_LEAF_SIZE) uniform uint leaf_size;
 layout(location = LOCATION_PRIMITIVE_BASE) uniform uint primitive_base;  // number of this forest's first triangle
-layout(std430, binding = BINDING_PAIR_STARTS) buffer PairStarts { uint pair_starts[]; };  // the first triangle below each pair
+// The first triangle below each pair.
+layout(std430, binding = BINDING_PAIR_STARTS) buffer PairStarts { uint pair_starts[]; };
 layout(std430, binding = BINDING_NODES) writeonly buffer Nodes { uvec4 nodes[]; };  // see problem/nodes.glsl
 layout(std430, binding = BINDING_LEAF_ORDER) writeonly buffer LeafOrder { uint leaf_order[]; };
 

@@ -18,7 +18,8 @@ void main()
   const uint first_pair_node = root_base + mesh_count;
   const uint start = pair_starts[pair];
   const Cluster left = unpackCluster(pairs[PAIR_TEXELS * pair], pairs[PAIR_TEXELS * pair + 1u]);
-  const Cluster right = unpackCluster(pairs[PAIR_TEXELS * pair + CLUSTER_TEXELS], pairs[PAIR_TEXELS * pair + CLUSTER_TEXELS + 1u]);
+  const Cluster right =
+      unpackCluster(pairs[PAIR_TEXELS * pair + CLUSTER_TEXELS], pairs[PAIR_TEXELS * pair + CLUSTER_TEXELS + 1u]);
   place(left, first_pair_node + 2u * pair, start, first_pair_node);
   place(right, first_pair_node + 2u * pair + 1u, start + left.count, first_pair_node);
 }

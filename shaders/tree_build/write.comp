@@ -6,7 +6,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "tree_build/cluster.glsl"
 #include "tree_build/merge.glsl"
 layout(std430, binding = BINDING_CLUSTERS_IN) readonly buffer ClustersIn { uvec4 clusters_in[]; };
-layout(std430, binding = BINDING_CLUSTER_INFO_IN) readonly buffer InfoIn { uvec2 info_in[]; };  // mesh, cost of a traversal (float bits)
+// Mesh, cost of a traversal (float bits).
+layout(std430, binding = BINDING_CLUSTER_INFO_IN) readonly buffer InfoIn { uvec2 info_in[]; };
 layout(std430, binding = BINDING_SUMS) readonly buffer Sums { uvec2 sums[]; };
 layout(std430, binding = BINDING_CLUSTERS_OUT) writeonly buffer ClustersOut { uvec4 clusters_out[]; };
 layout(std430, binding = BINDING_CLUSTER_INFO_OUT) writeonly buffer InfoOut { uvec2 info_out[]; };

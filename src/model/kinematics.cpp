@@ -5,7 +5,6 @@
 // Forward kinematics with precomputed constants for each joint: see Kinematics::Step. The pose of a link is the pose of
 // its parent times the pose of its joint. Rotations use Rodrigues' formula (K. M. Lynch, F. C. Park: Modern Robotics,
 // 2017, chapters 3 and 4).
-
 namespace gpu_planning_scene::core
 {
 namespace

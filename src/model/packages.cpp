@@ -1,5 +1,3 @@
-// Finds ROS packages as rospack does, without ROS.
-
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -16,6 +14,7 @@
 #include "gpu_planning_scene/resources.h"
 #include "model/name_list.h"
 
+// Finds ROS packages as rospack does, without ROS.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -68,7 +68,7 @@ void validateMesh(const Mesh& mesh)
   {
     // In this form, NaN fails too.
     if (!(mesh.vertices[i].array().abs() <= kLargestLength).all())
-      throw Error(name + ": vertex " + std::to_string(i) + " is not finite or further than 1000 km away");
+      throw Error(name + ": vertex " + std::to_string(i) + " is not finite or farther than 1000 km away");
   }
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
   {

@@ -4,7 +4,6 @@
 
 // The argument is reduced with pi / 2 in three parts, after W. J. Cody, W. Waite: Software Manual for the Elementary
 // Functions (1980). Taylor series then give the sine and the cosine.
-
 namespace gpu_planning_scene::core
 {
 namespace

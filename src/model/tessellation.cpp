@@ -4,14 +4,12 @@
 #include <map>
 #include <stdexcept>
 
-#include "model/math_constants.h"
-
 #include "gpu_planning_scene/shapes.h"
+#include "model/math_constants.h"
 
 // Triangles for solids: boxes exactly, cylinders and cones by inscribed regular polygons, spheres by a subdivided
 // icosahedron (M. J. Wenninger: Spherical Models, 1979). All vertices are on the true surface. The sagitta is the
 // largest distance from the true surface to the triangles.
-
 namespace gpu_planning_scene::core
 {
 namespace

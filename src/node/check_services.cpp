@@ -164,12 +164,12 @@ void fillReport(const CheckAnswer& answer, GetReport::Response& response)
   add("allowed_self_pairs", report.allowed_self_pairs);
   add("allowed_world_pairs", report.allowed_world_pairs);
   add("touch_pairs", report.touch_pairs);
-  add("unmoved_pairs", report.unmoved_pairs);
+  add("pairs_outside_group", report.pairs_outside_group);
   add("links_without_shapes", report.links_without_shapes);
   add("unreachable_self_pairs", report.unreachable_self_pairs);
   add("unreachable_world_pairs", report.unreachable_world_pairs);
   add("unreachable_objects", report.unreachable_objects);
-  add("settled_pairs", report.settled_pairs);
+  add("rigid_pairs", report.rigid_pairs);
   add("always_colliding", report.always_colliding ? 1 : 0);
   add("colliding_in_samples", report.colliding_in_samples.size());
   add("triangles", report.triangles);

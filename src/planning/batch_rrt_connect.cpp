@@ -10,7 +10,6 @@
 // RRT-Connect that checks motions in batches: OMPL's interface, the inputs and the time. RrtSearch and
 // BidirectionalTree grow the trees. J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query
 // path planning. ICRA 2000.
-
 namespace gpu_planning_scene::core
 {
 namespace

@@ -6,7 +6,6 @@
 // A round collects the next motions of all attempts and of the random branches. It checks their samples in one call and
 // adds the valid motions to the trees.
 // J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
-
 namespace gpu_planning_scene::core
 {
 namespace

@@ -11,7 +11,6 @@
 // A round draws shortcuts between points of the path, checks them in one call, and takes valid shortcuts that do not
 // overlap.
 // R. Geraerts, M. H. Overmars: Creating high-quality paths for motion planning. IJRR 26(8), 2007.
-
 namespace gpu_planning_scene::core
 {
 namespace

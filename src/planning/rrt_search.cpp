@@ -10,7 +10,6 @@
 // a motion of the path fails, it is removed from its tree, and the search goes on. This delay of expensive checks is
 // the idea of G. Sanchez, J.-C. Latombe: A single-query bi-directional probabilistic roadmap planner with lazy
 // collision checking. ISRR 2001. The trees: see bidirectional_tree.h.
-
 namespace gpu_planning_scene::core
 {
 namespace

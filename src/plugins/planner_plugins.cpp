@@ -1,6 +1,3 @@
-// The planners that this package exports to pluginlib, by the names of planner_plugins.xml: its own, and those of
-// OMPL's that MoveIt's users know, by the names that they have in an ompl_planning.yaml.
-
 #include <memory>
 
 #include <ompl/geometric/planners/est/BiEST.h>
@@ -22,6 +19,8 @@
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/planner_factory.h"
 
+// The planners that this package exports to pluginlib, by the names of planner_plugins.xml: its own, and those of
+// OMPL's that MoveIt's users know, by the names that they have in an ompl_planning.yaml.
 namespace gpu_planning_scene::core
 {
 template <class Planner>

@@ -5,6 +5,8 @@
 #include "render/drawing.h"
 #include "render/renderer.h"
 
+// Own method: cameras around the robot, in two heights, look at the middle of its bounding box and of the objects close
+// to it. Each camera has the least distance at which all corners of the box are in the picture.
 namespace gpu_planning_scene::core
 {
 namespace

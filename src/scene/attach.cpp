@@ -7,7 +7,6 @@
 #include "scene/validate_scene.h"
 
 // Attaching objects to links, and detaching them.
-
 namespace gpu_planning_scene::core
 {
 namespace

@@ -6,7 +6,6 @@
 #include "scene/validate_scene.h"
 
 // Attached objects: attaching them, appending to them, detaching them.
-
 namespace gpu_planning_scene::core
 {
 void SceneChanger::changeAttached(const AttachedChange& change)

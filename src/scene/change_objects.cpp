@@ -2,7 +2,6 @@
 #include "scene/scene_changer.h"
 
 // Objects of the world: adding, appending to, moving and removing them.
-
 namespace gpu_planning_scene::core
 {
 void SceneChanger::clearWorld()

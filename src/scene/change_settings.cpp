@@ -7,7 +7,6 @@
 #include "scene/scene_changer.h"
 
 // Names, fixed frames, the allowed collision matrix, padding, scale, colours.
-
 namespace gpu_planning_scene::core
 {
 void SceneChanger::changeNames(const SceneChange& change)

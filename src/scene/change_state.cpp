@@ -6,7 +6,6 @@
 #include "scene/scene_changer.h"
 
 // The state of the robot, and its attached objects.
-
 namespace gpu_planning_scene::core
 {
 void SceneChanger::changeState(const StateChange& change, bool is_full_scene)

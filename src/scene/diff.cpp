@@ -6,7 +6,6 @@
 #include "gpu_planning_scene/scene_change.h"
 
 // The change that leads from one scene to another.
-
 namespace gpu_planning_scene::core
 {
 namespace

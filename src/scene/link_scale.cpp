@@ -3,7 +3,6 @@
 #include "model/scaled_shapes.h"
 
 // The scale of links, which also applies to their attached objects.
-
 namespace gpu_planning_scene::core
 {
 namespace

@@ -4,7 +4,6 @@
 #include "scene/scene_reader.h"
 
 // Padding and scale of links, and colours of bodies.
-
 namespace gpu_planning_scene::core
 {
 namespace

@@ -37,7 +37,7 @@ Eigen::Isometry3d nearestRigid(const Eigen::Isometry3d& pose, const std::string&
 {
   const double excess = excessOf(pose);
   if (excess > kTolerance)
-    throw Error(where + ": a pose is not finite, not a rotation and a translation, or further than 1000 km away");
+    throw Error(where + ": a pose is not finite, not a rotation and a translation, or farther than 1000 km away");
   if (excess <= kRounding)
     return pose;
   const Eigen::JacobiSVD<Eigen::Matrix3d> parts(pose.linear(), Eigen::ComputeFullU | Eigen::ComputeFullV);

@@ -11,7 +11,6 @@
 #include "scene/shape_order.h"
 
 // Functions that all parts of a change use.
-
 namespace gpu_planning_scene::core
 {
 namespace
@@ -86,7 +85,7 @@ int SceneChanger::requireLink(const std::string& name, const std::string& where)
 void SceneChanger::requirePose(const Eigen::Isometry3d& pose, const std::string& where) const
 {
   if (!isRigid(pose))
-    throw Error(where + ": a pose is not finite, not a rotation and a translation, or further than 1000 km away");
+    throw Error(where + ": a pose is not finite, not a rotation and a translation, or farther than 1000 km away");
 }
 
 void SceneChanger::require(const ObjectChange& change)

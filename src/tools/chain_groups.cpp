@@ -2,6 +2,8 @@
 
 #include <set>
 
+// Own method. A pass from the root to the leaves collects the variables that move each link. A pass back counts the
+// moving branches below each link. Of the links that end a chain, the first one for each set of variables is a tip.
 namespace gpu_planning_scene::core
 {
 std::vector<std::string> chainTips(const RobotModel& robot)

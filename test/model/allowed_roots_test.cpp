@@ -51,7 +51,7 @@ TEST_F(AllowedRootsTest, PackagesMayBeReadFrom)
   EXPECT_EQ(resolved("package://arm/meshes/x/../link.stl"), real("arm/meshes/link.stl"));
   EXPECT_EQ(resolved("package://arm/in.stl"), real("arm/meshes/link.stl")) << "a link within the package";
   EXPECT_EQ(resolved("package://linked/in.stl"), real("arm/meshes/link.stl")) << "a package that is itself a link";
-  EXPECT_EQ(resolved("package://arm/none.stl"), real("arm/none.stl")) << "whether it is there is not asked";
+  EXPECT_EQ(resolved("package://arm/none.stl"), real("arm/none.stl")) << "the file need not exist";
 }
 
 TEST_F(AllowedRootsTest, NoPathLeavesAPackage)

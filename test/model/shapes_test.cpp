@@ -56,7 +56,7 @@ TEST(Shapes, MeshesMustHaveTrianglesOfFiniteVertices)
 
   Mesh infinite = triangle();
   infinite.vertices[2].y() = kInfinity;
-  EXPECT_EQ(meshError(infinite), "mesh 'part.stl': vertex 2 is not finite or further than 1000 km away");
+  EXPECT_EQ(meshError(infinite), "mesh 'part.stl': vertex 2 is not finite or farther than 1000 km away");
 
   infinite.vertices[2].y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(meshError(infinite), "");

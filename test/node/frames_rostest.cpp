@@ -102,7 +102,7 @@ TEST_F(Frames, AFrameOfTfIsLookedUpAtItsStamp)
   EXPECT_FALSE(isFree());
   box.header.stamp = then + ros::Duration(0.1);
   apply(diffWith(box));
-  EXPECT_TRUE(isFree()) << "by then it is a metre further";
+  EXPECT_TRUE(isFree()) << "by then it is a metre farther";
 }
 
 TEST_F(Frames, AFrameThatComesWithinTheTimeoutIsWaitedFor)

@@ -10,10 +10,9 @@
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 
-#include "node/messages.h"
-
 #include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
+#include "node/messages.h"
 #include "node/persistent_call.h"
 #include "tools/run_program.h"
 

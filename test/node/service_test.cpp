@@ -527,6 +527,8 @@ TEST_F(Service, AReportHasLinesAndNumbers)
   EXPECT_FALSE(response.lines.empty());
   ASSERT_EQ(response.names.size(), response.values.size());
   EXPECT_EQ("self_pairs", response.names.at(0));
+  for (const char* name : {"rigid_pairs", "pairs_outside_group"})
+    EXPECT_EQ(1, std::count(response.names.begin(), response.names.end(), name)) << name;
   EXPECT_EQ(5u, response.scene_revision);
 }
 
@@ -593,7 +595,7 @@ TEST_F(Service, AFailureOfTheDeviceIsAnAnswer)
   EXPECT_EQ("device lost", response.message);
 }
 
-/// A mobile robot whose place nobody has told: its joints are known, its base is not.
+/// A mobile robot with known joint values. The pose of its base is unknown.
 class UnknownBase : public testing::Test
 {
  public:

@@ -1,4 +1,4 @@
-"""All C++ follows .clang-format; includes have one order and give whole paths; test names are in upper camel case."""
+"""All C++ follows .clang-format; includes, comments of files and names of tests each follow one rule."""
 import re
 import shutil
 import subprocess
@@ -35,6 +35,20 @@ def kinds_of_includes(path):
     return kinds
 
 
+def has_split_blocks(text, has_own_header):
+    """Whether only empty lines separate two includes of this project. The own header is apart from the others."""
+    if has_own_header:
+        text = text.partition("#include ")[2]
+    return re.search(r'(?m)^#include "[^"]+"\n\n+#include "', text) is not None
+
+
+def comment_is_elsewhere(text):
+    """Whether a comment of a whole file is not directly before its namespace. A program begins with its comment."""
+    head = text.partition("\nnamespace ")[0] + "\n"
+    at_the_top = text.startswith("//") and not re.search(r"(?m)^int main\(", text)
+    return "\nnamespace " in text and (at_the_top or re.search(r"(?m)^//.*\n\n+\Z", head) is not None)
+
+
 def wrong_names(text):
     """The names of tests and suites in a file that are not in upper camel case."""
     macros = re.findall(r"(?m)^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),\s+(\w+)\)", text)
@@ -65,6 +79,36 @@ class CodeFormat(unittest.TestCase):
             kinds = kinds_of_includes(path)
             if kinds != sorted(kinds):
                 wrong.append(str(path.relative_to(ROOT)))
+        self.assertEqual([], wrong)
+
+    def test_the_includes_of_this_project_form_one_block(self):
+        wrong = [str(path.relative_to(ROOT)) for path in sources()
+                 if has_split_blocks(path.read_text(), kinds_of_includes(path)[:1] == [OWN_HEADER])]
+        self.assertEqual([], wrong)
+
+    def test_includes_of_this_project_in_two_blocks_are_found(self):
+        own, other = '#include "a.h"\n\n', '#include "b.h"\n\n#include "c.h"\n'
+        self.assertTrue(has_split_blocks(own + other, True))
+        self.assertTrue(has_split_blocks(other, False))
+        self.assertFalse(has_split_blocks(own + '#include "b.h"\n', True))
+
+    def test_the_comment_of_a_file_is_directly_before_its_namespace(self):
+        wrong = [str(path.relative_to(ROOT)) for path in sorted((ROOT / "src").rglob("*.cpp"))
+                 if comment_is_elsewhere(path.read_text())]
+        self.assertEqual([], wrong)
+
+    def test_a_comment_of_a_file_at_another_place_is_found(self):
+        self.assertTrue(comment_is_elsewhere("#include <map>\n\n// The idea.\n\nnamespace a\n{\n}\n"))
+        self.assertTrue(comment_is_elsewhere("// The idea.\n#include <map>\n\nnamespace a\n{\n}\n"))
+        self.assertFalse(comment_is_elsewhere("#include <map>\n\n// The idea.\nnamespace a\n{\n}\n"))
+        self.assertFalse(comment_is_elsewhere("// A program.\n\n#include <map>\n\nnamespace a\n{\n}\n\nint main()\n{\n}\n"))
+
+    def test_lines_of_shaders_and_scripts_have_at_most_120_characters(self):
+        # clang-format limits the lines of C++.
+        paths = [path for folder in ("shaders", "scripts") for path in sorted((ROOT / folder).rglob("*"))
+                 if path.is_file() and "__pycache__" not in path.parts]
+        wrong = [f"{path.relative_to(ROOT)}:{number}" for path in paths
+                 for number, line in enumerate(path.read_text().splitlines(), 1) if len(line) > 120]
         self.assertEqual([], wrong)
 
     def test_tests_and_suites_are_named_in_upper_camel_case(self):

@@ -170,7 +170,7 @@ TEST_F(ChangeObjects, InvalidChangesAreRefused)
   refused("leave the shapes out", objectChange(Operation::Move, "a", {boxAt(0.1)}));
   refused("size along x", objectChange(Operation::Add, "a", {boxAt(-0.1)}));
   refused("at most 1000 km", objectChange(Operation::Add, "a", {boxAt(1e307)}));
-  refused("further than 1000 km", objectChange(Operation::Add, "a", {boxAt(0.1, poseAt(1e307, 0, 0))}));
+  refused("farther than 1000 km", objectChange(Operation::Add, "a", {boxAt(0.1, poseAt(1e307, 0, 0))}));
   refused("not finite", objectChange(Operation::Add, "a", {boxAt(0.1, poseAt(nan, 0, 0))}));
   ObjectChange move = objectChange(Operation::Move, "a");
   move.shape_poses = {poseAt(0, 0, 0), poseAt(0, 0, 0)};

@@ -1,4 +1,5 @@
-// The 140 motion planning problems of ../shared/problems: every scene loads, every start and goal is free.
+// The 140 motion planning problems of MotionBenchMaker ("Data that is not in the repository" in CONTRIBUTING.md): every
+// scene loads, every start and goal is free.
 
 #include <algorithm>
 #include <filesystem>

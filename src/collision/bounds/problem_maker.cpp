@@ -30,14 +30,14 @@ CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::strin
   std::vector<VariableRange> ranges;
   if (options_.reductions.reach)
     ranges = reachability_filter_.leaveOutUnreachable(scene, bodies, pairs, counts);
-  if (options_.reductions.unmoved_pairs)
+  if (options_.reductions.rigid_pairs)
   {
     const CheckedPairs rigid = RigidPairs::take(*scene.robot, bodies, pairs);
     const std::size_t self = countMoved(rigid.self);
     const std::size_t world = countMoved(rigid.world);
     counts.self_pairs -= self;
     counts.world_pairs -= world;
-    counts.settled_pairs = self + world;
+    counts.rigid_pairs = self + world;
     counts.colliding_in_samples = rigid_pairs_.collisions(scene, bodies, rigid);
     if (!counts.colliding_in_samples.empty())
       counts.always_colliding = counts.colliding_in_samples.front();
@@ -61,7 +61,7 @@ CheckerOptions optionsWithAllPairs()
 {
   CheckerOptions options;
   options.reductions.reach = false;
-  options.reductions.unmoved_pairs = false;
+  options.reductions.rigid_pairs = false;
   return options;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/geometry/median_split.h"
 #include "collision/geometry/shape_bounds.h"
 #include "model/math_constants.h"
 #include "scene/rigid_pose.h"
@@ -72,14 +73,7 @@ void cluster(Ball* begin, Ball* end, std::size_t max_parts, std::vector<Ball>& r
     result.push_back(enclosing(begin, end));
     return;
   }
-  AlignedBox3d centers;
-  for (const Ball* ball = begin; ball != end; ++ball)
-    centers.extend(ball->center);
-  int axis;
-  centers.sizes().maxCoeff(&axis);
-  Ball* const middle = begin + count / 2;
-  std::nth_element(begin, middle, end,
-                   [axis](const Ball& a, const Ball& b) { return a.center[axis] < b.center[axis]; });
+  Ball* const middle = splitAtMedian(begin, end, [](const Ball& ball) -> const Vector3d& { return ball.center; });
   cluster(begin, middle, max_parts / 2, result);
   cluster(middle, end, max_parts - max_parts / 2, result);
 }

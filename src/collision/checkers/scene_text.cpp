@@ -64,22 +64,23 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
                                        : ""));
   lines.push_back("checked pairs: " + std::to_string(report.self_pairs) + " of links, " +
                   std::to_string(report.world_pairs) + " of a link and an object");
-  lines.push_back("left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") + " that " +
-                  matrixText(scene.matrix_source) + ", " + counted(report.links_without_shapes, "link") +
-                  " without collision shapes" +
-                  (report.touch_pairs ? ", " + counted(report.touch_pairs, "pair") +
-                                            " of an attached object and a body that it may touch"
-                                      : std::string()) +
-                  (report.unmoved_pairs ? ", " + counted(report.unmoved_pairs, "pair") + " that the group does not move"
-                                        : std::string()));
+  lines.push_back(
+      "left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") + " that " +
+      matrixText(scene.matrix_source) + ", " + counted(report.links_without_shapes, "link") +
+      " without collision shapes" +
+      (report.touch_pairs
+           ? ", " + counted(report.touch_pairs, "pair") + " of an attached object and a body that it may touch"
+           : std::string()) +
+      (report.pairs_outside_group ? ", " + counted(report.pairs_outside_group, "pair") + " that the group does not move"
+                                  : std::string()));
   if (report.unreachable_self_pairs + report.unreachable_world_pairs != 0)
     lines.push_back("out of reach: " + counted(report.unreachable_self_pairs, "pair") + " of links, " +
                     counted(report.unreachable_world_pairs, "pair") + " of a link and an object" +
                     (report.unreachable_objects ? ", which leaves out " + counted(report.unreachable_objects, "object")
                                                 : std::string()));
-  if (report.settled_pairs != 0)
+  if (report.rigid_pairs != 0)
     lines.push_back("decided once, because no joint moves their bodies relative to each other: " +
-                    counted(report.settled_pairs, "pair"));
+                    counted(report.rigid_pairs, "pair"));
   if (report.always_colliding)
     lines.push_back("in collision in every state: " + scene.bodyName((*report.always_colliding)[0]) + " - " +
                     scene.bodyName((*report.always_colliding)[1]));

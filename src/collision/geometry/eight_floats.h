@@ -1,8 +1,8 @@
+#pragma once
+
 // Eight floats side by side, in the vector extension of GCC and Clang: operators work on all eight. Each user is
 // compiled for several instruction sets, so the functions are private to the file that includes this one, and they call
 // no function that other files define inline.
-#pragma once
-
 namespace gpu_planning_scene::core
 {
 namespace

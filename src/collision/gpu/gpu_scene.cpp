@@ -106,8 +106,9 @@ struct ObjectNode
 };
 static_assert(sizeof(ObjectNode) == OBJECT_NODE_TEXELS * TexelBuffer::kTexelBytes, "the layout of the shaders");
 
-/// Appends a subtree in depth-first order. The boxes are enlarged by the rounding error of the box tests (as in
-/// shaders/tree_build/layout.glsl). The recursion depth is bounded, see buildBinnedSah.
+/// Appends a subtree in depth-first order. The boxes are enlarged by the rounding error of the box test in
+/// shaders/broad_phase/world_pairs.comp ("Broad phases" in docs/error_bounds.md). The recursion depth is bounded, see
+/// buildBinnedSah.
 void appendSubtree(const ObjectTree& tree, std::uint32_t root, std::vector<ObjectNode>& walk)
 {
   const Node& node = tree.nodes()[root];

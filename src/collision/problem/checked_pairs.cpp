@@ -97,7 +97,7 @@ CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<Robo
       }
       const bool is_allowed = row.allowed(body_rows[j]);
       const bool is_moved = moved[bodies[i].link] || moved[bodies[j].link];
-      ++(is_allowed ? report.allowed_self_pairs : is_moved ? report.self_pairs : report.unmoved_pairs);
+      ++(is_allowed ? report.allowed_self_pairs : is_moved ? report.self_pairs : report.pairs_outside_group);
       if (!is_allowed)
         pairs.self.push_back({i, j, is_moved});
     }
@@ -111,7 +111,7 @@ CheckedPairs findCheckedPairs(const PlanningScene& scene, const std::vector<Robo
     }
     const auto checked = static_cast<std::size_t>(world_end - first);
     report.allowed_world_pairs += solids.size() - checked;
-    (is_moved ? report.world_pairs : report.unmoved_pairs) += checked;
+    (is_moved ? report.world_pairs : report.pairs_outside_group) += checked;
   }
   pairs.world.resize(static_cast<std::size_t>(world_end - pairs.world.data()));
   return pairs;

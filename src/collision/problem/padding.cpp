@@ -4,7 +4,6 @@
 
 // A link and an object collide if their distance is at most the sum of their paddings (README.md, "What collision
 // means").
-
 namespace gpu_planning_scene::core
 {
 double paddingOf(const PlanningScene& scene, int link)

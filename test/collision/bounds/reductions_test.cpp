@@ -30,11 +30,11 @@ struct Setting
   Reductions reductions;
 };
 
-Reductions only(bool reach, bool unmoved_pairs, bool shared_trees, bool direct_primitives)
+Reductions only(bool reach, bool rigid_pairs, bool shared_trees, bool direct_primitives)
 {
   Reductions reductions;
   reductions.reach = reach;
-  reductions.unmoved_pairs = unmoved_pairs;
+  reductions.rigid_pairs = rigid_pairs;
   reductions.shared_trees = shared_trees;
   reductions.direct_primitives = direct_primitives;
   return reductions;
@@ -44,7 +44,7 @@ const Setting kNone = {"none", only(false, false, false, false)};
 const Setting kAll = {"all", only(true, true, true, true)};
 const Setting kDirect = {"direct primitives", only(false, false, false, true)};
 const std::vector<Setting> kEach = {{"reach", only(true, false, false, false)},
-                                    {"unmoved pairs", only(false, true, false, false)},
+                                    {"rigid pairs", only(false, true, false, false)},
                                     {"shared trees", only(false, false, true, false)},
                                     kAll};
 
@@ -270,11 +270,11 @@ TEST_F(SmallScene, ReportsWhatIsLeftOutAndWhy)
   EXPECT_EQ(reach.world_pairs + reach.unreachable_world_pairs, whole.world_pairs);
   EXPECT_EQ(reach.world_pairs, 1U);  // the arm and the box in its path
 
-  const SceneReport settled = reportOf(only(false, true, true, false));
-  EXPECT_EQ(settled.settled_pairs, 1U + 6U);
-  EXPECT_EQ(settled.self_pairs, 2U);
-  EXPECT_EQ(settled.world_pairs, 3U);
-  EXPECT_FALSE(settled.always_colliding);
+  const SceneReport rigid = reportOf(only(false, true, true, false));
+  EXPECT_EQ(rigid.rigid_pairs, 1U + 6U);
+  EXPECT_EQ(rigid.self_pairs, 2U);
+  EXPECT_EQ(rigid.world_pairs, 3U);
+  EXPECT_FALSE(rigid.always_colliding);
 }
 
 TEST_F(SmallScene, AnswersStatesOutsideTheLimitsWithAllPairs)

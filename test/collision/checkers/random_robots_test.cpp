@@ -260,8 +260,8 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
     }
   }
 
-  /// The end of a motion from a state to a random state or a part of the way, with all or only some of the joints. The
-  /// angles of continuous joints may be off by a whole turn.
+  /// The end of a motion that leads from a state to a random state, or only towards it. All or only some of the joints
+  /// move. The angles of continuous joints may be off by a whole turn.
   std::vector<double> endOfMotion(const RobotModel& robot, const std::vector<double>& start)
   {
     std::vector<double> far(start.size());
@@ -300,7 +300,7 @@ class PlacedPoints
 
   /// The largest distance between the positions of a point of `shape` in the two states, in the frame of the link
   /// `viewer`; -1: the planning frame.
-  double furthest(const PlacedPoints& other, std::uint32_t shape, int viewer) const
+  double farthest(const PlacedPoints& other, std::uint32_t shape, int viewer) const
   {
     constexpr std::size_t kPoints = 24;
     const std::vector<Eigen::Vector3d>& points = problem_.tessellations[problem_.robot[shape].tree].mesh->vertices;
@@ -369,7 +369,7 @@ double expectWithinMargins(const PlanningScene& scene, const CollisionProblem& p
         const double most = margins.of(from == 0 && part != 1 ? 0 : 1)[margin];
         double moved = 0.0;
         for (const std::uint32_t shape : shapes)
-          moved += placed[part].furthest(placed[from], shape, viewer);
+          moved += placed[part].farthest(placed[from], shape, viewer);
         EXPECT_LE(moved, most + kRounding)
             << "parts " << from << " to " << part << ", " << scene.bodyName(problem.robot[shapes.front()].body)
             << " and " << scene.bodyName(problem.robot[shapes.back()].body);

@@ -195,7 +195,7 @@ void expectAnswersOfAFreshChecker(StateChecker& checker, int edits)
   std::cout << "seed " << kSeed << std::endl;
   SceneEdits scene({GeneratedArm(2000).load(), GeneratedArm(1000).load()});
   Reductions none;
-  none.reach = none.unmoved_pairs = none.shared_trees = none.direct_primitives = false;
+  none.reach = none.rigid_pairs = none.shared_trees = none.direct_primitives = false;
   CheckerOptions without;
   without.reductions = none;
   std::size_t valid = 0;

@@ -450,17 +450,17 @@ TEST_F(GpuStep, ProofsOfPlacedTrianglesHoldForTheExactPoses)
     const Triangle a = placed(0);
     const auto center = [](const Triangle& t) { return Vector3d((t[0] + t[1] + t[2]) / 3.0); };
     const Vector3d from = poses[1].translation() + center(a) - center(placed(1));  // here they meet, or nearly
-    const Vector3d way = anyVector(1.0).normalized();
+    const Vector3d direction = anyVector(1.0).normalized();
     double low = 0.0;
     double high = 3.0;
     for (int step = 0; step < 45; ++step)
     {
       const double middle = (low + high) / 2.0;
-      poses[1].translation() = from + middle * way;
+      poses[1].translation() = from + middle * direction;
       (trianglesWithin(a, placed(1), 0.0) ? low : high) = middle;
     }
     poses[1].translation() =
-        from + (high + std::pow(10.0, -6.5 + 2.0 * uniform_(generator_)) * (i % 2 == 0 ? 1 : -1)) * way;
+        from + (high + std::pow(10.0, -6.5 + 2.0 * uniform_(generator_)) * (i % 2 == 0 ? 1 : -1)) * direction;
     meet.push_back(trianglesWithin(a, placed(1), 0.0));
     for (const Triangle& triangle : triangles)
       for (const Vector3d& corner : triangle)

@@ -221,7 +221,7 @@ TEST(SceneReport, CountsWhatIsCheckedAndWhatIsLeftOut)
   EXPECT_EQ(1u, report.allowed_self_pairs);
   EXPECT_EQ(7u, report.world_pairs);
   EXPECT_EQ(1u, report.allowed_world_pairs);
-  EXPECT_EQ(0u, report.unmoved_pairs);
+  EXPECT_EQ(0u, report.pairs_outside_group);
   EXPECT_EQ(1u, report.links_without_shapes);
   EXPECT_EQ(4u, report.trees);
   EXPECT_GT(report.triangles, 2u * 12u + 1024u);
@@ -229,7 +229,7 @@ TEST(SceneReport, CountsWhatIsCheckedAndWhatIsLeftOut)
   makeProblem(scene, "neck", &report);
   EXPECT_EQ(3u, report.self_pairs);
   EXPECT_EQ(1u, report.world_pairs);
-  EXPECT_EQ(2u + 6u, report.unmoved_pairs);
+  EXPECT_EQ(2u + 6u, report.pairs_outside_group);
 }
 
 /// "left" is attached to `upper` and may touch `fore`; "hook" is attached to `upper` too; "lamp" is attached to `head`.
@@ -261,7 +261,7 @@ TEST(CheckedPairs, OfCarriedObjectsAreThoseThatTheirLinkDoesNotTouch)
   EXPECT_EQ(3u + 10u, report.self_pairs);
   EXPECT_EQ(7u, report.world_pairs);
   EXPECT_EQ(3u + 1u + 1u, report.touch_pairs);  // with their own links, with a touch link, with each other on one link
-  EXPECT_EQ(0u, report.unmoved_pairs);
+  EXPECT_EQ(0u, report.pairs_outside_group);
 }
 
 TEST(CheckedPairs, OfCarriedObjectsFollowTheMatrix)

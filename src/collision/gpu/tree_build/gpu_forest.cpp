@@ -16,6 +16,7 @@ namespace
 constexpr std::size_t kUint = sizeof(std::uint32_t);
 constexpr std::size_t kTexel = TexelBuffer::kTexelBytes;
 static_assert(sizeof(Node) == NODE_TEXELS * kTexel, "the layout of shaders/problem/nodes.glsl");
+static_assert(kLeafTriangles == LEAF_TRIANGLES, "the leaves of Node, on the CPU and on the GPU");
 
 /// With at most this many primitives, no invocation of the prefix sums comes near 65535 iterations, after which
 /// llvmpipe ends it.
