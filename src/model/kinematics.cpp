@@ -119,17 +119,29 @@ Eigen::Matrix4d Kinematics::relativePose(const Step& step, const double* state)
   return step.constant;
 }
 
+void Kinematics::place(const Step& step, const double* state, Eigen::Isometry3d* poses, Eigen::Isometry3d& pose)
+{
+  const Eigen::Matrix4d relative = relativePose(step, state);
+  // Eigen vectorises products of 4x4 matrices. The last row stays exactly 0 0 0 1.
+  if (step.parent < 0)
+    pose.matrix() = relative;
+  else
+    pose.matrix().noalias() = poses[step.parent].matrix() * relative;
+}
+
 void Kinematics::linkPoses(const double* state, Eigen::Isometry3d* poses) const
 {
   for (std::size_t i = 0; i < steps_.size(); ++i)
-  {
-    const Step& step = steps_[i];
-    const Eigen::Matrix4d relative = relativePose(step, state);
-    // Eigen vectorises products of 4x4 matrices. The last row stays exactly 0 0 0 1.
-    if (step.parent < 0)
-      poses[i].matrix() = relative;
-    else
-      poses[i].matrix().noalias() = poses[step.parent].matrix() * relative;
-  }
+    place(steps_[i], state, poses, poses[i]);
+}
+
+void Kinematics::addLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const
+{
+  if (link < 0 || known[link] != 0)
+    return;
+  const Step& step = steps_[static_cast<std::size_t>(link)];
+  addLinkPose(state, step.parent, poses, known);
+  place(step, state, poses, poses[link]);
+  known[link] = 1;
 }
 }  // namespace gpu_planning_scene::core

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -17,6 +18,9 @@ class Kinematics
 
   /// Writes the pose of each link in the planning frame: see RobotModel::linkPoses.
   void linkPoses(const double* state, Eigen::Isometry3d* poses) const;
+
+  /// See RobotModel::addLinkPose.
+  void addLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const;
 
  private:
   /// Pose of a link relative to its parent link, as a function of the joint's position q (radians or metres). O is the
@@ -38,6 +42,7 @@ class Kinematics
   };
 
   static Eigen::Matrix4d relativePose(const Step& step, const double* state);
+  static void place(const Step& step, const double* state, Eigen::Isometry3d* poses, Eigen::Isometry3d& pose);
 
   std::vector<Step> steps_;
 };

@@ -103,6 +103,11 @@ void RobotModel::linkPoses(const double* state, Eigen::Isometry3d* poses) const
   kinematics_->linkPoses(state, poses);
 }
 
+void RobotModel::addLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const
+{
+  kinematics_->addLinkPose(state, link, poses, known);
+}
+
 void RobotModel::randomState(std::mt19937_64& generator, double* state) const
 {
   for (std::size_t i = 0; i < variables_.size(); ++i)

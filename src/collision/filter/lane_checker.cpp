@@ -108,9 +108,15 @@ std::optional<BodyPair> LaneChecker::decideOpenPairs(const double* state, std::u
   const auto gain = [&](std::uint32_t pair) { return scratch.records[pair].hits / scratch.records[pair].cost; };
   std::sort(open, open + open_count, [&](std::uint32_t a, std::uint32_t b) { return gain(a) > gain(b); });
   scratch.pairs.clear();
+  scratch.known.assign(robot_->links().size(), 0);
   for (std::size_t k = 0; k < open_count; ++k)
-    scratch.pairs.push_back({scene_->instancesOf(open[k]), marginOf(open[k], margins)});
-  robot_->linkPoses(state, scratch.poses.data());
+  {
+    const CpuTraversal::InstancePair& instances = scene_->instancesOf(open[k]);
+    scratch.pairs.push_back({instances, marginOf(open[k], margins)});
+    for (const std::uint32_t instance : instances)
+      if (instance < problem_->robot.size())
+        robot_->addLinkPose(state, problem_->robot[instance].link, scratch.poses.data(), scratch.known.data());
+  }
   const auto pair = traversal_.firstCollisionOf(scratch.pairs.data(), scratch.pairs.size(), scratch.poses.data(),
                                                 scratch.exact, scratch.steps);
   for (std::size_t k = 0; k < scratch.steps.size(); ++k)

@@ -36,7 +36,8 @@ class LaneChecker
     std::vector<std::uint8_t> placed;
     std::vector<std::uint32_t> open;
     std::vector<lanes::Trial> trials;
-    std::vector<Eigen::Isometry3d> poses;
+    std::vector<Eigen::Isometry3d> poses;  // of links
+    std::vector<std::uint8_t> known;       // of each link: whether its pose is set
     std::vector<CpuTraversal::OpenPair> pairs;
     std::vector<PairRecord> records;  // of each pair
     std::vector<std::uint64_t> steps;
