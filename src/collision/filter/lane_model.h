@@ -92,6 +92,24 @@ struct SelfPair
   Thresholds thresholds;
 };
 
+/// A ball around instances that stay in it for all joint values, for example those of a hand. Its centre is the origin
+/// of a frame.
+struct Cluster
+{
+  int frame;
+  float radius;
+};
+
+/// Consecutive self pairs without tables. Each has an instance near the first centre and one near the second. All are
+/// apart if the distance of the centres is greater than `reach`.
+struct SelfGroup
+{
+  std::uint32_t centers[2];  ///< numbers in Scratch::centers
+  float reach;               ///< includes the rounding errors; infinite: the pairs are always tested
+  std::uint32_t first;
+  std::uint32_t end;
+};
+
 struct WorldPair
 {
   std::uint32_t body;
@@ -145,7 +163,9 @@ struct Model
   Array<Body> bodies;
   Array<Object> objects;
   Array<Table> tables;
+  Array<Cluster> clusters;
   Array<SelfPair> self_pairs;
+  Array<SelfGroup> self_groups;  ///< of all self pairs without tables
   Array<WorldPair> world_pairs;
   Array<WorldGroup> world_groups;
 };
@@ -163,7 +183,7 @@ struct Scratch
 {
   float* frames;         ///< of each frame: 12 numbers in all lanes
   float* given;          ///< the same, relative to the parent, for frames of kind Given; the caller fills it
-  float* centers;        ///< of each body: the centre of its enclosing ball in all lanes
+  float* centers;        ///< of each body: the centre of its enclosing ball in all lanes; then of each cluster
   float* balls;          ///< of each body: the coordinates of its outer and inner balls in one lane
   std::uint8_t* placed;  ///< of each body: which of these balls are set
   std::uint32_t* open;   ///< of each lane: the pairs without a proof; room for all pairs

@@ -81,10 +81,12 @@ LaneScene::LaneScene(std::shared_ptr<const RobotModel> robot, const CollisionPro
   addFrames();
   for (std::size_t i = 0; i < problem.robot.size(); ++i)
     addBody(problem.robot[i], *proofs_->covers[i]);
+  addClusters();
   addSelfPairs(problem);
   addWorld(problem, forest);
-  model_ = {robot_->variables().size(), arrayOf(frames_),     arrayOf(bodies_),      arrayOf(objects_),
-            arrayOf(tables_),           arrayOf(self_pairs_), arrayOf(world_pairs_), arrayOf(world_groups_)};
+  model_ = {robot_->variables().size(), arrayOf(frames_),      arrayOf(bodies_),     arrayOf(objects_),
+            arrayOf(tables_),           arrayOf(clusters_),    arrayOf(self_pairs_), arrayOf(self_groups_),
+            arrayOf(world_pairs_),      arrayOf(world_groups_)};
 }
 
 /// Links that are rigidly connected share a frame.
@@ -148,14 +150,14 @@ int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry
     largest = std::min(largest, std::max(std::abs(variable.lower), std::abs(variable.upper)) + 1e-6);
     step += std::abs(joint.multiplier) * largest + std::abs(joint.offset);
   }
-  FrameError error{before.far + step, before.rotation + turn + kProductError,
+  FrameError error{step, before.far + step, before.rotation + turn + kProductError,
                    before.position + before.rotation * step + kSumError * (before.far + step)};
   const bool given = joint.type == JointType::Planar || joint.type == JointType::Floating;
   if (given)
   {
     frame.kind = lanes::FrameKind::Given;
     frame.parent = -1;
-    error = {kLargestGiven, kUnit * 4.0, kSumError * kLargestGiven};
+    error = {kLargestGiven, kLargestGiven, kUnit * 4.0, kSumError * kLargestGiven};
   }
   has_given_ = has_given_ || given;
   link_of_given_.push_back(given ? link : -1);
@@ -209,38 +211,137 @@ double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
   return first.position + second.position + kDistanceError * lengths;
 }
 
-/// Pairs with a table come first, see lanes::Model.
+/// Finds parts of the robot that stay together: all instances that move with a frame, if they stay in a ball around the
+/// frame's origin that is not much larger than the largest of them.
+void LaneScene::addClusters()
+{
+  constexpr double kLargestCluster = 3.0;  // radius relative to the largest instance
+  struct Part
+  {
+    double radius = 0.0;
+    double largest = 0.0;
+    int instances = 0;
+  };
+  std::vector<Part> parts(frames_.size());
+  for (const lanes::Body& body : bodies_)
+  {
+    Part& part = parts[static_cast<std::size_t>(body.frame)];
+    const auto outer = static_cast<double>(body.outer);
+    part.radius = std::max(part.radius, Eigen::Map<const Eigen::Vector3f>(body.center).cast<double>().norm() + outer);
+    part.largest = std::max(part.largest, outer);
+    ++part.instances;
+  }
+  for (std::size_t f = frames_.size(); f-- > 0;)  // parents have smaller numbers
+    if (const int parent = frames_[f].parent; parent >= 0 && parts[f].instances > 0)
+    {
+      Part& part = parts[static_cast<std::size_t>(parent)];
+      part.radius = std::max(part.radius, frame_errors_[f].step + parts[f].radius);
+      part.largest = std::max(part.largest, parts[f].largest);
+      part.instances += parts[f].instances;
+    }
+  for (std::size_t f = 0; f < frames_.size(); ++f)
+  {
+    const int parent = frames_[f].parent;
+    int cluster = parent < 0 ? -1 : cluster_of_frame_[static_cast<std::size_t>(parent)];
+    if (cluster < 0 && parts[f].instances > 1 && parts[f].radius <= kLargestCluster * parts[f].largest)
+    {
+      cluster = static_cast<int>(clusters_.size());
+      clusters_.push_back({static_cast<int>(f), above(parts[f].radius * (1.0 + 1e-6))});
+    }
+    cluster_of_frame_.push_back(cluster);
+  }
+}
+
+/// The number of the centre near which an instance stays.
+std::uint32_t LaneScene::centerOf(std::uint32_t body) const
+{
+  const int cluster = cluster_of_frame_[static_cast<std::size_t>(bodies_[body].frame)];
+  return cluster < 0 ? body : static_cast<std::uint32_t>(bodies_.size()) + static_cast<std::uint32_t>(cluster);
+}
+
+void LaneScene::addSelfPair(std::size_t p, const CollisionProblem& problem)
+{
+  const auto [a, b] = problem.self_pairs[p];
+  const double error = selfError(a, b);
+  const BallCover& cover_a = *proofs_->covers[a];
+  const BallCover& cover_b = *proofs_->covers[b];
+  const double layer = std::max(openLayer(cover_a, cover_b), openLayer(cover_b, cover_a));
+  self_pairs_.push_back({a, b, {above(error), above(layer + error), below(-error)}});
+  pairs_.push_back({a, b});
+  self_pair_of_.push_back(p);
+}
+
+/// Pairs with a table come first, see lanes::Model. The others are sorted by the centres of their instances.
 void LaneScene::addSelfPairs(const CollisionProblem& problem)
 {
-  for (const bool with_table : {true, false})
-    for (std::size_t p = 0; p < problem.self_pairs.size(); ++p)
+  std::vector<std::size_t> others;
+  for (std::size_t p = 0; p < problem.self_pairs.size(); ++p)
+  {
+    const JointTable* table = proofs_->tables[p].get();
+    if (!table)
     {
-      const JointTable* table = proofs_->tables[p].get();
-      if ((table != nullptr) != with_table)
-        continue;
-      const auto [a, b] = problem.self_pairs[p];
-      if (table)
-      {
-        lanes::Table made{};
-        made.pair = static_cast<std::uint32_t>(self_pairs_.size());
-        made.variables = static_cast<int>(table->variables.size());
-        for (std::size_t k = 0; k < table->variables.size(); ++k)
-        {
-          const TableVariable& variable = table->variables[k];
-          made.variable[k] = {variable.variable, variable.wraps, variable.lower, 1.0 / variable.cell_width,
-                              variable.cells};
-        }
-        made.cells = table->cells.data();
-        tables_.push_back(made);
-      }
-      const double error = selfError(a, b);
-      const BallCover& cover_a = *proofs_->covers[a];
-      const BallCover& cover_b = *proofs_->covers[b];
-      const double layer = std::max(openLayer(cover_a, cover_b), openLayer(cover_b, cover_a));
-      self_pairs_.push_back({a, b, {above(error), above(layer + error), below(-error)}});
-      pairs_.push_back({a, b});
-      self_pair_of_.push_back(p);
+      others.push_back(p);
+      continue;
     }
+    lanes::Table made{};
+    made.pair = static_cast<std::uint32_t>(self_pairs_.size());
+    made.variables = static_cast<int>(table->variables.size());
+    for (std::size_t k = 0; k < table->variables.size(); ++k)
+    {
+      const TableVariable& variable = table->variables[k];
+      made.variable[k] = {variable.variable, variable.wraps, variable.lower, 1.0 / variable.cell_width, variable.cells};
+    }
+    made.cells = table->cells.data();
+    tables_.push_back(made);
+    addSelfPair(p, problem);
+  }
+  const auto centers = [&](std::size_t p)
+  {
+    const auto [a, b] = problem.self_pairs[p];
+    return std::minmax({centerOf(a), centerOf(b)});
+  };
+  std::stable_sort(others.begin(), others.end(), [&](std::size_t p, std::size_t q) { return centers(p) < centers(q); });
+  const auto first = static_cast<std::uint32_t>(self_pairs_.size());
+  for (const std::size_t p : others)
+    addSelfPair(p, problem);
+  addSelfGroups(first);
+}
+
+/// Groups the self pairs from `first` on.
+void LaneScene::addSelfGroups(std::uint32_t first)
+{
+  const auto bodies = static_cast<std::uint32_t>(bodies_.size());
+  struct Placed
+  {
+    BodyError error;
+    double radius;
+  };
+  const auto placed = [&](std::uint32_t center)
+  {
+    if (center < bodies)
+      return Placed{body_errors_[center], static_cast<double>(bodies_[center].outer)};
+    const lanes::Cluster& cluster = clusters_[center - bodies];
+    const FrameError& frame = frame_errors_[static_cast<std::size_t>(cluster.frame)];
+    return Placed{{frame.far, frame.position}, static_cast<double>(cluster.radius)};
+  };
+  for (std::uint32_t p = first; p < self_pairs_.size();)
+  {
+    const auto centers = std::minmax({centerOf(self_pairs_[p].a), centerOf(self_pairs_[p].b)});
+    std::uint32_t end = p;
+    while (end < self_pairs_.size() &&
+           std::minmax({centerOf(self_pairs_[end].a), centerOf(self_pairs_[end].b)}) == centers)
+      ++end;
+    const Placed a = placed(centers.first);
+    const Placed b = placed(centers.second);
+    const double error =
+        a.error.position + b.error.position + kDistanceError * (a.error.far + b.error.far + a.radius + b.radius);
+    const bool is_tested = end - p > 1 && centers.first != centers.second;
+    self_groups_.push_back({{centers.first, centers.second},
+                            is_tested ? above(a.radius + b.radius + error) : std::numeric_limits<float>::infinity(),
+                            p,
+                            end});
+    p = end;
+  }
 }
 
 void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& forest)

@@ -47,6 +47,7 @@ class LaneScene
   /// Error bounds of the kernel for a frame, in metres.
   struct FrameError
   {
+    double step = 0.0;      // largest distance of the frame's origin from the origin of its parent
     double far = 0.0;       // largest distance of the frame's origin from the origin of coordinates
     double rotation = 0.0;  // of a rotated vector of length 1
     double position = 0.0;  // of the frame's origin
@@ -62,7 +63,11 @@ class LaneScene
   void addFrames();
   int addFrame(const Joint& joint, int link, int parent, const Eigen::Isometry3d& origin);
   void addBody(const ShapeInstance& instance, const BallCover& cover);
+  void addClusters();
   void addSelfPairs(const CollisionProblem& problem);
+  void addSelfPair(std::size_t p, const CollisionProblem& problem);
+  void addSelfGroups(std::uint32_t first);
+  std::uint32_t centerOf(std::uint32_t body) const;
   void addWorld(const CollisionProblem& problem, const CpuForest& forest);
   double selfError(std::uint32_t a, std::uint32_t b) const;
 
@@ -82,7 +87,10 @@ class LaneScene
   std::vector<lanes::Body> bodies_;
   std::vector<lanes::Object> objects_;
   std::vector<lanes::Table> tables_;
+  std::vector<lanes::Cluster> clusters_;
+  std::vector<int> cluster_of_frame_;  // -1: none
   std::vector<lanes::SelfPair> self_pairs_;
+  std::vector<lanes::SelfGroup> self_groups_;
   std::vector<lanes::WorldPair> world_pairs_;
   std::vector<lanes::WorldGroup> world_groups_;
   std::vector<CpuTraversal::InstancePair> pairs_;
