@@ -12,7 +12,7 @@
 #include "model/math_constants.h"
 
 // A grid of cubes over the shape's box. Cubes that the surface enters are found with the exact test of triangle and
-// box; the winding number tells which of the other cubes are inside.
+// box. The other cubes form connected parts; the winding number of one point tells whether a part is inside.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -116,6 +116,90 @@ std::vector<bool> entered(const CubeGrid& grid, const std::vector<Triangle>& pie
   }
   return is_entered;
 }
+
+/// Connected parts of the cubes that the surface does not enter. The points of a part are all inside a solid or all
+/// outside, because the segment between the centres of two neighbours meets no surface.
+struct EmptyParts
+{
+  std::vector<int> part_of_cube;  // -1: the surface enters the cube
+  std::vector<Vector3i> first;    // cube of each part
+  std::vector<bool> at_border;    // of each part: it reaches the border of the grid
+
+  EmptyParts(const CubeGrid& grid, const std::vector<bool>& is_entered) : part_of_cube(is_entered.size(), -1)
+  {
+    const Vector3i last = grid.count - Vector3i::Ones();
+    std::vector<Vector3i> open;
+    const auto visit = [&](const Vector3i& cube)
+    {
+      const std::size_t number = grid.numberOf(cube);
+      if (is_entered[number] || part_of_cube[number] >= 0)
+        return;
+      part_of_cube[number] = static_cast<int>(first.size()) - 1;
+      open.push_back(cube);
+    };
+    grid.each(Vector3i::Zero(), last,
+              [&](const Vector3i& cube)
+              {
+                if (is_entered[grid.numberOf(cube)] || part_of_cube[grid.numberOf(cube)] >= 0)
+                  return;
+                first.push_back(cube);
+                at_border.push_back(false);
+                visit(cube);
+                while (!open.empty())
+                {
+                  const Vector3i at = open.back();
+                  open.pop_back();
+                  for (int axis = 0; axis < 3; ++axis)
+                    for (const int step : {-1, 1})
+                    {
+                      const Vector3i neighbour = at + step * Vector3i::Unit(axis);
+                      if (neighbour[axis] < 0 || neighbour[axis] > last[axis])
+                        at_border.back() = true;
+                      else
+                        visit(neighbour);
+                    }
+                }
+              });
+  }
+};
+
+/// Which of the cubes that the surface does not enter are inside.
+class InsideCubes
+{
+ public:
+  InsideCubes(const CpuTree& tree, const CubeGrid& grid, const std::vector<bool>& is_entered)
+    : tree_(tree), grid_(grid), parts_(grid, is_entered)
+  {
+    const bool solid = hasSolid(tree);
+    by_winding_ = !solid && tree.triangles.size() <= kWindingTriangles;
+    has_hole_ =
+        by_winding_ && std::all_of(parts_.at_border.begin(), parts_.at_border.end(), [](bool at) { return at; });
+    std::vector<std::uint32_t> stack;
+    for (const Vector3i& cube : parts_.first)
+    {
+      const Vector3d center = grid.centerOf(cube);
+      inside_.push_back(!solid      ? by_winding_ && windingNumber(tree.triangles, center) > 0.5
+                        : tree.mesh ? isInsideSolid(tree, center, stack)
+                                    : insideSolid(tree, center));
+    }
+  }
+
+  /// `cube`: the surface does not enter it.
+  bool contains(const Vector3i& cube) const
+  {
+    // The inside of a mesh with a large hole is connected with its outside.
+    return has_hole_ ? windingNumber(tree_.triangles, grid_.centerOf(cube)) > 0.5
+                     : inside_[static_cast<std::size_t>(parts_.part_of_cube[grid_.numberOf(cube)])];
+  }
+
+ private:
+  const CpuTree& tree_;
+  const CubeGrid& grid_;
+  EmptyParts parts_;
+  bool by_winding_;
+  bool has_hole_;
+  std::vector<bool> inside_;  // of each part
+};
 }  // namespace
 
 bool hasSolid(const CpuTree& tree)
@@ -188,39 +272,29 @@ ShapeSamples samplesOf(const CpuTree& tree)
     }
 
   const bool solid = hasSolid(tree);
-  const bool by_winding = !solid && tree.triangles.size() <= kWindingTriangles;
-  std::vector<std::uint32_t> stack;
-  const auto is_inside = [&](const Vector3d& center, bool empty)
-  {
-    if (!solid)
-      return by_winding && windingNumber(tree.triangles, center) > 0.5;
-    // In empty cubes, no point is on the surface, so the expensive test of insideSolid is not needed.
-    return tree.mesh && empty ? isInsideSolid(tree, center, stack) : insideSolid(tree, center);
-  };
-  const auto add = [&](const Vector3i& cube, bool empty)
+  const auto add = [&](const Vector3i& cube)
   {
     const Vector3d center = grid.centerOf(cube);
-    if (!is_inside(center, empty))
-      return;
-    const SolidCell cell{center, distanceFromSurface(tree, center)};
-    if (solid && empty)
-      samples.cells.push_back(cell);
-    samples.inside.push_back(cell);
+    samples.inside.push_back({center, distanceFromSurface(tree, center)});
   };
   const Vector3i last = grid.count - Vector3i::Ones();
+  const InsideCubes inside(tree, grid, is_entered);
   grid.each(Vector3i::Zero(), last,
             [&](const Vector3i& cube)
             {
-              if (!is_entered[grid.numberOf(cube)] && (solid || cube.sum() % 4 == 0))
-                add(cube, true);
+              if (is_entered[grid.numberOf(cube)] || !(solid || cube.sum() % 4 == 0) || !inside.contains(cube))
+                return;
+              add(cube);
+              if (solid)
+                samples.cells.push_back(samples.inside.back());
             });
   // In thin shapes, the surface enters nearly all cubes.
   if (solid && samples.inside.size() < kFewInside)
     grid.each(Vector3i::Zero(), last,
               [&](const Vector3i& cube)
               {
-                if (is_entered[grid.numberOf(cube)] && cube.sum() % 4 == 0)
-                  add(cube, false);
+                if (is_entered[grid.numberOf(cube)] && cube.sum() % 4 == 0 && insideSolid(tree, grid.centerOf(cube)))
+                  add(cube);
               });
   return samples;
 }
