@@ -1,9 +1,11 @@
 #include "collision/filter/ball_cover.h"
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -60,8 +62,8 @@ class GapTable
   {
     const std::vector<Vector3d> points = thinned(samples.points, kSamples);
     const std::vector<SolidCell> cells = thinned(samples.cells, kSamples);
-    samples_ = points.size() + cells.size();
-    gaps_.reserve(candidates_ * samples_);
+    words_ = (points.size() + cells.size() + kBits - 1) / kBits;
+    gaps_.reserve(candidates_ * words_ * kBits);
     for (const SolidCell& candidate : candidates)
     {
       const auto add = [&](const Vector3d& point, double radius)
@@ -70,6 +72,7 @@ class GapTable
         add(point, 0.0);
       for (const SolidCell& cell : cells)
         add(cell.center, kHalfDiagonal * samples.grid.cell);
+      gaps_.resize((gaps_.size() + kBits - 1) / kBits * kBits, kNoSample);
     }
   }
 
@@ -77,19 +80,17 @@ class GapTable
   /// The greedy choice is lazy (Minoux, "Accelerated greedy algorithms for maximizing submodular set functions", 1978).
   std::vector<std::size_t> cover(float gap, std::size_t most) const
   {
-    const std::size_t words = (samples_ + 63) / 64;
-    std::vector<std::uint64_t> contained(candidates_ * words, 0);
-    for (std::size_t c = 0; c < candidates_; ++c)
-      for (std::size_t s = 0; s < samples_; ++s)
-        contained[c * words + s / 64] |= static_cast<std::uint64_t>(gaps_[c * samples_ + s] <= gap) << (s % 64);
-    std::vector<std::uint64_t> left(words, ~std::uint64_t{0});
-    if (samples_ % 64 != 0)
-      left.back() = (std::uint64_t{1} << (samples_ % 64)) - 1;
+    std::vector<std::uint64_t> contained(candidates_ * words_);
+    for (std::size_t i = 0; i < contained.size(); ++i)
+      contained[i] = atMost(&gaps_[i * kBits], gap);
+    std::vector<std::uint64_t> left(words_);
+    for (std::size_t w = 0; w < words_; ++w)
+      left[w] = atMost(&gaps_[w * kBits], std::numeric_limits<float>::max());
     const auto count_new = [&](std::size_t c)
     {
       std::size_t count = 0;
-      for (std::size_t w = 0; w < words; ++w)
-        count += std::bitset<64>(contained[c * words + w] & left[w]).count();
+      for (std::size_t w = 0; w < words_; ++w)
+        count += std::bitset<64>(contained[c * words_ + w] & left[w]).count();
       return count;
     };
     // A candidate never gains new samples, so an old count is an upper bound.
@@ -112,16 +113,36 @@ class GapTable
       if (count == 0 || chosen.size() == most)
         return {};
       chosen.push_back(best);
-      for (std::size_t w = 0; w < words; ++w)
-        left[w] &= ~contained[best * words + w];
+      for (std::size_t w = 0; w < words_; ++w)
+        left[w] &= ~contained[best * words_ + w];
     }
     return chosen;
   }
 
  private:
+  static constexpr std::size_t kBits = 64;
+  static constexpr float kNoSample = std::numeric_limits<float>::infinity();
+
+  /// One bit for each of kBits gaps: it is at most `gap`. Compilers vectorise the comparisons; a product then gathers
+  /// the lowest bits of eight bytes in one byte.
+  static std::uint64_t atMost(const float* gaps, float gap)
+  {
+    std::array<std::uint8_t, kBits> bytes;
+    for (std::size_t i = 0; i < kBits; ++i)
+      bytes[i] = gaps[i] <= gap ? 1 : 0;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < kBits; i += 8)
+    {
+      std::uint64_t eight;
+      std::memcpy(&eight, &bytes[i], sizeof eight);
+      bits = bits << 8 | (eight * 0x0102040810204080U) >> 56;
+    }
+    return bits;
+  }
+
   std::size_t candidates_;
-  std::size_t samples_;
-  std::vector<float> gaps_;  // candidates_ rows
+  std::size_t words_;
+  std::vector<float> gaps_;  // candidates_ rows of words_ * kBits gaps; kNoSample at the end of a row
 };
 
 /// A ball that is being fitted.
