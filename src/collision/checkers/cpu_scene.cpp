@@ -14,6 +14,9 @@ namespace
 {
 constexpr std::size_t kStatesPerChunk = 32;
 
+// A large batch is cut into slices, so that its later states profit from proofs that are made in the meantime.
+constexpr std::size_t kStatesPerSlice = 16'384;
+
 // Checking this many states takes less time than starting threads. The calling thread also keeps its learned order of
 // checks.
 constexpr std::size_t kFewStates = 128;
@@ -57,6 +60,9 @@ const SceneReport& CpuScene::report(const std::string& name)
     std::sort(pairs.begin(), pairs.end());
     group.is_sampled = true;
   }
+  group.scratch.lanes.tally.flush();
+  group.scratch.near_lanes.tally.flush();
+  group.report.decided = group.decisions->report(group.checked);
   return group.report;
 }
 
@@ -147,17 +153,23 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
   for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)
     if (!isValidFor(*group.problem, states + i * width))
       prepareOutside(name, group);
-  checked_ += count;
-  const bool by_lanes = group.lanes && checked_ > kStatesBeforeProofs && group.lanes->isReady();
-  const auto check_range = [&](std::size_t begin, std::size_t end, Scratch& scratch)
+  const auto check_range = [&](std::size_t begin, std::size_t end, bool by_lanes, Scratch& scratch)
   {
     for (std::size_t i = begin; i < end; i += lanes::kLanes)
       checkBlock(states, i, std::min<std::size_t>(i + lanes::kLanes, end), group, margins, by_lanes, scratch, result);
   };
-  if (count <= kFewStates)
-    return check_range(0, count, group.scratch);
-  parallelFor(count, kStatesPerChunk,
-              [&, scratch = group.scratch](std::size_t begin, std::size_t end) mutable
-              { check_range(begin, end, scratch); });
+  for (std::size_t begin = 0; begin < count; begin += kStatesPerSlice)
+  {
+    const std::size_t size = std::min(kStatesPerSlice, count - begin);
+    checked_ += size;
+    group.checked += size;
+    const bool by_lanes = group.lanes && checked_ > kStatesBeforeProofs && group.lanes->isReady();
+    if (size <= kFewStates)
+      check_range(begin, begin + size, by_lanes, group.scratch);
+    else
+      parallelFor(size, kStatesPerChunk,
+                  [&, scratch = group.scratch](std::size_t first, std::size_t last) mutable
+                  { check_range(begin + first, begin + last, by_lanes, scratch); });
+  }
 }
 }  // namespace gpu_planning_scene::core

@@ -51,6 +51,12 @@ class CpuScene
   /// Work space of one thread, including the learned order of checks.
   struct Scratch
   {
+    explicit Scratch(const std::shared_ptr<DecisionTotals>& decisions)
+    {
+      lanes.tally.countFor(decisions);
+      near_lanes.tally.countFor(decisions);
+    }
+
     CpuTraversal::Scratch within;     // for states for which the problem is valid
     CpuTraversal::Scratch outside;    // for the other states
     CpuTraversal::Scratch near;       // for states with margins
@@ -67,7 +73,9 @@ class CpuScene
     std::unique_ptr<LaneChecker> lanes;           // for states for which the problem is valid; null: not used
     std::unique_ptr<const CpuTraversal> outside;  // all pairs, for states for which the problem is not valid
     std::unique_ptr<const DisplacementBounds> displacements;
-    Scratch scratch;
+    std::uint64_t checked = 0;  // states
+    std::shared_ptr<DecisionTotals> decisions = std::make_shared<DecisionTotals>();
+    Scratch scratch{decisions};
   };
 
   Group& groupOf(const std::string& group);

@@ -133,9 +133,11 @@ void LaneChecker::check(const double* states, std::size_t count, std::size_t row
   const lanes::Scratch kernel_scratch = kernelScratch(scratch);
   const bool is_kernel_used = fillGiven(states, count, scratch, kernel_scratch.given);
   lanes::Block block;
+  scratch.tally.begin(block);
   if (is_kernel_used)
     kernel_(scene_->model(), states, static_cast<int>(count), kernelMargins(margins, count, scratch), kernel_scratch,
             block);
+  const std::uint64_t begin = block.clock ? block.clock() : 0;
   for (std::size_t lane = 0; lane < count; ++lane)
   {
     const double* const state = states + lane * width;
@@ -157,5 +159,7 @@ void LaneChecker::check(const double* states, std::size_t count, std::size_t row
       result.colliding[row + lane] = *pair;
     }
   }
+  if (is_kernel_used)
+    scratch.tally.add(block, count, block.clock ? block.clock() - begin : 0);
 }
 }  // namespace gpu_planning_scene::core

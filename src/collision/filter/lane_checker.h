@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/exact/cpu_traversal.h"
+#include "collision/filter/decision_tally.h"
 #include "collision/filter/lane_kernel.h"
 #include "collision/filter/lane_scene.h"
 #include "collision/filter/proof_worker.h"
@@ -42,6 +43,7 @@ class LaneChecker
     std::vector<PairRecord> records;  // of each pair
     std::vector<std::uint64_t> steps;
     CpuTraversal::Scratch exact;
+    DecisionTally tally;
   };
 
   /// Whether a checker pays for a problem. With many thousands of pairs it does not: the kernel looks at each pair of a

@@ -20,7 +20,20 @@ struct Lanes
   Block& block;
   std::uint32_t* open;
   std::uint32_t pairs;
+  Stage stage = Stage::JointTables;
+  std::uint64_t since = 0;
 
+  /// Begins a stage, and adds the time since the last call to the stage before it.
+  void begin(Stage next)
+  {
+    if (block.clock)
+    {
+      const std::uint64_t now = block.clock();
+      block.nanoseconds[static_cast<std::size_t>(stage)] += since == 0 ? 0 : now - since;
+      since = now;
+    }
+    stage = next;
+  }
   void collide(int lanes, std::uint32_t pair)
   {
     lanes &= active;
@@ -30,6 +43,7 @@ struct Lanes
       const int lane = __builtin_ctz(static_cast<unsigned>(lanes));
       block.proof[lane] = Proof::Colliding;
       block.pair[lane] = pair;
+      block.stage[lane] = stage;
     }
   }
   void keepOpen(int lanes, std::uint32_t pair)
@@ -179,8 +193,10 @@ inline void proveByCovers(const Model& model, const Scratch& scratch, const Marg
   };
   const PlacedBalls balls(model, scratch, lane);
   std::uint32_t* open = lanes.open + static_cast<std::size_t>(lane) * lanes.pairs;
-  for (int level = 0; level < kLevels; ++level)
+  for (int level = 0; level < kLevels && lanes.block.open_count[lane] > 0; ++level)
   {
+    lanes.begin(level == 0 ? Stage::FewBalls : Stage::ManyBalls);
+    lanes.block.stage[lane] = lanes.stage;
     int kept = 0;
     for (int k = 0; k < lanes.block.open_count[lane]; ++k)
     {
@@ -211,9 +227,12 @@ inline void proveBlock(const Model& model, const double* states, int count, cons
   {
     block.proof[lane] = Proof::Apart;
     block.open_count[lane] = 0;
+    block.stage[lane] = Stage::EnclosingBalls;
   }
+  lanes.begin(Stage::JointTables);
   if constexpr (!kWithMargins)
     proveByTables(model, states, lanes);
+  lanes.begin(Stage::EnclosingBalls);
   if (lanes.active == 0)
     return;
   placeFrames(model, states, count, scratch);
@@ -226,8 +245,12 @@ inline void proveBlock(const Model& model, const double* states, int count, cons
       continue;
     proveByCovers(model, scratch, margins, lane, lanes);
     if (block.proof[lane] != Proof::Colliding && block.open_count[lane] > 0)
+    {
       block.proof[lane] = Proof::None;
+      block.stage[lane] = Stage::ExactPairs;
+    }
   }
+  lanes.begin(Stage::ExactPairs);
 }
 }  // namespace
 

@@ -191,11 +191,25 @@ struct Scratch
 };
 constexpr int kBallNumbers = 6 * kBalls;
 
+/// What has decided a state: the last stage that it needed.
+enum class Stage : std::uint8_t
+{
+  JointTables,
+  EnclosingBalls,
+  FewBalls,   ///< of the first level of the covers
+  ManyBalls,  ///< of the second level
+  ExactPairs  ///< the kernel did not decide the state
+};
+constexpr std::size_t kStages = 5;
+
 /// The verdicts of a block of states.
 struct Block
 {
   Proof proof[kLanes];
   std::uint32_t pair[kLanes];  ///< proof Colliding: the pair
   int open_count[kLanes];      ///< proof None: the number of pairs without a proof; they are in Scratch::open
+  Stage stage[kLanes];
+  std::uint64_t (*clock)() = nullptr;       ///< nanoseconds; null: the stages are not timed
+  std::uint64_t nanoseconds[kStages] = {};  ///< of each stage of the kernel
 };
 }  // namespace gpu_planning_scene::core::lanes

@@ -90,6 +90,16 @@ void compare(const std::shared_ptr<const RobotModel>& robot)
     if (round == 1)  // the second round has started to make the proofs
       waitForProofs();
   }
+  std::uint64_t decided = 0;
+  std::uint64_t alone = 0;
+  for (const DecidedStates& stage : checker.report().decided)
+  {
+    decided += stage.states;
+    alone += stage.by == "the exact checker alone" ? stage.states : 0;
+  }
+  EXPECT_EQ(decided, 6 * kManyStates);
+  EXPECT_LT(alone, 5 * kManyStates);
+  EXPECT_GE(alone, 20000u);
 }
 
 TEST(ProofWorker, ChangesNoVerdictOfCheckersInSeveralThreads)
