@@ -43,10 +43,10 @@ lanes::Scratch LaneChecker::kernelScratch(Scratch& scratch) const
 {
   const lanes::Model& model = scene_->model();
   const std::size_t frames = std::size_t{12} * lanes::kLanes * model.frames.count;
-  const std::size_t centers = std::size_t{3} * lanes::kLanes * (model.bodies.count + model.clusters.count);
-  const std::size_t balls = std::size_t{lanes::kBallNumbers} * model.bodies.count;
+  const std::size_t centers = std::size_t{3} * lanes::kLanes * (model.instances.count + model.clusters.count);
+  const std::size_t balls = std::size_t{lanes::kBallNumbers} * model.instances.count;
   scratch.floats.resize(2 * frames + centers + balls);
-  scratch.placed.resize(model.bodies.count);
+  scratch.placed.resize(model.instances.count);
   scratch.open.resize(lanes::kLanes * scene_->pairCount());
   scratch.trials.resize(std::size_t{lanes::kLevels} * scene_->pairCount(), lanes::Trial{});
   scratch.records.resize(scene_->pairCount());

@@ -10,36 +10,39 @@ namespace
 /// The distance between arrays of coordinates of placed balls.
 constexpr std::ptrdiff_t kAxis = kBalls;
 
-/// The balls of the bodies in one lane, in the planning frame.
+/// The balls of the instances in one lane, in the planning frame.
 class PlacedBalls
 {
  public:
   PlacedBalls(const Model& model, const Scratch& scratch, int lane) : model_(model), scratch_(scratch), lane_(lane)
   {
-    for (std::uint32_t b = 0; b < model.bodies.count; ++b)
+    for (std::uint32_t b = 0; b < model.instances.count; ++b)
       scratch.placed[b] = 0;
   }
 
   /// Coordinates x, y, z in arrays of kBalls: the outer balls, then the inner ones.
-  const float* of(std::uint32_t body, int level) const
+  const float* of(std::uint32_t instance, int level) const
   {
-    float* placed = scratch_.balls + std::size_t{kBallNumbers} * body;
-    if ((scratch_.placed[body] & (1 << level)) == 0)
+    float* placed = scratch_.balls + std::size_t{kBallNumbers} * instance;
+    if ((scratch_.placed[instance] & (1 << level)) == 0)
     {
-      const Body& shape = model_.bodies[body];
+      const Instance& shape = model_.instances[instance];
       place(shape.frame, shape.outer_balls, level, placed);
       if (!shape.same_centers)
         place(shape.frame, shape.inner_balls, level, placed + 3 * kAxis);
-      scratch_.placed[body] = static_cast<std::uint8_t>(scratch_.placed[body] | (1 << level));
+      scratch_.placed[instance] = static_cast<std::uint8_t>(scratch_.placed[instance] | (1 << level));
     }
     return placed;
   }
-  const float* innerOf(std::uint32_t body, int level) const
+  const float* innerOf(std::uint32_t instance, int level) const
   {
-    return of(body, level) + (model_.bodies[body].same_centers ? 0 : 3 * kAxis);
+    return of(instance, level) + (model_.instances[instance].same_centers ? 0 : 3 * kAxis);
   }
 
-  float center(std::size_t body, std::size_t axis) const { return group(scratch_.centers, 3 * body + axis)[lane_]; }
+  float center(std::size_t instance, std::size_t axis) const
+  {
+    return group(scratch_.centers, 3 * instance + axis)[lane_];
+  }
 
  private:
   void place(int frame, const Balls& balls, int level, float* placed) const
@@ -71,21 +74,21 @@ inline Points pointsAt(const float* placed, int i)
 inline Proof proveWorldPair(const Model& model, const WorldPair& pair, float margin, const PlacedBalls& balls,
                             int level)
 {
-  const Body& body = model.bodies[pair.body];
+  const Instance& instance = model.instances[pair.instance];
   const Object& object = model.objects[pair.object];
-  const float* outer = balls.of(pair.body, level);
-  const float* inner = balls.innerOf(pair.body, level);
+  const float* outer = balls.of(pair.instance, level);
+  const float* inner = balls.innerOf(pair.instance, level);
   const float cover = pair.thresholds.cover + margin;
   Ints near = {};
   for (int i = kLevelBegin[level]; i < kLevelBegin[level + 1]; i += kLanes)
   {
     const Floats squared = squaredDistanceTo(object, pointsAt(outer, i));
-    const Floats apart = load(body.outer_balls.radius + i) + cover;
+    const Floats apart = load(instance.outer_balls.radius + i) + cover;
     near |= ~(squared > apart * apart);
-    if (object.kind == ObjectKind::Hull)
+    if (object.kind == ObjectKind::BoundingBox)
       continue;
-    const Floats within = load(body.inner_balls.radius + i) + pair.thresholds.inner;
-    const Floats squared_inner = body.same_centers ? squared : squaredDistanceTo(object, pointsAt(inner, i));
+    const Floats within = load(instance.inner_balls.radius + i) + pair.thresholds.inner;
+    const Floats squared_inner = instance.same_centers ? squared : squaredDistanceTo(object, pointsAt(inner, i));
     if (bits((within > 0.0F) & (squared_inner < within * within)) != 0)
       return Proof::Colliding;
   }
@@ -93,8 +96,8 @@ inline Proof proveWorldPair(const Model& model, const WorldPair& pair, float mar
 }
 
 /// The balls of `b` on a level that are near the balls of `a` on the first level. Returns their number.
-inline int nearBalls(const Body& a, const float* balls_of_a, const Body& b, const float* balls_of_b, float threshold,
-                     int level, int* near)
+inline int nearBalls(const Instance& a, const float* balls_of_a, const Instance& b, const float* balls_of_b,
+                     float threshold, int level, int* near)
 {
   int count = 0;
   for (int i = kLevelBegin[level]; i < kLevelBegin[level + 1]; i += kLanes)
@@ -114,11 +117,11 @@ inline int nearBalls(const Body& a, const float* balls_of_a, const Body& b, cons
   return count;
 }
 
-/// Proves by the balls of both bodies that are near the other body.
+/// Proves by the balls of both instances that are near the other instance.
 inline Proof proveSelfPair(const Model& model, const SelfPair& pair, float margin, const PlacedBalls& balls, int level)
 {
-  const Body& a = model.bodies[pair.a];
-  const Body& b = model.bodies[pair.b];
+  const Instance& a = model.instances[pair.a];
+  const Instance& b = model.instances[pair.b];
   const float cover = pair.thresholds.cover + margin;
   const float* outer_a = balls.of(pair.a, level);
   const float* inner_a = balls.innerOf(pair.a, level);

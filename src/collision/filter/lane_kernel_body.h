@@ -95,7 +95,7 @@ inline float square(float x)
   return x * x;
 }
 
-/// Margins of the bodies and self pairs, if there are any.
+/// Margins of the instances and self pairs, if there are any.
 template <bool kGiven>
 struct MarginRows
 {
@@ -119,10 +119,10 @@ inline void proveSelfPairByEnclosingBalls(const Model& model, const Scratch& scr
                                           const MarginRows<kWithMargins>& margins, Lanes& lanes)
 {
   const SelfPair& pair = model.self_pairs[p];
-  const Body& a = model.bodies[pair.a];
-  const Body& b = model.bodies[pair.b];
+  const Instance& a = model.instances[pair.a];
+  const Instance& b = model.instances[pair.b];
   const Floats squared = squaredDistance(centersOf(pair.a, scratch), centersOf(pair.b, scratch));
-  const Floats apart = margins.squaredSum(a.outer + b.outer + pair.thresholds.enclosing, model.bodies.count + p);
+  const Floats apart = margins.squaredSum(a.outer + b.outer + pair.thresholds.enclosing, model.instances.count + p);
   const float inner = a.inner + b.inner + pair.thresholds.inner;
   if (a.inner >= 0.0F && b.inner >= 0.0F && inner > 0.0F)
     lanes.collide(bits(squared < square(inner)), p);
@@ -157,11 +157,11 @@ inline void proveWorldPairsByEnclosingBalls(const Model& model, const Scratch& s
   for (std::uint32_t g = 0; g < model.world_groups.count && lanes.active != 0; ++g)
   {
     const WorldGroup& group = model.world_groups[g];
-    const Body& body = model.bodies[group.body];
-    const Points center = centersOf(group.body, scratch);
+    const Instance& instance = model.instances[group.instance];
+    const Points center = centersOf(group.instance, scratch);
     const Floats to_group = squaredDistanceToBox(center.x - group.center[0], center.y - group.center[1],
                                                  center.z - group.center[2], group.half);
-    if ((bits(~(to_group > margins.squaredSum(body.outer, group.body))) & lanes.active) == 0)
+    if ((bits(~(to_group > margins.squaredSum(instance.outer, group.instance))) & lanes.active) == 0)
       continue;
     for (std::uint32_t w = group.first; w < group.end && lanes.active != 0; ++w)
     {
@@ -169,10 +169,10 @@ inline void proveWorldPairsByEnclosingBalls(const Model& model, const Scratch& s
       const Object& object = model.objects[pair.object];
       const std::uint32_t number = model.self_pairs.count + w;
       const Floats squared = squaredDistanceTo(object, center);
-      const float inner = body.inner + pair.thresholds.inner;
-      if (body.inner >= 0.0F && inner > 0.0F && object.kind != ObjectKind::Hull)
+      const float inner = instance.inner + pair.thresholds.inner;
+      if (instance.inner >= 0.0F && inner > 0.0F && object.kind != ObjectKind::BoundingBox)
         lanes.collide(bits(squared < square(inner)), number);
-      const Floats apart = margins.squaredSum(body.outer + pair.thresholds.enclosing, group.body);
+      const Floats apart = margins.squaredSum(instance.outer + pair.thresholds.enclosing, group.instance);
       lanes.keepOpen(bits(~(squared > apart)), number);
     }
   }
@@ -186,10 +186,10 @@ inline void proveByCovers(const Model& model, const Scratch& scratch, const Marg
   const auto prove = [&](std::uint32_t number, const PlacedBalls& balls, int level)
   {
     if (number < model.self_pairs.count)
-      return proveSelfPair(model, model.self_pairs[number], margins.of(model.bodies.count + number, lane), balls,
+      return proveSelfPair(model, model.self_pairs[number], margins.of(model.instances.count + number, lane), balls,
                            level);
     const WorldPair& pair = model.world_pairs[number - model.self_pairs.count];
-    return proveWorldPair(model, pair, margins.of(pair.body, lane), balls, level);
+    return proveWorldPair(model, pair, margins.of(pair.instance, lane), balls, level);
   };
   const PlacedBalls balls(model, scratch, lane);
   std::uint32_t* open = lanes.open + static_cast<std::size_t>(lane) * lanes.pairs;

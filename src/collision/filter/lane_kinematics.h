@@ -135,26 +135,26 @@ struct Points
 /// The centres of the enclosing balls and of the clusters in all lanes.
 inline void placeCenters(const Model& model, const Scratch& scratch)
 {
-  for (std::size_t b = 0; b < model.bodies.count; ++b)
+  for (std::size_t b = 0; b < model.instances.count; ++b)
   {
-    const Body& body = model.bodies[b];
-    const float* frame = group(scratch.frames, 12 * static_cast<std::size_t>(body.frame));
+    const Instance& instance = model.instances[b];
+    const float* frame = group(scratch.frames, 12 * static_cast<std::size_t>(instance.frame));
     for (std::size_t row = 0; row < 3; ++row)
-      store(load(group(frame, 4 * row)) * body.center[0] + load(group(frame, 4 * row + 1)) * body.center[1] +
-                load(group(frame, 4 * row + 2)) * body.center[2] + load(group(frame, 4 * row + 3)),
+      store(load(group(frame, 4 * row)) * instance.center[0] + load(group(frame, 4 * row + 1)) * instance.center[1] +
+                load(group(frame, 4 * row + 2)) * instance.center[2] + load(group(frame, 4 * row + 3)),
             group(scratch.centers, 3 * b + row));
   }
   for (std::size_t c = 0; c < model.clusters.count; ++c)
   {
     const float* frame = group(scratch.frames, 12 * static_cast<std::size_t>(model.clusters[c].frame));
     for (std::size_t row = 0; row < 3; ++row)
-      store(load(group(frame, 4 * row + 3)), group(scratch.centers, 3 * (model.bodies.count + c) + row));
+      store(load(group(frame, 4 * row + 3)), group(scratch.centers, 3 * (model.instances.count + c) + row));
   }
 }
 
-inline Points centersOf(std::size_t body, const Scratch& scratch)
+inline Points centersOf(std::size_t instance, const Scratch& scratch)
 {
-  const float* centers = group(scratch.centers, 3 * body);
+  const float* centers = group(scratch.centers, 3 * instance);
   return {load(centers), load(group(centers, 1)), load(group(centers, 2))};
 }
 }  // namespace

@@ -49,7 +49,7 @@ struct Balls
 };
 
 /// An instance that moves with the robot, with the balls of its cover in its frame.
-struct Body
+struct Instance
 {
   int frame;
   float center[3];  ///< of the enclosing ball
@@ -66,15 +66,15 @@ enum class ObjectKind : std::uint8_t
   Sphere,
   Cylinder,
   Cone,
-  HalfSpace,  ///< all points with x <= 0 in its frame
-  Hull        ///< a box around a mesh: it proves only that bodies are apart
+  HalfSpace,   ///< all points with x <= 0 in its frame
+  BoundingBox  ///< a box around a mesh: it proves only that instances are apart
 };
 
 struct Object
 {
   ObjectKind kind;
   float from_planning_frame[12];
-  float half[3];  ///< Box, Hull: half lengths; Sphere: radius; Cylinder, Cone: radius and half length
+  float half[3];  ///< Box, BoundingBox: half lengths; Sphere: radius; Cylinder, Cone: radius and half length
 };
 
 /// Lengths that a proof needs in addition to the radii of the balls. They include the rounding errors of the kernel.
@@ -112,15 +112,16 @@ struct SelfGroup
 
 struct WorldPair
 {
-  std::uint32_t body;
+  std::uint32_t instance;
   std::uint32_t object;
   Thresholds thresholds;
 };
 
-/// Consecutive world pairs of one body. The box, in the planning frame, contains their objects, grown by `enclosing`.
+/// Consecutive world pairs of one instance. The box, in the planning frame, contains their objects, grown by
+/// `enclosing`.
 struct WorldGroup
 {
-  std::uint32_t body;
+  std::uint32_t instance;
   std::uint32_t first;
   std::uint32_t end;
   float center[3];
@@ -160,7 +161,7 @@ struct Model
 {
   std::size_t width;  ///< variables of a state
   Array<Frame> frames;
-  Array<Body> bodies;
+  Array<Instance> instances;
   Array<Object> objects;
   Array<Table> tables;
   Array<Cluster> clusters;
@@ -183,9 +184,9 @@ struct Scratch
 {
   float* frames;         ///< of each frame: 12 numbers in all lanes
   float* given;          ///< the same, relative to the parent, for frames of kind Given; the caller fills it
-  float* centers;        ///< of each body: the centre of its enclosing ball in all lanes; then of each cluster
-  float* balls;          ///< of each body: the coordinates of its outer and inner balls in one lane
-  std::uint8_t* placed;  ///< of each body: which of these balls are set
+  float* centers;        ///< of each instance: the centre of its enclosing ball in all lanes; then of each cluster
+  float* balls;          ///< of each instance: the coordinates of its outer and inner balls in one lane
+  std::uint8_t* placed;  ///< of each instance: which of these balls are set
   std::uint32_t* open;   ///< of each lane: the pairs without a proof; room for all pairs
   Trial* trials;         ///< of each pair: its levels; all 0 at first, kept between calls
 };

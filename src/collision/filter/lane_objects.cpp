@@ -102,7 +102,7 @@ std::vector<LaneObject> laneObjects(const CollisionProblem& problem, const CpuFo
       box.linear() = tree.box.axes;
       box.translation() = tree.box.center;
       objects.push_back(
-          placed({lanes::ObjectKind::Hull, tree.box.half, 0.0}, instance.pose * box, origin, instance.padding));
+          placed({lanes::ObjectKind::BoundingBox, tree.box.half, 0.0}, instance.pose * box, origin, instance.padding));
     }
     else
     {

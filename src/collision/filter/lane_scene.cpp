@@ -80,11 +80,11 @@ LaneScene::LaneScene(std::shared_ptr<const RobotModel> robot, const CollisionPro
 {
   addFrames();
   for (std::size_t i = 0; i < problem.robot.size(); ++i)
-    addBody(problem.robot[i], *proofs_->covers[i]);
+    addInstance(problem.robot[i], *proofs_->covers[i]);
   addClusters();
   addSelfPairs(problem);
   addWorld(problem, forest);
-  model_ = {robot_->variables().size(), arrayOf(frames_),      arrayOf(bodies_),     arrayOf(objects_),
+  model_ = {robot_->variables().size(), arrayOf(frames_),      arrayOf(instances_),  arrayOf(objects_),
             arrayOf(tables_),           arrayOf(clusters_),    arrayOf(self_pairs_), arrayOf(self_groups_),
             arrayOf(world_pairs_),      arrayOf(world_groups_)};
 }
@@ -168,46 +168,46 @@ int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry
 
 static_assert(kCoverBalls.size() == lanes::kLevels + 1, "levels of the kernel");
 
-void LaneScene::addBody(const ShapeInstance& instance, const BallCover& cover)
+void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cover)
 {
   const auto link = static_cast<std::size_t>(instance.link);
   const Isometry3d pose = in_frame_[link] * instance.pose;
-  lanes::Body body{};
-  body.frame = frame_of_link_[link];
-  body.same_centers = true;
+  lanes::Instance made{};
+  made.frame = frame_of_link_[link];
+  made.same_centers = true;
   double far = 0.0;
   const auto is_same = [](const CoverBall& ball) { return ball.witness == ball.center; };
   for (std::size_t level = 1; level < cover.levels.size(); ++level)
   {
     const std::vector<CoverBall>& balls = cover.levels[level];
-    body.same_centers = body.same_centers && std::all_of(balls.begin(), balls.end(), is_same);
+    made.same_centers = made.same_centers && std::all_of(balls.begin(), balls.end(), is_same);
     const int first = lanes::kLevelBegin[level - 1];
     const int count = lanes::kLevelBegin[level] - first;
     for (int i = 0; i < count; ++i)
     {
       const CoverBall& ball = balls[std::min<std::size_t>(static_cast<std::size_t>(i), balls.size() - 1)];
-      writeBall(pose * ball.center, above(ball.outer), first + i, body.outer_balls);
-      writeBall(pose * ball.witness, below(ball.inner), first + i, body.inner_balls);
+      writeBall(pose * ball.center, above(ball.outer), first + i, made.outer_balls);
+      writeBall(pose * ball.witness, below(ball.inner), first + i, made.inner_balls);
       far = std::max({far, (pose * ball.center).norm(), (pose * ball.witness).norm()});
     }
   }
   const CoverBall& enclosing = cover.levels[0].front();
   const Vector3d center = pose * enclosing.center;
   for (int axis = 0; axis < 3; ++axis)
-    body.center[axis] = static_cast<float>(center[axis]);
-  body.outer = above(enclosing.outer);
-  body.inner = is_same(enclosing) ? below(enclosing.inner) : -1.0F;
+    made.center[axis] = static_cast<float>(center[axis]);
+  made.outer = above(enclosing.outer);
+  made.inner = is_same(enclosing) ? below(enclosing.inner) : -1.0F;
   far = std::max(far, center.norm());
-  bodies_.push_back(body);
-  const FrameError& frame = frame_errors_[static_cast<std::size_t>(body.frame)];
-  body_errors_.push_back({frame.far + far, frame.position + frame.rotation * far + kSumError * (frame.far + far)});
+  instances_.push_back(made);
+  const FrameError& frame = frame_errors_[static_cast<std::size_t>(made.frame)];
+  instance_errors_.push_back({frame.far + far, frame.position + frame.rotation * far + kSumError * (frame.far + far)});
 }
 
 double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
 {
-  const BodyError& first = body_errors_[a];
-  const BodyError& second = body_errors_[b];
-  const double lengths = first.far + second.far + static_cast<double>(bodies_[a].outer + bodies_[b].outer);
+  const InstanceError& first = instance_errors_[a];
+  const InstanceError& second = instance_errors_[b];
+  const double lengths = first.far + second.far + static_cast<double>(instances_[a].outer + instances_[b].outer);
   return first.position + second.position + kDistanceError * lengths;
 }
 
@@ -223,11 +223,12 @@ void LaneScene::addClusters()
     int instances = 0;
   };
   std::vector<Part> parts(frames_.size());
-  for (const lanes::Body& body : bodies_)
+  for (const lanes::Instance& instance : instances_)
   {
-    Part& part = parts[static_cast<std::size_t>(body.frame)];
-    const auto outer = static_cast<double>(body.outer);
-    part.radius = std::max(part.radius, Eigen::Map<const Eigen::Vector3f>(body.center).cast<double>().norm() + outer);
+    Part& part = parts[static_cast<std::size_t>(instance.frame)];
+    const auto outer = static_cast<double>(instance.outer);
+    part.radius =
+        std::max(part.radius, Eigen::Map<const Eigen::Vector3f>(instance.center).cast<double>().norm() + outer);
     part.largest = std::max(part.largest, outer);
     ++part.instances;
   }
@@ -253,10 +254,10 @@ void LaneScene::addClusters()
 }
 
 /// The number of the centre near which an instance stays.
-std::uint32_t LaneScene::centerOf(std::uint32_t body) const
+std::uint32_t LaneScene::centerOf(std::uint32_t instance) const
 {
-  const int cluster = cluster_of_frame_[static_cast<std::size_t>(bodies_[body].frame)];
-  return cluster < 0 ? body : static_cast<std::uint32_t>(bodies_.size()) + static_cast<std::uint32_t>(cluster);
+  const int cluster = cluster_of_frame_[static_cast<std::size_t>(instances_[instance].frame)];
+  return cluster < 0 ? instance : static_cast<std::uint32_t>(instances_.size()) + static_cast<std::uint32_t>(cluster);
 }
 
 void LaneScene::addSelfPair(std::size_t p, const CollisionProblem& problem)
@@ -310,17 +311,17 @@ void LaneScene::addSelfPairs(const CollisionProblem& problem)
 /// Groups the self pairs from `first` on.
 void LaneScene::addSelfGroups(std::uint32_t first)
 {
-  const auto bodies = static_cast<std::uint32_t>(bodies_.size());
+  const auto instances = static_cast<std::uint32_t>(instances_.size());
   struct Placed
   {
-    BodyError error;
+    InstanceError error;
     double radius;
   };
   const auto placed = [&](std::uint32_t center)
   {
-    if (center < bodies)
-      return Placed{body_errors_[center], static_cast<double>(bodies_[center].outer)};
-    const lanes::Cluster& cluster = clusters_[center - bodies];
+    if (center < instances)
+      return Placed{instance_errors_[center], static_cast<double>(instances_[center].outer)};
+    const lanes::Cluster& cluster = clusters_[center - instances];
     const FrameError& frame = frame_errors_[static_cast<std::size_t>(cluster.frame)];
     return Placed{{frame.far, frame.position}, static_cast<double>(cluster.radius)};
   };
@@ -350,13 +351,13 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
   for (const LaneObject& object : objects)
     objects_.push_back(object.object);
   const std::vector<std::uint32_t> order = nearOrder(objects);
-  const auto is_checked = [&](std::size_t body, std::size_t object)
+  const auto is_checked = [&](std::size_t instance, std::size_t object)
   {
     return object < problem.world.size()
-               ? problem.world_pairs[body * problem.world.size() + object] != 0
-               : problem.half_space_pairs[body * problem.half_spaces.size() + object - problem.world.size()] != 0;
+               ? problem.world_pairs[instance * problem.world.size() + object] != 0
+               : problem.half_space_pairs[instance * problem.half_spaces.size() + object - problem.world.size()] != 0;
   };
-  for (std::uint32_t b = 0; b < bodies_.size(); ++b)
+  for (std::uint32_t b = 0; b < instances_.size(); ++b)
   {
     const BallCover& cover = *proofs_->covers[b];
     Eigen::AlignedBox3d bounds;
@@ -382,8 +383,9 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
         continue;
       const LaneObject& object = objects[o];
       const double required = problem.robot[b].padding + object.padding;
-      const double error = body_errors_[b].position + kDistanceError * (body_errors_[b].far + object.far + required +
-                                                                        static_cast<double>(bodies_[b].outer));
+      const double error =
+          instance_errors_[b].position +
+          kDistanceError * (instance_errors_[b].far + object.far + required + static_cast<double>(instances_[b].outer));
       const double layer = object.thickness > cover.layer ? 0.0 : cover.layer;
       const lanes::Thresholds thresholds = {above(required + error), above(required + layer + error),
                                             below(required - error)};

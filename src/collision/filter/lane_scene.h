@@ -53,8 +53,8 @@ class LaneScene
     double position = 0.0;  // of the frame's origin
   };
 
-  /// Error bounds for the centres of a body's balls, in metres.
-  struct BodyError
+  /// Error bounds for the centres of an instance's balls, in metres.
+  struct InstanceError
   {
     double far = 0.0;  // largest distance of a centre from the origin of coordinates
     double position = 0.0;
@@ -62,12 +62,12 @@ class LaneScene
 
   void addFrames();
   int addFrame(const Joint& joint, int link, int parent, const Eigen::Isometry3d& origin);
-  void addBody(const ShapeInstance& instance, const BallCover& cover);
+  void addInstance(const ShapeInstance& instance, const BallCover& cover);
   void addClusters();
   void addSelfPairs(const CollisionProblem& problem);
   void addSelfPair(std::size_t p, const CollisionProblem& problem);
   void addSelfGroups(std::uint32_t first);
-  std::uint32_t centerOf(std::uint32_t body) const;
+  std::uint32_t centerOf(std::uint32_t instance) const;
   void addWorld(const CollisionProblem& problem, const CpuForest& forest);
   double selfError(std::uint32_t a, std::uint32_t b) const;
 
@@ -81,10 +81,10 @@ class LaneScene
   bool has_given_ = false;
   std::vector<double> largest_;  // of each variable, see isWithinBounds
   std::vector<FrameError> frame_errors_;
-  std::vector<BodyError> body_errors_;
+  std::vector<InstanceError> instance_errors_;
 
   std::vector<lanes::Frame> frames_;
-  std::vector<lanes::Body> bodies_;
+  std::vector<lanes::Instance> instances_;
   std::vector<lanes::Object> objects_;
   std::vector<lanes::Table> tables_;
   std::vector<lanes::Cluster> clusters_;

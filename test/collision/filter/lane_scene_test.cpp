@@ -46,9 +46,9 @@ void proveAll(const ProvenScene& proven, const lanes::NamedKernel& kernel, const
 {
   const lanes::Model& model = proven.lanes->model();
   const std::size_t poses_size = std::size_t{12} * lanes::kLanes * model.frames.count;
-  const std::size_t centers_size = std::size_t{3} * lanes::kLanes * (model.bodies.count + model.clusters.count);
-  std::vector<float> floats(2 * poses_size + centers_size + std::size_t{lanes::kBallNumbers} * model.bodies.count);
-  std::vector<std::uint8_t> placed(model.bodies.count);
+  const std::size_t centers_size = std::size_t{3} * lanes::kLanes * (model.instances.count + model.clusters.count);
+  std::vector<float> floats(2 * poses_size + centers_size + std::size_t{lanes::kBallNumbers} * model.instances.count);
+  std::vector<std::uint8_t> placed(model.instances.count);
   std::vector<std::uint32_t> open(lanes::kLanes * proven.lanes->pairCount());
   std::vector<lanes::Trial> trials(std::size_t{lanes::kLevels} * proven.lanes->pairCount());
   float* const frames = floats.data();
