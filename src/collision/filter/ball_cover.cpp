@@ -10,6 +10,7 @@
 #include <queue>
 #include <utility>
 
+#include "collision/geometry/median_split.h"
 #include "collision/geometry/triangle_pair.h"
 
 // The candidates for centres are points inside the shape. A candidate's ball may have the radius "depth of the centre +
@@ -167,23 +168,6 @@ Vector3d enclosingCenter(const std::vector<Vector3d>& points)
   return center;
 }
 
-/// Sorts balls so that neighbours in the sequence are near each other: halves of the sequence are the halves along the
-/// longest extent.
-void sortByPlace(std::vector<Fit>::iterator begin, std::vector<Fit>::iterator end)
-{
-  if (end - begin < 2)
-    return;
-  Eigen::AlignedBox3d bounds;
-  for (auto fit = begin; fit != end; ++fit)
-    bounds.extend(fit->center);
-  int axis;
-  bounds.sizes().maxCoeff(&axis);
-  const auto middle = begin + (end - begin) / 2;
-  std::nth_element(begin, middle, end, [axis](const Fit& a, const Fit& b) { return a.center[axis] < b.center[axis]; });
-  sortByPlace(begin, middle);
-  sortByPlace(middle, end);
-}
-
 /// Grows a ball so that it contains a part. It is the first ball that contains the part already, or else the ball that
 /// then reaches least beyond the surface. `radius_from` returns the radius that a centre needs for the part.
 template <class RadiusFrom>
@@ -257,9 +241,10 @@ BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagit
                                            (piece[2] - center).squaredNorm()}));
               });
     for (const SolidCell& cell : samples.cells)
-      contain(fits, [&](const Vector3d& center)
-              { return (cell.center - center).norm() + kHalfDiagonal * samples.grid.cell; });
-    sortByPlace(fits.begin(), fits.end());
+      contain(
+          fits,
+          [&](const Vector3d& center) { return (cell.center - center).norm() + kHalfDiagonal * samples.grid.cell; });
+    sortBySplits(fits.begin(), fits.end(), [](const Fit& fit) { return fit.center; });
     for (const Fit& fit : fits)
       cover.levels[level].push_back(certified(tree, samples, fit, sagitta));
   }

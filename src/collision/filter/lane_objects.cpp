@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "collision/exact/cpu_shape_pair.h"
+#include "collision/geometry/median_split.h"
 
 namespace gpu_planning_scene::core
 {
@@ -62,24 +63,6 @@ AlignedBox3d shifted(const AlignedBox3d& box, const Vector3d& origin)
 {
   return {box.min() - origin, box.max() - origin};
 }
-
-void order(std::vector<std::uint32_t>::iterator begin, std::vector<std::uint32_t>::iterator end,
-           const std::vector<LaneObject>& objects)
-{
-  if (end - begin < 2)
-    return;
-  AlignedBox3d centers;
-  for (auto i = begin; i != end; ++i)
-    centers.extend(objects[*i].bounds.center());
-  int axis;
-  centers.sizes().maxCoeff(&axis);
-  const auto middle = begin + (end - begin) / 2;
-  std::nth_element(begin, middle, end,
-                   [&](std::uint32_t a, std::uint32_t b)
-                   { return objects[a].bounds.center()[axis] < objects[b].bounds.center()[axis]; });
-  order(begin, middle, objects);
-  order(middle, end, objects);
-}
 }  // namespace
 
 void writePose(const Isometry3d& pose, float* rows)
@@ -132,7 +115,8 @@ std::vector<std::uint32_t> nearOrder(const std::vector<LaneObject>& objects)
 {
   std::vector<std::uint32_t> numbers(objects.size());
   std::iota(numbers.begin(), numbers.end(), 0U);
-  order(numbers.begin(), numbers.end(), objects);
+  sortBySplits(numbers.begin(), numbers.end(),
+               [&objects](std::uint32_t number) -> Vector3d { return objects[number].bounds.center(); });
   return numbers;
 }
 }  // namespace gpu_planning_scene::core

@@ -24,4 +24,15 @@ Iterator splitAtMedian(Iterator begin, Iterator end, const CenterOf& center_of)
                    { return center_of(a)[axis] < center_of(b)[axis]; });
   return middle;
 }
+
+/// Orders elements so that neighbours in the sequence are near each other: each half is split again.
+template <class Iterator, class CenterOf>
+void sortBySplits(Iterator begin, Iterator end, const CenterOf& center_of)
+{
+  if (std::distance(begin, end) < 2)
+    return;
+  const Iterator middle = splitAtMedian(begin, end, center_of);
+  sortBySplits(begin, middle, center_of);
+  sortBySplits(middle, end, center_of);
+}
 }  // namespace gpu_planning_scene::core
