@@ -78,6 +78,19 @@ void CpuScene::prepareOutside(const std::string& name, Group& group)
   group.outside = forest_outside_.traversalOf(problem);
 }
 
+/// Whether the lane checker may be called. `count`: size of the batch, which is in `checked_` already.
+bool CpuScene::areProofsReady(Group& group, std::size_t count) const
+{
+  if (!group.lanes)
+    return false;
+  if (checked_ > kStatesBeforeProofs)
+    return group.lanes->isReady();
+  if (!group.cached_proofs && (count > kBatchBeforeCachedProofs || checked_ > kStatesBeforeCachedProofs))
+    group.cached_proofs = loadProofsInBackground(scene_->robot, group.problem, forest_->forest());
+  // The worker knows the loaded proofs now, so the lane checker's own job makes none.
+  return group.cached_proofs && group.cached_proofs->proofs() && group.lanes->isReady();
+}
+
 void CpuScene::checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins,
                         Scratch& scratch, BatchResult& result) const
 {
@@ -148,7 +161,7 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
     if (!isValidFor(*group.problem, states + i * width))
       prepareOutside(name, group);
   checked_ += count;
-  const bool by_lanes = group.lanes && checked_ > kStatesBeforeProofs && group.lanes->isReady();
+  const bool by_lanes = areProofsReady(group, count);
   const auto check_range = [&](std::size_t begin, std::size_t end, Scratch& scratch)
   {
     for (std::size_t i = begin; i < end; i += lanes::kLanes)

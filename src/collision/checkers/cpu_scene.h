@@ -16,6 +16,11 @@ namespace gpu_planning_scene::core
 /// Making the proofs of a robot takes seconds of a core. Before this many states were checked, they are not worth it.
 constexpr std::size_t kStatesBeforeProofs = 20'000;
 
+/// Loading proofs from disk takes milliseconds of a core, on another thread. It begins with the first batch of more
+/// states than the first number, or after more states than the second number were checked.
+constexpr std::size_t kBatchBeforeCachedProofs = 64;
+constexpr std::size_t kStatesBeforeCachedProofs = 1000;
+
 /// The collision problems of a scene, one per group, and their checks on the CPU. A problem is made when it is first
 /// needed. Trees are kept for the next scene with the same shapes. One caller at a time.
 class CpuScene
@@ -64,6 +69,7 @@ class CpuScene
     bool is_sampled = false;  // the report has the pairs of collidingInSamples
     std::shared_ptr<const CollisionProblem> problem;
     std::unique_ptr<const CpuTraversal> within;   // traversal of this problem
+    std::shared_ptr<ProofJob> cached_proofs;      // null: not asked for
     std::unique_ptr<LaneChecker> lanes;           // for states for which the problem is valid; null: not used
     std::unique_ptr<const CpuTraversal> outside;  // all pairs, for states for which the problem is not valid
     std::unique_ptr<const DisplacementBounds> displacements;
@@ -72,6 +78,7 @@ class CpuScene
 
   Group& groupOf(const std::string& group);
   void prepare(Group& group);
+  bool areProofsReady(Group& group, std::size_t count) const;
   void prepareOutside(const std::string& name, Group& group);
   void checkBlock(const double* states, std::size_t begin, std::size_t end, const Group& group, const Margins* margins,
                   bool by_lanes, Scratch& scratch, BatchResult& result) const;
