@@ -17,6 +17,11 @@ constexpr std::size_t kStatesPerChunk = 32;
 // Checking this many states takes less time than starting threads. The calling thread also keeps its learned order of
 // checks.
 constexpr std::size_t kFewStates = 128;
+
+// Loading proofs from disk takes milliseconds of a core. A larger batch than the first number asks for it, or more
+// checked states than the second number.
+constexpr std::size_t kBatchBeforeCachedProofs = 64;
+constexpr std::size_t kStatesBeforeCachedProofs = 1000;
 }  // namespace
 
 CpuScene::CpuScene(const CheckerOptions& options) : options_(options), maker_(options) {}

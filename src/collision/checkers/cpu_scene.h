@@ -16,11 +16,6 @@ namespace gpu_planning_scene::core
 /// Making the proofs of a robot takes seconds of a core. Before this many states were checked, they are not worth it.
 constexpr std::size_t kStatesBeforeProofs = 20'000;
 
-/// Loading proofs from disk takes milliseconds of a core, on another thread. It begins with the first batch of more
-/// states than the first number, or after more states than the second number were checked.
-constexpr std::size_t kBatchBeforeCachedProofs = 64;
-constexpr std::size_t kStatesBeforeCachedProofs = 1000;
-
 /// The collision problems of a scene, one per group, and their checks on the CPU. A problem is made when it is first
 /// needed. Trees are kept for the next scene with the same shapes. One caller at a time.
 class CpuScene
