@@ -83,17 +83,22 @@ void CpuScene::prepareOutside(const std::string& name, Group& group)
   group.outside = forest_outside_.traversalOf(problem);
 }
 
-/// Whether the lane checker may be called. `count`: size of the batch, which is in `checked_` already.
-bool CpuScene::areProofsReady(Group& group, std::size_t count) const
+/// Whether the lane checker may be called.
+bool CpuScene::areProofsReady(Group& group) const
 {
   if (!group.lanes)
     return false;
-  if (checked_ > kStatesBeforeProofs)
-    return group.lanes->isReady();
-  if (!group.cached_proofs && (count > kBatchBeforeCachedProofs || checked_ > kStatesBeforeCachedProofs))
+  // If the worker has loaded the proofs, the lane checker's own request makes none.
+  return (checked_ > kStatesBeforeProofs || (group.cached_proofs && group.cached_proofs->proofs())) &&
+         group.lanes->isReady();
+}
+
+/// Asks for the proofs on disk after a batch of `count` states, so that the first answer does not wait for them.
+void CpuScene::loadProofs(Group& group, std::size_t count) const
+{
+  if (group.lanes && !group.cached_proofs && checked_ <= kStatesBeforeProofs &&
+      (count > kBatchBeforeCachedProofs || checked_ > kStatesBeforeCachedProofs))
     group.cached_proofs = loadProofsInBackground(scene_->robot, group.problem, forest_->forest());
-  // The worker knows the loaded proofs now, so the lane checker's own job makes none.
-  return group.cached_proofs && group.cached_proofs->proofs() && group.lanes->isReady();
 }
 
 void CpuScene::checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins,
@@ -166,16 +171,18 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
     if (!isValidFor(*group.problem, states + i * width))
       prepareOutside(name, group);
   checked_ += count;
-  const bool by_lanes = areProofsReady(group, count);
+  const bool by_lanes = areProofsReady(group);
   const auto check_range = [&](std::size_t begin, std::size_t end, Scratch& scratch)
   {
     for (std::size_t i = begin; i < end; i += lanes::kLanes)
       checkBlock(states, i, std::min<std::size_t>(i + lanes::kLanes, end), group, margins, by_lanes, scratch, result);
   };
   if (count <= kFewStates)
-    return check_range(0, count, group.scratch);
-  parallelFor(count, kStatesPerChunk,
-              [&, scratch = group.scratch](std::size_t begin, std::size_t end) mutable
-              { check_range(begin, end, scratch); });
+    check_range(0, count, group.scratch);
+  else
+    parallelFor(count, kStatesPerChunk,
+                [&, scratch = group.scratch](std::size_t begin, std::size_t end) mutable
+                { check_range(begin, end, scratch); });
+  loadProofs(group, count);
 }
 }  // namespace gpu_planning_scene::core

@@ -73,7 +73,8 @@ class CpuScene
 
   Group& groupOf(const std::string& group);
   void prepare(Group& group);
-  bool areProofsReady(Group& group, std::size_t count) const;
+  bool areProofsReady(Group& group) const;
+  void loadProofs(Group& group, std::size_t count) const;
   void prepareOutside(const std::string& name, Group& group);
   void checkBlock(const double* states, std::size_t begin, std::size_t end, const Group& group, const Margins* margins,
                   bool by_lanes, Scratch& scratch, BatchResult& result) const;

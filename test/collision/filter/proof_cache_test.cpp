@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,6 +13,7 @@
 
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/forest_cache.h"
+#include "collision/filter/proof_sources.h"
 #include "collision/filter/robot_proofs.h"
 
 namespace gpu_planning_scene::core
@@ -24,13 +26,21 @@ namespace fs = std::filesystem;
 /// `replaced`: texts for words that begin with $.
 std::string liftUrdf(const std::map<std::string, std::string>& replaced = {})
 {
-  std::map<std::string, std::string> words = {{"base_xyz", "0 0 0"}, {"base_size", "0.5 0.5 0.1"},
-                                              {"radius", "0.1"},     {"shape_xyz", "0.1 0 0"},
-                                              {"origin", "0 0 0.3"}, {"axis", "0 1 0"},
-                                              {"type", "revolute"},  {"lower", "-1"},
-                                              {"upper", "2"},        {"fixed_xyz", "0.05 0 0"},
-                                              {"multiplier", "0.5"}, {"offset", "0.1"},
-                                              {"lift", "lift"},      {"tip_shape", R"(<sphere radius="0.08"/>)"}};
+  std::map<std::string, std::string> words = {{"base_xyz", "0 0 0"},
+                                              {"base_size", "0.5 0.5 0.1"},
+                                              {"radius", "0.1"},
+                                              {"shape_xyz", "0.1 0 0"},
+                                              {"origin", "0 0 0.3"},
+                                              {"axis", "0 1 0"},
+                                              {"type", "revolute"},
+                                              {"lower", "-1"},
+                                              {"upper", "2"},
+                                              {"fixed_xyz", "0.05 0 0"},
+                                              {"multiplier", "0.5"},
+                                              {"offset", "0.1"},
+                                              {"lift", "lift"},
+                                              {"leader", "hinge"},
+                                              {"tip_shape", R"(<sphere radius="0.08"/>)"}};
   for (const auto& [word, text] : replaced)
     words.at(word) = text;
   std::string urdf = R"(<robot name="lift">
@@ -48,7 +58,7 @@ std::string liftUrdf(const std::map<std::string, std::string>& replaced = {})
     <link name="bracket"/>
     <joint name="follower" type="revolute"><parent link="bracket"/><child link="tip"/><axis xyz="0 1 0"/>
       <origin xyz="0.3 0 0"/><limit lower="-3" upper="3" effort="1" velocity="1"/>
-      <mimic joint="hinge" multiplier="$multiplier" offset="$offset"/></joint>
+      <mimic joint="$leader" multiplier="$multiplier" offset="$offset"/></joint>
     <link name="tip"><collision><geometry>$tip_shape</geometry></collision></link>
     <joint name="wrist" type="fixed"><parent link="tip"/><child link="hand"/><origin xyz="-0.2 0 0"/></joint>
     <link name="hand"><collision><geometry><box size="0.1 0.05 0.05"/></geometry></collision></link></robot>)";
@@ -137,16 +147,34 @@ class ProofCacheTest : public testing::Test
     std::unique_ptr<const CpuTraversal> exact;
   };
 
-  void SetUp() override
+  void SetUp() override { folder_ = newFolder(); }
+  void TearDown() override { fs::remove_all(folder_); }
+  static void TearDownTestSuite()
+  {
+    if (!filled_.empty())
+      fs::remove_all(filled_);
+  }
+
+  static fs::path newFolder()
   {
     std::string name = (fs::temp_directory_path() / "gpu_planning_scene_proofs_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
+    EXPECT_NE(mkdtemp(name.data()), nullptr);
+    return name;
   }
-  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Fills the test's folder with the proofs of the lift, which are made once.
+  void fill() const
+  {
+    if (filled_.empty())
+    {
+      filled_ = newFolder();
+      proofs(Loaded(liftUrdf()), true, filled_);
+    }
+    fs::copy(filled_, folder_);
+  }
 
   /// The proofs that a new process makes or, without `makes`, finds. No value: none were published.
-  std::optional<RobotProofs> proofs(const Loaded& loaded, bool makes, const fs::path& folder) const
+  static std::optional<RobotProofs> proofs(const Loaded& loaded, bool makes, const fs::path& folder)
   {
     std::optional<RobotProofs> published;
     const auto publish = [&published](RobotProofs made) { published = std::move(made); };
@@ -188,6 +216,7 @@ class ProofCacheTest : public testing::Test
              Proof::Colliding}};
   }
 
+  static inline fs::path filled_;
   fs::path folder_;
 };
 
@@ -209,7 +238,7 @@ TEST_F(ProofCacheTest, ProofsFromDiskAreThoseThatWereMade)
     }
   EXPECT_EQ(tables, 3U);
   EXPECT_EQ(cells.size(), 3U) << "all kinds of cells";
-  expectSame(*without, *made(lift));
+  fill();
   EXPECT_EQ(files().size(), 7U) << "four covers and three tables";
   expectSame(*without, *made(lift));
   ASSERT_TRUE(found(lift));
@@ -218,14 +247,16 @@ TEST_F(ProofCacheTest, ProofsFromDiskAreThoseThatWereMade)
 
 TEST_F(ProofCacheTest, TheSameRobotElsewhereWithOtherNamesHasTheSameProofs)
 {
-  made(Loaded(liftUrdf()));
+  fill();
   EXPECT_TRUE(found(Loaded(liftUrdf({{"base_xyz", "1 2 3"}, {"lift", "spindle"}}))));
 }
 
 TEST_F(ProofCacheTest, NothingIsLoadedIfAProofIsMissing)
 {
   const Loaded lift(liftUrdf());
-  const std::optional<RobotProofs> first = made(lift);
+  fill();
+  const std::optional<RobotProofs> first = found(lift);
+  ASSERT_TRUE(first);
   for (const fs::path& file : files())
   {
     const std::string bytes = read(file);
@@ -242,24 +273,37 @@ TEST_F(ProofCacheTest, NothingIsLoadedIfAProofIsMissing)
 TEST_F(ProofCacheTest, DamagedProofsAreMadeAgain)
 {
   const Loaded lift(liftUrdf());
-  const std::optional<RobotProofs> first = made(lift);
+  fill();
+  const std::optional<RobotProofs> first = found(lift);
+  ASSERT_TRUE(first);
   std::vector<std::string> good;
   for (const fs::path& file : files())
     good.push_back(read(file));
-  for (const int at : {40, -1})
+  std::size_t at = 3;
+  for (const fs::path& file : files())
   {
-    for (const fs::path& file : files())
-    {
-      std::string bytes = read(file);
-      char& byte = at < 0 ? bytes.back() : bytes.at(static_cast<std::size_t>(at));
-      byte = static_cast<char>(byte ^ 1);
-      write(file, bytes);
-    }
-    EXPECT_FALSE(found(lift));
-    expectSame(*first, *made(lift));
-    std::size_t i = 0;
-    for (const fs::path& file : files())
-      EXPECT_EQ(read(file), good.at(i++));
+    std::string bytes = read(file);
+    bytes.at(at) = static_cast<char>(bytes.at(at) ^ 1);
+    write(file, bytes);
+    at += 25;  // in the header, the key and the content
+  }
+  EXPECT_FALSE(found(lift));
+  expectSame(*first, *made(lift));
+  std::size_t i = 0;
+  for (const fs::path& file : files())
+    EXPECT_EQ(read(file), good.at(i++));
+}
+
+TEST_F(ProofCacheTest, AChangedShapeGetsItsOwnProofs)
+{
+  fill();
+  const std::vector<std::map<std::string, std::string>> changes = {{{"base_size", "0.6 0.5 0.1"}},
+                                                                   {{"tip_shape", R"(<sphere radius="0.1"/>)"}}};
+  for (const auto& change : changes)
+  {
+    const Loaded changed(liftUrdf(change));
+    EXPECT_FALSE(found(changed));
+    expectSame(*proofs(changed, true, {}), *made(changed));
   }
 }
 
@@ -318,16 +362,13 @@ TEST_F(ProofCacheTest, ContentOfAnotherFormIsIgnored)
   EXPECT_FALSE(cache.table("key", table.variables));
 }
 
-TEST_F(ProofCacheTest, ProofsAreMadeWithoutAFolder)
+TEST_F(ProofCacheTest, ProofsAreMadeIfTheFolderCannotBeWritten)
 {
   const Loaded lift(liftUrdf());
   const fs::path file = folder_ / "file";
   write(file, "x");
-  for (const fs::path& folder : {file, fs::path("/proc/nothing"), fs::path()})
-  {
-    EXPECT_TRUE(proofs(lift, true, folder));
-    EXPECT_FALSE(proofs(lift, false, folder));
-  }
+  EXPECT_TRUE(proofs(lift, true, file));
+  EXPECT_FALSE(proofs(lift, false, file));
 }
 
 TEST_F(ProofCacheTest, TheKeyOfATableChangesWithEachPartOfItsPair)
@@ -347,7 +388,8 @@ TEST_F(ProofCacheTest, TheKeyOfATableChangesWithEachPartOfItsPair)
       {{"upper", "2.0000001"}},
       {{"fixed_xyz", "0.051 0 0"}},
       {{"multiplier", "0.6"}},
-      {{"offset", "0.11"}}};
+      {{"offset", "0.11"}},
+      {{"leader", "lift"}}};
   for (const auto& change : changes)
   {
     const std::string name = change.begin()->first + " " + change.begin()->second;
@@ -358,6 +400,13 @@ TEST_F(ProofCacheTest, TheKeyOfATableChangesWithEachPartOfItsPair)
             keyOf(*robotOf(liftUrdf({{"shape_xyz", "0.1 0.001 0"}})), "base", "flap"));
   EXPECT_NE(keyOf(*robotOf(liftUrdf()), "tip", "base"), key);
   EXPECT_EQ(keyOf(*robotOf(liftUrdf({{"radius", "0.2"}}))), key) << "of a link between the two";
+}
+
+TEST_F(ProofCacheTest, KeysHaveTheShapesAndTheHashOfTheSourceCode)
+{
+  EXPECT_NE(coverKey(shapeHash(Sphere{0.1}, 0.0)), coverKey(shapeHash(Sphere{0.2}, 0.0)));
+  EXPECT_NE(coverKey(shapeHash(Sphere{0.1}, 0.0)).find(kProofSources), std::string::npos);
+  EXPECT_NE(keyOf(*robotOf(liftUrdf())).find(kProofSources), std::string::npos);
 }
 
 /// The same joints in the same order, once along the path and once against it.
@@ -405,6 +454,14 @@ TEST_F(ProofCacheTest, TheHashOfAShapeChangesWithEachOfItsNumbers)
   Mesh more = mesh;
   more.triangles.push_back({0, 2, 3});
   EXPECT_TRUE(seen.emplace(hash(more), 18).second);
+  Mesh moved = mesh;  // the same bits in another order: a vertex became two triangles
+  std::array<std::uint32_t, 6> corners;
+  static_assert(sizeof(corners) == sizeof(mesh.vertices[0]));
+  std::memcpy(corners.data(), mesh.vertices.back().data(), sizeof(corners));
+  moved.vertices.pop_back();
+  moved.triangles.insert(moved.triangles.begin(),
+                         {{corners[0], corners[1], corners[2]}, {corners[3], corners[4], corners[5]}});
+  EXPECT_TRUE(seen.emplace(hash(moved), 20).second);
   Mesh named = mesh;
   named.name = "other name";
   EXPECT_FALSE(seen.emplace(hash(named), 19).second) << "the name is no number";
