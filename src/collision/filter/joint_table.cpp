@@ -7,6 +7,7 @@
 
 #include "collision/filter/joint_chain.h"
 #include "collision/filter/moving_pair.h"
+#include "collision/geometry/cpu_box_pair.h"
 
 // The range of the variables is halved until a box of joint values is proven to be apart or colliding, or is a single
 // cell. If the surfaces stay apart in a whole box, containment cannot change within it either, so the middle of the box

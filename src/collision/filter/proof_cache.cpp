@@ -89,7 +89,7 @@ std::optional<BallCover> ProofCache::cover(const std::string& key) const
     const double count = numbers.next();
     if (!(count >= 1.0 && count <= static_cast<double>(kCoverBalls[level])))
       return {};
-    for (double i = 0.0; i < count; ++i)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
     {
       CoverBall ball;
       ball.center = numbers.nextPoint();

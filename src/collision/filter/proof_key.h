@@ -15,7 +15,7 @@ namespace gpu_planning_scene::core
 /// whoever can write into a user's cache need not find two shapes with the same hash.
 using ShapeHash = std::array<char, 20>;
 
-/// `sagitta`: see Tessellation. Takes about 5 ms for a mesh of 100,000 triangles.
+/// `sagitta`: see Tessellation. Takes about 15 ms for 100,000 triangles.
 ShapeHash shapeHash(const Shape& shape, double sagitta);
 
 /// One side of a pair with a joint table.
