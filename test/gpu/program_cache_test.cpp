@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 constexpr char kShader[] =
     "layout(local_size_x = 1) in;\nlayout(location = 3) uniform uint factor;\n"
     "layout(std430, binding = 0) buffer Result { uint result; };\nvoid main() { result = 7u * factor; }\n";
-constexpr std::size_t kHeaderBytes = 40;
+constexpr std::size_t kHeaderBytes = 32;
+constexpr std::size_t kFormatBytes = 4;
 
 class ProgramCacheTest : public testing::Test
 {
@@ -134,14 +135,14 @@ TEST_F(ProgramCacheTest, EntriesThatTheDriverRefusesAreReplaced)
   const fs::path entry = onlyEntry();
   std::vector<char> bytes = read(entry);
   std::uint64_t key_bytes = 0;
-  std::memcpy(&key_bytes, &bytes[16], 8);
-  for (std::size_t i = kHeaderBytes + key_bytes; i < bytes.size(); ++i)
+  std::memcpy(&key_bytes, &bytes[8], 8);
+  for (std::size_t i = kHeaderBytes + key_bytes + kFormatBytes; i < bytes.size(); ++i)
     bytes[i] = 0;
-  std::memset(&bytes[32], 0, 8);
+  std::memset(&bytes[24], 0, 8);
   std::uint64_t sum = 0xcbf29ce484222325U;
   for (const char byte : bytes)
     sum = (sum ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  std::memcpy(&bytes[32], &sum, 8);
+  std::memcpy(&bytes[24], &sum, 8);
   write(entry, bytes);
   EXPECT_FALSE(isCached());
   expectSeven();

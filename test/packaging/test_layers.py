@@ -6,8 +6,8 @@ from repository import ROOT
 
 # Each folder may include itself, the folders listed for it, and the folders that these may include.
 LAYERS = {
-    "gpu": [],
     "model": [],
+    "gpu": ["model"],
     "scene": ["model"],
     "collision/geometry": ["model"],
     "collision/problem": ["collision/geometry", "collision", "scene"],

@@ -20,6 +20,11 @@ constexpr std::size_t kStatesPerSlice = 16'384;
 // Checking this many states takes less time than starting threads. The calling thread also keeps its learned order of
 // checks.
 constexpr std::size_t kFewStates = 128;
+
+// Loading proofs from disk takes milliseconds of a core. A larger batch than the first number asks for it, or more
+// checked states than the second number.
+constexpr std::size_t kBatchBeforeCachedProofs = 64;
+constexpr std::size_t kStatesBeforeCachedProofs = 1000;
 }  // namespace
 
 CpuScene::CpuScene(const CheckerOptions& options) : options_(options), maker_(options) {}
@@ -82,6 +87,24 @@ void CpuScene::prepareOutside(const std::string& name, Group& group)
   options.reductions.reach = false;
   const auto problem = std::make_shared<const CollisionProblem>(ProblemMaker(options).make(*scene_, name, nullptr));
   group.outside = forest_outside_.traversalOf(problem);
+}
+
+/// Whether the lane checker may be called.
+bool CpuScene::areProofsReady(Group& group) const
+{
+  if (!group.lanes)
+    return false;
+  // If the worker has loaded the proofs, the lane checker's own request makes none.
+  return (checked_ > kStatesBeforeProofs || (group.cached_proofs && group.cached_proofs->proofs())) &&
+         group.lanes->isReady();
+}
+
+/// Asks for the proofs on disk after a batch of `count` states, so that the first answer does not wait for them.
+void CpuScene::loadProofs(Group& group, std::size_t count) const
+{
+  if (group.lanes && !group.cached_proofs && checked_ <= kStatesBeforeProofs &&
+      (count > kBatchBeforeCachedProofs || checked_ > kStatesBeforeCachedProofs))
+    group.cached_proofs = loadProofsInBackground(scene_->robot, group.problem, forest_->forest());
 }
 
 void CpuScene::checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins,
@@ -163,7 +186,7 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
     const std::size_t size = std::min(kStatesPerSlice, count - begin);
     checked_ += size;
     group.checked += size;
-    const bool by_lanes = group.lanes && checked_ > kStatesBeforeProofs && group.lanes->isReady();
+    const bool by_lanes = areProofsReady(group);
     if (size <= kFewStates)
       check_range(begin, begin + size, by_lanes, group.scratch);
     else
@@ -171,5 +194,6 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
                   [&, scratch = group.scratch](std::size_t first, std::size_t last) mutable
                   { check_range(begin + first, begin + last, by_lanes, scratch); });
   }
+  loadProofs(group, count);
 }
 }  // namespace gpu_planning_scene::core

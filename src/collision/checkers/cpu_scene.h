@@ -70,6 +70,7 @@ class CpuScene
     bool is_sampled = false;  // the report has the pairs of collidingInSamples
     std::shared_ptr<const CollisionProblem> problem;
     std::unique_ptr<const CpuTraversal> within;   // traversal of this problem
+    std::shared_ptr<ProofJob> cached_proofs;      // null: not asked for
     std::unique_ptr<LaneChecker> lanes;           // for states for which the problem is valid; null: not used
     std::unique_ptr<const CpuTraversal> outside;  // all pairs, for states for which the problem is not valid
     std::unique_ptr<const DisplacementBounds> displacements;
@@ -80,6 +81,8 @@ class CpuScene
 
   Group& groupOf(const std::string& group);
   void prepare(Group& group);
+  bool areProofsReady(Group& group) const;
+  void loadProofs(Group& group, std::size_t count) const;
   void prepareOutside(const std::string& name, Group& group);
   void checkBlock(const double* states, std::size_t begin, std::size_t end, const Group& group, const Margins* margins,
                   bool by_lanes, Scratch& scratch, BatchResult& result) const;

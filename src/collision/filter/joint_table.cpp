@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <utility>
 
+#include "collision/filter/joint_chain.h"
 #include "collision/filter/moving_pair.h"
 #include "collision/geometry/cpu_box_pair.h"
-#include "model/math_constants.h"
 
 // The range of the variables is halved until a box of joint values is proven to be apart or colliding, or is a single
 // cell. If the surfaces stay apart in a whole box, containment cannot change within it either, so the middle of the box
@@ -19,55 +19,10 @@ namespace
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr int kCellsOfOne = 1024;
-constexpr int kCellsOfTwo = 256;
 constexpr double kWiden = 1e-3;  // boxes are wider than their cells by this share, against rounding of the lookup
 constexpr double kLargestMove =
     0.5;  // metres: boxes with larger displacements prove nothing, so they are halved at once
 constexpr double kBallMargin = 1e-8;  // metres: exceeds the rounding error of distances
-
-/// The joints between two links, from the first link to the second.
-std::vector<int> jointsBetween(const RobotModel& robot, int from, int to)
-{
-  const auto upwards = [&robot](int link)
-  {
-    std::vector<int> joints;
-    while (link >= 0 && robot.links()[static_cast<std::size_t>(link)].parent_joint >= 0)
-    {
-      joints.push_back(robot.links()[static_cast<std::size_t>(link)].parent_joint);
-      link = robot.joints()[static_cast<std::size_t>(joints.back())].parent_link;
-    }
-    return joints;
-  };
-  std::vector<int> path = upwards(from);
-  std::vector<int> other = upwards(to);
-  while (!path.empty() && !other.empty() && path.back() == other.back())
-  {
-    path.pop_back();
-    other.pop_back();
-  }
-  path.insert(path.end(), other.rbegin(), other.rend());
-  return path;
-}
-
-/// The range of a variable that moves `joints`; no value: the variable has no usable range.
-std::optional<TableVariable> rangeOf(const RobotModel& robot, int number, const std::vector<const Joint*>& joints)
-{
-  const Variable& variable = robot.variables()[static_cast<std::size_t>(number)];
-  const auto is_turning = [number](const Joint* joint)
-  {
-    return joint->first_variable != number ||
-           (joint->type != JointType::Prismatic && std::abs(joint->multiplier) == 1.0);
-  };
-  const bool wraps = std::all_of(joints.begin(), joints.end(), is_turning) &&
-                     (!variable.bounded || variable.upper - variable.lower >= 2.0 * kPi);
-  if (!wraps && !variable.bounded)
-    return std::nullopt;
-  const double slack = wraps ? 0.0 : 1e-6 * (variable.upper - variable.lower) + 1e-9;
-  const double lower = wraps ? -kPi : variable.lower - slack;
-  const double upper = wraps ? kPi : variable.upper + slack;
-  return TableVariable{number, wraps, lower, upper - lower, 1};
-}
 
 class TableMaker
 {
@@ -75,35 +30,21 @@ class TableMaker
   TableMaker(const RobotModel& robot, const TableBody& a, const TableBody& b, const CpuShapePair& pairs)
     : robot_(robot), a_(a), b_(b), pairs_(pairs), state_(robot.defaultState()), poses_(robot.links().size())
   {
-    for (const int joint : jointsBetween(robot, a.instance->link, b.instance->link))
-      if (robot.joints()[static_cast<std::size_t>(joint)].type != JointType::Fixed)
-        joints_.push_back(&robot.joints()[static_cast<std::size_t>(joint)]);
   }
 
   std::optional<JointTable> make()
   {
-    for (const Joint* joint : joints_)
-    {
-      if (joint->type == JointType::Planar || joint->type == JointType::Floating)
-        return std::nullopt;
-      const auto is_known = [joint](const TableVariable& known) { return known.variable == joint->first_variable; };
-      if (std::any_of(table_.variables.begin(), table_.variables.end(), is_known))
-        continue;
-      const std::optional<TableVariable> range = rangeOf(robot_, joint->first_variable, joints_);
-      if (!range || table_.variables.size() == 2)
-        return std::nullopt;
-      table_.variables.push_back(*range);
-    }
-    if (table_.variables.empty())
+    const std::vector<ChainJoint> chain = jointsBetween(robot_, a_.instance->link, b_.instance->link);
+    std::optional<std::vector<TableVariable>> variables = tableVariables(robot_, chain);
+    if (!variables)
       return std::nullopt;
+    for (const ChainJoint& part : chain)
+      if (part.joint->type != JointType::Fixed)
+        joints_.push_back(part.joint);
+    table_.variables = std::move(*variables);
     Box all{{0, 0}, {1, 1}};
     for (std::size_t k = 0; k < table_.variables.size(); ++k)
-    {
-      TableVariable& variable = table_.variables[k];
-      variable.cells = table_.variables.size() == 1 ? kCellsOfOne : kCellsOfTwo;
-      variable.cell_width /= variable.cells;
-      all.end[k] = variable.cells;
-    }
+      all.end[k] = table_.variables[k].cells;
     table_.cells.assign(static_cast<std::size_t>(all.end[0]) * static_cast<std::size_t>(all.end[1]), Proof::None);
     fill(all);
     return std::move(table_);
@@ -117,6 +58,11 @@ class TableMaker
     std::array<int, 2> end;
   };
 
+  std::size_t columns() const
+  {
+    return table_.variables.size() == 1 ? 1U : static_cast<std::size_t>(table_.variables[1].cells);
+  }
+
   void fill(const Box& box)
   {
     const Proof proof = proofOf(box);
@@ -125,8 +71,7 @@ class TableMaker
     {
       for (int i = box.begin[0]; i < box.end[0]; ++i)
         for (int j = box.begin[1]; j < box.end[1]; ++j)
-          table_.cells[static_cast<std::size_t>(i) * (table_.variables.size() == 1 ? 1U : kCellsOfTwo) +
-                       static_cast<std::size_t>(j)] = proof;
+          table_.cells[static_cast<std::size_t>(i) * columns() + static_cast<std::size_t>(j)] = proof;
       return;
     }
     if (sizes[0] == 1 && sizes[1] == 1)

@@ -33,14 +33,15 @@ class ProofWorker
   ProofWorker(const ProofWorker&) = delete;
   ProofWorker& operator=(const ProofWorker&) = delete;
 
+  /// `makes`: missing proofs are made; otherwise there are proofs only if none is missing.
   std::shared_ptr<ProofJob> add(std::shared_ptr<const RobotModel> robot,
                                 std::shared_ptr<const CollisionProblem> problem,
-                                std::shared_ptr<const CpuForest> forest)
+                                std::shared_ptr<const CpuForest> forest, bool makes)
   {
     auto job = std::make_shared<ProofJob>();
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      tasks_.push_back({job, std::move(robot), std::move(problem), std::move(forest)});
+      tasks_.push_back({job, std::move(robot), std::move(problem), std::move(forest), makes});
       try
       {
         if (!thread_.joinable())
@@ -68,6 +69,7 @@ class ProofWorker
     std::shared_ptr<const RobotModel> robot;
     std::shared_ptr<const CollisionProblem> problem;
     std::shared_ptr<const CpuForest> forest;
+    bool makes;
   };
 
   ProofWorker() = default;
@@ -92,7 +94,10 @@ class ProofWorker
       };
       try
       {
-        prover_.prove(*task.robot, *task.problem, task.forest, publish, is_stopped);
+        if (task.makes)
+          prover_.prove(*task.robot, *task.problem, task.forest, ProofCache::ofUser(), publish, is_stopped);
+        else
+          prover_.load(*task.robot, *task.problem, task.forest, ProofCache::ofUser(), publish, is_stopped);
       }
       catch (const std::exception&)
       {
@@ -118,7 +123,14 @@ std::shared_ptr<ProofJob> proveInBackground(std::shared_ptr<const RobotModel> ro
                                             std::shared_ptr<const CollisionProblem> problem,
                                             std::shared_ptr<const CpuForest> forest)
 {
-  return ProofWorker::instance().add(std::move(robot), std::move(problem), std::move(forest));
+  return ProofWorker::instance().add(std::move(robot), std::move(problem), std::move(forest), true);
+}
+
+std::shared_ptr<ProofJob> loadProofsInBackground(std::shared_ptr<const RobotModel> robot,
+                                                 std::shared_ptr<const CollisionProblem> problem,
+                                                 std::shared_ptr<const CpuForest> forest)
+{
+  return ProofWorker::instance().add(std::move(robot), std::move(problem), std::move(forest), false);
 }
 
 void waitForProofs()

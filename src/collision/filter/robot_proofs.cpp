@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "collision/filter/joint_chain.h"
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -25,16 +27,30 @@ void RobotProver::forgetUnused()
   shapes_.erase(std::remove_if(shapes_.begin(), shapes_.end(), is_expired), shapes_.end());
 }
 
-std::shared_ptr<const RobotProver::KnownShape> RobotProver::shape(const std::shared_ptr<const CpuTree>& tree,
-                                                                  double sagitta)
+/// What is known about a shape; the cover, if the cache has it.
+std::shared_ptr<RobotProver::KnownShape> RobotProver::shape(const std::shared_ptr<const CpuTree>& tree, double sagitta,
+                                                            const ProofCache& cache)
 {
-  for (const auto& known : shapes_)
-    if (known->tree.lock() == tree)
-      return known;
-  const ShapeSamples samples = samplesOf(*tree);
-  shapes_.push_back(std::make_shared<const KnownShape>(
-      KnownShape{tree, std::make_shared<const BallCover>(coverOf(*tree, samples, sagitta)), {samples, sagitta}}));
-  return shapes_.back();
+  const auto is_it = [&tree](const std::shared_ptr<KnownShape>& known) { return known->tree.lock() == tree; };
+  auto found = std::find_if(shapes_.begin(), shapes_.end(), is_it);
+  if (found == shapes_.end())
+  {
+    auto made = std::make_shared<KnownShape>(KnownShape{tree, shapeHash(tree->shape, sagitta), nullptr, {}});
+    found = shapes_.insert(shapes_.end(), std::move(made));
+  }
+  KnownShape& known = **found;
+  if (!known.cover)
+    if (std::optional<BallCover> cover = cache.cover(coverKey(known.hash)))
+      known.cover = std::make_shared<const BallCover>(std::move(*cover));
+  return *found;
+}
+
+void RobotProver::makeCover(KnownShape& shape, const CpuTree& tree, double sagitta, const ProofCache& cache)
+{
+  const ShapeSamples samples = samplesOf(tree);
+  shape.cover = std::make_shared<const BallCover>(coverOf(tree, samples, sagitta));
+  shape.depth.emplace(samples, sagitta);
+  cache.store(coverKey(shape.hash), *shape.cover);
 }
 
 const RobotProver::KnownTable* RobotProver::known(const RobotModel& robot, const std::array<Side, 2>& sides) const
@@ -52,56 +68,129 @@ const RobotProver::KnownTable* RobotProver::known(const RobotModel& robot, const
   return found == tables_.end() ? nullptr : &*found;
 }
 
-void RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem,
-                        const std::shared_ptr<const CpuForest>& forest, const std::function<void(RobotProofs)>& publish,
-                        const std::function<bool()>& stopped)
+/// Adds the tables of all self pairs to `found`. A carried object has a new pose after each grasp, so its tables would
+/// seldom be used again: it has none.
+void RobotProver::findTables(const RobotModel& robot, const CollisionProblem& problem, const CpuForest& forest,
+                             const ProofCache& cache, Found& found)
 {
-  forgetUnused();
-  RobotProofs proofs;
-  std::vector<std::shared_ptr<const KnownShape>> shapes;  // of each instance
-  for (const ShapeInstance& instance : problem.robot)
-  {
-    if (stopped())
-      return;
-    shapes.push_back(shape(forest->shared(instance.tree), problem.tessellations[instance.tree].sagitta));
-    proofs.covers.push_back(shapes.back()->cover);
-  }
-  const auto side = [&](std::uint32_t number)
-  {
-    const ShapeInstance& instance = problem.robot[number];
-    return Side{forest->shared(instance.tree), instance.link, instance.pose};
-  };
-  // A carried object has a new pose after each grasp, so its tables would seldom be used again.
-  const auto is_of_link = [&](std::uint32_t number)
-  { return static_cast<std::size_t>(problem.robot[number].body) < robot.links().size(); };
-  std::vector<std::size_t> unknown;
+  const auto is_of_link = [&](const ShapeInstance& instance)
+  { return static_cast<std::size_t>(instance.body) < robot.links().size(); };
+  std::size_t count = 0;
   for (const auto& [first, second] : problem.self_pairs)
   {
-    const KnownTable* table = known(robot, {side(first), side(second)});
-    if (!table && is_of_link(first) && is_of_link(second) && unknown.size() < kMostTables)
-      unknown.push_back(proofs.tables.size());
-    proofs.tables.push_back(table ? table->table : nullptr);
+    std::shared_ptr<const JointTable>& table = found.proofs.tables.emplace_back();
+    const ShapeInstance& a = problem.robot[first];
+    const ShapeInstance& b = problem.robot[second];
+    if (!is_of_link(a) || !is_of_link(b) || count == kMostTables)
+      continue;
+    const std::array<Side, 2> sides = {Side{forest.shared(a.tree), a.link, a.pose},
+                                       Side{forest.shared(b.tree), b.link, b.pose}};
+    if (const KnownTable* known_table = known(robot, sides))
+    {
+      table = known_table->table;
+      count += table ? 1 : 0;
+      continue;
+    }
+    const std::vector<ChainJoint> chain = jointsBetween(robot, a.link, b.link);
+    const std::optional<std::vector<TableVariable>> variables = tableVariables(robot, chain);
+    if (variables)
+    {
+      ++count;
+      std::string key =
+          tableKey(robot, chain, {found.shapes[first]->hash, a.pose}, {found.shapes[second]->hash, b.pose});
+      std::optional<JointTable> loaded = cache.table(key, *variables);
+      if (!loaded)
+      {
+        found.missing.push_back({found.proofs.tables.size() - 1, std::move(key)});
+        continue;
+      }
+      table = std::make_shared<const JointTable>(std::move(*loaded));
+    }
+    tables_.push_back({robot.weak_from_this(), sides, table});
   }
-  publish(proofs);
-  if (unknown.empty())
-    return;
+}
+
+/// Makes the missing tables of `found`.
+void RobotProver::makeTables(const RobotModel& robot, const CollisionProblem& problem,
+                             const std::shared_ptr<const CpuForest>& forest, const ProofCache& cache, Found& found,
+                             const Stopped& stopped)
+{
   const CpuShapePair pairs(forest);
   const auto body = [&](std::uint32_t number)
   {
     const ShapeInstance& instance = problem.robot[number];
-    return TableBody{&instance, &forest->tree(instance.tree), shapes[number]->cover.get(), &shapes[number]->depth,
-                     problem.tessellations[instance.tree].sagitta};
+    const CpuTree& tree = forest->tree(instance.tree);
+    const double sagitta = problem.tessellations[instance.tree].sagitta;
+    KnownShape& shape = *found.shapes[number];
+    if (!shape.depth)
+      shape.depth.emplace(samplesOf(tree), sagitta);
+    return TableBody{&instance, &tree, shape.cover.get(), &*shape.depth, sagitta};
   };
-  for (const std::size_t p : unknown)
+  for (const MissingTable& missing : found.missing)
   {
     if (stopped())
       return;
-    const auto [first, second] = problem.self_pairs[p];
-    std::optional<JointTable> made = makeJointTable(robot, body(first), body(second), pairs);
-    if (made)
-      proofs.tables[p] = std::make_shared<const JointTable>(std::move(*made));
-    tables_.push_back({robot.weak_from_this(), {side(first), side(second)}, proofs.tables[p]});
+    const auto [first, second] = problem.self_pairs[missing.pair];
+    const TableBody a = body(first);
+    const TableBody b = body(second);
+    auto table = std::make_shared<const JointTable>(makeJointTable(robot, a, b, pairs).value());
+    cache.store(missing.key, *table);
+    tables_.push_back({robot.weak_from_this(),
+                       {Side{forest->shared(a.instance->tree), a.instance->link, a.instance->pose},
+                        Side{forest->shared(b.instance->tree), b.instance->link, b.instance->pose}},
+                       table});
+    found.proofs.tables[missing.pair] = std::move(table);
   }
-  publish(std::move(proofs));
+}
+
+void RobotProver::load(const RobotModel& robot, const CollisionProblem& problem,
+                       const std::shared_ptr<const CpuForest>& forest, const ProofCache& cache, const Publish& publish,
+                       const Stopped& stopped)
+{
+  forgetUnused();
+  Found found;
+  for (const ShapeInstance& instance : problem.robot)
+  {
+    if (stopped())
+      return;
+    found.shapes.push_back(shape(forest->shared(instance.tree), problem.tessellations[instance.tree].sagitta, cache));
+    if (!found.shapes.back()->cover)
+      return;
+    found.proofs.covers.push_back(found.shapes.back()->cover);
+  }
+  findTables(robot, problem, *forest, cache, found);
+  if (found.missing.empty())
+    publish(std::move(found.proofs));
+}
+
+void RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem,
+                        const std::shared_ptr<const CpuForest>& forest, const ProofCache& cache, const Publish& publish,
+                        const Stopped& stopped)
+{
+  forgetUnused();
+  Found found;
+  bool is_made = false;
+  const auto sagitta_of = [&](const ShapeInstance& instance) { return problem.tessellations[instance.tree].sagitta; };
+  for (const ShapeInstance& instance : problem.robot)
+  {
+    if (stopped())
+      return;
+    found.shapes.push_back(shape(forest->shared(instance.tree), sagitta_of(instance), cache));
+    if (!found.shapes.back()->cover)
+    {
+      makeCover(*found.shapes.back(), forest->tree(instance.tree), sagitta_of(instance), cache);
+      is_made = true;
+    }
+    found.proofs.covers.push_back(found.shapes.back()->cover);
+  }
+  findTables(robot, problem, *forest, cache, found);
+  publish(found.proofs);
+  if (!found.missing.empty())
+  {
+    makeTables(robot, problem, forest, cache, found, stopped);
+    publish(std::move(found.proofs));
+  }
+  if (is_made || !found.missing.empty())
+    cache.removeOldest();
 }
 }  // namespace gpu_planning_scene::core

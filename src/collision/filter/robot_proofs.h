@@ -4,11 +4,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "collision/exact/cpu_forest.h"
 #include "collision/filter/ball_cover.h"
 #include "collision/filter/joint_table.h"
+#include "collision/filter/proof_cache.h"
+#include "collision/filter/proof_key.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/robot_model.h"
 
@@ -26,18 +29,28 @@ struct RobotProofs
 class RobotProver
 {
  public:
-  /// Takes seconds for a new robot. Calls `publish` as soon as the covers are made, with the tables that are known, and
-  /// again when all tables are made. `stopped` is called between the parts of the work, which take up to a second; if
-  /// it returns true, the work ends.
+  /// Receives the proofs.
+  using Publish = std::function<void(RobotProofs)>;
+  /// Called between the parts of the work, which take up to a second. The work ends if it returns true.
+  using Stopped = std::function<bool()>;
+
+  /// Publishes the proofs of a problem if all of them are known or in the cache; otherwise nothing. Takes milliseconds.
+  void load(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
+            const ProofCache& cache, const Publish& publish, const Stopped& stopped);
+
+  /// Takes proofs from the cache, makes the missing ones, and stores them in the cache. This takes seconds for a new
+  /// robot. Publishes as soon as there are all covers, with the tables that are known or in the cache, and again when
+  /// all tables are made.
   void prove(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
-             const std::function<void(RobotProofs)>& publish, const std::function<bool()>& stopped);
+             const ProofCache& cache, const Publish& publish, const Stopped& stopped);
 
  private:
   struct KnownShape
   {
     std::weak_ptr<const CpuTree> tree;
-    std::shared_ptr<const BallCover> cover;
-    SolidDepth depth;
+    ShapeHash hash;
+    std::shared_ptr<const BallCover> cover;  // null: neither loaded nor made yet
+    std::optional<SolidDepth> depth;         // only where a table was made
   };
   /// One side of a pair with a table.
   struct Side
@@ -52,12 +65,32 @@ class RobotProver
     std::array<Side, 2> sides;
     std::shared_ptr<const JointTable> table;  // null: the pair has none
   };
+  /// A self pair whose table is neither known nor in the cache.
+  struct MissingTable
+  {
+    std::size_t pair;
+    std::string key;
+  };
+  /// The proofs that there are without making any.
+  struct Found
+  {
+    RobotProofs proofs;
+    std::vector<std::shared_ptr<KnownShape>> shapes;  // of each instance
+    std::vector<MissingTable> missing;
+  };
 
   void forgetUnused();
-  std::shared_ptr<const KnownShape> shape(const std::shared_ptr<const CpuTree>& tree, double sagitta);
+  std::shared_ptr<KnownShape> shape(const std::shared_ptr<const CpuTree>& tree, double sagitta,
+                                    const ProofCache& cache);
+  void makeCover(KnownShape& shape, const CpuTree& tree, double sagitta, const ProofCache& cache);
   const KnownTable* known(const RobotModel& robot, const std::array<Side, 2>& sides) const;
+  void findTables(const RobotModel& robot, const CollisionProblem& problem, const CpuForest& forest,
+                  const ProofCache& cache, Found& found);
+  void makeTables(const RobotModel& robot, const CollisionProblem& problem,
+                  const std::shared_ptr<const CpuForest>& forest, const ProofCache& cache, Found& found,
+                  const Stopped& stopped);
 
-  std::vector<std::shared_ptr<const KnownShape>> shapes_;
+  std::vector<std::shared_ptr<KnownShape>> shapes_;
   std::vector<KnownTable> tables_;
 };
 }  // namespace gpu_planning_scene::core

@@ -38,7 +38,8 @@ inline const ProvenScene& provenScene(const std::string& name)
   RobotProver prover;
   const auto publish = [&made](RobotProofs proofs)
   { made.proofs = std::make_shared<const RobotProofs>(std::move(proofs)); };
-  prover.prove(*made.scene.scene->robot, *made.problem, made.forest.forest(), publish, [] { return false; });
+  prover.prove(*made.scene.scene->robot, *made.problem, made.forest.forest(), ProofCache(), publish,
+               [] { return false; });
   made.lanes =
       std::make_unique<const LaneScene>(made.scene.scene->robot, *made.problem, *made.forest.forest(), made.proofs);
   return made;
