@@ -163,6 +163,21 @@ TEST_F(Vamp, HasTheAnswersOfTheExactCheckerForItsSpheresAndPairs)
     }
 }
 
+TEST_F(Vamp, HasCapsulesForCylinders)
+{
+  const PlanningScene& cage = *testScene("ur5_cage").scene;
+  for (const double slant : {0.0, 0.8})
+  {
+    Eigen::Isometry3d pose(Eigen::AngleAxisd(slant, Eigen::Vector3d(1.0, 1.0, 0.0).normalized()));
+    pose.pretranslate(Eigen::Vector3d(0.4, 0.1, 1.2));
+    const PlanningScene scene = withObject(cage, Cylinder{0.1, 0.4}, pose);
+    const std::vector<double> states = anywhere(scene, kStates);
+    const std::vector<std::uint8_t> vamp = vampAnswers(scene, states);
+    EXPECT_EQ(vamp, exactSphereAnswers(withCapsules(scene), states)) << slant;
+    EXPECT_NE(vamp, exactSphereAnswers(scene, states)) << slant;
+  }
+}
+
 TEST_F(Vamp, HasBoxesForCylindersInTheSetBox)
 {
   EXPECT_EQ(vampCylindersOf(testScene("ur5_box").scene->name), VampCylinders::Boxes);
