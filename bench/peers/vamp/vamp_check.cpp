@@ -193,7 +193,7 @@ VampCheck::VampCheck(const PlanningScene& scene, VampCylinders cylinders)
   for (const WorldObject& object : scene.objects)
     for (const PlacedShape& placed : object.shapes)
       shapes.add(placed.shape, object.pose * placed.pose);
-  world_.reset(library_.makeWorld(shapes.all()), library_.deleteWorld);
+  world_.reset(library_.make_world(shapes.all()), library_.delete_world);
 }
 
 void VampCheck::check(const double* states, std::size_t count, std::uint8_t* valid) const

@@ -49,8 +49,8 @@ struct VampLibrary
 {
   /// Names in the order of the values of a state.
   const char* joint_names[kVampJoints];
-  VampWorld* (*makeWorld)(const VampShapes& shapes);
-  void (*deleteWorld)(VampWorld* world);
+  VampWorld* (*make_world)(const VampShapes& shapes);
+  void (*delete_world)(VampWorld* world);
   /// `states`: count x kVampJoints values. `valid`: one byte per state: 1 free, 0 in collision. Thread-safe.
   void (*check)(const VampWorld& world, const float* states, std::size_t count, std::uint8_t* valid);
 };
