@@ -21,6 +21,7 @@
 #include "command_line/command_line.h"
 #include "gpu/egl_context.h"
 #include "model/real_robots.h"
+#include "peers/vamp/vamp_check.h"
 #include "support/test_scenes.h"
 
 using namespace gpu_planning_scene::core;
@@ -98,10 +99,19 @@ std::vector<std::string> chosenScenes(const CommandLine& arguments)
   return there;
 }
 
+/// Throws Error if --methods names a method that cannot be used here.
 std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
 {
   const std::vector<MethodInfo> all = allMethods();
   std::vector<std::string> names;
+  if (const std::string reason = whyNoVamp(); !reason.empty())
+  {
+    const std::vector<std::string> named = split(arguments.value("--methods", ""));
+    if (std::find(named.begin(), named.end(), kVampMethod) != named.end())
+      throw Error(std::string("--methods: there is no ") + kVampMethod + " here: " + reason);
+    if (named.empty())
+      std::cerr << "method " << kVampMethod << " is left out: " << reason << '\n';
+  }
   for (const MethodInfo& method : all)
     names.push_back(method.name);
   names = chosen(arguments, "--methods", names);
@@ -210,7 +220,8 @@ int main(int argc, char** argv)
       {"benchmark",
        "[--quick] [--out DIR] [--data DIR] [--scenes A,B] [--methods A,B] ...",
        "Measures states per second, wrong answers and their size, latency, build and update times, memory, work\n"
-       "and growth, of this project's methods and of FCL, Bullet and fitted spheres, and writes them as CSV tables.\n"
+       "and growth, of this project's methods and of FCL, Bullet, fitted spheres and VAMP, and writes them as CSV "
+       "tables.\n"
        "Work is counted outside the timing, and only if counting costs nothing: on the CPU the visited nodes per\n"
        "state, on the GPU the candidates and root pairs per state. The GPU's traversal and the peers have no counts.\n"
        "scripts/charts draws the tables. Exit status 1 if a method that claims to be exact gives a wrong answer.\n"

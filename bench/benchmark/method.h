@@ -54,6 +54,8 @@ struct MethodInfo
   bool batched = false;     ///< its speed depends on the batch size
   bool paddable = true;     ///< it can check padded scenes
   bool responsive = false;  ///< it is also measured for single states, updates and growth
+  /// The reason why the method cannot check a scene; empty: it can. Without the function it can check every scene.
+  std::function<std::string(const PlanningScene&)> refuses;
   std::function<std::unique_ptr<Method>(const std::shared_ptr<const PlanningScene>&, const MethodOptions&)> make;
 };
 
@@ -61,12 +63,15 @@ struct MethodInfo
 std::vector<MethodInfo> ourMethods();
 /// Methods of other libraries.
 std::vector<MethodInfo> peerMethods();
-/// Both. The first is the exact checker. FCL with OBBRSS, the reference for speed, is among them.
+/// VAMP's check, if it can be used here: see whyNoVamp().
+std::vector<MethodInfo> vampMethods();
+/// All of them. The first is the exact checker. FCL with OBBRSS, the reference for speed, is among them.
 std::vector<MethodInfo> allMethods();
 
 constexpr const char* kReferenceMethod = "fcl_obbrss";
 /// The same trees, with the order of pairs learned as in our exact checker, and FCL's broad phase for objects.
 constexpr const char* kOrderedMethod = "fcl_obbrss_ordered";
+constexpr const char* kVampMethod = "vamp";
 
 /// A method of another library for one problem: it maps link poses to a verdict. Not thread-safe.
 class Peer

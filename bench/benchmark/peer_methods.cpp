@@ -150,8 +150,8 @@ std::vector<MethodInfo> peerMethods()
 std::vector<MethodInfo> allMethods()
 {
   std::vector<MethodInfo> methods = ourMethods();
-  for (MethodInfo& method : peerMethods())
-    methods.push_back(std::move(method));
+  for (const auto& others : {peerMethods(), vampMethods()})
+    methods.insert(methods.end(), others.begin(), others.end());
   return methods;
 }
 }  // namespace gpu_planning_scene::core::benchmark

@@ -60,6 +60,11 @@ std::vector<Run> makeRuns(const TestScene& scene, double padding, const Settings
   {
     if (padding > 0.0 && !info.paddable)
       continue;
+    if (const std::string reason = info.refuses ? info.refuses(*scene.scene) : ""; !reason.empty())
+    {
+      std::cerr << scene.name << ": " << info.name << " is left out: " << reason << '\n';
+      continue;
+    }
     const std::shared_ptr<Method> method = info.make(scene.scene, settings.method);
     if (!info.batched)
       runs.push_back({&info, method, 0});

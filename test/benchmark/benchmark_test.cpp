@@ -11,7 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "benchmark/statistics.h"
+#include "peers/vamp/vamp_check.h"
 #include "support/shader_folder.h"
+#include "support/test_scenes.h"
 #include "tools/run_program.h"
 
 namespace gpu_planning_scene::core
@@ -232,6 +234,43 @@ TEST(Benchmark, RunsWithoutAnyRobotOfOthers)
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_NE(output.err.find("kr5_boxes is left out"), std::string::npos) << output.err;
   EXPECT_EQ(readTable(folder.path() + "/throughput.csv").size(), 2U);
+}
+
+TEST(Benchmark, MeasuresVampInScenesOfTheUr5AndLeavesItOutElsewhere)
+{
+  if (!benchmark::whyNoVamp().empty())
+    GTEST_SKIP() << benchmark::whyNoVamp();
+  if (!missingFor("ur5_cage").empty())
+    GTEST_SKIP() << "there is no " << missingFor("ur5_cage");
+  const TemporaryFolder folder;
+  const ProgramOutput output =
+      runBenchmark(folder.path(), {"--parts", "throughput", "--scenes", "ur5_cage,arm_boxes", "--kinds", "random",
+                                   "--padding", "0,0.01", "--methods", "exact_cpu,vamp"});
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_NE(output.err.find("arm_boxes: vamp is left out: VAMP's check is generated for one robot"), std::string::npos)
+      << output.err;
+  for (const char* name : {"throughput", "accuracy"})
+  {
+    std::size_t rows = 0;
+    for (const Row& row : readTable(folder.path() + "/" + name + ".csv"))
+      if (row.at("method") == "vamp")
+      {
+        ++rows;
+        EXPECT_EQ(row.at("scene"), "ur5_cage");
+        EXPECT_EQ(row.at("padding_m"), "0");
+      }
+    EXPECT_EQ(rows, 1U) << name;
+  }
+}
+
+TEST(Benchmark, SaysWhyThereIsNoVamp)
+{
+  if (benchmark::whyNoVamp().empty())
+    GTEST_SKIP() << "VAMP can be used here";
+  const ProgramOutput named = runProgram(GPS_BENCHMARK, {"--methods", "vamp"});
+  EXPECT_EQ(named.exit_code, 1);
+  EXPECT_NE(named.err.find("--methods: there is no vamp here: " + benchmark::whyNoVamp()), std::string::npos)
+      << named.err;
 }
 
 TEST(Benchmark, AnUnknownNamePrintsTheList)

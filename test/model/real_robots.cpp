@@ -90,6 +90,11 @@ RealRobot ur5Robotiq()
   return {"ur5_robotiq", folder + "/urdf/ur5.urdf", folder + "/srdf/ur5.srdf", {{"ur5_robotiq", folder}}};
 }
 
+RealRobot ur5Spheres()
+{
+  return {"ur5_spheres", chosenOr(GPS_SHARED_DIR) + "/vamp/ur5_spherized.urdf", ur5Robotiq().srdf, {}};
+}
+
 RealRobot panda()
 {
   const std::string folder = chosenOr(GPS_SHARED_DIR) + "/moveit/resources/panda_";

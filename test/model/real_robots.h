@@ -34,10 +34,12 @@ RealRobot kr5();
 RealRobot wam();
 RealRobot drchubo();
 RealRobot ur5Robotiq();
+/// VAMP's sphere model of ur5_robotiq, with the SRDF of ur5_robotiq.
+RealRobot ur5Spheres();
 /// Panda with the SRDF of MoveIt's tests, whose virtual joint is floating.
 RealRobot panda();
 
-/// The robots whose files exist.
+/// The robots whose files exist, without the sphere model.
 std::vector<RealRobot> realRobots();
 }  // namespace gpu_planning_scene::core
 

@@ -138,7 +138,9 @@ TestScene loadUr5(const std::string& name)
 {
   const std::string folder = problemFolderOf(name);
   const auto model = ur5Model();
-  TestScene made = inFullRanges(name, loadSceneFile(folder + "/scene0001.yaml", model, {}));
+  PlanningScene scene = loadSceneFile(folder + "/scene0001.yaml", model, {});
+  scene.name = name;
+  TestScene made = inFullRanges(name, std::move(scene));
   limitTo(goalOf(folder + "/request0001.yaml", *model), 0.7, made);
   return made;
 }
