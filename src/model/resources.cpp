@@ -96,7 +96,9 @@ std::string resolveUri(const std::string& uri, const std::string& base_folder, c
   if (uri[0] == '/')
     return uri;
   if (base_folder.empty())
-    throw Error("mesh path '" + uri + "' is relative, and no base folder is set; write package:// or an absolute path");
+    throw Error("mesh path '" + uri +
+                "' is relative, and the folder of the URDF is not known; give it (urdf_folder:= of the launch file), "
+                "or write package:// or an absolute path");
   return (fs::path(base_folder) / uri).string();
 }
 }  // namespace gpu_planning_scene::core

@@ -101,7 +101,8 @@ PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHa
   options.srdf_name = searchedParameter(node, "robot_description_semantic");
   const std::string urdf = textParameter(node, options.urdf_name, "");
   if (urdf.empty())
-    throw Error("parameter " + options.urdf_name + " is not set; load the robot's URDF there");
+    throw Error("parameter " + options.urdf_name +
+                " is not set; load the robot's URDF there, or give urdf:=FILE to the launch file");
   const auto robot = RobotModel::fromXml(urdf, textParameter(node, options.srdf_name, ""), options, warnings);
   defaults = defaultsFromParameters(node, options.urdf_name, *robot, warnings);
 
