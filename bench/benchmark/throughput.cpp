@@ -25,7 +25,7 @@ namespace
 {
 constexpr std::size_t kTrial = 64;            // states of the first trial
 constexpr std::size_t kWorkStates = 4096;     // upper bound on the states whose work is counted
-constexpr std::size_t kManyStates = 4096;     // batches of so many states are timed with proofs
+constexpr std::size_t kManyStates = 4096;     // so many states are timed with proofs
 constexpr std::size_t kErrorsMeasured = 100;  // upper bound, for each kind of wrong answer of a method
 
 /// A method with one batch size.

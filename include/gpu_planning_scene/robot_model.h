@@ -164,8 +164,9 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   /// means no rotation.
   void linkPoses(const double* state, Eigen::Isometry3d* poses) const;
 
-  /// Writes the same pose of one link, and of the links between it and the root. `known`: one entry per link; poses of
-  /// links with an entry other than 0 are known. Sets the entries of the links that it has written.
+  /// Writes the poses of one link and of the links between it and the root, as linkPoses does. `known`: one entry per
+  /// link; the poses of links with an entry other than 0 are already those of this state. Sets the entries of the links
+  /// that it has written.
   void addLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const;
 
   /// Writes a random state: variables are uniform between lower and upper, rotations of floating joints uniform over

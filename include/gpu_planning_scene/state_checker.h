@@ -97,7 +97,9 @@ struct SceneReport
   std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal shape
   /// The CPU checks batches of fewer states (the largest number: all batches). No value: the checker has no choice.
   std::optional<std::size_t> cpu_below;
-  /// The states that the CPU has checked since setScene, by the stage that decided them.
+  /// The states of this group that went to the CPU as a batch since setScene, by the stage that decided them, with and
+  /// without margins. The measurements that choose between CPU and GPU count too. States that the GPU has left
+  /// undecided do not.
   std::vector<DecidedStates> decided;
 };
 

@@ -111,6 +111,13 @@ void expectSamePoses(const std::string& urdf, const RobotModel& robot, int state
           << robot.links()[link].name;
       ASSERT_EQ(poses[link].matrix().row(3), Eigen::RowVector4d(0, 0, 0, 1));
     }
+    std::vector<Eigen::Isometry3d> one_by_one(robot.links().size());
+    std::vector<std::uint8_t> known(robot.links().size(), 0);
+    for (std::size_t link = poses.size(); link-- > 0;)
+    {
+      robot.addLinkPose(state.data(), static_cast<int>(link), one_by_one.data(), known.data());
+      ASSERT_EQ(one_by_one[link].matrix(), poses[link].matrix()) << robot.links()[link].name;
+    }
   }
 }
 

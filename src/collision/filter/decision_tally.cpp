@@ -1,5 +1,6 @@
 #include "collision/filter/decision_tally.h"
 
+#include <algorithm>
 #include <chrono>
 #include <numeric>
 
@@ -36,7 +37,7 @@ std::vector<DecidedStates> DecisionTotals::report(std::uint64_t checked) const
   std::vector<DecidedStates> decided;
   const double timed = static_cast<double>(std::max<std::uint64_t>(1, sum_.timed_states));
   for (std::size_t s = 0; s < lanes::kStages; ++s)
-    if (sum_.states[s] != 0)
+    if (sum_.states[s] != 0 || sum_.nanoseconds[s] != 0)
       decided.push_back({kNames[s], sum_.states[s], static_cast<double>(sum_.nanoseconds[s]) / timed});
   const std::uint64_t alone = checked - std::accumulate(sum_.states.begin(), sum_.states.end(), std::uint64_t{0});
   if (alone != 0)
@@ -46,7 +47,7 @@ std::vector<DecidedStates> DecisionTotals::report(std::uint64_t checked) const
 
 void DecisionTally::begin(lanes::Block& block)
 {
-  block.clock = totals_ && blocks_++ % kTimedBlocks == 0 ? &steadyNanoseconds : nullptr;
+  block.clock = totals_ && ++blocks_ % kTimedBlocks == 0 ? &steadyNanoseconds : nullptr;
 }
 
 void DecisionTally::add(const lanes::Block& block, std::size_t count, std::uint64_t exact_nanoseconds)

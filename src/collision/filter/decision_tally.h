@@ -27,7 +27,7 @@ class DecisionTotals
  public:
   void add(const DecisionCounts& counts);
 
-  /// The stages in their order, without stages that decided no state. `checked`: all states that the CPU has checked;
+  /// The stages in their order, without stages that were not used. `checked`: all states that the CPU has checked;
   /// the exact checker alone decided those that no stage counts.
   std::vector<DecidedStates> report(std::uint64_t checked) const;
 
@@ -47,7 +47,8 @@ class DecisionTally
 
   /// Sets the totals; without totals, nothing is counted.
   void countFor(std::shared_ptr<DecisionTotals> totals) { totals_ = std::move(totals); }
-  /// Decides whether the next block is timed: its clock is set for every 64th block.
+  /// Decides whether the next block is timed: its clock is set for every 64th block, and not for the first one, whose
+  /// data is not in the cache.
   void begin(lanes::Block& block);
   /// Adds a block of `count` states. `exact_nanoseconds`: the time of the exact pair tests, if the block is timed.
   void add(const lanes::Block& block, std::size_t count, std::uint64_t exact_nanoseconds);

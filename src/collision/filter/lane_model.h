@@ -92,8 +92,8 @@ struct SelfPair
   Thresholds thresholds;
 };
 
-/// A ball around instances that stay in it for all joint values, for example those of a hand. Its centre is the origin
-/// of a frame.
+/// A ball around instances that stay in it for all states within LaneScene::isWithinBounds, for example those of a
+/// hand. Its centre is the origin of a frame.
 struct Cluster
 {
   int frame;

@@ -117,8 +117,8 @@ std::vector<bool> entered(const CubeGrid& grid, const std::vector<Triangle>& pie
   return is_entered;
 }
 
-/// Connected parts of the cubes that the surface does not enter. The points of a part are all inside a solid or all
-/// outside, because the segment between the centres of two neighbours meets no surface.
+/// Connected parts of the cubes that no triangle enters. The points of a part are all inside a closed surface or all
+/// outside, because the segment between the centres of two neighbours meets no triangle.
 struct EmptyParts
 {
   std::vector<int> part_of_cube;  // -1: the surface enters the cube
@@ -178,9 +178,10 @@ class InsideCubes
     for (const Vector3i& cube : parts_.first)
     {
       const Vector3d center = grid.centerOf(cube);
-      inside_.push_back(!solid      ? by_winding_ && windingNumber(tree.triangles, center) > 0.5
-                        : tree.mesh ? isInsideSolid(tree, center, stack)
-                                    : insideSolid(tree, center));
+      // The triangles separate the parts. So a primitive's triangles decide, and not its true surface outside of them.
+      inside_.push_back(solid && tree.mesh
+                            ? isInsideSolid(tree, center, stack)
+                            : (by_winding_ || !tree.mesh) && windingNumber(tree.triangles, center) > 0.5);
     }
   }
 

@@ -38,8 +38,6 @@ int clearSign(double value, double error)
   return value > error ? 1 : value < -error ? -1 : 0;
 }
 
-/// Projects the vertices of two triangles, relative to a vertex of the second, with an upper bound of the rounding
-/// error.
 enum class TriangleVerdict
 {
   Hit,
@@ -47,6 +45,8 @@ enum class TriangleVerdict
   Undecided
 };
 
+/// Projects the vertices of two triangles, relative to a vertex of the second, with an upper bound of the rounding
+/// error.
 class PairProjections
 {
  public:

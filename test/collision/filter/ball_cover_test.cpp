@@ -43,6 +43,8 @@ std::vector<NamedShape> shapes()
                                  {"ball", Sphere{0.1}},
                                  {"cylinder", Cylinder{0.05, 0.4}},
                                  {"cone", Cone{0.1, 0.2}},
+                                 {"disc of a watch", Cylinder{0.005, 0.0005}},
+                                 {"pin", Cylinder{0.001, 0.002}},
                                  {"mesh of a box", tessellate(Box{{0.3, 0.2, 0.1}}).mesh},
                                  {"mesh of a ball", tessellate(Sphere{0.1}).mesh},
                                  {"open mesh", withoutSomeTriangles(Cylinder{0.05, 0.4})}};
@@ -155,6 +157,16 @@ TEST_F(BallCoverTest, PointsOfTheSolidBelowTheLayerAreInABall)
         }
         std::cout << deep << " points below the layer of " << cover.layer << " m" << std::endl;
       });
+}
+
+TEST_F(BallCoverTest, CellsOfTheSolidAreInsideIt)
+{
+  for (const Covered& covered : coveredShapes())
+  {
+    const ShapeSamples samples = samplesOf(*covered.tree);
+    for (const SolidCell& cell : samples.cells)
+      ASSERT_TRUE(insideSolid(*covered.tree, cell.center)) << covered.name << ", " << cell.center.transpose();
+  }
 }
 
 TEST_F(BallCoverTest, InnerBallsAreInTheShape)
