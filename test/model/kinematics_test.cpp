@@ -126,8 +126,11 @@ TEST(Kinematics, AgreesWithANaiveImplementationOnRealRobots)
   const std::vector<RealRobot> robots = realRobots();
   if (robots.empty())
     GTEST_SKIP() << "no robot in " << GPS_DART_DATA_DIR << " or " << GPS_SHARED_DIR;
-  for (const RealRobot& robot : robots)
+  for (RealRobot robot : robots)
+  {
+    robot.srdf.clear();  // its virtual joint is not in the URDF
     expectSamePoses(robot.urdfText(), *robot.load(), 100);
+  }
 }
 
 TEST(Kinematics, AgreesWithANaiveImplementationForEveryJointType)
