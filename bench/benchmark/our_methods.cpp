@@ -36,12 +36,12 @@ class CheckerMethod : public Method
   std::size_t undecided_ = 0;
 };
 
-/// Only the CPU: proofs for most states, and the exact checker.
+/// Only the CPU: the exact checker, with or without proofs for most states.
 class CpuMethod : public CheckerMethod
 {
  public:
-  explicit CpuMethod(const std::shared_ptr<const PlanningScene>& scene)
-    : CheckerMethod(std::make_unique<CpuChecker>(scene)), scene_(scene)
+  CpuMethod(const std::shared_ptr<const PlanningScene>& scene, const CheckerOptions& options)
+    : CheckerMethod(std::make_unique<CpuChecker>(scene, options)), scene_(scene)
   {
   }
 
@@ -99,6 +99,22 @@ class ChoosingMethod : public BatchMethod
   using BatchMethod::BatchMethod;
   std::optional<std::size_t> cpuBelow() override { return checker().report().cpu_below; }
 };
+
+/// Only the CPU.
+MethodInfo onCpu(const std::string& name, const std::string& title, bool proofs)
+{
+  CheckerOptions options;
+  options.reductions.proofs = proofs;
+  MethodInfo info;
+  info.name = name;
+  info.title = title;
+  info.family = "exact checker";
+  info.exact = true;
+  info.responsive = true;
+  info.make = [options](const auto& scene, const MethodOptions&)
+  { return std::make_unique<CpuMethod>(scene, options); };
+  return info;
+}
 
 BatchCheckerOptions batchOptions(const MethodOptions& options)
 {
@@ -181,14 +197,8 @@ class UnfilteredFloat : public Method
 std::vector<MethodInfo> ourMethods()
 {
   std::vector<MethodInfo> methods;
-  MethodInfo exact;
-  exact.name = "exact_cpu";
-  exact.title = "exact checker, CPU";
-  exact.family = "exact checker";
-  exact.exact = true;
-  exact.responsive = true;
-  exact.make = [](const auto& scene, const MethodOptions&) { return std::make_unique<CpuMethod>(scene); };
-  methods.push_back(exact);
+  methods.push_back(onCpu("exact_cpu", "exact checker, CPU", true));
+  methods.push_back(onCpu("exact_cpu_no_proofs", "exact checker, CPU, no proofs", false));
   methods.push_back(automatic(0));
   methods.push_back(onGpu("ours_work_queue", "ours, work queues", Traversal::WorkQueue));
   methods.push_back(onGpu("ours_breadth_first", "ours, breadth-first", Traversal::BreadthFirst));

@@ -119,6 +119,7 @@ Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& our
   Row row;
   row.family = family.name;
   row.undecided = answers.undecided;
+  row.proven = answers.proven;
   for (std::size_t i = 0; i < count; ++i)
   {
     Judged& judged = all[i];
@@ -132,10 +133,12 @@ Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& our
       const bool own = methodNames()[m].ours;
       if (own)
       {
-        judged.applies[m] = true;
-        judged.collides[m] = (method == WorkQueues     ? answers.work_queue
-                              : method == BreadthFirst ? answers.breadth_first
-                                                       : answers.exact)[i] != 0;
+        const std::vector<std::uint8_t>& answer = method == WorkQueues     ? answers.work_queue
+                                                  : method == BreadthFirst ? answers.breadth_first
+                                                  : method == ExactChecker ? answers.exact
+                                                                           : answers.proofs;
+        judged.applies[m] = i < answer.size();
+        judged.collides[m] = judged.applies[m] && answer[i] != 0;
       }
       if (!judged.applies[m])
         continue;

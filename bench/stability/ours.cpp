@@ -4,7 +4,10 @@
 
 #include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
+#include "collision/filter/lane_buffers.h"
+#include "collision/filter/lane_kernel.h"
 #include "collision/gpu/gpu_checker.h"
+#include "collision/parallel_for.h"
 
 namespace gpu_planning_scene::core::stability
 {
@@ -91,12 +94,55 @@ struct Part
     }
   }
 };
+/// A robot of two links that can be anywhere: link 0 has shape a, link 1 has shape b of a `self` case.
+std::shared_ptr<const RobotModel> twoFloatingLinks()
+{
+  return RobotModel::fromXml(R"(<robot name="pair"><link name="a"/><link name="b"/>
+      <joint name="between" type="floating"><parent link="a"/><child link="b"/></joint></robot>)",
+                             R"(<robot name="pair">
+      <virtual_joint name="base" type="floating" parent_frame="world" child_link="a"/></robot>)",
+                             {});
+}
+
+RobotProofs ballsOf(const CollisionProblem& problem, const CpuForest& forest)
+{
+  RobotProofs proofs;
+  for (const ShapeInstance& instance : problem.robot)
+  {
+    const CpuTree& tree = forest.tree(instance.tree);
+    proofs.covers.push_back(std::make_shared<const BallCover>(
+        coverOf(tree, samplesOf(tree), problem.tessellations[instance.tree].sagitta)));
+  }
+  proofs.tables.resize(problem.self_pairs.size());
+  return proofs;
+}
+
+/// The verdict that the lane kernel proves for a case.
+Proof proofOf(const std::shared_ptr<const RobotModel>& robot, const Case& made, const Eigen::Vector3d& origin)
+{
+  const Part part(&made, 1, origin);
+  const CpuForest forest(*part.problem);
+  const LaneScene scene(robot, *part.problem, forest,
+                        std::make_shared<const RobotProofs>(ballsOf(*part.problem, forest)));
+  LaneBuffers buffers;
+  const lanes::Scratch scratch = buffers.of(scene);
+  std::vector<Eigen::Isometry3d> poses(part.linkCount());
+  part.linkPoses(0, poses.data());
+  for (int lane = 0; lane < lanes::kLanes; ++lane)
+    if (!scene.fillGiven(poses.data(), lane, scratch.given))
+      return Proof::None;
+  const std::vector<double> state = robot->defaultState();  // the kernel takes the poses from `scratch`
+  lanes::Block block;
+  lanes::availableKernels().front().kernel(scene.model(), state.data(), 1, nullptr, scratch, block);
+  return block.proof[0];
+}
 }  // namespace
 
 struct Ours::Impl
 {
   GpuChecker work_queue;
   GpuChecker breadth_first;
+  std::shared_ptr<const RobotModel> robot = twoFloatingLinks();
 
   static std::size_t append(GpuChecker& checker, const Part& part, std::vector<std::uint8_t>& answers)
   {
@@ -122,6 +168,18 @@ struct Ours::Impl
       answers.push_back(traversal.firstCollision(poses.data(), scratch) ? 1 : 0);
     }
   }
+
+  void addProofs(const std::vector<Case>& cases, const Eigen::Vector3d& origin, Answers& answers) const
+  {
+    std::vector<Proof> proofs(std::min(cases.size(), kCasesWithProofs));
+    parallelFor(proofs.size(), 1, [&](std::size_t i, std::size_t) { proofs[i] = proofOf(robot, cases[i], origin); });
+    for (const Proof proof : proofs)
+    {
+      answers.proven += proof == Proof::None ? 0 : 1;
+      answers.proofs.push_back(proof == Proof::None ? answers.exact[answers.proofs.size()]
+                                                    : static_cast<std::uint8_t>(proof == Proof::Colliding));
+    }
+  }
 };
 
 Ours::Ours(const std::string& device, const std::string& shaders)
@@ -142,6 +200,7 @@ Ours::Answers Ours::check(const std::vector<Case>& cases, const Eigen::Vector3d&
     Impl::append(impl_->breadth_first, part, answers.breadth_first);
     Impl::appendExact(part, answers.exact);
   }
+  impl_->addProofs(cases, origin, answers);
   return answers;
 }
 

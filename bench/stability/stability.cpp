@@ -78,7 +78,7 @@ void runStability(const CommandLine& arguments)
     if (failures > kReported)
       std::cerr << "\n  and " << failures - kReported << " more wrong answers";
     std::cerr << (failures > 0 ? "\n  " : ": ") << secondsSince(start) << " s, " << rows.back().undecided
-              << " decided by the CPU" << std::endl;
+              << " decided by the CPU, " << rows.back().proven << " by balls" << std::endl;
   }
   writeMarkdown(markdown.is_open() ? markdown : std::cout, {seed, cases, ours.deviceName()}, rows);
   if (csv.is_open())

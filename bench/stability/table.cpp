@@ -14,6 +14,7 @@ const std::array<MethodName, MethodCount>& methodNames()
       {"ours, work queues", "work_queue", true},
       {"ours, breadth-first", "breadth_first", true},
       {"ours, exact checker", "exact", true},
+      {"ours, with proofs", "proofs", true},
   }};
   return names;
 }

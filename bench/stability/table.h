@@ -19,6 +19,7 @@ enum Method : std::size_t
   WorkQueues,
   BreadthFirst,
   ExactChecker,
+  ExactWithProofs,
   MethodCount
 };
 
@@ -48,6 +49,7 @@ struct Row
   std::size_t free = 0;
   std::size_t either = 0;
   std::size_t undecided = 0;  ///< cases that the GPU left undecided
+  std::size_t proven = 0;     ///< cases that balls decided for ExactWithProofs
   std::array<Cell, MethodCount> cells;
 };
 

@@ -16,13 +16,16 @@ namespace gpu_planning_scene::core
 using BodyPair = std::array<std::int32_t, 2>;
 constexpr BodyPair kNoPair = {-1, -1};
 
-/// Reductions leave out parts of a scene that cannot change any answer. Switching one off costs only time.
+/// Reductions leave out work that cannot change any answer. Switching one off costs only time.
 struct Reductions
 {
   bool reach = true;              ///< pairs that can never meet, as proven by bounds on reach from the joint limits
   bool rigid_pairs = true;        ///< pairs that no joint moves relative to each other are decided once per scene
   bool shared_trees = true;       ///< equal meshes and equal primitives share a tree
   bool direct_primitives = true;  ///< the GPU tests primitives as solids, not as triangles
+  /// The CPU decides most states of large batches by proofs about the robot: balls and tables of joint values. They are
+  /// made in the background, which takes seconds of all cores for each robot, and kept on disk.
+  bool proofs = true;
 };
 
 struct CheckerOptions
@@ -58,6 +61,9 @@ struct BatchResult
   double seconds = 0.0;              ///< wall time of the check, usually without compiling shaders and building trees
   std::size_t undecided_states = 0;  ///< number of states that the CPU decided
   double undecided_seconds = 0.0;    ///< part of `seconds` for deciding them
+
+  /// Appends the result of the states that follow. Times and counts are added; the revision is that of `next`.
+  void append(const BatchResult& next);
 };
 
 /// The number of random states for SceneReport::colliding_in_samples.

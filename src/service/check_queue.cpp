@@ -45,17 +45,6 @@ std::vector<double> filled(const CheckJob& job, const Snapshot& now)
   return fullStates(robot, job.columns, job.states.data(), job.states.size() / job.columns.size(), now.partialState());
 }
 
-/// Appends the result of a batch of states to the result of the earlier batches.
-void append(const BatchResult& part, BatchResult& all)
-{
-  all.valid.insert(all.valid.end(), part.valid.begin(), part.valid.end());
-  all.colliding.insert(all.colliding.end(), part.colliding.begin(), part.colliding.end());
-  all.revision = part.revision;
-  all.seconds += part.seconds;
-  all.undecided_states += part.undecided_states;
-  all.undecided_seconds += part.undecided_seconds;
-}
-
 /// Takes the answer of one request out of the answer of a merged batch. Rows of states have `width` values.
 CheckAnswer part(const CheckAnswer& whole, std::size_t first, std::size_t count, bool keep_states, std::size_t width)
 {
@@ -273,7 +262,7 @@ BatchResult CheckQueue::checkStates(const std::vector<double>& states, std::size
     const std::size_t rows = std::min(count - from, batch_size_.size());
     const BatchResult part = checker_->check(states.data() + from * width_, rows, group);
     batch_size_.took(rows, part.seconds);
-    append(part, all);
+    all.append(part);
     from += rows;
   } while (from < count);
   return all;

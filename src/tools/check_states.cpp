@@ -52,11 +52,7 @@ BatchResult checkAll(StateChecker& checker, StateSource& source, std::size_t bat
   while (all.valid.size() < source.count())
   {
     const std::size_t count = std::min(batch, source.count() - all.valid.size());
-    const BatchResult result = checker.check(source.next(count), count, group);
-    all.valid.insert(all.valid.end(), result.valid.begin(), result.valid.end());
-    all.colliding.insert(all.colliding.end(), result.colliding.begin(), result.colliding.end());
-    all.seconds += result.seconds;
-    all.undecided_states += result.undecided_states;
+    all.append(checker.check(source.next(count), count, group));
     progress.update(all.valid.size());
   }
   return all;

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "collision/bounds/problem_maker.h"
+#include "collision/checkers/cpu_scene.h"
 #include "collision/parallel_for.h"
 #include "collision/problem/collision_problem.h"
 #include "model/seconds_since.h"
@@ -31,6 +32,32 @@ std::unique_ptr<BatchChecker> batchChecker(const TestScene& scene, Traversal tra
   options.traversal = traversal;
   options.cpu_below = 0;
   return std::make_unique<BatchChecker>(scene.scene, options);
+}
+
+CheckerOptions withoutProofs()
+{
+  CheckerOptions options;
+  options.reductions.proofs = false;
+  return options;
+}
+
+/// A checker whose proofs are made.
+std::unique_ptr<CpuChecker> proven(const TestScene& scene)
+{
+  auto checker = std::make_unique<CpuChecker>(scene.scene);
+  const std::vector<double> states = scene.randomStates(kStatesBeforeProofs + 1, 1);
+  checker->check(states.data(), kStatesBeforeProofs + 1);
+  waitForProofs();
+  return checker;
+}
+
+/// The states that were decided without an exact test.
+std::size_t provenStates(const SceneReport& report)
+{
+  std::size_t count = 0;
+  for (const DecidedStates& stage : report.decided)
+    count += stage.by.rfind("exact tests", 0) == 0 || stage.by.rfind("the exact", 0) == 0 ? 0 : stage.states;
+  return count;
 }
 
 BodyPair sorted(std::int32_t a, std::int32_t b)
@@ -59,10 +86,11 @@ std::size_t decadeOf(double clearance)
 }
 }  // namespace
 
-ExactnessCheck::ExactnessCheck(const TestScene& scene)
+ExactnessCheck::ExactnessCheck(const TestScene& scene, bool with_proofs)
   : scene_(scene),
     oracle_(problemOf(scene)),
-    cpu_(scene.scene),
+    cpu_(scene.scene, withoutProofs()),
+    with_proofs_(with_proofs ? proven(scene) : nullptr),
     work_queue_(batchChecker(scene, Traversal::WorkQueue)),
     breadth_first_(batchChecker(scene, Traversal::BreadthFirst))
 {
@@ -161,6 +189,13 @@ Exactness ExactnessCheck::compare(const std::vector<double>& states, bool cleara
     undecided = {results.back().undecided_states, results.back().undecided_seconds, results.back().seconds};
     compareSizes(checker, name, states, on_cpu.valid, exactness);
   };
+  if (with_proofs_)
+  {
+    const std::size_t before = provenStates(with_proofs_->report());
+    results.push_back(with_proofs_->check(states.data(), count));
+    exactness.proven = provenStates(with_proofs_->report()) - before;
+    compareSizes(*with_proofs_, "with proofs", states, on_cpu.valid, exactness);
+  }
   add(*work_queue_, "work_queue", exactness.work_queue);
   add(*breadth_first_, "breadth_first", exactness.breadth_first);
 

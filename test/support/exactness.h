@@ -25,6 +25,7 @@ struct Exactness
   std::size_t false_pair = 0;       ///< a reported pair is free, or is not a checked pair
   std::size_t either = 0;           ///< states for which the contract allows both answers
   std::size_t disagreeing = 0;      ///< verdicts of some traversal or batch size that differ from the CPU checker's
+  std::size_t proven = 0;           ///< states that proofs decided without an exact test
   double oracle_seconds = 0.0;
 
   /// The undecided states of a BatchChecker with one traversal. All states are checked in one call.
@@ -50,7 +51,8 @@ struct Exactness
 class ExactnessCheck
 {
  public:
-  explicit ExactnessCheck(const TestScene& scene);
+  /// `with_proofs`: the CPU checker that uses proofs is compared too. Making the proofs takes seconds.
+  explicit ExactnessCheck(const TestScene& scene, bool with_proofs = false);
 
   /// `clearances`: whether clearances are measured. `label`: for the progress bar.
   Exactness compare(const std::vector<double>& states, bool clearances, const std::string& label);
@@ -71,7 +73,8 @@ class ExactnessCheck
   const TestScene& scene_;
   oracle::ProblemOracle oracle_;
   std::map<BodyPair, std::vector<std::pair<std::size_t, std::size_t>>> checked_;  // pairs of instances
-  CpuChecker cpu_;
+  CpuChecker cpu_;                                                                // the exact checker alone
+  std::unique_ptr<CpuChecker> with_proofs_;                                       // null: not compared
   std::unique_ptr<BatchChecker> work_queue_;
   std::unique_ptr<BatchChecker> breadth_first_;
 };

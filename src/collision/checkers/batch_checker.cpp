@@ -1,5 +1,6 @@
 #include "gpu_planning_scene/batch_checker.h"
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
 #include <optional>
@@ -14,6 +15,13 @@
 
 namespace gpu_planning_scene::core
 {
+namespace
+{
+// A large batch is cut into slices. For each slice, CPU or GPU is chosen anew: the CPU becomes faster while proofs are
+// made.
+constexpr std::size_t kStatesPerSlice = std::size_t{1} << 18U;
+}  // namespace
+
 struct BatchChecker::Impl
 {
   explicit Impl(const BatchCheckerOptions& options)
@@ -27,6 +35,8 @@ struct BatchChecker::Impl
   void check(const double* states, std::size_t count, const std::string& group, BatchResult& result);
   void checkAround(const double* states, std::size_t count, const std::string& group, const Margins& margins,
                    BatchResult& result);
+  BatchResult timedCheck(const double* states, std::size_t count, const std::string& group,
+                         const JointNeighbourhood* around);
   std::size_t threshold(const std::string& group, const double* states, std::size_t count);
 
   std::mutex mutex;
@@ -50,6 +60,8 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
   }
   gpu_checker.check(states, count, result, margins);
   work = gpu_checker.lastWork();
+  if (cpu_or_gpu.isMeasured())
+    on_cpu.countStates(count, group);
 }
 
 /// Sends the states for which the group's problem is not valid to the CPU; only the CPU can decide them.
@@ -107,7 +119,8 @@ std::size_t BatchChecker::Impl::threshold(const std::string& group, const double
   BatchResult unused;
   const CpuOrGpu::Checks checks{[&](const double* rows, std::size_t size) { on_cpu.check(rows, size, group, unused); },
                                 [&](const double* rows, std::size_t size) { checkOnGpu(rows, size, group, unused); }};
-  return cpu_or_gpu.threshold(group, on_cpu.scene(), *on_cpu.problem(group), states, count, checks);
+  const ProofStage proofs = cpu_or_gpu.isMeasured() ? on_cpu.proofStage(group) : ProofStage::None;
+  return cpu_or_gpu.threshold(group, on_cpu.scene(), *on_cpu.problem(group), states, count, proofs, checks);
 }
 
 BatchChecker::BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
@@ -139,29 +152,46 @@ void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
     impl_->cpu_or_gpu.forget();
 }
 
+/// Checks states that were validated, with or without neighbourhoods, and sets `work`.
+BatchResult BatchChecker::Impl::timedCheck(const double* states, std::size_t count, const std::string& group,
+                                           const JointNeighbourhood* around)
+{
+  if (count != 0 && !on_cpu.problem(group)->always_colliding)
+  {
+    const std::size_t on_gpu =
+        threshold(group, states, count);  // any measurement happens here, before the check is timed
+    if (around && count >= on_gpu)
+      gpu_checker.prepareMargins();
+  }
+  work = {};
+  BatchResult result;
+  result.revision = on_cpu.scene()->revision;
+  const auto start = std::chrono::steady_clock::now();
+  if (around)
+    checkAround(states, count, group, on_cpu.margins(*around, states, count, group), result);
+  else
+    check(states, count, group, result);
+  result.seconds = secondsSince(start);
+  return result;
+}
+
 BatchResult BatchChecker::check(const double* states, std::size_t count, const std::string& group,
                                 const JointNeighbourhood* around)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  const PlanningScene& scene = *impl_->on_cpu.scene();
-  const bool decided = impl_->on_cpu.problem(group)->always_colliding.has_value();
-  validateStates(*scene.robot, states, count);
-  if (count != 0 && !decided)
-  {
-    const std::size_t on_gpu =
-        impl_->threshold(group, states, count);  // any measurement happens here, before the check is timed
-    if (around && count >= on_gpu)
-      impl_->gpu_checker.prepareMargins();
-  }
-  impl_->work = {};
-  BatchResult result;
-  result.revision = scene.revision;
-  const auto start = std::chrono::steady_clock::now();
+  impl_->on_cpu.problem(group);  // throws for an unknown group
+  validateStates(*impl_->on_cpu.scene()->robot, states, count);
   if (around)
-    impl_->checkAround(states, count, group, impl_->on_cpu.margins(*around, states, count, group), result);
-  else
-    impl_->check(states, count, group, result);
-  result.seconds = secondsSince(start);
+    return impl_->timedCheck(states, count, group, around);
+  BatchResult result = impl_->timedCheck(states, std::min(count, kStatesPerSlice), group, nullptr);
+  GpuWork work = impl_->work;
+  for (std::size_t begin = kStatesPerSlice; begin < count; begin += kStatesPerSlice)
+  {
+    const double* const first = states + begin * impl_->width();
+    result.append(impl_->timedCheck(first, std::min(kStatesPerSlice, count - begin), group, nullptr));
+    work += impl_->work;
+  }
+  impl_->work = work;
   return result;
 }
 

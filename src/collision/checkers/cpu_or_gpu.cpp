@@ -93,14 +93,14 @@ std::vector<double> sampleOf(const RobotModel& robot, const CollisionProblem& pr
 
 std::size_t CpuOrGpu::threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
                                 const CollisionProblem& problem, const double* states, std::size_t count,
-                                const Checks& checks)
+                                ProofStage proofs, const Checks& checks)
 {
   if (fixed_)
     return *fixed_;
   const auto known = thresholds_.find(group);
   const Clock::time_point start = Clock::now();
   const bool enough = count >= kEnough;
-  if (known != thresholds_.end() && (known->second.by_own_states || !enough) &&
+  if (known != thresholds_.end() && proofs <= known->second.proofs && (known->second.by_own_states || !enough) &&
       (known->second.scene.lock() == scene || start < known->second.keep_until))
     return known->second.states;
   const std::vector<double> sample = sampleOf(*scene->robot, problem, states, count);
@@ -115,7 +115,7 @@ std::size_t CpuOrGpu::threshold(const std::string& group, const std::shared_ptr<
   };
   const std::size_t measured = breakEven(timed(checks.cpu), timed(checks.gpu));
   const auto pause = std::chrono::duration_cast<Clock::duration>(kMeasuringPause * (Clock::now() - start));
-  thresholds_.insert_or_assign(group, Threshold{measured, scene, Clock::now() + pause, enough});
+  thresholds_.insert_or_assign(group, Threshold{measured, scene, Clock::now() + pause, proofs, enough});
   return measured;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "collision/filter/robot_proofs.h"
 #include "collision/problem/collision_problem.h"
 
 namespace gpu_planning_scene::core
@@ -31,9 +32,14 @@ class CpuOrGpu
   explicit CpuOrGpu(std::optional<std::size_t> fixed) : fixed_(fixed) {}
 
   /// The threshold of the group: batches of at least this many states go to the GPU. `states`: the current batch. A
-  /// measurement uses these states if there are enough of them, else random states.
+  /// measurement uses these states if there are enough of them, else random states. `proofs`: of the CPU's check. If
+  /// there are more of them than at the last measurement, the CPU has become faster, and a new measurement is due.
   std::size_t threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
-                        const CollisionProblem& problem, const double* states, std::size_t count, const Checks& checks);
+                        const CollisionProblem& problem, const double* states, std::size_t count, ProofStage proofs,
+                        const Checks& checks);
+
+  /// Whether the threshold is measured.
+  bool isMeasured() const { return !fixed_; }
 
   /// Forgets all measurements. A new robot may have groups of the same names.
   void forget() { thresholds_.clear(); }
@@ -44,6 +50,7 @@ class CpuOrGpu
     std::size_t states;
     std::weak_ptr<const PlanningScene> scene;  // scene for which it was measured
     std::chrono::steady_clock::time_point keep_until;
+    ProofStage proofs;
     bool by_own_states;  // measured with the caller's states instead of random ones
   };
 

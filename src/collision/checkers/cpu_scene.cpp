@@ -77,7 +77,7 @@ void CpuScene::prepare(Group& group)
     return;
   group.within = forest_->traversalOf(group.problem);
   // With a tolerance, the traversal may call states colliding that the proofs call free.
-  if (options_.tolerance == 0.0 && LaneChecker::suits(*group.problem))
+  if (options_.reductions.proofs && options_.tolerance == 0.0 && LaneChecker::suits(*group.problem))
     group.lanes = std::make_unique<LaneChecker>(scene_->robot, group.problem, forest_->forest(), *group.within);
 }
 
@@ -89,14 +89,28 @@ void CpuScene::prepareOutside(const std::string& name, Group& group)
   group.outside = forest_outside_.traversalOf(problem);
 }
 
-/// Whether the lane checker may be called.
-bool CpuScene::areProofsReady(Group& group) const
+ProofStage CpuScene::proofStage(Group& group) const
 {
   if (!group.lanes)
-    return false;
+    return ProofStage::None;
   // If the worker has loaded the proofs, the lane checker's own request makes none.
-  return (checked_ > kStatesBeforeProofs || (group.cached_proofs && group.cached_proofs->proofs())) &&
-         group.lanes->isReady();
+  const bool is_asked = checked_ > kStatesBeforeProofs || (group.cached_proofs && group.cached_proofs->proofs());
+  return is_asked ? group.lanes->prepare() : ProofStage::None;
+}
+
+ProofStage CpuScene::proofStage(const std::string& name)
+{
+  Group& group = groupOf(name);
+  if (group.problem->always_colliding)
+    return ProofStage::None;
+  prepare(group);
+  return proofStage(group);
+}
+
+void CpuScene::countStates(std::size_t count, const std::string& name)
+{
+  checked_ += count;
+  loadProofs(groupOf(name), count);
 }
 
 /// Asks for the proofs on disk after a batch of `count` states, so that the first answer does not wait for them.
@@ -186,7 +200,7 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
     const std::size_t size = std::min(kStatesPerSlice, count - begin);
     checked_ += size;
     group.checked += size;
-    const bool by_lanes = areProofsReady(group);
+    const bool by_lanes = proofStage(group) != ProofStage::None;
     if (size <= kFewStates)
       check_range(begin, begin + size, by_lanes, group.scratch);
     else

@@ -38,6 +38,12 @@ class CpuScene
   /// Prepares the group, so that the first call of `check` need not do so.
   void prepare(const std::string& group) { prepare(groupOf(group)); }
 
+  /// The proofs with which `check` decides most states of the group. Asks for them as soon as they pay.
+  ProofStage proofStage(const std::string& group);
+
+  /// Counts states of the group that were checked elsewhere, so that proofs are made for a robot in use.
+  void countStates(std::size_t count, const std::string& group);
+
   /// The margins of the group's pairs for `count` states (rows of the robot's variables). Throws Error if `around` does
   /// not fit the states.
   Margins margins(const JointNeighbourhood& around, const double* states, std::size_t count, const std::string& group);
@@ -81,7 +87,7 @@ class CpuScene
 
   Group& groupOf(const std::string& group);
   void prepare(Group& group);
-  bool areProofsReady(Group& group) const;
+  ProofStage proofStage(Group& group) const;
   void loadProofs(Group& group, std::size_t count) const;
   void prepareOutside(const std::string& name, Group& group);
   void checkBlock(const double* states, std::size_t begin, std::size_t end, const Group& group, const Margins* margins,

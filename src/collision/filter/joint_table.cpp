@@ -27,7 +27,7 @@ constexpr double kBallMargin = 1e-8;  // metres: exceeds the rounding error of d
 class TableMaker
 {
  public:
-  TableMaker(const RobotModel& robot, const TableBody& a, const TableBody& b, const CpuShapePair& pairs)
+  TableMaker(const RobotModel& robot, const TableInstance& a, const TableInstance& b, const CpuShapePair& pairs)
     : robot_(robot), a_(a), b_(b), pairs_(pairs), state_(robot.defaultState()), poses_(robot.links().size())
   {
   }
@@ -154,7 +154,7 @@ class TableMaker
 
   /// Whether a point of `body` stays inside the solid of `other` wherever the joints are within their travel. `pose`:
   /// of the body in the frame of the other one, for the middle values.
-  static bool penetrates(const TableBody& body, const TableBody& other, const Isometry3d& pose,
+  static bool penetrates(const TableInstance& body, const TableInstance& other, const Isometry3d& pose,
                          const std::vector<JointAxis>& axes)
   {
     const auto is_inside = [&](const Vector3d& point)
@@ -166,8 +166,8 @@ class TableMaker
   }
 
   const RobotModel& robot_;
-  const TableBody& a_;
-  const TableBody& b_;
+  const TableInstance& a_;
+  const TableInstance& b_;
   const CpuShapePair& pairs_;
   std::vector<const Joint*> joints_;  // between the bodies, without fixed joints
   JointTable table_;
@@ -177,7 +177,7 @@ class TableMaker
 };
 }  // namespace
 
-std::optional<JointTable> makeJointTable(const RobotModel& robot, const TableBody& a, const TableBody& b,
+std::optional<JointTable> makeJointTable(const RobotModel& robot, const TableInstance& a, const TableInstance& b,
                                          const CpuShapePair& pairs)
 {
   return TableMaker(robot, a, b, pairs).make();

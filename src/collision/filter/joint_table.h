@@ -33,7 +33,7 @@ struct JointTable
 };
 
 /// A robot instance of a table, with what is known about its shape.
-struct TableBody
+struct TableInstance
 {
   const ShapeInstance* instance;
   const CpuTree* tree;
@@ -45,6 +45,6 @@ struct TableBody
 /// Makes the table of a self pair. No value if the pair depends on more than two variables, on a planar or floating
 /// joint, or on a joint without limits that is not continuous. `pairs` decides whether two trees collide. Takes up to a
 /// second.
-std::optional<JointTable> makeJointTable(const RobotModel& robot, const TableBody& a, const TableBody& b,
+std::optional<JointTable> makeJointTable(const RobotModel& robot, const TableInstance& a, const TableInstance& b,
                                          const CpuShapePair& pairs);
 }  // namespace gpu_planning_scene::core

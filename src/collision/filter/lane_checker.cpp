@@ -26,7 +26,7 @@ bool LaneChecker::suits(const CollisionProblem& problem)
   return !problem.always_colliding && problem.robot.size() * objects + problem.self_pairs.size() <= kMostPairs;
 }
 
-bool LaneChecker::isReady()
+ProofStage LaneChecker::prepare()
 {
   if (!job_)
     job_ = proveInBackground(robot_, problem_, forest_);
@@ -36,29 +36,7 @@ bool LaneChecker::isReady()
     scene_ = std::make_unique<const LaneScene>(robot_, *problem_, *forest_, proofs);
     proofs_ = proofs;
   }
-  return scene_ != nullptr;
-}
-
-lanes::Scratch LaneChecker::kernelScratch(Scratch& scratch) const
-{
-  const lanes::Model& model = scene_->model();
-  const std::size_t frames = std::size_t{12} * lanes::kLanes * model.frames.count;
-  const std::size_t centers = std::size_t{3} * lanes::kLanes * (model.instances.count + model.clusters.count);
-  const std::size_t balls = std::size_t{lanes::kBallNumbers} * model.instances.count;
-  scratch.floats.resize(2 * frames + centers + balls);
-  scratch.placed.resize(model.instances.count);
-  scratch.open.resize(lanes::kLanes * scene_->pairCount());
-  scratch.trials.resize(std::size_t{lanes::kLevels} * scene_->pairCount(), lanes::Trial{});
-  scratch.records.resize(scene_->pairCount());
-  scratch.poses.resize(robot_->links().size());
-  float* const first = scratch.floats.data();
-  return {first,
-          first + frames,
-          first + 2 * frames,
-          first + 2 * frames + centers,
-          scratch.placed.data(),
-          scratch.open.data(),
-          scratch.trials.data()};
+  return !proofs_ ? ProofStage::None : proofs_->has_all_tables ? ProofStage::All : ProofStage::Covers;
 }
 
 /// Sets the poses that the kernel does not compute. Returns false if the kernel must not be called.
@@ -130,7 +108,9 @@ void LaneChecker::check(const double* states, std::size_t count, std::size_t row
                         Scratch& scratch, BatchResult& result) const
 {
   const std::size_t width = robot_->variables().size();
-  const lanes::Scratch kernel_scratch = kernelScratch(scratch);
+  const lanes::Scratch kernel_scratch = scratch.buffers.of(*scene_);
+  scratch.records.resize(scene_->pairCount());
+  scratch.poses.resize(robot_->links().size());
   const bool is_kernel_used = fillGiven(states, count, scratch, kernel_scratch.given);
   lanes::Block block;
   scratch.tally.begin(block);

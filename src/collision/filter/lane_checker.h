@@ -10,6 +10,7 @@
 
 #include "collision/exact/cpu_traversal.h"
 #include "collision/filter/decision_tally.h"
+#include "collision/filter/lane_buffers.h"
 #include "collision/filter/lane_kernel.h"
 #include "collision/filter/lane_scene.h"
 #include "collision/filter/proof_worker.h"
@@ -32,11 +33,8 @@ class LaneChecker
   /// Work space of one thread.
   struct Scratch
   {
-    std::vector<float> floats;
+    LaneBuffers buffers;
     std::vector<float> margins;
-    std::vector<std::uint8_t> placed;
-    std::vector<std::uint32_t> open;
-    std::vector<lanes::Trial> trials;
     std::vector<Eigen::Isometry3d> poses;  // of links
     std::vector<std::uint8_t> known;       // of each link: whether its pose is set
     std::vector<CpuTraversal::OpenPair> pairs;
@@ -55,8 +53,8 @@ class LaneChecker
               std::shared_ptr<const CpuForest> forest, const CpuTraversal& traversal);
 
   /// Whether there are proofs, so that `check` may be called. The first call starts to make them in the background.
-  /// Takes over better proofs when they are made. One caller at a time.
-  bool isReady();
+  /// Takes over further proofs when they are made. One caller at a time.
+  ProofStage prepare();
 
   /// Whether `check` may be called for a state.
   bool takes(const double* state) const { return scene_->isWithinBounds(state); }
@@ -69,7 +67,6 @@ class LaneChecker
              BatchResult& result) const;
 
  private:
-  lanes::Scratch kernelScratch(Scratch& scratch) const;
   bool fillGiven(const double* states, std::size_t count, Scratch& scratch, float* given) const;
   const float* kernelMargins(const double* const* margins, std::size_t count, Scratch& scratch) const;
   double marginOf(std::uint32_t pair, const double* margins) const;

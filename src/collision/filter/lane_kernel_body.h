@@ -61,7 +61,7 @@ inline Proof lookUp(const Table& table, const double* state)
   int cell = 0;
   for (int k = 0; k < table.variables; ++k)
   {
-    const TableVariable& variable = table.variable[k];
+    const TableAxis& variable = table.variable[k];
     const double value = variable.wraps ? wrapped(state[variable.variable]) : state[variable.variable];
     const double place = (value - variable.lower) * variable.cells_per_unit;
     if (!(place >= 0.0 && place < variable.cells))

@@ -128,7 +128,8 @@ struct WorldGroup
   float half[3];
 };
 
-struct TableVariable
+/// A variable of a joint table.
+struct TableAxis
 {
   int variable;
   bool wraps;  ///< the angle counts modulo 2 pi
@@ -142,7 +143,7 @@ struct Table
 {
   std::uint32_t pair;
   int variables;
-  TableVariable variable[2];
+  TableAxis variable[2];
   const Proof* cells;
 };
 
@@ -192,7 +193,7 @@ struct Scratch
 };
 constexpr int kBallNumbers = 6 * kBalls;
 
-/// What has decided a state: the last stage that it needed.
+/// The last stage that a state needed.
 enum class Stage : std::uint8_t
 {
   JointTables,

@@ -212,7 +212,8 @@ double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
 }
 
 /// Finds parts of the robot that stay together: all instances that move with a frame, if they stay in a ball around the
-/// frame's origin that is not much larger than the largest of them.
+/// frame's origin that is not much larger than the largest of them. A cluster of most of the robot would be of no use:
+/// pairs within a cluster are always tested.
 void LaneScene::addClusters()
 {
   constexpr double kLargestCluster = 3.0;  // radius relative to the largest instance
@@ -220,7 +221,7 @@ void LaneScene::addClusters()
   {
     double radius = 0.0;
     double largest = 0.0;
-    int instances = 0;
+    std::size_t instances = 0;
   };
   std::vector<Part> parts(frames_.size());
   for (const lanes::Instance& instance : instances_)
@@ -240,11 +241,13 @@ void LaneScene::addClusters()
       part.largest = std::max(part.largest, parts[f].largest);
       part.instances += parts[f].instances;
     }
+  const std::size_t most = instances_.size() / 2;
   for (std::size_t f = 0; f < frames_.size(); ++f)
   {
     const int parent = frames_[f].parent;
     int cluster = parent < 0 ? -1 : cluster_of_frame_[static_cast<std::size_t>(parent)];
-    if (cluster < 0 && parts[f].instances > 1 && parts[f].radius <= kLargestCluster * parts[f].largest)
+    if (cluster < 0 && parts[f].instances > 1 && parts[f].instances <= most &&
+        parts[f].radius <= kLargestCluster * parts[f].largest)
     {
       cluster = static_cast<int>(clusters_.size());
       clusters_.push_back({static_cast<int>(f), above(parts[f].radius * (1.0 + 1e-6))});

@@ -1,9 +1,11 @@
 #include "collision/filter/robot_proofs.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "collision/filter/joint_chain.h"
+#include "collision/parallel_for.h"
 
 namespace gpu_planning_scene::core
 {
@@ -16,6 +18,19 @@ bool isSame(const std::weak_ptr<T>& a, const std::weak_ptr<T>& b)
 {
   return !a.owner_before(b) && !b.owner_before(a);
 }
+
+/// Calls `work` for the numbers below `count` on all cores, until `stopped` is true.
+template <class Work>
+void forEachUntil(const RobotProver::Stopped& stopped, std::size_t count, const Work& work)
+{
+  parallelFor(
+      count, 1,
+      [&](std::size_t i, std::size_t)
+      {
+        if (!stopped())
+          work(i);
+      });
+}
 }  // namespace
 
 void RobotProver::forgetUnused()
@@ -27,7 +42,7 @@ void RobotProver::forgetUnused()
   shapes_.erase(std::remove_if(shapes_.begin(), shapes_.end(), is_expired), shapes_.end());
 }
 
-/// What is known about a shape; the cover, if the cache has it.
+/// The record of a shape. It has a cover if the cover is known or in the cache.
 std::shared_ptr<RobotProver::KnownShape> RobotProver::shape(const std::shared_ptr<const CpuTree>& tree, double sagitta,
                                                             const ProofCache& cache)
 {
@@ -115,32 +130,50 @@ void RobotProver::makeTables(const RobotModel& robot, const CollisionProblem& pr
                              const std::shared_ptr<const CpuForest>& forest, const ProofCache& cache, Found& found,
                              const Stopped& stopped)
 {
+  const auto sagitta_of = [&](const ShapeInstance& instance) { return problem.tessellations[instance.tree].sagitta; };
+  std::map<KnownShape*, const ShapeInstance*> without_depth;
+  for (const MissingTable& missing : found.missing)
+    for (const std::uint32_t number : problem.self_pairs[missing.pair])
+      if (!found.shapes[number]->depth)
+        without_depth.emplace(found.shapes[number].get(), &problem.robot[number]);
+  const std::vector<std::pair<KnownShape*, const ShapeInstance*>> shapes(without_depth.begin(), without_depth.end());
+  forEachUntil(stopped, shapes.size(),
+               [&](std::size_t i)
+               {
+                 const auto& [shape, instance] = shapes[i];
+                 shape->depth.emplace(samplesOf(forest->tree(instance->tree)), sagitta_of(*instance));
+               });
+  if (stopped())
+    return;
+
   const CpuShapePair pairs(forest);
-  const auto body = [&](std::uint32_t number)
+  const auto side = [&](std::uint32_t number)
   {
     const ShapeInstance& instance = problem.robot[number];
-    const CpuTree& tree = forest->tree(instance.tree);
-    const double sagitta = problem.tessellations[instance.tree].sagitta;
-    KnownShape& shape = *found.shapes[number];
-    if (!shape.depth)
-      shape.depth.emplace(samplesOf(tree), sagitta);
-    return TableBody{&instance, &tree, shape.cover.get(), &*shape.depth, sagitta};
+    const KnownShape& shape = *found.shapes[number];
+    return TableInstance{&instance, &forest->tree(instance.tree), shape.cover.get(), &*shape.depth,
+                         sagitta_of(instance)};
   };
-  for (const MissingTable& missing : found.missing)
-  {
-    if (stopped())
-      return;
-    const auto [first, second] = problem.self_pairs[missing.pair];
-    const TableBody a = body(first);
-    const TableBody b = body(second);
-    auto table = std::make_shared<const JointTable>(makeJointTable(robot, a, b, pairs).value());
-    cache.store(missing.key, *table);
-    tables_.push_back({robot.weak_from_this(),
-                       {Side{forest->shared(a.instance->tree), a.instance->link, a.instance->pose},
-                        Side{forest->shared(b.instance->tree), b.instance->link, b.instance->pose}},
-                       table});
-    found.proofs.tables[missing.pair] = std::move(table);
-  }
+  std::vector<std::shared_ptr<const JointTable>> made(found.missing.size());
+  forEachUntil(
+      stopped, found.missing.size(),
+      [&](std::size_t i)
+      {
+        const auto [first, second] = problem.self_pairs[found.missing[i].pair];
+        made[i] = std::make_shared<const JointTable>(makeJointTable(robot, side(first), side(second), pairs).value());
+        cache.store(found.missing[i].key, *made[i]);
+      });
+  for (std::size_t i = 0; i < made.size(); ++i)
+    if (made[i])
+    {
+      const auto [first, second] = problem.self_pairs[found.missing[i].pair];
+      const ShapeInstance& a = problem.robot[first];
+      const ShapeInstance& b = problem.robot[second];
+      tables_.push_back({robot.weak_from_this(),
+                         {Side{forest->shared(a.tree), a.link, a.pose}, Side{forest->shared(b.tree), b.link, b.pose}},
+                         made[i]});
+      found.proofs.tables[found.missing[i].pair] = std::move(made[i]);
+    }
 }
 
 void RobotProver::load(const RobotModel& robot, const CollisionProblem& problem,
@@ -159,7 +192,8 @@ void RobotProver::load(const RobotModel& robot, const CollisionProblem& problem,
     found.proofs.covers.push_back(found.shapes.back()->cover);
   }
   findTables(robot, problem, *forest, cache, found);
-  if (found.missing.empty())
+  found.proofs.has_all_tables = found.missing.empty();
+  if (found.proofs.has_all_tables)
     publish(std::move(found.proofs));
 }
 
@@ -169,28 +203,36 @@ void RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem
 {
   forgetUnused();
   Found found;
-  bool is_made = false;
-  const auto sagitta_of = [&](const ShapeInstance& instance) { return problem.tessellations[instance.tree].sagitta; };
+  std::map<KnownShape*, const ShapeInstance*> without_cover;
   for (const ShapeInstance& instance : problem.robot)
   {
     if (stopped())
       return;
-    found.shapes.push_back(shape(forest->shared(instance.tree), sagitta_of(instance), cache));
+    found.shapes.push_back(shape(forest->shared(instance.tree), problem.tessellations[instance.tree].sagitta, cache));
     if (!found.shapes.back()->cover)
-    {
-      makeCover(*found.shapes.back(), forest->tree(instance.tree), sagitta_of(instance), cache);
-      is_made = true;
-    }
-    found.proofs.covers.push_back(found.shapes.back()->cover);
+      without_cover.emplace(found.shapes.back().get(), &instance);
   }
+  const std::vector<std::pair<KnownShape*, const ShapeInstance*>> shapes(without_cover.begin(), without_cover.end());
+  forEachUntil(stopped, shapes.size(),
+               [&](std::size_t i)
+               {
+                 const auto& [shape, instance] = shapes[i];
+                 makeCover(*shape, forest->tree(instance->tree), problem.tessellations[instance->tree].sagitta, cache);
+               });
+  if (stopped())
+    return;
+  for (const std::shared_ptr<KnownShape>& shape : found.shapes)
+    found.proofs.covers.push_back(shape->cover);
   findTables(robot, problem, *forest, cache, found);
+  found.proofs.has_all_tables = found.missing.empty();
   publish(found.proofs);
   if (!found.missing.empty())
   {
     makeTables(robot, problem, forest, cache, found, stopped);
+    found.proofs.has_all_tables = !stopped();
     publish(std::move(found.proofs));
   }
-  if (is_made || !found.missing.empty())
+  if (!shapes.empty() || !found.missing.empty())
     cache.removeOldest();
 }
 }  // namespace gpu_planning_scene::core

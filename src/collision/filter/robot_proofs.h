@@ -21,7 +21,16 @@ namespace gpu_planning_scene::core
 struct RobotProofs
 {
   std::vector<std::shared_ptr<const BallCover>> covers;   ///< one per robot instance of the problem
-  std::vector<std::shared_ptr<const JointTable>> tables;  ///< one per self pair; null: the pair has none
+  std::vector<std::shared_ptr<const JointTable>> tables;  ///< one per self pair; null: none, or not made yet
+  bool has_all_tables = false;                            ///< no table is still to be made
+};
+
+/// The proofs that there are.
+enum class ProofStage
+{
+  None,
+  Covers,  ///< and the tables that were known
+  All
 };
 
 /// Makes the proofs of consecutive problems, for any robots. Their parts are kept as long as their trees are in
@@ -31,16 +40,17 @@ class RobotProver
  public:
   /// Receives the proofs.
   using Publish = std::function<void(RobotProofs)>;
-  /// Called between the parts of the work, which take up to a second. The work ends if it returns true.
+  /// Called between the parts of the work, which take up to a second, by several threads. The work ends if it returns
+  /// true.
   using Stopped = std::function<bool()>;
 
   /// Publishes the proofs of a problem if all of them are known or in the cache; otherwise nothing. Takes milliseconds.
   void load(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
             const ProofCache& cache, const Publish& publish, const Stopped& stopped);
 
-  /// Takes proofs from the cache, makes the missing ones, and stores them in the cache. This takes seconds for a new
-  /// robot. Publishes as soon as there are all covers, with the tables that are known or in the cache, and again when
-  /// all tables are made.
+  /// Takes proofs from the cache, makes the missing ones on all cores, and stores them in the cache. This takes seconds
+  /// for a new robot. Publishes as soon as there are all covers, with the tables that are known or in the cache, and
+  /// again when all tables are made.
   void prove(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
              const ProofCache& cache, const Publish& publish, const Stopped& stopped);
 
@@ -82,7 +92,7 @@ class RobotProver
   void forgetUnused();
   std::shared_ptr<KnownShape> shape(const std::shared_ptr<const CpuTree>& tree, double sagitta,
                                     const ProofCache& cache);
-  void makeCover(KnownShape& shape, const CpuTree& tree, double sagitta, const ProofCache& cache);
+  static void makeCover(KnownShape& shape, const CpuTree& tree, double sagitta, const ProofCache& cache);
   const KnownTable* known(const RobotModel& robot, const std::array<Side, 2>& sides) const;
   void findTables(const RobotModel& robot, const CollisionProblem& problem, const CpuForest& forest,
                   const ProofCache& cache, Found& found);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/checkers/cpu_or_gpu.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
@@ -107,6 +108,26 @@ TEST_F(BatchCheckerTest, NamesTheBodiesThatCollideAndTheRevision)
   EXPECT_EQ(scene_->bodyName(hit.colliding[0][1]), "post");
   EXPECT_EQ(hit.revision, 41U);
   EXPECT_EQ(checker.check(free_.data(), 1).valid, std::vector<std::uint8_t>{1});
+}
+
+TEST_F(BatchCheckerTest, AnswersABatchOfHundredsOfThousandsOfStatesInItsOrder)
+{
+  BatchCheckerOptions options;
+  options.cpu_below = kNoBatch;
+  BatchChecker checker(scene_, options);
+  constexpr std::size_t kStates = 600'000;
+  std::vector<double> states;
+  for (std::size_t i = 0; i < kStates; ++i)
+  {
+    const std::vector<double>& state = i % 7 == 0 || i % 11 == 3 ? touching_ : free_;
+    states.insert(states.end(), state.begin(), state.end());
+  }
+  const BatchResult result = checker.check(states.data(), kStates);
+  ASSERT_EQ(result.valid.size(), kStates);
+  ASSERT_EQ(result.colliding.size(), kStates);
+  EXPECT_EQ(result.revision, 41U);
+  for (std::size_t i = 0; i < kStates; ++i)
+    ASSERT_EQ(result.valid[i] == 0, i % 7 == 0 || i % 11 == 3) << "state " << i;
 }
 
 TEST_F(BatchCheckerTest, ChecksNoStatesAtAll)

@@ -1,6 +1,8 @@
 // The batch size from which a method with a slow start is the faster one.
 #include "collision/checkers/cpu_or_gpu.h"
 
+#include <chrono>
+
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/batch_checker.h"
@@ -87,6 +89,45 @@ TEST(BreakEven, IsMeasuredForASceneAndChangesNoAnswer)
   EXPECT_EQ(checker.check(states.data(), kStates).valid, expected);
   for (std::size_t i = 0; i < kStates; i += 999)
     EXPECT_EQ(checker.check(&states[i], 1).valid[0], expected[i]);
+}
+
+/// A choice between two checks. The CPU's check takes `cpu_seconds` per state.
+class Choice : public testing::Test
+{
+ protected:
+  std::size_t threshold(ProofStage proofs)
+  {
+    const auto wait = [this](double seconds)
+    {
+      ++runs_;
+      const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+      while (std::chrono::steady_clock::now() < end)
+        continue;
+    };
+    const CpuOrGpu::Checks checks{[&](const double*, std::size_t count) { wait(cpu_seconds_ * double(count)); },
+                                  [&](const double*, std::size_t) { wait(2e-4); }};
+    return choice_.threshold("", scene_, CollisionProblem(), nullptr, 0, proofs, checks);
+  }
+
+  CpuOrGpu choice_{std::nullopt};
+  double cpu_seconds_ = 1e-5;
+  int runs_ = 0;
+  std::shared_ptr<const PlanningScene> scene_ = std::make_shared<PlanningScene>(robotOf(boxLink("a")));
+};
+
+TEST_F(Choice, IsMeasuredAnewOnceThereAreMoreProofs)
+{
+  const std::size_t before = threshold(ProofStage::None);
+  EXPECT_LT(before, 1000U);
+  cpu_seconds_ = 1e-9;
+  EXPECT_EQ(threshold(ProofStage::None), before);
+  EXPECT_EQ(threshold(ProofStage::Covers), kNoBatch);
+  const int runs = runs_;
+  EXPECT_EQ(threshold(ProofStage::Covers), kNoBatch);
+  EXPECT_EQ(threshold(ProofStage::None), kNoBatch);  // a new scene has no proofs at first: not measured again
+  EXPECT_EQ(runs_, runs);
+  threshold(ProofStage::All);
+  EXPECT_GT(runs_, runs);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

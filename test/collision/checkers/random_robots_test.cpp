@@ -495,9 +495,9 @@ TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
   ForestCache trees;
   const auto exact = trees.traversalOf(problem);
   LaneChecker checker(scene->robot, problem, trees.forest(), *exact);
-  EXPECT_FALSE(checker.isReady());
+  EXPECT_EQ(checker.prepare(), ProofStage::None);
   waitForProofs();
-  ASSERT_TRUE(checker.isReady());
+  ASSERT_EQ(checker.prepare(), ProofStage::All);
   const std::vector<double> states = randomStates(robot);
   LaneChecker::Scratch scratch;
   CpuTraversal::Scratch exact_scratch;

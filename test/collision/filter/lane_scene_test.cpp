@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/filter/lane_buffers.h"
 #include "collision/filter/lane_kernel.h"
 #include "collision/filter/proven_scene.h"
 #include "support/repetitions.h"
@@ -45,27 +46,19 @@ void proveAll(const ProvenScene& proven, const lanes::NamedKernel& kernel, const
               const float* margins, const Visit& visit)
 {
   const lanes::Model& model = proven.lanes->model();
-  const std::size_t poses_size = std::size_t{12} * lanes::kLanes * model.frames.count;
-  const std::size_t centers_size = std::size_t{3} * lanes::kLanes * (model.instances.count + model.clusters.count);
-  std::vector<float> floats(2 * poses_size + centers_size + std::size_t{lanes::kBallNumbers} * model.instances.count);
-  std::vector<std::uint8_t> placed(model.instances.count);
-  std::vector<std::uint32_t> open(lanes::kLanes * proven.lanes->pairCount());
-  std::vector<lanes::Trial> trials(std::size_t{lanes::kLevels} * proven.lanes->pairCount());
-  float* const frames = floats.data();
-  float* const given = frames + poses_size;
-  float* const centers = given + poses_size;
-  const lanes::Scratch scratch = {frames,        given,       centers,      centers + centers_size,
-                                  placed.data(), open.data(), trials.data()};
+  LaneBuffers buffers;
+  const lanes::Scratch scratch = buffers.of(*proven.lanes);
+  const std::size_t pairs = proven.lanes->pairCount();
   const std::size_t count = states.size() / model.width;
   for (std::size_t first = 0; first < count; first += lanes::kLanes)
   {
     const int size = static_cast<int>(std::min<std::size_t>(lanes::kLanes, count - first));
-    std::fill(trials.begin(), trials.end(), lanes::Trial{});  // so that no level of balls is left out
+    std::fill_n(scratch.trials, lanes::kLevels * pairs, lanes::Trial{});  // so that no level of balls is left out
     lanes::Block block;
     kernel.kernel(model, states.data() + first * model.width, size, margins, scratch, block);
     for (int lane = 0; lane < size; ++lane)
     {
-      const std::uint32_t* const begin = open.data() + static_cast<std::size_t>(lane) * proven.lanes->pairCount();
+      const std::uint32_t* const begin = scratch.open + static_cast<std::size_t>(lane) * pairs;
       visit(first + static_cast<std::size_t>(lane),
             Proven{block.proof[lane], block.pair[lane], {begin, begin + block.open_count[lane]}});
     }

@@ -176,6 +176,26 @@ struct FreshChecker
   CpuChecker checker{sceneOf(robot)};
 };
 
+TEST(ProofWorker, HasNothingToDoForACheckerWithoutProofs)
+{
+  const CacheOfATest cache;
+  CheckerOptions options;
+  options.reductions.proofs = false;
+  const std::shared_ptr<const RobotModel> robot = sliderRobot();
+  CpuChecker checker(sceneOf(robot), options);
+  std::mt19937_64 generator(kSeed);
+  std::vector<double> states(kManyStates * robot->variables().size());
+  for (std::size_t i = 0; i < kManyStates; ++i)
+    robot->randomState(generator, states.data() + i * robot->variables().size());
+  checker.check(states.data(), kManyStates);
+  checker.check(states.data(), kManyStates);
+  waitForProofs();
+  EXPECT_TRUE(cache.files().empty());
+  const std::vector<DecidedStates> decided = checker.report().decided;
+  ASSERT_EQ(decided.size(), 1U);
+  EXPECT_EQ(decided[0].states, 2 * kManyStates);
+}
+
 TEST(ProofWorker, LoadsProofsForTheFirstLargeBatchAndMakesNone)
 {
   const CacheOfATest cache;

@@ -1,0 +1,14 @@
+#include "gpu_planning_scene/state_checker.h"
+
+namespace gpu_planning_scene::core
+{
+void BatchResult::append(const BatchResult& next)
+{
+  valid.insert(valid.end(), next.valid.begin(), next.valid.end());
+  colliding.insert(colliding.end(), next.colliding.begin(), next.colliding.end());
+  revision = next.revision;
+  seconds += next.seconds;
+  undecided_states += next.undecided_states;
+  undecided_seconds += next.undecided_seconds;
+}
+}  // namespace gpu_planning_scene::core
