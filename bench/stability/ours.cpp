@@ -142,6 +142,7 @@ struct Ours::Impl
 {
   GpuChecker work_queue;
   GpuChecker breadth_first;
+  std::size_t with_proofs;
   std::shared_ptr<const RobotModel> robot = twoFloatingLinks();
 
   static std::size_t append(GpuChecker& checker, const Part& part, std::vector<std::uint8_t>& answers)
@@ -171,7 +172,7 @@ struct Ours::Impl
 
   void addProofs(const std::vector<Case>& cases, const Eigen::Vector3d& origin, Answers& answers) const
   {
-    std::vector<Proof> proofs(std::min(cases.size(), kCasesWithProofs));
+    std::vector<Proof> proofs(std::min(cases.size(), with_proofs));
     parallelFor(proofs.size(), 1, [&](std::size_t i, std::size_t) { proofs[i] = proofOf(robot, cases[i], origin); });
     for (const Proof proof : proofs)
     {
@@ -182,9 +183,9 @@ struct Ours::Impl
   }
 };
 
-Ours::Ours(const std::string& device, const std::string& shaders)
+Ours::Ours(const std::string& device, const std::string& shaders, std::size_t with_proofs)
   : impl_(new Impl{GpuChecker(gpuOptions(device, shaders, Traversal::WorkQueue)),
-                   GpuChecker(gpuOptions(device, shaders, Traversal::BreadthFirst))})
+                   GpuChecker(gpuOptions(device, shaders, Traversal::BreadthFirst)), with_proofs})
 {
 }
 

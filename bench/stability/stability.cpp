@@ -16,6 +16,7 @@ namespace
 {
 constexpr std::size_t kFullCases = 2048;
 constexpr std::size_t kQuickCases = 64;
+constexpr std::size_t kCasesPerProof = 32;
 constexpr std::size_t kLeastSets = 4;  // at least this number of sets of copies
 constexpr std::size_t kReported = 5;   // wrong answers per family that are printed one by one
 
@@ -54,7 +55,9 @@ void runStability(const CommandLine& arguments)
       arguments.integer("--cases", arguments.has("--quick") ? kQuickCases : kFullCases, 1, 1 << 24));
   std::ofstream csv = openFile(arguments, "--csv");
   std::ofstream markdown = openFile(arguments, "--markdown");
-  Ours ours(arguments.value("--device", "auto"), arguments.value("--shaders", ""));
+  const auto with_proofs = static_cast<std::size_t>(
+      arguments.integer("--proofs", static_cast<long long>(cases / kCasesPerProof), 0, 1 << 24));
+  Ours ours(arguments.value("--device", "auto"), arguments.value("--shaders", ""), with_proofs);
   std::cerr << "device: " << ours.deviceName() << ", seed " << seed << ", " << cases << " cases of each of "
             << families.size() << " families\n";
 
@@ -100,6 +103,7 @@ int main(int argc, char** argv)
        {{"--quick", "", "64 cases of each family instead of 2048"},
         {"--seed", "N", "seed of the random cases (default 1)"},
         {"--cases", "N", "number of cases of each family (default 2048)"},
+        {"--proofs", "N", "number of cases of each family that are checked with balls too (default: 1 in 32)"},
         {"--family", "TEXT", "only families whose name contains TEXT"},
         {"--csv", "FILE", "writes the table for scripts/stability_chart"},
         {"--markdown", "FILE", "writes the table to FILE instead of printing it"},
