@@ -117,10 +117,13 @@ void warmUp(Run& run, const Batch& batch, const Settings& settings)
   run.rates.clear();
   run.cpu.clear();
   run.answers = checkAll(run, batch);
-  if (run.info->exact && run.count >= kManyStates)
-    for (std::size_t checked = 0; checked <= kStatesBeforeProofs; checked += run.count)
-      run.method->check(batch.states.data(), run.count);
+  if (!run.info->exact || run.count < kManyStates)
+    return;
+  for (std::size_t checked = 0; checked <= kStatesBeforeProofs; checked += run.count)
+    run.method->check(batch.states.data(), run.count);
+  run.method->check(batch.states.data(), run.count);  // asks for the proofs
   waitForProofs();
+  run.method->check(batch.states.data(), run.count);  // chooses between CPU and GPU anew
 }
 
 /// NaN if the method `name` was not measured.
