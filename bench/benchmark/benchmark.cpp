@@ -29,7 +29,7 @@ using namespace gpu_planning_scene::core::benchmark;
 
 namespace
 {
-const std::vector<std::string> kParts = {"build", "latency", "throughput", "updates", "growth", "meshes"};
+const std::vector<std::string> kParts = {"build", "latency", "throughput", "stages", "updates", "growth", "meshes"};
 const std::vector<std::string> kQuickScenes = {"kr5_boxes", "ur5_cage", "arm_boxes", "arm_shelf"};
 constexpr std::size_t kQuickSceneCount = 2;
 
@@ -195,6 +195,8 @@ void run(const CommandLine& arguments)
         {
           if (part == "throughput")
             wrong += measureThroughput(settings);
+          else if (part == "stages")
+            wrong += measureStages(settings);
           else if (part == "latency")
             wrong += measureLatency(settings);
           else if (part == "build")

@@ -30,6 +30,8 @@ struct Settings
 // including answers of timed repeats.
 /// throughput.csv and accuracy.csv
 std::size_t measureThroughput(const Settings& settings);
+/// stages.csv; finds no wrong answers
+std::size_t measureStages(const Settings& settings);
 /// latency.csv
 std::size_t measureLatency(const Settings& settings);
 /// build.csv

@@ -10,7 +10,7 @@ namespace
 CheckerOptions withEverything()
 {
   CheckerOptions options;
-  options.reductions = {false, false, false, false};
+  options.reductions = Reductions::none();
   return options;
 }
 }  // namespace

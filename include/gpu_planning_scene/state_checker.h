@@ -26,6 +26,9 @@ struct Reductions
   /// The CPU decides most states of large batches by proofs about the robot: balls and tables of joint values. They are
   /// made in the background, which takes seconds of all cores for each robot, and kept on disk.
   bool proofs = true;
+
+  /// All switched off.
+  static Reductions none() { return {false, false, false, false, false}; }
 };
 
 struct CheckerOptions

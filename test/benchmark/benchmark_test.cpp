@@ -186,6 +186,7 @@ TEST(Benchmark, WritesEveryTableAndTheChartsAreDrawn)
       {"run", {"what", "value"}},
       {"throughput", {"scene", "kind", "padding_m", "method", "batch", "states_per_s", "cpu_us_a_state"}},
       {"accuracy", {"scene", "kind", "method", "batch", "wrong_per_million", "largest_error_m"}},
+      {"stages", {"scene", "stage", "decided_share", "ns_a_state"}},
       {"latency", {"scene", "method", "batch", "p50_us", "p99_us", "of_fcl_obbrss"}},
       {"build", {"scene", "method", "load_robot_s", "build_s", "update_s", "peak_host_mib", "device_mib"}},
       {"updates", {"robot", "objects", "method", "updates", "p50_ms", "p99_ms"}},

@@ -32,7 +32,7 @@ struct Setting
 
 Reductions only(bool reach, bool rigid_pairs, bool shared_trees, bool direct_primitives)
 {
-  Reductions reductions;
+  Reductions reductions = Reductions::none();
   reductions.reach = reach;
   reductions.rigid_pairs = rigid_pairs;
   reductions.shared_trees = shared_trees;
@@ -41,7 +41,7 @@ Reductions only(bool reach, bool rigid_pairs, bool shared_trees, bool direct_pri
 }
 
 const Setting kNone = {"none", only(false, false, false, false)};
-const Setting kAll = {"all", only(true, true, true, true)};
+const Setting kAll = {"all", Reductions()};
 const Setting kDirect = {"direct primitives", only(false, false, false, true)};
 const std::vector<Setting> kEach = {{"reach", only(true, false, false, false)},
                                     {"rigid pairs", only(false, true, false, false)},
