@@ -23,8 +23,9 @@ constexpr double kMeasuringPause = 50.0;
 // Fewer states of the caller are not representative.
 constexpr std::size_t kEnough = 256;
 
-// The timed sizes. Timing stops when one of the two takes kLong, but not before the second size.
-constexpr std::size_t kSizes[] = {1, 16, 64, 256, kMaxTimed};
+// The timed sizes. When one of the two takes kLong, the sizes in between are left out. The largest size is always
+// timed: from small sizes alone, a single disturbance could lead to a wrong estimate for large ones.
+constexpr std::size_t kSizes[] = {1, 16, 256, kMaxTimed};
 constexpr double kLong = 0.005;    // seconds
 constexpr int kRepeats = 3;        // the fastest run counts, because disturbances only slow a run down
 constexpr int kConfirmations = 5;  // runs before `bulk` is accepted as faster, even if they are long
@@ -45,25 +46,30 @@ struct Comparison
   double longest() const { return std::max(direct, bulk); }
 };
 
+Comparison compareAt(std::size_t size, const TimedWork& direct, const TimedWork& bulk)
+{
+  Comparison times{static_cast<double>(size), direct(size), bulk(size)};
+  const auto more = [&times](int runs)
+  { return times.ahead() <= 0.0 ? runs < kConfirmations : runs < kRepeats && times.longest() < kLong; };
+  for (int runs = 1; more(runs); ++runs)
+  {
+    times.direct = std::min(times.direct, direct(size));
+    times.bulk = std::min(times.bulk, bulk(size));
+  }
+  return times;
+}
+
 std::vector<Comparison> compare(const TimedWork& direct, const TimedWork& bulk)
 {
   direct(1);  // untimed: the first call may do work that later calls need not do
   bulk(1);
   std::vector<Comparison> made;
   for (const std::size_t size : kSizes)
-  {
-    Comparison times{static_cast<double>(size), direct(size), bulk(size)};
-    const auto more = [&times](int runs)
-    { return times.ahead() <= 0.0 ? runs < kConfirmations : runs < kRepeats && times.longest() < kLong; };
-    for (int runs = 1; more(runs); ++runs)
-    {
-      times.direct = std::min(times.direct, direct(size));
-      times.bulk = std::min(times.bulk, bulk(size));
-    }
-    made.push_back(times);
-    if (made.size() > 1 && times.longest() >= kLong)
-      break;
-  }
+    if (size == kMaxTimed || made.size() < 2 || made.back().longest() < kLong)
+      made.push_back(compareAt(size, direct, bulk));
+  // A smaller batch does not take longer than a larger one. If it seems to, it was disturbed.
+  for (std::size_t i = made.size() - 1; i-- > 0;)
+    made[i].bulk = std::min(made[i].bulk, made[i + 1].bulk);
   return made;
 }
 

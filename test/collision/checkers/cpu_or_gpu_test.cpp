@@ -1,6 +1,7 @@
 // The batch size from which a method with a slow start is the faster one.
 #include "collision/checkers/cpu_or_gpu.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include <gtest/gtest.h>
@@ -64,6 +65,22 @@ TEST(BreakEven, DoesNotBelieveOneDisturbedRun)
     return (first ? 50e-3 : 0.0) + 2e-6 * static_cast<double>(size);
   };
   EXPECT_EQ(breakEven(disturbed, work(10e-3, 4e-6)), kNoBatch);
+}
+
+TEST(BreakEven, DoesNotBelieveThatASmallBatchTakesLongerThanALargeOne)
+{
+  // All runs of one state were disturbed, as on a busy machine.
+  const TimedWork disturbed = [](std::size_t size)
+  { return size == 1 ? 20e-3 : 5e-3 + 10e-6 * static_cast<double>(size); };
+  EXPECT_EQ(breakEven(work(2e-6, 1e-6), disturbed), kNoBatch);
+}
+
+TEST(BreakEven, LooksAtALargeBatchEvenIfSmallOnesTakeLong)
+{
+  // Direct work whose time hardly grows beyond 16 items, for example because more cores take part.
+  const TimedWork direct = [](std::size_t size)
+  { return 10e-6 * static_cast<double>(std::min<std::size_t>(size, 16)) + 1e-7 * static_cast<double>(size); };
+  EXPECT_EQ(breakEven(direct, work(6e-3, 5e-6)), kNoBatch);
 }
 
 TEST(BreakEven, TakesLittleTime)
