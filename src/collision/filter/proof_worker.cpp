@@ -8,8 +8,15 @@
 #include <thread>
 #include <utility>
 
+#include <sys/resource.h>
+
 namespace gpu_planning_scene::core
 {
+namespace
+{
+constexpr int kNice = 10;  // of the threads that make proofs
+}  // namespace
+
 /// A thread that makes proofs, one job after the other.
 class ProofWorker
 {
@@ -76,6 +83,8 @@ class ProofWorker
 
   void work()
   {
+    // Checks come first. On Linux, 0 is the calling thread; the threads that it starts inherit its priority.
+    setpriority(PRIO_PROCESS, 0, kNice);
     std::unique_lock<std::mutex> lock(mutex_);
     while (true)
     {
