@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr int kNice = 10;  // of the threads that make proofs
+constexpr int kNice = 5;  // of the threads that make proofs
 }  // namespace
 
 /// A thread that makes proofs, one job after the other.
