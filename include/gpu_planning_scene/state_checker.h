@@ -100,8 +100,8 @@ struct SceneReport
   std::size_t triangles = 0;     ///< in all trees
   std::size_t trees = 0;         ///< one per distinct shape
   std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal shape
-  /// The CPU checks batches of fewer states than this. The largest std::size_t: it checks all batches. No value: the
-  /// checker has only one device.
+  /// The CPU checks batches of fewer states than this. The largest std::size_t: it checks all batches. No value: there
+  /// was no choice, because the checker has no GPU or every state collides.
   std::optional<std::size_t> cpu_below;
   /// The states of this group that the CPU has checked since setScene, by the stage that decided them. States with and
   /// without a neighbourhood count, and so do the states of the measurements that choose between CPU and GPU. States
