@@ -1,5 +1,5 @@
 // A root pair is a pair of instances in one state whose root boxes overlap. a is the second instance of the pair, b the
-// first one. In a robot-world pair, a is the world's instance. So the points of the link are moved, which is usually
+// first one. In a robot-world pair, a is the world's instance. So the points of the link are transformed: it is usually
 // the smaller shape. Five texels: three rows of the pose of b in the frame of a; state, pair, error and gap; the
 // required distance. Lengths are in metres.
 #include "geometry/pose.glsl"
