@@ -236,8 +236,8 @@
 #define MAX_ROBOT_INSTANCES (1 << 12)
 #define MAX_INSTANCES (1 << PAIR_OTHER_BITS)
 
-// Most invocations that one dispatch of a part may have. Indices of invocations and texels are products in 32 bits,
-// which must not overflow.
+// Most invocations that one dispatch of a part may have, so that the indices of invocations and texels do not overflow
+// 32 bits.
 #define MAX_INVOCATIONS (1 << 30)
 
 // One query of the broad phase among links compares a robot instance with up to this many others, 16 bits each.
@@ -278,6 +278,6 @@
 #define QUEUE_STEPS 8          // most steps of an invocation between two barriers
 #define QUEUE_STACK 48         // node pairs and leaf pairs that the memory of an invocation holds
 #define QUEUE_FLUSH 32         // number of leaf pairs from which on the work group tests their triangles
-// llvmpipe ends an invocation without an error after 65535 loop iterations. An invocation hands its work on before
-// that.
+// llvmpipe ends an invocation without an error after 65535 loop iterations. An invocation stops before that, and hands
+// its remaining work on.
 #define INVOCATION_ITERATIONS 50000

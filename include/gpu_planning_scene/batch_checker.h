@@ -9,7 +9,7 @@
 namespace gpu_planning_scene::core
 {
 /// Checks states on the GPU: forward kinematics, root tests, tree traversal, triangle tests. The exact checker decides
-/// the undecided states. It traverses trees of its own in double precision on the CPU. A BatchChecker owns a GL context
+/// the undecided states: it traverses its own trees on the CPU, in double precision. A BatchChecker owns a GL context
 /// and the thread on which the context is current. Thread-safe: calls are served one after the other.
 ///
 /// A. Gress, G. Zachmann: Object-Space Interference Detection on Programmable Graphics Hardware (2003).

@@ -24,7 +24,7 @@ struct MeshLimits
 /// 0 and below 1e6.
 ReadMesh childMeshReader(std::string program, const MeshLimits& limits);
 
-/// Path of read_mesh in the folder of the running program: both are installed there.
+/// Path of read_mesh. It is installed in the folder of the running program.
 std::string meshReaderBesideThisProgram();
 
 /// Folders from which mesh files may be read, in addition to packages and the base folder of relative paths.

@@ -20,9 +20,9 @@ enum class MotionRule
 {
   /// All samples are free, as in MoveIt and OMPL. A thin obstacle between two samples is missed.
   Samples,
-  /// All samples are free, and the motion is proven free between them. Around each sample lies a segment
-  /// that ends half way to the neighbouring samples. The clearance of the sample exceeds the displacement of every
-  /// point of the robot within this segment.
+  /// All samples are free, and the motion is proven free between them. Around each sample lies a segment that ends half
+  /// way to the neighbouring samples. The proof: the clearance of the sample exceeds the displacement of every point of
+  /// the robot within this segment.
   Bound
 };
 
@@ -37,16 +37,16 @@ struct MotionCheckerOptions
   /// of a motion, samples included. A motion that needs more is rejected.
   std::size_t max_samples = 20000;
   /// Limit for each call of MotionChecker::check: the number of state checks for all its motions. Motions that are not
-  /// decided by then are not valid, and are given up.
+  /// decided by then are reported as invalid, with MotionVerdict::given_up.
   std::size_t max_checks = std::numeric_limits<std::size_t>::max();
 };
 
 struct MotionVerdict
 {
   bool valid = false;
-  /// Fraction of the motion, 0 to 1. Under MotionRule::Samples: at the last free sample before the first collision.
-  /// Under MotionRule::Bound: the fraction up to which the motion is proven free, which is never beyond that sample. 0
-  /// if the start collides; 1 if the motion is valid.
+  /// Fraction of the motion, 0 to 1. Under MotionRule::Samples: the last free sample before the first collision. Under
+  /// MotionRule::Bound: the motion is proven free up to this fraction, which is never beyond that sample. 0 if the
+  /// start collides; 1 if the motion is valid.
   double last_valid = 0.0;
   /// Fraction of the sample where the valid part ends: the sample collides, or the motion is not proven free around it.
   /// 1 if the motion is valid.
@@ -61,7 +61,7 @@ struct MotionVerdict
 
 enum class MotionQuery
 {
-  Valid,      ///< is the motion valid? Any collision ends its check, and the last_valid of an invalid motion is 0
+  Valid,      ///< is the motion valid? The check ends at the first collision found; an invalid motion has last_valid 0
   LastValid,  ///< up to which fraction is the motion valid?
   Samples     ///< is it valid under MotionRule::Samples? A motion with a colliding sample is invalid under both rules
 };

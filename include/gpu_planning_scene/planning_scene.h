@@ -124,12 +124,11 @@ struct PlanningScene
 /// Loads a scene file. A file whose name ends in .scene has the text format of RViz's MotionPlanning plugin: objects,
 /// their colours and subframes. Every other file is YAML with the field names of MoveIt's PlanningScene, in MoveIt's
 /// own layout (poses with x, y, z, w keys; entry_values with `enabled`) or in a compact layout (`type: box`, poses as
-/// arrays, rows of the matrix without `enabled`).
-/// A list `allowed_collisions` of pairs of names adds to the allowed collision matrix.
-/// Object poses are in `planningFrame()`; header.frame_id can name this frame, a link, or a frame of
+/// arrays, rows of the matrix without `enabled`). A list `allowed_collisions` of pairs of names adds to the allowed
+/// collision matrix. Object poses are in `planningFrame()`; header.frame_id can name this frame, a link, or a frame of
 /// fixed_frame_transforms. `meshes`: how to read the mesh files of the scene. `defaults`: padding and scale of the
-/// bodies that the file does not name. `warnings` (may be null) receives a line for each joint that the robot lacks and
-/// for each entry that is not modelled. Throws Error with file and line; nothing of a faulty file is kept.
+/// bodies that the file does not name. `warnings` (may be null) receives a line for each joint that the robot does not
+/// have and for each entry that is not modelled. Throws Error with file and line.
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings = nullptr,
                             const MeshAccess& meshes = {}, const SceneDefaults& defaults = {});

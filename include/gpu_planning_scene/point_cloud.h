@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core
 struct PointCloudOptions
 {
   double voxel = 0.05;  ///< metres: edge length of a cube
-  /// Metres: cubes up to this distance from the robot are taken for the robot's own points and left out.
+  /// Metres: cubes up to this distance from the robot count as the robot's own points and are left out.
   double robot_padding = 0.03;
   double max_distance = 10.0;        ///< metres: points farther from the sensor are left out
   std::size_t max_voxels = 200'000;  ///< a cloud with more is refused

@@ -18,11 +18,11 @@ namespace gpu_planning_scene::core
 using PackageResolver = std::function<std::string(const std::string& package)>;
 
 /// A resolver for NAME -> DIR pairs and, after them, for the packages below the folders of ROS_PACKAGE_PATH. It needs
-/// no ROS, and finds packages as ROS does: a package is a folder with a package.xml, which has the package's name, and
-/// the first one on the path counts. The path is searched when a package is first needed. The resolver throws Error for
-/// a given folder that does not exist, and for an unknown package. `remedy` becomes the end of the message about an
-/// unknown package. It tells the user how to name the folder of a package; NAME in it is replaced by the name of the
-/// package. With an empty remedy, the message names only ROS_PACKAGE_PATH.
+/// no ROS, but finds packages as ROS does: a package is a folder with a package.xml that has the name of the package.
+/// The first such folder on the path counts. The path is searched when a package is first needed. The resolver throws
+/// Error for a given folder that does not exist, and for an unknown package. `remedy` becomes the end of the message
+/// about an unknown package. It tells the user how to name the folder of a package; NAME in it is replaced by the name
+/// of the package. With an empty remedy, the message names only ROS_PACKAGE_PATH.
 PackageResolver packageResolver(std::map<std::string, std::string> folders,
                                 std::string remedy = "give packageResolver the folder of NAME");
 

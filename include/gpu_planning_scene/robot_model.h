@@ -155,8 +155,7 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   /// two groups give a variable different values.
   NamedState namedState(const std::string& name) const;
 
-  /// Pairs of links that a joint connects, sorted. Only links with shapes count: two of them are also adjacent if only
-  /// links without shapes are between them.
+  /// Pairs of adjacent links, sorted: each link with shapes, and its nearest ancestor with shapes.
   std::vector<std::pair<int, int>> adjacentLinks() const;
 
   /// Forward kinematics: writes the pose of every link in the planning frame. `state`: variables().size() values.

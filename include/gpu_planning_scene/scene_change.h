@@ -70,15 +70,16 @@ struct StateChange
 {
   std::map<std::string, double> variables;  ///< by name of the variable
   std::vector<AttachedChange> attached;     ///< in order, after the variables are set
-  /// True: links keep the objects that they carry. False: `attached` must use Add only, and it replaces all attached
-  /// objects; but in a diff without `variables`, it adds to the attached objects. A replaced object that `attached`
-  /// does not name is removed with a warning. Its entries in the allowed collision matrix are removed too.
+  /// True: links keep the objects that they carry. False: `attached` replaces all attached objects, and must use Add
+  /// only. An attached object that `attached` does not name is then removed, together with its entries in the allowed
+  /// collision matrix, and there is a warning. Exception: in a diff without `variables`, `attached` adds to the
+  /// attached objects.
   bool is_diff = true;
 };
 
 /// A full scene or a diff. The parts are applied in the order of the members, except that a full scene empties the
 /// world before it applies the state. In a diff, an empty part changes nothing. In a full scene, an empty part takes
-/// the value of a new scene. The state is an exception: its variables keep their values.
+/// the value of a new scene. Exception: the variables of the state keep their values.
 struct SceneChange
 {
   bool is_diff = false;
@@ -98,7 +99,7 @@ struct SceneLimits
 {
   std::size_t objects = 100000;      ///< in the world and attached
   std::size_t shapes = 400000;       ///< of these objects
-  std::size_t triangles = 20000000;  ///< of distinct meshes, those of the robot included
+  std::size_t triangles = 20000000;  ///< of distinct meshes, including the meshes of the robot
   std::size_t triangles_of_mesh = 5000000;
   std::size_t frames = 100000;     ///< fixed frames and subframes
   std::size_t colors = 200000;     ///< of bodies, also of bodies that do not exist yet

@@ -23,8 +23,8 @@ struct Reductions
   bool rigid_pairs = true;        ///< pairs that no joint moves relative to each other are decided once per scene
   bool shared_trees = true;       ///< equal meshes and equal primitives share a tree
   bool direct_primitives = true;  ///< the GPU tests primitives as solids, not as triangles
-  /// The CPU decides most states of large batches by proofs about the robot: balls and tables of joint values. They are
-  /// made in the background, which takes seconds of all cores for each robot, and kept on disk.
+  /// The CPU decides most states of large batches by proofs about the robot: balls and tables of joint values. Making
+  /// the proofs takes seconds to a minute on all cores, in the background. They are kept on disk.
   bool proofs = true;
 
   /// All switched off.
@@ -33,10 +33,9 @@ struct Reductions
 
 struct CheckerOptions
 {
-  /// Metres, at least 0; 0: exact. Above 0, the traversal may stop early. It then reports a collision for two nodes
-  /// whose boxes prove that the distance of their contents is at most the required distance plus this value. A
-  /// collision is never reported as free. A pair may be reported as colliding if its distance is at most its required
-  /// distance plus this value.
+  /// Metres, at least 0; 0: exact. Above 0, the traversal may stop early: it reports a collision as soon as the boxes
+  /// of two nodes prove that the pair is within its required distance plus this value. So a pair may be reported as
+  /// colliding if its distance is at most its required distance plus this value. A collision is never reported as free.
   double tolerance = 0.0;
   Reductions reductions;
 };
@@ -61,7 +60,7 @@ struct BatchResult
   std::vector<std::uint8_t> valid;   ///< one per state: 1 free, 0 in collision
   std::vector<BodyPair> colliding;   ///< one per state: a colliding pair; kNoPair if the state is valid
   std::uint64_t revision = 0;        ///< revision of the checked scene
-  double seconds = 0.0;              ///< wall time of the check, usually without compiling shaders and building trees
+  double seconds = 0.0;              ///< wall time; shaders are usually compiled, and trees built, before the check
   std::size_t undecided_states = 0;  ///< number of states that the CPU decided
   double undecided_seconds = 0.0;    ///< part of `seconds` for deciding them
 
@@ -77,7 +76,7 @@ struct DecidedStates
 {
   std::string by;  ///< the stage: see docs/architecture.md, "How a batch flows"
   std::uint64_t states = 0;
-  double nanoseconds = 0.0;  ///< time of the stage per state that began with the first stage; 0: not measured
+  double nanoseconds = 0.0;  ///< mean time in this stage, over all states that entered the first stage; 0: not measured
 };
 
 /// The pairs of a scene that are checked, and the pairs that are left out, by reason.
@@ -104,16 +103,17 @@ struct SceneReport
   std::size_t triangles = 0;     ///< in all trees
   std::size_t trees = 0;         ///< one per distinct shape
   std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal shape
-  /// The CPU checks batches of fewer states (the largest number: all batches). No value: the checker has no choice.
+  /// The CPU checks batches of fewer states than this. The largest std::size_t: it checks all batches. No value: there
+  /// was no choice, because the checker has no GPU or every state collides.
   std::optional<std::size_t> cpu_below;
-  /// The states of this group that went to the CPU as a batch since setScene, by the stage that decided them, with and
-  /// without margins. The measurements that choose between CPU and GPU count too. States that the GPU has left
-  /// undecided do not.
+  /// The states of this group that the CPU has checked since setScene, by the stage that decided them. States with and
+  /// without a neighbourhood count, and so do the states of the measurements that choose between CPU and GPU. States
+  /// that the GPU has left undecided do not count.
   std::vector<DecidedStates> decided;
 };
 
-/// Reports for many robot states at once which of them are free of collision. Implementations: BatchChecker (GPU) and
-/// CpuChecker. Thread-safe: calls are served one after the other.
+/// Checks many robot states for collision at once. Implementations: BatchChecker (GPU) and CpuChecker. Thread-safe:
+/// calls are served one after the other.
 class StateChecker
 {
  public:
@@ -140,7 +140,7 @@ class StateChecker
   virtual std::string deviceName() const = 0;
 
   /// One line if the device's float32 arithmetic breaks an assumption of the error bounds; else empty. On such a
-  /// device, the CPU decides every pair that comes near. The answers stay right.
+  /// device, the CPU decides every pair whose bounding boxes overlap. The answers stay right.
   virtual std::string deviceWarning() const { return {}; }
 };
 }  // namespace gpu_planning_scene::core

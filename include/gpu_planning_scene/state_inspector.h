@@ -40,22 +40,22 @@ struct Clearance
 class StateInspector
 {
  public:
-  /// `previous`: an inspector of an earlier scene, whose trees (FCL's too) are reused; it may be destroyed afterwards.
-  /// Throws Error if the scene is not valid.
+  /// `previous`: an inspector of an earlier scene. Its trees, also those for FCL, are reused. It may be destroyed
+  /// afterwards. Throws Error if the scene is not valid.
   explicit StateInspector(std::shared_ptr<const PlanningScene> scene, const StateInspector* previous = nullptr);
   ~StateInspector();
 
   /// The scene of this inspector.
   const std::shared_ptr<const PlanningScene>& scene() const;
 
-  /// Contacts of the colliding pairs, which the exact checker determines: at most `max_contacts`, and at most
-  /// `max_per_pair` for each pair (0: no limit per pair). The deepest contact of each pair comes first, then the others
-  /// by depth. `state`: one value per variable. Throws Error for an unknown group, or a value that is not finite or
-  /// beyond Variable::largest. Points, normals and depths come from FCL, except for half-spaces: their single contact
-  /// is the deepest point of the other shape. A pair also has a single contact if FCL finds no crossing surfaces. If
-  /// the bodies touch, or are within the required distance, this contact is at FCL's nearest points. If one body is
-  /// inside the other, this contact is at the inner body. The depth of this contact is then the distance by which the
-  /// inner body must move, away from the centre of the other body, to come free.
+  /// Contacts of the pairs that collide by the exact checker: at most `max_contacts`, and at most `max_per_pair` for
+  /// each pair (0: no limit per pair). The deepest contact of each pair comes first, then the others by depth. `state`:
+  /// one value per variable. Throws Error for an unknown group, or a value that is not finite or beyond
+  /// Variable::largest. Points, normals and depths come from FCL, except for half-spaces: their single contact is the
+  /// deepest point of the other shape. A pair also has a single contact if FCL finds no crossing surfaces. If the
+  /// bodies touch, or are within the required distance, this contact is at FCL's nearest points. If one body is inside
+  /// the other, this contact is at the inner body. The depth of this contact is then the distance by which the inner
+  /// body must move, away from the centre of the other body, to come free.
   std::vector<Contact> contacts(const double* state, const std::string& group, std::size_t max_contacts,
                                 std::size_t max_per_pair) const;
 

@@ -1,7 +1,7 @@
 // One invocation per (state, robot instance): tests whether the shape reaches into one half-space of the world, and
-// reports the verdict. The lowest corner above the plane decides. A traversal of the shape's tree finds it, with the
-// test of a box against a plane (Ericson 2005, "Real-Time Collision Detection", 5.2.3). A tessellation lies within its
-// solid, so the slack is added to the gap. Lengths are in metres.
+// reports the verdict. The corner with the least height above the plane decides. A traversal of the shape's tree finds
+// it, with the test of a box against a plane (Ericson 2005, "Real-Time Collision Detection", 5.2.3). The triangles of a
+// curved shape lie inside its true surface, so the slack is added to the gap. Lengths are in metres.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,6 +1,7 @@
-// The root box of a robot instance, placed by its pose, and the margin by which every volume that is compared with it
-// must grow. The margin covers the rounding of the pose, of the product and of the comparison: 1e-5 of all lengths that
-// enter. The box of an object was rounded outwards, which covers its own error. Lengths are in metres.
+// The root box of a robot instance, placed by its pose, and the margin by which a volume must grow before it is
+// compared with this box. The margin covers the rounding of the pose, of the product and of the comparison: 1e-5 of all
+// lengths in the computation. It does not cover the error of an object's box, which was rounded outwards. Lengths are
+// in metres.
 #include "problem/margins.glsl"
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
 

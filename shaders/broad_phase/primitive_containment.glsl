@@ -1,6 +1,6 @@
 // Tests whether a part of a shape lies inside a primitive without touching its surface. One point of each connected
-// component decides, provided that no surfaces meet. The traversal finds surfaces that meet. Own method: it follows
-// from the definition of a connected component. Lengths are in metres.
+// component decides, provided that the surfaces do not meet. If they do, the traversal finds the collision. Own method:
+// it follows from the definition of a connected component. Lengths are in metres.
 #include "problem/components.glsl"
 
 // The depth of a point below the surface of a solid. It is negative outside, where its absolute value is at most the

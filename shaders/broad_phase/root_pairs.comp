@@ -1,6 +1,7 @@
-// One invocation per candidate: computes the relative pose, tests the root boxes, and tests whether one shape is inside
-// the other one, a primitive. A candidate that remains becomes a root pair (traversal/root_pairs.glsl) and the node
-// pair with which its traversal begins. Sources: traversal/bounding_volume_overlap.glsl. Lengths are in metres.
+// One invocation per candidate: computes the relative pose and tests the root boxes. If one shape is a primitive, it
+// also tests whether the other shape is inside this primitive. A candidate that remains becomes a root pair
+// (traversal/root_pairs.glsl), with the node pair with which its traversal begins. Sources:
+// traversal/bounding_volume_overlap.glsl. Lengths are in metres.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -59,8 +60,8 @@ void main()
   const float gap = requiredGap(distance, (a_is_solid ? 0.0 : a.slack) + (b_is_solid ? 0.0 : b.slack));
   if (nodesApart(fetchOrientedNode(root_a), fetchOrientedNode(root_b), pose, boxMargin(gap, error)))
     return;
-  // The traversal finds triangles inside the shape that it tests as a solid. So an uncertain result for that shape is
-  // dropped here.
+  // A shape that is tested as a solid needs no certain result here: the traversal also finds triangles inside it. So an
+  // uncertain result is dropped.
   uint inside = containment(b, a, pose, boxError(error)) & (a_is_solid ? STATE_HIT : ~0u);
   inside |= containment(a, b, inversePose(pose), inverseError(error, far_a)) & (b_is_solid ? STATE_HIT : ~0u);
   if (inside != 0u)

@@ -12,8 +12,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "broad_phase/queries.glsl"
 layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
 // First texel of a node: the centre of its box, and the next node if the boxes are apart. Second texel: the half
-// extents, and the world instance or NO_OBJECT. If the boxes overlap, the next node is the next one in the list, so no
-// stack is needed. The traversal ends behind the last node.
+// extents, and the world instance or NO_OBJECT. If the boxes overlap, the traversal continues with the next node in the
+// list. So no stack is needed. The traversal ends behind the last node.
 layout(binding = UNIT_OBJECT_TREE) uniform usamplerBuffer object_tree;
 layout(binding = UNIT_WORLD_PAIRS) uniform usamplerBuffer world_pairs;
 
@@ -42,7 +42,8 @@ void main()
     const uvec4 head = texelFetch(object_tree, int(OBJECT_NODE_TEXELS * at));
     const uvec4 tail = texelFetch(object_tree, int(OBJECT_NODE_TEXELS * at + 1u));
     const bool apart = any(greaterThan(abs(uintBitsToFloat(head.xyz) - center), uintBitsToFloat(tail.xyz) + extent));
-    // A loop instead of a branch: on llvmpipe, only the invocations that enter it pay for it.
+    // The loop runs at most once. It stands for a branch: on llvmpipe, a branch costs all invocations time, but a loop
+    // only those that enter it.
     for (bool leaf = !apart && tail.w != NO_OBJECT && isChecked(robot, tail.w); leaf; leaf = false)
       addCandidate(state, packPair(robot, robot_count + tail.w));
     at = apart ? head.w : at + 1u;

@@ -1,5 +1,5 @@
 // One invocation: writes the indirect arguments of dispatches over a list, with `invocations` elements for each work
-// group. In: the length of the list, counters[counter], of which at most `capacity` elements exist. Out: three uints
+// group. In: counters[counter], the length of the list; the list holds at most `capacity` elements. Out: three uints
 // from counters[argument_offset] on. It also sets counters[cleared] to 0.
 #include "shader_constants.h"
 layout(local_size_x = 1) in;

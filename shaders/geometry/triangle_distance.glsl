@@ -1,7 +1,7 @@
 // Compares the distance of two triangles with a required distance. The nearest points are searched among edges and
-// corners (Ericson 2005, "Real-Time Collision Detection", 5.1). These points are only witnesses, so the accuracy of the
-// search does not matter: their own distance bounds the triangles' distance from above, and the extents of the corners
-// along the line between them bound it from below.
+// corners (Ericson 2005, "Real-Time Collision Detection", 5.1). The accuracy of the search does not matter. The
+// distance of the found points is an upper bound on the distance of the triangles, and the extents of the corners along
+// the line between these points give a lower bound.
 struct Witness
 {
   vec3 on_a;
@@ -50,9 +50,9 @@ bool footWithin(vec3 corner, vec3 origin, vec3 e1, vec3 e2, out vec3 foot)
   return s >= 0.0 && t >= 0.0 && s + t <= 1.0;
 }
 
-// The test after trianglePair, for triangles that are not proven to meet. Returns STATE_HIT if their distance is proven
-// to be at most `distance`, 0 if it is proven to be more than `gap`, else STATE_UNDECIDED. In: the corners in one frame
-// (metres); the corners of b are off by at most `error` relative to the corners of a.
+// This test follows trianglePair, for triangles that are not proven to meet. Returns STATE_HIT if their distance is
+// proven to be at most `distance`, 0 if it is proven to be more than `gap`, else STATE_UNDECIDED. In: the corners in
+// one frame (metres); the corners of b are off by at most `error` relative to the corners of a.
 uint triangleDistance(vec3 a[3], vec3 b[3], float error, float distance, float gap)
 {
   vec3 pa[3];

@@ -5,8 +5,8 @@
 // spans with an edge of b. Devillers and Guigue ("Faster Triangle-Triangle Intersection Tests", 2002) decide by their
 // signs. A hit is an edge that pierces the other triangle. The triangles are apart if one of eleven axes separates
 // them: the two normals and the nine cross products of edges.
-// A sign counts only if the value exceeds its error bound. An axis need not be exact, but it counts only if all corners
-// lie on their sides of it (docs/error_bounds.md). Comparisons are written so that a NaN proves nothing.
+// A sign counts only if the value exceeds its error bound. An axis need not be exact, but it counts only if it
+// certainly separates all corners (docs/error_bounds.md). Comparisons are written so that a NaN proves nothing.
 uint trianglePair(vec3 a[3], vec3 b[3], vec3 origin_b, float error, float gap)
 {
   precise vec3 r[3];  // b's corners relative to a's first one: differences of close numbers lose no digits

@@ -65,8 +65,8 @@ int crossing(vec3 c[3], float error)
   return along > height_error ? direction : (along < -height_error ? 0 : UNCERTAIN_CROSSING);
 }
 
-// Returns STATE_HIT if `point`, which is off by at most `error`, is inside, 0 if it is outside. Returns STATE_UNDECIDED
-// if none of the three rays decides, or if `iterations`, which counts down, reaches 0.
+// Returns STATE_HIT if `point` is inside, 0 if it is outside. The point is off by at most `error`. Returns
+// STATE_UNDECIDED if none of the three rays decides, or if the iterations run out: each step decrements `iterations`.
 uint insideMesh(uint root, vec3 point, float error, inout uint iterations)
 {
   for (int axis = 0; axis < 3 * FLOAT32_TRUSTED; ++axis)

@@ -4,8 +4,8 @@ layout(location = LOCATION_STATE_COUNT) uniform uint state_count;
 layout(location = LOCATION_ROBOT_COUNT) uniform uint robot_count;
 
 // A row is a robot instance or a query. The invocations of the broad phase go through all states for one row before the
-// next row. So a hit in an early row spares its state the later rows, and the pairs of one state do not lie side by
-// side in the lists.
+// next row. So a state with a hit in an early row skips the later rows, and the pairs of one state are spread over the
+// lists.
 uint rowOf(uint invocation)
 {
   return invocation / state_count;

@@ -1,7 +1,7 @@
 // Parts of the kinematics shader that the C++ code generates for a robot (src/collision/gpu/kinematics_shader.cpp). It
-// computes in double precision, so that link poses are as accurate as the CPU's (src/model/kinematics.cpp). The only
-// loss is the rounding of the poses to float (docs/error_bounds.md). The method is that of src/model/kinematics.cpp,
-// the sine and cosine those of src/model/sine.cpp. Lengths are in metres, angles in radians.
+// computes in double precision, so the link poses are as accurate as those of the CPU. The only loss is the rounding of
+// the poses to float (docs/error_bounds.md). The method is that of src/model/kinematics.cpp, the sine and cosine those
+// of src/model/sine.cpp. Lengths are in metres, angles in radians.
 #include "problem/instances.glsl"
 #include "problem/instance_lists.glsl"
 // The variables of the states, two doubles a texel, state after state.

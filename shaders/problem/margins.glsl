@@ -1,7 +1,7 @@
 // The margins of a batch, in metres. In a batch with margins, a pair must be apart by its required distance plus its
-// margin (src/collision/bounds/displacement_bounds.h). The buffer has three parts, in words: for each two robot
-// instances, the number of the margin of their pair; for each state, the number of its row; then the rows. A row has
-// one float for each robot instance (its margin against the world) and one for each checked pair of robot instances.
+// margin (src/collision/bounds/displacement_bounds.h). The buffer has three parts, in words: for each pair of robot
+// instances, the number of its margin; for each state, the number of its row; then the rows. A row has one float for
+// each robot instance (its margin against the world) and one for each checked pair of robot instances.
 #if MARGINS
 layout(location = LOCATION_MARGIN_COUNT) uniform uint margin_count;  // floats of a row
 layout(binding = UNIT_MARGINS) uniform usamplerBuffer margin_words;

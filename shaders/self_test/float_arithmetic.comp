@@ -7,8 +7,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 layout(location = LOCATION_CASE_COUNT) uniform uint case_count;
 layout(std430, binding = BINDING_C) readonly buffer Numbers { vec2 numbers[]; };
-// First texel of a case: the sum and its error, the product and its error. Second texel: x * y minus the product, which
-// is 0 unless the compiler contracts the two operations; the length of (x, y, x); 1 if a comparison with NaN holds; the
+// First texel of a case: the sum and its error, the product and its error. Second texel: x * y minus the product (0
+// unless the compiler contracts the two operations); the length of (x, y, x); 1 if a comparison with NaN is true; the
 // dot product of (x, y, x) and (y, y, x).
 layout(std430, binding = BINDING_A) writeonly buffer Results { vec4 results[]; };
 

@@ -1,6 +1,7 @@
-// One invocation per root pair whose state has no hit after the traversal: tests whether one shape has a component
-// inside the other one, a mesh with closed components, although no surfaces cross. The winding number of one point per
-// component decides (geometry/winding_number.glsl). It reports the verdict.
+// One invocation per root pair whose state has no hit after the traversal. If one shape is a mesh with closed
+// components, the invocation tests whether a component of the other shape is inside this mesh without crossing its
+// surface. The winding number of one point per component decides (geometry/winding_number.glsl). It reports the
+// verdict.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,5 +1,5 @@
 // Tests one triangle of a leaf against one triangle of another leaf. PADDED is 1 if some pairs have a required
-// distance. On llvmpipe, the mere presence of the code for them halves the speed of all other pairs.
+// distance. On llvmpipe, the code for them halves the speed of all other pairs even if it does not run.
 #include "geometry/error_bounds.glsl"
 #include "problem/triangles.glsl"
 #include "geometry/triangle_pair.glsl"
@@ -16,8 +16,8 @@ void testTriangles(uint root_pair_index, RootPair root_pair, uint triangle_a, ui
   uint found = FLOAT32_TRUSTED != 0 ? trianglePair(a, b, root_pair.pose.translation, root_pair.error, root_pair.gap)
                                     : STATE_UNDECIDED;
 #if PADDED && FLOAT32_TRUSTED
-  // The distance of triangles that are not proven to meet may still be too small. A loop instead of a branch: on
-  // llvmpipe, only the invocations that enter it pay for it.
+  // The distance of triangles that are not proven to meet may still be too small. The loop runs at most once. It stands
+  // for a branch: on llvmpipe, a branch costs all invocations time, but a loop only those that enter it.
   const float distance = fetchDistance(root_pair_index);
   for (bool open = found == STATE_UNDECIDED && distance > 0.0; open; open = false)
     found = triangleDistance(a, b, root_pair.error, distance, root_pair.gap);

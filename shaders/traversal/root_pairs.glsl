@@ -1,7 +1,7 @@
 // A root pair is a pair of instances in one state whose root boxes overlap. a is the second instance of the pair, b the
-// first one. In a robot-world pair, a is the world's instance, so that the points of the smaller shape are moved. Five
-// texels: three rows of the pose of b in the frame of a; state, pair, error and gap; the required distance. Lengths are
-// in metres.
+// first one. In a robot-world pair, a is the world's instance. So the points of the link are transformed: it is usually
+// the smaller shape. Five texels: three rows of the pose of b in the frame of a; state, pair, error and gap; the
+// required distance. Lengths are in metres.
 #include "geometry/pose.glsl"
 
 struct RootPair
@@ -10,7 +10,7 @@ struct RootPair
   uint state;
   uint pair;
   float error;  // upper bound on the rounding error of the position of b's points relative to a's
-  float gap;    // a pair of triangles with a larger distance does not make the pair collide
+  float gap;    // triangles at a larger distance do not make the pair collide
 };
 
 #ifndef WRITES_ROOT_PAIRS

@@ -49,12 +49,12 @@ bool liesBeyond(vec3 corners[3], Instance solid, vec3 n, float beyond)
 // Tests a triangle against a solid. The corners, in the frame of the solid, are off by at most `error`. Returns
 // STATE_HIT if the distance is proven to be at most `distance`, 0 if it is proven to be more than `gap`, else
 // STATE_UNDECIDED.
-// Apart: an axis beyond which all corners lie. The first axes are those that separate a triangle from a box
-// (T. Akenine-Moeller: Fast 3D triangle-box overlap testing, 2001). The later axes are the lines between the two points
-// of the search for a hit.
+// Apart: an axis beyond which all corners lie. The first axes are those that separate a triangle from a box (T.
+// Akenine-Moeller: Fast 3D triangle-box overlap testing, 2001). The other axes are the lines between the two points of
+// each step of the search for a hit.
 // Hit: von Neumann's alternating projections between the triangle and a core of the solid, which lies a depth below the
 // surface. A point of the triangle is inside the solid if its distance from the core is less than that depth. The depth
-// shrinks from step to step. Two of three steps are prolonged to the plane that bounds the core at the point found.
+// shrinks from step to step. Two of three steps are extended to the plane that touches the core at its nearest point.
 // A step that proves nothing leaves the result undecided, so the convergence of the search does not affect correctness.
 uint triangleSolid(vec3 corners[3], Instance solid, float error, float distance, float gap)
 {

@@ -1,6 +1,6 @@
 // Tests nodes against solids, in the programs for solids. These tests separate more pairs than tests of two boxes,
-// because the box around a curved solid has corners that the solid does not fill. A separating axis test with
-// one axis, whose choice is our own. Lengths are in metres.
+// because the box around a curved solid has corners that the solid does not fill. They are separating axis tests with
+// one axis. The choice of this axis is our own. Lengths are in metres.
 #include "geometry/solid.glsl"
 
 // Returns true if a box is proven to lie beyond the solid by more than `margin`. The axis is the line from the nearest
@@ -13,8 +13,8 @@ bool boxBeyondSolid(Instance solid, vec3 center, mat3 axes, vec3 extent, float m
   return gap > margin * lengthAtMost(n) * (1.0 + 16.0 * u) + TINY;
 }
 
-// The same test for two nodes of which one stands for a solid. That is node a if its instance is a primitive, otherwise
-// node b (broad_phase/root_pairs.comp).
+// The same test for two nodes, one of which stands for a solid: node a if its instance is a primitive, otherwise node b
+// (broad_phase/root_pairs.comp).
 bool nodeBeyondSolid(OrientedNode a, OrientedNode b, Instance instance_a, Instance instance_b, RootPair root_pair)
 {
   const float margin = boxMargin(root_pair.gap, root_pair.error) + sizeError(a.box, b.box);

@@ -2,12 +2,12 @@
 // own. It adds leaf pairs to a list that the work group shares. As soon as that list holds QUEUE_FLUSH pairs, all
 // invocations of the work group test its triangles. All invocations of a work group meet at the same barriers: the
 // outer loop is uniform, and an invocation makes at most QUEUE_STEPS steps between two barriers. Node pairs go to the
-// next entry list if they do not fit the stack or are left when the iterations run out. The sources are in
+// next entry list if the stack is full or the iterations run out. The sources are in
 // src/collision/gpu/traversal/work_queue.cpp.
 //
-// On llvmpipe a branch skips nothing, so each invocation pays for every store and atomic every time. A step therefore
-// has only one store: the memory of an invocation holds node pairs from below and leaf pairs from above. All other
-// writes happen once a round.
+// On llvmpipe a branch skips nothing, so every store and atomic costs time in each step of each invocation. A step
+// therefore has only one store: the memory of an invocation holds node pairs from below and leaf pairs from above. All
+// other writes happen once a round.
 #include "shader_constants.h"
 layout(local_size_x = QUEUE_INVOCATIONS) in;
 #include "common/invocation.glsl"

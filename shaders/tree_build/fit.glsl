@@ -1,5 +1,5 @@
-// Fits an oriented box to the triangles of a node. It chooses the one with the smallest surface of four boxes, whose
-// axes are:
+// Fits an oriented box to the triangles of a node. Of four boxes, it chooses the one with the smallest surface. The
+// axes of the boxes are:
 // - the axes of the frame;
 // - the main axes of the corners (Gottschalk, Lin and Manocha 1996, "OBBTree");
 // - the normal of the largest triangle and its edge of middle length, which is a side if the triangle is half a
@@ -72,8 +72,8 @@ void join(inout Spread spread, Spread other)
   spread.largest = larger ? other.largest : spread.largest;
 }
 
-// The main axes, by Jacobi's rotations, each for the largest off-diagonal entry. A box along any axes is valid, so the
-// convergence does not affect correctness.
+// The main axes, by Jacobi's method. Each rotation removes the largest off-diagonal entry. A box along any axes is
+// valid, so the convergence does not affect correctness.
 vec4 mainAxes(mat3 covariance)
 {
   vec4 q = vec4(0.0, 0.0, 0.0, 1.0);
@@ -157,8 +157,8 @@ float halfSurface(vec3 sizes)
 }
 
 // Writes the box with the smallest surface. A surface that is NaN is never the smallest. The half edge lengths are
-// rounded outwards: the vector from `origin` to a corner, at most `radius` long, is rounded and turned by axes whose
-// entries are off by at most 25 u, and the centre is computed likewise.
+// rounded outwards. This covers the rounding of the corners, which are at most `radius` from `origin`, the errors of
+// the axes (25 u per entry), and the rounding of the centre.
 void writeBest(uint at, TreeNode node, Extents extents, vec4 axes[FIT_BOXES])
 {
   int best = 0;

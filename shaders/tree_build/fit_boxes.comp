@@ -1,6 +1,6 @@
 // One invocation per node: fits its oriented box (fit.glsl). Nodes of more than FIT_INVOCATION_TRIANGLES triangles are
-// listed for fit_large_boxes.comp. Nodes of more than FIT_MAX_TRIANGLES keep their axis-aligned box, which bounds the
-// work: they are the topmost nodes of few trees.
+// listed for fit_large_boxes.comp. Nodes of more than FIT_MAX_TRIANGLES keep their axis-aligned box. This bounds the
+// work and costs little, because only the topmost nodes of few trees are that large.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,6 +1,6 @@
 // The last step of the build, from the roots down: writes each node in its final form and gives each triangle its
-// place. The triangles of a subtree are contiguous. A subtree of at most leaf_size triangles becomes a leaf if it is
-// not cheaper to open it by the surface area heuristic (MacDonald and Booth 1990, see write.comp).
+// place. The triangles of a subtree are contiguous. A subtree of at most leaf_size triangles becomes a leaf, unless
+// opening it is cheaper by the surface area heuristic (MacDonald and Booth 1990, see write.comp).
 #include "tree_build/cluster.glsl"
 layout(location = LOCATION_ROOT_BASE) uniform uint root_base;      // place of this forest's first root among the nodes
 layout(location = LOCATION_LEAF_SIZE) uniform uint leaf_size;

@@ -42,7 +42,8 @@ void main()
     low[axis] = unordered(~bounds[mesh + axis]);
     high[axis] = unordered(bounds[mesh + 3u + axis]);
   }
-  // One scale for all axes makes the cells cubes. So flat and long meshes are not cut more often along their thin axes.
+  // One scale for all axes, so that the cells are cubes. Otherwise, flat and long meshes would be split too often along
+  // their thin axes.
   const vec3 extent = high - low;
   const float size = max(extent.x, max(extent.y, extent.z));
   const vec3 unit = size > 0.0 ? clamp((center - low) / size, 0.0, 1.0) : vec3(0.0);

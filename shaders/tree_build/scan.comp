@@ -1,5 +1,5 @@
 // One work group: computes the exclusive prefix sums of a round's counts, the number of pairs that the round makes, and
-// the next round's record. As soon as each mesh has only one cluster, the rounds that follow get zero work groups.
+// the next round's record. When each mesh has only one cluster left, the following rounds get zero work groups.
 #include "shader_constants.h"
 layout(local_size_x = SCAN_INVOCATIONS) in;
 #include "common/invocation.glsl"
@@ -38,8 +38,8 @@ void main()
     const uint invocations = remaining == mesh_count ? 0u : remaining;
     setGroups(next + ROUND_CLUSTER_GROUPS, invocations);
     setGroups(next + ROUND_CHUNK_GROUPS, (invocations + CHUNK - 1u) / CHUNK);
-    // The rounds that follow write no clusters. So this record keeps the buffer to which this round, the last one,
-    // writes the roots: 1 for the odd clusters (layout_roots.comp).
+    // In the last round that merges clusters, the remaining clusters are the roots. The record keeps the buffer to
+    // which this round writes them: 1 for the odd clusters (layout_roots.comp).
     if (!done && remaining == mesh_count)
       rounds[BUILD_ROUNDS * ROUND_STRIDE + ROUND_PAIRS] = (round_index + 1u) & 1u;
   }

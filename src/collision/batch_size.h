@@ -40,7 +40,7 @@ class BatchSize
   {
     if (count == 0)
       return;
-    // A batch that was too large says little about much later batches: the limit that it set is raised again.
+    // A batch that was too large says little about much later batches, so its limit is raised again.
     if (++good_batches_ >= kBatchesToForget)
     {
       capacity_ = std::min(limits_.max, 2 * capacity_);

@@ -12,7 +12,7 @@ namespace gpu_planning_scene::core
 /// Calls `work(begin, end)` for chunks of [0, count) on all cores; the calling thread takes part. Each thread has its
 /// own copy of `work`, so values that `work` captures by copy may serve as scratch memory. If `work` or its copy
 /// throws, the remaining chunks are left out. After all threads have ended, the first exception is thrown again on the
-/// calling thread. If the system refuses to start more threads, the threads that have started do all the work.
+/// calling thread. If the system cannot start more threads, the started threads do all the work.
 template <class Work>
 void parallelFor(std::size_t count, std::size_t per_chunk, const Work& work)
 {

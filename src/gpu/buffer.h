@@ -21,7 +21,8 @@ class Buffer
   std::size_t size() const { return size_; }
   std::uint32_t id() const { return id_; }
 
-  /// Grows to at least `size` bytes, with head room up to `max_bytes` bytes in all, and keeps the contents.
+  /// Grows to at least `size` bytes and keeps the contents. It grows by at least half of its size, so that it seldom
+  /// grows, unless this would exceed `max_bytes`.
   void reserve(std::size_t size, std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
   void write(const void* data, std::size_t size, std::size_t offset = 0);
   void read(void* data, std::size_t size, std::size_t offset = 0) const;

@@ -119,9 +119,9 @@ std::string findDoubleFault(const std::string& shader_folder)
     const std::array<double, 4> expected = {x + y, x * y, x / y, std::sqrt(std::abs(x * y))};
     for (std::size_t k = 0; k < 4; ++k)
       if (!(std::abs(results[i][k] - expected[k]) <= kRelative * std::abs(expected[k])))
-        return "double precision: an operation has a relative error above 2^-50; the CPU places the links";
+        return "double precision: an operation has a relative error above 2^-50; the CPU computes the link poses";
     if (!(std::abs(floats[i] - expected[1]) <= (0x1p-24 + kRelative) * std::abs(expected[1])))
-      return "double precision: numbers are not rounded to the nearest float; the CPU places the links";
+      return "double precision: numbers are not rounded to the nearest float; the CPU computes the link poses";
   }
   return {};
 }

@@ -10,7 +10,7 @@ namespace gpu_planning_scene::core
 /// false. Returns one line that describes the first fault, or an empty string. Used on the context's thread.
 std::string findFloatFault(const std::string& shader_folder);
 
-/// The same test for double precision, in which links are placed. Operations must be right to 2^-50 of their result,
+/// The same test for double precision, which is used for link poses. Operations must be right to 2^-50 of their result,
 /// and results must be rounded to the nearest float.
 std::string findDoubleFault(const std::string& shader_folder);
 }  // namespace gpu_planning_scene::core

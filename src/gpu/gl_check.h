@@ -4,7 +4,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// An operation needs more memory than the device has left. Unlike other errors of OpenGL, a scene can cause this one.
+/// An operation needs more memory than the device has left. Unlike the other errors of OpenGL, a large scene can cause
+/// this one.
 class OutOfDeviceMemory : public Error
 {
  public:

@@ -14,13 +14,13 @@ namespace gpu_planning_scene::core
 /// folder and no home folder.
 std::filesystem::path userCacheFolder(const char* switch_name);
 
-/// A folder of files that are found by a key. A file is used only if its magic, its whole key and its checksum are
-/// right. Files are replaced as a whole, so several threads and processes may use the folder at the same time. A
-/// failure of the file system is no error: nothing is found or stored then. Thread-safe.
+/// A folder of files that are found by a key. A file is used only if its magic, its whole key and its checksum match.
+/// Files are replaced as a whole, so several threads and processes may use the folder at the same time. A failure of
+/// the file system is no error: nothing is found or stored then. Thread-safe.
 class FileCache
 {
  public:
-  /// Says what the files hold, with the version of their layout.
+  /// Identifies the kind of the files and the version of their layout.
   using Magic = std::array<char, 8>;
 
   /// `folder`: made when the first file is stored; empty: nothing is found or stored. `ending`: of the file names.

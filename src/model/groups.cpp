@@ -113,9 +113,9 @@ class GroupResolver
     return path;
   }
 
-  // Adds the parent joints of the links from the tip up to the base, without the base's own. If the base is not an
-  // ancestor of the tip, it adds both branches up to the link where they meet. As in MoveIt, this link's parent joint
-  // is then added too.
+  // Adds the parent joints of the links from the tip up to the base, but not the base's parent joint. If the base is
+  // not an ancestor of the tip, it adds both branches up to the link where they meet. As in MoveIt, this link's parent
+  // joint is then added too.
   void addChain(const SrdfChain& chain, const std::string& group, std::set<int>& joints) const
   {
     const std::vector<int> from_base = pathToRoot(linkIndex(chain.base_link, chain.where, group));

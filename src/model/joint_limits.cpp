@@ -26,7 +26,7 @@ std::string number(double value, int digits = 6)
   return text.data();
 }
 
-/// The value with as many digits as are needed to tell it from the variable's limits.
+/// The value with enough digits to differ from the variable's limits.
 std::string valueOf(const Variable& variable, double value)
 {
   const std::string rounded = number(value);
@@ -44,7 +44,7 @@ bool isAngle(const RobotModel& robot, int variable)
 
 bool mayBeDegrees(const RobotModel& robot, int variable, double value)
 {
-  // A smaller value is hardly meant as degrees.
+  // A smaller value is unlikely to be in degrees.
   return std::abs(value) > kTwoTurns && isAngle(robot, variable) &&
          !isOutside(robot.variables()[static_cast<std::size_t>(variable)], value * kPi / 180.0);
 }

@@ -15,7 +15,7 @@ class ValuesOutsideLimits
  public:
   explicit ValuesOutsideLimits(const RobotModel& robot) : robot_(robot) {}
 
-  /// `value` of a variable that has limits, and that is outside of them. Radians or metres.
+  /// Adds a value that is outside the limits of its variable. Radians or metres.
   void add(int variable, double value);
 
   std::size_t count() const { return count_; }

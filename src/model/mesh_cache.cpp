@@ -146,7 +146,7 @@ void throwIfOutOfMemory(const std::string& error)
     throw std::bad_alloc();
 }
 
-/// Names the outermost folder of a path that does not exist, often that of a package; empty if only the file is
+/// Names the first folder on a path that does not exist, often the folder of a package. Empty if only the file is
 /// missing.
 std::string missingFolder(const std::string& path)
 {

@@ -8,7 +8,7 @@ namespace gpu_planning_scene::core
 /// breaks.
 std::string onOneLine(std::string text);
 
-/// Makes one line of at most about 2000 bytes, with words of about 300, for a person to read: a name can be as long as
-/// its request. In a longer text, the number of omitted bytes replaces the middle.
+/// Makes one line for a person to read. A name can be as long as its request, so the line has at most about 2000 bytes,
+/// and each word at most about 300. In a longer line or word, the number of omitted bytes replaces the middle.
 std::string shortLine(const std::string& text);
 }  // namespace gpu_planning_scene::core

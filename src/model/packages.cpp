@@ -119,7 +119,7 @@ std::string packagePath()
   return path != nullptr ? path : "/usr/share";  // the default of Debian's rospack
 }
 
-/// Shows a misspelt name beside the names that were given.
+/// The names of the given packages, so that the user notices a misspelt name.
 std::string givenNames(const std::map<std::string, std::string>& folders)
 {
   std::vector<std::string> names;

@@ -16,7 +16,7 @@ bool startsWith(const std::string& text, const std::string& prefix)
   return text.compare(0, prefix.size(), prefix) == 0;
 }
 
-// A percent sign without two hexadecimal digits after it stands for itself, as in libcurl, which ROS uses to read URIs.
+// A percent sign without two hexadecimal digits after it is kept, as in libcurl, which ROS uses to read URIs.
 std::string decodePercents(const std::string& text, const std::string& uri)
 {
   std::string decoded;

@@ -84,7 +84,7 @@ const Group& RobotModel::group(const std::string& name) const
 std::vector<std::pair<int, int>> RobotModel::adjacentLinks() const
 {
   std::vector<std::pair<int, int>> pairs;
-  std::vector<int> nearest(links_.size());  // the link itself, or its nearest ancestor, that has shapes; -1: none
+  std::vector<int> nearest(links_.size());  // the nearest link with shapes, upwards from the link itself; -1: none
   for (std::size_t i = 0; i < links_.size(); ++i)
   {
     const int link = static_cast<int>(i);

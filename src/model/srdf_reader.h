@@ -55,7 +55,7 @@ struct SrdfPair
   std::string where;
 };
 
-/// The content of an SRDF, by name: the names are not looked up in the robot yet.
+/// The content of an SRDF. Its names have not been looked up in the robot yet.
 struct Srdf
 {
   std::string robot_name;

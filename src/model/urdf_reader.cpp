@@ -86,7 +86,7 @@ void removeChildren(tinyxml2::XMLElement& parent, const char* tag)
     parent.DeleteChild(child);
 }
 
-// Removes the parts that are not used. If urdfdom dislikes a link's inertia or visuals, it also drops the link's
+// Removes the parts that are not used. If urdfdom rejects a link's inertia or visuals, it also drops the link's
 // collision elements.
 std::string withoutLooksAndInertia(const std::string& text)
 {

@@ -19,8 +19,8 @@ bool isXacro(const XMLElement& element)
   return std::strncmp(element.Name(), "xacro:", 6) == 0;
 }
 
-/// Whether the content of a robot without this element's expansion is incomplete or wrong. Properties and arguments are
-/// harmless by themselves; their use is an expression.
+/// Whether the robot is incomplete or wrong if xacro has not expanded this element. Properties and arguments are
+/// harmless: expressionOf finds their uses.
 bool isDirective(const XMLElement& element)
 {
   for (const char* name : {"include", "macro", "if", "unless", "insert_block", "element", "attribute"})

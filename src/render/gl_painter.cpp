@@ -210,7 +210,7 @@ void GlPainter::aim(const Camera& camera, int width, int height)
   glProgramUniform3fv(fragment_stage_, LOCATION_EYE, 1, eye.data());
 }
 
-/// Gives the next triangles the depth of points that are nearer to the eye by `distance` metres.
+/// Draws the next triangles as if they were nearer to the eye by `distance` metres, in depth only.
 void GlPainter::pullContacts(const Camera& camera, double distance)
 {
   const Eigen::Vector3f eye = camera.eye.cast<float>();

@@ -21,11 +21,11 @@ class GlPainter
   explicit GlPainter(const Drawing& drawing);
 
   /// A picture with light and shadows. Contact points that lie within `near_surface` metres behind a visible surface
-  /// are drawn in full; contact points that are hidden further are drawn faintly.
+  /// are drawn in full; contact points farther behind are drawn faintly.
   Pixels picture(const Camera& camera, int width, int height, double near_surface);
 
-  /// A picture of the roles that are visible: red pixels show the robot, green pixels its contact points, blue pixels
-  /// objects. All other pixels are black.
+  /// A picture of the visible roles: red pixels show the robot, green pixels its contact points, blue pixels objects.
+  /// All other pixels are black.
   Pixels roles(const Camera& camera, int width, int height, double near_surface);
 
  private:

@@ -80,8 +80,8 @@ Camera clearestView(const PlanningScene& scene, const double* state, const std::
           contacts.push_back(countOf(pixels, 1));
         }
       });
-  // The robot counts as much as the contacts, each compared with the view that shows most of it. Half of the contacts
-  // is enough.
+  // The robot and the contacts have equal weight. Each is compared with the view that shows most of it. A view that
+  // shows half of the contacts is good enough.
   const double most_robot = std::max(1.0, *std::max_element(robot.begin(), robot.end()));
   const double most_contacts = std::max(1.0, *std::max_element(contacts.begin(), contacts.end()));
   const auto score = [&](std::size_t view)

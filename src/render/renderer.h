@@ -38,8 +38,8 @@ struct Image
 /// Every pair of bodies that collides in `state`, by the exact checker.
 std::vector<BodyPair> collidingPairs(const PlanningScene& scene, const double* state);
 
-/// The first of viewsOf, or another of them in which objects hide clearly less of the robot and of the contact points.
-/// Same arguments and errors as render.
+/// The first of viewsOf, unless objects hide clearly less of the robot and of the contact points in another view. Same
+/// arguments and errors as render.
 Camera clearestView(const PlanningScene& scene, const double* state, const std::vector<Eigen::Vector3d>& contact_points,
                     const Eigen::Vector3d& up, const std::string& device);
 

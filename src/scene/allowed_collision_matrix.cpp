@@ -1,7 +1,5 @@
 #include "gpu_planning_scene/allowed_collision_matrix.h"
 
-#include <algorithm>
-
 namespace gpu_planning_scene::core
 {
 AllowedCollisionMatrix AllowedCollisionMatrix::fromRobot(const RobotModel& robot)
@@ -41,21 +39,15 @@ std::vector<std::string> AllowedCollisionMatrix::removeEntry(const std::string& 
   const auto known = bodies_.find(body);
   if (known == bodies_.end())
     return {};
+  // From now on, the default of the other body decides alone.
   std::vector<std::string> no_longer_forbidden;
-  for (const auto& [other, allowed] : known->second.entries)
-    if (other != body)
-    {
-      if (!allowed && defaultOf(other).value_or(false))
-        no_longer_forbidden.push_back(other);
-      removeHalfOfEntry(other, body);
-    }
-  const bool forbids_by_default = known->second.default_allowed == false;
-  bodies_.erase(known);
-  // The default of the body forbade these pairs, too. A new body of the same name has no default.
   for (const auto& [other, row] : bodies_)
-    if (forbids_by_default && row.default_allowed.value_or(false) &&
-        std::find(no_longer_forbidden.begin(), no_longer_forbidden.end(), other) == no_longer_forbidden.end())
+    if (other != body && row.default_allowed.value_or(false) && !allowed(body, other))
       no_longer_forbidden.push_back(other);
+  for (const auto& [other, entry] : known->second.entries)
+    if (other != body)
+      removeHalfOfEntry(other, body);
+  bodies_.erase(known);
   return no_longer_forbidden;
 }
 

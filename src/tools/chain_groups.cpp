@@ -9,7 +9,7 @@ namespace gpu_planning_scene::core
 std::vector<std::string> chainTips(const RobotModel& robot)
 {
   const std::size_t count = robot.links().size();
-  std::vector<std::set<int>> variables(count);  // that the joints from the root to each link move
+  std::vector<std::set<int>> variables(count);  // of the joints from the root to each link
   std::vector<bool> moves(count, false);        // whether a joint below each link moves
   std::vector<int> moving_branches(count, 0);
   std::vector<bool> is_end(count, true);

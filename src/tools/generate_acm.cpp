@@ -30,8 +30,8 @@ std::vector<Option> options()
   all.push_back(
       {"--always-share", "P", "pairs that collide in at least this share of the states\nare Always (default 0.95)"});
   all.push_back({"--out", "FILE",
-                 "the SRDF to write (default: the standard output). If it exists and\n--srdf is not given, it keeps "
-                 "what it has"});
+                 "the SRDF to write (default: the standard output). If it exists and\n--srdf is not given, its "
+                 "other content is kept"});
   return all;
 }
 

@@ -24,12 +24,12 @@ std::string commentText(const GeneratedMatrix& matrix, const RobotModel& robot, 
   text.precision(2);
   text << kCommentStart << " for robot " << robot.name() << " from " << options.samples << " random states, seed "
        << options.seed
-       << ".\n    Adjacent: a joint joins the links. Default: they collide where every variable is 0, or "
-       << "in the middle of its\n    limits where 0 is outside. Always: they collide in at least "
-       << 100.0 * options.always_share << " % of the states. Never: they collide in none\n    of them; so with "
+       << ".\n    Adjacent: a joint joins the links. Default: they collide in the default state (every variable is 0, "
+       << "or in the middle\n    of its limits if 0 is outside). Always: they collide in at least "
+       << 100.0 * options.always_share << " % of the states. Never: they collide in none\n    of them. So, with "
        << "95 % confidence, for each pair, fewer than " << 100.0 * bound
-       << " % of random states collide,\n    but this is "
-       << "no proof that none collides. " << matrix.remaining_pairs << " pairs of links remain to be checked. ";
+       << " % of random states collide. This\n    is no proof that none collides. " << matrix.remaining_pairs
+       << " pairs of links remain to be checked. ";
   std::string comment = text.str();
   // XML comments must not contain two hyphens in a row, but a robot's name may.
   for (std::size_t at = comment.find("--"); at != std::string::npos; at = comment.find("--"))

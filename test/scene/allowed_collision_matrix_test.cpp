@@ -46,6 +46,15 @@ TEST(AllowedCollisionMatrix, ADefaultThatForbadePairsIsReportedWhenItsBodyIsRemo
   EXPECT_TRUE(matrix.allowed("palm", "can"));
 }
 
+TEST(AllowedCollisionMatrix, APairThatAnEntryAllowedIsNotReportedWhenItsBodyIsRemoved)
+{
+  AllowedCollisionMatrix matrix;
+  matrix.setDefault("palm", true);
+  matrix.setDefault("can", false);
+  matrix.setEntry("palm", "can", true);
+  EXPECT_TRUE(matrix.removeEntry("can").empty()) << "'palm' could touch 'can' before";
+}
+
 /// All links may touch 'big'.
 class AllowedObject : public SceneChanges
 {

@@ -43,9 +43,9 @@ class BatchRrtConnect : public ompl::base::Planner
   void setup() override;
   void clear() override;
   /// Grows the trees until there is a solution or `ptc` holds; a second call continues with the same trees. `ptc` is
-  /// tested between batches of states. When it holds, the planner takes more time to prove a solution that it has found
-  /// but not proven: a tenth of the time so far, but at least 0.1 s and at most 1 s. If no solution is proven, the
-  /// planner takes the same time again to prove the path to the vertex that is closest to the goal.
+  /// tested between batches of states. If the planner has found a solution when `ptc` holds, but has not proven it, it
+  /// takes more time for the proof: a tenth of the time so far, but at least 0.1 s and at most 1 s. If no solution is
+  /// proven, the planner takes the same time again to prove the path to the vertex closest to the goal.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
   void getPlannerData(ompl::base::PlannerData& data) const override;
 

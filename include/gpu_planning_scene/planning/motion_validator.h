@@ -32,9 +32,9 @@ class MotionValidator : public ompl::base::MotionValidator
                   std::shared_ptr<StateChecker> checker, const MotionCheckerOptions& options = {});
 
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
-  /// If the motion is invalid, `last_valid` gets the state and the fraction of MotionVerdict::last_valid; if the start
-  /// collides, these are the start and 0. If the motion is valid, `last_valid` stays unchanged. The state pointer may
-  /// be null.
+  /// If the motion is invalid, `last_valid` receives MotionVerdict::last_valid and the state at this fraction; if the
+  /// start collides, these are 0 and the start. If the motion is valid, `last_valid` stays unchanged. The state pointer
+  /// may be null.
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to,
                    std::pair<ompl::base::State*, double>& last_valid) const override;
 

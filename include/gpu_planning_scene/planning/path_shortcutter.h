@@ -33,7 +33,7 @@ class PathShortcutter
   explicit PathShortcutter(const ompl::base::SpaceInformationPtr& information, const ShortcutterOptions& options = {});
 
   /// Returns true if the path became shorter. The first and the last state stay the same. Every new motion of the path
-  /// was found valid, also a new motion that is a part of an old one. `ptc` is tested between batches of states.
+  /// is checked, even if it is part of an old one. `ptc` is tested between batches of states.
   bool shorten(ompl::geometric::PathGeometric& path, const ompl::base::PlannerTerminationCondition& ptc);
 
  private:

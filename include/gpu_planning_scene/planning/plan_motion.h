@@ -23,8 +23,8 @@ struct PlanningQuery
   std::vector<double> start;
   std::vector<std::vector<double>> goals;  ///< rows; the motion may end at any of them
   /// Seconds for planning, with the check of the start and the goals; planners can take slightly longer. Simplification
-  /// and the last check of the path then have a time limit each. This limit is the time that planning has left, but at
-  /// least a tenth of `seconds` and at least 0.1 s.
+  /// and the last check of the path come afterwards. The time limit of each is the rest of `seconds`, but at least a
+  /// tenth of `seconds` and at least 0.1 s.
   double seconds = 5.0;
   bool simplify = true;
   MotionCheckerOptions motions;
@@ -35,11 +35,11 @@ struct PlanningQuery
 enum class PlanningStatus
 {
   Solved,
-  Approximate,  ///< no solution within the time; the path ends at the state that was found nearest to a goal
+  Approximate,  ///< no solution within the time; the path ends at the reached state nearest to a goal
   NoSolution,   ///< no solution, no path that comes nearer to a goal, or a path that is not valid by the rule
   StartInCollision,
-  GoalsInCollision,  ///< no goal is good (free and within bounds), and the first collides
-  OutOfBounds        ///< the start is out of bounds; or no goal is good, and the first is out of bounds
+  GoalsInCollision,  ///< no goal is valid (free and within bounds), and the first collides
+  OutOfBounds        ///< the start is out of bounds; or no goal is valid, and the first is out of bounds
 };
 
 struct PlanningResult

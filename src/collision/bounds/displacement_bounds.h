@@ -20,7 +20,7 @@ struct Margins
   std::size_t width = 0;             ///< columns of a row: DisplacementBounds::count()
   std::vector<double> values;        ///< rows, metres
   std::vector<std::uint32_t> rows;   ///< one per state: index of the state's row
-  std::vector<std::uint8_t> within;  ///< one per state: 0 if it is outside the joints' limits, without bounds
+  std::vector<std::uint8_t> within;  ///< one per state; 0: outside the joint limits, so without bounds
 
   const double* of(std::size_t state) const { return values.data() + rows[state] * width; }
 };
@@ -34,7 +34,7 @@ struct JointLever
   double angle;
 };
 
-/// The levers of a robot's instances. They take milliseconds for a robot, so they are kept for the next scene. One
+/// The levers of a robot's instances. Computing them takes milliseconds, so they are kept for the next scene. One
 /// caller at a time.
 class JointLevers
 {
@@ -68,8 +68,8 @@ class JointLevers
 };
 
 /// Upper bounds of the displacement of a robot's points while each joint moves by at most a given travel within its
-/// limits. The bound is a sum over the joints: the joint's travel times the largest distance from the joint's axis that
-/// the body can have (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"). Reach provides these
+/// limits. The bound is a sum over the joints: the joint's travel times the largest possible distance of the body from
+/// the joint's axis (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"). Reach provides these
 /// distances. Immutable.
 class DisplacementBounds
 {

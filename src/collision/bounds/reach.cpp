@@ -287,7 +287,8 @@ const Region* Reach::inPlanningFrame(const SweptBody& body) const
 }
 
 /// Compares the regions in the frame of the last link that is above both bodies. Only a mimicked variable can move both
-/// bodies relative to this frame. Treating them as independent makes the bounds wider than necessary, but never wrong.
+/// bodies relative to this frame. Treating the two motions as independent makes the bounds wider than necessary, but
+/// never wrong.
 bool Reach::mayMeet(const SweptBody& a, const SweptBody& b, double distance) const
 {
   int link_a = a.link;

@@ -8,8 +8,8 @@
 #include "scene/rigid_pose.h"
 
 // Compares the swept bodies of Reach with each other and with the objects of the world. A new scene invalidates only
-// the rows and columns of the objects that have changed. Own method: MoveIt's Setup Assistant also leaves out pairs,
-// but it concludes from random states that a pair never collides. Here, the bounds of Reach prove it.
+// the rows and columns of the objects that have changed. Own method. MoveIt's Setup Assistant leaves out pairs that
+// collide in no random state; here, the bounds of Reach prove that a pair never collides.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -154,8 +154,8 @@ void ReachabilityFilter::keepObjects(const PlanningScene& scene)
   }
 }
 
-/// Updates the caches for a new scene. Invalidates cached results before it stores the new objects, so that the caches
-/// stay valid if a line throws.
+/// Updates the caches for a new scene. It first removes the outdated results and then stores the new objects, so that
+/// the caches stay valid if a line throws.
 void ReachabilityFilter::keepWhatStays(const PlanningScene& scene)
 {
   near_objects_.resize(scene.objects.size(), robot_->links().size() + scene.attached.size());

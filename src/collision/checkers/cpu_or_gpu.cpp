@@ -73,7 +73,7 @@ std::vector<Comparison> compare(const TimedWork& direct, const TimedWork& bulk)
   return made;
 }
 
-/// kMaxTimed states: the caller's, repeated as needed, if there are enough of them; otherwise random ones.
+/// kMaxTimed states: those of the caller, repeated as needed, if there are enough of them; otherwise random states.
 std::vector<double> sampleOf(const RobotModel& robot, const CollisionProblem& problem, const double* states,
                              std::size_t count)
 {

@@ -32,8 +32,9 @@ class CpuOrGpu
   explicit CpuOrGpu(std::optional<std::size_t> fixed) : fixed_(fixed) {}
 
   /// The threshold of the group: batches of at least this many states go to the GPU. `states`: the current batch. A
-  /// measurement uses these states if there are enough of them, else random states. `proofs`: of the CPU's check. If
-  /// there are more of them than at the last measurement, the CPU has become faster, and a new measurement is due.
+  /// measurement uses these states if there are enough of them, else random states. `proofs`: the proofs that the CPU's
+  /// check has. If it has more than at the last measurement, the CPU has become faster, and the threshold is measured
+  /// again.
   std::size_t threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
                         const CollisionProblem& problem, const double* states, std::size_t count, ProofStage proofs,
                         const Checks& checks);
@@ -66,7 +67,7 @@ using TimedWork = std::function<double(std::size_t)>;
 
 /// The size above which `bulk`, which has a high fixed cost, is clearly faster (1.2 times) than `direct`. kNoBatch if
 /// bulk does not seem to become faster. Both are timed at growing sizes up to kMaxTimed. This takes some tens of
-/// milliseconds, or longer if already a few items take longer.
+/// milliseconds, or longer if a few items alone take longer.
 std::size_t breakEven(const TimedWork& direct, const TimedWork& bulk);
 constexpr std::size_t kMaxTimed = 1024;
 }  // namespace gpu_planning_scene::core

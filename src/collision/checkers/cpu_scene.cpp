@@ -21,8 +21,8 @@ constexpr std::size_t kStatesPerSlice = 16'384;
 // checks.
 constexpr std::size_t kFewStates = 128;
 
-// Loading proofs from disk takes milliseconds of a core. A larger batch than the first number asks for it, or more
-// checked states than the second number.
+// Loading proofs from disk takes milliseconds of a core. They are loaded after a batch of more states than the first
+// number, or after more checked states than the second number.
 constexpr std::size_t kBatchBeforeCachedProofs = 64;
 constexpr std::size_t kStatesBeforeCachedProofs = 1000;
 }  // namespace
@@ -51,8 +51,7 @@ CpuScene::Group& CpuScene::groupOf(const std::string& group)
   return groups_.emplace(group, std::move(made)).first->second;
 }
 
-/// The pairs that collide in each sample are found here and not in setScene, because most scenes are checked without a
-/// report.
+/// Samples states here and not in setScene, because most scenes are checked without a report.
 const SceneReport& CpuScene::report(const std::string& name)
 {
   Group& group = groupOf(name);

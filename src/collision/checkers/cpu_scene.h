@@ -13,7 +13,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Making the proofs of a robot takes seconds of a core. Before this many states were checked, they are not worth it.
+/// Making the proofs of a robot takes seconds to a minute on all cores. They are made only after this many checked
+/// states.
 constexpr std::size_t kStatesBeforeProofs = 20'000;
 
 /// The collision problems of a scene, one per group, and their checks on the CPU. A problem is made when it is first
@@ -38,7 +39,8 @@ class CpuScene
   /// Prepares the group, so that the first call of `check` need not do so.
   void prepare(const std::string& group) { prepare(groupOf(group)); }
 
-  /// The proofs with which `check` decides most states of the group. Asks for them as soon as they pay.
+  /// The proofs with which `check` decides most states of the group. Requests them once enough states have been
+  /// checked.
   ProofStage proofStage(const std::string& group);
 
   /// Counts states of the group that were checked elsewhere, so that proofs are made for a robot in use.

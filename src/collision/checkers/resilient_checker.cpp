@@ -48,8 +48,8 @@ double millionTriangles(const PlanningScene& scene)
 
 struct ResilientChecker::Impl
 {
-  /// The device's checker, which is used on the device's thread only. The jobs share it, so that it can be destroyed
-  /// there.
+  /// The device's checker. Only the device's thread uses it. The jobs share it, so that it is destroyed on this thread
+  /// too.
   struct Slot
   {
     std::unique_ptr<StateChecker> checker;

@@ -23,9 +23,9 @@ struct DeviceHistory
 
 struct ResilientOptions
 {
-  /// A call that takes longer than this counts as a hanging device, which is given up for good. Batches must be small
-  /// enough to take far less. The limit grows by the same amount for each million triangles of the scene, because their
-  /// trees are built within the call.
+  /// If a call takes longer than this, the device counts as hanging and is never used again. Batches must be small
+  /// enough to take far less time. The limit grows by the same amount for each million triangles of the scene, because
+  /// their trees are built within the call.
   double device_seconds = 30.0;
   std::size_t max_losses = 3;  ///< after this many losses within loss_window seconds, the CPU answers
   double loss_window = 60.0;
@@ -33,10 +33,10 @@ struct ResilientOptions
 };
 
 /// A checker that survives the loss of its device. If the device is lost, it opens a new checker on the device with the
-/// current scene and repeats the request. If this fails too, the CPU answers, and the device is tried again later. A
-/// device's checker that failed to take a scene is dropped, so no answer ever comes from an incomplete scene. If the
-/// CPU takes a scene and the device does not (e.g. because the scene is too large), the CPU answers for this scene. The
-/// verdicts do not depend on which of the two answers.
+/// current scene and repeats the request. If this fails too, the CPU answers, and the device is tried again later. If
+/// setScene of the device's checker fails, the checker is destroyed, so no answer ever comes from an incomplete scene.
+/// If the CPU takes a scene and the device does not (e.g. because the scene is too large), the CPU answers for this
+/// scene. The CPU and the device give the same verdicts.
 ///
 /// One thread does all work on the device. If it hangs, it is abandoned together with the objects that it uses, and the
 /// CPU answers from then on. So at most one thread is lost.

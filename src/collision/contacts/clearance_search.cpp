@@ -29,8 +29,9 @@ struct Nearest
   double clearance = std::numeric_limits<double>::infinity();
   BodyPair bodies = kNoPair;
 
-  /// Updates the result with a pair. `collides`: whether it collides. `clearance_of(x)`: its clearance if that is below
-  /// x, and otherwise x. Neither is called for most pairs, because the pair's clearance is at least `lower`.
+  /// Updates the result with a pair whose clearance lies between `lower` and `upper`. `collides` returns whether the
+  /// pair collides. `clearance_of(x)` returns the pair's clearance if it is below x, otherwise x. Neither is called if
+  /// `lower` is not below the best clearance so far, as for most pairs.
   template <class Collides, class ClearanceOf>
   void consider(double lower, double upper, std::int32_t a, std::int32_t b, const Collides& collides,
                 const ClearanceOf& clearance_of)
@@ -122,8 +123,8 @@ class Search
 
  private:
   /// Visits the tree over objects, the nearer child first. Skips nodes that are not nearer than the best clearance so
-  /// far. The boxes of the tree and of the robot are grown by their padding. A box grown by the padding contains the
-  /// ball-shaped padding, so the distance of two grown boxes is at most the distance beyond the required distance.
+  /// far. The boxes of the tree and of the robot are grown by their padding. A grown box contains all points within the
+  /// padding of its shape. So the distance of two grown boxes is at most the clearance of their pair.
   void considerObjects(std::uint32_t instance, Nearest& nearest)
   {
     if (objects_.nodes().empty())

@@ -28,7 +28,7 @@ constexpr std::size_t kMaxOfPair = 256;
 // Tolerance for points on the border of a box.
 constexpr double kContactMargin = 1e-6;  // metres
 
-// FCL's nearest points are used only if their distance is correct to this.
+// FCL's nearest points are used only if the error of their distance is at most this.
 constexpr double kNearEnough = 1e-4;  // metres
 
 bool isUnit(const Vector3d& vector)
@@ -41,7 +41,7 @@ bool isUnit(const Vector3d& vector)
 /// For coplanar triangles and for triangles larger than the overlap, FCL may report points outside both shapes, and the
 /// depth of a triangle. So points must lie in the boxes of both shapes. A translation along an axis that separates the
 /// boxes also separates the shapes, so the shortest such translation limits the depth. Deeper contacts are reported
-/// only if there are no others, and with this depth.
+/// only if there are no others. They then get this limit as their depth.
 std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, const AlignedBox3d& box_a,
                                       const AlignedBox3d& box_b, double required)
 {

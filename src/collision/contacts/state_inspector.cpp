@@ -14,13 +14,13 @@
 #include "collision/parallel_for.h"
 #include "collision/problem/state_validation.h"
 
-// The exact checker finds the colliding pairs of instances. FCL gives their contacts, of which the deepest ones per
+// The exact checker finds the colliding pairs of instances. FCL computes their contacts. The deepest contacts of each
 // pair of bodies are kept.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-// Of the contact points of a pair within this distance of each other, only the deepest is reported.
+// If several contact points of a pair are within this distance of each other, only the deepest is reported.
 constexpr double kSamePoint = 1e-6;  // metres
 
 /// Trees and FCL geometries of shapes. Scenes that have the same shapes share them.

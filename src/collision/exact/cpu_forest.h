@@ -14,7 +14,7 @@ class CpuForest
 {
  public:
   CpuForest() = default;
-  /// Builds only the trees that nobody in the process holds.
+  /// Builds only the trees that are not in use in this process.
   explicit CpuForest(const CollisionProblem& problem);
   /// `forest` must hold a valid tree for each of the problem's trees.
   CpuForest(const CollisionProblem& problem, const Forest& forest);

@@ -15,7 +15,7 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// Boxes are grown by this margin, so that a pair is lost neither to rounding in the box tests nor to kSlack.
+// Boxes are grown by this margin. It exceeds the rounding of the box tests plus kSlack, so no colliding pair is lost.
 constexpr double kBoxMargin = 1e-9;  // metres
 
 // Nodes count as a collision only if they are within the tolerance by this margin, which exceeds their rounding error.
@@ -24,7 +24,7 @@ constexpr double kToleranceMargin = 1e-9;  // metres
 // The test of two solids costs about as much as visiting this many nodes.
 constexpr std::uint64_t kStepsOfSolids = 20;
 // Boxes whose radius is below this multiple of the float errors are also tested in double: in a mesh with a large
-// reach, the errors exceed the size of many boxes, and the float test would keep nearly all of these.
+// reach, the errors exceed the size of many boxes, and the float test would separate hardly any of these boxes.
 constexpr double kSmallBox = 64.0;
 // Testing eight boxes costs about as much as visiting this many nodes of a binary tree.
 constexpr std::uint64_t kStepsOfEightBoxes = 2;
@@ -75,8 +75,8 @@ unsigned lowestBit(unsigned bits)
   return static_cast<unsigned>(__builtin_ctz(bits));
 }
 
-/// Whether a component of one mesh lies inside the solid of the other. The surfaces must not meet. Then each point of a
-/// component gives the same answer, so one point suffices.
+/// Whether a component of one mesh lies inside the solid of the other. The surfaces must not meet. Then all points of a
+/// component give the same answer, so one point suffices.
 bool containsComponent(const CpuTree& outer, const CpuTree& inner, const Isometry3d& inner_in_outer,
                        std::vector<std::uint32_t>& stack)
 {
@@ -134,8 +134,8 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
                                      double required, Scratch& scratch) const
 {
   const Shape& shape = solid.shape;
-  // The overlap test is enough if it is that of the solid itself: a box without a required distance, which would round
-  // its corners.
+  // For a box without a required distance, the overlap test is enough, because the solid fills its bounding box. In all
+  // other cases, the distance from the solid separates more nodes.
   const bool by_distance = !std::holds_alternative<Box>(shape) || required > 0.0 || tolerance_ > 0.0;
   const double margin = required + kBoxMargin;
   const double near_enough = required + tolerance_ - kToleranceMargin;

@@ -44,7 +44,7 @@ class CpuTraversal
   /// `forest` must hold a valid tree for each of the problem's trees. It may come from any builder.
   CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const Forest> forest);
 
-  /// The same for a forest that was made before for a problem with the same trees. If `objects` is not null, it must
+  /// The same for a forest that was made for another problem with the same trees. If `objects` is not null, it must
   /// have been made for the same world, see worldBounds.
   CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest,
                std::shared_ptr<const ObjectTree> objects = nullptr);

@@ -54,8 +54,8 @@ struct CpuTree
 std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Mesh& mesh, const Forest& forest,
                                            std::size_t number);
 
-/// The tree of a shape. All checkers of the process share it: while the tree of an equal shape is in use, this is that
-/// tree; otherwise it is built. Equal shapes are the same mesh, or primitives of the same kind and dimensions. `shape`
-/// must not be a half-space. Thread-safe.
+/// The tree of a shape. All checkers of the process share trees: if the tree of an equal shape is in use, the function
+/// returns that tree; otherwise it builds a tree. Equal shapes are the same mesh, or primitives of the same kind and
+/// dimensions. `shape` must not be a half-space. Thread-safe.
 std::shared_ptr<const CpuTree> cpuTreeOf(const Shape& shape, const Tessellation& tessellation);
 }  // namespace gpu_planning_scene::core

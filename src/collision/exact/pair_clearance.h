@@ -24,8 +24,8 @@ double bisectLeast(double low, double high, const Predicate& holds)
 }
 
 /// The clearance of two shapes that do not collide with the required distance `required`: the least x above 0 for which
-/// they collide with the required distance `required` + x, as CpuShapePair decides it. Of a clearance of `most` or
-/// more, the result is `most`; otherwise it is at most 1e-6 m below the clearance, and never above it.
+/// they collide with the required distance `required` + x, as CpuShapePair decides it. If the clearance is `most` or
+/// more, the result is `most`. Otherwise the result is at most 1e-6 m below the clearance, and never above it.
 double pairClearance(const CpuTree& a, const Eigen::Isometry3d& pose_a, const CpuTree& b,
                      const Eigen::Isometry3d& pose_b, double required, double most, CpuShapePair::Scratch& scratch);
 }  // namespace gpu_planning_scene::core

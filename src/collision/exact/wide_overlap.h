@@ -28,8 +28,8 @@ struct FloatBox
 };
 
 /// Tests the boxes of a node against one box by their 15 possible separating axes (Gottschalk, Lin and Manocha,
-/// "OBBTree", 1996). `box` must have been grown by the rounding errors, see BoxPlacement. Then bit i of the result is 0
-/// only if box i and `box` do not overlap. Thread-safe.
+/// "OBBTree", 1996). Bit i of the result is 0 only if box i and `box` do not overlap, provided that `box` was grown by
+/// the rounding errors (see BoxPlacement). Thread-safe.
 using OverlapTest = unsigned (*)(const WideNode& node, const FloatBox& box);
 
 struct NamedOverlapTest

@@ -11,7 +11,7 @@ unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box);
 
 unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
 {
-  // Keeps edges that are parallel up to rounding from separating the boxes, see docs/error_bounds.md.
+  // Prevents nearly parallel edges from separating boxes because of rounding, see docs/error_bounds.md.
   constexpr float kParallel = 64.0F * 5.9604645e-8F;  // 64 times 2^-24
 
   const int present = (1 << node.boxes) - 1;
@@ -39,7 +39,7 @@ unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
   for (int j = 0; j < 3; ++j)
     apart |= magnitude(t[0] * r[0][j] + t[1] * r[1][j] + t[2] * r[2][j]) >
              a[0] * abs_r[0][j] + a[1] * abs_r[1][j] + a[2] * abs_r[2][j] + b[j];
-  // A NaN is not greater, so its boxes count as overlapping.
+  // A comparison with NaN is false, so a box with NaN counts as overlapping.
   int kept = ~bits(apart) & present;
   if (kept == 0)
     return 0;

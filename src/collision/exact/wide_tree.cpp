@@ -13,7 +13,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 // The rounding errors of both trees, of the placed box and of the overlap test are below this share of the lengths that
-// floatErrors adds up: 64 times 2^-24. docs/error_bounds.md derives 30.
+// floatErrors adds up: 64 times 2^-24. docs/error_bounds.md derives 30 times 2^-24.
 constexpr double kFloatErrors = 64.0 * 0.5 * std::numeric_limits<float>::epsilon();
 
 /// The least float that is not below `value`, or a little more.
@@ -22,8 +22,8 @@ float roundedUp(double value)
   return static_cast<float>(value * (1.0 + std::numeric_limits<float>::epsilon()));
 }
 
-/// The nodes of the binary tree whose boxes become one wide node below `top`: its two children, and then the children
-/// of the largest inner node in its place, as long as there is room.
+/// The nodes of the binary tree whose boxes become the wide node below `top`. Begins with the two children of `top`.
+/// Then replaces the largest inner node by its two children, as long as there is room.
 std::vector<std::uint32_t> boxesOf(const std::vector<CpuNode>& nodes, std::uint32_t top)
 {
   std::vector<std::uint32_t> boxes = {nodes[top].first, nodes[top].first + 1};

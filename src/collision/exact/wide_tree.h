@@ -18,8 +18,8 @@ using BoxIndex = std::uint32_t;
 
 /// A tree of oriented boxes in which a node has up to eight boxes, for a test of all of them at a time (wide bounding
 /// volume hierarchy; Dammertz, Hanika and Keller, "Shallow Bounding Volume Hierarchies", 2008). The numbers of a box
-/// are floats relative to `origin`, so a box contains its triangles only up to rounding. For this, BoxPlacement grows
-/// the other box of each comparison.
+/// are floats relative to `origin`, so a box contains its triangles only up to rounding. To make up for this,
+/// BoxPlacement grows the other box of each comparison.
 class WideTree
 {
  public:

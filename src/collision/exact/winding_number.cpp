@@ -50,7 +50,7 @@ class SegmentBoxTest
   Vector3d half_;
 };
 
-/// +1 or -1 if the segment passes through the inside of the triangle; the sign is the side of the start. 0 if the
+/// +1 or -1 if the segment passes through the inside of the triangle; the sign tells on which side it starts. 0 if the
 /// segment does not meet the triangle. Empty if they meet in any other way.
 std::optional<int> crossing(const Vector3d& start, const Vector3d& end, const Triangle& t)
 {

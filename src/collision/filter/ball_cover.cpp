@@ -15,8 +15,8 @@
 
 // The candidates for centres are points inside the shape. A candidate's ball may have the radius "depth of the centre +
 // gap", so it reaches at most the gap beyond the surface. A greedy set cover finds balls for a gap; bisection finds the
-// least gap for which the allowed number of balls suffices. The certified radii follow from the parts that each ball
-// then has to contain, and not from the samples that chose the balls.
+// least gap for which the allowed number of balls suffices. The samples only choose the balls. Their radii are then
+// computed from the parts of the whole shape, so a ball certainly contains its part.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -42,7 +42,7 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t count)
   return kept;
 }
 
-/// Points inside the shape; points of the surface too where the shape has open parts or hardly any inside.
+/// Points inside the shape. Points of the surface too if the shape has open components or few points inside.
 std::vector<SolidCell> candidatesOf(const CpuTree& tree, const ShapeSamples& samples)
 {
   const std::vector<Component>& components = tree.components.components;
@@ -55,7 +55,7 @@ std::vector<SolidCell> candidatesOf(const CpuTree& tree, const ShapeSamples& sam
   return candidates;
 }
 
-/// The gaps for which each candidate's ball contains each sample.
+/// For each candidate and each sample, the least gap for which the candidate's ball contains the sample.
 class GapTable
 {
  public:
@@ -124,8 +124,8 @@ class GapTable
   static constexpr std::size_t kBits = 64;
   static constexpr float kNoSample = std::numeric_limits<float>::infinity();
 
-  /// One bit for each of kBits gaps: it is at most `gap`. Compilers vectorise the comparisons; a product then gathers
-  /// the lowest bits of eight bytes in one byte.
+  /// One bit for each of kBits gaps: 1 if it is at most `gap`. Compilers vectorise the comparisons; a product then
+  /// gathers the lowest bits of eight bytes in one byte.
   static std::uint64_t atMost(const float* gaps, float gap)
   {
     std::array<std::uint8_t, kBits> bytes;
@@ -168,8 +168,8 @@ Vector3d enclosingCenter(const std::vector<Vector3d>& points)
   return center;
 }
 
-/// Grows a ball so that it contains a part. It is the first ball that contains the part already, or else the ball that
-/// then reaches least beyond the surface. `radius_from` returns the radius that a centre needs for the part.
+/// Makes the balls contain a part of the shape. If no ball contains it, the ball that then reaches least beyond the
+/// surface grows. `radius_from` returns the radius at which a ball around a centre contains the part.
 template <class RadiusFrom>
 void contain(std::vector<Fit>& fits, const RadiusFrom& radius_from)
 {

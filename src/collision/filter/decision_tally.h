@@ -27,8 +27,8 @@ class DecisionTotals
  public:
   void add(const DecisionCounts& counts);
 
-  /// The stages in their order, without stages that were not used. `checked`: all states that the CPU has checked;
-  /// the exact checker alone decided those that no stage counts.
+  /// The stages in their order, without stages that were not used. `checked`: the number of all states that the CPU has
+  /// checked. The exact checker alone decided the states that no stage has counted.
   std::vector<DecidedStates> report(std::uint64_t checked) const;
 
  private:

@@ -125,7 +125,7 @@ class TableMaker
     return axes;
   }
 
-  /// Whether an inner ball of one shape meets an inner ball of the other wherever the joints are within their travel.
+  /// Whether an inner ball of one shape meets an inner ball of the other shape for all joint values within the travel.
   bool innerBallsMeet(const Isometry3d& b_in_a, const std::vector<JointAxis>& axes) const
   {
     for (const CoverBall& ball : b_.cover->levels.back())
@@ -152,8 +152,8 @@ class TableMaker
     return seen;
   }
 
-  /// Whether a point of `body` stays inside the solid of `other` wherever the joints are within their travel. `pose`:
-  /// of the body in the frame of the other one, for the middle values.
+  /// Whether a point of `body` is inside the solid of `other` for all joint values within the travel. `pose`: of `body`
+  /// in the frame of `other`, for the middle values.
   static bool penetrates(const TableInstance& body, const TableInstance& other, const Isometry3d& pose,
                          const std::vector<JointAxis>& axes)
   {

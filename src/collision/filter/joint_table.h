@@ -32,7 +32,7 @@ struct JointTable
   std::vector<Proof> cells;              ///< row-major
 };
 
-/// A robot instance of a table, with what is known about its shape.
+/// A robot instance of a table, with the prepared data of its shape.
 struct TableInstance
 {
   const ShapeInstance* instance;

@@ -18,8 +18,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Checks blocks of states: most verdicts are proven by balls and tables, eight states at a time; the exact checker
-/// decides the pairs that remain. So the verdicts are those of the exact checker.
+/// Checks blocks of up to eight states. Balls and tables prove most verdicts, for all states of a block at once. The
+/// exact checker decides the pairs that remain. So the verdicts are those of the exact checker.
 class LaneChecker
 {
  public:
@@ -44,16 +44,16 @@ class LaneChecker
     DecisionTally tally;
   };
 
-  /// Whether a checker pays for a problem. With many thousands of pairs it does not: the kernel looks at each pair of a
-  /// link and an object, while the exact checker has a tree of the objects.
+  /// Whether a LaneChecker saves time for a problem. With many thousands of pairs it does not: the kernel tests each
+  /// pair of a link and an object, while the exact checker has a tree over the objects.
   static bool suits(const CollisionProblem& problem);
 
   /// `traversal` must outlive the checker.
   LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_ptr<const CollisionProblem> problem,
               std::shared_ptr<const CpuForest> forest, const CpuTraversal& traversal);
 
-  /// Whether there are proofs, so that `check` may be called. The first call starts to make them in the background.
-  /// Takes over further proofs when they are made. One caller at a time.
+  /// Whether there are proofs, so that `check` may be called. The first call starts to make them in the background. A
+  /// later call takes over the proofs that have been made since. One caller at a time.
   ProofStage prepare();
 
   /// Whether `check` may be called for a state.
@@ -77,7 +77,7 @@ class LaneChecker
   std::shared_ptr<const CollisionProblem> problem_;
   std::shared_ptr<const CpuForest> forest_;
   const CpuTraversal& traversal_;
-  std::shared_ptr<ProofJob> job_;  // null before the first call of isReady
+  std::shared_ptr<ProofJob> job_;  // null before the first call of prepare
   std::shared_ptr<const RobotProofs> proofs_;
   std::unique_ptr<const LaneScene> scene_;  // made with proofs_; null until there are proofs
   lanes::Kernel kernel_;

@@ -117,7 +117,7 @@ inline int nearBalls(const Instance& a, const float* balls_of_a, const Instance&
   return count;
 }
 
-/// Proves by the balls of both instances that are near the other instance.
+/// Proves a verdict with the balls of each instance that are near the other instance.
 inline Proof proveSelfPair(const Model& model, const SelfPair& pair, float margin, const PlacedBalls& balls, int level)
 {
   const Instance& a = model.instances[pair.a];

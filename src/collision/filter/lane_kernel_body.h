@@ -129,8 +129,8 @@ inline void proveSelfPairByEnclosingBalls(const Model& model, const Scratch& scr
   lanes.keepOpen(bits(~(squared > apart)), p);
 }
 
-/// Proves self pairs by enclosing balls, for all lanes at once. Without margins, the tables have decided their pairs
-/// before, and balls around clusters of instances leave out most pairs.
+/// Proves self pairs by enclosing balls, for all lanes at once. Without margins, pairs with tables are left out, and
+/// balls around clusters of instances leave out most other pairs.
 template <bool kWithMargins>
 inline void proveSelfPairsByEnclosingBalls(const Model& model, const Scratch& scratch,
                                            const MarginRows<kWithMargins>& margins, Lanes& lanes)

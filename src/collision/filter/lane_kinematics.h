@@ -54,7 +54,7 @@ inline Floats jointValues(const Frame& frame, const Model& model, const double* 
   {
     const double* state = states + (lane < count ? static_cast<unsigned>(lane) : 0U) * model.width;
     const double value = frame.multiplier * state[frame.variable] + frame.offset;
-    values[lane] = static_cast<float>(frame.kind == FrameKind::Turning ? wrapped(value) : value);
+    values[lane] = static_cast<float>(frame.kind == FrameKind::Revolute ? wrapped(value) : value);
   }
   return values;
 }
@@ -69,7 +69,7 @@ inline void relativePose(const Frame& frame, const float* given, const Model& mo
   {
     case FrameKind::Fixed:
       break;
-    case FrameKind::Turning:
+    case FrameKind::Revolute:
     {
       Floats sine;
       Floats cosine;
@@ -79,7 +79,7 @@ inline void relativePose(const Frame& frame, const float* given, const Model& mo
           pose[k] += cosine * frame.first[k] + sine * frame.second[k];
       break;
     }
-    case FrameKind::Sliding:
+    case FrameKind::Prismatic:
     {
       const Floats value = jointValues(frame, model, states, count);
       for (int k = 3; k < 12; k += 4)

@@ -20,10 +20,10 @@ constexpr int kMostBalls = kBalls - kLevelBegin[kLevels - 1];  ///< of a level
 
 enum class FrameKind : std::uint8_t
 {
-  Fixed,    ///< pose: constant
-  Turning,  ///< pose: constant + cos(value) * first + sin(value) * second
-  Sliding,  ///< pose: constant + value * first
-  Given     ///< planar and floating joints: the caller computes the pose
+  Fixed,      ///< pose: constant
+  Revolute,   ///< pose: constant + cos(value) * first + sin(value) * second
+  Prismatic,  ///< pose: constant + value * first
+  Given       ///< planar and floating joints: the caller computes the pose
 };
 
 /// A frame that a joint moves relative to its parent frame. Poses are rows of 3x4 matrices.
@@ -80,9 +80,9 @@ struct Object
 /// Lengths that a proof needs in addition to the radii of the balls. They include the rounding errors of the kernel.
 struct Thresholds
 {
-  float enclosing;  ///< apart, by the enclosing balls: the distance is greater than the radii and this
+  float enclosing;  ///< apart, by the enclosing balls: the distance is greater than the radii plus this
   float cover;      ///< apart, by the balls of the covers: the same
-  float inner;      ///< colliding: the distance is less than the inner radii and this, which may be negative
+  float inner;      ///< colliding: the distance is less than the inner radii plus this; may be negative
 };
 
 struct SelfPair
@@ -92,16 +92,16 @@ struct SelfPair
   Thresholds thresholds;
 };
 
-/// A ball around instances that stay in it for all states within LaneScene::isWithinBounds, for example those of a
-/// hand. Its centre is the origin of a frame.
+/// A ball around several instances, for example those of a hand. They stay in the ball in all states for which
+/// LaneScene::isWithinBounds is true. Its centre is the origin of a frame.
 struct Cluster
 {
   int frame;
   float radius;
 };
 
-/// Consecutive self pairs without tables. Each has an instance near the first centre and one near the second. All are
-/// apart if the distance of the centres is greater than `reach`.
+/// Consecutive self pairs without tables. Each has an instance near the first centre and one near the second. All pairs
+/// are apart if the distance of the centres is greater than `reach`.
 struct SelfGroup
 {
   std::uint32_t centers[2];  ///< numbers in Scratch::centers

@@ -23,7 +23,7 @@ constexpr double kProductError = 12.0 * kUnit;  // of a vector of length 1, by t
 constexpr double kSumError = 12.0 * kUnit;      // of a transformed point, times its largest coordinates
 constexpr double kDistanceError = 32.0 * kUnit;
 
-constexpr double kLargestAngle = 1e4;   // radians: beyond it, an angle modulo 2 pi is not accurate
+constexpr double kLargestAngle = 1e4;   // radians: a larger angle modulo 2 pi is not accurate
 constexpr double kLargestGiven = 32.0;  // metres: distance of a planar or floating joint's frame from the origin
 constexpr std::size_t kGroup = 8;       // world pairs of a group
 
@@ -59,9 +59,10 @@ void writeBall(const Vector3d& center, float radius, int place, lanes::Balls& ba
   balls.radius[place] = radius;
 }
 
-/// How far the balls of two shapes may be apart although `inner` is inside `outer`, in metres. The inner shape's
-/// surface is in its balls. Either a point of it is in a ball of the outer shape, or it is in the layer that these
-/// leave open. A ball of the inner shape that is thicker than both layers has its centre in balls of both.
+/// Upper bound of the distance, in metres, between the balls of two shapes if `inner` is inside `outer`. The balls of
+/// each shape contain its surface. A point of the inner surface is in a ball of `outer`, or it is in the uncovered
+/// layer of `outer` and so at most as far from a ball as the layer is deep. If `inner` contains a ball that is thicker
+/// than both layers, the centre of this ball is in balls of both shapes, and the distance is 0.
 double openLayer(const BallCover& outer, const BallCover& inner)
 {
   return inner.thickness > std::max(outer.layer, inner.layer) ? 0.0 : outer.layer;
@@ -130,7 +131,7 @@ int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry
   const Matrix3d rotation = origin.linear();
   if (joint.type == JointType::Revolute || joint.type == JointType::Continuous)
   {
-    frame.kind = lanes::FrameKind::Turning;
+    frame.kind = lanes::FrameKind::Revolute;
     const Matrix3d along = joint.axis * joint.axis.transpose();
     writeRotation(rotation * along, frame.constant);
     writeRotation(rotation * (Matrix3d::Identity() - along), frame.first);
@@ -141,7 +142,7 @@ int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry
   }
   else if (joint.type == JointType::Prismatic)
   {
-    frame.kind = lanes::FrameKind::Sliding;
+    frame.kind = lanes::FrameKind::Prismatic;
     Isometry3d slide = Isometry3d::Identity();
     slide.translation() = rotation * joint.axis;
     writePose(slide, frame.first);
@@ -211,9 +212,9 @@ double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
   return first.position + second.position + kDistanceError * lengths;
 }
 
-/// Finds parts of the robot that stay together: all instances that move with a frame, if they stay in a ball around the
-/// frame's origin that is not much larger than the largest of them. A cluster of most of the robot would be of no use:
-/// pairs within a cluster are always tested.
+/// Finds clusters. A cluster is all instances that a frame moves, if a ball around the origin of the frame contains
+/// them and is not much larger than the largest instance. Pairs within a cluster are always tested, so a cluster of
+/// most of the robot would be of no use.
 void LaneScene::addClusters()
 {
   constexpr double kLargestCluster = 3.0;  // radius relative to the largest instance

@@ -32,8 +32,8 @@ class LaneScene
   /// Whether some frames are of kind Given. If so, fillGiven must be called before the kernel.
   bool hasGivenFrames() const { return has_given_; }
 
-  /// Sets the poses of these frames in one lane, see lanes::Scratch. `link_poses`: of the lane's state. Returns false
-  /// if a frame is too far away for float arithmetic.
+  /// Sets the poses of the frames of kind Given in one lane, see lanes::Scratch. `link_poses`: of the lane's state.
+  /// Returns false if a frame is too far away for float arithmetic.
   bool fillGiven(const Eigen::Isometry3d* link_poses, int lane, float* given) const;
 
   /// The instances of a pair of the kernel.

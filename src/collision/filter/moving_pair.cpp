@@ -6,8 +6,8 @@
 
 #include "collision/geometry/cpu_box_pair.h"
 
-// A simultaneous traversal of both trees as in CpuShapePair. The distance that is required of two nodes is the
-// displacement bound of the node of the second body, so parts near the axes need less than parts far from them.
+// A simultaneous traversal of both trees as in CpuShapePair. Two nodes must be apart by the displacement bound of the
+// second body's node. So parts near the axes need less distance than parts far from the axes.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -37,7 +37,8 @@ bool leavesApart(const CpuTree& a, const CpuNode& node_a, const CpuTree& b, cons
 }
 }  // namespace
 
-/// The joint nearest to the second body moves the points first. The next joint then finds them displaced by it.
+/// The joint nearest to the second body moves the points first. The next joint then moves the displaced points, and so
+/// on.
 double displacementBound(const std::vector<JointAxis>& axes, const Vector3d& center, double radius)
 {
   double displacement = 0.0;

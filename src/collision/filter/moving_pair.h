@@ -20,8 +20,8 @@ struct JointAxis
 /// Upper bound of the displacement of points of the second body relative to the first. `axes`: the joints between the
 /// bodies, in the order from the first body to the second. The points are in a ball around `center` for the middle
 /// values. A joint displaces a point by at most its travel times the point's distance from the axis (Schwarzer, Saha
-/// and Latombe, "Exact collision checking of robot paths", 2002). They take the distance of the whole body from the
-/// axis; this bound takes the distance of the points.
+/// and Latombe, "Exact collision checking of robot paths", 2002). Schwarzer et al. use the distance of the whole body
+/// from the axis; this bound uses the distance of the points.
 double displacementBound(const std::vector<JointAxis>& axes, const Eigen::Vector3d& center, double radius);
 
 /// Whether the surfaces of two bodies are proven apart for all joint values within the travel: each part of the second

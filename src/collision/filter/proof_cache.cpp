@@ -19,7 +19,7 @@ class NumberReader
  public:
   explicit NumberReader(const std::vector<char>& bytes) : bytes_(bytes) {}
 
-  /// The next number; after the last one, and for a number that is not finite, 0, and the content is wrong.
+  /// The next number. If there is none or it is not finite, returns 0, and the content counts as wrong.
   double next()
   {
     double number = 0.0;
@@ -46,7 +46,7 @@ class NumberReader
     return {x, y, next()};
   }
 
-  /// Whether all numbers were good, and the last one was read.
+  /// Whether all numbers were valid, and the last one has been read.
   bool isComplete() const { return is_good_ && at_ == bytes_.size(); }
 
  private:

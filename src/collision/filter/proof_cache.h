@@ -11,13 +11,13 @@
 
 namespace gpu_planning_scene::core
 {
-/// Proofs on disk, so that a second start makes none. A proof is used only if its whole key is right (see proof_key.h)
-/// and its content has the expected form; otherwise it is made again. Failures of the file system are no errors.
-/// Several processes may use the folder at the same time. Thread-safe.
+/// Proofs on disk, so that a second start makes none. A proof is used only if its whole key matches (see proof_key.h)
+/// and its content has the expected form; otherwise it is made again. If the file system fails, no proof is found or
+/// stored; this is no error. Several processes may use the folder at the same time. Thread-safe.
 class ProofCache
 {
  public:
-  /// Empty: holds nothing.
+  /// `folder`: empty: nothing is found or stored.
   explicit ProofCache(std::filesystem::path folder = {});
 
   /// The folder `proofs` in the user's cache folder. GPU_PLANNING_SCENE_PROOF_CACHE=off switches the cache off.

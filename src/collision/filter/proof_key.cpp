@@ -12,8 +12,8 @@
 #include "collision/filter/proof_sources.h"
 #include "collision/geometry/primitive_solid.h"
 
-// The bits of all numbers, one after the other. The numbers of variables are not in a key, so that a robot may number
-// its variables anew. Own method.
+// The bits of all numbers, one after the other. A key does not contain the numbers of variables, so it stays the same
+// if a robot numbers its variables in another way. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

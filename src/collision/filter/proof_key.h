@@ -11,8 +11,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// A hash of the bits of a shape, SHA-1. The project uses Boost already, and 160 bits are enough against chance;
-/// whoever can write into a user's cache need not find two shapes with the same hash.
+/// A hash of the bits of a shape, SHA-1. Boost has it, and 160 bits exclude equal hashes by chance. SHA-1 does not
+/// resist an attacker; but an attacker who can write into the cache can change the proofs anyway.
 using ShapeHash = std::array<char, 20>;
 
 /// `sagitta`: see Tessellation. Takes about 15 ms for 100,000 triangles.

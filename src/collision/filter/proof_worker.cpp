@@ -40,7 +40,7 @@ class ProofWorker
   ProofWorker(const ProofWorker&) = delete;
   ProofWorker& operator=(const ProofWorker&) = delete;
 
-  /// `makes`: missing proofs are made; otherwise there are proofs only if none is missing.
+  /// `makes` true: missing proofs are made. False: the job gets proofs only if none is missing.
   std::shared_ptr<ProofJob> add(std::shared_ptr<const RobotModel> robot,
                                 std::shared_ptr<const CollisionProblem> problem,
                                 std::shared_ptr<const CpuForest> forest, bool makes)
@@ -110,7 +110,7 @@ class ProofWorker
       }
       catch (const std::exception&)
       {
-        // The exact checker decides what is not proven.
+        // Without proofs, the exact checker decides all states.
       }
       task = {};  // the last references to large objects may end here, not under the lock
       lock.lock();

@@ -7,7 +7,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Proofs that are being loaded or made in the background. If nobody holds the job, the work is given up. Thread-safe.
+/// Proofs that are being loaded or made in the background. The work ends early if nobody holds the job any more.
+/// Thread-safe.
 class ProofJob
 {
  public:

@@ -19,7 +19,7 @@ bool isSame(const std::weak_ptr<T>& a, const std::weak_ptr<T>& b)
   return !a.owner_before(b) && !b.owner_before(a);
 }
 
-/// Calls `work` for the numbers below `count` on all cores, until `stopped` is true.
+/// Calls `work` for the numbers below `count` on all cores, until `stopped` returns true.
 template <class Work>
 void forEachUntil(const RobotProver::Stopped& stopped, std::size_t count, const Work& work)
 {
@@ -83,8 +83,8 @@ const RobotProver::KnownTable* RobotProver::known(const RobotModel& robot, const
   return found == tables_.end() ? nullptr : &*found;
 }
 
-/// Adds the tables of all self pairs to `found`. A carried object has a new pose after each grasp, so its tables would
-/// seldom be used again: it has none.
+/// Adds the tables of all self pairs to `found`. Attached objects have no tables: an object has a new pose after each
+/// grasp, so its tables would seldom be used again.
 void RobotProver::findTables(const RobotModel& robot, const CollisionProblem& problem, const CpuForest& forest,
                              const ProofCache& cache, Found& found)
 {

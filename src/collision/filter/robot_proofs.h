@@ -25,23 +25,23 @@ struct RobotProofs
   bool has_all_tables = false;                            ///< no table is still to be made
 };
 
-/// The proofs that there are.
+/// The proofs that are available.
 enum class ProofStage
 {
   None,
-  Covers,  ///< and the tables that were known
+  Covers,  ///< all covers, and the tables that needed no work
   All
 };
 
-/// Makes the proofs of consecutive problems, for any robots. Their parts are kept as long as their trees are in
+/// Makes the proofs of consecutive problems, for any robots. Covers and tables are kept as long as their trees are in
 /// use. One caller at a time.
 class RobotProver
 {
  public:
   /// Receives the proofs.
   using Publish = std::function<void(RobotProofs)>;
-  /// Called between the parts of the work, which take up to a second, by several threads. The work ends if it returns
-  /// true.
+  /// The work ends early if this function returns true. Several threads call it, between parts of the work that take up
+  /// to a second.
   using Stopped = std::function<bool()>;
 
   /// Publishes the proofs of a problem if all of them are known or in the cache; otherwise nothing. Takes milliseconds.
@@ -49,8 +49,8 @@ class RobotProver
             const ProofCache& cache, const Publish& publish, const Stopped& stopped);
 
   /// Takes proofs from the cache, makes the missing ones on all cores, and stores them in the cache. This takes seconds
-  /// for a new robot. Publishes as soon as there are all covers, with the tables that are known or in the cache, and
-  /// again when all tables are made.
+  /// for a new robot. Publishes as soon as it has all covers, with the tables that are known or in the cache. If tables
+  /// are missing, it publishes again when they are made.
   void prove(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
              const ProofCache& cache, const Publish& publish, const Stopped& stopped);
 
@@ -60,7 +60,7 @@ class RobotProver
     std::weak_ptr<const CpuTree> tree;
     ShapeHash hash;
     std::shared_ptr<const BallCover> cover;  // null: neither loaded nor made yet
-    std::optional<SolidDepth> depth;         // only where a table was made
+    std::optional<SolidDepth> depth;         // only if a cover or a table of the shape was made
   };
   /// One side of a pair with a table.
   struct Side
@@ -81,7 +81,7 @@ class RobotProver
     std::size_t pair;
     std::string key;
   };
-  /// The proofs that there are without making any.
+  /// The proofs that are known or in the cache.
   struct Found
   {
     RobotProofs proofs;

@@ -77,7 +77,7 @@ CubeGrid gridAround(const AlignedBox3d& box)
 }
 
 /// The winding number of all triangles around a point (Jacobson et al. 2013). It is near 1 inside a mesh that is closed
-/// but for cracks.
+/// except for cracks.
 double windingNumber(const std::vector<Triangle>& triangles, const Vector3d& point)
 {
   double sum = 0.0;
@@ -94,7 +94,7 @@ double windingNumber(const std::vector<Triangle>& triangles, const Vector3d& poi
   return sum / (2.0 * kPi);
 }
 
-/// Which cubes the surface enters.
+/// For each cube: whether the surface enters it.
 std::vector<bool> entered(const CubeGrid& grid, const std::vector<Triangle>& pieces)
 {
   std::vector<bool> is_entered(static_cast<std::size_t>(grid.count.prod()), false);
@@ -163,7 +163,7 @@ struct EmptyParts
   }
 };
 
-/// Which of the cubes that the surface does not enter are inside.
+/// Tells whether a cube is inside the shape, if the surface does not enter it.
 class InsideCubes
 {
  public:
@@ -178,7 +178,7 @@ class InsideCubes
     for (const Vector3i& cube : parts_.first)
     {
       const Vector3d center = grid.centerOf(cube);
-      // The triangles separate the parts. So a primitive's triangles decide, and not its true surface outside of them.
+      // The triangles separate the parts. So the triangles of a primitive decide, and not its true surface.
       inside_.push_back(solid && tree.mesh
                             ? isInsideSolid(tree, center, stack)
                             : (by_winding_ || !tree.mesh) && windingNumber(tree.triangles, center) > 0.5);

@@ -8,8 +8,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// The depth of points inside a shape, and points of the shape. With them, a shape is proven to penetrate another one:
-/// a point of the one is deep inside the other. Own method. Immutable.
+/// The depth of points inside a shape, and points of the shape. They prove that two shapes collide: a point of one
+/// shape is deep inside the other shape. Own method. Immutable.
 class SolidDepth
 {
  public:

@@ -9,10 +9,10 @@
 
 #include "model/coordinate_hash.h"
 
-// Merges vertices at equal places, finds the connected components with disjoint sets, and then sorts the edges by their
-// ends to find the edges that are not shared by exactly two triangles in opposite directions. Disjoint sets: R. E.
-// Tarjan, J. van Leeuwen: Worst-case analysis of set union algorithms. Journal of the ACM 31(2), 1984. The test of the
-// edges is the definition of a closed, consistently oriented surface.
+// Merges vertices at equal places and finds the connected components with disjoint sets. Then sorts the edges by their
+// ends and looks for unpaired edges. An edge is paired if exactly two triangles share it, in opposite directions.
+// Disjoint sets: R. E. Tarjan, J. van Leeuwen: Worst-case analysis of set union algorithms. Journal of the ACM 31(2),
+// 1984. The test of the edges is the definition of a closed, consistently oriented surface.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -55,9 +55,9 @@ enum class ConvexVerdict
   Undecided
 };
 
-/// Sets `nearest` to the nearest point of the difference that was found. Within and Apart are both proven: by a point
-/// of the difference within `distance` of the origin, or by a plane that separates the difference from the origin by
-/// more.
+/// Sets `nearest` to the nearest point of the difference that was found. The verdicts are proven. Within: a point of
+/// the difference is within `distance` of the origin. Apart: a plane at a larger distance separates the difference from
+/// the origin.
 ConvexVerdict decideByDescent(const MinkowskiDifference& difference, double distance, const Vector3d& guess,
                               Vector3d& nearest)
 {

@@ -21,6 +21,6 @@ class Convex
 /// Whether the distance between two convex sets is at most `distance` (above 0). Both sets have their coordinates in
 /// the same frame. The answer is right unless the true distance differs from `distance` by less than about 1e-14 times
 /// the sizes of the sets, or by less than 1e-12 m. `from_b` is a guess of the direction from b to a. It may have any
-/// length but 0; a good guess saves time.
+/// length except 0. A good guess saves time.
 bool convexWithin(const Convex& a, const Convex& b, double distance, const Eigen::Vector3d& from_b);
 }  // namespace gpu_planning_scene::core

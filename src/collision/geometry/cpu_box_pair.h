@@ -14,9 +14,8 @@ namespace gpu_planning_scene::core
 /// kParallel is large enough for the edge axes only if no face of the first box separates the boxes.
 struct BoxPair
 {
-  // Two edges that are parallel up to rounding have a cross product that is mostly rounding error; this term keeps such
-  // an axis from separating the boxes. It is larger than the deviation from orthonormal axes of nodes and link poses, a
-  // few 1e-15.
+  // The cross product of two nearly parallel edges is mostly rounding error. This term prevents such an axis from
+  // separating the boxes. It is larger than the deviation from orthonormal axes of nodes and link poses, a few 1e-15.
   static constexpr double kParallel = 1e-14;
 
   Eigen::Vector3d a;

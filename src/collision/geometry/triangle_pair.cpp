@@ -16,7 +16,7 @@ namespace
 {
 using Eigen::Vector3d;
 
-// A smaller squared length has lost digits to underflow, or will lose them. It proves nothing.
+// A smaller squared length may lose digits to underflow, so it proves nothing.
 constexpr double kUnderflow = 1e-280;
 
 double sizeOf(const Vector3d& v)
@@ -78,8 +78,8 @@ class PairProjections
     return squared > kUnderflow && gap > (distance + error_) * std::sqrt(squared);
   }
 
-  /// Decides by two points of the triangles that approach each other. Hit: the points are within `distance`. Apart: see
-  /// apartAlong, with the axis through the points. Each step adds the vertices that are next to each other along the
+  /// Moves a point of each triangle towards the other triangle. Hit: the points are within `distance`. Apart: see
+  /// apartAlong, with the axis through the points. Each step adds the vertices that are nearest to each other along the
   /// axis (Gilbert, "An Iterative Procedure for Computing the Minimum of a Quadratic Form on a Convex Set", 1966).
   TriangleVerdict approach(double distance) const
   {

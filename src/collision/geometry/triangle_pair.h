@@ -10,8 +10,8 @@ using Triangle = std::array<Eigen::Vector3d, 3>;
 
 /// The canonical decision: shapes with a required distance v collide if their distance is at most v + kSlack. The
 /// contract allows both answers for distances in (v, v + 1e-9 m], and this threshold lies in the middle. So errors
-/// below 0.5e-9 m break no promise. The rounding of poses and of the distances computed here stays below 1e-10 m within
-/// a kilometre.
+/// below 0.5e-9 m do not violate the contract. The rounding of poses and of the distances computed here stays below
+/// 1e-10 m within a kilometre.
 constexpr double kSlack = 0.5e-9;  // metres
 
 /// Whether two closed triangles with a required distance collide, i.e. whether their distance is at most `required` +

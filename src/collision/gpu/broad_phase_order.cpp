@@ -5,13 +5,14 @@
 #include "shader_constants.h"
 
 // Counts the reported collisions per query and sorts the queries by these counts. A new order is due when the number of
-// states has doubled, and at least every kMaxStatesPerOrder states. The rule of CpuTraversal's order (Simon and Kadane
-// 1975), for queries that cost the same.
+// states has doubled, and at least every kMaxStatesPerOrder states. This is the rule of CpuTraversal::learnOrder (Simon
+// and Kadane 1975) for queries of equal cost.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The first queries of a kind that have this share of the kind's hits run before the rest of the other kind.
+/// The first queries of each kind (self, world) run before all other queries. They have this share of the hits of their
+/// kind.
 constexpr double kHotShare = 0.9;
 constexpr std::size_t kMaxStatesPerOrder = std::size_t{1} << 20U;
 

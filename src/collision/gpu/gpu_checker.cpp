@@ -54,7 +54,7 @@ void GpuChecker::release()
           pairs_.reset();
         });
   }
-  catch (const DeviceLost&)  // a lost context reports this after each job; it has nothing left to release
+  catch (const DeviceLost&)  // a lost context throws after each job; there is nothing left to release
   {
   }
 }
@@ -165,7 +165,7 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
   {
     gl_.run([&] { pairs_->check(source, count, verdicts, margins); });
   }
-  catch (const OutOfDeviceMemory& error)  // OpenGL's state is undefined then; the caller's states are not the cause
+  catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state, through no fault of the caller
   {
     throw DeviceLost(error.what());
   }

@@ -13,7 +13,8 @@ float uploadedMargin(double margin)
 {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr float kLeast = std::numeric_limits<float>::min();  // a device may read a smaller number as 0
-  // Written so that NaN is above the range of a float. A conversion of such a number would be undefined.
+  // Written so that NaN also counts as above the range of a float. The conversion of a number above the range is
+  // undefined.
   if (!(margin <= static_cast<double>(std::numeric_limits<float>::max())))
     return kInfinity;
   if (margin <= 0.0)

@@ -12,8 +12,8 @@
 namespace gpu_planning_scene::core
 {
 /// The margin, in metres, that the device gets for `margin`. It is never smaller: the smallest float that is not below
-/// `margin` and that no device reads as 0. A negative margin becomes 0. A margin above the range of a float, or NaN,
-/// becomes infinity, with which nothing is proven free.
+/// `margin` and that no device reads as 0. A negative margin becomes 0. A margin that is NaN or above the range of a
+/// float becomes infinity; then no pair is proven free.
 float uploadedMargin(double margin);
 
 /// Margins of batches in GPU memory, see shaders/problem/margins.glsl. Used on the context's thread.

@@ -17,7 +17,8 @@ namespace
 /// The order of queries is learned from about this many states of a batch.
 constexpr std::size_t kMaxCounted = 16384;
 
-/// Wanted duration of a part. Some devices abort work that takes seconds, and other users of the device wait meanwhile.
+/// Wanted duration of a part. Some devices abort work that takes seconds, and other users of the device wait until a
+/// part has ended.
 constexpr double kPartSeconds = 0.05;
 constexpr std::size_t kFirstPart = 2048;
 

@@ -12,8 +12,8 @@ namespace
 // Short batches, because a call can only be stopped between two batches.
 constexpr BatchSize::Limits kBatch{0.05, 2048, 64, 65536};
 
-// First batch of samples of a motion: its ends and its middle. After each later round, kGrowth times as many samples
-// have been checked as before it.
+// The first round checks the ends and the middle of a motion. Each later round multiplies the number of checked samples
+// by kGrowth.
 constexpr std::size_t kFirstSamples = 3;
 constexpr std::size_t kGrowth = 4;
 

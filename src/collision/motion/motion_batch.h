@@ -27,7 +27,8 @@ class MotionBatch
   /// Adds a motion. `from` and `to` are rows of all variables; they must outlive this object.
   void add(const double* from, const double* to);
 
-  /// Checks the samples, a few of each motion first: most colliding motions collide at one of these.
+  /// Checks the samples. It begins with a few samples of each motion, because most colliding motions collide at one of
+  /// them.
   void checkSamples();
   /// Proves that the motions that are still valid are free between their samples.
   void prove();
@@ -54,7 +55,7 @@ class MotionBatch
     std::vector<JointTravel> travel;  // travel of each joint over the whole motion (rule Bound)
     double longest_travel = 0.0;      // largest length or angle in `travel`
     std::size_t samples = 0;          // number of samples that were checked
-    double limit = 1.0;               // the motion is not checked beyond this fraction any more
+    double limit = 1.0;               // the motion is no longer checked beyond this fraction
     double first_invalid = 1.0;
     bool valid = true;
     bool given_up = false;  // the call had no checks left for it
@@ -91,7 +92,7 @@ class MotionBatch
   /// each. After the call has been stopped, or when it has no checks left, `free` is false.
   template <class Visit>
   void checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit);
-  /// The number of the next intervals to check at once; 0: the call is stopped or has no checks left.
+  /// The number of intervals to check next, in one batch; 0: the call is stopped or has no checks left.
   std::size_t nextBatch(std::size_t wanted);
   std::vector<Interval> firstIntervals() const;
   std::vector<Interval> halves(const std::vector<Interval>& intervals);

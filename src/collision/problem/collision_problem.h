@@ -58,8 +58,8 @@ struct CollisionProblem
   double tolerance = 0.0;
   /// Whether the GPU may test primitives as solids: see Reductions.
   bool direct_primitives = true;
-  /// A pair of bodies, in ascending order, that collides in every state, if there is one. It is in none of the pairs
-  /// above.
+  /// If a pair of bodies collides in every state: this pair, in ascending order. The lists of pairs above do not
+  /// contain it.
   std::optional<BodyPair> always_colliding;
   /// If a variable of a state is outside its range here, pairs that are not in the problem may collide. Empty if no
   /// pair was left out because of joint limits.

@@ -35,7 +35,7 @@ TaskPrograms::TaskPrograms(std::string shader_folder, std::string name, std::str
 const Program& TaskPrograms::forTask(const TraversalTask& task)
 {
   const bool tolerant = task.tolerance > 0.0F && needs_ != Needs::NoTolerance;
-  // The code for solids always handles required distances.
+  // The programs for solids always handle required distances.
   const bool padded = task.padded && !task.solids && needs_ != Needs::NoPadding;
   auto& program = programs_[(task.solids ? 4 : 0) + (padded ? 2 : 0) + (tolerant ? 1 : 0)];
   if (!program)

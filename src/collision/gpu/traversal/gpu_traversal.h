@@ -43,8 +43,8 @@ struct TraversalTask
   std::uint32_t levels = 1;  ///< upper bound of the levels of a tree
 };
 
-/// The programs of one shader, one for each kind of task. A program is compiled when it is first needed. Separate
-/// programs pay off, because code that a task does not need halves the speed on llvmpipe even if it never runs.
+/// The programs of one shader, one for each kind of task. A program is compiled when it is first needed. The reason for
+/// separate programs: on llvmpipe, code that a task does not need halves the speed even if it never runs.
 class TaskPrograms
 {
  public:

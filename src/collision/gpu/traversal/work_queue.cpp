@@ -12,8 +12,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Usually one pass suffices. The others take the node pairs for which the stacks or the allowed iterations did not
-/// suffice.
+/// Usually one pass suffices. The other passes take the node pairs that are left when a stack is full or the iterations
+/// run out.
 constexpr std::uint32_t kPasses = 3;
 }  // namespace
 

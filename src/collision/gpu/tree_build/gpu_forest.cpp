@@ -18,8 +18,8 @@ constexpr std::size_t kTexel = TexelBuffer::kTexelBytes;
 static_assert(sizeof(Node) == NODE_TEXELS * kTexel, "the layout of shaders/problem/nodes.glsl");
 static_assert(kLeafTriangles == LEAF_TRIANGLES, "the leaves of Node, on the CPU and on the GPU");
 
-/// With at most this many primitives, no invocation of the prefix sums comes near 65535 iterations, after which
-/// llvmpipe ends it.
+/// llvmpipe ends an invocation after 65535 iterations. With at most this many primitives, the invocations of the prefix
+/// sums stay far below.
 constexpr std::size_t kMaxPrimitives = std::size_t{1} << 23;
 
 std::size_t divideUp(std::size_t value, std::size_t by)
@@ -192,7 +192,7 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   gather_program_.set(LOCATION_PRIMITIVE_COUNT, static_cast<std::uint32_t>(count));
   gather_program_.dispatch(groupsFor(count));
 
-  // One record more than rounds: it holds the number and the place of the final clusters.
+  // One more record than rounds: the last one holds the number and the place of the final clusters.
   rounds_.reserve(kUint * (BUILD_ROUNDS + 1) * ROUND_STRIDE);
   rounds_.clear();
   const std::size_t invocations = count == mesh_count ? 0 : count;

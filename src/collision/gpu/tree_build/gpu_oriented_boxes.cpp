@@ -12,8 +12,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// A dispatch over this many nodes takes less than 50 ms on llvmpipe. The second limit is for large nodes of up to
-/// FIT_MAX_TRIANGLES triangles.
+/// A dispatch over this many nodes takes less than 50 ms on llvmpipe. The second limit is for the large nodes that a
+/// work group fits.
 constexpr std::uint32_t kNodesAtOnce = 65536;
 constexpr std::uint32_t kLargeNodesAtOnce = 64;
 }  // namespace
