@@ -183,7 +183,7 @@ int main(int argc, char** argv)
                   "bodies that collide.\n"
                   "A summary goes to the standard error; its last line is\n"
                   "  N states, V valid, R states/s, DEVICE\n"
-                  "DEVICE is CPU if the CPU checked all batches because it is faster.\n"
+                  "DEVICE is CPU if the CPU checked all batches.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",
                   options(), run};
   return runTool(tool, argc, argv);

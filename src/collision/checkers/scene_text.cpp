@@ -108,7 +108,7 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
     lines.push_back("in collision in each of " + std::to_string(kSampledStates) +
                     " random states: " + pairList(scene, report.colliding_in_samples));
   if (report.cpu_below && *report.cpu_below != 0)
-    lines.push_back("checked on the CPU, because it is faster: " + batchesText(*report.cpu_below));
+    lines.push_back("checked on the CPU: " + batchesText(*report.cpu_below));
   if (!report.decided.empty())
     lines.push_back("states decided on the CPU: " + decidedText(report.decided));
   std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
