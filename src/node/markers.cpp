@@ -18,7 +18,7 @@ constexpr BodyColor kTreeColor{31, 119, 180, 255};
 constexpr std::size_t kTrianglesOfBox = 8;
 
 /// Colliding bodies are translucent, so that the contact points inside of them are visible.
-constexpr std::uint8_t kCollidingOpacity = 185;
+constexpr std::uint8_t kCollidingOpacity = 172;
 
 std::vector<std::size_t> triangleCounts(const PlanningScene& scene, std::size_t bodies)
 {

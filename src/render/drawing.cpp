@@ -195,8 +195,8 @@ Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen
 double contactDiameter(const PlanningScene& scene, const std::vector<Eigen::Isometry3d>& poses,
                        const std::vector<BodyPair>& colliding, const Eigen::AlignedBox3d& near)
 {
-  constexpr double kOfBody = 0.2;
-  constexpr double kLeast = 0.005;  // of the picture
+  constexpr double kOfBody = 0.3;
+  constexpr double kLeast = 0.006;  // of the picture
   constexpr double kMost = 0.014;
   const double size = near.diagonal().norm();
   double diameter = kMost * size;
