@@ -1,6 +1,7 @@
 """The launch file: what it clears, and the commands that it runs for a robot's description."""
 import os
 import pathlib
+import re
 import tempfile
 import unittest
 import unittest.mock
@@ -38,6 +39,16 @@ class LaunchFile(unittest.TestCase):
     def test_the_srdf_of_an_earlier_launch_does_not_stay(self):
         config = self.load("urdf_command:=echo <robot/>")
         self.assertEqual(config.params["/robot_description_semantic"].value, "")
+
+    def test_the_documents_print_no_argument_that_roslaunch_refuses(self):
+        """roslaunch refuses a second := in an argument."""
+        documents = [ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *LAUNCH_FILES.iterdir()]
+        for path in documents:
+            text = path.read_text(encoding="utf-8")
+            for argument in re.findall(r'\w+:="[^"]*"|\w+:=\S+', text):
+                self.assertEqual(1, argument.count(":="), f"{path.name}: {argument}")
+            # These are values of urdf_command and srdf_command.
+            self.assertEqual([], re.findall(r"['`]xacro FILE[^'`]*:=", text), path.name)
 
     def test_sets_no_description_that_it_was_not_given(self):
         config = self.load()
