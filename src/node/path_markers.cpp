@@ -185,8 +185,8 @@ Eigen::Vector3d exitOf(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& fr
   return from + exit * direction;
 }
 
-/// Labels of start and goal. A label inside a ghost would be hidden. So it stands outside the box around the ghost, in
-/// the direction of the last link.
+/// Labels of start and goal. A label inside a ghost would be hidden. So it stands outside the boxes around the first
+/// and the last ghost, in the direction of the last link.
 void addLabels(const PlanningScene& scene, const DensePath& path, const Group& group, ShapeMarkers& markers)
 {
   const std::vector<int> links = lastLinks(*scene.robot, group);
@@ -195,23 +195,28 @@ void addLabels(const PlanningScene& scene, const DensePath& path, const Group& g
   const auto tip = static_cast<std::size_t>(links.front());
   const std::vector<std::vector<Eigen::Isometry3d>> poses = {bodyPoses(scene, path.states.front().data()),
                                                              bodyPoses(scene, path.states.back().data())};
-  std::vector<Eigen::Vector3d> places;
-  std::vector<Eigen::Vector3d> directions;
+  std::vector<Eigen::AlignedBox3d> boxes;
   double size = 0.2;  // metres, even if the moved bodies are smaller
   for (const std::vector<Eigen::Isometry3d>& at : poses)
   {
-    const Eigen::Vector3d end = at[tip].translation();
-    Eigen::AlignedBox3d box(end);
+    boxes.emplace_back(at[tip].translation());
     for (const std::size_t body : movedBodies(scene, group, poses))
-      box.extend(bodyBounds(scene, static_cast<int>(body), at[body]));
-    size = std::max(size, box.diagonal().norm());
-    const Eigen::Vector3d outwards = end - box.center();
-    directions.push_back(outwards.norm() > kUnmoved ? outwards.normalized() : Eigen::Vector3d::UnitZ());
-    places.push_back(exitOf(box, end, directions.back()));
+      boxes.back().extend(bodyBounds(scene, static_cast<int>(body), at[body]));
+    size = std::max(size, boxes.back().diagonal().norm());
   }
   const double height = kLetterHeight * size;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    places[i] += height * directions[i];
+  const double margin = 2.0 * height;  // half the width of a label
+  std::vector<Eigen::Vector3d> places;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+  {
+    const Eigen::Vector3d end = poses[i][tip].translation();
+    const Eigen::Vector3d outwards = end - boxes[i].center();
+    const Eigen::Vector3d direction =
+        outwards.norm() > kUnmoved ? outwards.normalized() : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+    places.push_back(exitOf(boxes[i], end, direction) + margin * direction);
+    if (boxes[1 - i].contains(places.back()))
+      places.back() = exitOf(boxes[1 - i], places.back(), direction) + margin * direction;
+  }
   if ((places[1] - places[0]).norm() < 2.0 * height)
     places[1].z() += 2.0 * height;  // one label must not cover the other
   for (std::size_t i = 0; i < places.size(); ++i)
