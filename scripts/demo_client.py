@@ -77,13 +77,17 @@ def summary(response, count, seconds):
     pairs = collections.Counter(
         tuple(sorted(pair)) for pair, free in zip(zip(response.body_1, response.body_2), valid) if not free
     )
+    free = numpy.count_nonzero(valid)
     lines = [
-        f"valid: {100 * numpy.count_nonzero(valid) / count:.1f} %",
+        f"valid: {free} of {count} states ({100 * free / count:.1f} %)",
         f"rate: {count / response.seconds:.0f} states/s"
         f" ({response.seconds:.3f} s in the checker, {seconds:.3f} s for the whole ROS call; median of 5)",
-        "commonest colliding pairs:" if pairs else "no state is in collision",
+        "states in collision, by the pair that was found first:" if pairs else "no state is in collision",
     ]
-    return lines + [f"  {first} - {second}: {number} states" for (first, second), number in pairs.most_common(5)]
+    commonest = pairs.most_common(5)
+    lines += [f"  {first} - {second}: {number} states" for (first, second), number in commonest]
+    others = sum(pairs.values()) - sum(number for _, number in commonest)
+    return lines + ([f"  other pairs: {others} states"] if others else [])
 
 
 def call(arguments):

@@ -2,6 +2,7 @@
 """Starts RViz with the scene of a running planning_scene_node: the robot, the objects, contacts and planned paths."""
 import argparse
 import math
+import os
 import pathlib
 import shutil
 import subprocess
@@ -134,6 +135,26 @@ def announce(frame, child, rotation):
     return publisher
 
 
+def environment_of_rviz(environment):
+    """The environment for RViz. RViz draws through X11 only, and ends at its start if Qt chooses Wayland. None without
+    an X11 screen."""
+    if not environment.get("DISPLAY"):
+        return None
+    platform = environment.get("QT_QPA_PLATFORM", "wayland")
+    return dict(environment, QT_QPA_PLATFORM="xcb" if "wayland" in platform else platform)
+
+
+def fault_of(status):
+    """A line about RViz's exit status; empty if RViz was closed."""
+    if status == 0:
+        return ""
+    how = f"was ended by signal {-status}" if status < 0 else f"ended with exit code {status}"
+    return (
+        f"show_scene.py: RViz {how}; its messages are above. If it cannot draw with the graphics driver, run the "
+        "command again after: export LIBGL_ALWAYS_SOFTWARE=1"
+    )
+
+
 def main():
     import rospkg
     import rospy
@@ -150,6 +171,14 @@ def main():
         parser.error(f"--up: '{arguments.up}' is not a direction X,Y,Z")
     if not shutil.which("rviz"):
         print("show_scene.py: RViz is missing; install the package rviz (Debian) or ros-noetic-rviz", file=sys.stderr)
+        return 1
+    environment = environment_of_rviz(os.environ)
+    if environment is None:
+        print(
+            "show_scene.py: there is no screen for RViz, because DISPLAY is not set; start it in a terminal of a "
+            "desktop or with ssh -X, or leave out RViz (rviz:=false)",
+            file=sys.stderr,
+        )
         return 1
     rospy.init_node("show_scene", anonymous=True)
     node = rospy.resolve_name(arguments.node)
@@ -168,9 +197,11 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "scene.rviz")
         file.write_text(yaml.safe_dump(made, sort_keys=False))
-        with subprocess.Popen(["rviz", "-d", str(file)]) as rviz:
+        with subprocess.Popen(["rviz", "-d", str(file)], env=environment) as rviz:
             rospy.on_shutdown(rviz.terminate)
             status = rviz.wait()
+    if not rospy.is_shutdown() and fault_of(status):
+        print(fault_of(status), file=sys.stderr)
     frames.unregister()
     return status
 

@@ -1,8 +1,13 @@
-// plan_a_motion URDF SRDF GROUP START GOAL [SCENE]: plans a path of a planning group between two states, and prints it.
+// plan_a_motion [--package NAME=FOLDER] URDF SRDF GROUP START GOAL [SCENE]: plans a path of a planning group between
+// two states, and prints it.
+// --package: the folder of package://NAME/..., can be repeated. Packages on ROS_PACKAGE_PATH need no option.
 // START and GOAL: one value per variable of the group, "0,0.5,-1", or the name of a state of the SRDF, "ready".
-// SCENE: a scene file with the objects around the robot. Meshes of package://NAME/... are found on ROS_PACKAGE_PATH.
+// SCENE: a scene file with the objects around the robot.
 #include <iostream>
+#include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <ompl/geometric/SimpleSetup.h>
 #include <ompl/util/Console.h>
@@ -14,6 +19,33 @@
 #include <gpu_planning_scene/planning/state_validity_checker.h>
 
 using namespace gpu_planning_scene::core;
+
+struct Arguments
+{
+  std::map<std::string, std::string> packages;  ///< folders by name
+  std::vector<std::string> words;               ///< the arguments without --package
+};
+
+Arguments argumentsFrom(int argc, char** argv)
+{
+  Arguments arguments;
+  for (int i = 1; i < argc; ++i)
+  {
+    if (argv[i] != std::string("--package"))
+    {
+      arguments.words.push_back(argv[i]);
+      continue;
+    }
+    const std::string text = ++i < argc ? argv[i] : "";
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      throw Error("--package: '" + text + "' is not NAME=FOLDER");
+    arguments.packages[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  if (arguments.words.size() != 5 && arguments.words.size() != 6)
+    throw Error("usage: plan_a_motion [--package NAME=FOLDER] URDF SRDF GROUP START GOAL [SCENE]");
+  return arguments;
+}
 
 /// Writes the state that `text` describes into `row`, which has a value for each variable of the robot.
 void setState(const std::string& text, const GroupStateSpace& space, std::vector<double>& row)
@@ -40,22 +72,39 @@ void setState(const std::string& text, const GroupStateSpace& space, std::vector
     row[space.variables()[i]] = values[i];
 }
 
+/// Throws Error if the state is outside the joint limits of the group or in collision. OMPL would say only that it is
+/// invalid. `name`: of the state, for the message.
+void requireValid(const std::string& name, const std::vector<double>& row, const GroupStateSpace& space,
+                  const PlanningScene& scene, StateChecker& checker)
+{
+  for (const int index : space.variables())
+    if (const Variable& variable = space.robot()->variables()[index];
+        variable.bounded && (row[index] < variable.lower || row[index] > variable.upper))
+      throw Error("the " + name + " is outside the joint limits: " + variable.name + " is " +
+                  std::to_string(row[index]) + ", from " + std::to_string(variable.lower) + " to " +
+                  std::to_string(variable.upper) + " is allowed");
+  const BatchResult result = checker.check(row.data(), 1);
+  if (!result.valid[0])
+    throw Error("the " + name + " is in collision: " + scene.bodyName(result.colliding[0][0]) + " and " +
+                scene.bodyName(result.colliding[0][1]));
+}
+
 int main(int argc, char** argv)
 try
 {
-  if (argc != 6 && argc != 7)
-    throw Error("usage: plan_a_motion URDF SRDF GROUP START GOAL [SCENE]");
-  ompl::msg::setLogLevel(ompl::msg::LOG_WARN);               // its information would stand between the waypoints
-  const PackageResolver packages = packageResolver({}, "");  // finds packages on ROS_PACKAGE_PATH
+  const Arguments arguments = argumentsFrom(argc, argv);
+  const std::vector<std::string>& words = arguments.words;
+  ompl::msg::setLogLevel(ompl::msg::LOG_WARN);  // its information would stand between the waypoints
+  const PackageResolver packages = packageResolver(arguments.packages, "name its folder (--package NAME=FOLDER)");
   RobotModelOptions options;
   options.packages = packages;
-  const auto robot = RobotModel::fromFiles(argv[1], argv[2], options);
-  const auto scene =
-      std::make_shared<PlanningScene>(argc == 7 ? loadSceneFile(argv[6], robot, packages) : PlanningScene(robot));
+  const auto robot = RobotModel::fromFiles(words[0], words[1], options);
+  const auto scene = std::make_shared<PlanningScene>(words.size() == 6 ? loadSceneFile(words[5], robot, packages)
+                                                                       : PlanningScene(robot));
   if (scene->current_state.empty())
     scene->current_state = robot->defaultState();  // the variables outside the group
 
-  const auto space = std::make_shared<GroupStateSpace>(robot, argv[3]);
+  const auto space = std::make_shared<GroupStateSpace>(robot, words[2]);
   ompl::geometric::SimpleSetup setup(space);
   const auto information = setup.getSpaceInformation();
   const auto checker = std::make_shared<BatchChecker>(scene, BatchCheckerOptions());
@@ -65,9 +114,11 @@ try
 
   ompl::base::ScopedState<> start(space), goal(space);
   std::vector<double> row = scene->current_state;
-  setState(argv[4], *space, row);
+  setState(words[3], *space, row);
+  requireValid("start", row, *space, *scene, *checker);
   space->copyFromRow(row.data(), start.get());
-  setState(argv[5], *space, row);
+  setState(words[4], *space, row);
+  requireValid("goal", row, *space, *scene, *checker);
   space->copyFromRow(row.data(), goal.get());
   setup.setStartAndGoalStates(start, goal);
   const ompl::base::PlannerStatus status = setup.solve(10.0);

@@ -18,7 +18,7 @@ constexpr BodyColor kTreeColor{31, 119, 180, 255};
 constexpr std::size_t kTrianglesOfBox = 8;
 
 /// Colliding bodies are translucent, so that the contact points inside of them are visible.
-constexpr std::uint8_t kCollidingOpacity = 185;
+constexpr std::uint8_t kCollidingOpacity = 172;
 
 std::vector<std::size_t> triangleCounts(const PlanningScene& scene, std::size_t bodies)
 {
@@ -61,13 +61,13 @@ class MarkerMaker
     drawn_ = markers_.trianglesDrawn();
   }
 
-  void addContacts(const std::vector<Eigen::Vector3d>& points)
+  void addContacts(const std::vector<BodyPair>& colliding, const std::vector<Eigen::Vector3d>& points)
   {
     if (points.empty())
       return;
     markers_.begin("contacts", kContactColor);
     Marker& marker = markers_.add(Marker::SPHERE_LIST, Eigen::Isometry3d::Identity());
-    setScale(marker, Eigen::Vector3d::Constant(0.02 * near_.diagonal().norm()));
+    setScale(marker, Eigen::Vector3d::Constant(contactDiameter(scene_, poses_, colliding, near_)));
     for (const Eigen::Vector3d& point : points)
       marker.points.push_back(toPoint(point));
   }
@@ -162,7 +162,7 @@ visualization_msgs::MarkerArray markersOf(const PlanningScene& scene, const doub
 {
   MarkerMaker maker(scene, state, options);
   maker.addBodies(bodiesOf(colliding));
-  maker.addContacts(contact_points);
+  maker.addContacts(colliding, contact_points);
   if (options.tree_level >= 0)
     maker.addTreeLevel();
   return maker.take();

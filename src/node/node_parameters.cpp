@@ -44,6 +44,9 @@ void addFolder(const std::string& name, const std::string& folder, std::map<std:
   const std::size_t begin = folder.find_first_not_of(' ');
   if (name.empty() || begin == std::string::npos)
     throw Error("parameter ~packages: a package without a name or a folder");
+  if (folder[begin] != '/')
+    throw Error("parameter ~packages: the folder '" + folder.substr(begin) + "' of package '" + name +
+                "' is not an absolute path");
   folders[name] = folder.substr(begin);
 }
 
@@ -84,6 +87,16 @@ std::map<std::string, std::string> packageFolders(const XmlRpcValue& value)
   return folders;
 }
 
+namespace
+{
+/// The name of a robot description in messages: the file or command that the launch file names, or the parameter.
+std::string sourceOf(const ros::NodeHandle& own, const std::string& source_parameter, const std::string& parameter)
+{
+  const std::string source = textParameter(own, source_parameter, "");
+  return source.empty() ? "parameter " + parameter : source;
+}
+}  // namespace
+
 PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneDefaults& defaults,
                                   std::vector<std::string>* warnings)
 {
@@ -97,14 +110,16 @@ PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHa
   options.unbounded_translation = lengthParameter(own, "unbounded_translation", options.unbounded_translation);
   options.meshes = meshAccessFromParameters(own);
 
-  options.urdf_name = searchedParameter(node, "robot_description");
-  options.srdf_name = searchedParameter(node, "robot_description_semantic");
-  const std::string urdf = textParameter(node, options.urdf_name, "");
+  const std::string urdf_parameter = searchedParameter(node, "robot_description");
+  const std::string srdf_parameter = searchedParameter(node, "robot_description_semantic");
+  options.urdf_name = sourceOf(own, "urdf_source", urdf_parameter);
+  options.srdf_name = sourceOf(own, "srdf_source", srdf_parameter);
+  const std::string urdf = textParameter(node, urdf_parameter, "");
   if (urdf.empty())
-    throw Error("parameter " + options.urdf_name +
+    throw Error("parameter " + urdf_parameter +
                 " is not set; load the robot's URDF there, or give urdf:=FILE to the launch file");
-  const auto robot = RobotModel::fromXml(urdf, textParameter(node, options.srdf_name, ""), options, warnings);
-  defaults = defaultsFromParameters(node, options.urdf_name, *robot, warnings);
+  const auto robot = RobotModel::fromXml(urdf, textParameter(node, srdf_parameter, ""), options, warnings);
+  defaults = defaultsFromParameters(node, urdf_parameter, *robot, warnings);
 
   const std::string scene_file = textParameter(own, "scene", "");
   if (!scene_file.empty() && scene_file[0] != '/' && scene_file.find("://") == std::string::npos)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "gpu_planning_scene/interpolation.h"
@@ -25,7 +26,9 @@ constexpr BodyColor kStartColor{70, 120, 255, 110};
 constexpr BodyColor kGoalColor{50, 210, 100, 110};
 constexpr std::uint8_t kFaint = 40;     // opacity of the ghosts between start and goal
 constexpr double kUnmoved = 1e-3;       // metres, or entries of a rotation
-constexpr double kLetterHeight = 0.06;  // metres
+constexpr double kLetterHeight = 0.05;  // of the size of the moved bodies
+constexpr BodyColor kStartText{20, 60, 200, 255};
+constexpr BodyColor kGoalText{0, 120, 40, 255};
 constexpr BodyColor kLineColor{0, 204, 51, 255};
 constexpr BodyColor kPointColor{0, 204, 204, 255};
 
@@ -170,17 +173,60 @@ void addLines(const RobotModel& robot, const DensePath& path, const Group& group
   for (const std::size_t waypoint : path.waypoints)
     for (const int link : links)
       points.points.push_back(point_of(waypoint, link));
-  const auto label = [&](const char* text, std::size_t state, const BodyColor& color)
+}
+
+/// The point on the ray at which it leaves the box. `from`: inside the box.
+Eigen::Vector3d exitOf(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& from, const Eigen::Vector3d& direction)
+{
+  double exit = std::numeric_limits<double>::max();
+  for (int axis = 0; axis < 3; ++axis)
+    if (direction[axis] != 0.0)
+      exit = std::min(exit, ((direction[axis] > 0.0 ? box.max() : box.min())[axis] - from[axis]) / direction[axis]);
+  return from + exit * direction;
+}
+
+/// Labels of start and goal. A label inside a ghost would be hidden. So it stands outside the boxes around the first
+/// and the last ghost, in the direction of the last link.
+void addLabels(const PlanningScene& scene, const DensePath& path, const Group& group, ShapeMarkers& markers)
+{
+  const std::vector<int> links = lastLinks(*scene.robot, group);
+  if (links.empty())
+    return;
+  const auto tip = static_cast<std::size_t>(links.front());
+  const std::vector<std::vector<Eigen::Isometry3d>> poses = {bodyPoses(scene, path.states.front().data()),
+                                                             bodyPoses(scene, path.states.back().data())};
+  std::vector<Eigen::AlignedBox3d> boxes;
+  double size = 0.2;  // metres, even if the moved bodies are smaller
+  for (const std::vector<Eigen::Isometry3d>& at : poses)
   {
-    markers.begin("labels", {color[0], color[1], color[2], 255});
+    boxes.emplace_back(at[tip].translation());
+    for (const std::size_t body : movedBodies(scene, group, poses))
+      boxes.back().extend(bodyBounds(scene, static_cast<int>(body), at[body]));
+    size = std::max(size, boxes.back().diagonal().norm());
+  }
+  const double height = kLetterHeight * size;
+  const double margin = 2.0 * height;  // half the width of a label
+  std::vector<Eigen::Vector3d> places;
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+  {
+    const Eigen::Vector3d end = poses[i][tip].translation();
+    const Eigen::Vector3d outwards = end - boxes[i].center();
+    const Eigen::Vector3d direction =
+        outwards.norm() > kUnmoved ? outwards.normalized() : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+    places.push_back(exitOf(boxes[i], end, direction) + margin * direction);
+    if (boxes[1 - i].contains(places.back()))
+      places.back() = exitOf(boxes[1 - i], places.back(), direction) + margin * direction;
+  }
+  if ((places[1] - places[0]).norm() < 2.0 * height)
+    places[1].z() += 2.0 * height;  // one label must not cover the other
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    markers.begin("labels", i == 0 ? kStartText : kGoalText);
     Marker& marker = markers.add(Marker::TEXT_VIEW_FACING, Eigen::Isometry3d::Identity());
-    marker.pose.position = point_of(state, links.front());
-    marker.pose.position.z += kLetterHeight;
-    marker.scale.z = kLetterHeight;
-    marker.text = text;
-  };
-  label("start", 0, kStartColor);
-  label("goal", path.states.size() - 1, kGoalColor);
+    marker.pose.position = toPoint(places[i]);
+    marker.scale.z = height;
+    marker.text = i == 0 ? "start" : "goal";
+  }
 }
 }  // namespace
 
@@ -196,6 +242,7 @@ visualization_msgs::MarkerArray pathMarkers(const PlanningScene& scene,
   const DensePath path = densePathOf(*scene.robot, waypoints);
   addGhosts(scene, path, group, max_triangles, markers);
   addLines(*scene.robot, path, group, markers);
+  addLabels(scene, path, group, markers);
   return markers.take();
 }
 }  // namespace gpu_planning_scene::core

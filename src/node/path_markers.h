@@ -15,7 +15,7 @@ namespace gpu_planning_scene::core
 ///   are drawn as boxes.
 /// - path: for each end of the group, for example a hand, a line along its path.
 /// - waypoints: a point at each waypoint of these lines.
-/// - labels: "start" and "goal" at the ends of the first line.
+/// - labels: "start" and "goal" near the ends of the first line, outside the boxes around the first and last ghost.
 /// `waypoints`: rows of all variables.
 visualization_msgs::MarkerArray pathMarkers(const PlanningScene& scene,
                                             const std::vector<std::vector<double>>& waypoints, const Group& group,

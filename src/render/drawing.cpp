@@ -192,6 +192,20 @@ Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen
   return bounds;
 }
 
+double contactDiameter(const PlanningScene& scene, const std::vector<Eigen::Isometry3d>& poses,
+                       const std::vector<BodyPair>& colliding, const Eigen::AlignedBox3d& near)
+{
+  constexpr double kOfBody = 0.3;
+  constexpr double kLeast = 0.006;  // of the picture
+  constexpr double kMost = 0.014;
+  const double size = near.diagonal().norm();
+  double diameter = kMost * size;
+  for (const std::size_t body : bodiesOf(colliding))
+    if (const Eigen::AlignedBox3d bounds = bodyBounds(scene, static_cast<int>(body), poses[body]); !bounds.isEmpty())
+      diameter = std::min(diameter, kOfBody * bounds.diagonal().norm());
+  return std::max(diameter, kLeast * size);
+}
+
 Drawing drawingOf(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
                   const std::vector<Eigen::Vector3d>& contact_points, const Eigen::Vector3d& up)
 {
@@ -223,7 +237,7 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
       drawing.objects_end = drawing.vertices.size();
   }
   drawing.bodies_end = drawing.vertices.size();
-  const Shape dot = Sphere{0.007 * near.diagonal().norm()};
+  const Shape dot = Sphere{0.5 * contactDiameter(scene, poses, colliding, near)};
   for (const Eigen::Vector3d& point : contact_points)
     painter.addMesh(*tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContactColor);
   drawing.contacts_end = drawing.vertices.size();

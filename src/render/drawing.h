@@ -44,6 +44,11 @@ std::vector<Eigen::Isometry3d> bodyPoses(const PlanningScene& scene, const doubl
 /// The bounding box of a body's shapes in the planning frame. Half-spaces have no bounding box.
 Eigen::AlignedBox3d bodyBounds(const PlanningScene& scene, int body, const Eigen::Isometry3d& pose);
 
+/// The diameter of the spheres at contact points, in metres. A sphere is small beside the smallest colliding body, for
+/// example a finger, but still visible in a picture of `near`. `poses`: of all bodies.
+double contactDiameter(const PlanningScene& scene, const std::vector<Eigen::Isometry3d>& poses,
+                       const std::vector<BodyPair>& colliding, const Eigen::AlignedBox3d& near);
+
 /// A disc that shows where the scene's lowest point is. It is not part of the scene.
 struct Floor
 {

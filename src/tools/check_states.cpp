@@ -105,17 +105,14 @@ void printSummary(const PlanningScene& scene, const SceneReport& report, const S
   for (const std::string& text : describeScene(scene, report, device))
     std::cerr << text << "\n";
   std::cerr << "states: " << source.text() << "\n";
-  std::snprintf(line, sizeof line, "valid: %.1f %%\n", 100.0 * static_cast<double>(valid) / static_cast<double>(count));
-  std::cerr << line;
+  std::snprintf(line, sizeof line, " (%.1f %%)\n", 100.0 * static_cast<double>(valid) / static_cast<double>(count));
+  std::cerr << "valid: " << valid << " of " << counted(count, "state") << line;
   if (result.undecided_states != 0)
     std::cerr << "decided by the exact checker: " << counted(result.undecided_states, "state") << "\n";
   PairCounts pairs;
   pairs.add(result);
-  const auto commonest = pairs.commonest(scene, 5);
-  if (!commonest.empty())
-    std::cerr << "commonest colliding pairs:\n";
-  for (const std::string& pair : commonest)
-    std::cerr << "  " << pair << "\n";
+  for (const std::string& text : pairs.describe(scene, 5))
+    std::cerr << text << "\n";
   const double rate = static_cast<double>(count) / std::max(result.seconds, 1e-9);
   std::snprintf(line, sizeof line, ", %zu valid, %.0f states/s, ", valid, rate);
   const bool all_on_cpu = report.cpu_below && std::min(count, max_batch) < *report.cpu_below;

@@ -1,5 +1,6 @@
 """The example plan_a_motion plans for any group of any robot, between values and named states."""
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -29,9 +30,16 @@ class PlanAMotion(unittest.TestCase):
         self.assertEqual((rows[0], rows[-1]), ([-1.0, 0.8], [1.0, 0.8]))
 
     def test_a_goal_inside_an_object_of_the_scene_is_not_reached(self):
-        answer = self.slider("drive", "0,0", "1,0", f"{SOURCE}/test/node/wall_scene.yaml")
+        for name, start, goal in (("goal", "0,0", "1,0"), ("start", "1,0", "0,0")):
+            answer = self.slider("drive", start, goal, f"{SOURCE}/test/node/wall_scene.yaml")
+            self.assertEqual(answer.returncode, 1)
+            self.assertRegex(answer.stderr,
+                             rf"^plan_a_motion: the {name} is in collision: (cart and wall|wall and cart)\n$")
+
+    def test_a_state_outside_the_joint_limits_is_named_with_the_limits(self):
+        answer = self.slider("drive", "0,0", "90,0")
         self.assertEqual(answer.returncode, 1)
-        self.assertIn("plan_a_motion: no path was found within 10 s: Invalid goal", answer.stderr)
+        self.assertRegex(answer.stderr, r"^plan_a_motion: the goal is outside the joint limits: slide is 90.0+, from -")
 
     def test_a_wrong_number_of_values_is_named_with_the_variables(self):
         answer = self.slider("drive", "-1", "1,0")
@@ -53,8 +61,24 @@ class PlanAMotion(unittest.TestCase):
             urdf.flush()
             answer = self.plan(urdf.name, f"{SOURCE}/test/scene/slider.srdf", "drive", "left", "right")
         self.assertEqual(answer.returncode, 1)
-        self.assertTrue(answer.stderr.endswith(
-            "the folder of package 'crane' is not known; put the package on ROS_PACKAGE_PATH\n"), answer.stderr)
+        self.assertIn("--package crane=FOLDER", answer.stderr)
+        self.assertIn("ROS_PACKAGE_PATH", answer.stderr)
+
+    def test_a_package_can_be_given(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n"
+            pathlib.Path(folder, "cart.obj").write_text(mesh, encoding="utf-8")
+            urdf = pathlib.Path(SOURCE, "test", "scene", "slider.urdf").read_text(encoding="utf-8")
+            shape = '<mesh filename="package://crane/cart.obj"/>'
+            urdf = re.sub(r"<geometry>.*?</geometry>", f"<geometry>{shape}</geometry>", urdf, count=1)
+            self.assertIn(shape, urdf)
+            path = pathlib.Path(folder, "slider.urdf")
+            path.write_text(urdf, encoding="utf-8")
+            srdf = f"{SOURCE}/test/scene/slider.srdf"
+            rows = self.rows(self.plan("--package", f"crane={folder}", str(path), srdf, "drive", "left", "right"))
+            self.assertEqual((rows[0][0], rows[-1][0]), (-1.0, 1.0))
+            answer = self.plan("--package", "crane", str(path), srdf, "drive", "left", "right")
+            self.assertEqual("plan_a_motion: --package: 'crane' is not NAME=FOLDER\n", answer.stderr)
 
     def test_plans_for_the_seven_joints_of_panda(self):
         resources = pathlib.Path(SHARED) / "moveit" / "resources"

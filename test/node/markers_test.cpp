@@ -135,6 +135,24 @@ TEST(Markers, CollidingBodiesAreRedAndContactsShown)
   EXPECT_GT(red_of("robot"), red_of("objects") + 0.2F) << "the robot stands out";
 }
 
+TEST(Markers, ContactsAreSmallBesideASmallBody)
+{
+  PlanningScene scene = fullScene();
+  const int cart = scene.robot->linkIndex("cart");
+  const int ball = static_cast<int>(scene.robot->links().size()) + 2;
+  const double usual = markers(scene, {{cart, ball}}, {{0.1, 0.2, 0.3}}).markers.back().scale.x;
+  WorldObject finger;
+  finger.id = "finger";
+  finger.shapes.push_back({Sphere{0.005}, Eigen::Isometry3d::Identity()});
+  scene.objects.push_back(finger);
+  const int last = static_cast<int>(scene.robot->links().size() + scene.objects.size()) - 1;
+  const double small = markers(scene, {{cart, last}}, {{0.1, 0.2, 0.3}}).markers.back().scale.x;
+  EXPECT_LT(small, 0.8 * usual);
+  EXPECT_LT(small, 0.6 * 2 * 0.005) << "the finger is visible behind it";
+  scene.objects.back().shapes[0].shape = Sphere{1e-4};
+  EXPECT_GT(markers(scene, {{cart, last}}, {{0.1, 0.2, 0.3}}).markers.back().scale.x, 0.2 * usual) << "visible";
+}
+
 TEST(Markers, BodiesHaveTheColoursOfTheScene)
 {
   PlanningScene scene = fullScene();

@@ -192,7 +192,9 @@ TEST_F(Node, DoesNotStartOnWhatItCannotUse)
 {
   ros::param::set("/broken_description", "<robot name=");
   ros::param::set("/number_description", 5.5);
-  expectNoStart({"robot_description:=broken_description"}, "broken_description");
+  expectNoStart({"robot_description:=broken_description"}, "parameter /broken_description:1: malformed XML");
+  expectNoStart({"robot_description:=broken_description", "_urdf_source:=/cell/robot.urdf"},
+                "/cell/robot.urdf:1: malformed XML");
   expectNoStart({"robot_description:=number_description"}, "number_description is not a string");
   expectNoStart({"robot_description:=missing_description"}, "missing_description is not set");
   expectNoStart({"_scene:=/no/such/scene.yaml"}, "/no/such/scene.yaml");

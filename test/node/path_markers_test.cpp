@@ -1,12 +1,14 @@
 // The markers of a path for RViz. No ROS master is needed.
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "model/model_testing.h"
 #include "node/path_markers.h"
+#include "render/drawing.h"
 #include "scene/slider_robot.h"
 
 namespace gpu_planning_scene::core
@@ -151,6 +153,48 @@ TEST(PathMarkers, FingersOfAHandShareOneLine)
   EXPECT_EQ(std::count_if(array.markers.begin(), array.markers.end(),
                           [](const Marker& marker) { return marker.ns == "path"; }),
             1);
+}
+
+TEST(PathMarkers, LabelsAreOutsideOfTheGhosts)
+{
+  const PlanningScene scene = carryingScene();
+  std::vector<Marker> labels;
+  for (const Marker& marker : pathMarkers(scene, path(scene), groupOf(scene, "drive"), kManyTriangles).markers)
+    if (marker.ns == "labels")
+      labels.push_back(marker);
+  ASSERT_EQ(2u, labels.size());
+  EXPECT_EQ("start", labels[0].text);
+  EXPECT_EQ("goal", labels[1].text);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    const std::vector<double> state = path(scene)[2 * i];
+    const auto poses = bodyPoses(scene, state.data());
+    const auto& place = labels[i].pose.position;
+    const Eigen::Vector3d point(place.x, place.y, place.z);
+    for (const char* name : {"cart", "pole"})
+    {
+      const int link = scene.robot->linkIndex(name);
+      EXPECT_FALSE(bodyBounds(scene, link, poses[static_cast<std::size_t>(link)]).contains(point)) << labels[i].text;
+    }
+    EXPECT_GT(labels[i].scale.z, 0.02);
+    EXPECT_LT((point - poses[static_cast<std::size_t>(scene.robot->linkIndex("pole"))].translation()).norm(), 3.0)
+        << "near the robot";
+  }
+}
+
+TEST(PathMarkers, LabelsOfAMotionThatHardlyMovesTheRobotStandApart)
+{
+  const PlanningScene scene = carryingScene();
+  std::vector<std::vector<double>> waypoints = path(scene);
+  waypoints.resize(1);
+  waypoints.push_back(waypoints[0]);
+  waypoints[1][static_cast<std::size_t>(scene.robot->variableIndex("slide"))] += 0.01;
+  std::vector<Marker> labels;
+  for (const Marker& marker : pathMarkers(scene, waypoints, groupOf(scene, "drive"), kManyTriangles).markers)
+    if (marker.ns == "labels")
+      labels.push_back(marker);
+  ASSERT_EQ(2u, labels.size());
+  EXPECT_GT(std::abs(labels[1].pose.position.z - labels[0].pose.position.z), 1.5 * labels[0].scale.z);
 }
 
 TEST(PathMarkers, AnEmptyPathOnlyDeletesTheLastOne)

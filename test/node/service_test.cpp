@@ -705,6 +705,9 @@ TEST(PackagesParameter, AnythingElseIsRefused)
   XmlRpc::XmlRpcValue map;
   map["arm"] = 5;
   EXPECT_NE(std::string::npos, errorOf([&] { packageFolders(map); }).find("'arm' is not a string"));
+  map["arm"] = "robots/arm";
+  EXPECT_NE(std::string::npos,
+            errorOf([&] { packageFolders(map); }).find("'robots/arm' of package 'arm' is not an absolute path"));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

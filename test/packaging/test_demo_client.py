@@ -72,9 +72,18 @@ class Summary(unittest.TestCase):
         Response = collections.namedtuple("Response", "valid body_1 body_2 seconds")
         response = Response(bytes([1, 0, 0, 0]), ["", "a", "b", "a"], ["", "b", "a", "c"], 0.5)
         lines = demo_client.summary(response, 4, 0.75)
-        self.assertEqual(lines[0], "valid: 25.0 %")
+        self.assertEqual(lines[0], "valid: 1 of 4 states (25.0 %)")
         self.assertTrue(lines[1].startswith("rate: 8 states/s "), lines[1])
-        self.assertEqual(lines[3:], ["  a - b: 2 states", "  a - c: 1 states"])
+        self.assertEqual(lines[2:], ["states in collision, by the pair that was found first:", "  a - b: 2 states",
+                                     "  a - c: 1 states"])
+
+    def test_counts_each_state_in_collision_once_also_those_of_rare_pairs(self):
+        Response = collections.namedtuple("Response", "valid body_1 body_2 seconds")
+        partners = ["b"] * 3 + ["c"] * 3 + ["d"] * 3 + ["e"] * 3 + ["f"] * 3 + ["g", "h"]
+        response = Response(bytes(len(partners)), ["a"] * len(partners), partners, 0.5)
+        lines = demo_client.summary(response, len(partners), 0.75)
+        self.assertEqual("  other pairs: 2 states", lines[-1])
+        self.assertEqual(len(partners), sum(int(line.split(": ")[1].split()[0]) for line in lines[3:]))
 
 
 class Call(unittest.TestCase):

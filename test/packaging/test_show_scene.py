@@ -83,6 +83,25 @@ class Upright(unittest.TestCase):
         self.assertEqual(1.0, show_scene.upright((0, 0, 2)).w)
 
 
+class Rviz(unittest.TestCase):
+    def test_draws_through_x11_even_where_qt_would_choose_wayland(self):
+        made = show_scene.environment_of_rviz({"DISPLAY": ":1", "PATH": "/bin"})
+        self.assertEqual({"DISPLAY": ":1", "PATH": "/bin", "QT_QPA_PLATFORM": "xcb"}, made)
+        made = show_scene.environment_of_rviz({"DISPLAY": ":1", "QT_QPA_PLATFORM": "wayland;xcb"})
+        self.assertEqual("xcb", made["QT_QPA_PLATFORM"])
+        chosen = show_scene.environment_of_rviz({"DISPLAY": ":1", "QT_QPA_PLATFORM": "offscreen"})
+        self.assertEqual("offscreen", chosen["QT_QPA_PLATFORM"])
+
+    def test_is_not_started_without_a_screen(self):
+        self.assertIsNone(show_scene.environment_of_rviz({"PATH": "/bin"}))
+
+    def test_that_crashes_is_reported_with_what_to_try(self):
+        self.assertEqual("", show_scene.fault_of(0))
+        self.assertIn("RViz was ended by signal 6", show_scene.fault_of(-6))
+        self.assertIn("exit code 134", show_scene.fault_of(134))
+        self.assertIn("LIBGL_ALWAYS_SOFTWARE=1", show_scene.fault_of(134))
+
+
 class Configuration(unittest.TestCase):
     def test_has_the_frame_and_the_topics_of_the_scene(self):
         template = yaml.safe_load((ROOT / "config" / "scene.rviz").read_text())

@@ -148,9 +148,23 @@ TEST_F(CheckStates, TheLastLineOfTheSummaryIsAsPromised)
   EXPECT_EQ(3000u, states);
   EXPECT_EQ(static_cast<unsigned long>(valid), free);
   EXPECT_GT(rate, 0u);
-  for (const char* part : {"device: CPU", "robot: slider",
-                           "triangles: ", "checked pairs: ", "left out: ", "valid: ", "commonest colliding pairs:"})
+  const std::string share = "\nvalid: " + std::to_string(valid) + " of 3000 states (";
+  for (const char* part : {"device: CPU", "robot: slider", "triangles: ", "checked pairs of bodies: ", "left out: ",
+                           share.c_str(), "states in collision, by the pair that was found first:"})
     EXPECT_NE(std::string::npos, output.err.find(part)) << output.err;
+}
+
+TEST_F(CheckStates, TheCountsOfPairsSumUpToTheStatesInCollision)
+{
+  const ProgramOutput output = check({"--random", "3000", "--seed", "7"});
+  const auto lines = linesOf(output.err);
+  auto line = std::find(lines.begin(), lines.end(), "states in collision, by the pair that was found first:");
+  ASSERT_NE(lines.end(), line) << output.err;
+  unsigned long sum = 0;
+  for (++line; line != lines.end() && line->compare(0, 2, "  ") == 0; ++line)
+    sum += std::stoul(line->substr(line->find(": ") + 2));
+  const auto rows = rowsOf(output);
+  EXPECT_EQ(3000 - std::count(rows.begin(), rows.end(), "1,,"), sum);
 }
 
 TEST_F(CheckStates, RandomStatesAreTheModelsAndDependOnTheSeedAlone)

@@ -82,25 +82,25 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
                   (report.shared_trees ? ", " + counted(report.shared_trees, "further shape") +
                                              (report.shared_trees == 1 ? " shares" : " share") + " these trees"
                                        : ""));
-  lines.push_back("checked pairs: " + std::to_string(report.self_pairs) + " of links, " +
+  lines.push_back("checked pairs of bodies: " + std::to_string(report.self_pairs) + " of two links, " +
                   std::to_string(report.world_pairs) + " of a link and an object");
-  lines.push_back(
-      "left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") + " that " +
-      matrixText(scene.matrix_source) + ", " + counted(report.links_without_shapes, "link") +
-      " without collision shapes" +
-      (report.touch_pairs
-           ? ", " + counted(report.touch_pairs, "pair") + " of an attached object and a body that it may touch"
-           : std::string()) +
-      (report.pairs_outside_group ? ", " + counted(report.pairs_outside_group, "pair") + " that the group does not move"
-                                  : std::string()));
+  lines.push_back("left out: " + counted(report.allowed_self_pairs + report.allowed_world_pairs, "pair") +
+                  " of bodies that " + matrixText(scene.matrix_source) + ", " +
+                  counted(report.links_without_shapes, "link") + " without collision shapes" +
+                  (report.touch_pairs ? ", " + counted(report.touch_pairs, "pair") +
+                                            " of an attached object and a body that it may touch"
+                                      : std::string()) +
+                  (report.pairs_outside_group
+                       ? ", " + counted(report.pairs_outside_group, "pair") + " of bodies that the group does not move"
+                       : std::string()));
   if (report.unreachable_self_pairs + report.unreachable_world_pairs != 0)
-    lines.push_back("out of reach: " + counted(report.unreachable_self_pairs, "pair") + " of links, " +
+    lines.push_back("out of reach: " + counted(report.unreachable_self_pairs, "pair") + " of two links, " +
                     counted(report.unreachable_world_pairs, "pair") + " of a link and an object" +
                     (report.unreachable_objects ? ", which leaves out " + counted(report.unreachable_objects, "object")
                                                 : std::string()));
   if (report.rigid_pairs != 0)
     lines.push_back("decided once, because no joint moves their bodies relative to each other: " +
-                    counted(report.rigid_pairs, "pair"));
+                    counted(report.rigid_pairs, "pair") + " of bodies");
   if (report.always_colliding)
     lines.push_back("in collision in every state: " + scene.bodyName((*report.always_colliding)[0]) + " - " +
                     scene.bodyName((*report.always_colliding)[1]));
@@ -146,16 +146,24 @@ void PairCounts::add(const BatchResult& result)
       ++counts_[std::minmax(result.colliding[i][0], result.colliding[i][1])];
 }
 
-std::vector<std::string> PairCounts::commonest(const PlanningScene& scene, std::size_t limit) const
+std::vector<std::string> PairCounts::describe(const PlanningScene& scene, std::size_t limit) const
 {
+  if (counts_.empty())
+    return {};
   std::vector<std::pair<std::size_t, std::pair<int, int>>> sorted;
   for (const auto& [pair, count] : counts_)
     sorted.push_back({count, pair});
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::vector<std::string> lines;
-  for (std::size_t i = 0; i < std::min(limit, sorted.size()); ++i)
-    lines.push_back(scene.bodyName(sorted[i].second.first) + " - " + scene.bodyName(sorted[i].second.second) + ": " +
-                    counted(sorted[i].first, "state"));
+  std::vector<std::string> lines{"states in collision, by the pair that was found first:"};
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    if (i < limit)
+      lines.push_back("  " + scene.bodyName(sorted[i].second.first) + " - " + scene.bodyName(sorted[i].second.second) +
+                      ": " + counted(sorted[i].first, "state"));
+    else
+      others += sorted[i].first;
+  if (others != 0)
+    lines.push_back("  other pairs: " + counted(others, "state"));
   return lines;
 }
 }  // namespace gpu_planning_scene::core

@@ -27,8 +27,9 @@ class PairCounts
 {
  public:
   void add(const BatchResult& result);
-  /// The `limit` most frequent pairs, in descending order, each as "BODY - BODY: N states".
-  std::vector<std::string> commonest(const PlanningScene& scene, std::size_t limit) const;
+  /// A heading, and the `limit` most frequent pairs, in descending order, each as "  BODY - BODY: N states". The last
+  /// line sums up the other pairs. Nothing if no state collides.
+  std::vector<std::string> describe(const PlanningScene& scene, std::size_t limit) const;
 
  private:
   std::map<std::pair<int, int>, std::size_t> counts_;

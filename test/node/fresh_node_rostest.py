@@ -1,0 +1,72 @@
+#!/usr/bin/env python3
+"""Runs each Python program of the documents beside a fresh node, which the README's command starts."""
+
+import os
+import signal
+import subprocess
+import sys
+import unittest
+
+import rospy
+import rosservice
+import rostest
+
+from documents_rostest import ROOT, examples
+
+PATIENCE = 60  # seconds
+
+
+def readme_command():
+    """The README's command for the node, with the folders of the test in place of those of the demo."""
+    commands = [line for block in examples("README.md") for line in block.split("\n") if line.startswith("roslaunch")]
+    return (
+        commands[0]
+        .replace("$PWD/build/robots/urdf/KR5/KR5 sixx R650.urdf", rospy.get_param("~urdf"))
+        .replace("$PWD/build/demo/kr5.srdf", rospy.get_param("~srdf"))
+        .replace("$PWD/config", os.path.join(ROOT, "config"))
+    )
+
+
+class FreshNode(unittest.TestCase):
+    def setUp(self):
+        command = "exec " + readme_command() + " device:=cpu"
+        self.assertNotIn("$PWD", command)
+        self.node = subprocess.Popen(["bash", "-c", command])
+        rospy.wait_for_service("/planning_scene/check_states", PATIENCE)
+
+    def tearDown(self):
+        self.node.send_signal(signal.SIGINT)
+        self.node.wait(PATIENCE)
+        while "/planning_scene/check_states" in rosservice.get_service_list():
+            rospy.sleep(0.1)
+
+    def output_of(self, document, start):
+        """What the program prints whose text contains `start`."""
+        programs = [block for block in examples(document) if block.startswith("import rospy") and start in block]
+        self.assertEqual(1, len(programs), document)
+        answer = subprocess.run([sys.executable, "-c", programs[0]], capture_output=True, text=True, timeout=60,
+                                check=False)
+        self.assertEqual(0, answer.returncode, answer.stderr)
+        self.assertNotIn("False", answer.stdout)
+        return answer.stdout
+
+    def test_the_readmes_program_ends_with_answers(self):
+        output = self.output_of("README.md", 'init_node("example")')
+        self.assertRegex(output, r"(?m)^(free|\w+ collides with \w+)$")
+
+    def test_the_nodes_client_carries_a_box(self):
+        output = self.output_of(os.path.join("docs", "node.md"), 'init_node("example")')
+        self.assertEqual(3, output.count("True"), output)
+        self.assertRegex(output, r"(?m)^(free|\w+ - \w+) [0-9.inf]+$")
+
+    def test_a_collision_is_allowed_and_the_srdfs_matrix_comes_back(self):
+        output = self.output_of(os.path.join("docs", "node.md"), 'init_node("allow_a_collision")')
+        verdicts = [line.strip() for line in output.splitlines() if line.startswith(("free", "palm", "workpiece"))]
+        self.assertEqual(3, len(verdicts), output)
+        for verdict, collides in zip(verdicts, (True, False, True)):
+            self.assertIn(verdict, ("palm - workpiece", "workpiece - palm") if collides else ("free",), output)
+
+
+if __name__ == "__main__":
+    rospy.init_node("fresh_node_rostest")
+    rostest.rosrun("gpu_planning_scene", "fresh_node_rostest", FreshNode)
