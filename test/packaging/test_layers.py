@@ -25,7 +25,14 @@ LAYERS = {
     "command_line": ["collision/checkers"],
     "tools": ["command_line", "render"],
     "plugins": ["planning"],
-    "node": ["planning", "service", "command_line", "render"],
+    "node/messages": ["scene"],
+    "node/endpoints": ["service"],
+    "node/parameters": ["service"],
+    "node/scene": ["node/messages", "node/endpoints"],
+    "node/checks": ["node/messages", "node/endpoints"],
+    "node/markers": ["node/messages", "node/endpoints", "render"],
+    "node/planning": ["node/markers", "node/parameters", "planning"],
+    "node": ["node/scene", "node/checks", "node/planning", "command_line"],
 }
 
 
