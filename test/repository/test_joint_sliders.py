@@ -3,7 +3,7 @@ import importlib.util
 import math
 import unittest
 
-from repository import SCRIPTS
+from folders import SCRIPTS
 
 spec = importlib.util.spec_from_file_location("joint_sliders", SCRIPTS / "joint_sliders.py")
 joint_sliders = importlib.util.module_from_spec(spec)

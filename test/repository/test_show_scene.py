@@ -7,7 +7,7 @@ import unittest
 import numpy
 import yaml
 
-from repository import ROOT, SCRIPTS
+from folders import ROOT, SCRIPTS
 
 spec = importlib.util.spec_from_file_location("show_scene", SCRIPTS / "show_scene.py")
 show_scene = importlib.util.module_from_spec(spec)

@@ -6,7 +6,7 @@ import subprocess
 import tempfile
 import unittest
 
-from repository import SCRIPTS
+from folders import SCRIPTS
 
 TOOLS = ["bash", "cat", "dirname", "env", "grep", "head", "mktemp", "rm", "sed"]
 

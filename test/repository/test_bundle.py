@@ -7,7 +7,7 @@ import sys
 import tempfile
 import unittest
 
-from repository import SCRIPTS
+from folders import SCRIPTS
 
 
 class BundleTest(unittest.TestCase):

@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from repository import ROOT
+from folders import ROOT
 
 # A path in backticks counts if it begins with one of these folders.
 FOLDERS = "bench|cmake|config|docs|examples|include|launch|msg|scripts|shaders|src|srv|test"

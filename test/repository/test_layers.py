@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from repository import ROOT
+from folders import ROOT
 
 # Each folder may include itself, the folders listed for it, and the folders that these may include.
 LAYERS = {

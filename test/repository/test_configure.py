@@ -3,7 +3,7 @@ import subprocess
 import tempfile
 import unittest
 
-from repository import ROOT
+from folders import ROOT
 
 
 class Configure(unittest.TestCase):

@@ -8,7 +8,7 @@ from unittest import mock
 
 import numpy
 
-from repository import ROOT, SCRIPTS
+from folders import ROOT, SCRIPTS
 
 spec = importlib.util.spec_from_file_location("demo_client", SCRIPTS / "demo_client.py")
 demo_client = importlib.util.module_from_spec(spec)

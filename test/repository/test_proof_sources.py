@@ -5,7 +5,7 @@ import subprocess
 import tempfile
 import unittest
 
-from repository import ROOT
+from folders import ROOT
 
 
 class ProofSources(unittest.TestCase):

@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from repository import ROOT
+from folders import ROOT
 
 SHADERS = ROOT / "shaders"
 

@@ -3,7 +3,7 @@ import os
 import unittest
 import unittest.mock
 
-from repository import ROOT
+from folders import ROOT
 
 try:
     import roslaunch.config

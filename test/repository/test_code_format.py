@@ -4,7 +4,7 @@ import shutil
 import subprocess
 import unittest
 
-from repository import ROOT
+from folders import ROOT
 
 FOLDERS = ["include", "src", "test", "bench", "examples"]
 # Paths of our own includes begin in one of these folders.

@@ -3,7 +3,7 @@ import re
 import unittest
 import xml.etree.ElementTree
 
-from repository import ROOT, SCRIPTS
+from folders import ROOT, SCRIPTS
 
 
 def listed():

@@ -8,7 +8,7 @@ import tempfile
 import time
 import unittest
 
-from repository import SCRIPTS
+from folders import SCRIPTS
 
 # A child that ignores SIGTERM and has a child of its own.
 START = f"""

@@ -4,7 +4,7 @@ import subprocess
 import tempfile
 import unittest
 
-from repository import SCRIPTS
+from folders import SCRIPTS
 
 JUNIT = """<testsuite>
   <testcase name="a" status="run"/>
