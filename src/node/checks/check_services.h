@@ -37,7 +37,7 @@ class CheckServices
   GetReport::Response report(const GetReport::Request& request);
 
   /// Stops the computation of contacts and clearance. Running and queued requests for them get the error "shutting
-  /// down". So do requests that still wait for a checker after some seconds.
+  /// down". Other requests get this error if they wait for a checker for some seconds more.
   void stop();
 
  private:

@@ -10,7 +10,8 @@ namespace
 {
 constexpr std::size_t kMaxContacts = 1000;
 
-/// A robot in a state that nobody gave may be drawn in collision, while the services refuse to check that state.
+/// The markers show a robot with unknown joint values in its default state, perhaps in collision. The services refuse
+/// to check this state, so users need an explanation.
 void warnOfUnknownState(const Snapshot& now)
 {
   const std::vector<bool> known = now.partialState().known;

@@ -14,8 +14,8 @@ struct PlannerPlugins::Impl
 {
   using Loader = pluginlib::ClassLoader<PlannerFactory>;
 
-  /// Made when a planner is first needed. A node that only checks states needs no planners, and its package need not be
-  /// found by rospack.
+  /// Makes the loader when a planner is first needed. The loader needs a package path in which rospack finds this
+  /// package. A node that only checks states runs without one.
   Loader& theLoader()
   {
     if (!loader)
