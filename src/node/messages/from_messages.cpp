@@ -4,6 +4,7 @@
 #include <set>
 
 #include "gpu_planning_scene/error.h"
+#include "model/name_list.h"
 #include "node/messages/object_from_message.h"
 #include "scene/message_values.h"
 
@@ -11,14 +12,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-std::string join(const std::vector<std::string>& names)
-{
-  std::string line;
-  for (const std::string& name : names)
-    line += (line.empty() ? "" : ", ") + name;
-  return line;
-}
-
 void requireAsMany(std::size_t values, std::size_t names, const std::string& what)
 {
   if (values != names)
@@ -66,7 +59,7 @@ class StateReader
     const auto add = [&](const char* reason, const std::vector<std::string>& names)
     {
       if (warnings != nullptr && !names.empty())
-        warnings->push_back(std::string("robot_state: joints ignored because ") + reason + ": " + join(names));
+        warnings->push_back(std::string("robot_state: joints ignored because ") + reason + ": " + nameList(names));
     };
     add("the robot does not have them", unknown_);
     add("they are fixed", fixed_);

@@ -23,19 +23,6 @@ namespace
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The slider robot and a wall from x = 0.9 to 1.1 m, which the cart can hit.
-PlanningScene sceneWithWall()
-{
-  PlanningScene scene(sliderRobot());
-  WorldObject wall;
-  wall.id = "wall";
-  wall.pose.translation() = Eigen::Vector3d(1.0, 0.0, 0.0);
-  wall.shapes.push_back({Box{Eigen::Vector3d(0.2, 1.0, 0.2)}, Eigen::Isometry3d::Identity()});
-  scene.objects.push_back(wall);
-  scene.revision = 5;
-  return scene;
-}
-
 CheckStates::Request request(const std::vector<std::string>& names, const std::vector<double>& positions)
 {
   CheckStates::Request result;
@@ -58,7 +45,7 @@ class Service : public testing::Test
     EXPECT_TRUE(response.valid.empty());
   }
 
-  SceneStore store{sceneWithWall(), {}, {}};
+  SceneStore store{sliderAndWall(5), {}, {}};
   CheckServer server{store,
                      [](std::shared_ptr<const PlanningScene> scene)
                      { return std::make_shared<CpuChecker>(std::move(scene)); },
@@ -288,7 +275,7 @@ TEST_F(Service, AMatrixOfARequestHasNoMoreEntriesThanTheLimit)
 {
   SceneLimits limits;
   limits.matrix_entries = 3;
-  SceneStore strict(sceneWithWall(), {}, limits);
+  SceneStore strict(sliderAndWall(), {}, limits);
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.0});
   asked.allowed_collision_matrix.entry_names = {"cart", "wall"};
   asked.allowed_collision_matrix.entry_values.resize(2);
@@ -511,7 +498,7 @@ TEST_F(Service, AReportHasLinesAndNumbers)
 
 TEST_F(Service, AReportHasEachNameOnOneLine)
 {
-  PlanningScene scene = sceneWithWall();
+  PlanningScene scene = sliderAndWall();
   scene.objects[0].id = "wa\nll";
   SceneReport report;
   report.always_colliding = {{0, static_cast<std::int32_t>(scene.robot->links().size())}};

@@ -16,12 +16,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(SceneServices, AProcessThatUsesTooMuchMemoryCanStillBeEmptied)
 {
-  PlanningScene scene(sliderRobot());
-  WorldObject wall;
-  wall.id = "wall";
-  wall.shapes.push_back({Box{Eigen::Vector3d(0.2, 1.0, 0.2)}, Eigen::Isometry3d::Identity()});
-  scene.objects.push_back(wall);
-  SceneStore store(scene, {}, {});
+  SceneStore store(sliderAndWall(), {}, {});
   const MemoryGuard full(1);
   SceneServices scenes(store, nullptr, full);
   ApplyPlanningScene::Request asked;
