@@ -249,26 +249,6 @@ TEST_F(Service, NamesInAnswersAreShortAndOnOneLine)
   unknown_group.group = "sa\nils";
   expectRefusal(unknown_group, "sa ils");
   EXPECT_GT(3000u, answer(request({std::string(100000, 'x')}, {})).message.size());
-
-  SceneServices scenes(store, nullptr, memory);
-  ApplyPlanningScene::Request change;
-  change.scene.is_diff = true;
-  change.scene.robot_state.joint_state = jointState({"whe\nel"}, {0.0});
-  const ApplyPlanningScene::Response warned = scenes.apply(change);
-  EXPECT_TRUE(warned.success);
-  EXPECT_NE(std::string::npos, warned.message.find("whe el")) << warned.message;
-  std::vector<std::string> many;
-  for (int i = 0; i < 100000; ++i)
-    many.push_back("wheel_" + std::to_string(i));
-  change.scene.robot_state.joint_state = jointState(many, std::vector<double>(many.size(), 0.0));
-  EXPECT_GT(3000u, scenes.apply(change).message.size());
-  change.scene.robot_state.joint_state = {};
-  change.scene.world.collision_objects.resize(1);
-  change.scene.world.collision_objects[0].id = "bo\nx";
-  change.scene.world.collision_objects[0].operation = 9;
-  const ApplyPlanningScene::Response refused = scenes.apply(change);
-  EXPECT_FALSE(refused.success);
-  EXPECT_NE(std::string::npos, refused.message.find("'bo x': unknown operation")) << refused.message;
 }
 
 TEST_F(Service, AMatrixOfARequestHasNoMoreEntriesThanTheLimit)

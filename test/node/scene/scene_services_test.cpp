@@ -1,6 +1,8 @@
 // Changes of the scene by services and joint states. No ROS master is needed.
 
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +15,14 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+sensor_msgs::JointState jointState(const std::vector<std::string>& names, const std::vector<double>& positions)
+{
+  sensor_msgs::JointState message;
+  message.name = names;
+  message.position = positions;
+  return message;
+}
 
 TEST(SceneServices, AProcessThatUsesTooMuchMemoryCanStillBeEmptied)
 {
@@ -66,12 +76,29 @@ TEST(SceneServices, MentionAnUnknownBaseWhereAnObjectIsPlacedAtALink)
   EXPECT_EQ("", scenes.apply(add).message);
 }
 
-sensor_msgs::JointState jointState(const std::vector<std::string>& names, const std::vector<double>& positions)
+TEST(SceneServices, NamesInAnswersAreShortAndOnOneLine)
 {
-  sensor_msgs::JointState message;
-  message.name = names;
-  message.position = positions;
-  return message;
+  SceneStore store(sliderAndWall(), {}, {});
+  const MemoryGuard memory(0);
+  SceneServices scenes(store, nullptr, memory);
+  ApplyPlanningScene::Request change;
+  change.scene.is_diff = true;
+  change.scene.robot_state.joint_state = jointState({"whe\nel"}, {0.0});
+  const ApplyPlanningScene::Response warned = scenes.apply(change);
+  EXPECT_TRUE(warned.success);
+  EXPECT_NE(std::string::npos, warned.message.find("whe el")) << warned.message;
+  std::vector<std::string> many;
+  for (int i = 0; i < 100000; ++i)
+    many.push_back("wheel_" + std::to_string(i));
+  change.scene.robot_state.joint_state = jointState(many, std::vector<double>(many.size(), 0.0));
+  EXPECT_GT(3000u, scenes.apply(change).message.size());
+  change.scene.robot_state.joint_state = {};
+  change.scene.world.collision_objects.resize(1);
+  change.scene.world.collision_objects[0].id = "bo\nx";
+  change.scene.world.collision_objects[0].operation = 9;
+  const ApplyPlanningScene::Response refused = scenes.apply(change);
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(std::string::npos, refused.message.find("'bo x': unknown operation")) << refused.message;
 }
 
 class JointStates : public testing::Test
