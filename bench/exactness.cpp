@@ -84,8 +84,8 @@ void printClearances(const std::array<std::size_t, 8>& counts)
 void run(const CommandLine& arguments)
 {
   const std::string only = arguments.value("--robot", "");
-  const auto seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
-  const auto states = static_cast<std::size_t>(arguments.integer("--states", 0, 0, 100000000));
+  const auto seed = arguments.count("--seed", 1, 0, 1ULL << 62);
+  const auto states = arguments.count("--states", 0, 0, 100000000);
   const bool quick = arguments.has("--quick");
   const auto count_of = [&](std::size_t full) {
     return states != 0 ? states : quick ? std::min(kQuickStates, full / 10) : full;

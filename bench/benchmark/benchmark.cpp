@@ -20,6 +20,7 @@
 #include "benchmark/statistics.h"
 #include "command_line/command_line.h"
 #include "gpu/egl_context.h"
+#include "model/name_list.h"
 #include "model/real_robots.h"
 #include "peers/vamp/vamp_check.h"
 #include "support/test_scenes.h"
@@ -43,14 +44,6 @@ std::vector<std::string> split(const std::string& text)
   return words;
 }
 
-std::string join(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const std::string& word : words)
-    text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 /// The words of an option. Throws UsageError for a word that is not in `known`. Without the option: all known words.
 std::vector<std::string> chosen(const CommandLine& arguments, const std::string& option,
                                 const std::vector<std::string>& known)
@@ -60,9 +53,9 @@ std::vector<std::string> chosen(const CommandLine& arguments, const std::string&
   std::vector<std::string> words = split(arguments.required(option));
   for (const std::string& word : words)
     if (std::find(known.begin(), known.end(), word) == known.end())
-      throw UsageError(option + ": there is no '" + word + "'; known names: " + join(known));
+      throw UsageError(option + ": there is no '" + word + "'; known names: " + nameList(known));
   if (words.empty())
-    throw UsageError(option + ": the list is empty; known names: " + join(known));
+    throw UsageError(option + ": the list is empty; known names: " + nameList(known));
   return words;
 }
 
@@ -128,12 +121,11 @@ Settings readSettings(const CommandLine& arguments)
   settings.quick = arguments.has("--quick");
   settings.out = arguments.value("--out", "benchmark");
   settings.method.device = arguments.value("--device", "auto");
-  settings.method.max_batch = static_cast<std::size_t>(arguments.integer("--max-batch", 0, 0, 1LL << 24));
-  settings.states =
-      static_cast<std::size_t>(arguments.integer("--states", settings.quick ? 256 : 16384, 16, 1LL << 30));
-  settings.repeats = static_cast<std::size_t>(arguments.integer("--repeats", settings.quick ? 2 : 5, 1, 1000));
+  settings.method.max_batch = arguments.count("--max-batch", 0, 0, 1 << 24);
+  settings.states = arguments.count("--states", settings.quick ? 256 : 16384, 16, 1 << 30);
+  settings.repeats = arguments.count("--repeats", settings.quick ? 2 : 5, 1, 1000);
   settings.seconds = arguments.number("--seconds", settings.quick ? 0.03 : 0.5, 0.001, 1e4);
-  settings.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
+  settings.seed = arguments.count("--seed", 1, 0, 1ULL << 62);
   settings.paddings = numbers(arguments, "--padding", settings.quick ? "0" : "0,0.01", 0.0, 1.0);
   for (const double batch : numbers(arguments, "--batches", settings.quick ? "256" : "1024,16384", 1.0, 1e8))
     settings.batches.push_back(static_cast<std::size_t>(batch));
@@ -168,7 +160,7 @@ void writeRun(const Settings& settings)
   table.add({"seed", static_cast<std::size_t>(settings.seed)});
   table.add({"quick", settings.quick ? "yes" : "no"});
   std::cerr << "device: " << device.renderer << "; " << std::thread::hardware_concurrency() << " cores, "
-            << processorName() << "\nscenes: " << join(settings.scenes) << std::endl;
+            << processorName() << "\nscenes: " << nameList(settings.scenes) << std::endl;
 }
 
 void run(const CommandLine& arguments)
@@ -181,10 +173,7 @@ void run(const CommandLine& arguments)
   }
   const std::vector<std::string> parts = chosen(arguments, "--parts", kParts);
   const Settings settings = readSettings(arguments);
-  std::error_code failed;
-  std::filesystem::create_directories(settings.out, failed);
-  if (failed)
-    throw Error("--out: cannot make the folder " + settings.out + ": " + failed.message());
+  makeTableFolder(settings.out);
   writeRun(settings);
 
   std::size_t wrong = 0;
@@ -231,10 +220,10 @@ int main(int argc, char** argv)
        {{"--quick", "", "all methods, two scenes, few states: under a minute"},
         {"--out", "DIR", "folder for the tables (default benchmark)"},
         {"--data", "DIR", "folder with urdf/KR5, urdf/drchubo, urdf/wam, robots/ur5_robotiq, problems/ur5"},
-        {"--parts", "A,B", "of " + join(kParts) + " (default all)"},
-        {"--scenes", "A,B", "of " + join(benchmarkSceneNames())},
+        {"--parts", "A,B", "of " + nameList(kParts) + " (default all)"},
+        {"--scenes", "A,B", "of " + nameList(benchmarkSceneNames())},
         {"--methods", "A,B", "an unknown name prints the list"},
-        {"--kinds", "A,B", "of states: " + join(stateKinds())},
+        {"--kinds", "A,B", "of states: " + nameList(stateKinds())},
         {"--padding", "X,Y", "metres (default 0,0.01; with --quick 0); values after the first only with random states"},
         {"--batches", "N,M", "sizes of batches of the GPU's methods (default 1024,16384)"},
         {"--max-batch", "N", "states that go to the GPU at once (default: the library's)"},

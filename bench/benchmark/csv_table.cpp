@@ -2,12 +2,21 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <stdexcept>
 
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core::benchmark
 {
+void makeTableFolder(const std::string& folder)
+{
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed)
+    throw Error("--out: cannot make the folder " + folder + ": " + failed.message());
+}
+
 Cell::Cell(const std::string& word) : text(word)
 {
   // Titles contain commas.

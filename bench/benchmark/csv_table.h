@@ -7,6 +7,9 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
+/// Makes the folder of the tables, unless it exists. Throws Error, which names the option --out.
+void makeTableFolder(const std::string& folder);
+
 /// A cell of a table. A number that is not finite gives an empty cell.
 struct Cell
 {

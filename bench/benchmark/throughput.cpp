@@ -25,7 +25,7 @@ namespace
 {
 constexpr std::size_t kTrial = 64;            // states of the first trial
 constexpr std::size_t kWorkStates = 4096;     // upper bound on the states whose work is counted
-constexpr std::size_t kManyStates = 4096;     // so many states are timed with proofs
+constexpr std::size_t kManyStates = 4096;     // from this number of states on, proofs are made before the timing
 constexpr std::size_t kErrorsMeasured = 100;  // upper bound, for each kind of wrong answer of a method
 
 /// A method with one batch size.
@@ -311,9 +311,11 @@ std::size_t measureThroughput(const Settings& settings)
     for (const double padding : settings.paddings)
     {
       const TestScene scene = padding > 0.0 ? withPadding(testScene(name), padding) : testScene(name);
+      std::vector<Run> runs = makeRuns(scene, padding, settings);
+      if (runs.empty())
+        continue;
       GeometricError error(*scene.scene);
       Truth exact(scene.scene);
-      std::vector<Run> runs = makeRuns(scene, padding, settings);
       for (const std::string& kind : settings.kinds)
       {
         if (padding != settings.paddings.front() && kind != "random")

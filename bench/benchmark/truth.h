@@ -11,8 +11,8 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// The reference for answers: the exact checker without reductions, so it checks pairs that the tested methods leave
-/// out. The program `exactness` compares the exact checker with the oracle.
+/// The reference for answers: the exact checker without reductions. It also checks the pairs that the tested methods
+/// leave out. The program `exactness` compares the exact checker with the oracle.
 class Truth
 {
  public:

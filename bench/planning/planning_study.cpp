@@ -4,7 +4,6 @@
 // See --help.
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -122,15 +121,7 @@ class Study
   /// Returns whether a path that was accepted under the bound collides.
   bool run()
   {
-    std::vector<std::string> names = planningProblemNames();
-    if (names.empty())
-      throw Error("there are no problems in " + planningProblemFolder() +
-                  "; CONTRIBUTING.md (Data that is not in the repository) names their source");
-    // Evenly spread over all problems, so each set has some.
-    std::vector<std::string> chosen;
-    const std::size_t count = std::min(settings_.problems, names.size());
-    for (std::size_t i = 0; i < count; ++i)
-      chosen.push_back(names[i * names.size() / count]);
+    const std::vector<std::string> chosen = chosenPlanningProblems(settings_.problems);
     for (std::size_t i = 0; i < chosen.size(); ++i)
       runProblem(chosen[i], i);
     summarize();
@@ -258,14 +249,14 @@ class Study
 
 void study(const CommandLine& arguments)
 {
-  constexpr long long kMax = 1000000;
+  constexpr std::size_t kMax = 1000000;
   Settings settings;
   settings.out = arguments.required("--out");
-  settings.problems = static_cast<std::size_t>(arguments.integer("--problems", kMax, 1, kMax));
-  settings.runs = static_cast<std::size_t>(arguments.integer("--runs", 1, 1, kMax));
+  settings.problems = arguments.count("--problems", kMax, 1, kMax);
+  settings.runs = arguments.count("--runs", 1, 1, kMax);
   settings.seconds = arguments.number("--seconds", settings.seconds, 1e-3, 1e6);
   settings.device = arguments.value("--device", settings.device);
-  std::filesystem::create_directories(settings.out);
+  makeTableFolder(settings.out);
   if (Study(settings).run())
     throw Error("a path that was accepted under the bound collides: see planning.csv");
 }

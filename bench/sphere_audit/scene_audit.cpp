@@ -40,7 +40,7 @@ class CollidingPairs
   CpuTraversal::Scratch scratch_;
 };
 
-/// Finds the causes of wrong answers in one scene. A body that is no link is an object of the world.
+/// Finds the causes of wrong answers in one scene. Each body is a link or an object of the world.
 class Causes
 {
  public:
@@ -58,8 +58,8 @@ class Causes
     add(checked ? Cause::Spheres : Cause::Pairs, pairs, wrong);
   }
 
-  /// A free state that VAMP calls colliding. If its spheres are free among the true objects, they have met the end of
-  /// a capsule or the corner of a box that stands for a cylinder.
+  /// A free state that VAMP calls colliding. If VAMP's spheres are free among the true objects, they collide only with
+  /// a capsule or a box that replaces a cylinder.
   void addInvented(const double* state, WrongAnswers& wrong)
   {
     const auto pairs = spheres_.of(state);

@@ -14,23 +14,23 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// The part of VAMP's model to which a wrong answer is due.
+/// The part of VAMP's model that causes a wrong answer.
 enum class Cause
 {
-  Spheres,   ///< the spheres that stand for the links
-  Pairs,     ///< the pairs that it checks, in place of the scene's allowed collision matrix
-  Cylinders  ///< the capsules or boxes that stand for the cylinders of the world
+  Spheres,   ///< the spheres that replace the links
+  Pairs,     ///< VAMP's own list of checked pairs, which replaces the scene's allowed collision matrix
+  Cylinders  ///< the capsules or boxes that replace the cylinders of the world
 };
 constexpr std::size_t kCauses = 3;
 
-/// Answers of one kind that are wrong.
+/// Wrong answers of one kind: missed or invented collisions.
 struct WrongAnswers
 {
   std::array<std::size_t, kCauses> by_cause = {};
-  /// The pairs of bodies that collide and that VAMP misses, or whose spheres collide and that do not. A pair of a link
-  /// and an object has the name "LINK, world". The numbers are states.
+  /// For missed collisions, the colliding pairs of bodies; for invented collisions, the pairs whose spheres collide.
+  /// The number of states for each pair. A pair of a link and an object has the name "LINK, world".
   std::map<std::string, std::size_t> by_pair = {};
-  std::vector<double> sizes = {};  ///< metres, of the measured ones: see GeometricError
+  std::vector<double> sizes = {};  ///< metres, of the measured answers: see GeometricError
 
   std::size_t all() const { return by_cause[0] + by_cause[1] + by_cause[2]; }
   std::size_t of(Cause cause) const { return by_cause[static_cast<std::size_t>(cause)]; }

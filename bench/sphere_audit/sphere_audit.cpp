@@ -1,10 +1,8 @@
-// sphere_audit: how often VAMP's published sphere model of the ur5 is wrong in the scenes of the planning problems of
-// ../shared or $GPU_PLANNING_SCENE_DATA, why, and by how many millimetres. docs/sphere_models.md explains the table.
-// See
-// --help.
+// sphere_audit: counts the wrong answers of VAMP's published sphere model of the ur5, and measures their causes and
+// their sizes in millimetres. The scenes are those of the planning problems of ../shared or $GPU_PLANNING_SCENE_DATA.
+// docs/sphere_models.md explains the table. See --help.
 
 #include <cmath>
-#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <map>
@@ -76,20 +74,6 @@ std::vector<double> statesOf(const PlanningProblem& problem, States kind, std::s
       states.push_back(lower + (upper - lower) * share(generator));
     }
   return states;
-}
-
-/// Evenly spread, so each set has some.
-std::vector<std::string> chosenProblems(std::size_t most)
-{
-  const std::vector<std::string> all = planningProblemNames();
-  if (all.empty())
-    throw Error("there are no problems in " + planningProblemFolder() +
-                "; CONTRIBUTING.md (Data that is not in the repository) names their source");
-  const std::size_t count = std::min(most, all.size());
-  std::vector<std::string> chosen;
-  for (std::size_t i = 0; i < count; ++i)
-    chosen.push_back(all[i * all.size() / count]);
-  return chosen;
 }
 
 double share(std::size_t part, std::size_t whole)
@@ -174,7 +158,7 @@ void write(CsvTable& table, States kind, const std::vector<std::pair<std::string
 
 void auditAll(const Settings& settings)
 {
-  const std::vector<std::string> names = chosenProblems(settings.problems);
+  const std::vector<std::string> names = chosenPlanningProblems(settings.problems);
   std::map<States, std::map<std::string, Audit>> audits;
   std::mt19937_64 generator(settings.seed);
   std::optional<SceneAudit> scenes;
@@ -206,14 +190,11 @@ void run(const CommandLine& arguments)
     throw Error(reason);
   Settings settings;
   settings.out = arguments.value("--out", "sphere_audit");
-  settings.problems = static_cast<std::size_t>(arguments.integer("--problems", 140, 1, 100000));
-  settings.states = static_cast<std::size_t>(arguments.integer("--states", 2000, 1, 1LL << 24));
-  settings.measured = static_cast<std::size_t>(arguments.integer("--measured", 10, 0, 1LL << 24));
-  settings.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
-  std::error_code failed;
-  std::filesystem::create_directories(settings.out, failed);
-  if (failed)
-    throw Error("--out: cannot make the folder " + settings.out + ": " + failed.message());
+  settings.problems = arguments.count("--problems", 140, 1, 100000);
+  settings.states = arguments.count("--states", 2000, 1, 1 << 24);
+  settings.measured = arguments.count("--measured", 10, 0, 1 << 24);
+  settings.seed = arguments.count("--seed", 1, 0, 1ULL << 62);
+  makeTableFolder(settings.out);
   auditAll(settings);
 }
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace gpu_planning_scene::core::stability
 {
-/// The placement of a case in the world: a random motion of both shapes by up to `distance` (metres) along each axis
-/// from `origin`. One of three motions has only quarter turns, which keep exact contacts exact.
+/// The placement of a case in the world: a random motion moves both shapes together by up to `distance` (metres) along
+/// each axis from `origin`. One of three motions has only quarter turns, which keep exact contacts exact.
 struct Place
 {
   double distance = 1.0;

@@ -50,9 +50,8 @@ std::vector<Family> chosenFamilies(const std::string& text)
 void runStability(const CommandLine& arguments)
 {
   const std::vector<Family> families = chosenFamilies(arguments.value("--family", ""));
-  const auto seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
-  const auto cases = static_cast<std::size_t>(
-      arguments.integer("--cases", arguments.has("--quick") ? kQuickCases : kFullCases, 1, 1 << 24));
+  const auto seed = arguments.count("--seed", 1, 0, 1ULL << 62);
+  const auto cases = arguments.count("--cases", arguments.has("--quick") ? kQuickCases : kFullCases, 1, 1 << 24);
   std::ofstream csv = openFile(arguments, "--csv");
   std::ofstream markdown = openFile(arguments, "--markdown");
   const auto with_proofs = static_cast<std::size_t>(

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -12,6 +11,7 @@
 #include "benchmark/statistics.h"
 #include "command_line/command_line.h"
 #include "gpu_planning_scene/cpu_checker.h"
+#include "model/name_list.h"
 #include "volumes/methods.h"
 
 using namespace gpu_planning_scene::core;
@@ -291,9 +291,9 @@ void run(const CommandLine& arguments)
 {
   Settings settings;
   settings.kind = arguments.value("--kind", "random");
-  settings.states = static_cast<std::size_t>(arguments.integer("--states", 2000, 1, 1000000));
-  settings.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
-  settings.repeats = static_cast<std::size_t>(arguments.integer("--repeats", 5, 1, 1000));
+  settings.states = arguments.count("--states", 2000, 1, 1000000);
+  settings.seed = arguments.count("--seed", 1, 0, 1ULL << 62);
+  settings.repeats = arguments.count("--repeats", 5, 1, 1000);
   settings.levels = arguments.has("--levels");
   const std::vector<std::string>& kinds = benchmark::stateKinds();
   if (std::find(kinds.begin(), kinds.end(), settings.kind) == kinds.end())
@@ -312,20 +312,13 @@ void run(const CommandLine& arguments)
   std::unique_ptr<Tables> tables;
   if (arguments.has("--out"))
   {
-    std::filesystem::create_directories(arguments.required("--out"));
+    benchmark::makeTableFolder(arguments.required("--out"));
     tables = std::make_unique<Tables>(arguments.required("--out"));
   }
   for (const std::string& name : scenes)
     study(testScene(name), settings, tables.get());
 }
 
-std::string join(const std::vector<std::string>& words)
-{
-  std::string text;
-  for (const std::string& word : words)
-    text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
 }  // namespace
 
 int main(int argc, char** argv)
@@ -342,8 +335,8 @@ int main(int argc, char** argv)
       "the repeats, in which the methods take turns), for free and for colliding states.\n"
       "Exit code: 0, 1 if the answers of methods or of the exact checker differ, or another error, 2 bad "
       "usage.",
-      {{"--scene", "NAME", "of " + join(benchmarkSceneNames()) + " (default arm_shelf)", true},
-       {"--kind", "KIND", "of states: " + join(benchmark::stateKinds()) + " (default random)"},
+      {{"--scene", "NAME", "of " + nameList(benchmarkSceneNames()) + " (default arm_shelf)", true},
+       {"--kind", "KIND", "of states: " + nameList(benchmark::stateKinds()) + " (default random)"},
        {"--states", "N", "number of states (default 2000)"},
        {"--repeats", "N", "number of repeats (default 5)"},
        {"--seed", "S", "seed of the random states (default 1)"},

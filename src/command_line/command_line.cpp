@@ -82,6 +82,12 @@ long long CommandLine::integer(const std::string& name, long long fallback, long
   return *result;
 }
 
+std::size_t CommandLine::count(const std::string& name, std::size_t fallback, std::size_t min, std::size_t max) const
+{
+  return static_cast<std::size_t>(
+      integer(name, static_cast<long long>(fallback), static_cast<long long>(min), static_cast<long long>(max)));
+}
+
 double CommandLine::number(const std::string& name, double fallback, double min, double max) const
 {
   if (!has(name))

@@ -38,6 +38,8 @@ class CommandLine
   std::vector<std::string> values(const std::string& name) const;
   /// Throws UsageError unless it is an integer from `min` to `max`.
   long long integer(const std::string& name, long long fallback, long long min, long long max) const;
+  /// The same for an integer that is never negative. `max`: below 2^63.
+  std::size_t count(const std::string& name, std::size_t fallback, std::size_t min, std::size_t max) const;
   /// Throws UsageError unless it is a number from `min` to `max`.
   double number(const std::string& name, double fallback, double min, double max) const;
 

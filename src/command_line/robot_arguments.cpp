@@ -69,8 +69,7 @@ BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments)
       throw UsageError(std::string("--traversal: ") + error.what());
     }
   }
-  options.max_batch =
-      static_cast<std::size_t>(arguments.integer("--max-batch", static_cast<long long>(options.max_batch), 1, 1 << 24));
+  options.max_batch = arguments.count("--max-batch", options.max_batch, 1, 1 << 24);
   options.tolerance = arguments.number("--tolerance", options.tolerance, 0.0, 1e3);
   return options;
 }

@@ -8,7 +8,7 @@
 #include "command_line/robot_arguments.h"
 #include "command_line/scene_arguments.h"
 #include "gpu_planning_scene/error.h"
-#include "node/messages.h"
+#include "node/messages/messages.h"
 
 namespace gpu_planning_scene::core
 {

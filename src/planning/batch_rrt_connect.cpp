@@ -16,8 +16,8 @@ namespace
 {
 namespace ob = ompl::base;
 
-// The chosen range, as a fraction of the space's extent. OMPL's RRTConnect uses a fifth. Amid obstacles, short motions
-// find a solution with far fewer states; there are more of them, but checks in bulk make up for that.
+// The chosen range, as a fraction of the space's extent. OMPL's RRTConnect uses a fifth. Amid obstacles, trees of short
+// motions find a solution with far fewer checked states. They need more motions, but checks in bulk make these cheap.
 constexpr double kRangeOfExtent = 0.04;
 
 // Number of goal states taken at first, and at most in one round. More follow as the goal tree grows, as in OMPL's
@@ -95,7 +95,7 @@ ob::PlannerStatus BatchRrtConnect::takeInputs(const ob::GoalSampleableRegion& go
     return ob::PlannerStatus::INVALID_GOAL;
   const ob::State* state = firstGoal(goal, ptc);
   if (!state)
-    // A goal region that fills late may have had no state yet.
+    // The states of the goal region may arrive late.
     return goal.couldSample() && pis_.getSampledGoalsCount() == 0 ? ob::PlannerStatus::TIMEOUT
                                                                   : ob::PlannerStatus::INVALID_GOAL;
   trees.addRoot(BidirectionalTree::Goal, state);

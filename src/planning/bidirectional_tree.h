@@ -11,7 +11,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Two trees, from the start states and from the goal states, that grow towards each other, many branches at a time.
+/// Two trees that grow towards each other from the start states and from the goal states, many branches at a time.
 /// Not thread-safe. The idea of RRT-Connect: J. J. Kuffner, S. M. LaValle, ICRA 2000.
 class BidirectionalTree
 {

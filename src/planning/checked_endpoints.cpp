@@ -47,7 +47,7 @@ Fault outOfBounds(const RobotModel& robot, const GroupStateSpace& space, const d
   return {PlanningStatus::OutOfBounds, "out of bounds: " + outside.text()};
 }
 
-/// A joint beyond its limits makes every proof of a motion impossible, even if it is not planned for.
+/// A joint beyond its limits makes every proof of a motion impossible, even if the group does not move this joint.
 Fault outsideOfProof(const RobotModel& robot, const double* row)
 {
   const ValuesOutsideLimits outside = valuesOutside(limitRanges(robot), robot, row);
@@ -57,7 +57,7 @@ Fault outsideOfProof(const RobotModel& robot, const double* row)
           "out of bounds: " + outside.text() + "; the motion rule \"bound\" proves no motion there"};
 }
 
-/// The row of the start, then the rows of the goals. Variables that are not planned for have their values of the start.
+/// The row of the start, then the rows of the goals. Variables outside the group have the values of the start.
 std::vector<double> rowsOf(const PlanningQuery& query, const GroupStateSpace& space)
 {
   std::vector<double> rows = query.start;

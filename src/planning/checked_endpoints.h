@@ -11,7 +11,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// The states that a query starts from and ends at, after their check.
+/// The start and the goals of a query, after their check.
 struct CheckedEndpoints
 {
   PlanningStatus status = PlanningStatus::Solved;  ///< else the fault of the start or of the first goal

@@ -5,16 +5,15 @@
 #include <utility>
 #include <vector>
 
-// A run of motions is no longer than the motion between its ends if it is straight. Own method: it undoes what planners
-// do to long motions, and no length is gained or lost.
+// A run of motions is straight if its length is the distance between its ends. Then one motion can replace it, and the
+// length of the path stays the same. Own method.
 namespace gpu_planning_scene::core
 {
 using ompl::geometric::PathGeometric;
 
 namespace
 {
-/// Finds runs of several motions that are no longer than one motion would be. Returns the first and last vertex of
-/// each.
+/// Finds straight runs of several motions. Returns the first and the last vertex of each run.
 std::vector<std::pair<std::size_t, std::size_t>> collinearRuns(const PathGeometric& path)
 {
   // Tolerance, as a fraction of the run's length: larger than rounding errors, and too small to matter.

@@ -7,8 +7,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Replaces runs of several motions by one motion of the same length, if it is found valid before `ptc` holds. So it
-/// joins the segments into which planners cut long motions.
+/// Planners cut long motions into segments. This function joins them: it replaces a run of several motions by one
+/// motion of the same length, if the validator finds this motion valid before `ptc` holds.
 void mergeCollinearSegments(ompl::geometric::PathGeometric& path, const MotionValidator& validator,
                             const ompl::base::PlannerTerminationCondition& ptc);
 }  // namespace gpu_planning_scene::core

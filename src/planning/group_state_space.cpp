@@ -50,8 +50,8 @@ bool isPlannedFor(const RobotModel& robot, const Joint& joint)
   return !hasLimits(joint) || rangeOf(robot.variables()[joint.first_variable]) >= kLeastRange;
 }
 
-/// Number of a joint's leading variables that are its position: the translations of planar and floating joints, and the
-/// only variable of other joints.
+/// Number of variables that give a joint's position. They are the first variables of the joint: the translations of
+/// planar and floating joints, and the only variable of other joints.
 int translationCount(JointType type)
 {
   switch (type)

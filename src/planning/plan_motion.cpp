@@ -90,8 +90,8 @@ class Plan
   PlanningResult run(const PlannerFactory& factory);
 
  private:
-  /// A copy of the scene whose current state is the start, so that the joints not planned for keep their values of the
-  /// start.
+  /// A copy of the scene whose current state is the start, so that the joints outside the group keep the values of
+  /// the start.
   static std::shared_ptr<const PlanningScene> withStart(const PlanningScene& scene, const PlanningQuery& query)
   {
     auto copy = std::make_shared<PlanningScene>(scene);

@@ -17,8 +17,8 @@ namespace
 namespace ob = ompl::base;
 using ompl::geometric::PathGeometric;
 
-// Vertices per random branch of a round. The branches of a round do not know of each other, so many would be wasted
-// while the trees are small.
+// Vertices per random branch of a round. The branches of a round grow independently of each other, so in small trees
+// many of them would grow into the same region.
 constexpr std::size_t kVerticesPerBranch = 8;
 constexpr std::size_t kLeastBranches = 2;
 

@@ -29,8 +29,8 @@ bool isHalfATurn(const RobotModel& robot, const Row& from, const Row& to)
   return false;
 }
 
-/// Changes the angles and quaternions of `row` so that they continue from `from`. `last` is the same place as `from`,
-/// with the values that the path has there.
+/// Changes the angles and quaternions of `row` so that they continue from `from`, the previous row of the result.
+/// `last`: the previous row of the path, which is the same state as `from`.
 void unwind(const RobotModel& robot, const Row& from, const Row& last, Row& row)
 {
   constexpr int kRotation = 3;  // index of the quaternion within a floating joint's variables

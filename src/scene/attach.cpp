@@ -1,7 +1,9 @@
+#include "scene/attach.h"
+
 #include <algorithm>
+#include <utility>
 
 #include "gpu_planning_scene/error.h"
-#include "gpu_planning_scene/planning_scene.h"
 #include "scene/frame.h"
 #include "scene/missing_link.h"
 #include "scene/validate_scene.h"
@@ -9,16 +11,37 @@
 // Attaching objects to links, and detaching them.
 namespace gpu_planning_scene::core
 {
-namespace
+void requireAttachable(const WorldObject& object)
 {
-int requireLink(const RobotModel& robot, const std::string& name, const std::string& where)
-{
-  const int link = robot.linkIndex(name);
-  if (link < 0)
-    throw Error(where + ": robot '" + robot.name() + "' " + noLinkText(robot, name));
-  return link;
+  if (hasHalfSpace(object.shapes))
+    throw Error("object '" + object.id + "' has a half-space and cannot be attached; leave it in the world");
 }
-}  // namespace
+
+AttachedObject attachedFromWorld(const RobotModel& robot, const WorldObject& object, int link, const double* state)
+{
+  AttachedObject attached;
+  attached.link = link;
+  attached.object = object;
+  attached.object.pose = linkPose(robot, link, state).inverse() * object.pose;
+  return attached;
+}
+
+WorldObject detachedToWorld(const RobotModel& robot, AttachedObject attached, const double* state)
+{
+  attached.object.pose = linkPose(robot, attached.link, state) * attached.object.pose;
+  return std::move(attached.object);
+}
+
+void addTouchLinks(const RobotModel& robot, const std::vector<std::string>& names, AttachedObject& attached)
+{
+  std::vector<int>& links = attached.touch_links;
+  for (const std::string& name : names)
+  {
+    const int link = requireLink(robot, name, "touch link of object '" + attached.object.id + "'");
+    if (std::find(links.begin(), links.end(), link) == links.end())
+      links.push_back(link);
+  }
+}
 
 void PlanningScene::attach(const std::string& object, const std::string& link,
                            const std::vector<std::string>& touch_links, const double* state)
@@ -33,14 +56,10 @@ void PlanningScene::attach(const std::string& object, const std::string& link,
                     "' already; detach it first");
     throw Error("object '" + object + "' cannot be attached: the scene has no such object");
   }
-  if (hasHalfSpace(found->shapes))
-    throw Error("object '" + object + "' has a half-space and cannot be attached; leave it in the world");
-  AttachedObject added;
-  added.link = requireLink(*robot, link, "object '" + object + "' cannot be attached");
-  for (const std::string& touch_link : touch_links)
-    added.touch_links.push_back(requireLink(*robot, touch_link, "touch link of object '" + object + "'"));
-  added.object = *found;
-  added.object.pose = linkPose(*robot, added.link, state).inverse() * found->pose;
+  requireAttachable(*found);
+  const int index = requireLink(*robot, link, "object '" + object + "' cannot be attached");
+  AttachedObject added = attachedFromWorld(*robot, *found, index, state);
+  addTouchLinks(*robot, touch_links, added);
   scaleAttached(added);
   attached.push_back(std::move(added));
   objects.erase(found);
@@ -52,9 +71,7 @@ void PlanningScene::detach(const std::string& object, const double* state)
                                   [&](const AttachedObject& known) { return known.object.id == object; });
   if (found == attached.end())
     throw Error("object '" + object + "' cannot be detached: no such object is attached");
-  WorldObject freed = found->object;
-  freed.pose = linkPose(*robot, found->link, state) * found->object.pose;
-  objects.push_back(std::move(freed));
+  objects.push_back(detachedToWorld(*robot, *found, state));
   attached.erase(found);
 }
 }  // namespace gpu_planning_scene::core

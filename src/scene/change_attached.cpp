@@ -1,6 +1,5 @@
-#include <algorithm>
-
 #include "gpu_planning_scene/error.h"
+#include "scene/attach.h"
 #include "scene/frame.h"
 #include "scene/scene_changer.h"
 #include "scene/validate_scene.h"
@@ -31,11 +30,10 @@ void SceneChanger::changeAttached(const AttachedChange& change)
 void SceneChanger::attach(const AttachedChange& change)
 {
   const std::string& id = change.object.id;
-  const int link = requireLink(change.link, "object '" + id + "' cannot be attached");
+  const int link = linkIndex(change.link, "object '" + id + "' cannot be attached");
   AttachedObject attached = change.object.shapes.empty() ? fromWorld(change, link) : fromShapes(change, link);
-  if (hasHalfSpace(attached.object.shapes))
-    throw Error("object '" + id + "' has a half-space and cannot be attached; leave it in the world");
-  addTouchLinks(change, attached);
+  requireAttachable(attached.object);
+  addTouchLinks(*result_.scene.robot, change.touch_links, attached);
   attached.padding = defaults_.attached_padding;
   result_.scene.scaleAttached(attached);
   warnOfAllowedCollisions(id);
@@ -65,10 +63,7 @@ AttachedObject SceneChanger::fromWorld(const AttachedChange& change, int link)
   if (change.object.pose)
     result_.warnings.push_back("object '" + id +
                                "' is attached at its place in the world; the pose in the request is not used");
-  AttachedObject attached;
-  attached.link = link;
-  attached.object = *object;
-  attached.object.pose = linkPose(*result_.scene.robot, link, knownState()).inverse() * object->pose;
+  AttachedObject attached = attachedFromWorld(*result_.scene.robot, *object, link, knownState());
   appendShapes(change.object, attached.object);
   return attached;
 }
@@ -84,7 +79,7 @@ AttachedObject SceneChanger::fromShapes(const AttachedChange& change, int link)
 
 void SceneChanger::appendToAttached(AttachedObject& attached, const AttachedChange& change)
 {
-  if (!change.link.empty() && requireLink(change.link, "object '" + change.object.id + "'") != attached.link)
+  if (!change.link.empty() && linkIndex(change.link, "object '" + change.object.id + "'") != attached.link)
     throw Error("object '" + change.object.id + "' is attached to link '" + linkName(attached.link) + "', not to '" +
                 change.link + "'; name that link, or none, to append to it");
   if (change.object.pose)
@@ -94,19 +89,8 @@ void SceneChanger::appendToAttached(AttachedObject& attached, const AttachedChan
   if (hasHalfSpace(attached.object.shapes))
     throw Error("object '" + change.object.id + "' is attached and cannot have a half-space");
   count_.add(change.object.id, attached.object.shapes);
-  addTouchLinks(change, attached);
+  addTouchLinks(*result_.scene.robot, change.touch_links, attached);
   result_.scene.scaleAttached(attached);
-}
-
-void SceneChanger::addTouchLinks(const AttachedChange& change, AttachedObject& attached) const
-{
-  std::vector<int>& links = attached.touch_links;
-  for (const std::string& name : change.touch_links)
-  {
-    const int link = requireLink(name, "touch link of object '" + change.object.id + "'");
-    if (std::find(links.begin(), links.end(), link) == links.end())
-      links.push_back(link);
-  }
 }
 
 /// A pose in the link's own frame does not need the state of the robot.
@@ -121,7 +105,7 @@ void SceneChanger::detach(const AttachedChange& change)
 {
   const std::string& id = change.object.id;
   const std::string where = "object '" + id + "' cannot be detached: ";
-  const int link = change.link.empty() ? -1 : requireLink(change.link, id.empty() ? "attached objects" : where);
+  const int link = change.link.empty() ? -1 : linkIndex(change.link, id.empty() ? "attached objects" : where);
   if (id.empty())
   {
     for (const std::string& attached_id : attached_.ids())
@@ -140,9 +124,7 @@ void SceneChanger::detach(const AttachedChange& change)
 
 void SceneChanger::detachToWorld(const std::string& id)
 {
-  AttachedObject attached = attached_.take(id);
-  attached.object.pose = linkPose(*result_.scene.robot, attached.link, knownState()) * attached.object.pose;
-  objects_.add(std::move(attached.object));
+  objects_.add(detachedToWorld(*result_.scene.robot, attached_.take(id), knownState()));
   attached_here_.erase(id);
 }
 }  // namespace gpu_planning_scene::core

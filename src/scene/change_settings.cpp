@@ -63,8 +63,8 @@ void SceneChanger::changeMatrix(const SceneChange& change)
   keeps_matrix_ = true;
 }
 
-/// Warns of a full scene without a matrix: the matrix of the previous scene may have checked more pairs. A matrix that
-/// the change names is meant as it is.
+/// Warns of a full scene without a matrix if fewer pairs are checked than with the matrix of the previous scene. A
+/// scene with a matrix gives no warning.
 void SceneChanger::warnOfMatrixReset(const SceneChange& change, const AllowedCollisionMatrix& before)
 {
   if (change.is_diff || change.matrix)
@@ -79,7 +79,7 @@ void SceneChanger::warnOfMatrixReset(const SceneChange& change, const AllowedCol
       ": the scene is not a diff and has no allowed_collision_matrix, so the robot's own matrix applies again");
 }
 
-/// Warns of links that a full scene does not name and that therefore become smaller: fewer states collide.
+/// Warns of links that become smaller because a full scene does not name them. Then fewer states collide.
 void SceneChanger::warnOfReset(const char* what, const std::vector<double>& before, const std::vector<double>& after,
                                const std::map<std::string, double>& named)
 {
@@ -100,7 +100,7 @@ void SceneChanger::changePadding(const SceneChange& change)
     if (!(metres >= 0.0) || metres > kLargestLength)
       throw Error("link '" + link + "': the padding is " + std::to_string(metres) +
                   "; it must not be negative, nor above 1000 km");
-    padding[static_cast<std::size_t>(requireLink(link, "link_padding"))] = metres;
+    padding[static_cast<std::size_t>(linkIndex(link, "link_padding"))] = metres;
   }
   warnOfReset("padding", result_.scene.link_padding, padding, change.link_padding);
   const bool is_padded = std::any_of(padding.begin(), padding.end(), [](double metres) { return metres != 0.0; });
@@ -112,7 +112,7 @@ void SceneChanger::changeScale(const SceneChange& change)
   std::vector<double> scale = change.is_diff ? result_.scene.robot->linkScale() : defaults_.link_scale;
   scale.resize(result_.scene.robot->links().size(), 1.0);
   for (const auto& [link, factor] : change.link_scale)
-    scale[static_cast<std::size_t>(requireLink(link, "link_scale"))] = factor;
+    scale[static_cast<std::size_t>(linkIndex(link, "link_scale"))] = factor;
   warnOfReset("scale", result_.scene.robot->linkScale(), scale, change.link_scale);
   result_.scene.setLinkScale(scale);
 }

@@ -56,7 +56,7 @@ std::vector<double> variablesAt(const Joint& joint, const Eigen::Isometry3d& pos
     const Eigen::Matrix3d directions = planarDirections(joint.axis);
     const Eigen::Vector3d position = directions.transpose() * pose.translation();
     const Eigen::Matrix3d rotation = directions.transpose() * pose.linear() * directions;
-    constexpr double kTolerance = 1e-6;  // metres, radians: rounding in a message may leave as much
+    constexpr double kTolerance = 1e-6;  // metres, radians: rounding errors in a message can be as large
     if (std::abs(position.z()) > kTolerance || rotation(2, 2) < 1.0 - 0.5 * kTolerance * kTolerance)
       throw Error("the transform leaves the plane of the planar joint '" + joint.name + "'");
     return {position.x(), position.y(), std::atan2(rotation(1, 0), rotation(0, 0))};

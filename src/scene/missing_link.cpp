@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "gpu_planning_scene/error.h"
 #include "model/name_list.h"
 #include "scene/nearest_key.h"
 
@@ -21,5 +22,13 @@ std::string noLinkText(const RobotModel& robot, const std::string& name)
   const std::size_t more = names.size() - listed;
   names.resize(listed);
   return start + "; its links: " + nameList(names) + (more == 0 ? "" : " and " + std::to_string(more) + " more");
+}
+
+int requireLink(const RobotModel& robot, const std::string& name, const std::string& where)
+{
+  const int link = robot.linkIndex(name);
+  if (link < 0)
+    throw Error(where + ": robot '" + robot.name() + "' " + noLinkText(robot, name));
+  return link;
 }
 }  // namespace gpu_planning_scene::core

@@ -3,6 +3,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/base_joints.h"
 #include "model/joint_limits.h"
+#include "model/name_list.h"
 #include "scene/message_values.h"
 #include "scene/scene_reader.h"
 
@@ -25,14 +26,6 @@ struct GivenState
     given[variable] = true;
   }
 };
-
-std::string join(const std::vector<std::string>& names)
-{
-  std::string line;
-  for (const std::string& name : names)
-    line += (line.empty() ? "" : ", ") + name;
-  return line;
-}
 
 void readJointState(const YamlValue& value, const SceneReader& reader, GivenState& state)
 {
@@ -130,15 +123,15 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
 
   const std::string start = value.where() + ": robot_state: ";
   if (!state.unknown_joints.empty())
-    reader.warn(start + "joints ignored because the robot does not have them: " + join(state.unknown_joints));
+    reader.warn(start + "joints ignored because the robot does not have them: " + nameList(state.unknown_joints));
   if (!state.fixed_joints.empty())
-    reader.warn(start + "joints ignored because they are fixed: " + join(state.fixed_joints));
+    reader.warn(start + "joints ignored because they are fixed: " + nameList(state.fixed_joints));
   if (!state.mimic_joints.empty())
-    reader.warn(start + "joints ignored because they follow other joints: " + join(state.mimic_joints));
+    reader.warn(start + "joints ignored because they follow other joints: " + nameList(state.mimic_joints));
 
   if (std::find(state.given.begin(), state.given.end(), true) == state.given.end())
     return {};
-  // The virtual joint is not in the URDF. Files of its users often leave it out, and mean the default.
+  // The virtual joint is not in the URDF. Scene files often leave it out, and then mean its default.
   std::vector<std::string> missing;
   std::vector<int> columns;
   std::vector<double> values;
@@ -152,7 +145,7 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
     else if (std::find(of_virtual_joint.begin(), of_virtual_joint.end(), static_cast<int>(i)) == of_virtual_joint.end())
       missing.push_back(reader.robot.variables()[i].name);
   if (!missing.empty())
-    reader.warn(start + "joints without a value get their default: " + join(missing));
+    reader.warn(start + "joints without a value get their default: " + nameList(missing));
   if (const auto outside = findValueOutsideLimits(reader.robot, columns, values.data(), 1))
     reader.warn(start + outside->text);
   return state.values;

@@ -15,7 +15,7 @@ bool isRigid(const Eigen::Isometry3d& pose);
 Eigen::Isometry3d nearestRigid(const Eigen::Isometry3d& pose, const std::string& where);
 
 /// The pose of a shape: the product of the pose of its body and its pose in the body's frame. The validation of the
-/// scene has accepted both. All code that needs the place of a shape calls this function, because a rotation that is
-/// slightly off displaces a shape by more, the farther away the shape is.
+/// scene has accepted both. All code that needs the place of a shape calls this function, because a small
+/// error of a rotation displaces a distant shape by a large length.
 Eigen::Isometry3d rigidProduct(const Eigen::Isometry3d& body, const Eigen::Isometry3d& shape);
 }  // namespace gpu_planning_scene::core

@@ -45,8 +45,8 @@ Change applyChange(const PlanningScene& scene, const std::vector<double>& state,
   }
 }
 
-/// Tries the change with some state of the robot, and some pose for each unknown frame. The names that are unknown
-/// depend on neither. Errors are ignored here; applyChange reports them.
+/// Tries the change with an arbitrary state of the robot, and an arbitrary pose for each unknown frame. They do not
+/// affect which names are unknown. Errors are ignored here; applyChange reports them.
 std::vector<StampedFrame> externalFrames(const PlanningScene& scene, const SceneChange& change)
 {
   if (namesNoOtherFrames(*scene.robot, change))

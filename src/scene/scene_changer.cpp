@@ -6,7 +6,6 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/frame.h"
 #include "scene/matrix_entries.h"
-#include "scene/missing_link.h"
 #include "scene/rigid_pose.h"
 #include "scene/shape_order.h"
 
@@ -71,15 +70,6 @@ void SceneChanger::requireNewId(const std::string& id) const
   count_.requireName(id, "collision object");
   if (result_.scene.robot->linkIndex(id) >= 0)
     throw Error("object '" + id + "' has the name of a link; give it another id");
-}
-
-int SceneChanger::requireLink(const std::string& name, const std::string& where) const
-{
-  const RobotModel& robot = *result_.scene.robot;
-  const int link = robot.linkIndex(name);
-  if (link < 0)
-    throw Error(where + ": robot '" + robot.name() + "' " + noLinkText(robot, name));
-  return link;
 }
 
 void SceneChanger::requirePose(const Eigen::Isometry3d& pose, const std::string& where) const

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu_planning_scene/scene_change.h"
+#include "scene/missing_link.h"
 #include "scene/scene_count.h"
 #include "scene/scene_items.h"
 
@@ -18,7 +19,8 @@ void appendShapes(const ObjectChange& change, WorldObject& object);
 class SceneChanger
 {
  public:
-  /// The pose in the planning frame of a frame that the scene does not know. Throws Error if it is unknown here too.
+  /// Looks up a frame that the scene does not know, and returns its pose in the planning frame. Throws Error if the
+  /// frame is unknown here too.
   using Lookup = std::function<Eigen::Isometry3d(const StampedFrame&)>;
 
   SceneChanger(const PlanningScene& scene, const std::vector<double>& state, const SceneDefaults& defaults,
@@ -51,7 +53,6 @@ class SceneChanger
   void appendToAttached(AttachedObject& attached, const AttachedChange& change);
   void detach(const AttachedChange& change);
   void detachToWorld(const std::string& id);
-  void addTouchLinks(const AttachedChange& change, AttachedObject& attached) const;
   Eigen::Isometry3d poseInLink(const Eigen::Isometry3d& pose, const StampedFrame& frame, int link);
 
   // change_objects.cpp
@@ -64,12 +65,15 @@ class SceneChanger
 
   // scene_changer.cpp
   void requireNewId(const std::string& id) const;
-  int requireLink(const std::string& name, const std::string& where) const;
+  int linkIndex(const std::string& name, const std::string& where) const
+  {
+    return requireLink(*result_.scene.robot, name, where);
+  }
   /// Throws Error if a pose, name or shape of the change cannot be used.
   void require(const ObjectChange& change);
   void requirePose(const Eigen::Isometry3d& pose, const std::string& where) const;
-  /// Removes the colour and the allowed collisions of an object that is gone. A matrix that the change will replace
-  /// stays as it is.
+  /// Removes the colour and the allowed collisions of a removed object. A matrix stays as it is if the change will
+  /// replace it.
   void forget(const std::string& id);
   /// Warns if earlier changes allow the new object to touch other bodies, because these pairs are not checked.
   void warnOfAllowedCollisions(const std::string& id);

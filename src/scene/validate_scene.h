@@ -20,7 +20,7 @@ class SceneValidator
   void validate(const PlanningScene& scene);
 
  private:
-  /// Weak pointers, because a new mesh may get the address of a mesh that is gone.
+  /// Weak pointers, because a new mesh may get the address of a destroyed mesh.
   std::unordered_map<const Mesh*, std::weak_ptr<const Mesh>> valid_;
 };
 

@@ -225,7 +225,7 @@ const std::string& YamlValue::text() const
 
 double YamlValue::number() const
 {
-  // .nan and .inf, which YAML allows, are not accepted, and neither are nan and inf.
+  // YAML allows .nan and .inf, and C allows nan and inf. None of them is accepted.
   const std::optional<double> value = parseNumber(text());
   if (!value || !std::isfinite(*value))
     fail("'" + scalar_ + "' is not a finite number");

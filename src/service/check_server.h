@@ -71,9 +71,9 @@ class CheckQueue;
 /// queue merges small requests that have the same group and matrix. The other queue answers large requests one by one.
 /// So a small request never waits for a large one. A motion counts as many states as it has samples. Under
 /// MotionRule::Bound, it may need more checks than samples (MotionCheckerOptions::max_samples). Other small requests
-/// wait until all these checks are made. A request with a large matrix counts as large, because a checker needs long to
-/// adopt such a matrix. A queue takes the store's newest scene when it starts a batch. So each answer belongs to one
-/// snapshot, which is at least as new as the store's snapshot at the arrival of the request.
+/// wait until all these checks are made. A request with a large matrix counts as large, because a checker needs much
+/// time to take over such a matrix. A queue takes the store's newest scene when it starts a batch. So each answer
+/// belongs to one snapshot, which is at least as new as the store's snapshot at the arrival of the request.
 class CheckServer
 {
  public:

@@ -60,9 +60,8 @@ void run(const CommandLine& arguments)
 {
   arguments.required("--urdf");
   SamplingOptions sampling;
-  sampling.samples =
-      static_cast<std::size_t>(arguments.integer("--samples", static_cast<long long>(sampling.samples), 1, 1000000000));
-  sampling.seed = static_cast<std::uint64_t>(arguments.integer("--seed", 0, 0, std::numeric_limits<long long>::max()));
+  sampling.samples = arguments.count("--samples", sampling.samples, 1, 1000000000);
+  sampling.seed = arguments.count("--seed", 0, 0, std::numeric_limits<long long>::max());
   sampling.always_share = arguments.number("--always-share", sampling.always_share, 0.0, 1.0);
 
   std::vector<std::string> warnings;

@@ -45,7 +45,7 @@ std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene&
   std::vector<double> state = startState(scene);
   if (arguments.has("--random"))
   {
-    std::mt19937_64 generator(static_cast<std::uint64_t>(arguments.integer("--random", 0, 0, 1LL << 32)));
+    std::mt19937_64 generator(arguments.count("--random", 0, 0, 1ULL << 32));
     randomise(*scene.robot, generator, startState(scene), true, state.data());
   }
   if (arguments.has("--state"))

@@ -144,9 +144,8 @@ std::unique_ptr<StateSource> stateSourceFrom(const CommandLine& arguments, const
     return std::make_unique<StatesOfFile>(scene, arguments.required("--states"));
   if (arguments.has("--state"))
     return std::make_unique<StateOfText>(scene, arguments.required("--state"));
-  const long long count = arguments.integer("--random", 0, 1, 1000000000);
-  const long long seed = arguments.integer("--seed", 0, 0, std::numeric_limits<long long>::max());
-  return std::make_unique<RandomStates>(scene, static_cast<std::size_t>(count), static_cast<std::uint64_t>(seed),
-                                        !arguments.has("--random-base"));
+  const std::size_t count = arguments.count("--random", 0, 1, 1000000000);
+  const std::size_t seed = arguments.count("--seed", 0, 0, std::numeric_limits<long long>::max());
+  return std::make_unique<RandomStates>(scene, count, seed, !arguments.has("--random-base"));
 }
 }  // namespace gpu_planning_scene::core

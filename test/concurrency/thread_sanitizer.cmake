@@ -1,5 +1,5 @@
-# Runs concurrency.has_no_data_races. SOURCE: the repository; FOLDER: build folder; GENERATOR: CMake generator of the
-# build.
+# Runs concurrency.has_no_data_races. SOURCE: the repository; FOLDER: build folder; GENERATOR and LAUNCHER: CMake generator
+# and compiler launcher (ccache, or empty) of the build.
 
 # run(WHAT COMMAND...): runs the command. If it fails, the error shows WHAT and the command's output.
 function(run what)
@@ -11,7 +11,7 @@ endfunction()
 
 run("no build with the thread sanitizer" ${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLDER} -G ${GENERATOR}
   -DGPU_PLANNING_SCENE_ROS=OFF -DGPU_PLANNING_SCENE_BENCH=OFF -DCMAKE_BUILD_TYPE=Debug
-  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
+  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
   "-DCMAKE_CXX_FLAGS=-fsanitize=thread -O1 -g1")
 run("it does not build" ${CMAKE_COMMAND} --build ${FOLDER} --target concurrency_test)
 run("data races" ${CMAKE_COMMAND} -E env

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "gpu_planning_scene/cpu_checker.h"
-#include "node/node_parameters.h"
+#include "node/parameters/node_parameters.h"
 
 namespace gpu_planning_scene::core
 {

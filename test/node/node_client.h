@@ -8,7 +8,7 @@
 #include <ros/ros.h>
 
 #include "gpu_planning_scene/planning_scene.h"
-#include "node/messages.h"
+#include "node/messages/messages.h"
 #include "node/persistent_call.h"
 
 namespace gpu_planning_scene::core

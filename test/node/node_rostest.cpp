@@ -12,7 +12,7 @@
 
 #include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
-#include "node/messages.h"
+#include "node/messages/messages.h"
 #include "node/persistent_call.h"
 #include "tools/run_program.h"
 

@@ -1,9 +1,7 @@
-// The motion validator fulfils OMPL's contract, also with many threads, and OMPL's own planners find valid paths with
-// it.
+// The motion validator fulfils OMPL's contract, and OMPL's own planners find valid paths with it. The test of many
+// threads is in test/concurrency.
 
-#include <atomic>
 #include <limits>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -136,26 +134,6 @@ TEST_F(MotionValidatorTest, ValidatesPathsOfAnyLength)
   EXPECT_TRUE(robot.validator().validatePath(robot.path({{-1.0, 0.0}})));
   EXPECT_FALSE(robot.validator().validatePath(robot.path({{-0.4, 0.0}})));
   EXPECT_FALSE(robot.validator().validatePath(robot.path({})));
-}
-
-TEST_F(MotionValidatorTest, ServesManyThreads)
-{
-  constexpr int kThreads = 4;
-  constexpr int kMotions = 50;
-  std::atomic<int> wrong{0};
-  std::vector<std::thread> threads;
-  for (int t = 0; t < kThreads; ++t)
-    threads.emplace_back(
-        [&]
-        {
-          for (int i = 0; i < kMotions; ++i)
-            if (check({-1.0, 0.0}, {i % 2 == 0 ? -1.0 : 1.0, 1.0}) != (i % 2 == 0))
-              ++wrong;
-        });
-  for (std::thread& thread : threads)
-    thread.join();
-  EXPECT_EQ(wrong, 0);
-  EXPECT_EQ(robot.validator().getCheckedMotionCount(), static_cast<unsigned int>(kThreads * kMotions));
 }
 
 template <class Planner>

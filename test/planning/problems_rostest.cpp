@@ -14,9 +14,9 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "model/seconds_since.h"
-#include "node/messages.h"
+#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
 #include "node/persistent_call.h"
-#include "node/to_messages.h"
 #include "support/planning_problems.h"
 
 namespace gpu_planning_scene::core

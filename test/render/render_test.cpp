@@ -17,18 +17,6 @@ namespace
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 
-/// The slider robot and a wall from x = 0.9 to 1.1 m, which the cart can hit.
-PlanningScene sceneWithWall()
-{
-  PlanningScene scene(sliderRobot());
-  WorldObject wall;
-  wall.id = "wall";
-  wall.pose.translation() = Eigen::Vector3d(1.0, 0.0, 0.0);
-  wall.shapes.push_back({Box{Eigen::Vector3d(0.2, 1.0, 0.2)}, Eigen::Isometry3d::Identity()});
-  scene.objects.push_back(wall);
-  return scene;
-}
-
 std::vector<double> cartAt(const PlanningScene& scene, double x)
 {
   std::vector<double> state = scene.robot->defaultState();
@@ -76,7 +64,7 @@ double shareOf(const Image& image, IsColor is_color)
 
 TEST(Render, BodiesThatCollideAreRedAndNoOthers)
 {
-  const PlanningScene scene = sceneWithWall();
+  const PlanningScene scene = sliderAndWall();
   const Image free = pictureOf(scene, cartAt(scene, 0.0));
   EXPECT_EQ(free.rgb.size(), 3u * kWidth * kHeight);
   EXPECT_EQ(shareOf(free, isRed), 0.0);
@@ -88,7 +76,7 @@ TEST(Render, BodiesThatCollideAreRedAndNoOthers)
 
 TEST(Render, TheSameSceneGivesTheSamePicture)
 {
-  const PlanningScene scene = sceneWithWall();
+  const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.5);
   const Image first = pictureOf(scene, state);
   EXPECT_EQ(first.rgb, pictureOf(scene, state).rgb);
@@ -97,7 +85,7 @@ TEST(Render, TheSameSceneGivesTheSamePicture)
 
 TEST(Render, ContactPointsAreYellow)
 {
-  const PlanningScene scene = sceneWithWall();
+  const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.0);
   EXPECT_EQ(shareOf(pictureOf(scene, state), isYellow), 0.0);
   EXPECT_GT(shareOf(pictureOf(scene, state, {Eigen::Vector3d(0.1, 0.0, 0.2)}), isYellow), 0.0);
@@ -105,7 +93,7 @@ TEST(Render, ContactPointsAreYellow)
 
 TEST(Render, HiddenContactPointsAreFaintAndNearOnesAreNot)
 {
-  const PlanningScene scene = sceneWithWall();
+  const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.0);
   Camera camera;
   camera.eye = Eigen::Vector3d(3.0, 0.0, 0.0);
@@ -123,7 +111,7 @@ TEST(Render, HiddenContactPointsAreFaintAndNearOnesAreNot)
 /// The same scene without grey bodies, which look like a shaded floor.
 PlanningScene greenScene()
 {
-  PlanningScene scene = sceneWithWall();
+  PlanningScene scene = sliderAndWall();
   for (const char* name : {"cart", "pole", "wall"})
     scene.colors[name] = Color{0.1F, 0.8F, 0.1F, 1.0F};
   return scene;
@@ -145,7 +133,7 @@ TEST(Render, TheSceneStandsOnAFloorWithShadows)
 
 TEST(Render, TheClearestViewIsNotTheBackOfAShelf)
 {
-  PlanningScene scene = sceneWithWall();
+  PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.0);
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const auto red_in = [&](const Camera& camera) {
@@ -179,7 +167,7 @@ TEST(Render, AHalfSpaceIsAPlaneBelowTheRobotInsteadOfTheFloor)
 
 TEST(Render, NearBodiesHideFarBodies)
 {
-  const PlanningScene scene = sceneWithWall();
+  const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.9);
   const auto red_seen_from = [&](double x)
   {
@@ -196,7 +184,7 @@ TEST(Render, NearBodiesHideFarBodies)
 
 TEST(Render, CamerasAndSizesThatGiveNoPictureAreRefused)
 {
-  const PlanningScene scene = sceneWithWall();
+  const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.0);
   const auto attempt = [&](const Camera& camera, int width)
   { return errorOf([&] { render(scene, state.data(), {}, {}, camera, width, kHeight, "software"); }); };

@@ -47,6 +47,13 @@ TEST(Attach, KeepsTheObjectWhereItIsInTheState)
   EXPECT_EQ("left", scene.bodyName(static_cast<int>(scene.robot->links().size()) + 2));
 }
 
+TEST(Attach, StoresATouchLinkThatIsNamedTwiceOnce)
+{
+  PlanningScene scene = sceneWithBoxes();
+  scene.attach("left", "pole", {"cart", "cart"}, kPicked.data());
+  EXPECT_EQ(std::vector<int>{scene.robot->linkIndex("cart")}, scene.attached.at(0).touch_links);
+}
+
 TEST(Attach, CarriesTheObjectToWhereItIsDetached)
 {
   PlanningScene scene = sceneWithBoxes();

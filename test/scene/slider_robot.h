@@ -1,9 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
-#include "gpu_planning_scene/robot_model.h"
+#include "gpu_planning_scene/planning_scene.h"
 
 namespace gpu_planning_scene::core
 {
@@ -18,4 +19,7 @@ std::shared_ptr<const RobotModel> sliderRobot();
 
 /// The same robot on a planar or floating virtual joint `floor` in the frame `hall`.
 std::shared_ptr<const RobotModel> sliderRobotOnFloor(const std::string& joint_type);
+
+/// The robot and the object "wall" from x = 0.9 to 1.1 m, which the cart can hit.
+PlanningScene sliderAndWall(std::uint64_t revision = 0);
 }  // namespace gpu_planning_scene::core

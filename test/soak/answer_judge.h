@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "node/messages.h"
+#include "node/messages/messages.h"
 #include "soak/scene_history.h"
 
 namespace gpu_planning_scene::core

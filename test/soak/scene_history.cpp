@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "gpu_planning_scene/error.h"
-#include "node/from_messages.h"
+#include "node/messages/from_messages.h"
 
 namespace gpu_planning_scene::core
 {

@@ -49,6 +49,19 @@ std::vector<std::string> planningProblemNames()
   return names;
 }
 
+std::vector<std::string> chosenPlanningProblems(std::size_t max)
+{
+  const std::vector<std::string> all = planningProblemNames();
+  if (all.empty())
+    throw Error("there are no problems in " + planningProblemFolder() +
+                "; CONTRIBUTING.md (Data that is not in the repository) names their source");
+  const std::size_t count = std::min(max, all.size());
+  std::vector<std::string> chosen;
+  for (std::size_t i = 0; i < count; ++i)
+    chosen.push_back(all[i * all.size() / count]);
+  return chosen;
+}
+
 PlanningProblem loadPlanningProblem(const std::string& name)
 {
   const std::size_t slash = name.find('/');

@@ -24,6 +24,9 @@ std::string planningProblemFolder();
 /// The sorted names of all problems of the ur5; empty if ../shared is missing.
 std::vector<std::string> planningProblemNames();
 
+/// At most `max` of the names, evenly spread, so that each set has some of them. Throws Error if there are no problems.
+std::vector<std::string> chosenPlanningProblems(std::size_t max);
+
 /// Throws Error if a file cannot be read. All problems share one robot.
 PlanningProblem loadPlanningProblem(const std::string& name);
 }  // namespace gpu_planning_scene::core

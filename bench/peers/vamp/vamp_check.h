@@ -13,15 +13,16 @@ namespace gpu_planning_scene::core::benchmark
 struct VampLibrary;
 struct VampWorld;
 
-/// VAMP has no cylinders. Its own script for the problems of MotionBenchMaker makes a capsule of a cylinder, with the
-/// same axis and radius, so that a half-ball is added at each end. In the set "box" it makes a box around the cylinder.
+/// VAMP has no cylinders. Its own script for the problems of MotionBenchMaker replaces a cylinder by a capsule with the
+/// same axis and radius, which adds a half-ball at each end. In the set "box", the script replaces a cylinder by a box
+/// around it.
 enum class VampCylinders
 {
   Capsules,
   Boxes
 };
 
-/// The way in which VAMP's script converts the cylinders of a test scene or of a set of problems: see
+/// The shape by which VAMP's script replaces the cylinders of a test scene or of a set of problems. `name`: see
 /// PlanningScene::name.
 VampCylinders vampCylindersOf(const std::string& name);
 

@@ -80,8 +80,8 @@ bool areAllFree(const VampWorld& world, const float* states)
   return Robot::fkcc<kVampLanes>(world.environment, block);
 }
 
-/// A block of eight states is worth its time only where all of them are likely to be free: after eight free states. In
-/// motions this is the common case. With random states most blocks have a collision.
+/// A check of a block saves time only if all eight states are free. This is likely after eight free states, as along a
+/// motion. Most blocks of random states have a collision.
 void check(const VampWorld& world, const float* states, std::size_t count, std::uint8_t* valid)
 {
   std::size_t free_before = 0;

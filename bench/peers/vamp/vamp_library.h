@@ -6,8 +6,8 @@
 namespace gpu_planning_scene::core::benchmark
 {
 // The functions of the library vamp_ur5, which has VAMP's check of the ur5. The whole library is compiled for AVX2, so
-// only plain data crosses its boundary: an inline function of the C++ library or of Eigen that both sides compile must
-// not be shared. Lengths are in metres, angles in radians, poses in VAMP's world, which is the planning frame of the
+// only plain data crosses its boundary: the programs must not use its copies of inline functions of the C++ library or
+// of Eigen. Lengths are in metres, angles in radians, poses in VAMP's world, which is the planning frame of the
 // ur5's URDF.
 
 constexpr std::size_t kVampJoints = 6;

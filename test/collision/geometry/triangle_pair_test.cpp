@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/moving_shape.h"
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -104,18 +106,6 @@ Triangle placed(const IntTriangle& triangle, const Eigen::Isometry3d& pose, doub
                         scale * static_cast<double>(triangle[i][2]));
   }
   return result;
-}
-
-Eigen::Isometry3d randomPose(std::mt19937_64& generator, double reach)
-{
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> shift(-reach, reach);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = Eigen::Quaterniond(normal(generator), normal(generator), normal(generator), normal(generator))
-                      .normalized()
-                      .toRotationMatrix();
-  pose.translation() = Vector3d(shift(generator), shift(generator), shift(generator));
-  return pose;
 }
 
 class TrianglePair : public testing::TestWithParam<int>

@@ -1,0 +1,123 @@
+#include "node/endpoints/diagnostics.h"
+
+#include <ros/this_node.h>
+
+#include "collision/checkers/resilient_checker.h"
+#include "model/one_line.h"
+#include "service/memory_guard.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using diagnostic_msgs::DiagnosticStatus;
+
+void add(DiagnosticStatus& status, const std::string& key, const std::string& value)
+{
+  status.values.emplace_back();
+  status.values.back().key = key;
+  status.values.back().value = value;
+}
+
+/// The sum of the device histories of all checkers.
+DeviceHistory sumOf(const std::vector<std::shared_ptr<const StateChecker>>& checkers)
+{
+  DeviceHistory sum;
+  for (const auto& checker : checkers)
+  {
+    const auto* resilient = dynamic_cast<const ResilientChecker*>(checker.get());
+    if (resilient == nullptr)
+      continue;
+    const DeviceHistory history = resilient->history();
+    sum.losses += history.losses;
+    sum.rebuilds += history.rebuilds;
+    sum.batches_on_cpu += history.batches_on_cpu;
+    sum.on_cpu = sum.on_cpu || history.on_cpu;
+    sum.rebuild_failed = sum.rebuild_failed || (history.on_cpu && history.rebuild_failed);
+    if (!history.last_error.empty())
+      sum.last_error = shortLine(history.last_error);
+  }
+  return sum;
+}
+}  // namespace
+
+void Diagnostics::watch(const std::shared_ptr<const StateChecker>& checker)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  checkers_.push_back(checker);
+}
+
+void Diagnostics::refused(const std::string& why)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++refused_;
+  last_refusal_ = shortLine(why);
+}
+
+DiagnosticStatus Diagnostics::status(const SceneStore& store, const CheckServer& server)
+{
+  const CheckStatistics checks = server.statistics();
+  const std::shared_ptr<const PlanningScene> scene = store.snapshot().scene;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<std::shared_ptr<const StateChecker>> checkers;
+  for (const auto& weak : checkers_)
+    if (auto checker = weak.lock())
+      checkers.push_back(std::move(checker));
+  checkers_.assign(checkers.begin(), checkers.end());
+  const DeviceHistory history = sumOf(checkers);
+
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - at_).count();
+  const double rate = seconds > 0.0 ? static_cast<double>(checks.states - states_) / seconds : 0.0;
+  states_ = checks.states;
+  at_ = now;
+
+  DiagnosticStatus status;
+  status.name = ros::this_node::getName().substr(1) + ": checks";
+  status.hardware_id = checkers.empty() ? "" : checkers.front()->deviceName();
+  status.level = DiagnosticStatus::OK;
+  status.message = "checks states";
+  if (history.on_cpu)
+  {
+    status.level = history.rebuild_failed ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN;
+    status.message = "the device failed and the CPU is used: " + history.last_error;
+  }
+  add(status, "device", status.hardware_id);
+  add(status, "on_cpu", history.on_cpu ? "true" : "false");
+  add(status, "device_losses", std::to_string(history.losses));
+  add(status, "device_rebuilds", std::to_string(history.rebuilds));
+  add(status, "batches_on_cpu", std::to_string(history.batches_on_cpu));
+  add(status, "last_device_error", history.last_error);
+  add(status, "requests", std::to_string(checks.requests));
+  add(status, "batches", std::to_string(checks.batches));
+  add(status, "states", std::to_string(checks.states));
+  add(status, "states_per_second", std::to_string(rate));
+  add(status, "undecided", std::to_string(checks.undecided));
+  add(status, "waiting_requests", std::to_string(checks.waiting_requests));
+  add(status, "waiting_states", std::to_string(checks.waiting_states));
+  add(status, "busy", std::to_string(checks.busy));
+  add(status, "errors", std::to_string(checks.errors));
+  add(status, "refused", std::to_string(refused_));
+  add(status, "last_refusal", last_refusal_);
+  add(status, "scene_revision", std::to_string(scene->revision));
+  add(status, "objects", std::to_string(scene->objects.size()));
+  add(status, "attached_objects", std::to_string(scene->attached.size()));
+  add(status, "memory", std::to_string(residentMemory()));
+  return status;
+}
+
+DiagnosticsPublisher::DiagnosticsPublisher(ros::NodeHandle& node, Diagnostics& diagnostics, const SceneStore& store,
+                                           const CheckServer& server)
+  : publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10))
+{
+  timer_ = node.createWallTimer(
+      ros::WallDuration(1.0),
+      [this, &diagnostics, &store, &server](const ros::WallTimerEvent&)
+      {
+        diagnostic_msgs::DiagnosticArray message;
+        message.header.stamp = ros::Time::now();
+        message.status.push_back(diagnostics.status(store, server));
+        publisher_.publish(message);
+      });
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,60 @@
+#include "node/endpoints/endpoints.h"
+
+namespace gpu_planning_scene::core
+{
+Endpoints::Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads,
+                     Diagnostics& diagnostics)
+  : node_(node), own_(own), diagnostics_(diagnostics)
+{
+  node_.setCallbackQueue(&queue_);
+  own_.setCallbackQueue(&queue_);
+  threads_.reserve(threads);
+  for (std::size_t i = 0; i < threads; ++i)
+    threads_.emplace_back(
+        [this]
+        {
+          while (!closed_)
+            queue_.callOne(ros::WallDuration(0.5));
+        });
+}
+
+Endpoints::~Endpoints()
+{
+  stop();
+}
+
+void Endpoints::close()
+{
+  closed_ = true;
+}
+
+/// Services and topics stay up until the destructor: to take them down drops connections, to which roscpp may still be
+/// writing answers.
+void Endpoints::stop()
+{
+  close();
+  for (std::thread& thread : threads_)
+    thread.join();
+  threads_.clear();
+  refuseWaiting();
+}
+
+void Endpoints::refuseWaiting()
+{
+  queue_.callAvailable();
+}
+
+void Endpoints::refuse(const std::string& topic, const std::string& why)
+{
+  const std::string line = topic + ": " + shortLine(why);
+  diagnostics_.refused(line);
+  ROS_WARN_STREAM_THROTTLE(1.0, "message rejected on " << line);
+}
+
+void Endpoints::reportLost(const std::string& topic, const std::string& why)
+{
+  const std::string line = topic + ": " + shortLine(why);
+  diagnostics_.refused(line);
+  ROS_ERROR_STREAM_THROTTLE(1.0, "message lost on " << line);
+}
+}  // namespace gpu_planning_scene::core

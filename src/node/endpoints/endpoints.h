@@ -1,0 +1,112 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include "node/endpoints/bounded_message.h"
+#include "node/endpoints/diagnostics.h"
+#include "node/endpoints/respond.h"
+#include "service/busy.h"
+
+namespace gpu_planning_scene::core
+{
+/// Services and topics with a callback queue and threads of their own. Messages are read with bounds (see Bounded), and
+/// rejected messages are counted.
+class Endpoints
+{
+ public:
+  Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads, Diagnostics& diagnostics);
+  ~Endpoints();
+
+  /// Advertises a service in the node's namespace. `answer` turns a request into a response and throws nothing.
+  template <class Service, class Answer>
+  void advertise(const std::string& name, Answer answer)
+  {
+    const auto handle =
+        [this, answer](Bounded<typename Service::Request>& request, typename Service::Response& response)
+    {
+      if (closed_ && request.fault.empty())
+        request.fault = "shutting down: the request was not answered";
+      if (request.fault.empty())
+        response = answer(request.message);
+      return close(request.fault, response, 0);
+    };
+    ros::AdvertiseServiceOptions options = boundedService<Service>(own_.resolveName(name), handle, &queue_);
+    services_.push_back(own_.advertiseService(options));
+  }
+
+  /// Subscribes to a topic; "~NAME" is in the node's namespace. `take` throws an exception for a wrong message, and
+  /// Busy if it has no room for a correct message.
+  template <class Message, class Take>
+  void subscribe(const std::string& name, std::uint32_t queue_size, Take take)
+  {
+    ros::NodeHandle& node = name.front() == '~' ? own_ : node_;
+    const std::string topic = node.resolveName(name.front() == '~' ? name.substr(1) : name);
+    topics_.push_back(subscribeBounded<Message>(node, topic, queue_size,
+                                                [this, take, topic](const Bounded<Message>& message)
+                                                {
+                                                  try
+                                                  {
+                                                    if (!message.fault.empty())
+                                                      throw Error(message.fault);
+                                                    if (closed_)
+                                                      throw Error("the node is shutting down");
+                                                    take(message.message);
+                                                  }
+                                                  catch (const Busy& error)
+                                                  {
+                                                    reportLost(topic, error.what());
+                                                  }
+                                                  catch (const std::exception& error)
+                                                  {
+                                                    refuse(topic, error.what());
+                                                  }
+                                                }));
+  }
+
+  /// Counts and logs a rejected message.
+  void refuse(const std::string& topic, const std::string& why);
+
+  /// From now on, requests and messages get the error that the node is shutting down.
+  void close();
+  /// Calls close(), waits for running callbacks, and rejects the requests and messages that wait.
+  void stop();
+  /// After stop(): rejects the requests and messages that have arrived since then.
+  void refuseWaiting();
+
+ private:
+  /// Reports a fault in the response's `success` and `message`. Without these fields, the service call fails.
+  template <class Response>
+  auto close(const std::string& fault, Response& response, int) -> decltype(response.success, bool())
+  {
+    if (!fault.empty())
+      response = respond<Response>([&fault](Response&) { throw Error(fault); });
+    if (!response.success)
+      diagnostics_.refused(response.message);
+    return true;
+  }
+  template <class Response>
+  bool close(const std::string& fault, Response&, long)
+  {
+    if (!fault.empty())
+      diagnostics_.refused(fault);
+    return fault.empty();
+  }
+  void reportLost(const std::string& topic, const std::string& why);
+
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  ros::NodeHandle own_;
+  Diagnostics& diagnostics_;
+  std::vector<ros::ServiceServer> services_;
+  std::vector<ros::Subscriber> topics_;
+  std::atomic<bool> closed_{false};
+  std::vector<std::thread> threads_;
+};
+}  // namespace gpu_planning_scene::core

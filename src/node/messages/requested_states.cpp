@@ -1,0 +1,63 @@
+#include "node/messages/requested_states.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu_planning_scene/error.h"
+#include "model/full_states.h"
+
+namespace gpu_planning_scene::core
+{
+std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<std::vector<std::string>>& names,
+                                  const RequestField<std::vector<double>>& rows,
+                                  const std::function<void(std::size_t)>& require_count)
+{
+  if (names.values.empty())
+    throw Error(std::string(names.name) + " is empty; name at least one variable");
+  std::vector<int> columns = variableIndices(robot, names.values);
+  const std::size_t width = columns.size();
+  const std::vector<double>& values = rows.values;
+  if (values.size() % width != 0)
+    throw Error(std::to_string(values.size()) + " " + rows.name + " are not rows of " + std::to_string(width) +
+                " values, one per name of " + names.name);
+  require_count(values.size() / width);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]))
+      throw Error(std::string(rows.name) + ": state " + std::to_string(i / width) + ": the position of '" +
+                  names.values[i % width] + "' is not a finite number");
+  return columns;
+}
+
+NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::string>& field, bool others_empty)
+{
+  if (!others_empty)
+    throw Error(std::string(field.name) + " is '" + field.values +
+                "', but the request has joint names or positions too; give one of the two");
+  const NamedState state = robot.namedState(field.values);
+  if (state.variables.empty())
+    throw Error(std::string(field.name) + " is '" + field.values +
+                "', which sets no variable: in the SRDF, this state has only joints that are fixed or follow other "
+                "joints; name another state");
+  NamedRow row;
+  row.values = state.values;
+  for (const int variable : state.variables)
+    row.names.push_back(robot.variables()[static_cast<std::size_t>(variable)].name);
+  return row;
+}
+
+void requireWholeRotations(const RobotModel& robot, const std::vector<int>& columns)
+{
+  constexpr int kRotation = 3;  // index of the first rotation variable of a floating joint, after the position
+  constexpr int kCoefficients = 4;
+  for (const Joint& joint : robot.joints())
+  {
+    if (joint.type != JointType::Floating || joint.first_variable < 0)
+      continue;
+    const int first = joint.first_variable + kRotation;
+    const auto given = std::count_if(columns.begin(), columns.end(),
+                                     [&](int column) { return column >= first && column < first + kCoefficients; });
+    if (given != 0 && given != kCoefficients)
+      throw Error("joint '" + joint.name + "': a motion needs all four variables of its rotation, or none of them");
+  }
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,301 @@
+#include "node/messages/to_messages.h"
+
+#include <algorithm>
+
+#include "scene/message_values.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+geometry_msgs::Quaternion orientationOf(const Eigen::Isometry3d& pose)
+{
+  const Eigen::Quaterniond rotation(pose.linear());
+  geometry_msgs::Quaternion message;
+  message.x = rotation.x();
+  message.y = rotation.y();
+  message.z = rotation.z();
+  message.w = rotation.w();
+  return message;
+}
+
+template <class Position>
+void setPosition(Position& message, const Eigen::Vector3d& position)
+{
+  message.x = position.x();
+  message.y = position.y();
+  message.z = position.z();
+}
+
+geometry_msgs::Pose poseOf(const Eigen::Isometry3d& pose)
+{
+  geometry_msgs::Pose message;
+  setPosition(message.position, pose.translation());
+  message.orientation = orientationOf(pose);
+  return message;
+}
+
+geometry_msgs::Transform transformOf(const Eigen::Isometry3d& pose)
+{
+  geometry_msgs::Transform message;
+  setPosition(message.translation, pose.translation());
+  message.rotation = orientationOf(pose);
+  return message;
+}
+
+/// Adds a shape and its pose to the lists of its kind in the message.
+struct AddShape
+{
+  CollisionObject& message;
+  const Eigen::Isometry3d& pose;
+
+  void operator()(const Box& box) const
+  {
+    addPrimitive(shape_msgs::SolidPrimitive::BOX, {box.size.x(), box.size.y(), box.size.z()});
+  }
+  void operator()(const Sphere& sphere) const { addPrimitive(shape_msgs::SolidPrimitive::SPHERE, {sphere.radius}); }
+  void operator()(const Cylinder& cylinder) const
+  {
+    addPrimitive(shape_msgs::SolidPrimitive::CYLINDER, {cylinder.length, cylinder.radius});
+  }
+  void operator()(const Cone& cone) const
+  {
+    addPrimitive(shape_msgs::SolidPrimitive::CONE, {cone.length, cone.radius});
+  }
+  void operator()(const HalfSpace& half_space) const
+  {
+    shape_msgs::Plane plane;
+    plane.coef = {half_space.normal.x(), half_space.normal.y(), half_space.normal.z(), -half_space.offset};
+    message.planes.push_back(plane);
+    message.plane_poses.push_back(poseOf(pose));
+  }
+  void operator()(const std::shared_ptr<const Mesh>& mesh) const
+  {
+    message.meshes.emplace_back();
+    shape_msgs::Mesh& result = message.meshes.back();
+    result.vertices.resize(mesh->vertices.size());
+    for (std::size_t i = 0; i < mesh->vertices.size(); ++i)
+      setPosition(result.vertices[i], mesh->vertices[i]);
+    result.triangles.resize(mesh->triangles.size());
+    for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
+      std::copy(mesh->triangles[i].begin(), mesh->triangles[i].end(), result.triangles[i].vertex_indices.begin());
+    message.mesh_poses.push_back(poseOf(pose));
+  }
+
+ private:
+  void addPrimitive(std::uint8_t type, std::vector<double> dimensions) const
+  {
+    shape_msgs::SolidPrimitive primitive;
+    primitive.type = type;
+    primitive.dimensions = std::move(dimensions);
+    message.primitives.push_back(std::move(primitive));
+    message.primitive_poses.push_back(poseOf(pose));
+  }
+};
+
+std::int8_t operationOf(Operation operation)
+{
+  switch (operation)
+  {
+    case Operation::Remove:
+      return CollisionObject::REMOVE;
+    case Operation::Append:
+      return CollisionObject::APPEND;
+    case Operation::Move:
+      return CollisionObject::MOVE;
+    case Operation::Add:
+      break;
+  }
+  return CollisionObject::ADD;
+}
+
+/// The shape poses of a Move all go to primitive_poses: a reader of the message joins its three lists of poses.
+CollisionObject messageOf(const ObjectChange& change, const std::string& planning_frame)
+{
+  CollisionObject message;
+  message.operation = operationOf(change.operation);
+  message.id = change.id;
+  message.header.frame_id = change.frame.name.empty() ? planning_frame : change.frame.name;
+  message.header.stamp.fromNSec(static_cast<std::uint64_t>(change.frame.stamp));
+  if (change.pose)
+    message.pose = poseOf(*change.pose);
+  for (const PlacedShape& placed : change.shapes)
+    std::visit(AddShape{message, placed.pose}, placed.shape);
+  for (const Eigen::Isometry3d& pose : change.shape_poses)
+    message.primitive_poses.push_back(poseOf(pose));
+  for (const auto& [name, pose] : change.subframes)
+  {
+    message.subframe_names.push_back(name);
+    message.subframe_poses.push_back(poseOf(pose));
+  }
+  return message;
+}
+
+AttachedCollisionObject messageOf(const AttachedChange& change, const std::string& planning_frame)
+{
+  AttachedCollisionObject message;
+  message.link_name = change.link;
+  message.object = messageOf(change.object, planning_frame);
+  message.touch_links = change.touch_links;
+  return message;
+}
+
+/// Writes the variables. A planar or floating joint becomes a transform if all of its variables are given.
+void setVariables(const std::map<std::string, double>& variables, const RobotModel& robot, RobotState& message)
+{
+  message.joint_state.header.frame_id = robot.planningFrame();
+  message.multi_dof_joint_state.header.frame_id = robot.planningFrame();
+  for (const Joint& joint : robot.joints())
+  {
+    if (joint.mimic || joint.type == JointType::Fixed)
+      continue;
+    std::vector<std::string> names;
+    std::vector<double> values;
+    const int count = variableCount(joint.type);
+    for (int i = joint.first_variable; i < joint.first_variable + count; ++i)
+      if (const auto found = variables.find(robot.variables()[static_cast<std::size_t>(i)].name);
+          found != variables.end())
+      {
+        names.push_back(found->first);
+        values.push_back(found->second);
+      }
+    if (count > 1 && names.size() == static_cast<std::size_t>(count))
+    {
+      message.multi_dof_joint_state.joint_names.push_back(joint.name);
+      message.multi_dof_joint_state.transforms.push_back(transformOf(poseOfVariables(joint, values.data())));
+      continue;
+    }
+    message.joint_state.name.insert(message.joint_state.name.end(), names.begin(), names.end());
+    message.joint_state.position.insert(message.joint_state.position.end(), values.begin(), values.end());
+  }
+}
+
+/// Writes an entry for each pair of names that have entries. Pairs without an entry get the value of the defaults.
+AllowedCollisionMatrixMessage messageOf(const AllowedCollisionMatrix& matrix, const std::string& a_link)
+{
+  AllowedCollisionMatrixMessage message;
+  message.entry_names = matrix.bodiesWithEntries();
+  // A message without names leaves the matrix as it is. A message with a single name sets an empty matrix.
+  if (message.entry_names.empty())
+    message.entry_names.push_back(a_link);
+  message.entry_values.resize(message.entry_names.size());
+  for (std::size_t i = 0; i < message.entry_names.size(); ++i)
+  {
+    const AllowedCollisionMatrix::Row row = matrix.row(message.entry_names[i]);
+    for (const std::string& other : message.entry_names)
+      message.entry_values[i].enabled.push_back(row.allowed(matrix.row(other)) ? 1 : 0);
+  }
+  for (const std::string& name : matrix.bodies())
+    if (const std::optional<bool> default_allowed = matrix.defaultOf(name))
+    {
+      message.default_entry_names.push_back(name);
+      message.default_entry_values.push_back(*default_allowed ? 1 : 0);
+    }
+  return message;
+}
+
+/// The change that makes the requested components of the scene.
+SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
+{
+  using Components = PlanningSceneComponents;
+  const RobotModel& robot = *scene.robot;
+  const SceneChange full = fullSceneOf(scene);
+  const auto asked = [&](std::uint32_t component) { return (components & component) != 0; };
+  SceneChange change;
+  if (asked(Components::SCENE_SETTINGS))
+  {
+    change.name = full.name;
+    change.robot_model_name = full.robot_model_name;
+  }
+  change.state.is_diff = false;
+  if (asked(Components::ROBOT_STATE_ATTACHED_OBJECTS))
+    change.state.attached = full.state.attached;
+  if (asked(Components::TRANSFORMS))
+    change.fixed_frames = full.fixed_frames;
+  if (asked(Components::ALLOWED_COLLISION_MATRIX))
+    change.matrix = scene.allowed_collisions;
+  if (asked(Components::OBJECT_COLORS))
+    change.colors = full.colors;
+  if (asked(Components::LINK_PADDING_AND_SCALING))
+    for (const Link& link : robot.links())
+    {
+      const double padding = full.link_padding.at(link.name);
+      const double scale = full.link_scale.at(link.name);
+      if (link.shapes.empty() && padding == 0.0 && scale == 1.0)
+        continue;
+      change.link_padding[link.name] = padding;
+      change.link_scale[link.name] = scale;
+    }
+  if (asked(Components::WORLD_OBJECT_GEOMETRY))
+    change.objects = full.objects;
+  else if (asked(Components::WORLD_OBJECT_NAMES))
+    for (const WorldObject& object : scene.objects)
+    {
+      change.objects.emplace_back();
+      change.objects.back().id = object.id;
+    }
+  return change;
+}
+}  // namespace
+
+PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robot)
+{
+  const std::string& planning_frame = robot.planningFrame();
+  PlanningSceneMessage message;
+  message.is_diff = change.is_diff;
+  message.name = change.name;
+  message.robot_model_name = change.robot_model_name;
+  for (const auto& [name, pose] : change.fixed_frames)
+  {
+    geometry_msgs::TransformStamped frame;
+    frame.header.frame_id = planning_frame;
+    frame.child_frame_id = name;
+    frame.transform = transformOf(pose);
+    message.fixed_frame_transforms.push_back(frame);
+  }
+  setVariables(change.state.variables, robot, message.robot_state);
+  for (const AttachedChange& attached : change.state.attached)
+    message.robot_state.attached_collision_objects.push_back(messageOf(attached, planning_frame));
+  message.robot_state.is_diff = change.state.is_diff;
+  if (change.matrix)
+    message.allowed_collision_matrix = messageOf(*change.matrix, robot.links().front().name);
+  for (const auto& [link, padding] : change.link_padding)
+  {
+    message.link_padding.emplace_back();
+    message.link_padding.back().link_name = link;
+    message.link_padding.back().padding = padding;
+  }
+  for (const auto& [link, scale] : change.link_scale)
+  {
+    message.link_scale.emplace_back();
+    message.link_scale.back().link_name = link;
+    message.link_scale.back().scale = scale;
+  }
+  for (const auto& [id, color] : change.colors)
+  {
+    message.object_colors.emplace_back();
+    message.object_colors.back().id = id;
+    message.object_colors.back().color.r = color.r;
+    message.object_colors.back().color.g = color.g;
+    message.object_colors.back().color.b = color.b;
+    message.object_colors.back().color.a = color.a;
+  }
+  for (const ObjectChange& object : change.objects)
+    message.world.collision_objects.push_back(messageOf(object, planning_frame));
+  return message;
+}
+
+PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
+                               const std::vector<bool>& known)
+{
+  const std::uint32_t asked = components == 0 ? ~0U : components;
+  SceneChange change = changeOf(scene, asked);
+  if ((asked & PlanningSceneComponents::ROBOT_STATE) != 0)
+    for (std::size_t i = 0; i < state.size(); ++i)
+      if (known[i])
+        change.state.variables[scene.robot->variables()[i].name] = state[i];
+  PlanningSceneMessage message = messageOf(change, *scene.robot);
+  message.scene_revision = scene.revision;
+  return message;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,171 @@
+#include "node/planning/plan_request.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning/group_state_space.h"
+#include "model/full_states.h"
+#include "node/messages/requested_states.h"
+#include "node/parameters/parameter_values.h"
+#include "scene/parse_number.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// Throws Error if a column of the goals is not a variable of the group's state space.
+void requirePlannedFor(const std::vector<int>& columns, const GroupStateSpace& space)
+{
+  for (const int column : columns)
+    if (std::find(space.variables().begin(), space.variables().end(), column) == space.variables().end())
+      throw Error("goal_names has " + space.robot()->variables()[static_cast<std::size_t>(column)].name +
+                  ", which group '" + space.group().name + "' does not plan for");
+}
+
+/// The state of the SRDF, without variables outside the group: a state `home` of an arm and its hand is also a goal of
+/// the arm.
+NamedRow namedGoal(const PlanMotion::Request& request, const GroupStateSpace& space)
+{
+  const RobotModel& robot = *space.robot();
+  const NamedRow state = requestedNamedState(robot, {"named_goal", request.named_goal},
+                                             request.goal_names.empty() && request.goals.empty());
+  NamedRow goal;
+  for (std::size_t i = 0; i < state.names.size(); ++i)
+    if (std::find(space.variables().begin(), space.variables().end(), robot.variableIndex(state.names[i])) !=
+        space.variables().end())
+    {
+      goal.names.push_back(state.names[i]);
+      goal.values.push_back(state.values[i]);
+    }
+  if (goal.names.empty())
+    throw Error("named_goal '" + request.named_goal + "' has no variable of the group '" + request.group + "'");
+  return goal;
+}
+
+/// Refuses parameters that keep a planner busy for hours between two checks of the time, because planners accept any
+/// number. Examples are a count of many millions, and a `range` that is a billionth of the extent of the space.
+void refuseCostly(const std::map<std::string, std::string>& parameters, double extent, std::size_t limit)
+{
+  constexpr double kLeastRange = 1e-4;  // fraction of the extent
+  for (const auto& [name, text] : parameters)
+  {
+    const std::optional<double> value = parseNumber(text);
+    if (!value)
+      continue;
+    if (!(*value >= 0.0 && *value <= static_cast<double>(limit)))
+      throw Error("the planner's parameter " + name + " is " + text + "; it must be from 0 to " +
+                  std::to_string(limit) + " (limits/planner_parameter)");
+    if (name == "range" && *value > 0.0 && *value < kLeastRange * extent)
+      throw Error("the planner's parameter range is " + text +
+                  "; it must be 0, for the planner to choose, or at least " + std::to_string(kLeastRange * extent) +
+                  ", a 10,000th of the extent of the group's space");
+  }
+}
+}  // namespace
+
+PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own)
+{
+  constexpr std::size_t kMaxAtOnce = 64;
+  constexpr std::size_t kNoLimit = std::size_t{1} << 31;
+  PlanServiceOptions options;
+  options.seconds = positiveParameter(own, "planning/time", options.seconds);
+  options.max_seconds = positiveParameter(own, "limits/planning_time", options.max_seconds);
+  const std::string rule = textParameter(own, "planning/motion_rule", "bound");
+  try
+  {
+    options.motions.rule = motionRuleFromName(rule);
+  }
+  catch (const Error& error)
+  {
+    throw Error("parameter " + own.resolveName("planning/motion_rule") + ": " + error.what());
+  }
+  MotionSteps& steps = options.motions.steps;
+  steps.revolute = positiveParameter(own, "planning/resolution", steps.revolute);
+  steps.prismatic = positiveParameter(own, "planning/translation_resolution", steps.prismatic);
+  options.at_once = countParameter(own, "planning/at_once", options.at_once, 1, kMaxAtOnce);
+  options.max_waiting = countParameter(own, "limits/waiting_plans", options.max_waiting, 0, kNoLimit);
+  options.max_goals = countParameter(own, "limits/goals", options.max_goals, 1, kNoLimit);
+  options.max_parameter = countParameter(own, "limits/planner_parameter", options.max_parameter, 1, kNoLimit);
+  return options;
+}
+
+PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const PlannerConfig& config,
+                        const GroupPlanners& planners, const PlanServiceOptions& options)
+{
+  const RobotModel& robot = *now.scene->robot;
+  PlanningQuery query;
+  query.group = request.group;
+  const auto one = [](std::size_t count)
+  {
+    if (count != 1)
+      throw Error("start has " + std::to_string(count) + " rows; a motion has one start");
+  };
+  const PartialState current = now.partialState();
+  NamedRow start_row{request.start_names, request.start};
+  if (!request.named_start.empty())
+    start_row = requestedNamedState(robot, {"named_start", request.named_start},
+                                    request.start_names.empty() && request.start.empty());
+  if (start_row.names.empty() && start_row.values.empty())
+    query.start = fullStates(robot, {}, nullptr, 1, current);
+  else
+  {
+    const std::vector<int> columns =
+        requestedColumns(robot, {"start_names", start_row.names}, {"start", start_row.values}, one);
+    requireWholeRotations(robot, columns);
+    query.start = fullStates(robot, columns, start_row.values.data(), 1, current);
+  }
+  const auto few = [&options](std::size_t count)
+  {
+    if (count > options.max_goals)
+      throw Error(std::to_string(count) + " goals are more than " + std::to_string(options.max_goals) +
+                  " (limits/goals)");
+  };
+  const GroupStateSpace space(now.scene->robot, request.group);
+  NamedRow goal_rows{request.goal_names, request.goals};
+  if (!request.named_goal.empty())
+    goal_rows = namedGoal(request, space);
+  const std::vector<int> columns =
+      requestedColumns(robot, {"goal_names", goal_rows.names}, {"goals", goal_rows.values}, few);
+  requirePlannedFor(columns, space);
+  requireWholeRotations(robot, columns);
+  const std::size_t width = columns.size();
+  const PartialState start(robot, query.start);
+  const std::size_t goals = goal_rows.values.size() / width;
+  const std::vector<double> rows = fullStates(robot, columns, goal_rows.values.data(), goals, start);
+  for (std::size_t i = 0; i < goals; ++i)
+    query.goals.emplace_back(rows.begin() + static_cast<std::ptrdiff_t>(i * query.start.size()),
+                             rows.begin() + static_cast<std::ptrdiff_t>((i + 1) * query.start.size()));
+
+  query.seconds = request.allowed_planning_time == 0.0 ? options.seconds : request.allowed_planning_time;
+  if (query.seconds > options.max_seconds)
+    throw Error("allowed_planning_time is " + std::to_string(query.seconds) + " s; the limit is " +
+                std::to_string(options.max_seconds) + " (limits/planning_time)");
+  query.simplify = request.simplify;
+  query.motions = options.motions;
+  if (!request.motion_rule.empty())
+    query.motions.rule = motionRuleFromName(request.motion_rule);
+  if (const auto& fraction = planners.longest_valid_segment_fraction)
+  {
+    const double step = *fraction * space.getMaximumExtent();
+    query.motions.steps = {step, step};
+  }
+  if (request.resolution != 0.0)
+    query.motions.steps.revolute = request.resolution;
+  if (request.translation_resolution != 0.0)
+    query.motions.steps.prismatic = request.translation_resolution;
+  query.parameters = config.parameters;
+  std::set<std::string> given;
+  for (const auto& parameter : request.parameters)
+  {
+    if (!given.insert(parameter.key).second)
+      throw Error("parameter '" + parameter.key + "' is given twice");
+    query.parameters[parameter.key] = parameter.value;
+  }
+  refuseCostly(query.parameters, space.getMaximumExtent(), options.max_parameter);
+  query.projection = planners.projection;
+  return query;
+}
+}  // namespace gpu_planning_scene::core

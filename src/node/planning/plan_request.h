@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+
+#include <gpu_planning_scene/PlanMotion.h>
+#include <ros/node_handle.h>
+
+#include "gpu_planning_scene/planning/plan_motion.h"
+#include "node/planning/planner_configs.h"
+#include "service/scene_store.h"
+
+namespace gpu_planning_scene::core
+{
+struct PlanServiceOptions
+{
+  double seconds = 5.0;              ///< planning time of a request that names none: ~planning/time
+  double max_seconds = 120.0;        ///< ~limits/planning_time
+  MotionCheckerOptions motions;      ///< ~planning/motion_rule, ~planning/resolution, ~planning/translation_resolution
+  std::size_t at_once = 2;           ///< requests that are planned at the same time: ~planning/at_once
+  std::size_t max_waiting = 16;      ///< queued requests: ~limits/waiting_plans
+  std::size_t max_goals = 1000;      ///< goals of a request: ~limits/goals
+  std::size_t max_parameter = 1000;  ///< largest value of a planner's parameter: ~limits/planner_parameter
+};
+
+/// Throws Error, which names the parameter.
+PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own);
+
+/// Converts a request of ~plan to a query. `config`: the configuration of the requested planner. `planners`: the
+/// settings of the requested group. Throws Error for a wrong request.
+PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const PlannerConfig& config,
+                        const GroupPlanners& planners, const PlanServiceOptions& options);
+}  // namespace gpu_planning_scene::core

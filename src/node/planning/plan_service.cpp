@@ -1,0 +1,207 @@
+#include "node/planning/plan_service.h"
+
+#include <utility>
+
+#include "gpu_planning_scene/error.h"
+#include "model/full_states.h"
+#include "node/endpoints/respond.h"
+#include "service/busy.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Response = PlanMotion::Response;
+
+std::uint8_t statusOf(PlanningStatus status)
+{
+  switch (status)
+  {
+    case PlanningStatus::Solved:
+      return Response::SOLVED;
+    case PlanningStatus::Approximate:
+      return Response::APPROXIMATE;
+    case PlanningStatus::NoSolution:
+      return Response::NO_SOLUTION;
+    case PlanningStatus::StartInCollision:
+      return Response::START_IN_COLLISION;
+    case PlanningStatus::GoalsInCollision:
+      return Response::GOAL_IN_COLLISION;
+    case PlanningStatus::OutOfBounds:
+      return Response::OUT_OF_BOUNDS;
+  }
+  return Response::FAILED;
+}
+
+trajectory_msgs::JointTrajectory trajectoryOf(const PlanningScene& scene, const PlanningResult& result,
+                                              const Group& group)
+{
+  trajectory_msgs::JointTrajectory trajectory;
+  trajectory.header.frame_id = scene.robot->planningFrame();
+  for (const int variable : group.variables)
+    trajectory.joint_names.push_back(scene.robot->variables()[static_cast<std::size_t>(variable)].name);
+  for (const std::vector<double>& row : result.waypoints)
+  {
+    trajectory_msgs::JointTrajectoryPoint point;
+    for (const int variable : group.variables)
+      point.positions.push_back(row[static_cast<std::size_t>(variable)]);
+    trajectory.points.push_back(std::move(point));
+  }
+  return trajectory;
+}
+
+/// An error in the request.
+class BadRequest : public Error
+{
+ public:
+  using Error::Error;
+};
+
+/// Runs work in which every Error except DeviceLost comes from the request. Rethrows these errors as BadRequest.
+template <class Work>
+auto asRequestError(const Work& work)
+{
+  try
+  {
+    return work();
+  }
+  catch (const DeviceLost&)
+  {
+    throw;
+  }
+  catch (const Error& error)
+  {
+    throw BadRequest(error.what());
+  }
+}
+}  // namespace
+
+/// A checker with the scene, for the planning of one request. A checker that is not given back is dropped.
+class PlanService::CheckerLease
+{
+ public:
+  CheckerLease(PlanService& service, const std::shared_ptr<const PlanningScene>& scene) : service_(service)
+  {
+    {
+      const std::lock_guard<std::mutex> lock(service_.mutex_);
+      if (!service_.idle_.empty())
+      {
+        checker_ = std::move(service_.idle_.back());
+        service_.idle_.pop_back();
+      }
+    }
+    if (checker_)
+      checker_->setScene(scene);
+    else
+      checker_ = service_.make_checker_(scene);
+  }
+
+  void giveBack()
+  {
+    const std::lock_guard<std::mutex> lock(service_.mutex_);
+    service_.idle_.push_back(std::move(checker_));
+  }
+
+  const std::shared_ptr<StateChecker>& checker() const { return checker_; }
+
+ private:
+  PlanService& service_;
+  std::shared_ptr<StateChecker> checker_;
+};
+
+PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, CheckServer::MakeChecker make_checker,
+                         const MemoryGuard& memory, PathPublisher& paths, const PlanServiceOptions& options)
+  : store_(store),
+    make_checker_(std::move(make_checker)),
+    memory_(memory),
+    paths_(paths),
+    options_(options),
+    configs_(PlannerConfigs::fromParameters(own)),
+    admission_(options.at_once, options.max_waiting)
+{
+}
+
+void PlanService::stop()
+{
+  stopping_ = true;
+  admission_.stop();
+}
+
+PlanMotion::Response PlanService::plan(const PlanMotion::Request& request)
+{
+  std::uint8_t fault = Response::FAILED;
+  auto response = respond<Response>(
+      [&](Response& filled)
+      {
+        try
+        {
+          fill(request, filled);
+        }
+        catch (const Busy&)
+        {
+          fault = Response::BUSY;
+          throw;
+        }
+        catch (const BadRequest&)
+        {
+          fault = Response::BAD_REQUEST;
+          throw;
+        }
+      });
+  if (!response.success)
+    response.status = fault;
+  else
+    response.success = response.status == Response::SOLVED;
+  return response;
+}
+
+PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
+{
+  const PlannerConfig config = configs_.find(request.planner, request.group);
+  const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type, configs_.names());
+  const Snapshot now = store_.snapshot();
+  PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
+  return {now.scene, std::move(query), factory, config.type,
+          now.assumedBase(variableIndices(*now.scene->robot, request.start_names))};
+}
+
+PlanningResult PlanService::plan(const Task& task)
+{
+  CheckerLease lease(*this, task.scene);
+  const auto stop = [this] { return stopping_.load(); };
+  try
+  {
+    PlanningResult result =
+        asRequestError([&] { return planMotion(task.scene, lease.checker(), task.query, *task.factory, stop); });
+    lease.giveBack();
+    return result;
+  }
+  catch (const BadRequest&)
+  {
+    lease.giveBack();  // the checker is not the cause of the error
+    throw;
+  }
+}
+
+void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response& response)
+{
+  memory_.require();
+  const Admission::Pass pass(admission_);
+  const Task task = asRequestError([&] { return taskOf(request); });
+  const PlanningResult result = plan(task);
+  if (stopping_)
+    throw Error("shutting down: the request was not answered");
+  const Group& group = task.scene->robot->group(request.group);
+  response.status = statusOf(result.status);
+  response.message = result.message;
+  addWarning(task.warning, response.message);
+  response.trajectory = trajectoryOf(*task.scene, result, group);
+  response.planner = task.planner;
+  response.planning_time = result.planning_seconds;
+  response.simplification_time = result.simplification_seconds;
+  response.checking_time = result.checking_seconds;
+  response.states_checked = result.states_checked;
+  response.scene_revision = result.revision;
+  paths_.show(task.scene, result.waypoints, group);
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+
+#include "node/markers/path_publisher.h"
+#include "node/planning/ompl_log.h"
+#include "node/planning/plan_request.h"
+#include "node/planning/planner_configs.h"
+#include "node/planning/planner_plugins.h"
+#include "service/admission.h"
+#include "service/check_server.h"
+#include "service/memory_guard.h"
+
+namespace gpu_planning_scene::core
+{
+/// Answers ~plan, and shows the last path with a PathPublisher. Throws nothing: the response has the error. Several
+/// requests are planned at the same time, each with its own checker; further requests wait. Checkers are kept for later
+/// requests. Thread-safe.
+class PlanService
+{
+ public:
+  /// Throws Error for wrong values in ~planners.
+  PlanService(ros::NodeHandle& own, const SceneStore& store, CheckServer::MakeChecker make_checker,
+              const MemoryGuard& memory, PathPublisher& paths, const PlanServiceOptions& options);
+
+  PlanMotion::Response plan(const PlanMotion::Request& request);
+
+  /// Ends running planners. Running and queued requests get an Error "shutting down".
+  void stop();
+
+ private:
+  class CheckerLease;
+
+  /// A request, converted, with the scene for which it is planned.
+  struct Task
+  {
+    std::shared_ptr<const PlanningScene> scene;
+    PlanningQuery query;
+    std::shared_ptr<const PlannerFactory> factory;
+    std::string planner;  // plugin name of the planner
+    std::string warning;  // for the answer; empty: none
+  };
+
+  void fill(const PlanMotion::Request& request, PlanMotion::Response& response);
+  Task taskOf(const PlanMotion::Request& request);
+  PlanningResult plan(const Task& task);
+
+  const SceneStore& store_;
+  const CheckServer::MakeChecker make_checker_;
+  const MemoryGuard& memory_;
+  PathPublisher& paths_;
+  const PlanServiceOptions options_;
+  const PlannerConfigs configs_;
+  const OmplLog log_;
+  PlannerPlugins plugins_;
+  Admission admission_;
+  std::atomic<bool> stopping_{false};
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<StateChecker>> idle_;  // guarded by mutex_
+};
+}  // namespace gpu_planning_scene::core

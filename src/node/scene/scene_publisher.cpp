@@ -1,0 +1,54 @@
+#include "node/scene/scene_publisher.h"
+
+#include "node/messages/messages.h"
+#include "node/messages/to_messages.h"
+
+namespace gpu_planning_scene::core
+{
+ScenePublisher::ScenePublisher(ros::NodeHandle& own, SceneStore& store, double full_scene_period)
+  : store_(store),
+    full_(own.advertise<PlanningSceneMessage>("monitored_planning_scene", 1, true)),
+    diffs_(own.advertise<PlanningSceneMessage>("monitored_planning_scene_diffs", 100))
+{
+  publishFull(store_.snapshot());
+  store_.setListener([this](const auto& before, const auto& after) { changed(before, after); });
+  timer_ = own.createWallTimer(ros::WallDuration(full_scene_period),
+                               [this](const ros::WallTimerEvent&) { publishFull(store_.snapshot()); });
+}
+
+ScenePublisher::~ScenePublisher()
+{
+  store_.setListener({});
+}
+
+/// Must not throw: the change has already been made.
+void ScenePublisher::changed(const std::shared_ptr<const PlanningScene>& before,
+                             const std::shared_ptr<const PlanningScene>& after)
+{
+  try
+  {
+    const SceneChange change = diffOf(*before, *after);
+    if (!change.is_diff)
+      publishFull(store_.snapshot());
+    if (diffs_.getNumSubscribers() == 0)
+      return;
+    PlanningSceneMessage message = messageOf(change, *after->robot);
+    message.scene_revision = after->revision;
+    message.previous_revision = before->revision;
+    diffs_.publish(message);
+  }
+  catch (const std::exception& error)
+  {
+    ROS_ERROR_STREAM("the scene was changed, but the change was not published: " << error.what());
+  }
+}
+
+void ScenePublisher::publishFull(const Snapshot& now)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (full_revision_ >= now.scene->revision)
+    return;
+  full_.publish(messageOf(*now.scene, 0, now.state, now.known));
+  full_revision_ = now.scene->revision;
+}
+}  // namespace gpu_planning_scene::core

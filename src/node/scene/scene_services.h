@@ -1,0 +1,43 @@
+#pragma once
+
+#include <sensor_msgs/JointState.h>
+
+#include "node/endpoints/topic_warnings.h"
+#include "node/messages/messages.h"
+#include "node/scene/frame_lookup.h"
+#include "service/memory_guard.h"
+#include "service/scene_store.h"
+
+namespace gpu_planning_scene::core
+{
+/// Answers apply_planning_scene, get_planning_scene and clear, and makes the changes from topics. Thread-safe.
+class SceneServices
+{
+ public:
+  SceneServices(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory);
+
+  /// These three throw nothing: the response has the error.
+  ApplyPlanningScene::Response apply(const ApplyPlanningScene::Request& request);
+  Clear::Response clear();
+  GetPlanningScene::Response get(const GetPlanningScene::Request& request) const;
+
+  /// Converts a message to a change. Throws Error; warnings are logged.
+  SceneChange changeOf(const PlanningSceneMessage& message) const;
+  SceneChange changeOf(const CollisionObject& message) const;
+  SceneChange changeOf(const AttachedCollisionObject& message) const;
+  /// Makes the change. If it throws Error, nothing has changed. Warnings are logged.
+  void make(const SceneChange& change, const SceneStore::Lookup& lookup);
+
+  /// Sets the robot's state. If it throws Error, nothing has changed. Names that are no variable of the robot are
+  /// ignored.
+  void take(const sensor_msgs::JointState& message);
+
+ private:
+  SceneStore::Applied apply(const SceneChange& change, const SceneStore::Lookup& lookup);
+
+  SceneStore& store_;
+  const SceneStore::Lookup lookup_;
+  const MemoryGuard& memory_;
+  OccasionalWarning joint_warning_;
+};
+}  // namespace gpu_planning_scene::core

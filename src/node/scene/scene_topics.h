@@ -1,0 +1,38 @@
+#pragma once
+
+#include "node/endpoints/endpoints.h"
+#include "node/scene/frame_lookup.h"
+#include "node/scene/scene_services.h"
+#include "service/change_queue.h"
+
+namespace gpu_planning_scene::core
+{
+/// Receives changes of the scene from the topics ~planning_scene, ~collision_object and ~attached_collision_object, and
+/// makes them in the order of their arrival. No change is dropped silently: a change above the bounds is logged as an
+/// error and counted with the rejected messages.
+class SceneTopics
+{
+ public:
+  /// The queue holds at most `max_changes` changes, from messages with `max_bytes` bytes in total. All arguments
+  /// passed by reference must outlive this object.
+  SceneTopics(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneServices& changes,
+              const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t max_changes, std::size_t max_bytes);
+  /// Calls stop().
+  ~SceneTopics();
+
+  /// Rejects all further messages.
+  void close() { topics_.close(); }
+  /// Calls close(), finishes the current change, and rejects the queued changes.
+  void stop();
+
+ private:
+  template <class Message>
+  void subscribe(const ros::NodeHandle& own, const std::string& name);
+  ChangeQueue::ApplyChange beginBatch() const;
+
+  SceneServices& changes_;
+  const FrameLookup& lookup_;
+  Endpoints topics_;
+  ChangeQueue queue_;  // after topics_: its thread reports rejected changes to topics_
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,548 @@
+// The answers of check_states, check_motions and get_report. No ROS master is needed.
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <limits>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "collision/checkers/scene_text.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "model/model_testing.h"
+#include "node/checks/check_services.h"
+#include "node/messages/requested_states.h"
+#include "scene/slider_robot.h"
+#include "service/gated_checker.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+CheckStates::Request request(const std::vector<std::string>& names, const std::vector<double>& positions)
+{
+  CheckStates::Request result;
+  result.joint_names = names;
+  result.positions = positions;
+  return result;
+}
+
+class Service : public testing::Test
+{
+ public:
+  CheckStates::Response answer(const CheckStates::Request& asked) { return services.checkStates(asked); }
+
+  void expectRefusal(const CheckStates::Request& asked, const std::string& reason)
+  {
+    const CheckStates::Response response = answer(asked);
+    EXPECT_FALSE(response.success);
+    EXPECT_NE(std::string::npos, response.message.find(reason)) << response.message;
+    EXPECT_EQ(std::string::npos, response.message.find('\n')) << response.message;
+    EXPECT_TRUE(response.valid.empty());
+  }
+
+  SceneStore store{sliderAndWall(5), {}, {}};
+  CheckServer server{store,
+                     [](std::shared_ptr<const PlanningScene> scene)
+                     { return std::make_shared<CpuChecker>(std::move(scene)); },
+                     {}};
+  MemoryGuard memory{0};
+  CheckServices services{store, server, memory, {1000, 1000000, 10}};
+};
+
+TEST_F(Service, AnswersEachStateInOrder)
+{
+  const CheckStates::Response response = answer(request({"turn", "slide"}, {0.5, 0.0, 0.5, 1.0, 1.0, 0.5}));
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_EQ("", response.message);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 1}), response.valid);
+  ASSERT_EQ(3u, response.body_1.size());
+  ASSERT_EQ(3u, response.body_2.size());
+  EXPECT_EQ("", response.body_1[0] + response.body_2[0]);
+  EXPECT_EQ("cartwall",
+            std::min(response.body_1[1], response.body_2[1]) + std::max(response.body_1[1], response.body_2[1]));
+  EXPECT_EQ(5u, response.scene_revision);
+}
+
+TEST_F(Service, OtherVariablesTakeTheCurrentState)
+{
+  expectRefusal(request({"turn"}, {0.0}),
+                "no value for slide; give one, or set the current state: with the topic joint_states, with "
+                "robot_state.joint_state in the scene file, or with ~apply_planning_scene");
+  store.updateState({{"slide", 1.0}});
+  EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);
+}
+
+/// A request is queued while a change sets the scene and the robot's state together.
+class WaitingService : public Service
+{
+ public:
+  template <class Ask>
+  auto answerAfterTheCartMovedTo(double slide, Ask ask)
+  {
+    store.updateState({{"slide", 0.5}, {"turn", 0.0}});
+    gate.close();
+    auto first = std::async(std::launch::async,
+                            [this] {
+                              return gated.checkStates(request({"slide", "turn"}, {0, 0}));
+                            });
+    gate.waitForChecks(1);
+    auto waiting = std::async(std::launch::async, ask);
+    while (gated_server.statistics().waiting_requests == 0)
+      std::this_thread::yield();
+    SceneChange change;
+    change.is_diff = true;
+    change.state.variables = {{"slide", slide}};
+    store.apply(change, nullptr);
+    gate.open();
+    first.get();
+    return waiting.get();
+  }
+
+  Gate gate;
+  CheckServer gated_server{store,
+                           [this](std::shared_ptr<const PlanningScene> scene)
+                           { return std::make_shared<GatedChecker>(std::move(scene), gate); },
+                           {}};
+  CheckServices gated{store, gated_server, memory, {1000, 1000000, 10}};
+};
+
+TEST_F(WaitingService, VariablesThatARequestLeavesOutAreThoseOfTheRevisionThatItNames)
+{
+  const CheckStates::Response response =
+      answerAfterTheCartMovedTo(-0.5, [this] { return gated.checkStates(request({"turn"}, {0.5})); });
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(6u, response.scene_revision);
+  EXPECT_EQ((std::vector<std::uint8_t>{0}), response.valid) << "the gate lets no cart left of 0 through";
+}
+
+TEST_F(WaitingService, VariablesThatAMotionLeavesOutAreThoseOfTheRevisionThatItNames)
+{
+  CheckMotions::Request asked;
+  asked.joint_names = {"turn"};
+  asked.starts = {0.0};
+  asked.ends = {0.5};
+  asked.resolution = 0.1;
+  asked.translation_resolution = 0.1;
+  asked.motion_rule = "samples";
+  const CheckMotions::Response response = answerAfterTheCartMovedTo(-0.5, [&] { return gated.checkMotions(asked); });
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(6u, response.scene_revision);
+  EXPECT_EQ(6u, response.states_checked);
+  EXPECT_EQ((std::vector<std::uint8_t>{0}), response.valid);
+}
+
+/// Requests for contacts. Two may be answered at a time and one may be queued. Their checks wait at a closed gate.
+class WaitingInspections : public WaitingService
+{
+ public:
+  WaitingInspections() { gate.close(); }
+
+  void ask()
+  {
+    CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.5});
+    asked.max_contacts = 1;
+    answers.push_back(std::async(std::launch::async, [this, asked] { return bounded.checkStates(asked); }));
+  }
+
+  CheckServices bounded{store, gated_server, memory, {1000, 1000000, 10, 10, 1}};
+  std::vector<std::future<CheckStates::Response>> answers;
+};
+
+TEST_F(WaitingInspections, AreRejectedWhenTheQueueIsFull)
+{
+  for (int i = 0; i < 4; ++i)
+    ask();
+  const auto answered = [](const std::future<CheckStates::Response>& answer)
+  { return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
+  while (std::none_of(answers.begin(), answers.end(), answered))
+    std::this_thread::yield();
+  EXPECT_LE(gate.batches().size() + gated_server.statistics().waiting_requests, 2u);
+  gate.open();
+  int busy = 0;
+  for (auto& answer : answers)
+  {
+    const CheckStates::Response response = answer.get();
+    busy += response.message.rfind("busy: ", 0) == 0 ? 1 : 0;
+    EXPECT_TRUE(response.success || response.message.rfind("busy: ", 0) == 0) << response.message;
+  }
+  EXPECT_EQ(1, busy);
+}
+
+TEST_F(WaitingInspections, StopRejectsThemWhileACheckerHangs)
+{
+  for (int i = 0; i < 3; ++i)
+    ask();
+  gate.waitForChecks(1);
+  bounded.stop();
+  for (auto& answer : answers)
+    EXPECT_EQ("shutting down: the request was not answered", answer.get().message);
+  gate.open();
+}
+
+TEST_F(Service, TooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
+{
+  CheckServerOptions options;
+  options.max_states = 2;
+  CheckServer small(
+      store, [](auto scene) { return std::make_shared<CpuChecker>(std::move(scene)); }, options);
+  CheckServices bounded(store, small, memory, {});
+  EXPECT_NE(std::string::npos,
+            bounded.checkStates(request({"turn"}, {0.0, 0.0, kNan})).message.find("limits/request_states"));
+  CheckMotions::Request motions;
+  motions.joint_names = {"turn"};
+  motions.starts = {0.0, 0.0, kNan};
+  motions.ends = motions.starts;
+  EXPECT_NE(std::string::npos, bounded.checkMotions(motions).message.find("limits/request_states"));
+}
+
+TEST(RequestedStates, AMotionNeedsAllOfARotationOrNothing)
+{
+  const auto robot = RobotModel::fromXml(R"(<robot name="boat">
+      <link name="sea"/><link name="hull"/><link name="mast"/>
+      <joint name="swim" type="floating"><parent link="sea"/><child link="hull"/></joint>
+      <joint name="turn" type="continuous"><parent link="hull"/><child link="mast"/><axis xyz="0 0 1"/></joint>
+      </robot>)",
+                                         "", {});
+  ASSERT_EQ(8u, robot->variables().size());
+  const int first = robot->joints()[static_cast<std::size_t>(robot->jointIndex("swim"))].first_variable;
+  const int turn = robot->joints()[static_cast<std::size_t>(robot->jointIndex("turn"))].first_variable;
+  EXPECT_NO_THROW(requireWholeRotations(*robot, {turn, first, first + 1}));
+  EXPECT_NO_THROW(requireWholeRotations(*robot, {first + 6, first + 5, first + 4, first + 3}));
+  EXPECT_NE(std::string::npos, errorOf([&] { requireWholeRotations(*robot, {turn, first + 4}); }).find("'swim'"));
+}
+
+TEST_F(Service, NoStatesGetNoAnswers)
+{
+  const CheckStates::Response response = answer(request({"turn", "slide"}, {}));
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_TRUE(response.valid.empty());
+}
+
+TEST_F(Service, WrongRequestsAreRefusedWithTheReason)
+{
+  expectRefusal(request({}, {}),
+                "joint_names is empty; name at least one variable. To check the current state, give "
+                "one variable its current value: all others keep theirs");
+  expectRefusal(request({}, {1.0}), "joint_names is empty");
+  expectRefusal(request({"turn", "slide"}, {0.0, 0.0, 0.0}), "3 positions are not rows of 2");
+  expectRefusal(request({"turn", "slid"}, {0.0, 0.0}), "no variable 'slid'");
+  expectRefusal(request({"turn", "flag"}, {0.0, 0.0}),
+                "joint 'flag' mimics joint 'turn', from which its value follows; leave it out; the robot's variables "
+                "are slide, turn");
+  expectRefusal(request({"turn", "turn"}, {0.0, 0.0}), "'turn' is given twice");
+  expectRefusal(request({"turn", "slide"}, {0.0, 0.0, kNan, 0.0}), "state 1: the position of 'turn'");
+  expectRefusal(request({"turn", "slide"}, {0.0, kInfinity}), "state 0: the position of 'slide'");
+  CheckStates::Request unknown_group = request({"turn", "slide"}, {0.0, 0.0});
+  unknown_group.group = "sails";
+  expectRefusal(unknown_group, "sails");
+}
+
+TEST_F(Service, NamesInAnswersAreShortAndOnOneLine)
+{
+  expectRefusal(request({"turn", "sli\nde"}, {}), "no variable 'sli de'");
+  CheckStates::Request unknown_group = request({"turn", "slide"}, {0.0, 0.0});
+  unknown_group.group = "sa\nils";
+  expectRefusal(unknown_group, "sa ils");
+  EXPECT_GT(3000u, answer(request({std::string(100000, 'x')}, {})).message.size());
+}
+
+TEST_F(Service, AMatrixOfARequestHasNoMoreEntriesThanTheLimit)
+{
+  SceneLimits limits;
+  limits.matrix_entries = 3;
+  SceneStore strict(sliderAndWall(), {}, limits);
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.0});
+  asked.allowed_collision_matrix.entry_names = {"cart", "wall"};
+  asked.allowed_collision_matrix.entry_values.resize(2);
+  for (AllowedCollisionEntry& row : asked.allowed_collision_matrix.entry_values)
+    row.enabled = {0, 0};
+  EXPECT_TRUE(answer(asked).success);
+  const std::string message = CheckServices(strict, server, memory, {1000, 1000000, 10}).checkStates(asked).message;
+  EXPECT_NE(std::string::npos, message.find("limits/matrix_entries")) << message;
+}
+
+TEST_F(Service, ContactsAreGivenOfCollidingStatesAlone)
+{
+  CheckStates::Request with_contacts = request({"turn", "slide"}, {0.0, 0.0, 0.0, 1.0});
+  with_contacts.max_contacts = 10;
+  const CheckStates::Response response = answer(with_contacts);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid);
+  ASSERT_FALSE(response.contacts.empty());
+  for (const ContactInformation& contact : response.contacts)
+  {
+    EXPECT_EQ(1u, contact.state);
+    EXPECT_EQ("cart", contact.contact_body_1);
+    EXPECT_EQ("wall", contact.contact_body_2);
+    EXPECT_EQ(ContactInformation::WORLD_OBJECT, contact.body_type_2);
+    EXPECT_EQ("rail", contact.header.frame_id);
+  }
+}
+
+TEST_F(Service, ClearanceIsGivenWhereAsked)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.5, 0.0, 1.0});
+  EXPECT_TRUE(answer(asked).clearance_world.empty());
+  asked.clearance = true;
+  const CheckStates::Response response = answer(asked);
+  ASSERT_EQ(2u, response.clearance_world.size());
+  EXPECT_NEAR(0.3, response.clearance_world[0], 2e-6) << "the cart reaches to 0.6 m, the wall begins at 0.9 m";
+  EXPECT_EQ(0.0, response.clearance_world[1]);
+  EXPECT_EQ(2u, response.clearance_self.size());
+}
+
+TEST_F(Service, NoMoreStatesAreInspectedThanTheLimit)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, std::vector<double>(22, 0.0));
+  asked.max_contacts = 1;
+  EXPECT_TRUE(answer(asked).success) << "none of them collides";
+  asked.clearance = true;
+  expectRefusal(asked, "limits/inspected_states");
+}
+
+TEST_F(Service, MoreContactsThanTheLimitAreRefusedAndNotCutOff)
+{
+  CheckServices bounded(store, server, memory, {1000, 1000000, 10, 2});
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0, 0.0, 1.0, 0.0, 1.0});
+  asked.max_contacts = 1;
+  const CheckStates::Response refused = bounded.checkStates(asked);
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(std::string::npos, refused.message.find("limits/contacts")) << refused.message;
+  EXPECT_TRUE(refused.contacts.empty());
+  asked.positions.resize(4);
+  EXPECT_EQ(2u, bounded.checkStates(asked).contacts.size()) << "as many as the limit";
+  asked.max_contacts = std::numeric_limits<std::uint32_t>::max();
+  asked.max_contacts_per_pair = 1;
+  EXPECT_EQ(2u, bounded.checkStates(asked).contacts.size()) << "what is found counts, not what is asked for";
+}
+
+TEST_F(Service, AMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
+{
+  CheckMotions::Request asked;
+  asked.joint_names = {"slide", "turn"};
+  asked.starts = {0.0, 0.0, 0.0, 0.0};
+  asked.ends = {0.5, 0.0, 1.0, 0.0};
+  asked.resolution = 0.1;
+  asked.translation_resolution = 0.1;
+  asked.motion_rule = "samples";
+  const CheckMotions::Response response = services.checkMotions(asked);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid);
+  // The cart hits the wall at 0.8 m, up to rounding.
+  EXPECT_NEAR(0.75, response.last_valid_fraction.at(1), 0.06);
+  EXPECT_NEAR(0.1, response.first_invalid_fraction.at(1) - response.last_valid_fraction.at(1), 1e-9);
+  EXPECT_EQ("", response.body_1.at(0));
+  EXPECT_EQ("cart", response.body_1.at(1));
+  EXPECT_EQ("wall", response.body_2.at(1));
+  EXPECT_EQ(5u, response.scene_revision);
+  asked.ends.pop_back();
+  EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("4 values in starts and 3 in ends"));
+}
+
+TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)
+{
+  CheckMotions::Request asked;
+  asked.joint_names = {"slide", "turn"};
+  asked.starts = {0.0, 0.0, 0.0, 0.0};
+  asked.ends = {0.5, 0.0, 1.0, 0.0};
+  asked.resolution = 0.3;
+  asked.translation_resolution = 0.3;
+  asked.motion_rule = "samples";
+  const CheckMotions::Response sampled = services.checkMotions(asked);
+  asked.motion_rule = "bound";
+  const CheckMotions::Response proven = services.checkMotions(asked);
+  asked.motion_rule = "";
+  const CheckMotions::Response unnamed = services.checkMotions(asked);
+  for (const CheckMotions::Response& response : {sampled, proven, unnamed})
+    EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid) << response.message;
+  EXPECT_GT(proven.states_checked, sampled.states_checked);
+  EXPECT_EQ(proven.states_checked, unnamed.states_checked) << "the node's own rule is the bound";
+  asked.ends[0] = 7.0;
+  const CheckMotions::Response beyond = services.checkMotions(asked);
+  EXPECT_TRUE(beyond.success);
+  EXPECT_EQ(0, beyond.valid.at(0));
+  EXPECT_NE(std::string::npos,
+            beyond.message.find("motion 0: joint 'slide' is 7, outside its limits -2 to 2; the motion rule"))
+      << beyond.message;
+  asked.ends[0] = 0.5;
+  asked.motion_rule = "sample";
+  EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("must be samples or bound"));
+  asked.motion_rule = "bound";
+  asked.translation_resolution = 1e-5;
+  EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("motion 0 has more than 20000 samples"));
+  asked.motion_rule = "samples";
+  asked.translation_resolution = 1e-9;
+  const std::string message = services.checkMotions(asked).message;
+  EXPECT_NE(std::string::npos, message.find("more than 1000 samples")) << message;
+}
+
+TEST_F(Service, AMissingStepOfMotionsIsNamedAsInTheRequest)
+{
+  CheckMotions::Request asked;
+  asked.joint_names = {"slide", "turn"};
+  asked.starts = {0.0, 0.0};
+  asked.ends = {0.5, 0.0};
+  asked.translation_resolution = 0.1;
+  EXPECT_EQ(
+      "resolution is 0; give the largest step between two samples: a finite number of radians above 0, for "
+      "example 0.02",
+      services.checkMotions(asked).message);
+  asked.resolution = 0.1;
+  asked.translation_resolution = -1.0;
+  EXPECT_EQ(0u, services.checkMotions(asked).message.find("translation_resolution is -1; "));
+}
+
+TEST_F(Service, ANamedStateOfFixedJointsIsRefused)
+{
+  std::string srdf = sliderSrdf();
+  srdf.insert(srdf.find("</robot>"),
+              "<group name=\"bolts\"><joint name=\"bolt\"/></group>"
+              "<group_state name=\"tight\" group=\"bolts\"><joint name=\"bolt\" "
+              "value=\"0\"/></group_state>");
+  const auto robot = RobotModel::fromXml(sliderUrdf(), srdf, {});
+  const std::string error = errorOf([&] { requestedNamedState(*robot, {"named_state", "tight"}, true); });
+  EXPECT_EQ(
+      "named_state is 'tight', which sets no variable: in the SRDF, this state has only joints that are fixed or "
+      "follow other joints; name another state",
+      error);
+}
+
+TEST_F(Service, MotionsThatNeedTooManyChecksAreNotFreeAndMarked)
+{
+  CheckServices few{store, server, memory, {1000, 8, 10}};
+  CheckMotions::Request asked;
+  asked.joint_names = {"slide", "turn"};
+  asked.starts = {-1.0, 0.0, 0.0, 0.0};
+  asked.ends = {-1.0, 0.0, 0.7999, 0.0};  // the second ends 0.1 mm before the wall
+  asked.resolution = 0.3;
+  asked.translation_resolution = 0.3;
+  const CheckMotions::Response all = services.checkMotions(asked);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), all.valid) << all.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), all.given_up);
+  EXPECT_GT(all.states_checked, 8u);
+  EXPECT_EQ("", all.message);
+  const CheckMotions::Response response = few.checkMotions(asked);
+  EXPECT_TRUE(response.success);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.valid);
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 1}), response.given_up);
+  ASSERT_EQ(2u, response.last_valid_fraction.size());
+  EXPECT_LT(response.last_valid_fraction[1], 1.0);
+  EXPECT_EQ(8u, response.states_checked);
+  EXPECT_EQ("", response.body_1.at(1));
+  EXPECT_EQ(
+      "1 of 2 motions are not proven free, because 8 checks (limits/motion_checks) did not suffice; the first is "
+      "motion "
+      "1; send fewer or shorter motions in one request",
+      response.message);
+}
+
+TEST_F(Service, AMatrixOfARequestReplacesTheScenes)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0});
+  asked.allowed_collision_matrix.default_entry_names = {"wall"};
+  asked.allowed_collision_matrix.default_entry_values = {1};
+  const CheckStates::Response response = answer(asked);
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), response.valid);
+  EXPECT_EQ(
+      "allowed_collision_matrix: it has only default entries, so the pairs that the SRDF allows are checked too (as in "
+      "MoveIt); give entry_names and entry_values for them",
+      response.message);
+}
+
+TEST_F(Service, ValuesOutsideTheLimitsAreCheckedWithAWarning)
+{
+  const CheckStates::Response response = answer(request({"turn", "slide"}, {0.5, 0.0, 90.0, 1.0, 0.0, -3.0}));
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 1}), response.valid);
+  EXPECT_EQ(
+      "state 1: joint 'turn' is 90, outside its limits -3 to 3 rad; values are in radians, and 90 degrees are "
+      "1.5708 rad; 1 more value is outside the limits",
+      response.message);
+}
+
+TEST_F(Service, AReportHasLinesAndNumbers)
+{
+  const GetReport::Response response = services.report({});
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_FALSE(response.lines.empty());
+  ASSERT_EQ(response.names.size(), response.values.size());
+  EXPECT_EQ("self_pairs", response.names.at(0));
+  for (const char* name : {"rigid_pairs", "pairs_outside_group"})
+    EXPECT_EQ(1, std::count(response.names.begin(), response.names.end(), name)) << name;
+  EXPECT_EQ(5u, response.scene_revision);
+}
+
+TEST_F(Service, AReportHasEachNameOnOneLine)
+{
+  PlanningScene scene = sliderAndWall();
+  scene.objects[0].id = "wa\nll";
+  SceneReport report;
+  report.always_colliding = {{0, static_cast<std::int32_t>(scene.robot->links().size())}};
+  for (const std::string& line : describeScene(scene, report, ""))
+    EXPECT_EQ(std::string::npos, line.find('\n')) << line;
+}
+
+TEST_F(Service, AProcessThatUsesTooMuchMemoryTakesNothingMore)
+{
+  const MemoryGuard full(1);
+  CheckServices guarded(store, server, full, {});
+  EXPECT_NE(std::string::npos,
+            guarded.checkStates(request({"turn", "slide"}, {0.0, 0.0})).message.find("limits/memory"));
+}
+
+class FailingChecker : public StateChecker
+{
+ public:
+  void setScene(std::shared_ptr<const PlanningScene>) override {}
+  BatchResult check(const double*, std::size_t, const std::string&, const JointNeighbourhood*) override
+  {
+    throw std::runtime_error("device lost");
+  }
+  SceneReport report(const std::string&) override { return {}; }
+  std::string deviceName() const override { return ""; }
+};
+
+TEST_F(Service, AFailureOfTheDeviceIsAnAnswer)
+{
+  CheckServer failing(store, [](std::shared_ptr<const PlanningScene>) { return std::make_shared<FailingChecker>(); },
+                      {});
+  const auto response = CheckServices(store, failing, memory, {}).checkStates(request({"turn", "slide"}, {0.0, 0.0}));
+  EXPECT_FALSE(response.success);
+  EXPECT_EQ("device lost", response.message);
+}
+
+/// A mobile robot with known joint values. The pose of its base is unknown.
+class UnknownBase : public testing::Test
+{
+ public:
+  std::string messageOf(const CheckStates::Request& asked)
+  {
+    const CheckStates::Response response = services.checkStates(asked);
+    EXPECT_TRUE(response.success) << response.message;
+    return response.message;
+  }
+
+  SceneStore store{PlanningScene(sliderRobotOnFloor("planar")), {}, {}};
+  CheckServer server{store,
+                     [](std::shared_ptr<const PlanningScene> scene)
+                     { return std::make_shared<CpuChecker>(std::move(scene)); },
+                     {}};
+  MemoryGuard memory{0};
+  CheckServices services{store, server, memory, {1000, 1000000, 10}};
+};
+
+TEST_F(UnknownBase, IsAssumedAtTheOriginAndEachAnswerSaysSo)
+{
+  const CheckStates::Request joints = request({"turn", "slide"}, {0.5, 0.0});
+  EXPECT_NE(std::string::npos, messageOf(joints).find("assumed at the origin of frame")) << messageOf(joints);
+  EXPECT_EQ("", messageOf(request({"turn", "slide", "floor/x", "floor/y", "floor/theta"}, {0.5, 0, 1, 2, 0})));
+  store.updateState({{"floor/x", 1.0}, {"floor/y", 0.0}, {"floor/theta", 0.0}});
+  EXPECT_EQ("", messageOf(joints));
+}
+
+}  // namespace
+}  // namespace gpu_planning_scene::core

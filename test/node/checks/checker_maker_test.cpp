@@ -1,0 +1,169 @@
+// The node's checkers when the device fails after the start. No ROS master is needed.
+
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "model/model_testing.h"
+#include "node/checks/checker_maker.h"
+#include "scene/slider_robot.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// A device that is lost in each of its next `losses` checks.
+class Device : public CpuChecker
+{
+ public:
+  Device(std::shared_ptr<const PlanningScene> scene, std::shared_ptr<std::atomic<int>> losses)
+    : CpuChecker(std::move(scene)), losses_(std::move(losses))
+  {
+  }
+  BatchResult check(const double* states, std::size_t count, const std::string& group,
+                    const JointNeighbourhood* around) override
+  {
+    if (*losses_ > 0)
+    {
+      --*losses_;
+      throw DeviceLost("the GPU was reset");
+    }
+    return CpuChecker::check(states, count, group, around);
+  }
+  std::string deviceName() const override { return "a device"; }
+
+ private:
+  std::shared_ptr<std::atomic<int>> losses_;
+};
+
+/// States of a request for the second queue, whose checker is made with its first request.
+constexpr std::size_t kLarge = 2000;
+
+class CheckerMaker : public testing::Test
+{
+ protected:
+  CheckerMaker() { resilience_.device_seconds = 0.2; }
+  ~CheckerMaker() override { repaired_.set_value(); }
+
+  /// Sets the fault of opening the device from now on: it throws, waits, or does nothing.
+  void openWith(void (*fault)(const std::shared_future<void>& repaired)) { fault_ = fault; }
+
+  CheckServer& server()
+  {
+    if (!server_)
+    {
+      // A thread that waits for `repaired` may go on after the end of the test, so it must not use `this` afterwards.
+      const OpenDevice open = [this, losses = losses_, repaired = repaired_.get_future().share()](
+                                  std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions&)
+      {
+        if (fault_ != nullptr)
+          fault_.load()(repaired);
+        return std::make_unique<Device>(std::move(scene), losses);
+      };
+      server_ = std::make_unique<CheckServer>(store_, checkerMaker(options_, resilience_, open, diagnostics_),
+                                              CheckServerOptions());
+    }
+    return *server_;
+  }
+
+  CheckAnswer ask(std::size_t count)
+  {
+    CheckJob job;
+    job.states.assign(2 * count, 0.0);
+    return server().submit(std::move(job)).get();
+  }
+
+  int level() { return diagnostics_.status(store_, server()).level; }
+
+  std::atomic<void (*)(const std::shared_future<void>&)> fault_{nullptr};
+  std::promise<void> repaired_;
+  std::shared_ptr<std::atomic<int>> losses_ = std::make_shared<std::atomic<int>>(0);
+  BatchCheckerOptions options_;
+  ResilientOptions resilience_;
+  SceneStore store_{PlanningScene(sliderRobot()), {}, {}};
+  Diagnostics diagnostics_;
+  std::unique_ptr<CheckServer> server_;
+};
+
+TEST_F(CheckerMaker, ANamedDeviceThatCannotBeOpenedAtTheStartIsAnError)
+{
+  options_.device = "software";
+  openWith([](const auto&) { throw Error("no usable device"); });
+  EXPECT_EQ(errorOf([&] { server(); }), "no usable device");
+}
+
+TEST_F(CheckerMaker, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
+{
+  openWith([](const auto&) { throw Error("no usable device"); });
+  for (const std::size_t count : {std::size_t{1}, kLarge})
+  {
+    const CheckAnswer answer = ask(count);
+    EXPECT_EQ(answer.result.valid.size(), count);
+    EXPECT_EQ(answer.device, "CPU");
+  }
+}
+
+TEST_F(CheckerMaker, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
+{
+  EXPECT_EQ(ask(1).result.valid.size(), 1u);
+  openWith([](const auto&) { throw DeviceLost("the GPU was reset"); });
+  const CheckAnswer answer = ask(kLarge);
+  EXPECT_EQ(answer.result.valid.size(), kLarge);
+  EXPECT_EQ(answer.device, "CPU");
+}
+
+TEST_F(CheckerMaker, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
+{
+  EXPECT_EQ(ask(1).result.valid.size(), 1u);
+  openWith([](const auto& repaired) { repaired.wait(); });
+  EXPECT_EQ(ask(kLarge).result.valid.size(), kLarge);
+  server().stop();
+}
+
+TEST_F(CheckerMaker, DiagnosticsReportCpuFallbackAndMissingDevice)
+{
+  using diagnostic_msgs::DiagnosticStatus;
+  resilience_.retry_seconds = 0.1;
+  resilience_.max_losses = 100;
+  const auto retry = [this] { std::this_thread::sleep_for(std::chrono::duration<double>(resilience_.retry_seconds)); };
+  ask(1);
+  EXPECT_EQ(level(), DiagnosticStatus::OK);
+  *losses_ = 1;
+  EXPECT_EQ(ask(1).device, "a device") << "made anew";
+  EXPECT_EQ(level(), DiagnosticStatus::OK);
+  *losses_ = 2;
+  ask(1);
+  EXPECT_EQ(level(), DiagnosticStatus::WARN);
+  retry();
+  ask(1);
+  EXPECT_EQ(level(), DiagnosticStatus::OK);
+  *losses_ = 1;
+  openWith([](const auto&) { throw Error("no usable device"); });
+  ask(1);
+  EXPECT_EQ(level(), DiagnosticStatus::ERROR);
+  const std::string message = diagnostics_.status(store_, server()).message;
+  EXPECT_NE(message.find("no usable device"), std::string::npos) << message;
+  openWith(nullptr);
+  retry();
+  ask(1);
+  EXPECT_EQ(level(), DiagnosticStatus::OK);
+}
+
+TEST_F(CheckerMaker, DiagnosticsAreShortWhateverIsInThem)
+{
+  ask(1);
+  openWith([](const auto&) { throw Error("no device '" + std::string(100000, 'x') + "'"); });
+  *losses_ = 1;
+  ask(1);
+  diagnostics_.refused("there is no group '" + std::string(100000, 'x') + "'");
+  const diagnostic_msgs::DiagnosticStatus status = diagnostics_.status(store_, server());
+  EXPECT_LT(ros::serialization::serializationLength(status), 10000u);
+  EXPECT_NE(status.message.find("no device 'xxx"), std::string::npos) << status.message;
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,135 @@
+"""The bundle for another machine is made from this build. It is small and complete, and does not use the build tree."""
+
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from folders import SCRIPTS
+
+
+class BundleTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="gpu_planning_scene_bundle_")
+        cls.bundle = os.path.join(cls.folder.name, "bundle")
+        subprocess.run(
+            [SCRIPTS / "bundle", "--from", BUILD, "--robots", ROBOTS, cls.bundle],
+            check=True,
+            timeout=300,
+            env={**os.environ, "BUNDLE_MAX_BYTES": "300000000" if SANITIZED else "60000000"},
+        )
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def files(self, folder):
+        for path, _, names in os.walk(os.path.join(self.bundle, folder)):
+            yield from (os.path.join(path, name) for name in names)
+
+    def run_program(self, *arguments, **environment):
+        return subprocess.run(
+            [os.path.join(self.bundle, "run"), *arguments],
+            capture_output=True,
+            text=True,
+            timeout=120,
+            cwd="/",
+            env={
+                "PATH": "/usr/bin:/bin",
+                "HOME": self.folder.name,
+                "ASAN_OPTIONS": "detect_leaks=0",
+                **environment,
+            },
+        )
+
+    def test_is_under_60_megabytes(self):
+        size = sum(os.path.getsize(path) for path in self.files(""))
+        self.assertLess(size, 300e6 if SANITIZED else 60e6)
+
+    def test_a_run_that_failed_leaves_no_bundle_and_hinders_no_other(self):
+        again = os.path.join(self.folder.name, "again")
+        command = [SCRIPTS / "bundle", "--from", BUILD, "--robots", ROBOTS, again]
+        for _ in range(2):
+            result = subprocess.run(
+                command, capture_output=True, text=True, timeout=300, env={**os.environ, "BUNDLE_MAX_BYTES": "1000"}
+            )
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("the limit is", result.stderr)
+            self.assertFalse(os.path.exists(again))
+
+    def test_no_library_is_found_where_it_was_built(self):
+        libraries = ":".join(os.path.join(self.bundle, folder) for folder in ("lib", "lib/common"))
+        for path in [*self.files("bin"), *self.files("lib")]:
+            if "/glibc/" in path:
+                continue
+            found = subprocess.run(
+                ["ldd", path], capture_output=True, text=True, env={"PATH": "/usr/bin:/bin", "LD_LIBRARY_PATH": libraries}
+            ).stdout
+            self.assertNotIn("not found", found, path)
+            self.assertNotIn(BUILD, found, path)
+            dynamic = subprocess.run(["readelf", "--dynamic", path], capture_output=True, text=True).stdout
+            self.assertNotIn("RUNPATH", dynamic, path)
+            self.assertNotIn("RPATH", dynamic, path)
+
+    def test_drivers_stay_the_machines(self):
+        """The bundle has no drivers of its own. lib/dispatch comes after the machine's folders in the search order."""
+        for path in self.files("lib"):
+            if "/dispatch/" not in path:
+                self.assertNotRegex(os.path.basename(path), "^lib(EGL|GL|OpenGL|drm|gbm|X11|xcb|wayland)")
+            self.assertNotIn("mesa", path.lower())
+
+    def test_every_program_starts(self):
+        for program in os.listdir(os.path.join(self.bundle, "bin")):
+            result = self.run_program(program, "--help")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(program, result.stdout)
+
+    def test_programs_start_with_the_bundled_loader(self):
+        """The loader is used on a machine whose glibc is older."""
+        libraries = ":".join(os.path.join(self.bundle, folder) for folder in ("lib/glibc", "lib", "lib/common"))
+        loader = next(path for path in self.files("lib/glibc") if "/ld-linux" in path)
+        result = subprocess.run(
+            [loader, "--library-path", libraries, os.path.join(self.bundle, "bin/benchmark"), "--help"],
+            capture_output=True,
+            text=True,
+            timeout=120,
+            env={"PATH": "/usr/bin:/bin", "ASAN_OPTIONS": "detect_leaks=0"},
+        )
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_shaders_and_scenes_are_its_own(self):
+        scene = os.path.join(self.bundle, "config/demo/kr5_scene.yaml")
+        robot = os.path.join(self.bundle, "data/urdf/KR5/KR5 sixx R650.urdf")
+        if not os.path.exists(robot):
+            self.skipTest("Debian's dart-doc is not here")
+        result = self.run_program(
+            "check_states", "--urdf", robot, "--scene", scene, "--random", "16", GPU_PLANNING_SCENE_PROGRAM_CACHE="off"
+        )
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_the_planning_study_has_its_problems(self):
+        if not os.path.isdir(os.path.join(self.bundle, "data/problems")):
+            self.skipTest("../shared is not here")
+        out = os.path.join(self.folder.name, "planning")
+        result = self.run_program(
+            *("planning_study", "--out", out, "--problems", "1", "--seconds", "2"), GPU_PLANNING_SCENE_PROGRAM_CACHE="off"
+        )
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(os.path.join(out, "planning.csv"), newline="") as table:
+            methods = {(row["rule"], row["method"]) for row in csv.DictReader(table)}
+        self.assertEqual(len(methods), 6)
+        self.assertTrue(os.path.exists(os.path.join(self.bundle, "draw_planning.py")))
+
+    def test_an_unknown_program_is_named_with_those_that_there_are(self):
+        result = self.run_program("benchmrak")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("benchmark", result.stderr)
+
+
+if __name__ == "__main__":
+    BUILD, ROBOTS, sanitized = sys.argv[1:]
+    SANITIZED = sanitized == "1"
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,87 @@
+"""Includes point one way through the folders of src/, as docs/architecture.md shows, and only some folders use ROS."""
+import re
+import unittest
+
+from folders import ROOT
+
+# Each folder may include itself, the folders listed for it, and the folders that these may include.
+LAYERS = {
+    "model": [],
+    "gpu": ["model"],
+    "scene": ["model"],
+    "collision/geometry": ["model"],
+    "collision/problem": ["collision/geometry", "collision", "scene"],
+    "collision/exact": ["collision/problem"],
+    "collision/bounds": ["collision/exact"],
+    "collision/filter": ["collision/exact"],
+    "collision/gpu": ["collision/bounds", "gpu"],
+    "collision/contacts": ["collision/bounds"],
+    "collision/motion": ["collision/bounds"],
+    "collision/checkers": ["collision/filter", "collision/gpu", "collision/contacts", "collision/motion"],
+    "collision": [],  # shared by all rooms
+    "planning": ["collision/checkers"],
+    "service": ["collision/checkers"],
+    "render": ["collision/checkers"],
+    "command_line": ["collision/checkers"],
+    "tools": ["command_line", "render"],
+    "plugins": ["planning"],
+    "node/messages": ["scene"],
+    "node/endpoints": ["service"],
+    "node/parameters": ["service"],
+    "node/scene": ["node/messages", "node/endpoints"],
+    "node/checks": ["node/messages", "node/endpoints"],
+    "node/markers": ["node/messages", "node/endpoints", "render"],
+    "node/planning": ["node/markers", "node/parameters", "planning"],
+    "node": ["node/scene", "node/checks", "node/planning", "command_line"],
+}
+
+
+def folder_of(path):
+    """The innermost folder of LAYERS that contains a path below src/."""
+    parts = path.split("/")[:-1]
+    while parts and "/".join(parts) not in LAYERS:
+        parts.pop()
+    return "/".join(parts)
+
+
+def allowed(folder):
+    """All folders that a folder may include."""
+    found = {folder}
+    for below in LAYERS[folder]:
+        found |= allowed(below)
+    return found
+
+
+class Layers(unittest.TestCase):
+    def test_includes_point_one_way(self):
+        wrong = []
+        for path in sorted((ROOT / "src").rglob("*")):
+            if path.suffix not in (".h", ".cpp"):
+                continue
+            place = str(path.relative_to(ROOT / "src"))
+            for include in re.findall(r'(?m)^#include "([^"]+)"', path.read_text()):
+                if include.startswith("gpu_planning_scene/") or include == "shader_constants.h":
+                    continue
+                if folder_of(include) not in allowed(folder_of(place)):
+                    wrong.append(f"{place} includes {include}")
+        self.assertEqual([], wrong)
+
+    def test_every_folder_of_src_has_its_place(self):
+        folders = {folder_of(str(path.relative_to(ROOT / "src"))) for path in (ROOT / "src").rglob("*.cpp")}
+        self.assertLessEqual(folders, set(LAYERS))
+        self.assertNotIn("", folders)
+
+    def test_only_the_node_and_the_plugins_know_ros(self):
+        wrong = []
+        for path in sorted([*(ROOT / "src").rglob("*.h"), *(ROOT / "src").rglob("*.cpp"),
+                            *(ROOT / "include").rglob("*.h")]):
+            place = str(path.relative_to(ROOT))
+            if place.startswith(("src/node/", "src/plugins/")):
+                continue
+            for include in re.findall(r"#include [<\"](ros/|tf2|\w+_msgs/|pluginlib/)", path.read_text()):
+                wrong.append(f"{place} includes {include}")
+        self.assertEqual([], wrong)
+
+
+if __name__ == "__main__":
+    unittest.main()
