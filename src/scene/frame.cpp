@@ -58,6 +58,23 @@ Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* stat
   return poses[static_cast<std::size_t>(link)];
 }
 
+std::string withoutLeadingSlash(const std::string& frame)
+{
+  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
+}
+
+std::optional<std::string> fixedFrameName(const std::string& frame_id, const std::string& child_frame_id,
+                                          const std::string& planning_frame)
+{
+  const auto is_planning_frame = [&planning_frame](const std::string& name)
+  { return withoutLeadingSlash(name) == withoutLeadingSlash(planning_frame); };
+  if (is_planning_frame(child_frame_id))
+    return frame_id.empty() || is_planning_frame(frame_id) ? planning_frame : frame_id;
+  if (frame_id.empty() || is_planning_frame(frame_id))
+    return child_frame_id;
+  return std::nullopt;
+}
+
 /// Old tf1 names begin with a slash, and so do the links of some robots. So the name is tried as written, then without
 /// the slash.
 std::optional<Eigen::Isometry3d> findFrame(const KnownFrames& known, const std::string& name, const double* state)

@@ -30,6 +30,15 @@ struct KnownFrames
   std::function<std::optional<ObjectFrame>(const std::string& id)> object;
 };
 
+/// A name of tf1 begins with a slash.
+std::string withoutLeadingSlash(const std::string& frame);
+
+/// The frame whose pose in the planning frame an entry of `fixed_frame_transforms` gives. MoveIt writes its name as
+/// `frame_id` and the planning frame as `child_frame_id`; tf has it the other way round. Both are accepted, and an
+/// empty `frame_id` is the planning frame. No value: neither name is the planning frame.
+std::optional<std::string> fixedFrameName(const std::string& frame_id, const std::string& child_frame_id,
+                                          const std::string& planning_frame);
+
 /// See PlanningScene::frame.
 std::optional<Eigen::Isometry3d> findFrame(const KnownFrames& known, const std::string& name, const double* state);
 }  // namespace gpu_planning_scene::core

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "scene/frame.h"
 #include "scene/scene_reader.h"
 
 namespace gpu_planning_scene::core
@@ -17,11 +18,6 @@ Eigen::Quaterniond readOrientation(const YamlValue& value)
     value.fail("the quaternion is zero; the identity is [0, 0, 0, 1]");
   // The components are divided first, so that squares of large components do not overflow.
   return Eigen::Quaterniond(Eigen::Vector4d(components / norm)).normalized();
-}
-
-std::string withoutLeadingSlash(const std::string& frame)
-{
-  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
 }
 }  // namespace
 
@@ -52,17 +48,19 @@ void readFixedFrame(const YamlValue& value, SceneReader& reader)
   const std::string& planning_frame = reader.robot.planningFrame();
   const YamlValue* header = value.find("header");
   const YamlValue* parent = header ? header->find("frame_id") : nullptr;
-  if (parent && !parent->text().empty() && withoutLeadingSlash(parent->text()) != withoutLeadingSlash(planning_frame))
-    parent->fail("the transform is given in frame '" + parent->text() + "'; the planning frame is '" + planning_frame +
-                 "' (the robot's root link, or the parent frame of the SRDF's virtual joint)");
   const YamlValue& child = value.at("child_frame_id");
+  const std::optional<std::string> name = fixedFrameName(parent ? parent->text() : "", child.text(), planning_frame);
+  if (!name)
+    parent->fail("the transform is between frames '" + parent->text() + "' and '" + child.text() +
+                 "'; one of them must be the planning frame '" + planning_frame +
+                 "' (the robot's root link, or the parent frame of the SRDF's virtual joint)");
   const Eigen::Isometry3d pose = readPose(value.at("transform"), "translation", "rotation");
-  if (child.text() == planning_frame && !pose.isApprox(Eigen::Isometry3d::Identity(), 1e-12))
-    child.fail("frame '" + child.text() + "' is the planning frame; its transform must be the identity");
-  if (child.text() != planning_frame && reader.robot.linkIndex(child.text()) >= 0)
-    child.fail("fixed frame '" + child.text() + "' has the name of a link");
-  if (!reader.fixed_frames.emplace(child.text(), pose).second)
-    child.fail("fixed frame '" + child.text() + "' is given twice");
+  if (*name == planning_frame && !pose.isApprox(Eigen::Isometry3d::Identity(), 1e-12))
+    child.fail("frame '" + *name + "' is the planning frame; its transform must be the identity");
+  if (*name != planning_frame && reader.robot.linkIndex(*name) >= 0)
+    child.fail("fixed frame '" + *name + "' has the name of a link");
+  if (!reader.fixed_frames.emplace(*name, pose).second)
+    child.fail("fixed frame '" + *name + "' is given twice");
 }
 
 Eigen::Isometry3d readFrame(const YamlValue* header, const SceneReader& reader)

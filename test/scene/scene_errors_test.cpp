@@ -198,7 +198,7 @@ const std::vector<WrongScene>& wrongScenes()
 
       {"FrameInAnotherFrame",
        "fixed_frame_transforms:\n  - header: {frame_id: moon}\n    child_frame_id: camera\n    transform: {}\n", 2,
-       "given in frame 'moon'"},
+       "between frames 'moon' and 'camera'"},
       {"FrameTwice",
        "fixed_frame_transforms:\n  - {child_frame_id: c, transform: {translation: [0, 0, 0]}}\n"
        "  - {child_frame_id: c, transform: {translation: [0, 0, 0]}}\n",

@@ -460,7 +460,10 @@ TEST_F(SceneFile, NamesColorsSubframesAndFixedFramesAreKept)
 {
   const PlanningScene scene = load(R"(
 name: workshop
-fixed_frame_transforms: [{child_frame_id: camera, transform: {translation: [0, 0, 5]}}, {child_frame_id: rail, transform: {}}]
+fixed_frame_transforms:
+  - {child_frame_id: camera, transform: {translation: [0, 0, 5]}}
+  - {header: {frame_id: map}, child_frame_id: rail, transform: {translation: [0, 0, 7]}}
+  - {child_frame_id: rail, transform: {}}
 object_colors: [{id: a, color: {r: 1.0, g: 0.5, b: 0.0, a: 0.25}}]
 world:
   collision_objects:
@@ -474,7 +477,8 @@ world:
   EXPECT_TRUE(scene.colors.at("a") == (Color{1.0F, 0.5F, 0.0F, 0.25F}));
   EXPECT_EQ(-1.0, scene.objects.at(0).subframes.at("tail").translation().z());
   EXPECT_EQ(5.0, scene.frame("camera", nullptr)->translation().z());
-  EXPECT_EQ(1u, scene.fixed_frames.size()) << "the planning frame is none of its own";
+  EXPECT_EQ(7.0, scene.frame("map", nullptr)->translation().z()) << "as MoveIt writes it";
+  EXPECT_EQ(2u, scene.fixed_frames.size()) << "the planning frame is none of its own";
 }
 
 TEST_F(SceneFile, PlanesAreTheHalfSpacesBehindThem)

@@ -6,6 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/name_list.h"
 #include "node/messages/object_from_message.h"
+#include "scene/frame.h"
 #include "scene/message_values.h"
 
 namespace gpu_planning_scene::core
@@ -130,21 +131,17 @@ StateChange stateFrom(const RobotState& message, const RobotModel& robot, Inline
   return state;
 }
 
-std::string withoutLeadingSlash(const std::string& frame)
-{
-  return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
-}
-
 void readFixedFrames(const PlanningSceneMessage& message, const RobotModel& robot, SceneChange& change)
 {
   for (const geometry_msgs::TransformStamped& frame : message.fixed_frame_transforms)
   {
-    const std::string& parent = frame.header.frame_id;
-    if (!parent.empty() && withoutLeadingSlash(parent) != withoutLeadingSlash(robot.planningFrame()))
-      throw Error("fixed frame '" + frame.child_frame_id + "' is given in frame '" + parent +
-                  "'; it must be the planning frame '" + robot.planningFrame() + "'");
-    insertOnce(change.fixed_frames, frame.child_frame_id,
-               isometryOf(frame.transform.translation, frame.transform.rotation), "the fixed frame");
+    const std::optional<std::string> name =
+        fixedFrameName(frame.header.frame_id, frame.child_frame_id, robot.planningFrame());
+    if (!name)
+      throw Error("the fixed frame between '" + frame.header.frame_id + "' and '" + frame.child_frame_id +
+                  "': one of them must be the planning frame '" + robot.planningFrame() + "'");
+    insertOnce(change.fixed_frames, *name, isometryOf(frame.transform.translation, frame.transform.rotation),
+               "the fixed frame");
   }
 }
 

@@ -248,8 +248,8 @@ PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robo
   for (const auto& [name, pose] : change.fixed_frames)
   {
     geometry_msgs::TransformStamped frame;
-    frame.header.frame_id = planning_frame;
-    frame.child_frame_id = name;
+    frame.header.frame_id = name;  // as in MoveIt: see fixedFrameName
+    frame.child_frame_id = planning_frame;
     frame.transform = transformOf(pose);
     message.fixed_frame_transforms.push_back(frame);
   }

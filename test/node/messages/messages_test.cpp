@@ -391,6 +391,28 @@ TEST_F(Messages, InvalidMessagesAreRefused)
   refusedMessage("must be the planning frame 'rail'", message);
 }
 
+/// MoveIt writes the planning frame as child_frame_id, and tf as frame_id.
+TEST_F(Messages, FixedFramesCanBeNamedAsMoveItDoesAndAsTfDoes)
+{
+  for (const bool as_moveit : {true, false})
+  {
+    PlanningSceneMessage message = diff();
+    message.fixed_frame_transforms.resize(2);
+    geometry_msgs::TransformStamped& frame = message.fixed_frame_transforms[0];
+    frame.header.frame_id = as_moveit ? "map" : "rail";
+    frame.child_frame_id = as_moveit ? "/rail" : "map";
+    frame.transform.translation.z = 2.0;
+    frame.transform.rotation.w = 1.0;
+    geometry_msgs::TransformStamped& own = message.fixed_frame_transforms[1];
+    own.header.frame_id = own.child_frame_id = "rail";
+    own.transform.rotation.w = 1.0;
+    const SceneChange change = changeFrom(message, *scene_.robot, limits_, nullptr);
+    ASSERT_EQ(1U, change.fixed_frames.count("map"));
+    EXPECT_EQ(2.0, change.fixed_frames.at("map").translation().z());
+    EXPECT_EQ(1U, change.fixed_frames.count("rail"));
+  }
+}
+
 /// A scene with every kind of content.
 PlanningSceneMessage everything()
 {
@@ -469,7 +491,8 @@ TEST_F(Messages, OnlyTheComponentsThatAreAskedForAreThere)
   EXPECT_EQ(1u, message.world.collision_objects.at(0).primitives.size());
   EXPECT_EQ(1u, message.world.collision_objects.at(0).subframe_names.size());
   message = get(Components::TRANSFORMS);
-  EXPECT_EQ("camera", message.fixed_frame_transforms.at(0).child_frame_id);
+  EXPECT_EQ("camera", message.fixed_frame_transforms.at(0).header.frame_id);
+  EXPECT_EQ("rail", message.fixed_frame_transforms.at(0).child_frame_id);
   message = get(Components::ALLOWED_COLLISION_MATRIX);
   EXPECT_EQ(2u, message.allowed_collision_matrix.entry_names.size());
   message = get(Components::LINK_PADDING_AND_SCALING);
