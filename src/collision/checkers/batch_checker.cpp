@@ -17,9 +17,9 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// A large batch is cut into slices. For each slice, CPU or GPU is chosen anew: the CPU becomes faster while proofs are
-// made.
-constexpr std::size_t kStatesPerSlice = std::size_t{1} << 18U;
+// A large batch is cut into slices. For each of them, CPU or GPU is chosen anew: the CPU becomes faster while proofs
+// are made.
+constexpr std::size_t kStatesPerChoice = std::size_t{1} << 18U;
 }  // namespace
 
 struct BatchChecker::Impl
@@ -183,12 +183,12 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
   validateStates(*impl_->on_cpu.scene()->robot, states, count);
   if (around)
     return impl_->timedCheck(states, count, group, around);
-  BatchResult result = impl_->timedCheck(states, std::min(count, kStatesPerSlice), group, nullptr);
+  BatchResult result = impl_->timedCheck(states, std::min(count, kStatesPerChoice), group, nullptr);
   GpuWork work = impl_->work;
-  for (std::size_t begin = kStatesPerSlice; begin < count; begin += kStatesPerSlice)
+  for (std::size_t begin = kStatesPerChoice; begin < count; begin += kStatesPerChoice)
   {
     const double* const first = states + begin * impl_->width();
-    result.append(impl_->timedCheck(first, std::min(kStatesPerSlice, count - begin), group, nullptr));
+    result.append(impl_->timedCheck(first, std::min(kStatesPerChoice, count - begin), group, nullptr));
     work += impl_->work;
   }
   impl_->work = work;
