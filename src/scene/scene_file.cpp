@@ -36,7 +36,8 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
                                                                 "link_scale",
                                                                 "object_colors",
                                                                 "world",
-                                                                "is_diff"};
+                                                                "is_diff",
+                                                                "scene_revision"};
   if (std::none_of(known_keys.begin(), known_keys.end(), [&](const char* key) { return file.find(key) != nullptr; }))
     file.fail("not a planning scene: it has no 'world', 'robot_state' or 'allowed_collision_matrix'");
   file.warnOfUnknownKeys(known_keys, warnings);

@@ -460,6 +460,7 @@ TEST_F(SceneFile, NamesColorsSubframesAndFixedFramesAreKept)
 {
   const PlanningScene scene = load(R"(
 name: workshop
+scene_revision: 7
 fixed_frame_transforms:
   - {child_frame_id: camera, transform: {translation: [0, 0, 5]}}
   - {header: {frame_id: map}, child_frame_id: rail, transform: {translation: [0, 0, 7]}}

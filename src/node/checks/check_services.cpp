@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <tuple>
@@ -120,6 +121,14 @@ std::string givenUp(const std::vector<MotionVerdict>& motions, std::size_t max_c
          std::to_string(first - motions.begin()) + "; send fewer or shorter motions in one request";
 }
 
+/// The indices of all variables.
+std::vector<int> allColumns(const RobotModel& robot)
+{
+  std::vector<int> columns(robot.variables().size());
+  std::iota(columns.begin(), columns.end(), 0);
+  return columns;
+}
+
 std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
 {
   const std::size_t links = scene.robot->links().size();
@@ -221,16 +230,21 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         const Snapshot now = store_.snapshot();
         const RobotModel& robot = *now.scene->robot;
         NamedRow rows{request.joint_names, request.positions};
+        std::vector<int> set_by_request;
+        const bool is_of_current_state =
+            request.named_state.empty() && request.joint_names.empty() && request.positions.empty();
+        if (is_of_current_state)
+        {
+          job.columns = allColumns(robot);
+          rows.values = fullStates(robot, {}, nullptr, 1, now.partialState());
+        }
         if (!request.named_state.empty())
           rows = requestedNamedState(robot, {"named_state", request.named_state},
                                      request.joint_names.empty() && request.positions.empty());
-        else if (rows.names.empty() && rows.values.empty())
-          throw Error(
-              "joint_names is empty; name at least one variable. To check the current state, "
-              "give one variable its current value: all others keep theirs");
-        job.columns = requestedColumns(
-            robot, {"joint_names", rows.names}, {"positions", rows.values},
-            [this](std::size_t count) { server_.requireStateCount(count); });
+        if (!is_of_current_state)
+          set_by_request = job.columns = requestedColumns(
+              robot, {"joint_names", rows.names}, {"positions", rows.values},
+              [this](std::size_t count) { server_.requireStateCount(count); });
         job.states = std::move(rows.values);
         job.group = request.group;
         if (const auto outside =
@@ -241,7 +255,7 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
           warning.log("check_states: " + response.message);
         }
         job.matrix = requestedMatrix(request.allowed_collision_matrix, robot, store_.limits(), response.message);
-        addWarning(now.assumedBase(job.columns), response.message);
+        addWarning(now.assumedBase(set_by_request), response.message);
         job.keep_states = request.max_contacts != 0 || request.clearance;
         const bool inspects = job.keep_states;
         std::optional<Admission::Pass> pass;

@@ -223,11 +223,19 @@ TEST_F(Service, NoStatesGetNoAnswers)
   EXPECT_TRUE(response.valid.empty());
 }
 
+TEST_F(Service, ARequestWithoutStatesChecksTheCurrentState)
+{
+  expectRefusal(request({}, {}), "no value for slide");
+  store.updateState({{"slide", 0.0}, {"turn", 0.5}});
+  EXPECT_EQ(std::vector<std::uint8_t>{1}, answer(request({}, {})).valid);
+  store.updateState({{"slide", 1.0}});
+  const CheckStates::Response colliding = answer(request({}, {}));
+  EXPECT_TRUE(colliding.success) << colliding.message;
+  EXPECT_EQ(std::vector<std::uint8_t>{0}, colliding.valid);
+}
+
 TEST_F(Service, WrongRequestsAreRefusedWithTheReason)
 {
-  expectRefusal(request({}, {}),
-                "joint_names is empty; name at least one variable. To check the current state, give "
-                "one variable its current value: all others keep theirs");
   expectRefusal(request({}, {1.0}), "joint_names is empty");
   expectRefusal(request({"turn", "slide"}, {0.0, 0.0, 0.0}), "3 positions are not rows of 2");
   expectRefusal(request({"turn", "slid"}, {0.0, 0.0}), "no variable 'slid'");
