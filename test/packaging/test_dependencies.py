@@ -53,8 +53,13 @@ class Dependencies(unittest.TestCase):
     def test_keys_are_those_of_package_xml(self):
         keys = {fields[1] for fields in listed()} - {"-"}
         package = xml.etree.ElementTree.parse(ROOT / "package.xml").getroot()
-        declared = {element.text for element in package if element.tag.endswith("depend")}
+        declared = {element.text for element in package
+                    if element.tag.endswith("depend") and "condition" not in element.attrib}
         self.assertEqual(keys, declared)
+
+    def test_only_moveit_is_optional(self):
+        package = xml.etree.ElementTree.parse(ROOT / "package.xml").getroot()
+        self.assertEqual(["moveit_core"], [element.text for element in package if "condition" in element.attrib])
 
     def test_catkin_packages_that_cmake_asks_for_are_declared(self):
         text = (ROOT / "cmake" / "ros.cmake").read_text()
