@@ -4,7 +4,7 @@
 
 #include "collision/contacts/fcl_contacts.h"
 #include "moveit/pair_filter.h"
-#include "moveit/pair_test.h"
+#include "moveit/exact_pair.h"
 
 namespace gpu_planning_scene::detector
 {

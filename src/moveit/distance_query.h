@@ -5,7 +5,7 @@
 #include <moveit/collision_detection/collision_common.h>
 
 #include "moveit/pair_filter.h"
-#include "moveit/pair_test.h"
+#include "moveit/exact_pair.h"
 
 namespace gpu_planning_scene::detector
 {

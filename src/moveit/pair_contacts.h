@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "collision/contacts/fcl_contacts.h"
-#include "moveit/pair_test.h"
+#include "moveit/exact_pair.h"
 
 namespace gpu_planning_scene::detector
 {

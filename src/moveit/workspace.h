@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "moveit/pair_test.h"
+#include "moveit/exact_pair.h"
 #include "moveit/part.h"
 
 namespace gpu_planning_scene::detector

@@ -9,7 +9,7 @@
 #include <octomap/OcTree.h>
 
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
-#include "test/moveit/moveit_resources.h"
+#include "moveit/moveit_resources.h"
 
 // The behaviour of the detector for MoveIt, where MoveIt's own suites do not look.
 namespace gpu_planning_scene::detector

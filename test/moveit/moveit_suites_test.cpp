@@ -2,7 +2,7 @@
 #include <moveit/collision_detection/test_collision_common_pr2.h>
 
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
-#include "test/moveit/moveit_resources.h"
+#include "moveit/moveit_resources.h"
 
 // MoveIt's own suites for collision detectors, with this package's detector. MoveIt runs each of them with its own FCL
 // and Bullet detectors; scripts/moveit_suite prints all results side by side.

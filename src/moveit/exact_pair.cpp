@@ -1,4 +1,4 @@
-#include "moveit/pair_test.h"
+#include "moveit/exact_pair.h"
 
 #include <algorithm>
 #include <utility>

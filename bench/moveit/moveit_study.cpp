@@ -1,0 +1,321 @@
+// Compares the detector for MoveIt with MoveIt's FCL detector, in one process:
+//
+//     moveit_study agreement ROBOT STATES    verdicts of random states; each difference is explained and counted
+//     moveit_study cost ROBOT                time of one state and of a change of the scene; memory of copied scenes
+//
+// ROBOT: panda, pr2 or ur5_robotiq. ROS_PACKAGE_PATH must contain MoveIt's test robots, and ../shared/robots.
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <malloc.h>
+#include <ros/console.h>
+
+#include "moveit/study_scenes.h"
+
+namespace gpu_planning_scene
+{
+namespace
+{
+using collision_detection::CollisionRequest;
+using collision_detection::CollisionResult;
+using collision_detection::DistanceRequest;
+using collision_detection::DistanceRequestType;
+using collision_detection::DistanceResult;
+using moveit::core::RobotState;
+using planning_scene::PlanningScene;
+using planning_scene::PlanningScenePtr;
+
+// Verdicts of pairs that are nearer to touching than this may differ: FCL rounds, and meshes of MoveIt are floats.
+constexpr double kNearContact = 1e-6;  // metres
+
+bool collides(const PlanningScene& scene, const RobotState& state)
+{
+  CollisionResult result;
+  scene.checkCollision(CollisionRequest(), result, state);
+  return result.collision;
+}
+
+using Pairs = CollisionResult::ContactMap;
+
+Pairs pairsOf(const PlanningScene& scene, const RobotState& state)
+{
+  CollisionRequest request;
+  request.contacts = true;
+  request.max_contacts = 1000000;
+  CollisionResult result;
+  scene.checkCollision(request, result, state);
+  return result.contacts;
+}
+
+/// The distance of a pair by our detector; negative in penetration.
+double distanceOf(const PlanningScene& scene, const RobotState& state, const std::pair<std::string, std::string>& pair)
+{
+  DistanceRequest request;
+  request.type = DistanceRequestType::SINGLE;
+  request.enable_signed_distance = true;
+  request.acm = &scene.getAllowedCollisionMatrix();
+  DistanceResult result;
+  scene.getCollisionEnv()->distanceRobot(request, result, state);
+  scene.getCollisionEnvUnpadded()->distanceSelf(request, result, state);
+  return result.distances.at(pair).front().distance;
+}
+
+/// FCL's distance of the surfaces of a pair. Above 0 if one body is inside the other.
+double surfaceDistance(const PlanningScene& scene, const RobotState& state,
+                       const std::pair<std::string, std::string>& pair)
+{
+  DistanceRequest request;
+  request.type = DistanceRequestType::SINGLE;
+  request.enable_signed_distance = true;  // without it, FCL's detector stops at the first collision
+  request.acm = &scene.getAllowedCollisionMatrix();
+  DistanceResult result;
+  scene.getCollisionEnv()->distanceRobot(request, result, state);
+  scene.getCollisionEnvUnpadded()->distanceSelf(request, result, state);
+  const auto found = result.distances.find(pair);
+  return found == result.distances.end() ? 0.0 : found->second.front().distance;
+}
+
+/// The scenes of the comparison: ours, FCL's, and FCL's with meshes for the primitives of the world.
+struct Scenes
+{
+  PlanningScenePtr ours;
+  PlanningScenePtr fcl;
+  PlanningScenePtr fcl_meshes;
+};
+
+/// Why the verdicts of a pair differ.
+std::string reasonOf(const Scenes& scenes, const RobotState& state, const std::pair<std::string, std::string>& pair,
+                     bool ours_collides)
+{
+  const double distance = distanceOf(*scenes.ours, state, pair);
+  if (std::abs(distance) <= kNearContact)
+    return "within a micrometre of touching";
+  if (!ours_collides)
+    return "UNEXPLAINED: only FCL finds it";
+  if (surfaceDistance(*scenes.fcl_meshes, state, pair) > kNearContact)
+    return "one body inside the other";
+  if (pairsOf(*scenes.fcl_meshes, state).count(pair) != 0)
+    return "FCL misses a primitive, but not its mesh";
+  return "UNEXPLAINED: only ours finds it";
+}
+
+int agreement(const std::string& name, int states)
+{
+  const moveit::core::RobotModelPtr robot = loadStudyRobot(name);
+  struct Kind
+  {
+    const char* title;
+    int objects;
+    int cells;
+    bool tool;
+  };
+  std::printf("robot,scene,states,colliding,differences,reason,count\n");
+  int unexplained = 0;
+  for (const Kind& kind : {Kind{"20 objects", 20, 0, false}, Kind{"20 objects and a tool", 20, 0, true},
+                           Kind{"octomap", 0, 3000, false}, Kind{"octomap and a tool", 6, 3000, true}})
+  {
+    const Scenes scenes = {makeStudyScene(robot, true), makeStudyScene(robot, false), makeStudyScene(robot, false)};
+    for (const PlanningScenePtr& scene : {scenes.ours, scenes.fcl, scenes.fcl_meshes})
+    {
+      addStudyObjects(*scene, kind.objects, 1, scene == scenes.fcl_meshes);
+      if (kind.cells > 0)
+        addStudyOctomap(*scene, kind.cells, 2);
+    }
+    RobotState state = scenes.ours->getCurrentState();
+    if (kind.tool)
+      attachStudyTool(state);
+    random_numbers::RandomNumberGenerator random(7);
+    int colliding = 0;
+    int differences = 0;
+    std::map<std::string, int> reasons;
+    for (int i = 0; i < states / 4; ++i)
+    {
+      randomizeState(state, random);
+      const bool ours = collides(*scenes.ours, state);
+      const bool fcl = collides(*scenes.fcl, state);
+      colliding += ours ? 1 : 0;
+      if (ours == fcl)
+        continue;
+      ++differences;
+      for (const auto& [pair, contacts] : pairsOf(ours ? *scenes.ours : *scenes.fcl, state))
+      {
+        const std::string reason = reasonOf(scenes, state, pair, ours);
+        ++reasons[reason];
+        if (reason[0] == 'U')
+        {
+          ++unexplained;
+          std::fprintf(stderr, "%s, %s, state %d: %s - %s: %s; distance %g\n", name.c_str(), kind.title, i,
+                       pair.first.c_str(), pair.second.c_str(), reason.c_str(), distanceOf(*scenes.ours, state, pair));
+        }
+      }
+    }
+    if (reasons.empty())
+      reasons["-"] = 0;
+    for (const auto& [reason, count] : reasons)
+      std::printf("%s,%s,%d,%d,%d,%s,%d\n", name.c_str(), kind.title, states / 4, colliding, differences,
+                  reason.c_str(), count);
+    std::fflush(stdout);
+  }
+  return unexplained == 0 ? 0 : 1;
+}
+
+double secondsOf(const std::function<void()>& work)
+{
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double median(std::vector<double> values)
+{
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+/// Times two variants of the same work in turns. Prints the medians, in microseconds for one of `count` parts.
+void printCost(const std::string& title, std::size_t count, const std::array<std::function<void()>, 2>& work)
+{
+  constexpr int kRepeats = 15;
+  std::array<std::vector<double>, 2> seconds;
+  for (int i = 0; i < kRepeats; ++i)
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+      const double taken = secondsOf(work[k]);
+      if (i > 0)  // the first run fills caches
+        seconds[k].push_back(1e6 * taken / static_cast<double>(count));
+    }
+  std::printf("%s,%.2f,%.2f,%.2f\n", title.c_str(), median(seconds[0]), median(seconds[1]),
+              median(seconds[0]) / median(seconds[1]));
+  std::fflush(stdout);
+}
+
+/// Up to `count` random states that collide, or that do not.
+std::vector<RobotState> statesWith(const PlanningScene& scene, bool colliding, std::size_t count)
+{
+  random_numbers::RandomNumberGenerator random(3);
+  std::vector<RobotState> states;
+  RobotState state = scene.getCurrentState();
+  for (int tries = 0; states.size() < count && tries < 200000; ++tries)
+  {
+    randomizeState(state, random);
+    if (collides(scene, state) == colliding)
+      states.push_back(state);
+  }
+  return states;
+}
+
+void printStateCost(const std::string& title, const std::array<PlanningScenePtr, 2>& scenes, bool colliding)
+{
+  const std::vector<RobotState> states = statesWith(*scenes[0], colliding, 200);
+  if (states.empty())
+  {
+    std::printf("%s,no states\n", title.c_str());
+    return;
+  }
+  const auto check = [&states](const PlanningScenePtr& scene)
+  {
+    return [&states, scene]
+    {
+      for (const RobotState& state : states)
+        collides(*scene, state);
+    };
+  };
+  printCost(title, states.size(), {check(scenes[0]), check(scenes[1])});
+}
+
+void printChangeCost(const std::string& title, const std::array<PlanningScenePtr, 2>& scenes)
+{
+  constexpr int kChanges = 100;
+  const RobotState state = scenes[0]->getCurrentState();
+  const auto repeat = [](const PlanningScenePtr& scene, const std::function<void(PlanningScene&, int)>& change)
+  {
+    return [scene, change]
+    {
+      for (int i = 0; i < kChanges; ++i)
+        change(*scene, i);
+    };
+  };
+  const auto measure = [&](const std::string& what, const std::function<void(PlanningScene&, int)>& change) {
+    printCost(title + what, kChanges, {repeat(scenes[0], change), repeat(scenes[1], change)});
+  };
+  measure("an object moved and a state checked",
+          [&state](PlanningScene& scene, int i)
+          {
+            scene.getWorldNonConst()->moveObject(
+                "object0", Eigen::Isometry3d(Eigen::Translation3d(i % 2 == 0 ? 0.01 : -0.01, 0, 0)));
+            collides(scene, state);
+          });
+  const shapes::ShapeConstPtr box = std::make_shared<shapes::Box>(0.1, 0.1, 0.1);
+  measure(
+      "a box added and removed and a state checked",
+      [&state](PlanningScene& scene, int)
+      {
+        scene.getWorldNonConst()->addToObject("new", Eigen::Isometry3d(Eigen::Translation3d(2, 0, 0)),
+                                              std::make_shared<shapes::Box>(0.1, 0.1, 0.1),
+                                              Eigen::Isometry3d::Identity());
+        collides(scene, state);
+        scene.getWorldNonConst()->removeObject("new");
+      });
+  measure("a difference of the scene made and a state checked",
+          [&state](PlanningScene& scene, int) { collides(*scene.diff(), state); });
+}
+
+void printMemory(const std::string& title, const PlanningScenePtr& scene)
+{
+  const auto used = [] { return static_cast<double>(mallinfo2().uordblks) / 1e3; };
+  const double before = used();
+  std::vector<PlanningScenePtr> copies;
+  for (int i = 0; i < 100; ++i)
+    copies.push_back(PlanningScene::clone(scene));
+  std::printf("%s,100 cloned scenes: %.0f kB\n", title.c_str(), used() - before);
+}
+
+int cost(const std::string& name)
+{
+  const moveit::core::RobotModelPtr robot = loadStudyRobot(name);
+  std::printf("case,ours (us),FCL (us),ratio\n");
+  for (const int objects : {1, 10, 100})
+  {
+    const std::array<PlanningScenePtr, 2> scenes = {makeStudyScene(robot, true), makeStudyScene(robot, false)};
+    for (const PlanningScenePtr& scene : scenes)
+      addStudyObjects(*scene, objects, 5);
+    const std::string title = name + "; " + std::to_string(objects) + " objects; ";
+    printStateCost(title + "free", scenes, false);
+    printStateCost(title + "colliding", scenes, true);
+    printChangeCost(title, scenes);
+    printMemory(title + "ours", scenes[0]);
+    printMemory(title + "FCL", scenes[1]);
+  }
+  return 0;
+}
+}  // namespace
+}  // namespace gpu_planning_scene
+
+int main(int argc, char** argv)
+{
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Error);
+  try
+  {
+    if (arguments.size() == 3 && arguments[0] == "agreement")
+      return gpu_planning_scene::agreement(arguments[1], std::stoi(arguments[2]));
+    if (arguments.size() == 2 && arguments[0] == "cost")
+      return gpu_planning_scene::cost(arguments[1]);
+    std::fprintf(stderr, "usage: moveit_study agreement ROBOT STATES | moveit_study cost ROBOT\n");
+    return 2;
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "moveit_study: %s\n", error.what());
+    return 1;
+  }
+}
