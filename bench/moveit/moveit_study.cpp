@@ -1,6 +1,6 @@
 // Compares the detector for MoveIt with MoveIt's FCL detector, in one process:
 //
-//     moveit_study agreement ROBOT STATES    verdicts of random states; each difference is explained and counted
+//     moveit_study agreement ROBOT STATES    colliding pairs of random states; each difference is explained and counted
 //     moveit_study cost ROBOT                time of one state and of a change of the scene; memory of copied scenes
 //
 // ROBOT: panda, pr2 or ur5_robotiq. ROS_PACKAGE_PATH must contain MoveIt's test robots, and ../shared/robots.
@@ -37,10 +37,10 @@ using planning_scene::PlanningScenePtr;
 // Verdicts of pairs that are nearer to touching than this may differ: FCL rounds, and meshes of MoveIt are floats.
 constexpr double kNearContact = 1e-6;  // metres
 
-bool collides(const PlanningScene& scene, const RobotState& state)
+bool collides(const PlanningScene& scene, const RobotState& state, const CollisionRequest& request = CollisionRequest())
 {
   CollisionResult result;
-  scene.checkCollision(CollisionRequest(), result, state);
+  scene.checkCollision(request, result, state);
   return result.collision;
 }
 
@@ -50,7 +50,7 @@ Pairs pairsOf(const PlanningScene& scene, const RobotState& state)
 {
   CollisionRequest request;
   request.contacts = true;
-  request.max_contacts = 1000000;
+  request.max_contacts = 1000000;  // of all pairs
   CollisionResult result;
   scene.checkCollision(request, result, state);
   return result.contacts;
@@ -69,7 +69,7 @@ double distanceOf(const PlanningScene& scene, const RobotState& state, const std
   return result.distances.at(pair).front().distance;
 }
 
-/// FCL's distance of the surfaces of a pair. Above 0 if one body is inside the other.
+/// FCL's distance of the surfaces of a pair, without padding. Above 0 if one body is inside the other.
 double surfaceDistance(const PlanningScene& scene, const RobotState& state,
                        const std::pair<std::string, std::string>& pair)
 {
@@ -78,7 +78,7 @@ double surfaceDistance(const PlanningScene& scene, const RobotState& state,
   request.enable_signed_distance = true;  // without it, FCL's detector stops at the first collision
   request.acm = &scene.getAllowedCollisionMatrix();
   DistanceResult result;
-  scene.getCollisionEnv()->distanceRobot(request, result, state);
+  scene.getCollisionEnvUnpadded()->distanceRobot(request, result, state);
   scene.getCollisionEnvUnpadded()->distanceSelf(request, result, state);
   const auto found = result.distances.find(pair);
   return found == result.distances.end() ? 0.0 : found->second.front().distance;
@@ -94,11 +94,17 @@ struct Scenes
 
 /// Why the verdicts of a pair differ.
 std::string reasonOf(const Scenes& scenes, const RobotState& state, const std::pair<std::string, std::string>& pair,
-                     bool ours_collides)
+                     bool ours_collides, double padding)
 {
   const double distance = distanceOf(*scenes.ours, state, pair);
   if (std::abs(distance) <= kNearContact)
     return "within a micrometre of touching";
+  if (padding > 0.0)
+  {
+    const double surfaces = surfaceDistance(*scenes.fcl, state, pair);
+    if (surfaces > 0.0 && (surfaces <= padding) == ours_collides)
+      return "FCL's padding is not a distance";
+  }
   if (!ours_collides)
     return "UNEXPLAINED: only FCL finds it";
   if (surfaceDistance(*scenes.fcl_meshes, state, pair) > kNearContact)
@@ -117,11 +123,13 @@ int agreement(const std::string& name, int states)
     int objects;
     int cells;
     bool tool;
+    double padding;
   };
-  std::printf("robot,scene,states,colliding,differences,reason,count\n");
+  std::printf("robot,scene,states,colliding,colliding pairs,states that differ,reason,pairs that differ\n");
   int unexplained = 0;
-  for (const Kind& kind : {Kind{"20 objects", 20, 0, false}, Kind{"20 objects and a tool", 20, 0, true},
-                           Kind{"octomap", 0, 3000, false}, Kind{"octomap and a tool", 6, 3000, true}})
+  for (const Kind& kind : {Kind{"20 objects", 20, 0, false, 0.0}, Kind{"20 objects and a tool", 20, 0, true, 0.0},
+                           Kind{"octomap", 0, 3000, false, 0.0}, Kind{"octomap and a tool", 6, 3000, true, 0.0},
+                           Kind{"20 objects, a tool and 2 cm of padding", 20, 0, true, 0.02}})
   {
     const Scenes scenes = {makeStudyScene(robot, true), makeStudyScene(robot, false), makeStudyScene(robot, false)};
     for (const PlanningScenePtr& scene : {scenes.ours, scenes.fcl, scenes.fcl_meshes})
@@ -129,39 +137,46 @@ int agreement(const std::string& name, int states)
       addStudyObjects(*scene, kind.objects, 1, scene == scenes.fcl_meshes);
       if (kind.cells > 0)
         addStudyOctomap(*scene, kind.cells, 2);
+      scene->getCollisionEnvNonConst()->setPadding(kind.padding);
     }
     RobotState state = scenes.ours->getCurrentState();
     if (kind.tool)
       attachStudyTool(state);
     random_numbers::RandomNumberGenerator random(7);
     int colliding = 0;
+    int pairs = 0;
     int differences = 0;
     std::map<std::string, int> reasons;
-    for (int i = 0; i < states / 4; ++i)
+    for (int i = 0; i < states / 5; ++i)
     {
       randomizeState(state, random);
-      const bool ours = collides(*scenes.ours, state);
-      const bool fcl = collides(*scenes.fcl, state);
-      colliding += ours ? 1 : 0;
-      if (ours == fcl)
-        continue;
-      ++differences;
-      for (const auto& [pair, contacts] : pairsOf(ours ? *scenes.ours : *scenes.fcl, state))
+      const Pairs ours = pairsOf(*scenes.ours, state);
+      const Pairs fcl = pairsOf(*scenes.fcl, state);
+      colliding += ours.empty() ? 0 : 1;
+      pairs += static_cast<int>(ours.size());
+      differences += ours.empty() == fcl.empty() ? 0 : 1;
+      const auto explain = [&](const Pairs& pairs_of_one, const Pairs& pairs_of_other, bool ours_collides)
       {
-        const std::string reason = reasonOf(scenes, state, pair, ours);
-        ++reasons[reason];
-        if (reason[0] == 'U')
+        for (const auto& [pair, contacts] : pairs_of_one)
         {
+          if (pairs_of_other.count(pair) != 0)
+            continue;
+          const std::string reason = reasonOf(scenes, state, pair, ours_collides, kind.padding);
+          ++reasons[reason];
+          if (reason[0] != 'U')
+            continue;
           ++unexplained;
           std::fprintf(stderr, "%s, %s, state %d: %s - %s: %s; distance %g\n", name.c_str(), kind.title, i,
                        pair.first.c_str(), pair.second.c_str(), reason.c_str(), distanceOf(*scenes.ours, state, pair));
         }
-      }
+      };
+      explain(ours, fcl, true);
+      explain(fcl, ours, false);
     }
     if (reasons.empty())
       reasons["-"] = 0;
     for (const auto& [reason, count] : reasons)
-      std::printf("%s,%s,%d,%d,%d,%s,%d\n", name.c_str(), kind.title, states / 4, colliding, differences,
+      std::printf("%s,\"%s\",%d,%d,%d,%d,%s,%d\n", name.c_str(), kind.title, states / 5, colliding, pairs, differences,
                   reason.c_str(), count);
     std::fflush(stdout);
   }
@@ -213,20 +228,21 @@ std::vector<RobotState> statesWith(const PlanningScene& scene, bool colliding, s
   return states;
 }
 
-void printStateCost(const std::string& title, const std::array<PlanningScenePtr, 2>& scenes, bool colliding)
+void printStateCost(const std::string& title, const std::array<PlanningScenePtr, 2>& scenes, bool colliding,
+                    const CollisionRequest& request, std::size_t count)
 {
-  const std::vector<RobotState> states = statesWith(*scenes[0], colliding, 200);
+  const std::vector<RobotState> states = statesWith(*scenes[0], colliding, count);
   if (states.empty())
   {
     std::printf("%s,no states\n", title.c_str());
     return;
   }
-  const auto check = [&states](const PlanningScenePtr& scene)
+  const auto check = [&](const PlanningScenePtr& scene)
   {
-    return [&states, scene]
+    return [&states, &request, scene]
     {
       for (const RobotState& state : states)
-        collides(*scene, state);
+        collides(*scene, state, request);
     };
   };
   printCost(title, states.size(), {check(scenes[0]), check(scenes[1])});
@@ -289,8 +305,17 @@ int cost(const std::string& name)
     for (const PlanningScenePtr& scene : scenes)
       addStudyObjects(*scene, objects, 5);
     const std::string title = name + "; " + std::to_string(objects) + " objects; ";
-    printStateCost(title + "free", scenes, false);
-    printStateCost(title + "colliding", scenes, true);
+    printStateCost(title + "free", scenes, false, CollisionRequest(), 200);
+    printStateCost(title + "colliding", scenes, true, CollisionRequest(), 200);
+    CollisionRequest contacts;
+    contacts.contacts = true;
+    printStateCost(title + "colliding, with a contact", scenes, true, contacts, 50);
+    contacts.max_contacts = 100;
+    contacts.max_contacts_per_pair = 5;
+    printStateCost(title + "colliding, with up to 100 contacts", scenes, true, contacts, 50);
+    CollisionRequest distance;
+    distance.distance = true;
+    printStateCost(title + "free, with the distance", scenes, false, distance, 20);
     printChangeCost(title, scenes);
     printMemory(title + "ours", scenes[0]);
     printMemory(title + "FCL", scenes[1]);

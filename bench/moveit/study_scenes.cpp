@@ -64,6 +64,18 @@ std::string contentOf(const std::string& path)
   text << file.rdbuf();
   return text.str();
 }
+
+/// The matrix of the test robot pr2 lacks pairs that always collide.
+void allowCollidingPairs(planning_scene::PlanningScene& scene)
+{
+  collision_detection::CollisionRequest request;
+  request.contacts = true;
+  request.max_contacts = 1000000;
+  collision_detection::CollisionResult result;
+  scene.checkCollision(request, result);
+  for (const auto& [pair, contacts] : result.contacts)
+    scene.getAllowedCollisionMatrixNonConst().setEntry(pair.first, pair.second, true);
+}
 }  // namespace
 
 moveit::core::RobotModelPtr loadStudyRobot(const std::string& name)
@@ -86,10 +98,16 @@ moveit::core::RobotModelPtr loadStudyRobot(const std::string& name)
 planning_scene::PlanningScenePtr makeStudyScene(const moveit::core::RobotModelPtr& robot, bool ours)
 {
   auto scene = std::make_shared<planning_scene::PlanningScene>(robot);  // has FCL's detector
+  moveit::core::RobotState& state = scene->getCurrentStateNonConst();
+  state.setToDefaultValues();
+  state.update();
+  allowCollidingPairs(*scene);
+  const auto with_ours = scene->diff();
+  with_ours->setActiveCollisionDetector(detector::CollisionDetectorAllocator::create(), true);
+  allowCollidingPairs(*with_ours);
+  scene->getAllowedCollisionMatrixNonConst() = with_ours->getAllowedCollisionMatrix();
   if (ours)
     scene->setActiveCollisionDetector(detector::CollisionDetectorAllocator::create(), true);
-  scene->getCurrentStateNonConst().setToDefaultValues();
-  scene->getCurrentStateNonConst().update();
   return scene;
 }
 

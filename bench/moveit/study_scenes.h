@@ -10,7 +10,8 @@ namespace gpu_planning_scene
 /// is none.
 moveit::core::RobotModelPtr loadStudyRobot(const std::string& name);
 
-/// The planning scene of a robot with MoveIt's FCL detector, or with the detector of this package.
+/// The planning scene of a robot with MoveIt's FCL detector, or with the detector of this package. Pairs of links that
+/// collide in the default state are allowed.
 planning_scene::PlanningScenePtr makeStudyScene(const moveit::core::RobotModelPtr& robot, bool ours);
 
 /// Adds `count` boxes, spheres, cylinders, cones and meshes at random places around the robot. If `as_meshes`, the

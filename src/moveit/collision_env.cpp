@@ -4,11 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include <ros/console.h>
-
 #include "moveit/collision_query.h"
 #include "moveit/distance_query.h"
-#include "moveit/log_name.h"
+#include "moveit/log.h"
 #include "moveit/motion_check.h"
 #include "moveit/workspace.h"
 

@@ -3,8 +3,8 @@
 #include <moveit/collision_detection/collision_common.h>
 
 #include "collision/contacts/fcl_contacts.h"
-#include "moveit/pair_filter.h"
 #include "moveit/exact_pair.h"
+#include "moveit/pair_filter.h"
 
 namespace gpu_planning_scene::detector
 {

@@ -6,9 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <ros/console.h>
-
-#include "moveit/log_name.h"
+#include "moveit/log.h"
 #include "moveit/pair_contacts.h"
 
 // The distance of a pair is that of the exact tests: the least x for which the pair collides with its paddings plus x.
@@ -99,7 +97,7 @@ DistanceResultsData DistanceQuery::dataOf(const Part& a, const Part& b, double d
   data.body_types[1] = b.body.type;
   if (collides && (request_.enable_signed_distance || request_.enable_nearest_points || request_.compute_gradient))
   {
-    const core::ShapeContact deepest = contactsOf(a, b, 1, scratch_).front();
+    const core::ShapeContact deepest = contactsOf(a, b, 1, core::kMaxOfPair, scratch_).front();
     if (request_.enable_signed_distance)
       data.distance = -deepest.depth;
     data.nearest_points[0] = data.nearest_points[1] = deepest.point;

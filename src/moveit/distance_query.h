@@ -4,8 +4,8 @@
 
 #include <moveit/collision_detection/collision_common.h>
 
-#include "moveit/pair_filter.h"
 #include "moveit/exact_pair.h"
+#include "moveit/pair_filter.h"
 
 namespace gpu_planning_scene::detector
 {

@@ -6,10 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <ros/console.h>
-
 #include "moveit/collision_query.h"
-#include "moveit/log_name.h"
+#include "moveit/log.h"
 #include "moveit/motion_bound.h"
 #include "moveit/workspace.h"
 
@@ -201,8 +199,9 @@ void checkMotion(const collision_detection::CollisionRequest& request, collision
                  const RobotState& from, const RobotState& to, const RobotGeometry& robot, const WorldGeometry& world,
                  const PairFilter& filter, const std::set<const moveit::core::LinkModel*>* active)
 {
-  if (request.distance)
-    ROS_WARN_THROTTLE_NAMED(10.0, kLogName, "The distance along a motion is not computed; it stays as it was");
+  static LogLimit limit;
+  if (request.distance && limit.allows())
+    ROS_WARN_NAMED(kLogName, "The distance along a motion is not computed; it stays as it was");
   if (!world.empty())
     MotionSearch(request, result, from, to, robot, world, filter, active).run();
 }

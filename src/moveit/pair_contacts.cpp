@@ -4,10 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <ros/console.h>
-
 #include "collision/exact/cpu_forest.h"
-#include "moveit/log_name.h"
+#include "moveit/log.h"
 
 // FCL computes the points; the exact tests have decided that the parts collide, or how far they are from each other.
 namespace gpu_planning_scene::detector
@@ -18,8 +16,6 @@ using core::ShapeContact;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// FCL may look for this many contacts to find the deepest ones.
-constexpr std::size_t kSearched = core::kMaxOfPair;
 // FCL's triangles of a curved solid are off by up to its sagitta, 1e-4 m, on both sides.
 constexpr double kTriangleTolerance = 3e-4;  // metres
 
@@ -115,10 +111,11 @@ NearestPoints nearestPointsOfSolid(const Part& a, const Part& b, double distance
 }
 }  // namespace
 
-std::vector<ShapeContact> contactsOf(const Part& a, const Part& b, std::size_t max_contacts, PairScratch& scratch)
+std::vector<ShapeContact> contactsOf(const Part& a, const Part& b, std::size_t max_contacts, std::size_t searched,
+                                     PairScratch& scratch)
 {
   std::vector<ShapeContact> contacts;
-  const std::size_t most = std::max(max_contacts, kSearched);
+  const std::size_t most = std::max(max_contacts, searched);
   if (isFaulty(a) || isFaulty(b) || (!isSolid(a) && !isSolid(b)))
     contacts.push_back(contactWithoutDepth(a, b));
   else if (isSolid(a))

@@ -11,10 +11,14 @@
 
 namespace gpu_planning_scene::detector
 {
+/// FCL finds this many contacts of a pair in a moment, and the deepest of so many is deep.
+constexpr std::size_t kFewContacts = 8;
+
 /// The contacts of two parts that collide, the deepest first; at least one, and at most `max_contacts`, which must not
-/// be 0. Normals point from `a` to `b`. Depths include the paddings. If a part is faulty, or neither is a solid, the
-/// only contact has no depth.
-std::vector<core::ShapeContact> contactsOf(const Part& a, const Part& b, std::size_t max_contacts,
+/// be 0. They are the deepest of those that FCL finds first: it looks for `searched` contacts, or for `max_contacts` if
+/// that is more. Normals point from `a` to `b`. Depths include the paddings. If a part is faulty, or neither is a
+/// solid, the only contact has no depth.
+std::vector<core::ShapeContact> contactsOf(const Part& a, const Part& b, std::size_t max_contacts, std::size_t searched,
                                            PairScratch& scratch);
 
 /// The points of two parts that are nearest to each other, on their padded surfaces: their distance is `clearance`,

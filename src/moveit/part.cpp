@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "collision/exact/cpu_shape_pair.h"
+#include "moveit/log.h"
 
 namespace gpu_planning_scene::detector
 {
@@ -27,7 +28,14 @@ Part makePart(const CollisionShape& shape, const Eigen::Isometry3d& pose, double
 {
   Part part{&shape, &pose, everything(), padding, body};
   if (!isNear(pose) || !(padding <= core::kLargestLength))
+  {
+    static LogLimit limit;
+    if (limit.allows())
+      ROS_ERROR_STREAM_NAMED(kLogName, "The pose or the padding of a shape of '"
+                                           << *body.name << "' is not finite, or above 1000 km. The shape counts as "
+                                           << "colliding with every body that is checked against it.");
     part.shape = &CollisionShape::faulty();
+  }
   else if (shape.kind() == ShapeKind::Solid)
   {
     const Eigen::AlignedBox3d bounds = core::boundsOf(shape.tree(), pose);

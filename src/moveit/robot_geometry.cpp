@@ -1,9 +1,5 @@
 #include "moveit/robot_geometry.h"
 
-#include <ros/console.h>
-
-#include "moveit/log_name.h"
-
 namespace gpu_planning_scene::detector
 {
 namespace
@@ -24,10 +20,6 @@ RobotGeometry::RobotGeometry(const moveit::core::RobotModel& robot, const std::m
   for (const moveit::core::LinkModel* link : robot.getLinkModels())
   {
     const LinkSettings settings{valueOf(padding, link->getName(), 0.0), valueOf(scale, link->getName(), 1.0)};
-    // MoveIt has refused negative and infinite values, but not NaN.
-    if (!(settings.padding <= core::kLargestLength))
-      ROS_ERROR_STREAM_NAMED(kLogName, "The padding of link '" << link->getName() << "' is not a number up to 1000 km. "
-                                                               << "The link counts as colliding with everything.");
     if (settings.padding != 0.0 || settings.scale != 1.0)
       settings_[link] = settings;
     for (std::size_t i = 0; i < link->getShapes().size(); ++i)

@@ -4,10 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include <ros/console.h>
-
 #include "moveit/collision_shape.h"
-#include "moveit/log_name.h"
+#include "moveit/log.h"
 
 // Like MoveIt's FCL detector, finds the conversion of a shape by the shape's weak pointer. MoveIt's scenes, states and
 // robot models share their shapes, so a copied scene or an attached object costs no conversion.

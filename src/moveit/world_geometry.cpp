@@ -4,10 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <ros/console.h>
-
-#include "moveit/log_name.h"
-
 // A change puts the shapes of the changed object on a list that is searched linearly. When the list has become long, a
 // new tree is built over all shapes, by the next check. So the cost of a change does not grow with the scene.
 namespace gpu_planning_scene::detector
@@ -41,10 +37,6 @@ void WorldGeometry::place(std::uint32_t number, const Eigen::Isometry3d& pose)
   const Part part = makePart(*slot.shape, slot.pose, 0.0, slot.part().body);
   slot.bounds = part.bounds;
   slot.faulty = part.shape != slot.shape.get();
-  if (slot.faulty && slot.shape->kind() != ShapeKind::Faulty)
-    ROS_ERROR_STREAM_NAMED(kLogName, "The pose of a shape of '" << *slot.name << "' is not finite, or farther than "
-                                                                << "1000 km away. The shape counts as colliding with "
-                                                                   "every body that is checked against it.");
   slot.in_tree = false;
   if (!slot.is_listed)
     outside_.push_back(number);
