@@ -30,12 +30,12 @@ class Random
 
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator_); }
 
-  /// A place around the robot, outside of its base.
-  Isometry3d pose()
+  /// A place around the robot, at least `nearest` from its axis.
+  Isometry3d pose(double nearest)
   {
     std::normal_distribution<double> normal;
     const double angle = between(-M_PI, M_PI);
-    const double radius = between(0.35, 1.1);
+    const double radius = between(nearest, nearest + 0.75);
     Eigen::Quaterniond rotation(normal(generator_), normal(generator_), normal(generator_), normal(generator_));
     Isometry3d pose(rotation.normalized());
     pose.translation() = Vector3d(radius * std::cos(angle), radius * std::sin(angle), between(0.0, 1.4));
@@ -45,6 +45,12 @@ class Random
  private:
   std::mt19937_64 generator_;
 };
+
+/// The radius of the robot's base.
+double baseRadius(const planning_scene::PlanningScene& scene)
+{
+  return scene.getRobotModel()->getName() == "pr2" ? 0.75 : 0.35;
+}
 
 shapes::ShapeConstPtr meshFile(const std::string& name)
 {
@@ -139,7 +145,8 @@ void addStudyObjects(planning_scene::PlanningScene& scene, int count, unsigned s
     }
     if (as_meshes && shape->type != shapes::MESH)
       shape.reset(shapes::createMeshFromShape(shape.get()));
-    scene.getWorldNonConst()->addToObject("object" + std::to_string(i), random.pose(), shape, Isometry3d::Identity());
+    scene.getWorldNonConst()->addToObject("object" + std::to_string(i), random.pose(baseRadius(scene)), shape,
+                                          Isometry3d::Identity());
   }
 }
 
@@ -149,7 +156,7 @@ void addStudyOctomap(planning_scene::PlanningScene& scene, int cells, unsigned s
   const auto octree = std::make_shared<octomap::OcTree>(0.05);
   for (int i = 0; i < cells; ++i)
   {
-    const Vector3d place = random.pose().translation();
+    const Vector3d place = random.pose(baseRadius(scene)).translation();
     octree->updateNode(
         octomap::point3d(static_cast<float>(place.x()), static_cast<float>(place.y()), static_cast<float>(place.z())),
         true);

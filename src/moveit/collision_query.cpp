@@ -119,7 +119,7 @@ void CollisionQuery::addCollision(const Part& a, const Part& b, bool with_contac
     ROS_INFO_STREAM_NAMED(kLogName, "'" << *a.body.name << "' collides with '" << *b.body.name << "'");
   const std::size_t wanted = with_contacts ? wantedContacts(a, b) : 0;
   if (wanted > 0)
-    for (const core::ShapeContact& contact : contactsOf(a, b, wanted, kFewContacts, scratch_))
+    for (const core::ShapeContact& contact : contactsOf(a, b, wanted, 0, scratch_))
       addContact(a, b, contact);
   if (request_.cost)
     addCostSource(a, b);

@@ -11,9 +11,6 @@
 
 namespace gpu_planning_scene::detector
 {
-/// FCL finds this many contacts of a pair in a moment, and the deepest of so many is deep.
-constexpr std::size_t kFewContacts = 8;
-
 /// The contacts of two parts that collide, the deepest first; at least one, and at most `max_contacts`, which must not
 /// be 0. They are the deepest of those that FCL finds first: it looks for `searched` contacts, or for `max_contacts` if
 /// that is more. Normals point from `a` to `b`. Depths include the paddings. If a part is faulty, or neither is a

@@ -438,6 +438,51 @@ TEST_F(Detector, AnswersSeveralThreadsAtOnce)
     EXPECT_EQ(count, 250);
 }
 
+TEST(DetectorScene, ProvesOnlyMotionsWithoutACollidingSample)
+{
+  const RobotModelPtr robot = moveit::core::loadTestingRobotModel("panda");
+  const auto env = CollisionDetectorAllocator().allocateEnv(robot);
+  random_numbers::RandomNumberGenerator random(11);
+  for (int i = 0; i < 8; ++i)
+    env->getWorld()->addToObject(
+        "object" + std::to_string(i),
+        at(random.uniformReal(0.3, 0.7), random.uniformReal(-0.7, 0.7), random.uniformReal(0.2, 0.9)),
+        i % 2 == 0 ? box(0.1) : meshCube(0.1), Isometry3d::Identity());
+  RobotState from(robot);
+  RobotState to(robot);
+  RobotState sample(robot);
+  from.setToDefaultValues();
+  to.setToDefaultValues();
+  int free = 0;
+  int colliding = 0;
+  for (int i = 0; i < 100; ++i)
+  {
+    const auto* group = robot->getJointModelGroup("panda_arm");
+    from.setToRandomPositions(group, random);
+    to.setToRandomPositionsNearBy(group, from, 0.3, random);
+    from.update();
+    to.update();
+    bool is_hit = false;
+    for (int k = 0; k <= 100; ++k)
+    {
+      from.interpolate(to, 0.01 * k, sample);
+      sample.update();
+      CollisionResult result;
+      env->checkRobotCollision(CollisionRequest(), result, sample);
+      is_hit = is_hit || result.collision;
+    }
+    CollisionResult result;
+    env->checkRobotCollision(CollisionRequest(), result, from, to);
+    EXPECT_TRUE(result.collision || !is_hit) << "motion " << i;
+    // The samples are dense, so nearly all motions without a colliding sample are free.
+    free += !result.collision ? 1 : 0;
+    colliding += is_hit ? 1 : 0;
+  }
+  EXPECT_GT(colliding, 5);
+  EXPECT_GT(free, 10);
+  EXPECT_GE(free + colliding, 97);
+}
+
 TEST(DetectorScene, ReplacesTheDetectorOfAPlanningScene)
 {
   ASSERT_TRUE(kReady);
