@@ -222,7 +222,7 @@ double median(std::vector<double> values)
 /// Times two variants of the same work in turns. Prints the medians, in microseconds for one of `count` parts.
 void printCost(const std::string& title, std::size_t count, const std::array<std::function<void()>, 2>& work)
 {
-  constexpr int kRepeats = 15;
+  constexpr int kRepeats = 9;
   std::array<std::vector<double>, 2> seconds;
   for (int i = 0; i < kRepeats; ++i)
     for (std::size_t k = 0; k < 2; ++k)
@@ -242,7 +242,7 @@ std::vector<RobotState> statesWith(const PlanningScene& scene, bool colliding, s
   random_numbers::RandomNumberGenerator random(3);
   std::vector<RobotState> states;
   RobotState state = scene.getCurrentState();
-  for (int tries = 0; states.size() < count && tries < 200000; ++tries)
+  for (int tries = 0; states.size() < count && tries < 50000; ++tries)
   {
     randomizeState(state, random);
     if (collides(scene, state) == colliding)
@@ -273,7 +273,7 @@ void printStateCost(const std::string& title, const std::array<PlanningScenePtr,
 
 void printChangeCost(const std::string& title, const std::array<PlanningScenePtr, 2>& scenes)
 {
-  constexpr int kChanges = 100;
+  constexpr int kChanges = 30;
   const RobotState state = scenes[0]->getCurrentState();
   const auto repeat = [](const PlanningScenePtr& scene, const std::function<void(PlanningScene&, int)>& change)
   {
@@ -328,17 +328,17 @@ int cost(const std::string& name)
     for (const PlanningScenePtr& scene : scenes)
       addStudyObjects(*scene, objects, 5);
     const std::string title = name + "; " + std::to_string(objects) + " objects; ";
-    printStateCost(title + "free", scenes, false, CollisionRequest(), 200);
-    printStateCost(title + "colliding", scenes, true, CollisionRequest(), 200);
+    printStateCost(title + "free", scenes, false, CollisionRequest(), 60);
+    printStateCost(title + "colliding", scenes, true, CollisionRequest(), 60);
     CollisionRequest contacts;
     contacts.contacts = true;
-    printStateCost(title + "colliding, with a contact", scenes, true, contacts, 50);
+    printStateCost(title + "colliding, with a contact", scenes, true, contacts, 30);
     contacts.max_contacts = 100;
     contacts.max_contacts_per_pair = 5;
-    printStateCost(title + "colliding, with up to 100 contacts", scenes, true, contacts, 50);
+    printStateCost(title + "colliding, with up to 100 contacts", scenes, true, contacts, 30);
     CollisionRequest distance;
     distance.distance = true;
-    printStateCost(title + "free, with the distance", scenes, false, distance, 20);
+    printStateCost(title + "free, with the distance", scenes, false, distance, 10);
     printChangeCost(title, scenes);
     printMemory(title + "ours", scenes[0]);
     printMemory(title + "FCL", scenes[1]);
