@@ -53,10 +53,16 @@ class Dependencies(unittest.TestCase):
     def test_keys_are_those_of_package_xml(self):
         keys = {fields[1] for fields in listed()} - {"-"}
         package = xml.etree.ElementTree.parse(ROOT / "package.xml").getroot()
-        # Noetic has its own packages of some libraries, under other keys.
+        # Noetic has its own packages of some libraries, under other keys. MoveIt is optional.
         declared = {element.text for element in package
-                    if element.tag.endswith("depend") and element.get("condition") != "$ROS_DISTRO == noetic"}
+                    if element.tag.endswith("depend") and
+                    element.get("condition") not in ("$ROS_DISTRO == noetic", "$WITH_MOVEIT == 1")}
         self.assertEqual(keys, declared)
+
+    def test_only_moveit_is_optional(self):
+        package = xml.etree.ElementTree.parse(ROOT / "package.xml").getroot()
+        self.assertEqual(["moveit_core"], [element.text for element in package
+                                           if "WITH_MOVEIT" in element.get("condition", "")])
 
     def test_catkin_packages_that_cmake_asks_for_are_declared(self):
         text = (ROOT / "cmake" / "ros.cmake").read_text()

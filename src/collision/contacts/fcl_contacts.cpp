@@ -23,13 +23,8 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMaxOfPair = 256;
-
 // Tolerance for points on the border of a box.
 constexpr double kContactMargin = 1e-6;  // metres
-
-// FCL's nearest points are used only if the error of their distance is at most this.
-constexpr double kNearEnough = 1e-4;  // metres
 
 bool isUnit(const Vector3d& vector)
 {
@@ -43,13 +38,13 @@ bool isUnit(const Vector3d& vector)
 /// boxes also separates the shapes, so the shortest such translation limits the depth. Deeper contacts are reported
 /// only if there are no others. They then get this limit as their depth.
 std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, const AlignedBox3d& box_a,
-                                      const AlignedBox3d& box_b, double required)
+                                      const AlignedBox3d& box_b, double required, std::size_t max_contacts)
 {
   const AlignedBox3d overlap = box_a.intersection(box_b);
   fcl::CollisionResultd result;
   try
   {
-    fcl::collide(a.model.get(), a.pose, b.model.get(), b.pose, fcl::CollisionRequestd(kMaxOfPair, true), result);
+    fcl::collide(a.model.get(), a.pose, b.model.get(), b.pose, fcl::CollisionRequestd(max_contacts, true), result);
   }
   catch (const std::exception&)
   {
@@ -73,26 +68,6 @@ std::vector<ShapeContact> fclContacts(const FclShape& a, const FclShape& b, cons
         .push_back({contact.pos, normal, required + std::min(depth, deepest)});
   }
   return contacts.empty() ? too_deep : contacts;
-}
-
-/// The nearest points of the two shapes by FCL. Empty unless their distance is within kNearEnough of `distance`.
-std::optional<std::array<Vector3d, 2>> fclNearestPoints(const FclShape& a, const FclShape& b, double distance)
-{
-  fcl::DistanceResultd result;
-  try
-  {
-    fcl::distance(a.model.get(), a.pose, b.model.get(), b.pose, fcl::DistanceRequestd(true), result);
-  }
-  catch (const std::exception&)
-  {
-    return std::nullopt;
-  }
-  const bool exchanged = result.o1 != a.model.get();
-  const Vector3d& p = result.nearest_points[exchanged ? 1 : 0];
-  const Vector3d& q = result.nearest_points[exchanged ? 0 : 1];
-  if (!p.allFinite() || !q.allFinite() || std::abs((q - p).norm() - distance) > kNearEnough)
-    return std::nullopt;
-  return std::array<Vector3d, 2>{p, q};
 }
 
 /// The direction from the centre of box a to the centre of box b; an arbitrary one if the centres coincide.
@@ -138,8 +113,29 @@ ShapeContact contactWithin(const FclShape& a, const FclShape& b, const AlignedBo
 }
 }  // namespace
 
+std::optional<std::array<Vector3d, 2>> fclNearestPoints(const FclShape& a, const FclShape& b, double distance,
+                                                        double tolerance)
+{
+  fcl::DistanceResultd result;
+  try
+  {
+    fcl::distance(a.model.get(), a.pose, b.model.get(), b.pose, fcl::DistanceRequestd(true), result);
+  }
+  catch (const std::exception&)
+  {
+    return std::nullopt;
+  }
+  const bool exchanged = result.o1 != a.model.get();
+  const Vector3d& p = result.nearest_points[exchanged ? 1 : 0];
+  const Vector3d& q = result.nearest_points[exchanged ? 0 : 1];
+  if (!p.allFinite() || !q.allFinite() || std::abs((q - p).norm() - distance) > tolerance)
+    return std::nullopt;
+  return std::array<Vector3d, 2>{p, q};
+}
+
 std::vector<ShapeContact> contactsOf(const FclShape& a, const FclShape& b, double required, const CpuForest& forest,
-                                     const CpuShapePair& exact, CpuShapePair::Scratch& scratch)
+                                     const CpuShapePair& exact, CpuShapePair::Scratch& scratch,
+                                     std::size_t max_contacts)
 {
   const auto collides = [&](double distance)
   { return exact.collide(a.tree, a.pose, b.tree, b.pose, distance, scratch); };
@@ -147,7 +143,7 @@ std::vector<ShapeContact> contactsOf(const FclShape& a, const FclShape& b, doubl
   const AlignedBox3d box_b = boundsOf(forest.tree(b.tree), b.pose);
   if (required > 0.0 && !collides(0.0))
     return {contactApart(a, b, box_a, box_b, bisectLeast(0.0, required, collides), required)};
-  std::vector<ShapeContact> contacts = fclContacts(a, b, box_a, box_b, required);
+  std::vector<ShapeContact> contacts = fclContacts(a, b, box_a, box_b, required, max_contacts);
   if (contacts.empty())
     contacts.push_back(contactWithin(a, b, box_a, box_b, required, exact, scratch));
   return contacts;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "collision/exact/cpu_tree.h"
@@ -14,6 +15,7 @@ class CpuForest
 {
  public:
   CpuForest() = default;
+  explicit CpuForest(std::vector<std::shared_ptr<const CpuTree>> trees) : trees_(std::move(trees)) {}
   /// Builds only the trees that are not in use in this process.
   explicit CpuForest(const CollisionProblem& problem);
   /// `forest` must hold a valid tree for each of the problem's trees.

@@ -106,8 +106,18 @@ AlignedBox3d boundsOf(const CpuTree& tree, const Isometry3d& pose)
 bool CpuShapePair::collide(std::uint32_t a, const Isometry3d& pose_a, std::uint32_t b, const Isometry3d& pose_b,
                            double required, Scratch& scratch) const
 {
-  const CpuTree& tree_a = forest_->tree(a);
-  const CpuTree& tree_b = forest_->tree(b);
+  return collide(forest_->tree(a), pose_a, forest_->tree(b), pose_b, required, scratch);
+}
+
+bool CpuShapePair::collide(std::uint32_t tree, const Isometry3d& pose, const PlacedHalfSpace& half_space,
+                           double required, Scratch& scratch) const
+{
+  return collide(forest_->tree(tree), pose, half_space, required, scratch);
+}
+
+bool CpuShapePair::collide(const CpuTree& tree_a, const Isometry3d& pose_a, const CpuTree& tree_b,
+                           const Isometry3d& pose_b, double required, Scratch& scratch) const
+{
   const Isometry3d b_in_a = relativePose(pose_a, pose_b);
   if (!overlap(tree_a.box, placed(tree_b.box, b_in_a), required + kBoxMargin))
     return false;
@@ -228,10 +238,9 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
   return false;
 }
 
-bool CpuShapePair::collide(std::uint32_t number, const Isometry3d& pose, const PlacedHalfSpace& half_space,
+bool CpuShapePair::collide(const CpuTree& tree, const Isometry3d& pose, const PlacedHalfSpace& half_space,
                            double required, Scratch& scratch) const
 {
-  const CpuTree& tree = forest_->tree(number);
   const Vector3d normal = pose.linear().transpose() * half_space.normal;  // normal in the shape's frame
   const double most = half_space.offset - half_space.normal.dot(pose.translation()) + required + kSlack;
   if (!tree.mesh)

@@ -49,6 +49,12 @@ class CpuShapePair
   bool collide(std::uint32_t tree, const Eigen::Isometry3d& pose, const PlacedHalfSpace& half_space, double required,
                Scratch& scratch) const;
 
+  /// The same for trees that need not be in the forest.
+  bool collide(const CpuTree& a, const Eigen::Isometry3d& pose_a, const CpuTree& b, const Eigen::Isometry3d& pose_b,
+               double required, Scratch& scratch) const;
+  bool collide(const CpuTree& tree, const Eigen::Isometry3d& pose, const PlacedHalfSpace& half_space, double required,
+               Scratch& scratch) const;
+
  private:
   bool surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, const Eigen::Isometry3d& mesh_in_solid,
                          double required, Scratch& scratch) const;

@@ -163,4 +163,15 @@ std::shared_ptr<const CpuTree> cpuTreeOf(const Shape& shape, const Tessellation&
   treeRegistry().add(tree);
   return tree;
 }
+
+std::shared_ptr<const CpuTree> makeSolidTree(const Shape& solid)
+{
+  auto tree = std::make_shared<CpuTree>();
+  tree->shape = solid;
+  tree->mesh = false;
+  tree->center.setZero();
+  tree->half = halfExtents(solid);
+  tree->box = {Matrix3d::Identity(), tree->center, tree->half};
+  return tree;
+}
 }  // namespace gpu_planning_scene::core

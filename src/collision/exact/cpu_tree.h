@@ -58,4 +58,8 @@ std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Mesh& mesh,
 /// returns that tree; otherwise it builds a tree. Equal shapes are the same mesh, or primitives of the same kind and
 /// dimensions. `shape` must not be a half-space. Thread-safe.
 std::shared_ptr<const CpuTree> cpuTreeOf(const Shape& shape, const Tessellation& tessellation);
+
+/// The tree of a primitive without nodes and triangles: enough for CpuShapePair, pairClearance and boundsOf, which test
+/// the solid itself. It costs no tessellation. `solid` must not be a mesh or a half-space.
+std::shared_ptr<const CpuTree> makeSolidTree(const Shape& solid);
 }  // namespace gpu_planning_scene::core

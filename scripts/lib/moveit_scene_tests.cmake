@@ -1,0 +1,13 @@
+# The project that scripts/moveit_suite makes of MoveIt's tests of planning scenes.
+cmake_minimum_required(VERSION 3.16)
+project(moveit_scene_tests CXX)
+set(CMAKE_CXX_STANDARD 17)
+find_package(moveit_core REQUIRED)
+find_package(GTest CONFIG REQUIRED)
+find_package(Threads REQUIRED)
+find_library(MOVEIT_TEST_UTILS moveit_test_utils HINTS ${moveit_core_DIR}/../../../lib)
+foreach(name test_planning_scene test_multi_threaded)
+  add_executable(${name} ${name}.cpp)
+  target_include_directories(${name} PRIVATE ${moveit_core_INCLUDE_DIRS})
+  target_link_libraries(${name} PRIVATE ${moveit_core_LIBRARIES} ${MOVEIT_TEST_UTILS} GTest::gtest Threads::Threads)
+endforeach()

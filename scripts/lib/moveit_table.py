@@ -1,0 +1,55 @@
+"""Prints a table of the results of scripts/moveit_suite: a row for each test, a column for each detector."""
+import json
+import pathlib
+import sys
+
+OURS = "gpu_planning_scene"
+DETECTORS = ["FCL", "Bullet", OURS]
+
+
+def outcome(test):
+    """passed, failed or skipped; a test that GoogleTest made itself for a suite without instances is no test."""
+    if test.get("failures"):
+        return "failed"
+    return "skipped" if test.get("result") == "SKIPPED" else "passed"
+
+
+def read(folder):
+    """The outcomes in the form {(suite, test): {detector: outcome}}, and the programs that ended without results."""
+    table, broken = {}, []
+    for log in sorted(folder.glob("*.log")):
+        path = log.with_suffix(".json")
+        if not path.exists():
+            broken.append(log.name[:-len(".log")])
+            continue
+        detector = path.name.split(".")[0]
+        for suite in json.loads(path.read_text())["testsuites"]:
+            if suite["name"] == "GoogleTestVerification":
+                continue
+            parts = suite["name"].split("/")
+            name = parts[1] if len(parts) > 1 else parts[0]
+            for test in suite["testsuite"]:
+                key = (name, test["name"].split("/")[0])
+                column = test.get("value_param", "").strip('"') or detector
+                table.setdefault(key, {})[column if column in DETECTORS else detector] = outcome(test)
+    return table, broken
+
+
+def main():
+    table, broken = read(pathlib.Path(sys.argv[1]))
+    columns = DETECTORS + sorted({name for row in table.values() for name in row} - set(DETECTORS))
+    width = max(len(f"{suite}.{test}") for suite, test in table)
+    print(f"{'':{width}}  " + "  ".join(f"{name:18}" for name in columns))
+    for (suite, test), row in table.items():
+        print(f"{suite + '.' + test:{width}}  " + "  ".join(f"{row.get(name, '-'):18}" for name in columns))
+    counts = [f"{sum(row.get(name) == 'passed' for row in table.values())} of "
+              f"{sum(name in row for row in table.values())}" for name in columns]
+    print(f"{'passed':{width}}  " + "  ".join(f"{count:18}" for count in counts))
+    for name in broken:
+        print(f"{name} ended without results, see {sys.argv[1]}/{name}.log")
+    failed = any(row.get(OURS) == "failed" for row in table.values())
+    sys.exit(1 if failed or any(name.startswith(OURS) for name in broken) else 0)
+
+
+if __name__ == "__main__":
+    main()

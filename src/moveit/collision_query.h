@@ -1,0 +1,42 @@
+#pragma once
+
+#include <moveit/collision_detection/collision_common.h>
+
+#include "collision/contacts/fcl_contacts.h"
+#include "moveit/exact_pair.h"
+#include "moveit/pair_filter.h"
+
+namespace gpu_planning_scene::detector
+{
+/// One call of checkSelfCollision or checkRobotCollision: tests pairs and writes the result. As in MoveIt's detectors,
+/// the result is not cleared first: collisions and contacts are added to it.
+class CollisionQuery
+{
+ public:
+  /// The arguments must outlive the query.
+  CollisionQuery(const collision_detection::CollisionRequest& request, collision_detection::CollisionResult& result,
+                 const PairFilter& filter, PairScratch& scratch);
+
+  /// Whether the result is complete: further pairs cannot change it, or the request's is_done() ends the search.
+  bool isDone() const { return is_done_; }
+
+  /// Tests two parts whose bounds overlap. Returns isDone().
+  bool test(const Part& a, const Part& b);
+
+ private:
+  void addContact(const Part& a, const Part& b, const core::ShapeContact& contact);
+  void addCostSource(const Part& a, const Part& b);
+  /// The number of contacts of this pair that the result still takes.
+  std::size_t wantedContacts(const Part& a, const Part& b) const;
+  /// Asks the decider of a colliding pair. Returns whether a contact is not allowed, and adds such contacts.
+  bool isRefused(const Part& a, const Part& b);
+  void addCollision(const Part& a, const Part& b, bool with_contacts);
+  bool isComplete() const;
+
+  const collision_detection::CollisionRequest& request_;
+  collision_detection::CollisionResult& result_;
+  const PairFilter& filter_;
+  PairScratch& scratch_;
+  bool is_done_ = false;
+};
+}  // namespace gpu_planning_scene::detector

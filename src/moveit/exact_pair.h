@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "collision/exact/cpu_shape_pair.h"
+#include "moveit/part.h"
+
+namespace gpu_planning_scene::detector
+{
+/// Work space of one thread.
+using PairScratch = core::CpuShapePair::Scratch;
+
+/// Whether the oriented boxes of two parts overlap, grown by their paddings. Parts that are not solids have no boxes
+/// and always overlap.
+bool boxesOverlap(const Part& a, const Part& b);
+
+/// Whether two parts collide, by the rules of the project's README: their distance is at most the sum of their
+/// paddings, or one contains the other. A faulty part collides with every other part. So does a half-space or an octree
+/// with another half-space or octree, unless two half-spaces face away from each other. `margin`: an additional
+/// distance that is required.
+bool collide(const Part& a, const Part& b, PairScratch& scratch, double margin = 0.0);
+
+/// The clearance of two parts that do not collide: their distance minus the sum of their paddings; `most` if it is
+/// `most` or more. At most 1e-6 m below the true value, and never above it.
+double clearance(const Part& a, const Part& b, double most, PairScratch& scratch);
+
+/// A half-space in the planning frame.
+core::PlacedHalfSpace placedHalfSpace(const Part& part);
+
+/// An occupied leaf of an octree.
+struct Leaf
+{
+  const CollisionShape* shape;  ///< a cube
+  Eigen::Isometry3d pose;       ///< in the planning frame
+};
+
+/// The occupied leaves of an octree that collide with a solid. At most `most` leaves.
+std::vector<Leaf> collidingLeaves(const Part& octree, const Part& solid, std::size_t most, PairScratch& scratch);
+
+/// The occupied leaf that is nearest to a solid, if its clearance is below `least`, which is then set to it.
+bool nearestLeaf(const Part& octree, const Part& solid, double& least, Leaf& leaf, PairScratch& scratch);
+}  // namespace gpu_planning_scene::detector

@@ -1,0 +1,135 @@
+#include "moveit/motion_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <moveit/robot_model/planar_joint_model.h>
+
+// For each joint between a link and the root: the joint's travel times the largest distance that a point of the link
+// can have from the joint's axis (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"). This
+// distance is at most the length of the chain between the joint and the point, whatever the joints in between do.
+namespace gpu_planning_scene::detector
+{
+namespace
+{
+using moveit::core::JointModel;
+using moveit::core::LinkModel;
+using moveit::core::RobotState;
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// The travel of a joint between two states, and the largest translation between its two links that the joint makes.
+struct Travel
+{
+  double angle = 0.0;   // radians
+  double length = 0.0;  // metres
+  double offset = 0.0;  // metres
+};
+
+Travel planarTravel(const moveit::core::PlanarJointModel& joint, const double* a, const double* b)
+{
+  Travel travel;
+  travel.length = std::hypot(b[0] - a[0], b[1] - a[1]);
+  travel.angle = std::abs(std::remainder(b[2] - a[2], 2.0 * M_PI));
+  travel.offset = std::max(std::hypot(a[0], a[1]), std::hypot(b[0], b[1]));
+  if (joint.getMotionModel() != moveit::core::PlanarJointModel::HOLONOMIC)
+    travel.angle = travel.length = kUnbounded;
+  return travel;
+}
+
+Travel floatingTravel(const double* a, const double* b)
+{
+  const Eigen::Map<const Eigen::Vector3d> position_a(a);
+  const Eigen::Map<const Eigen::Vector3d> position_b(b);
+  const Eigen::Map<const Eigen::Vector4d> rotation_a(a + 3);
+  const Eigen::Map<const Eigen::Vector4d> rotation_b(b + 3);
+  constexpr double kTolerance = 1e-6;
+  Travel travel;
+  travel.length = (position_b - position_a).norm();
+  travel.offset = std::max(position_a.norm(), position_b.norm());
+  travel.angle = 2.0 * std::acos(std::min(1.0, std::abs(rotation_a.dot(rotation_b))));
+  if (!(std::abs(rotation_a.norm() - 1.0) <= kTolerance && std::abs(rotation_b.norm() - 1.0) <= kTolerance))
+    travel.angle = kUnbounded;
+  else
+    travel.angle += 4.0 * kTolerance;
+  return travel;
+}
+
+Travel travelOf(const JointModel& joint, const RobotState& from, const RobotState& to)
+{
+  Travel travel;
+  if (const JointModel* leader = joint.getMimic())
+  {
+    const Travel of_leader = travelOf(*leader, from, to);
+    const double motion = std::abs(joint.getMimicFactor()) * (of_leader.angle + of_leader.length);
+    if (joint.getType() == JointModel::PRISMATIC)
+    {
+      travel.length = motion;
+      travel.offset = std::abs(joint.getMimicFactor()) *
+                          std::max(std::abs(*from.getJointPositions(leader)), std::abs(*to.getJointPositions(leader))) +
+                      std::abs(joint.getMimicOffset());
+    }
+    else
+      travel.angle = motion;
+    return travel;
+  }
+  if (joint.getType() == JointModel::FIXED)
+    return travel;
+  const double* a = from.getJointPositions(&joint);
+  const double* b = to.getJointPositions(&joint);
+  switch (joint.getType())
+  {
+    case JointModel::REVOLUTE:
+      travel.angle = joint.distance(a, b);
+      return travel;
+    case JointModel::PRISMATIC:
+      travel.length = joint.distance(a, b);
+      travel.offset = std::max(std::abs(*a), std::abs(*b));
+      return travel;
+    case JointModel::PLANAR:
+      return planarTravel(static_cast<const moveit::core::PlanarJointModel&>(joint), a, b);
+    case JointModel::FLOATING:
+      return floatingTravel(a, b);
+    default:
+      travel.angle = travel.length = kUnbounded;
+      return travel;
+  }
+}
+
+/// The largest distance of a part's points from the origin of its link. Poses of one state give it, because the part is
+/// rigid.
+double radiusOf(const Part& part, const RobotState& state)
+{
+  if (part.shape->kind() != ShapeKind::Solid)
+    return kUnbounded;
+  const core::CpuTree& tree = part.shape->tree();
+  const Eigen::Vector3d origin = state.getGlobalLinkTransform(part.body.link).translation();
+  return (*part.pose * tree.center - origin).norm() + tree.half.norm();
+}
+}  // namespace
+
+std::vector<double> displacementBounds(const RobotState& from, const RobotState& to, const std::vector<Part>& parts)
+{
+  std::map<const JointModel*, Travel> travels;
+  for (const JointModel* joint : from.getRobotModel()->getJointModels())
+    travels[joint] = travelOf(*joint, from, to);
+  std::vector<double> bounds;
+  for (const Part& part : parts)
+  {
+    double reach = radiusOf(part, from);
+    double bound = 0.0;
+    for (const LinkModel* link = part.body.link; link; link = link->getParentLinkModel())
+    {
+      const Travel& travel = travels[link->getParentJointModel()];
+      bound += travel.length;
+      if (travel.angle != 0.0)
+        bound += travel.angle * reach;
+      reach += link->getJointOriginTransform().translation().norm() + travel.offset;
+    }
+    bounds.push_back(bound);
+  }
+  return bounds;
+}
+}  // namespace gpu_planning_scene::detector

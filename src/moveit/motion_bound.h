@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include <moveit/robot_state/robot_state.h>
+
+#include "moveit/part.h"
+
+namespace gpu_planning_scene::detector
+{
+/// How far each part of the robot can move, at most, while MoveIt interpolates from one state to another: metres over
+/// the whole motion. Over a fraction of the motion it is that fraction, because each joint moves at a constant speed.
+/// Infinite where there is no bound: planar joints that turn before they drive, and quaternions that are not
+/// normalised. `parts`: those of one of the states.
+std::vector<double> displacementBounds(const moveit::core::RobotState& from, const moveit::core::RobotState& to,
+                                       const std::vector<Part>& parts);
+}  // namespace gpu_planning_scene::detector

@@ -1,0 +1,208 @@
+#include "moveit/motion_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "moveit/collision_query.h"
+#include "moveit/log.h"
+#include "moveit/motion_bound.h"
+#include "moveit/workspace.h"
+
+// Bisection: a part of the robot that keeps a distance from all objects in the middle of an interval, larger than it
+// can move within half of the interval, is free in the interval (Schwarzer, Saha, Latombe 2002, "Exact collision
+// checking of robot paths"). The other parts are checked again in both halves.
+namespace gpu_planning_scene::detector
+{
+namespace
+{
+using moveit::core::RobotState;
+
+// An interval in which a part moves by less is not divided further.
+constexpr double kFinest = 1e-4;  // metres
+// Exceeds the rounding of forward kinematics within a kilometre.
+constexpr double kRounding = 1e-8;  // metres
+
+class MotionSearch
+{
+ public:
+  MotionSearch(const collision_detection::CollisionRequest& request, collision_detection::CollisionResult& result,
+               const RobotState& from, const RobotState& to, const RobotGeometry& robot, const WorldGeometry& world,
+               const PairFilter& filter, const std::set<const moveit::core::LinkModel*>* active)
+    : request_(request),
+      result_(result),
+      from_(from),
+      to_(to),
+      robot_(robot),
+      world_(world),
+      filter_(filter),
+      active_(active),
+      state_(from)
+  {
+  }
+
+  void run()
+  {
+    std::vector<std::size_t> all;
+    place(0.0);
+    bounds_ = displacementBounds(from_, to_, work_->parts);
+    for (std::size_t i = 0; i < work_->parts.size(); ++i)
+      all.push_back(i);
+    if (sampleIsFree(0.0) && sampleIsFree(1.0))
+      prove(0.0, 1.0, all);
+  }
+
+ private:
+  void place(double time)
+  {
+    from_.interpolate(to_, time, state_);
+    state_.update();
+    work_->parts.clear();
+    work_->attached.clear();
+    robot_.place(state_, active_, work_->parts, work_->attached);
+  }
+
+  /// Checks a state. If it collides, its contacts go into the result.
+  bool sampleIsFree(double time)
+  {
+    place(time);
+    collision_detection::CollisionResult found;
+    CollisionQuery query(request_, found, filter_, work_->pair);
+    for (const Part& part : work_->parts)
+      if (world_.visitNear(part.bounds, work_->nodes, [&](const Part& object) { return query.test(part, object); }))
+        break;
+    if (found.collision)
+      add(found, time);
+    return !found.collision;
+  }
+
+  void add(const collision_detection::CollisionResult& found, double time)
+  {
+    result_.collision = true;
+    result_.cost_sources.insert(found.cost_sources.begin(), found.cost_sources.end());
+    for (const auto& [pair, contacts] : found.contacts)
+    {
+      for (collision_detection::Contact contact : contacts)
+      {
+        if (result_.contact_count >= request_.max_contacts)
+          return;
+        contact.percent_interpolation = time;
+        result_.contacts[pair].push_back(contact);
+        ++result_.contact_count;
+      }
+    }
+  }
+
+  /// Proves the interval for some parts, or sets the result to a collision and returns false.
+  bool prove(double begin, double end, const std::vector<std::size_t>& parts)
+  {
+    const double middle = 0.5 * (begin + end);
+    const double half = 0.5 * (end - begin);
+    place(middle);
+    std::vector<std::size_t> open;
+    bool is_finest = false;
+    for (const std::size_t number : parts)
+    {
+      const double travel = half * bounds_[number];
+      if (isProven(work_->parts[number], travel))
+        continue;
+      open.push_back(number);
+      is_finest = is_finest || !std::isfinite(travel) || travel <= kFinest;
+    }
+    if (open.empty())
+      return true;
+    if (!sampleIsFree(middle))
+      return false;
+    if (is_finest || middle <= begin || middle >= end)
+    {
+      addUnproven(middle);
+      return false;
+    }
+    return prove(begin, middle, open) && prove(middle, end, open);
+  }
+
+  /// Whether a part keeps a distance of more than `travel` from all objects with which it may not collide.
+  bool isProven(const Part& part, double travel)
+  {
+    if (travel == 0.0)
+      return true;  // the part stays where sampleIsFree has checked it
+    const double margin = travel * (1.0 + 1e-9) + kRounding;
+    if (!(margin <= core::kLargestLength) || part.shape->kind() == ShapeKind::Faulty)
+      return world_.empty();
+    Eigen::AlignedBox3d bounds(part.bounds.min().array() - margin, part.bounds.max().array() + margin);
+    const bool is_near =
+        world_.visitNear(bounds, work_->nodes,
+                         [&](const Part& object)
+                         {
+                           if (filter_.rule(part.body, object.body) == PairFilter::Rule::Skip ||
+                               !collide(part, object, work_->pair, margin))
+                             return false;
+                           near_ = {*part.body.name, part.body.type, *object.body.name, part.bounds.center()};
+                           return true;
+                         });
+    return !is_near;
+  }
+
+  void addUnproven(double time)
+  {
+    result_.collision = true;
+    if (request_.verbose)
+      ROS_INFO_STREAM_NAMED(kLogName, "The motion of '" << near_.part << "' past '" << near_.object << "' at "
+                                                        << 100.0 * time << " % of the way is not proven free");
+    if (!request_.contacts || result_.contact_count >= request_.max_contacts)
+      return;
+    collision_detection::Contact contact;
+    contact.pos = near_.place;
+    contact.normal = Eigen::Vector3d::UnitZ();
+    contact.depth = 0.0;
+    contact.body_name_1 = near_.part;
+    contact.body_type_1 = near_.type;
+    contact.body_name_2 = near_.object;
+    contact.body_type_2 = collision_detection::BodyTypes::WORLD_OBJECT;
+    contact.percent_interpolation = time;
+    contact.nearest_points[0] = contact.nearest_points[1] = contact.pos;
+    if (near_.object < near_.part)
+    {
+      std::swap(contact.body_name_1, contact.body_name_2);
+      std::swap(contact.body_type_1, contact.body_type_2);
+    }
+    result_.contacts[std::minmax(near_.part, near_.object)].push_back(contact);
+    ++result_.contact_count;
+  }
+
+  struct Near
+  {
+    std::string part;
+    collision_detection::BodyType type;
+    std::string object;
+    Eigen::Vector3d place;
+  };
+
+  const collision_detection::CollisionRequest& request_;
+  collision_detection::CollisionResult& result_;
+  const RobotState& from_;
+  const RobotState& to_;
+  const RobotGeometry& robot_;
+  const WorldGeometry& world_;
+  const PairFilter& filter_;
+  const std::set<const moveit::core::LinkModel*>* active_;
+  RobotState state_;
+  Workspace work_;
+  std::vector<double> bounds_;
+  Near near_{"", collision_detection::BodyTypes::ROBOT_LINK, "", Eigen::Vector3d::Zero()};
+};
+}  // namespace
+
+void checkMotion(const collision_detection::CollisionRequest& request, collision_detection::CollisionResult& result,
+                 const RobotState& from, const RobotState& to, const RobotGeometry& robot, const WorldGeometry& world,
+                 const PairFilter& filter, const std::set<const moveit::core::LinkModel*>* active)
+{
+  static LogLimit limit;
+  if (request.distance && limit.allows())
+    ROS_WARN_NAMED(kLogName, "The distance along a motion is not computed; it stays as it was");
+  if (!world.empty())
+    MotionSearch(request, result, from, to, robot, world, filter, active).run();
+}
+}  // namespace gpu_planning_scene::detector

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <set>
+
+#include <moveit/collision_detection/collision_common.h>
+#include <moveit/robot_state/robot_state.h>
+
+#include "moveit/pair_filter.h"
+#include "moveit/robot_geometry.h"
+#include "moveit/world_geometry.h"
+
+namespace gpu_planning_scene::detector
+{
+/// Checks the motion that MoveIt interpolates between two states against the world. The motion is free only if a bound
+/// of the robot's motion proves it, also between the samples. What is not proven counts as a collision, among it: a
+/// motion that passes an object within 0.1 mm, and a pair with a decider that comes into contact.
+/// Contacts are those at the first sample that collides; their percent_interpolation is the sample's place, 0 to 1. If
+/// no sample collides, the only contact names a pair without proof; it has no depth.
+void checkMotion(const collision_detection::CollisionRequest& request, collision_detection::CollisionResult& result,
+                 const moveit::core::RobotState& from, const moveit::core::RobotState& to, const RobotGeometry& robot,
+                 const WorldGeometry& world, const PairFilter& filter,
+                 const std::set<const moveit::core::LinkModel*>* active);
+}  // namespace gpu_planning_scene::detector

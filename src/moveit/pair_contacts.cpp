@@ -1,0 +1,153 @@
+#include "moveit/pair_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collision/exact/cpu_forest.h"
+#include "moveit/log.h"
+
+// FCL computes the points; the exact tests have decided that the parts collide, or how far they are from each other.
+namespace gpu_planning_scene::detector
+{
+namespace
+{
+using core::ShapeContact;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// FCL's triangles of a curved solid are off by up to its sagitta, 1e-4 m, on both sides.
+constexpr double kTriangleTolerance = 3e-4;  // metres
+
+std::vector<ShapeContact> contactsOfSolids(const CollisionShape& a, const Isometry3d& pose_a, const CollisionShape& b,
+                                           const Isometry3d& pose_b, double required, std::size_t most,
+                                           PairScratch& scratch)
+{
+  const auto forest = std::make_shared<const core::CpuForest>(
+      std::vector<std::shared_ptr<const core::CpuTree>>{a.sharedTree(), b.sharedTree()});
+  return core::contactsOf({0, pose_a, a.fclModel()}, {1, pose_b, b.fclModel()}, required, *forest,
+                          core::CpuShapePair(forest), scratch, most);
+}
+
+void turn(std::vector<ShapeContact>& contacts)
+{
+  for (ShapeContact& contact : contacts)
+    contact.normal = -contact.normal;
+}
+
+/// The contacts of a solid `a` with anything.
+std::vector<ShapeContact> contactsOfSolid(const Part& a, const Part& b, std::size_t most, PairScratch& scratch)
+{
+  const double required = a.padding + b.padding;
+  if (b.shape->kind() == ShapeKind::Solid)
+    return contactsOfSolids(*a.shape, *a.pose, *b.shape, *b.pose, required, most, scratch);
+  if (b.shape->kind() == ShapeKind::HalfSpace)
+  {
+    const core::PlacedHalfSpace half_space = placedHalfSpace(b);
+    return {core::contactOf(*a.pose, a.shape->tree().shape, {0, half_space.normal, half_space.offset}, required)};
+  }
+  std::vector<ShapeContact> contacts;
+  for (const Leaf& leaf : collidingLeaves(b, a, most, scratch))
+  {
+    const std::vector<ShapeContact> found =
+        contactsOfSolids(*a.shape, *a.pose, *leaf.shape, leaf.pose, required, most, scratch);
+    contacts.insert(contacts.end(), found.begin(), found.end());
+  }
+  return contacts;
+}
+
+/// A contact that only tells that the parts count as colliding.
+ShapeContact contactWithoutDepth(const Part& a, const Part& b)
+{
+  for (const Part* part : {&a, &b})
+    if (part->bounds.min().allFinite())
+      return {part->bounds.center(), Vector3d::UnitZ(), 0.0};
+  Vector3d place = Vector3d::Zero();
+  if (a.pose->translation().allFinite())
+    place = a.pose->translation();
+  return {place, Vector3d::UnitZ(), 0.0};
+}
+
+bool isSolid(const Part& part)
+{
+  return part.shape->kind() == ShapeKind::Solid;
+}
+
+bool isFaulty(const Part& part)
+{
+  return part.shape->kind() == ShapeKind::Faulty;
+}
+
+/// The nearest points of the surfaces without padding, at `distance` from each other. `a` is a solid.
+NearestPoints nearestPointsOfSolid(const Part& a, const Part& b, double distance, PairScratch& scratch)
+{
+  if (b.shape->kind() == ShapeKind::HalfSpace)
+  {
+    const core::PlacedHalfSpace half_space = placedHalfSpace(b);
+    const Vector3d point =
+        core::contactOf(*a.pose, a.shape->tree().shape, {0, half_space.normal, half_space.offset}, 0.0).point;
+    return {point, point - (half_space.normal.dot(point) - half_space.offset) * half_space.normal};
+  }
+  Leaf leaf{b.shape, *b.pose};
+  if (b.shape->kind() == ShapeKind::Octree)
+  {
+    double least = distance - a.padding - b.padding + 1e-3;  // just above the clearance, which is known
+    nearestLeaf(b, a, least, leaf, scratch);
+  }
+  auto found =
+      core::fclNearestPoints({0, *a.pose, a.shape->fclModel()}, {1, leaf.pose, leaf.shape->fclModel()}, distance);
+  if (!found)
+    found = core::fclNearestPoints({0, *a.pose, a.shape->fclTriangles()}, {1, leaf.pose, leaf.shape->fclTriangles()},
+                                   distance, kTriangleTolerance);
+  if (found)
+    return {(*found)[0], (*found)[1]};
+  ROS_WARN_STREAM_THROTTLE_NAMED(1.0, kLogName,
+                                 "FCL finds no nearest points of '"
+                                     << *a.body.name << "' and '" << *b.body.name
+                                     << "'; the points given are in their bounding boxes");
+  const Eigen::AlignedBox3d box = core::boundsOf(leaf.shape->tree(), leaf.pose);
+  const Vector3d on_b = a.bounds.center().cwiseMax(box.min()).cwiseMin(box.max());
+  return {on_b.cwiseMax(a.bounds.min()).cwiseMin(a.bounds.max()), on_b};
+}
+}  // namespace
+
+std::vector<ShapeContact> contactsOf(const Part& a, const Part& b, std::size_t max_contacts, std::size_t searched,
+                                     PairScratch& scratch)
+{
+  std::vector<ShapeContact> contacts;
+  const std::size_t most = std::max(max_contacts, searched);
+  if (isFaulty(a) || isFaulty(b) || (!isSolid(a) && !isSolid(b)))
+    contacts.push_back(contactWithoutDepth(a, b));
+  else if (isSolid(a))
+    contacts = contactsOfSolid(a, b, most, scratch);
+  else
+  {
+    contacts = contactsOfSolid(b, a, most, scratch);
+    turn(contacts);
+  }
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const ShapeContact& first, const ShapeContact& second) { return first.depth > second.depth; });
+  if (contacts.size() > max_contacts)
+    contacts.resize(max_contacts);
+  return contacts;
+}
+
+NearestPoints nearestPointsOf(const Part& a, const Part& b, double clearance, PairScratch& scratch)
+{
+  if (!isSolid(a) && !isSolid(b))
+    return {contactWithoutDepth(a, b).point, contactWithoutDepth(a, b).point};
+  const double distance = clearance + a.padding + b.padding;
+  NearestPoints points =
+      isSolid(a) ? nearestPointsOfSolid(a, b, distance, scratch) : nearestPointsOfSolid(b, a, distance, scratch);
+  if (!isSolid(a))
+    std::swap(points.on_a, points.on_b);
+  const Vector3d between = points.on_b - points.on_a;
+  const double length = between.norm();
+  if (length > 0.0)
+  {
+    points.on_a += a.padding / length * between;
+    points.on_b -= b.padding / length * between;
+  }
+  return points;
+}
+}  // namespace gpu_planning_scene::detector

@@ -1,0 +1,46 @@
+#include "moveit/part.h"
+
+#include <limits>
+
+#include "collision/exact/cpu_shape_pair.h"
+#include "moveit/log.h"
+
+namespace gpu_planning_scene::detector
+{
+namespace
+{
+const Eigen::AlignedBox3d& everything()
+{
+  static const Eigen::AlignedBox3d box(Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity()),
+                                       Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()));
+  return box;
+}
+
+/// Written so that NaN fails too.
+bool isNear(const Eigen::Isometry3d& pose)
+{
+  return pose.translation().cwiseAbs().maxCoeff() <= core::kLargestLength && pose.linear().allFinite() &&
+         pose.translation().allFinite();
+}
+}  // namespace
+
+Part makePart(const CollisionShape& shape, const Eigen::Isometry3d& pose, double padding, const Body& body)
+{
+  Part part{&shape, &pose, everything(), padding, body};
+  if (!isNear(pose) || !(padding <= core::kLargestLength))
+  {
+    static LogLimit limit;
+    if (limit.allows())
+      ROS_ERROR_STREAM_NAMED(kLogName, "The pose or the padding of a shape of '"
+                                           << *body.name << "' is not finite, or above 1000 km. The shape counts as "
+                                           << "colliding with every body that is checked against it.");
+    part.shape = &CollisionShape::faulty();
+  }
+  else if (shape.kind() == ShapeKind::Solid)
+  {
+    const Eigen::AlignedBox3d bounds = core::boundsOf(shape.tree(), pose);
+    part.bounds = {bounds.min().array() - padding, bounds.max().array() + padding};
+  }
+  return part;
+}
+}  // namespace gpu_planning_scene::detector

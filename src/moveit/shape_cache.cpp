@@ -1,0 +1,91 @@
+#include <map>
+#include <mutex>
+#include <shared_mutex>
+#include <utility>
+#include <vector>
+
+#include "moveit/collision_shape.h"
+#include "moveit/log.h"
+
+// Like MoveIt's FCL detector, finds the conversion of a shape by the shape's weak pointer. MoveIt's scenes, states and
+// robot models share their shapes, so a copied scene or an attached object costs no conversion.
+namespace gpu_planning_scene::detector
+{
+namespace
+{
+class ShapeCache
+{
+ public:
+  CollisionShapePtr find(const shapes::ShapeConstPtr& shape, double scale)
+  {
+    const std::shared_lock<std::shared_mutex> lock(mutex_);
+    const auto found = shapes_.find(shape);
+    if (found != shapes_.end())
+      for (const auto& [its_scale, converted] : found->second)
+        if (its_scale == scale)
+          return converted;
+    return nullptr;
+  }
+
+  /// Returns the conversion that is known by now: another thread may have added it.
+  CollisionShapePtr add(const shapes::ShapeConstPtr& shape, double scale, CollisionShapePtr converted)
+  {
+    const std::lock_guard<std::shared_mutex> lock(mutex_);
+    forgetUnused();
+    auto& known = shapes_[shape];
+    for (const auto& [its_scale, earlier] : known)
+      if (its_scale == scale)
+        return earlier;
+    known.emplace_back(scale, std::move(converted));
+    return known.back().second;
+  }
+
+  void remove()
+  {
+    const std::lock_guard<std::shared_mutex> lock(mutex_);
+    forgetUnused();
+  }
+
+ private:
+  /// Looks through the entries only after a number of calls that grows with the entries, so that a call costs the same
+  /// on average however many entries there are.
+  void forgetUnused()
+  {
+    if (++calls_ < shapes_.size() / 4)
+      return;
+    calls_ = 0;
+    for (auto entry = shapes_.begin(); entry != shapes_.end();)
+      entry = entry->first.expired() ? shapes_.erase(entry) : std::next(entry);
+  }
+
+  using Scaled = std::vector<std::pair<double, CollisionShapePtr>>;
+
+  std::shared_mutex mutex_;  // guards the members below; not held while a shape is converted
+  std::map<std::weak_ptr<const shapes::Shape>, Scaled, std::owner_less<>> shapes_;
+  std::size_t calls_ = 0;
+};
+
+ShapeCache& shapeCache()
+{
+  static ShapeCache cache;
+  return cache;
+}
+}  // namespace
+
+CollisionShapePtr collisionShapeOf(const shapes::ShapeConstPtr& shape, double scale, const std::string& name)
+{
+  if (CollisionShapePtr known = shapeCache().find(shape, scale))
+    return known;
+  auto converted = std::make_shared<const CollisionShape>(*shape, scale, name);
+  if (converted->kind() == ShapeKind::Faulty)
+    ROS_ERROR_STREAM_NAMED(kLogName, "A shape of '" << name << "' cannot be checked: " << converted->fault()
+                                                    << ". It counts as colliding with every body that is checked "
+                                                       "against it.");
+  return shapeCache().add(shape, scale, std::move(converted));
+}
+
+void forgetUnusedShapes()
+{
+  shapeCache().remove();
+}
+}  // namespace gpu_planning_scene::detector

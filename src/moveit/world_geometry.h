@@ -1,0 +1,125 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <moveit/collision_detection/world.h>
+
+#include "collision/exact/object_tree.h"
+#include "moveit/part.h"
+
+namespace gpu_planning_scene::detector
+{
+/// The shapes of a world's objects, in a tree. Copies of an environment share it until one of them changes its world.
+/// Concurrent calls of const functions are safe.
+class WorldGeometry
+{
+ public:
+  WorldGeometry() = default;
+  WorldGeometry(const WorldGeometry& other);
+  WorldGeometry& operator=(const WorldGeometry&) = delete;
+
+  /// Adds the object, or replaces its shapes and poses.
+  void set(const collision_detection::World::Object& object);
+  /// Takes the new poses of an object whose shapes are unchanged. An object that is not known is added.
+  void move(const collision_detection::World::Object& object);
+  void remove(const std::string& id);
+
+  bool empty() const { return objects_.empty(); }
+
+  /// Calls visit(part) for the parts whose bounds overlap `bounds`, until visit returns true. Returns whether it did.
+  /// `stack`: work space.
+  template <class Visit>
+  bool visitNear(const Eigen::AlignedBox3d& bounds, std::vector<std::uint32_t>& stack, const Visit& visit) const;
+
+  /// Calls visit(part) for all parts.
+  template <class Visit>
+  void visitAll(const Visit& visit) const
+  {
+    for (const Slot& slot : slots_)
+      if (slot.shape)
+        visit(slot.part());
+  }
+
+ private:
+  struct Slot
+  {
+    CollisionShapePtr shape;  // null: the slot is free
+    Eigen::Isometry3d pose;
+    Eigen::AlignedBox3d bounds;
+    bool faulty = false;     // the pose is not valid
+    bool in_tree = false;    // the tree has the slot, with these bounds
+    bool is_listed = false;  // outside_ has the slot
+    const std::string* name = nullptr;
+
+    Part part() const
+    {
+      return {faulty ? &CollisionShape::faulty() : shape.get(),
+              &pose,
+              bounds,
+              0.0,
+              {collision_detection::BodyTypes::WORLD_OBJECT, name, nullptr, nullptr}};
+    }
+  };
+  struct Object
+  {
+    std::shared_ptr<const std::string> name;
+    std::vector<std::uint32_t> slots;  // one per shape
+  };
+
+  void place(std::uint32_t number, const Eigen::Isometry3d& pose);
+  void updateTree() const;
+  void buildTree() const;
+
+  std::map<std::string, Object> objects_;
+  mutable std::vector<Slot> slots_;  // mutable: buildTree sets in_tree and is_listed
+  std::vector<std::uint32_t> free_slots_;
+  // Slots that are not in the tree, and slots without limits: tested one by one. May contain free slots.
+  mutable std::vector<std::uint32_t> outside_;
+  mutable std::shared_ptr<const core::ObjectTree> tree_;  // over tree_slots_; null: none
+  mutable std::shared_ptr<const std::vector<std::uint32_t>> tree_slots_;
+  mutable std::mutex building_;
+  mutable std::atomic<bool> is_built_{true};
+};
+
+template <class Visit>
+bool WorldGeometry::visitNear(const Eigen::AlignedBox3d& bounds, std::vector<std::uint32_t>& stack,
+                              const Visit& visit) const
+{
+  updateTree();
+  for (const std::uint32_t number : outside_)
+  {
+    const Slot& slot = slots_[number];
+    if (slot.bounds.intersects(bounds) && visit(slot.part()))
+      return true;
+  }
+  if (!tree_ || tree_->nodes().empty())
+    return false;
+  const Eigen::Vector3d center = bounds.center();
+  const Eigen::Vector3d half = 0.5 * bounds.sizes();
+  const bool unlimited = !center.allFinite();
+  stack.assign(1, 0u);
+  while (!stack.empty())
+  {
+    const core::Node& node = tree_->nodes()[stack.back()];
+    stack.pop_back();
+    if (!unlimited && ((core::centerOf(node) - center).cwiseAbs().array() > (core::halfOf(node) + half).array()).any())
+      continue;
+    if (node.count == 0)
+    {
+      stack.push_back(node.first);
+      stack.push_back(node.first + 1);
+      continue;
+    }
+    const Slot& slot = slots_[(*tree_slots_)[tree_->order()[node.first]]];
+    if (slot.shape && slot.in_tree && slot.bounds.intersects(bounds) && visit(slot.part()))
+      return true;
+  }
+  return false;
+}
+}  // namespace gpu_planning_scene::detector

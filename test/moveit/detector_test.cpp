@@ -1,0 +1,502 @@
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include <geometric_shapes/shapes.h>
+#include <gtest/gtest.h>
+#include <moveit/planning_scene/planning_scene.h>
+#include <moveit/utils/robot_model_test_utils.h>
+#include <octomap/OcTree.h>
+
+#include "gpu_planning_scene/moveit/collision_detector_allocator.h"
+#include "moveit/moveit_resources.h"
+
+// The behaviour of the detector for MoveIt, where MoveIt's own suites do not look.
+namespace gpu_planning_scene::detector
+{
+namespace
+{
+using collision_detection::AllowedCollisionMatrix;
+using collision_detection::CollisionRequest;
+using collision_detection::CollisionResult;
+using collision_detection::Contact;
+using collision_detection::DistanceRequest;
+using collision_detection::DistanceRequestType;
+using collision_detection::DistanceResult;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using moveit::core::RobotModelPtr;
+using moveit::core::RobotState;
+
+const bool kReady = (useMoveItResources(), true);
+
+Isometry3d at(double x, double y, double z)
+{
+  return Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+shapes::ShapeConstPtr box(double size)
+{
+  return std::make_shared<shapes::Box>(size, size, size);
+}
+
+/// A closed cube as a mesh.
+shapes::ShapeConstPtr meshCube(double size)
+{
+  auto mesh = std::make_shared<shapes::Mesh>(8, 12);
+  const double h = 0.5 * size;
+  for (unsigned i = 0; i < 8; ++i)
+  {
+    mesh->vertices[3 * i] = (i & 1u) != 0 ? h : -h;
+    mesh->vertices[3 * i + 1] = (i & 2u) != 0 ? h : -h;
+    mesh->vertices[3 * i + 2] = (i & 4u) != 0 ? h : -h;
+  }
+  const unsigned faces[36] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                              2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  std::copy_n(faces, 36, mesh->triangles);
+  return mesh;
+}
+
+/// One link, a cube of 0.2 m at the origin of the planning frame, and a second one that a joint moves along x.
+RobotModelPtr sliderRobot()
+{
+  moveit::core::RobotModelBuilder builder("slider", "base");
+  geometry_msgs::Pose pose;
+  pose.orientation.w = 1.0;
+  builder.addChain("base->cart", "prismatic", {pose}, urdf::Vector3(1, 0, 0));
+  builder.addCollisionBox("cart", {0.2, 0.2, 0.2}, pose);
+  builder.addVirtualJoint("world", "base", "fixed", "root");
+  builder.addGroupChain("base", "cart", "arm");
+  return builder.build();
+}
+
+class Detector : public testing::Test
+{
+ protected:
+  Detector() : robot_(sliderRobot()), env_(CollisionDetectorAllocator().allocateEnv(robot_)), state_(stateAt(0.0)) {}
+
+  RobotState stateAt(double x) const
+  {
+    RobotState state(robot_);
+    state.setToDefaultValues();
+    state.setVariablePosition(0, x);
+    state.update();
+    return state;
+  }
+
+  void add(const std::string& name, const shapes::ShapeConstPtr& shape, const Isometry3d& pose)
+  {
+    env_->getWorld()->addToObject(name, pose, shape, Isometry3d::Identity());
+  }
+
+  bool collides(const AllowedCollisionMatrix* matrix = nullptr) const
+  {
+    CollisionResult result;
+    if (matrix)
+      env_->checkRobotCollision(CollisionRequest(), result, state_, *matrix);
+    else
+      env_->checkRobotCollision(CollisionRequest(), result, state_);
+    return result.collision;
+  }
+
+  bool motionCollides(double from, double to, CollisionResult& result) const
+  {
+    CollisionRequest request;
+    request.contacts = true;
+    request.max_contacts = 10;
+    env_->checkRobotCollision(request, result, stateAt(from), stateAt(to));
+    return result.collision;
+  }
+
+  RobotModelPtr robot_;
+  collision_detection::CollisionEnvPtr env_;
+  RobotState state_;
+};
+
+TEST_F(Detector, FindsALinkInsideAClosedMesh)
+{
+  add("shell", meshCube(1.0), Isometry3d::Identity());
+  EXPECT_TRUE(collides());
+}
+
+TEST_F(Detector, CountsTouchingAsACollision)
+{
+  add("box", box(0.2), at(0.2, 0, 0));
+  EXPECT_TRUE(collides());
+  env_->getWorld()->setObjectPose("box", at(0.2 + 2e-9, 0, 0));
+  EXPECT_FALSE(collides());
+}
+
+TEST_F(Detector, TakesPaddingAsADistance)
+{
+  // The corners of the cubes are 0.1 m apart along each axis, so the distance is 0.1 times the root of 3.
+  add("box", box(0.2), at(0.3, 0.3, 0.3));
+  env_->setLinkPadding("cart", 0.1 * std::sqrt(3.0) - 1e-6);
+  EXPECT_FALSE(collides());
+  env_->setLinkPadding("cart", 0.1 * std::sqrt(3.0) + 1e-6);
+  EXPECT_TRUE(collides());
+  env_->setPadding(0.0);
+  EXPECT_FALSE(collides());
+}
+
+TEST_F(Detector, ScalesLinks)
+{
+  add("box", box(0.2), at(0.35, 0, 0));
+  EXPECT_FALSE(collides());
+  env_->setLinkScale("cart", 2.6);
+  EXPECT_TRUE(collides());
+  env_->setLinkScale("cart", 2.4);
+  EXPECT_FALSE(collides());
+}
+
+TEST_F(Detector, TakesPlanesAsHalfSpaces)
+{
+  add("floor", std::make_shared<shapes::Plane>(0, 0, 1, 1), Isometry3d::Identity());  // z <= -1
+  EXPECT_FALSE(collides());
+  add("above", std::make_shared<shapes::Plane>(0, 0, 1, -1), Isometry3d::Identity());  // z <= 1
+  EXPECT_TRUE(collides());
+}
+
+TEST_F(Detector, FollowsTheWorld)
+{
+  add("box", box(0.2), at(1, 0, 0));
+  EXPECT_FALSE(collides());
+  env_->getWorld()->moveObject("box", at(-0.9, 0, 0));
+  EXPECT_TRUE(collides());
+  env_->getWorld()->setObjectPose("box", at(5, 0, 0));
+  EXPECT_FALSE(collides());
+  env_->getWorld()->addToObject("box", box(0.2), at(-5, 0, 0));
+  EXPECT_TRUE(collides());
+  env_->getWorld()->removeObject("box");
+  EXPECT_FALSE(collides());
+}
+
+TEST_F(Detector, FindsEachObjectOfALargeWorldThatChanges)
+{
+  // Enough objects for a tree, which is built anew several times.
+  for (int i = 0; i < 300; ++i)
+  {
+    add("box" + std::to_string(i), box(0.1), at(1.0 + 0.2 * i, 0, 0));
+    ASSERT_FALSE(collides()) << i;
+  }
+  for (int i = 0; i < 300; ++i)
+  {
+    const std::string name = "box" + std::to_string(i);
+    env_->getWorld()->setObjectPose(name, Isometry3d::Identity());
+    ASSERT_TRUE(collides()) << i;
+    if (i % 3 == 0)
+      env_->getWorld()->removeObject(name);
+    else
+      env_->getWorld()->setObjectPose(name, at(1.0 + 0.2 * i, 0, 0));
+    ASSERT_FALSE(collides()) << i;
+  }
+}
+
+TEST_F(Detector, ReadsAnOctreeThatChangesInPlace)
+{
+  const auto octree = std::make_shared<octomap::OcTree>(0.05);
+  octree->updateNode(octomap::point3d(1.0F, 0, 0), true);
+  add("<octomap>", std::make_shared<shapes::OcTree>(octree), Isometry3d::Identity());
+  EXPECT_FALSE(collides());
+  octree->updateNode(octomap::point3d(0.11F, 0, 0), true);
+  EXPECT_TRUE(collides());  // the cell from 0.1 to 0.15 touches the cart
+  for (int i = 0; i < 10; ++i)
+    octree->updateNode(octomap::point3d(0.11F, 0, 0), false);
+  EXPECT_FALSE(collides());
+}
+
+TEST_F(Detector, GivesTheDistanceToAnOctree)
+{
+  const auto octree = std::make_shared<octomap::OcTree>(0.05);
+  octree->updateNode(octomap::point3d(1.01F, 0.01F, 0.01F), true);
+  octree->updateNode(octomap::point3d(0.51F, 0.01F, 0.01F), true);
+  add("<octomap>", std::make_shared<shapes::OcTree>(octree), Isometry3d::Identity());
+  EXPECT_NEAR(env_->distanceRobot(state_), 0.4, 2e-6);
+}
+
+TEST_F(Detector, AsksTheDeciderOfAPair)
+{
+  add("box", box(0.2), at(0.19, 0, 0));
+  AllowedCollisionMatrix matrix;
+  int asked = 0;
+  bool answer = true;
+  matrix.setEntry("box", "cart",
+                  [&](Contact& contact)
+                  {
+                    ++asked;
+                    EXPECT_NEAR(contact.depth, 0.01, 1e-6);
+                    EXPECT_EQ(contact.body_name_1, "box");
+                    EXPECT_EQ(contact.body_name_2, "cart");
+                    EXPECT_NEAR(contact.normal.x(), -1.0, 1e-6);  // from the box to the cart
+                    return answer;
+                  });
+  EXPECT_FALSE(collides(&matrix));
+  EXPECT_GT(asked, 0);
+  answer = false;
+  EXPECT_TRUE(collides(&matrix));
+}
+
+TEST_F(Detector, FollowsDefaultEntriesOfTheMatrix)
+{
+  add("box", box(0.2), Isometry3d::Identity());
+  AllowedCollisionMatrix matrix;
+  EXPECT_TRUE(collides(&matrix));
+  matrix.setDefaultEntry("box", true);
+  EXPECT_FALSE(collides(&matrix));
+  matrix.setEntry("box", "cart", false);
+  EXPECT_TRUE(collides(&matrix));
+}
+
+TEST_F(Detector, CountsAShapeThatCannotBeCheckedAsColliding)
+{
+  add("flat", std::make_shared<shapes::Box>(0.1, 0.1, 0.0), at(5, 0, 0));
+  EXPECT_TRUE(collides());
+  env_->getWorld()->removeObject("flat");
+  auto mesh = std::make_shared<shapes::Mesh>(3, 1);
+  std::fill_n(mesh->vertices, 9, std::numeric_limits<double>::quiet_NaN());
+  std::fill_n(mesh->triangles, 3, 0U);
+  add("mesh", mesh, at(5, 0, 0));
+  EXPECT_TRUE(collides());
+  AllowedCollisionMatrix matrix;
+  matrix.setEntry("mesh", "cart", true);
+  EXPECT_FALSE(collides(&matrix));
+}
+
+TEST_F(Detector, CountsAStateThatIsNotFiniteAsColliding)
+{
+  add("box", box(0.1), at(5, 0, 0));
+  state_ = stateAt(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(collides());
+}
+
+TEST_F(Detector, CountsAnObjectAtNoPlaceAsColliding)
+{
+  add("box", box(0.1), at(std::numeric_limits<double>::quiet_NaN(), 0, 0));
+  EXPECT_TRUE(collides());
+  env_->getWorld()->setObjectPose("box", at(5, 0, 0));
+  EXPECT_FALSE(collides());
+}
+
+TEST_F(Detector, UpdatesAStateThatIsNotUpToDate)
+{
+  add("box", box(0.2), at(0.5, 0, 0));
+  state_.setVariablePosition(0, 0.5);  // without update()
+  EXPECT_TRUE(collides());
+}
+
+TEST_F(Detector, ChecksAttachedObjectsAgainstTheirOwnLink)
+{
+  AllowedCollisionMatrix matrix;
+  CollisionResult result;
+  const std::vector<shapes::ShapeConstPtr> cube = {box(0.2)};
+  const EigenSTL::vector_Isometry3d poses = {Isometry3d::Identity()};
+  state_.attachBody("tool", at(0.1, 0, 0), cube, poses, std::vector<std::string>(), "cart");
+  state_.update();
+  env_->checkSelfCollision(CollisionRequest(), result, state_, matrix);
+  EXPECT_TRUE(result.collision);
+  state_.clearAttachedBodies();
+  state_.attachBody("tool", at(0.1, 0, 0), cube, poses, std::vector<std::string>{"cart"}, "cart");
+  state_.update();
+  result.clear();
+  env_->checkSelfCollision(CollisionRequest(), result, state_, matrix);
+  EXPECT_FALSE(result.collision);
+  add("box", box(0.2), at(0.28, 0, 0));  // meets the tool, not the cart
+  EXPECT_TRUE(collides());
+}
+
+TEST_F(Detector, GivesDistancesPerPairAndNearestPoints)
+{
+  add("near", box(0.2), at(0.5, 0, 0));
+  add("far", box(0.2), at(-1.0, 0, 0));
+  DistanceRequest request;
+  request.type = DistanceRequestType::SINGLE;
+  request.enable_nearest_points = true;
+  DistanceResult result;
+  env_->distanceRobot(request, result, state_);
+  ASSERT_EQ(result.distances.size(), 2u);
+  EXPECT_NEAR((result.distances.at({"cart", "near"}).front().distance), 0.3, 2e-6);
+  EXPECT_NEAR((result.distances.at({"cart", "far"}).front().distance), 0.8, 2e-6);
+  EXPECT_EQ(result.minimum_distance.link_names[0], "cart");
+  EXPECT_NEAR(result.minimum_distance.nearest_points[0].x(), 0.1, 1e-4);
+  EXPECT_NEAR(result.minimum_distance.nearest_points[1].x(), 0.4, 1e-4);
+  EXPECT_NEAR(result.minimum_distance.normal.x(), 1.0, 1e-4);
+  request.distance_threshold = 0.5;
+  result.clear();
+  env_->distanceRobot(request, result, state_);
+  EXPECT_EQ(result.distances.size(), 1u);
+}
+
+TEST_F(Detector, LimitsTheDistancesOfAPair)
+{
+  for (int i = 0; i < 5; ++i)
+    env_->getWorld()->addToObject("boxes", box(0.1), at(0.5 + 0.2 * i, 0, 0));
+  DistanceRequest request;
+  request.max_contacts_per_body = 2;
+  for (const auto& [type, count] : {std::pair(DistanceRequestType::SINGLE, 1),
+                                    std::pair(DistanceRequestType::LIMITED, 2), std::pair(DistanceRequestType::ALL, 5)})
+  {
+    request.type = type;
+    DistanceResult result;
+    env_->distanceRobot(request, result, state_);
+    const auto& found = result.distances.at({"boxes", "cart"});
+    EXPECT_EQ(found.size(), static_cast<std::size_t>(count));
+    EXPECT_NEAR(found.front().distance, 0.35, 2e-6);
+  }
+}
+
+TEST_F(Detector, GivesTheDepthAsANegativeDistance)
+{
+  add("box", box(0.2), at(0.17, 0, 0));
+  DistanceRequest request;
+  DistanceResult result;
+  env_->distanceRobot(request, result, state_);
+  EXPECT_TRUE(result.collision);
+  EXPECT_EQ(result.minimum_distance.distance, 0.0);
+  request.enable_signed_distance = true;
+  result.clear();
+  env_->distanceRobot(request, result, state_);
+  EXPECT_NEAR(result.minimum_distance.distance, -0.03, 1e-6);
+}
+
+TEST_F(Detector, ReportsCostsAndStopsWhenAsked)
+{
+  for (int i = 0; i < 5; ++i)
+    add("box" + std::to_string(i), box(0.2), at(0.15, 0.001 * i, 0));
+  CollisionRequest request;
+  request.cost = true;
+  request.max_cost_sources = 3;
+  CollisionResult result;
+  env_->checkRobotCollision(request, result, state_);
+  EXPECT_EQ(result.cost_sources.size(), 3u);
+  EXPECT_NEAR(result.cost_sources.begin()->getVolume(), 0.05 * 0.2 * 0.2, 1e-6);
+  request = CollisionRequest();
+  request.contacts = true;
+  request.max_contacts = 100;
+  request.is_done = [](const CollisionResult& found) { return found.contacts.size() == 2; };
+  result.clear();
+  env_->checkRobotCollision(request, result, state_);
+  EXPECT_EQ(result.contacts.size(), 2u);
+}
+
+TEST_F(Detector, FindsAMotionThroughAnObject)
+{
+  add("wall", std::make_shared<shapes::Box>(0.01, 1.0, 1.0), at(0.5, 0, 0));
+  CollisionResult result;
+  EXPECT_TRUE(motionCollides(0.0, 1.0, result));
+  ASSERT_EQ(result.contacts.size(), 1u);
+  const Contact& contact = result.contacts.begin()->second.front();
+  EXPECT_GE(contact.percent_interpolation, 0.39);
+  EXPECT_LE(contact.percent_interpolation, 0.61);
+  result.clear();
+  EXPECT_FALSE(motionCollides(0.0, 0.39, result));
+}
+
+TEST_F(Detector, ProvesAMotionAlongAnObjectButNotOneThatPassesWithinMicrometres)
+{
+  add("wall", box(1.0), at(0.5, 0.6 + 1e-3, 0));
+  CollisionResult result;
+  EXPECT_FALSE(motionCollides(0.0, 1.0, result));
+  env_->getWorld()->setObjectPose("wall", at(0.5, 0.6 + 1e-6, 0));
+  EXPECT_TRUE(motionCollides(0.0, 1.0, result));
+}
+
+TEST_F(Detector, CopiesDoNotSeeLaterChangesOfEachOther)
+{
+  add("box", box(0.2), at(5, 0, 0));
+  const auto world = std::make_shared<collision_detection::World>(*env_->getWorld());
+  const auto copy = CollisionDetectorAllocator().allocateEnv(env_, world);
+  env_->getWorld()->setObjectPose("box", Isometry3d::Identity());
+  EXPECT_TRUE(collides());
+  CollisionResult result;
+  copy->checkRobotCollision(CollisionRequest(), result, state_);
+  EXPECT_FALSE(result.collision);
+  world->addToObject("other", Isometry3d::Identity(), box(0.1), Isometry3d::Identity());
+  copy->checkRobotCollision(CollisionRequest(), result, state_);
+  EXPECT_TRUE(result.collision);
+}
+
+TEST_F(Detector, AnswersSeveralThreadsAtOnce)
+{
+  for (int i = 0; i < 200; ++i)
+    add("box" + std::to_string(i), i % 2 == 0 ? box(0.1) : meshCube(0.1), at(0.5 + 0.2 * i, 0, 0));
+  std::vector<std::thread> threads;
+  std::vector<int> hits(4);
+  for (std::size_t t = 0; t < hits.size(); ++t)
+    threads.emplace_back(
+        [&, t]
+        {
+          for (int i = 0; i < 500; ++i)
+          {
+            CollisionResult result;
+            env_->checkRobotCollision(CollisionRequest(), result, stateAt(i % 2 == 0 ? 0.0 : 0.5 + 0.2 * (i % 200)));
+            hits[t] += result.collision ? 1 : 0;
+          }
+        });
+  for (std::thread& thread : threads)
+    thread.join();
+  for (const int count : hits)
+    EXPECT_EQ(count, 250);
+}
+
+TEST(DetectorScene, ProvesOnlyMotionsWithoutACollidingSample)
+{
+  const RobotModelPtr robot = moveit::core::loadTestingRobotModel("panda");
+  const auto env = CollisionDetectorAllocator().allocateEnv(robot);
+  random_numbers::RandomNumberGenerator random(11);
+  for (int i = 0; i < 8; ++i)
+    env->getWorld()->addToObject(
+        "object" + std::to_string(i),
+        at(random.uniformReal(0.3, 0.7), random.uniformReal(-0.7, 0.7), random.uniformReal(0.2, 0.9)),
+        i % 2 == 0 ? box(0.1) : meshCube(0.1), Isometry3d::Identity());
+  RobotState from(robot);
+  RobotState to(robot);
+  RobotState sample(robot);
+  from.setToDefaultValues();
+  to.setToDefaultValues();
+  int free = 0;
+  int colliding = 0;
+  for (int i = 0; i < 100; ++i)
+  {
+    const auto* group = robot->getJointModelGroup("panda_arm");
+    from.setToRandomPositions(group, random);
+    to.setToRandomPositionsNearBy(group, from, 0.3, random);
+    from.update();
+    to.update();
+    bool is_hit = false;
+    for (int k = 0; k <= 100; ++k)
+    {
+      from.interpolate(to, 0.01 * k, sample);
+      sample.update();
+      CollisionResult result;
+      env->checkRobotCollision(CollisionRequest(), result, sample);
+      is_hit = is_hit || result.collision;
+    }
+    CollisionResult result;
+    env->checkRobotCollision(CollisionRequest(), result, from, to);
+    EXPECT_TRUE(result.collision || !is_hit) << "motion " << i;
+    // The samples are dense, so nearly all motions without a colliding sample are free.
+    free += !result.collision ? 1 : 0;
+    colliding += is_hit ? 1 : 0;
+  }
+  EXPECT_GT(colliding, 5);
+  EXPECT_GT(free, 10);
+  EXPECT_GE(free + colliding, 97);
+}
+
+TEST(DetectorScene, ReplacesTheDetectorOfAPlanningScene)
+{
+  ASSERT_TRUE(kReady);
+  const auto shared = std::make_shared<planning_scene::PlanningScene>(moveit::core::loadTestingRobotModel("panda"));
+  planning_scene::PlanningScene& scene = *shared;
+  scene.setActiveCollisionDetector(CollisionDetectorAllocator::create(), true);
+  EXPECT_EQ(scene.getActiveCollisionDetectorName(), "gpu_planning_scene");
+  RobotState& state = scene.getCurrentStateNonConst();
+  state.setToDefaultValues(state.getJointModelGroup("panda_arm"), "ready");
+  state.update();
+  EXPECT_FALSE(scene.isStateColliding(state, "panda_arm"));
+  scene.getWorldNonConst()->addToObject("box", at(0.3, 0, 0.6), box(0.1), Isometry3d::Identity());
+  const planning_scene::PlanningScenePtr difference = scene.diff();
+  EXPECT_TRUE(difference->isStateColliding(state, "panda_arm"));
+}
+}  // namespace
+}  // namespace gpu_planning_scene::detector
