@@ -23,7 +23,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kTime = 10.0;         // seconds
+constexpr double kTime = 60.0;         // seconds: sanitizers and other tests slow the node
 constexpr double kResolution = 0.002;  // radians or metres: a tenth of the node's resolution
 
 std::string nameOf(const std::string& service)

@@ -83,7 +83,7 @@ std::vector<double> sampleOf(const RobotModel& robot, const CollisionProblem& pr
   std::mt19937_64 generator;
   for (std::size_t i = 0; i < kMaxTimed; ++i)
   {
-    double* row = &sample[i * width];
+    double* row = sample.data() + i * width;
     const double* own = states + (count == 0 ? 0 : i % count) * width;
     if (count >= kEnough && isValidFor(problem, own))
       std::copy(own, own + width, row);
