@@ -1,6 +1,6 @@
 #include "moveit/collision_shape.h"
 
-#include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include <octomap/OcTree.h>
@@ -20,10 +20,10 @@ std::shared_ptr<const core::Mesh> meshOf(const shapes::Mesh& mesh, double scale,
   auto made = std::make_shared<core::Mesh>();
   made->name = name;
   made->vertices.reserve(mesh.vertex_count);
-  for (unsigned i = 0; i < mesh.vertex_count; ++i)
+  for (std::size_t i = 0; i < mesh.vertex_count; ++i)
     made->vertices.emplace_back(mesh.vertices[3 * i], mesh.vertices[3 * i + 1], mesh.vertices[3 * i + 2]);
   made->triangles.reserve(mesh.triangle_count);
-  for (unsigned i = 0; i < mesh.triangle_count; ++i)
+  for (std::size_t i = 0; i < mesh.triangle_count; ++i)
     made->triangles.push_back({mesh.triangles[3 * i], mesh.triangles[3 * i + 1], mesh.triangles[3 * i + 2]});
   if (scale != 1.0)
   {

@@ -81,6 +81,8 @@ CollisionShapePtr collisionShapeOf(const shapes::ShapeConstPtr& shape, double sc
     ROS_ERROR_STREAM_NAMED(kLogName, "A shape of '" << name << "' cannot be checked: " << converted->fault()
                                                     << ". It counts as colliding with every body that is checked "
                                                        "against it.");
+  else if (converted->kind() == ShapeKind::Empty)
+    ROS_WARN_STREAM_NAMED(kLogName, "A mesh of '" << name << "' has no triangles, so it collides with nothing");
   return shapeCache().add(shape, scale, std::move(converted));
 }
 
