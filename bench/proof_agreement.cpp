@@ -39,6 +39,15 @@ struct Counts
   double seconds_with_proofs = 0.0;
 };
 
+/// The states for which there were proofs.
+double statesWithProofs(const SceneReport& report)
+{
+  double all = 0.0;
+  for (const DecidedStates& stage : report.decided)
+    all += stage.by == "the exact checker alone" ? 0.0 : static_cast<double>(stage.states);
+  return all;
+}
+
 /// Compares two checkers of one scene.
 class Comparison
 {
@@ -59,6 +68,9 @@ class Comparison
       checked += with_proofs_.check(states.data(), kBatch).valid.size();
     }
     waitForProofs();
+    with_proofs_.check(scene_.randomStates(kBatch, generator_()).data(), kBatch);
+    if (statesWithProofs(with_proofs_.report()) == 0.0)
+      throw Error("there are no proofs of scene " + scene.name + " to compare");
   }
 
   Counts next()
@@ -127,15 +139,10 @@ void add(const Counts& part, Counts& all)
 /// The share of states that needed an exact test of some pair, of the states for which there were proofs.
 double shareOfExactTests(const SceneReport& report)
 {
-  double all = 0.0;
   double exact = 0.0;
   for (const DecidedStates& stage : report.decided)
-  {
-    const auto states = static_cast<double>(stage.states);
-    all += stage.by == "the exact checker alone" ? 0.0 : states;
-    exact += stage.by == "exact tests of the other pairs" ? states : 0.0;
-  }
-  return exact / std::max(all, 1.0);
+    exact += stage.by == "exact tests of the other pairs" ? static_cast<double>(stage.states) : 0.0;
+  return exact / statesWithProofs(report);
 }
 
 void print(const std::string& name, const Counts& counts, double exact_share)

@@ -118,7 +118,7 @@ void warmUp(Run& run, const Batch& batch, const Settings& settings)
   run.cpu.clear();
   run.answers = checkAll(run, batch);
   if (!run.info->exact || run.count < kManyStates)
-    return;
+    return waitForProofs();
   for (std::size_t checked = 0; checked <= kStatesBeforeProofs; checked += run.count)
     run.method->check(batch.states.data(), run.count);
   run.method->check(batch.states.data(), run.count);  // asks for the proofs

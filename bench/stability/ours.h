@@ -14,8 +14,8 @@ namespace gpu_planning_scene::core::stability
 class Ours
 {
  public:
-  /// `device` and `shaders` as in BatchCheckerOptions. `with_proofs`: the first cases of each call, so many, are also
-  /// checked with balls. These take some 0.05 s to make for each shape.
+  /// `device` and `shaders` as in BatchCheckerOptions. `with_proofs`: the number of cases, from the first, that are
+  /// also checked with balls. These take some 0.05 s to make for each shape.
   Ours(const std::string& device, const std::string& shaders, std::size_t with_proofs);
   ~Ours();
 

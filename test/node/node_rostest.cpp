@@ -136,7 +136,7 @@ TEST_F(Node, RefusesWrongRequestsAndLivesOn)
   wrong = request(states);
   wrong.request.positions[0] = nan;
   expectRefusal(wrong, "not a finite number");
-  expectRefusal(CheckStates(), "joint_names is empty");
+  expectRefusal(CheckStates(), "no value for");
 
   CheckStates right = request(states);
   ASSERT_TRUE(callPersistently(kService, right));

@@ -18,7 +18,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 // A large batch is cut into slices. For each of them, CPU or GPU is chosen anew: the CPU becomes faster while proofs
-// are made.
+// are made. Batches with neighbourhoods are not cut.
 constexpr std::size_t kStatesPerChoice = std::size_t{1} << 18U;
 }  // namespace
 
@@ -60,8 +60,6 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
   }
   gpu_checker.check(states, count, result, margins);
   work = gpu_checker.lastWork();
-  if (cpu_or_gpu.isMeasured())
-    on_cpu.countStates(count, group);
 }
 
 /// Sends the states for which the group's problem is not valid to the CPU; only the CPU can decide them.
@@ -103,7 +101,7 @@ void BatchChecker::Impl::check(const double* states, std::size_t count, const st
 void BatchChecker::Impl::checkAround(const double* states, std::size_t count, const std::string& group,
                                      const Margins& margins, BatchResult& result)
 {
-  if (count < threshold(group, states, count) || on_cpu.problem(group)->always_colliding)
+  if (on_cpu.problem(group)->always_colliding || count < threshold(group, states, count))
     return on_cpu.check(states, count, group, result, &margins);
   checkOnGpu(states, count, group, result, &margins);
   for (std::size_t i = 0; i < count; ++i)
@@ -172,6 +170,8 @@ BatchResult BatchChecker::Impl::timedCheck(const double* states, std::size_t cou
   else
     check(states, count, group, result);
   result.seconds = secondsSince(start);
+  if (cpu_or_gpu.isMeasured())
+    on_cpu.countStates(work.states, group);
   return result;
 }
 

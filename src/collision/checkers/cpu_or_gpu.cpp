@@ -23,10 +23,12 @@ constexpr double kMeasuringPause = 50.0;
 // Fewer states of the caller are not representative.
 constexpr std::size_t kEnough = 256;
 
-// The timed sizes. When one of the two takes kLong, the sizes in between are left out. The largest size is always
-// timed: from small sizes alone, a single disturbance could lead to a wrong estimate for large ones.
+// The timed sizes. When one of the two takes kLong, the sizes in between are left out. The largest size is timed
+// nevertheless, unless it would take kTooLong: from small sizes alone, a single disturbance could lead to a wrong
+// estimate for large ones.
 constexpr std::size_t kSizes[] = {1, 16, 256, kMaxTimed};
 constexpr double kLong = 0.005;    // seconds
+constexpr double kTooLong = 0.3;   // seconds
 constexpr int kRepeats = 3;        // the fastest run counts, because disturbances only slow a run down
 constexpr int kConfirmations = 5;  // runs before `bulk` is accepted as faster, even if they are long
 // `bulk` must be faster by this factor: a disturbed measurement must not select the slower one until the next
@@ -59,14 +61,26 @@ Comparison compareAt(std::size_t size, const TimedWork& direct, const TimedWork&
   return times;
 }
 
+/// The time of a larger size, by a line through the times of the last two sizes.
+double expectedSeconds(const std::vector<Comparison>& made, std::size_t size)
+{
+  const Comparison& a = made[made.size() - 2];
+  const Comparison& b = made.back();
+  const double growth = std::max(0.0, b.longest() - a.longest()) / (b.size - a.size);
+  return b.longest() + growth * (static_cast<double>(size) - b.size);
+}
+
 std::vector<Comparison> compare(const TimedWork& direct, const TimedWork& bulk)
 {
   direct(1);  // untimed: the first call may do work that later calls need not do
   bulk(1);
   std::vector<Comparison> made;
   for (const std::size_t size : kSizes)
-    if (size == kMaxTimed || made.size() < 2 || made.back().longest() < kLong)
+  {
+    const bool is_short = made.size() < 2 || made.back().longest() < kLong;
+    if (is_short || (size == kMaxTimed && expectedSeconds(made, size) < kTooLong))
       made.push_back(compareAt(size, direct, bulk));
+  }
   // A smaller batch does not take longer than a larger one. If it seems to, it was disturbed.
   for (std::size_t i = made.size() - 1; i-- > 0;)
     made[i].bulk = std::min(made[i].bulk, made[i + 1].bulk);

@@ -100,7 +100,8 @@ ProofStage CpuScene::proofStage(Group& group) const
 ProofStage CpuScene::proofStage(const std::string& name)
 {
   Group& group = groupOf(name);
-  if (group.problem->always_colliding)
+  // Without proofs in sight, the trees of the CPU are not needed yet.
+  if (group.problem->always_colliding || (!group.within && checked_ <= kStatesBeforeProofs))
     return ProofStage::None;
   prepare(group);
   return proofStage(group);

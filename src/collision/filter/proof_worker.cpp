@@ -8,13 +8,25 @@
 #include <thread>
 #include <utility>
 
+#include <pthread.h>
+#include <sched.h>
 #include <sys/resource.h>
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr int kNice = 5;  // of the threads that make proofs
+constexpr int kNice = 5;  // of the threads that make proofs, added to that of the process
+
+/// Lowers the priority of this thread and of the threads that it starts: checks come first. The thread may have been
+/// started by a real-time thread, whose policy it then has.
+void lowerPriority()
+{
+  const sched_param normal{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &normal);
+  constexpr int kThisThread = 0;  // on Linux
+  setpriority(PRIO_PROCESS, kThisThread, getpriority(PRIO_PROCESS, kThisThread) + kNice);
+}
 }  // namespace
 
 /// A thread that makes proofs, one job after the other.
@@ -83,8 +95,7 @@ class ProofWorker
 
   void work()
   {
-    // Checks come first. On Linux, 0 is the calling thread; the threads that it starts inherit its priority.
-    setpriority(PRIO_PROCESS, 0, kNice);
+    lowerPriority();
     std::unique_lock<std::mutex> lock(mutex_);
     while (true)
     {

@@ -235,6 +235,9 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
             request.named_state.empty() && request.joint_names.empty() && request.positions.empty();
         if (is_of_current_state)
         {
+          if (robot.variables().empty())
+            throw Error(
+                "the robot has no variables, so there is only one state; ~get_report tells whether it collides");
           job.columns = allColumns(robot);
           rows.values = fullStates(robot, {}, nullptr, 1, now.partialState());
         }

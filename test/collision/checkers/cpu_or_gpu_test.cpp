@@ -69,10 +69,16 @@ TEST(BreakEven, DoesNotBelieveOneDisturbedRun)
 
 TEST(BreakEven, DoesNotBelieveThatASmallBatchTakesLongerThanALargeOne)
 {
-  // All runs of one state were disturbed, as on a busy machine.
-  const TimedWork disturbed = [](std::size_t size)
-  { return size == 1 ? 20e-3 : 5e-3 + 10e-6 * static_cast<double>(size); };
-  EXPECT_EQ(breakEven(work(2e-6, 1e-6), disturbed), kNoBatch);
+  // All runs of 16 states were disturbed, as on a busy machine.
+  const TimedWork disturbed = [](std::size_t size) { return size == 16 ? 4e-3 : 1e-4; };
+  EXPECT_LT(breakEven(work(0.0, 1e-5), disturbed), 50U);
+}
+
+TEST(BreakEven, TimesNoLargeBatchThatWouldTakeSeconds)
+{
+  double spent = 0.0;
+  breakEven(work(0.0, 1e-4, &spent), work(2e-3, 1e-3, &spent));
+  EXPECT_LT(spent, 0.3);
 }
 
 TEST(BreakEven, LooksAtALargeBatchEvenIfSmallOnesTakeLong)
