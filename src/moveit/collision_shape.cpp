@@ -109,13 +109,21 @@ void CollisionShape::convert(const shapes::Shape& shape, double scale, const std
       if (!octree_)
         throw core::Error("the octree is missing");
       for (unsigned depth = 0; depth <= octree_->getTreeDepth(); ++depth)
-        leaves_.push_back(std::make_unique<const CollisionShape>(octree_->getNodeSize(static_cast<int>(depth))));
+        leaves_.push_back(std::make_shared<const CollisionShape>(octree_->getNodeSize(static_cast<int>(depth))));
+      leaf_resolution_ = octree_->getResolution();
       kind_ = ShapeKind::Octree;
       return;
     }
     default:
       throw core::Error("shapes of type " + std::to_string(static_cast<int>(shape.type)) + " are not supported");
   }
+}
+
+std::shared_ptr<const CollisionShape> CollisionShape::leaf(unsigned depth) const
+{
+  if (octree_->getResolution() == leaf_resolution_ && depth < leaves_.size())
+    return leaves_[depth];
+  return std::make_shared<const CollisionShape>(octree_->getNodeSize(static_cast<int>(depth)));
 }
 
 const core::FclGeometry& CollisionShape::fclModel() const

@@ -44,8 +44,8 @@ class CollisionShape
   const core::HalfSpace& halfSpace() const { return half_space_; }
   /// Octrees.
   const octomap::OcTree& octree() const { return *octree_; }
-  /// Octrees: the cube of the leaves at a depth.
-  const CollisionShape& leaf(unsigned depth) const { return *leaves_[depth]; }
+  /// Octrees: the cube of the leaves at a depth. A map that is loaded into an octree can change its resolution.
+  std::shared_ptr<const CollisionShape> leaf(unsigned depth) const;
 
   /// Solids: FCL's model, for contact points and nearest points. Made when it is first used.
   const core::FclGeometry& fclModel() const;
@@ -62,7 +62,8 @@ class CollisionShape
   std::shared_ptr<const core::CpuTree> tree_;
   core::HalfSpace half_space_{Eigen::Vector3d::UnitZ(), 0.0};
   std::shared_ptr<const octomap::OcTree> octree_;
-  std::vector<std::unique_ptr<const CollisionShape>> leaves_;  // by depth; the root has depth 0
+  std::vector<std::shared_ptr<const CollisionShape>> leaves_;  // by depth; the root has depth 0
+  double leaf_resolution_ = 0.0;                               // of leaves_
   mutable std::once_flag model_made_;
   mutable std::once_flag triangles_made_;
   mutable core::FclGeometry model_;

@@ -83,7 +83,8 @@ void DistanceQuery::measure(const Part& a, const Part& b)
   const bool collides = lower <= 0.0 && collide(a, b, scratch_);
   const double most = std::min(limit, mostDistance(a, b));
   const double distance = collides ? 0.0 : most <= 0.0 ? limit : clearance(a, b, most, scratch_);
-  if (collides || distance < limit)
+  // A pair that is not nearer than `most` has no distance that was measured.
+  if (collides || distance < most)
     add(a, b, dataOf(a, b, distance, collides));
 }
 

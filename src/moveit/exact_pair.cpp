@@ -34,7 +34,7 @@ AlignedBox3d boundsIn(const Part& octree, const Part& solid)
 
 Leaf leafOf(const Part& octree, const Vector3d& center, unsigned depth)
 {
-  return {&octree.shape->leaf(depth), *octree.pose * Eigen::Translation3d(center)};
+  return {octree.shape->leaf(depth), *octree.pose * Eigen::Translation3d(center)};
 }
 
 /// Calls visit(leaf) for the occupied leaves that collide with a solid, until it returns true.

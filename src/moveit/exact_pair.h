@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -32,8 +33,8 @@ core::PlacedHalfSpace placedHalfSpace(const Part& part);
 /// An occupied leaf of an octree.
 struct Leaf
 {
-  const CollisionShape* shape;  ///< a cube
-  Eigen::Isometry3d pose;       ///< in the planning frame
+  std::shared_ptr<const CollisionShape> shape;  ///< a cube
+  Eigen::Isometry3d pose;                       ///< in the planning frame
 };
 
 /// The occupied leaves of an octree that collide with a solid. At most `most` leaves.

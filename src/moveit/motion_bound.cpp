@@ -6,6 +6,7 @@
 #include <map>
 
 #include <moveit/robot_model/planar_joint_model.h>
+#include <moveit/robot_model/revolute_joint_model.h>
 
 // For each joint between a link and the root: the joint's travel times the largest distance that a point of the link
 // can have from the joint's axis (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"). This
@@ -28,11 +29,25 @@ struct Travel
   double offset = 0.0;  // metres
 };
 
+/// The angle by which MoveIt turns a joint that has no limits: see RevoluteJointModel::interpolate. Values beyond a
+/// turn are not reduced, so this differs from JointModel::distance.
+double turnBetween(double a, double b)
+{
+  const double difference = std::abs(b - a);
+  return difference <= M_PI ? difference : std::abs(2.0 * M_PI - difference);
+}
+
+bool isContinuous(const JointModel& joint)
+{
+  return joint.getType() == JointModel::REVOLUTE &&
+         static_cast<const moveit::core::RevoluteJointModel&>(joint).isContinuous();
+}
+
 Travel planarTravel(const moveit::core::PlanarJointModel& joint, const double* a, const double* b)
 {
   Travel travel;
   travel.length = std::hypot(b[0] - a[0], b[1] - a[1]);
-  travel.angle = std::abs(std::remainder(b[2] - a[2], 2.0 * M_PI));
+  travel.angle = turnBetween(a[2], b[2]);
   travel.offset = std::max(std::hypot(a[0], a[1]), std::hypot(b[0], b[1]));
   if (joint.getMotionModel() != moveit::core::PlanarJointModel::HOLONOMIC)
     travel.angle = travel.length = kUnbounded;
@@ -63,6 +78,14 @@ Travel travelOf(const JointModel& joint, const RobotState& from, const RobotStat
   if (const JointModel* leader = joint.getMimic())
   {
     const Travel of_leader = travelOf(*leader, from, to);
+    // A leader that passes half a turn jumps by a whole one, and its followers jump with it.
+    const bool jumps =
+        isContinuous(*leader) && !(std::abs(*to.getJointPositions(leader) - *from.getJointPositions(leader)) <= M_PI);
+    if (jumps)
+    {
+      travel.angle = travel.length = kUnbounded;
+      return travel;
+    }
     const double motion = std::abs(joint.getMimicFactor()) * (of_leader.angle + of_leader.length);
     if (joint.getType() == JointModel::PRISMATIC)
     {
@@ -82,7 +105,7 @@ Travel travelOf(const JointModel& joint, const RobotState& from, const RobotStat
   switch (joint.getType())
   {
     case JointModel::REVOLUTE:
-      travel.angle = joint.distance(a, b);
+      travel.angle = isContinuous(joint) ? turnBetween(*a, *b) : std::abs(*b - *a);
       return travel;
     case JointModel::PRISMATIC:
       travel.length = joint.distance(a, b);

@@ -88,11 +88,13 @@ NearestPoints nearestPointsOfSolid(const Part& a, const Part& b, double distance
         core::contactOf(*a.pose, a.shape->tree().shape, {0, half_space.normal, half_space.offset}, 0.0).point;
     return {point, point - (half_space.normal.dot(point) - half_space.offset) * half_space.normal};
   }
-  Leaf leaf{b.shape, *b.pose};
+  const std::shared_ptr<const void> nobody;  // `b` owns its shape
+  Leaf leaf{{nobody, b.shape}, *b.pose};
   if (b.shape->kind() == ShapeKind::Octree)
   {
     double least = distance - a.padding - b.padding + 1e-3;  // just above the clearance, which is known
-    nearestLeaf(b, a, least, leaf, scratch);
+    if (!nearestLeaf(b, a, least, leaf, scratch))
+      return {a.bounds.center(), a.bounds.center()};
   }
   auto found =
       core::fclNearestPoints({0, *a.pose, a.shape->fclModel()}, {1, leaf.pose, leaf.shape->fclModel()}, distance);
@@ -101,10 +103,11 @@ NearestPoints nearestPointsOfSolid(const Part& a, const Part& b, double distance
                                    distance, kTriangleTolerance);
   if (found)
     return {(*found)[0], (*found)[1]};
-  ROS_WARN_STREAM_THROTTLE_NAMED(1.0, kLogName,
-                                 "FCL finds no nearest points of '"
-                                     << *a.body.name << "' and '" << *b.body.name
-                                     << "'; the points given are in their bounding boxes");
+  static LogLimit limit;
+  if (limit.allows())
+    ROS_WARN_STREAM_NAMED(kLogName, "FCL finds no nearest points of '"
+                                        << *a.body.name << "' and '" << *b.body.name
+                                        << "'; the points given are in their bounding boxes");
   const Eigen::AlignedBox3d box = core::boundsOf(leaf.shape->tree(), leaf.pose);
   const Vector3d on_b = a.bounds.center().cwiseMax(box.min()).cwiseMin(box.max());
   return {on_b.cwiseMax(a.bounds.min()).cwiseMin(a.bounds.max()), on_b};

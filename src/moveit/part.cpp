@@ -27,12 +27,13 @@ bool isNear(const Eigen::Isometry3d& pose)
 Part makePart(const CollisionShape& shape, const Eigen::Isometry3d& pose, double padding, const Body& body)
 {
   Part part{&shape, &pose, everything(), padding, body};
-  if (!isNear(pose) || !(padding <= core::kLargestLength))
+  if (!isNear(pose) || !(padding >= 0.0 && padding <= core::kLargestLength))
   {
     static LogLimit limit;
     if (limit.allows())
       ROS_ERROR_STREAM_NAMED(kLogName, "The pose or the padding of a shape of '"
-                                           << *body.name << "' is not finite, or above 1000 km. The shape counts as "
+                                           << *body.name
+                                           << "' is not finite, above 1000 km, or negative. The shape counts as "
                                            << "colliding with every body that is checked against it.");
     part.shape = &CollisionShape::faulty();
   }

@@ -1,5 +1,7 @@
 #include "moveit/robot_geometry.h"
 
+#include "moveit/log.h"
+
 namespace gpu_planning_scene::detector
 {
 namespace
@@ -19,7 +21,12 @@ RobotGeometry::RobotGeometry(const moveit::core::RobotModel& robot, const std::m
 {
   for (const moveit::core::LinkModel* link : robot.getLinkModels())
   {
-    const LinkSettings settings{valueOf(padding, link->getName(), 0.0), valueOf(scale, link->getName(), 1.0)};
+    LinkSettings settings{valueOf(padding, link->getName(), 0.0), valueOf(scale, link->getName(), 1.0)};
+    if (settings.padding < 0.0)
+    {
+      ROS_ERROR_STREAM_NAMED(kLogName, "The padding of '" << link->getName() << "' is negative; it counts as 0");
+      settings.padding = 0.0;
+    }
     if (settings.padding != 0.0 || settings.scale != 1.0)
       settings_[link] = settings;
     for (std::size_t i = 0; i < link->getShapes().size(); ++i)

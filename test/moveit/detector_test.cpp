@@ -205,6 +205,38 @@ TEST_F(Detector, ReadsAnOctreeThatChangesInPlace)
   EXPECT_FALSE(collides());
 }
 
+TEST_F(Detector, ReadsAnOctreeWhoseResolutionChangesInPlace)
+{
+  const auto octree = std::make_shared<octomap::OcTree>(0.05);
+  octree->updateNode(octomap::point3d(1.0F, 0, 0), true);
+  add("<octomap>", std::make_shared<shapes::OcTree>(octree), Isometry3d::Identity());
+  EXPECT_FALSE(collides());
+  octree->clear();
+  octree->setResolution(0.4);
+  octree->updateNode(octomap::point3d(0.3F, 0.3F, 0.3F), true);  // a cube from 0 to 0.4
+  EXPECT_TRUE(collides());
+}
+
+TEST_F(Detector, GivesNoDistanceToAnOctreeWithoutOccupiedLeaves)
+{
+  add("<octomap>", std::make_shared<shapes::OcTree>(std::make_shared<octomap::OcTree>(0.05)), Isometry3d::Identity());
+  collision_detection::DistanceRequest request;
+  request.enable_nearest_points = true;
+  request.type = collision_detection::DistanceRequestType::ALL;
+  collision_detection::DistanceResult result;
+  env_->distanceRobot(request, result, state_);
+  EXPECT_TRUE(result.distances.empty());
+  EXPECT_FALSE(result.collision);
+}
+
+TEST_F(Detector, CountsANegativePaddingAsNone)
+{
+  add("cube", meshCube(0.2), at(0.15, 0.05, 0.05));
+  EXPECT_TRUE(collides());
+  env_->setLinkPadding("cart", -0.5);
+  EXPECT_TRUE(collides());
+}
+
 TEST_F(Detector, GivesTheDistanceToAnOctree)
 {
   const auto octree = std::make_shared<octomap::OcTree>(0.05);
@@ -436,6 +468,53 @@ TEST_F(Detector, AnswersSeveralThreadsAtOnce)
     thread.join();
   for (const int count : hits)
     EXPECT_EQ(count, 250);
+}
+
+/// An arm of 1 m that a continuous joint turns.
+RobotModelPtr turningRobot()
+{
+  moveit::core::RobotModelBuilder builder("turner", "base");
+  geometry_msgs::Pose pose;
+  pose.orientation.w = 1.0;
+  builder.addChain("base->arm", "continuous", {pose}, urdf::Vector3(0, 0, 1));
+  pose.position.x = 0.5;
+  builder.addCollisionBox("arm", {1.0, 0.05, 0.05}, pose);
+  builder.addVirtualJoint("world", "base", "fixed", "root");
+  builder.addGroupChain("base", "arm", "arm");
+  return builder.build();
+}
+
+/// MoveIt does not reduce the values of a continuous joint, so it turns further than the distance of the two angles.
+TEST(DetectorOfATurningArm, FindsAnObjectOnTheWayOfAJointBeyondATurn)
+{
+  const RobotModelPtr robot = turningRobot();
+  const auto env = CollisionDetectorAllocator().allocateEnv(robot);
+  for (const double angle : {0.5, 1.2, 2.0, 2.9, 3.7, 4.5, 5.5})
+    env->getWorld()->addToObject("post" + std::to_string(angle), at(0.8 * std::cos(angle), 0.8 * std::sin(angle), 0),
+                                 box(0.05), Isometry3d::Identity());
+  for (const double to : {4.0 * M_PI + 0.1, 3.4 * M_PI, -4.0 * M_PI - 0.1})
+  {
+    RobotState from_state(robot);
+    from_state.setToDefaultValues();
+    RobotState to_state(from_state);
+    to_state.setVariablePosition(0, to);
+    from_state.update();
+    to_state.update();
+    RobotState between(from_state);
+    bool is_hit = false;
+    for (int i = 0; i <= 2000; ++i)
+    {
+      from_state.interpolate(to_state, i / 2000.0, between);
+      between.update();
+      CollisionResult sample;
+      env->checkRobotCollision(CollisionRequest(), sample, between);
+      is_hit = is_hit || sample.collision;
+    }
+    CollisionResult result;
+    env->checkRobotCollision(CollisionRequest(), result, from_state, to_state);
+    EXPECT_TRUE(is_hit) << to;
+    EXPECT_TRUE(result.collision) << to;
+  }
 }
 
 TEST(DetectorScene, ProvesOnlyMotionsWithoutACollidingSample)
