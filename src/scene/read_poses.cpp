@@ -49,11 +49,13 @@ void readFixedFrame(const YamlValue& value, SceneReader& reader)
   const YamlValue* header = value.find("header");
   const YamlValue* parent = header ? header->find("frame_id") : nullptr;
   const YamlValue& child = value.at("child_frame_id");
-  const std::optional<std::string> name = fixedFrameName(parent ? parent->text() : "", child.text(), planning_frame);
+  const std::string frame_id = parent ? parent->text() : "";
+  const std::optional<std::string> name = fixedFrameName(frame_id, child.text(), planning_frame);
   if (!name)
-    parent->fail("the transform is between frames '" + parent->text() + "' and '" + child.text() +
-                 "'; one of them must be the planning frame '" + planning_frame +
-                 "' (the robot's root link, or the parent frame of the SRDF's virtual joint)");
+    (parent ? *parent : child)
+        .fail("the transform is between frames '" + frame_id + "' and '" + child.text() +
+              "'; one of them must be the planning frame '" + planning_frame +
+              "' (the robot's root link, or the parent frame of the SRDF's virtual joint)");
   const Eigen::Isometry3d pose = readPose(value.at("transform"), "translation", "rotation");
   if (*name == planning_frame && !pose.isApprox(Eigen::Isometry3d::Identity(), 1e-12))
     child.fail("frame '" + *name + "' is the planning frame; its transform must be the identity");
