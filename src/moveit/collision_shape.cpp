@@ -43,7 +43,7 @@ CollisionShape::CollisionShape(const shapes::Shape& shape, double scale, const s
   {
     convert(shape, scale, name);
   }
-  catch (const core::Error& error)
+  catch (const std::exception& error)  // memory can run out too
   {
     kind_ = ShapeKind::Faulty;
     fault_ = error.what();

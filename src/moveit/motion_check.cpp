@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,9 +46,18 @@ class MotionSearch
 
   void run()
   {
-    std::vector<std::size_t> all;
+    // The given states come first: interpolation sets mimic joints, which may have other values in them.
+    if (!stateIsFree(from_, 0.0) || !stateIsFree(to_, 1.0))
+      return;
+    if (attachedNames(from_) != attachedNames(to_))
+    {
+      ROS_ERROR_NAMED(kLogName, "The two states of a motion carry different objects; the motion counts as a collision");
+      result_.collision = true;
+      return;
+    }
     place(0.0);
-    bounds_ = displacementBounds(from_, to_, work_->parts);
+    bounds_ = displacementBounds(state_, to_, work_->parts);
+    std::vector<std::size_t> all;
     for (std::size_t i = 0; i < work_->parts.size(); ++i)
       all.push_back(i);
     if (sampleIsFree(0.0) && sampleIsFree(1.0))
@@ -59,15 +69,41 @@ class MotionSearch
   {
     from_.interpolate(to_, time, state_);
     state_.update();
-    work_->parts.clear();
-    work_->attached.clear();
-    robot_.place(state_, active_, work_->parts, work_->attached);
+    place(state_);
   }
 
-  /// Checks a state. If it collides, its contacts go into the result.
+  void place(const RobotState& state)
+  {
+    work_->parts.clear();
+    work_->attached.clear();
+    robot_.place(state, active_, work_->parts, work_->attached);
+  }
+
+  static std::set<std::string> attachedNames(const RobotState& state)
+  {
+    std::vector<const moveit::core::AttachedBody*> bodies;
+    state.getAttachedBodies(bodies);
+    std::set<std::string> names;
+    for (const moveit::core::AttachedBody* body : bodies)
+      names.insert(body->getName());
+    return names;
+  }
+
   bool sampleIsFree(double time)
   {
     place(time);
+    return partsAreFree(time);
+  }
+
+  bool stateIsFree(const RobotState& state, double time)
+  {
+    place(state);
+    return partsAreFree(time);
+  }
+
+  /// Checks the placed parts. If they collide, their contacts go into the result.
+  bool partsAreFree(double time)
+  {
     collision_detection::CollisionResult found;
     CollisionQuery query(request_, found, filter_, work_->pair);
     for (const Part& part : work_->parts)

@@ -1,3 +1,4 @@
+#include <array>
 #include <map>
 #include <mutex>
 #include <shared_mutex>
@@ -13,6 +14,45 @@ namespace gpu_planning_scene::detector
 {
 namespace
 {
+/// Numbers that change when MoveIt scales or pads a shape in place, which it does with the shapes of attached bodies.
+using Fingerprint = std::array<double, 8>;
+
+Fingerprint fingerprintOf(const shapes::Shape& shape)
+{
+  switch (shape.type)
+  {
+    case shapes::BOX:
+    {
+      const auto& size = static_cast<const shapes::Box&>(shape).size;
+      return {size[0], size[1], size[2]};
+    }
+    case shapes::SPHERE:
+      return {static_cast<const shapes::Sphere&>(shape).radius};
+    case shapes::CYLINDER:
+      return {static_cast<const shapes::Cylinder&>(shape).radius, static_cast<const shapes::Cylinder&>(shape).length};
+    case shapes::CONE:
+      return {static_cast<const shapes::Cone&>(shape).radius, static_cast<const shapes::Cone&>(shape).length};
+    case shapes::MESH:
+    {
+      const auto& mesh = static_cast<const shapes::Mesh&>(shape);
+      if (mesh.vertex_count == 0)
+        return {};
+      const double* const first = mesh.vertices;
+      const double* const last = first + 3 * (std::size_t{mesh.vertex_count} - 1);
+      return {static_cast<double>(mesh.vertex_count),
+              static_cast<double>(mesh.triangle_count),
+              first[0],
+              first[1],
+              first[2],
+              last[0],
+              last[1],
+              last[2]};
+    }
+    default:
+      return {};
+  }
+}
+
 class ShapeCache
 {
  public:
@@ -20,10 +60,11 @@ class ShapeCache
   {
     const std::shared_lock<std::shared_mutex> lock(mutex_);
     const auto found = shapes_.find(shape);
-    if (found != shapes_.end())
-      for (const auto& [its_scale, converted] : found->second)
-        if (its_scale == scale)
-          return converted;
+    if (found == shapes_.end() || found->second.fingerprint != fingerprintOf(*shape))
+      return nullptr;
+    for (const auto& [its_scale, converted] : found->second.scaled)
+      if (its_scale == scale)
+        return converted;
     return nullptr;
   }
 
@@ -32,12 +73,15 @@ class ShapeCache
   {
     const std::lock_guard<std::shared_mutex> lock(mutex_);
     forgetUnused();
-    auto& known = shapes_[shape];
-    for (const auto& [its_scale, earlier] : known)
+    Entry& known = shapes_[shape];
+    const Fingerprint fingerprint = fingerprintOf(*shape);
+    if (known.fingerprint != fingerprint)
+      known = {fingerprint, {}};
+    for (const auto& [its_scale, earlier] : known.scaled)
       if (its_scale == scale)
         return earlier;
-    known.emplace_back(scale, std::move(converted));
-    return known.back().second;
+    known.scaled.emplace_back(scale, std::move(converted));
+    return known.scaled.back().second;
   }
 
   void remove()
@@ -58,10 +102,14 @@ class ShapeCache
       entry = entry->first.expired() ? shapes_.erase(entry) : std::next(entry);
   }
 
-  using Scaled = std::vector<std::pair<double, CollisionShapePtr>>;
+  struct Entry
+  {
+    Fingerprint fingerprint = {};
+    std::vector<std::pair<double, CollisionShapePtr>> scaled;  // by scale
+  };
 
   std::shared_mutex mutex_;  // guards the members below; not held while a shape is converted
-  std::map<std::weak_ptr<const shapes::Shape>, Scaled, std::owner_less<>> shapes_;
+  std::map<std::weak_ptr<const shapes::Shape>, Entry, std::owner_less<>> shapes_;
   std::size_t calls_ = 0;
 };
 

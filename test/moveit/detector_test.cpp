@@ -229,6 +229,17 @@ TEST_F(Detector, GivesNoDistanceToAnOctreeWithoutOccupiedLeaves)
   EXPECT_FALSE(result.collision);
 }
 
+TEST_F(Detector, NoticesAShapeThatIsScaledInPlace)
+{
+  auto shape = std::make_shared<shapes::Box>(0.05, 0.05, 0.05);
+  add("box", shape, at(0.2, 0, 0));
+  EXPECT_FALSE(collides());
+  shape->scale(10.0);
+  env_->getWorld()->removeObject("box");
+  add("box", shape, at(0.2, 0, 0));
+  EXPECT_TRUE(collides());
+}
+
 TEST_F(Detector, CountsANegativePaddingAsNone)
 {
   add("cube", meshCube(0.2), at(0.15, 0.05, 0.05));
