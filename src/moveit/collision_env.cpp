@@ -1,6 +1,7 @@
 #include "moveit/collision_env.h"
 
 #include <algorithm>
+#include <atomic>
 #include <optional>
 #include <utility>
 
@@ -63,6 +64,25 @@ void addDistance(const CollisionRequest& request, const DistanceResult& found, C
   if (found.minimum_distance.distance < known.minimum_distance.distance)
     known.minimum_distance = found.minimum_distance;
   known.distances.insert(found.distances.begin(), found.distances.end());
+}
+/// A pair of parts of a distance request.
+struct Candidate
+{
+  double least;  // lower bound of the distance
+  const Part* a;
+  Part b;
+};
+
+void measureNearestFirst(std::vector<Candidate>& candidates, DistanceQuery& query)
+{
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.least < b.least; });
+  for (const Candidate& candidate : candidates)
+  {
+    if (query.isDone())
+      return;
+    query.measure(*candidate.a, candidate.b);
+  }
 }
 }  // namespace
 
@@ -242,25 +262,12 @@ void CollisionEnv::distanceSelf(const DistanceRequest& request, DistanceResult& 
   Workspace work;
   robot_->place(*updated, nullptr, work->parts, work->attached);
   const std::vector<Part>& parts = work->parts;
-  struct Candidate
-  {
-    double least;
-    std::size_t a;
-    std::size_t b;
-  };
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (std::size_t j = i + 1; j < parts.size(); ++j)
-      candidates.push_back({leastDistance(parts[i], parts[j]), i, j});
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.least < b.least; });
+      candidates.push_back({leastDistance(parts[i], parts[j]), &parts[i], parts[j]});
   DistanceQuery query(request, result, filter, work->pair);
-  for (const Candidate& candidate : candidates)
-  {
-    if (query.isDone())
-      break;
-    query.measure(parts[candidate.a], parts[candidate.b]);
-  }
+  measureNearestFirst(candidates, query);
 }
 
 void CollisionEnv::distanceRobot(const DistanceRequest& request, DistanceResult& result, const RobotState& state) const
@@ -269,23 +276,10 @@ void CollisionEnv::distanceRobot(const DistanceRequest& request, DistanceResult&
   const PairFilter filter(request.acm, request.active_components_only);
   Workspace work;
   robot_->place(*updated, request.active_components_only, work->parts, work->attached);
-  struct Candidate
-  {
-    double least;
-    const Part* part;
-    Part object;
-  };
   std::vector<Candidate> candidates;
   for (const Part& part : work->parts)
     world_->visitAll([&](const Part& object) { candidates.push_back({leastDistance(part, object), &part, object}); });
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.least < b.least; });
   DistanceQuery query(request, result, filter, work->pair);
-  for (const Candidate& candidate : candidates)
-  {
-    if (query.isDone())
-      break;
-    query.measure(*candidate.part, candidate.object);
-  }
+  measureNearestFirst(candidates, query);
 }
 }  // namespace gpu_planning_scene::detector

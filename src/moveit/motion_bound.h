@@ -10,8 +10,8 @@ namespace gpu_planning_scene::detector
 {
 /// How far each part of the robot can move, at most, while MoveIt interpolates from one state to another: metres over
 /// the whole motion. Over a fraction of the motion it is that fraction, because each joint moves at a constant speed.
-/// Infinite where there is no bound: planar joints that turn before they drive, and quaternions that are not
-/// normalised. `parts`: those of one of the states.
+/// Infinite where there is no bound: planar joints that turn before they drive, joints that follow a continuous joint
+/// past half a turn, and quaternions that are not normalised. `parts`: placed as in `from`.
 std::vector<double> displacementBounds(const moveit::core::RobotState& from, const moveit::core::RobotState& to,
                                        const std::vector<Part>& parts);
 }  // namespace gpu_planning_scene::detector
