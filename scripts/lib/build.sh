@@ -1,13 +1,21 @@
 # Sourced by the scripts: configures and builds.
 # shellcheck shell=bash
 
+# say_progress LOG: prints once a minute how many steps of the build are done.
+say_progress()
+{
+  while sleep 60; do
+    say "steps done: $(grep -oE '^\[[0-9]+/[0-9]+\]' "$1" | tail -1)"
+  done
+}
+
 # configure_and_build FOLDER CMAKE_OPTIONS...: shows the output only after a failure. If `target` is set, builds only
 # this target. The headers of FCL, OMPL and ROS take most of the time to compile, so the libraries are a unity build:
 # it reads each header once for twelve files. ccache is used where it is installed. Programs are not linked again if
 # only a shared library has changed.
 configure_and_build()
 {
-  local folder=$1 log="$1/build.log" launcher
+  local folder=$1 log="$1/build.log" launcher progress built=0
   shift
   launcher="$(command -v ccache || true)"
   # Otherwise ccache compiles every file that uses precompiled headers.
@@ -19,7 +27,13 @@ configure_and_build()
     tail -40 "$log" >&2
     die "CMake could not configure the package (above; all of it in ${log#"$repository"/})"
   fi
-  if ! run cmake --build "$folder" ${target:+--target "$target"} >> "$log" 2>&1; then
+  say_progress "$log" &
+  progress=$!
+  started+=("$progress")
+  disown  # otherwise bash reports its end
+  run cmake --build "$folder" ${target:+--target "$target"} >> "$log" 2>&1 || built=$?
+  stop "$progress"
+  if ((built != 0)); then
     grep -A 30 -m 1 '^FAILED' "$log" >&2 || tail -40 "$log" >&2
     die "the package does not build (above; all of it in ${log#"$repository"/})"
   fi
