@@ -7,7 +7,7 @@ foreach(source IN LISTS SOURCES)
   string(APPEND hashes "${hash}\n")
 endforeach()
 string(SHA256 hash "${hashes}")
-file(WRITE "${FILE}" "#include \"collision/filter/proof_sources.h\"
+file(WRITE "${FILE}" "#include \"collision/filter/proofs/proof_sources.h\"
 
 namespace gpu_planning_scene::core
 {

@@ -14,7 +14,7 @@
 #include "benchmark/statistics.h"
 #include "benchmark/truth.h"
 #include "collision/checkers/cpu_scene.h"
-#include "collision/filter/proof_worker.h"
+#include "collision/filter/proofs/proof_worker.h"
 #include "collision/parallel_for.h"
 #include "support/test_scenes.h"
 #include "tools/progress_bar.h"

@@ -4,8 +4,8 @@
 
 #include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
-#include "collision/filter/lane_buffers.h"
-#include "collision/filter/lane_kernel.h"
+#include "collision/filter/lanes/lane_buffers.h"
+#include "collision/filter/lanes/lane_kernel.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/parallel_for.h"
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "collision/filter/robot_proofs.h"
+#include "collision/filter/proofs/robot_proofs.h"
 #include "collision/problem/collision_problem.h"
 
 namespace gpu_planning_scene::core

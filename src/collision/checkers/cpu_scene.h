@@ -9,7 +9,7 @@
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/filter/lane_checker.h"
+#include "collision/filter/lanes/lane_checker.h"
 
 namespace gpu_planning_scene::core
 {

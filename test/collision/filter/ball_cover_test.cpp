@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "collision/exact/winding_number.h"
-#include "collision/filter/ball_cover.h"
-#include "collision/filter/shape_samples.h"
+#include "collision/filter/proofs/ball_cover.h"
+#include "collision/filter/proofs/shape_samples.h"
 #include "collision/geometry/primitive_solid.h"
 #include "collision/geometry/triangle_pair.h"
 #include "support/test_scenes.h"

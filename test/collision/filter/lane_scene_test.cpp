@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/filter/lane_buffers.h"
-#include "collision/filter/lane_kernel.h"
+#include "collision/filter/lanes/lane_buffers.h"
+#include "collision/filter/lanes/lane_kernel.h"
 #include "collision/filter/proven_scene.h"
 #include "support/repetitions.h"
 

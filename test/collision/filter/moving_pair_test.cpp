@@ -1,6 +1,6 @@
 // The displacement bound of points that several joints move.
 
-#include "collision/filter/moving_pair.h"
+#include "collision/filter/proofs/moving_pair.h"
 
 #include <random>
 

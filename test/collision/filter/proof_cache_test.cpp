@@ -1,6 +1,6 @@
 // Proofs from disk are those that were made. A proof that does not fit exactly is made again.
 
-#include "collision/filter/proof_cache.h"
+#include "collision/filter/proofs/proof_cache.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -13,8 +13,8 @@
 
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/filter/proof_sources.h"
-#include "collision/filter/robot_proofs.h"
+#include "collision/filter/proofs/proof_sources.h"
+#include "collision/filter/proofs/robot_proofs.h"
 
 namespace gpu_planning_scene::core
 {

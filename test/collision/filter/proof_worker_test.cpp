@@ -1,6 +1,6 @@
 // While and after the proofs of a robot are made in the background, checkers answer as the exact checker does.
 
-#include "collision/filter/proof_worker.h"
+#include "collision/filter/proofs/proof_worker.h"
 
 #include <algorithm>
 #include <chrono>

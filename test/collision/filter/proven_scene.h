@@ -8,7 +8,7 @@
 
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/filter/lane_scene.h"
+#include "collision/filter/lanes/lane_scene.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core

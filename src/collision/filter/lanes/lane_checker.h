@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "collision/exact/cpu_traversal.h"
+#include "collision/filter/lanes/decision_tally.h"
+#include "collision/filter/lanes/lane_buffers.h"
+#include "collision/filter/lanes/lane_kernel.h"
+#include "collision/filter/lanes/lane_scene.h"
+#include "collision/filter/proofs/proof_worker.h"
+#include "gpu_planning_scene/state_checker.h"
+
+namespace gpu_planning_scene::core
+{
+/// Checks blocks of up to eight states. Balls and tables prove most verdicts, for all states of a block at once. The
+/// exact checker decides the pairs that remain. So the verdicts are those of the exact checker.
+class LaneChecker
+{
+ public:
+  /// The results and the cost of the exact tests of a pair.
+  struct PairRecord
+  {
+    double hits = 0.0;  // collisions found
+    double cost = 1.0;  // steps, see CpuShapePair::Scratch
+  };
+
+  /// Work space of one thread.
+  struct Scratch
+  {
+    LaneBuffers buffers;
+    std::vector<float> margins;
+    std::vector<Eigen::Isometry3d> poses;  // of links
+    std::vector<std::uint8_t> known;       // of each link: whether its pose is set
+    std::vector<CpuTraversal::OpenPair> pairs;
+    std::vector<PairRecord> records;  // of each pair
+    std::vector<std::uint64_t> steps;
+    CpuTraversal::Scratch exact;
+    DecisionTally tally;
+  };
+
+  /// Whether a LaneChecker saves time for a problem. With many thousands of pairs it does not: the kernel tests each
+  /// pair of a link and an object, while the exact checker has a tree over the objects.
+  static bool suits(const CollisionProblem& problem);
+
+  /// `traversal` must outlive the checker.
+  LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_ptr<const CollisionProblem> problem,
+              std::shared_ptr<const CpuForest> forest, const CpuTraversal& traversal);
+
+  /// Whether there are proofs, so that `check` may be called. The first call starts to make them in the background. A
+  /// later call takes over the proofs that have been made since. One caller at a time.
+  ProofStage prepare();
+
+  /// Whether `check` may be called for a state.
+  bool takes(const double* state) const { return scene_->isWithinBounds(state); }
+
+  /// Checks `count` states (1 to lanes::kLanes rows) and sets rows `row` and following of `result`, which must be
+  /// initialised as free. `margins`: of each state, see CpuTraversal::firstCollision; null: no margins. The problem
+  /// must be valid for the states, and `takes` true. Thread-safe if each thread has its own scratch; states with and
+  /// without margins should have different ones, because the scratch learns which tests pay.
+  void check(const double* states, std::size_t count, std::size_t row, const double* const* margins, Scratch& scratch,
+             BatchResult& result) const;
+
+ private:
+  bool fillGiven(const double* states, std::size_t count, Scratch& scratch, float* given) const;
+  const float* kernelMargins(const double* const* margins, std::size_t count, Scratch& scratch) const;
+  double marginOf(std::uint32_t pair, const double* margins) const;
+  std::optional<BodyPair> decideOpenPairs(const double* state, std::uint32_t* open, std::size_t open_count,
+                                          const double* margins, Scratch& scratch) const;
+
+  std::shared_ptr<const RobotModel> robot_;
+  std::shared_ptr<const CollisionProblem> problem_;
+  std::shared_ptr<const CpuForest> forest_;
+  const CpuTraversal& traversal_;
+  std::shared_ptr<ProofJob> job_;  // null before the first call of prepare
+  std::shared_ptr<const RobotProofs> proofs_;
+  std::unique_ptr<const LaneScene> scene_;  // made with proofs_; null until there are proofs
+  lanes::Kernel kernel_;
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "collision/exact/cpu_forest.h"
+#include "collision/filter/lanes/lane_model.h"
+#include "collision/problem/collision_problem.h"
+
+namespace gpu_planning_scene::core
+{
+/// An object of the world in the form of the lane kernel.
+struct LaneObject
+{
+  lanes::Object object;
+  double padding;              ///< metres
+  double thickness;            ///< metres: the object contains a ball of this radius; 0: unknown
+  double far;                  ///< metres: its size, plus the distance of its frame from the origin of coordinates
+  Eigen::AlignedBox3d bounds;  ///< in the coordinates of the kernel; without limits for half-spaces
+};
+
+/// The world's instances, then its half-spaces. `origin`: of the kernel's coordinates, in the planning frame.
+std::vector<LaneObject> laneObjects(const CollisionProblem& problem, const CpuForest& forest,
+                                    const Eigen::Vector3d& origin);
+
+/// The indices of the objects in an order in which neighbours are near each other.
+std::vector<std::uint32_t> nearOrder(const std::vector<LaneObject>& objects);
+
+/// Writes the first three rows of a pose.
+void writePose(const Eigen::Isometry3d& pose, float* rows);
+}  // namespace gpu_planning_scene::core

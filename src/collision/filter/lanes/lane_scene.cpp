@@ -1,0 +1,436 @@
+#include "collision/filter/lanes/lane_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "collision/filter/lanes/lane_objects.h"
+#include "model/math_constants.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Isometry3d;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// The error bounds are derived in docs/error_bounds.md, "The lane kernel".
+constexpr double kUnit = 0x1p-24;               // rounding unit of float
+constexpr double kTurnError = 1.5e-6;           // of a vector of length 1 that a turning joint rotates
+constexpr double kProductError = 12.0 * kUnit;  // of a vector of length 1, by the product of two rotations
+constexpr double kSumError = 12.0 * kUnit;      // of a transformed point, times its largest coordinates
+constexpr double kDistanceError = 32.0 * kUnit;
+
+constexpr double kLargestAngle = 1e4;   // radians: a larger angle modulo 2 pi is not accurate
+constexpr double kLargestGiven = 32.0;  // metres: distance of a planar or floating joint's frame from the origin
+constexpr std::size_t kGroup = 8;       // world pairs of a group
+
+float above(double x)
+{
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::max());
+}
+
+float below(double x)
+{
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::lowest());
+}
+
+Matrix3d crossProductMatrix(const Vector3d& a)
+{
+  Matrix3d matrix;
+  matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return matrix;
+}
+
+void writeRotation(const Matrix3d& rotation, float* rows)
+{
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      rows[4 * row + column] = static_cast<float>(rotation(row, column));
+}
+
+void writeBall(const Vector3d& center, float radius, int place, lanes::Balls& balls)
+{
+  balls.x[place] = static_cast<float>(center.x());
+  balls.y[place] = static_cast<float>(center.y());
+  balls.z[place] = static_cast<float>(center.z());
+  balls.radius[place] = radius;
+}
+
+/// Upper bound of the distance, in metres, between the balls of two shapes if `inner` is inside `outer`. The balls of
+/// each shape contain its surface. A point of the inner surface is in a ball of `outer`, or it is in the uncovered
+/// layer of `outer` and so at most as far from a ball as the layer is deep. If `inner` contains a ball that is thicker
+/// than both layers, the centre of this ball is in balls of both shapes, and the distance is 0.
+double openLayer(const BallCover& outer, const BallCover& inner)
+{
+  return inner.thickness > std::max(outer.layer, inner.layer) ? 0.0 : outer.layer;
+}
+
+template <class T>
+lanes::Array<T> arrayOf(const std::vector<T>& values)
+{
+  return {values.data(), static_cast<std::uint32_t>(values.size())};
+}
+}  // namespace
+
+LaneScene::LaneScene(std::shared_ptr<const RobotModel> robot, const CollisionProblem& problem, const CpuForest& forest,
+                     std::shared_ptr<const RobotProofs> proofs)
+  : robot_(std::move(robot)), proofs_(std::move(proofs)), origin_(problem.origin)
+{
+  addFrames();
+  for (std::size_t i = 0; i < problem.robot.size(); ++i)
+    addInstance(problem.robot[i], *proofs_->covers[i]);
+  addClusters();
+  addSelfPairs(problem);
+  addWorld(problem, forest);
+  model_ = {robot_->variables().size(), arrayOf(frames_),      arrayOf(instances_),  arrayOf(objects_),
+            arrayOf(tables_),           arrayOf(clusters_),    arrayOf(self_pairs_), arrayOf(self_groups_),
+            arrayOf(world_pairs_),      arrayOf(world_groups_)};
+}
+
+/// Links that are rigidly connected share a frame.
+void LaneScene::addFrames()
+{
+  largest_.assign(robot_->variables().size(), std::numeric_limits<double>::max());
+  for (std::size_t link = 0; link < robot_->links().size(); ++link)
+  {
+    const int number = robot_->links()[link].parent_joint;
+    const Joint fixed;
+    const Joint& joint = number < 0 ? fixed : robot_->joints()[static_cast<std::size_t>(number)];
+    const bool has_parent = joint.parent_link >= 0;
+    const auto parent = static_cast<std::size_t>(joint.parent_link);
+    Isometry3d base = Isometry3d::Identity();
+    base.translation() = -origin_;
+    const Isometry3d origin = (has_parent ? in_frame_[parent] : base) * joint.origin;
+    if (joint.type == JointType::Fixed && has_parent)
+    {
+      frame_of_link_.push_back(frame_of_link_[parent]);
+      in_frame_.push_back(origin);
+      continue;
+    }
+    frame_of_link_.push_back(addFrame(joint, static_cast<int>(link), has_parent ? frame_of_link_[parent] : -1, origin));
+    in_frame_.push_back(Isometry3d::Identity());
+  }
+}
+
+/// Adds the frame that a joint moves. `origin`: the joint's frame in the parent frame.
+int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry3d& origin)
+{
+  lanes::Frame frame{};
+  frame.kind = lanes::FrameKind::Fixed;
+  frame.parent = parent;
+  frame.variable = joint.first_variable;
+  frame.multiplier = joint.multiplier;
+  frame.offset = joint.offset;
+  writePose(origin, frame.constant);
+  const FrameError before = parent < 0 ? FrameError() : frame_errors_[static_cast<std::size_t>(parent)];
+  double step = origin.translation().norm();
+  double turn = 4.0 * kUnit;
+  const Matrix3d rotation = origin.linear();
+  if (joint.type == JointType::Revolute || joint.type == JointType::Continuous)
+  {
+    frame.kind = lanes::FrameKind::Revolute;
+    const Matrix3d along = joint.axis * joint.axis.transpose();
+    writeRotation(rotation * along, frame.constant);
+    writeRotation(rotation * (Matrix3d::Identity() - along), frame.first);
+    writeRotation(rotation * crossProductMatrix(joint.axis), frame.second);
+    double& largest = largest_[static_cast<std::size_t>(joint.first_variable)];
+    largest = std::min(largest, (kLargestAngle - std::abs(joint.offset)) / std::max(1.0, std::abs(joint.multiplier)));
+    turn = kTurnError;
+  }
+  else if (joint.type == JointType::Prismatic)
+  {
+    frame.kind = lanes::FrameKind::Prismatic;
+    Isometry3d slide = Isometry3d::Identity();
+    slide.translation() = rotation * joint.axis;
+    writePose(slide, frame.first);
+    const Variable& variable = robot_->variables()[static_cast<std::size_t>(joint.first_variable)];
+    double& largest = largest_[static_cast<std::size_t>(joint.first_variable)];
+    largest = std::min(largest, std::max(std::abs(variable.lower), std::abs(variable.upper)) + 1e-6);
+    step += std::abs(joint.multiplier) * largest + std::abs(joint.offset);
+  }
+  FrameError error{step, before.far + step, before.rotation + turn + kProductError,
+                   before.position + before.rotation * step + kSumError * (before.far + step)};
+  const bool given = joint.type == JointType::Planar || joint.type == JointType::Floating;
+  if (given)
+  {
+    frame.kind = lanes::FrameKind::Given;
+    frame.parent = -1;
+    error = {kLargestGiven, kLargestGiven, kUnit * 4.0, kSumError * kLargestGiven};
+  }
+  has_given_ = has_given_ || given;
+  link_of_given_.push_back(given ? link : -1);
+  frames_.push_back(frame);
+  frame_errors_.push_back(error);
+  return static_cast<int>(frames_.size()) - 1;
+}
+
+static_assert(kCoverBalls.size() == lanes::kLevels + 1, "levels of the kernel");
+
+void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cover)
+{
+  const auto link = static_cast<std::size_t>(instance.link);
+  const Isometry3d pose = in_frame_[link] * instance.pose;
+  lanes::Instance made{};
+  made.frame = frame_of_link_[link];
+  made.same_centers = true;
+  double far = 0.0;
+  const auto is_same = [](const CoverBall& ball) { return ball.witness == ball.center; };
+  for (std::size_t level = 1; level < cover.levels.size(); ++level)
+  {
+    const std::vector<CoverBall>& balls = cover.levels[level];
+    made.same_centers = made.same_centers && std::all_of(balls.begin(), balls.end(), is_same);
+    const int first = lanes::kLevelBegin[level - 1];
+    const int count = lanes::kLevelBegin[level] - first;
+    for (int i = 0; i < count; ++i)
+    {
+      const CoverBall& ball = balls[std::min<std::size_t>(static_cast<std::size_t>(i), balls.size() - 1)];
+      writeBall(pose * ball.center, above(ball.outer), first + i, made.outer_balls);
+      writeBall(pose * ball.witness, below(ball.inner), first + i, made.inner_balls);
+      far = std::max({far, (pose * ball.center).norm(), (pose * ball.witness).norm()});
+    }
+  }
+  const CoverBall& enclosing = cover.levels[0].front();
+  const Vector3d center = pose * enclosing.center;
+  for (int axis = 0; axis < 3; ++axis)
+    made.center[axis] = static_cast<float>(center[axis]);
+  made.outer = above(enclosing.outer);
+  made.inner = is_same(enclosing) ? below(enclosing.inner) : -1.0F;
+  far = std::max(far, center.norm());
+  instances_.push_back(made);
+  const FrameError& frame = frame_errors_[static_cast<std::size_t>(made.frame)];
+  instance_errors_.push_back({frame.far + far, frame.position + frame.rotation * far + kSumError * (frame.far + far)});
+}
+
+double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
+{
+  const InstanceError& first = instance_errors_[a];
+  const InstanceError& second = instance_errors_[b];
+  const double lengths = first.far + second.far + static_cast<double>(instances_[a].outer + instances_[b].outer);
+  return first.position + second.position + kDistanceError * lengths;
+}
+
+/// Finds clusters. A cluster is all instances that a frame moves, if a ball around the origin of the frame contains
+/// them and is not much larger than the largest instance. Pairs within a cluster are always tested, so a cluster of
+/// most of the robot would be of no use.
+void LaneScene::addClusters()
+{
+  constexpr double kLargestCluster = 3.0;  // radius relative to the largest instance
+  struct Part
+  {
+    double radius = 0.0;
+    double largest = 0.0;
+    std::size_t instances = 0;
+  };
+  std::vector<Part> parts(frames_.size());
+  for (const lanes::Instance& instance : instances_)
+  {
+    Part& part = parts[static_cast<std::size_t>(instance.frame)];
+    const auto outer = static_cast<double>(instance.outer);
+    part.radius =
+        std::max(part.radius, Eigen::Map<const Eigen::Vector3f>(instance.center).cast<double>().norm() + outer);
+    part.largest = std::max(part.largest, outer);
+    ++part.instances;
+  }
+  for (std::size_t f = frames_.size(); f-- > 0;)  // parents have smaller numbers
+    if (const int parent = frames_[f].parent; parent >= 0 && parts[f].instances > 0)
+    {
+      Part& part = parts[static_cast<std::size_t>(parent)];
+      part.radius = std::max(part.radius, frame_errors_[f].step + parts[f].radius);
+      part.largest = std::max(part.largest, parts[f].largest);
+      part.instances += parts[f].instances;
+    }
+  const std::size_t most = instances_.size() / 2;
+  for (std::size_t f = 0; f < frames_.size(); ++f)
+  {
+    const int parent = frames_[f].parent;
+    int cluster = parent < 0 ? -1 : cluster_of_frame_[static_cast<std::size_t>(parent)];
+    if (cluster < 0 && parts[f].instances > 1 && parts[f].instances <= most &&
+        parts[f].radius <= kLargestCluster * parts[f].largest)
+    {
+      cluster = static_cast<int>(clusters_.size());
+      clusters_.push_back({static_cast<int>(f), above(parts[f].radius * (1.0 + 1e-6))});
+    }
+    cluster_of_frame_.push_back(cluster);
+  }
+}
+
+/// The number of the centre near which an instance stays.
+std::uint32_t LaneScene::centerOf(std::uint32_t instance) const
+{
+  const int cluster = cluster_of_frame_[static_cast<std::size_t>(instances_[instance].frame)];
+  return cluster < 0 ? instance : static_cast<std::uint32_t>(instances_.size()) + static_cast<std::uint32_t>(cluster);
+}
+
+void LaneScene::addSelfPair(std::size_t p, const CollisionProblem& problem)
+{
+  const auto [a, b] = problem.self_pairs[p];
+  const double error = selfError(a, b);
+  const BallCover& cover_a = *proofs_->covers[a];
+  const BallCover& cover_b = *proofs_->covers[b];
+  const double layer = std::max(openLayer(cover_a, cover_b), openLayer(cover_b, cover_a));
+  self_pairs_.push_back({a, b, {above(error), above(layer + error), below(-error)}});
+  pairs_.push_back({a, b});
+  self_pair_of_.push_back(p);
+}
+
+/// Pairs with a table come first, see lanes::Model. The others are sorted by the centres of their instances.
+void LaneScene::addSelfPairs(const CollisionProblem& problem)
+{
+  std::vector<std::size_t> others;
+  for (std::size_t p = 0; p < problem.self_pairs.size(); ++p)
+  {
+    const JointTable* table = proofs_->tables[p].get();
+    if (!table)
+    {
+      others.push_back(p);
+      continue;
+    }
+    lanes::Table made{};
+    made.pair = static_cast<std::uint32_t>(self_pairs_.size());
+    made.variables = static_cast<int>(table->variables.size());
+    for (std::size_t k = 0; k < table->variables.size(); ++k)
+    {
+      const TableVariable& variable = table->variables[k];
+      made.variable[k] = {variable.variable, variable.wraps, variable.lower, 1.0 / variable.cell_width, variable.cells};
+    }
+    made.cells = table->cells.data();
+    tables_.push_back(made);
+    addSelfPair(p, problem);
+  }
+  const auto centers = [&](std::size_t p)
+  {
+    const auto [a, b] = problem.self_pairs[p];
+    return std::minmax({centerOf(a), centerOf(b)});
+  };
+  std::stable_sort(others.begin(), others.end(), [&](std::size_t p, std::size_t q) { return centers(p) < centers(q); });
+  const auto first = static_cast<std::uint32_t>(self_pairs_.size());
+  for (const std::size_t p : others)
+    addSelfPair(p, problem);
+  addSelfGroups(first);
+}
+
+/// Groups the self pairs from `first` on.
+void LaneScene::addSelfGroups(std::uint32_t first)
+{
+  const auto instances = static_cast<std::uint32_t>(instances_.size());
+  struct Placed
+  {
+    InstanceError error;
+    double radius;
+  };
+  const auto placed = [&](std::uint32_t center)
+  {
+    if (center < instances)
+      return Placed{instance_errors_[center], static_cast<double>(instances_[center].outer)};
+    const lanes::Cluster& cluster = clusters_[center - instances];
+    const FrameError& frame = frame_errors_[static_cast<std::size_t>(cluster.frame)];
+    return Placed{{frame.far, frame.position}, static_cast<double>(cluster.radius)};
+  };
+  for (std::uint32_t p = first; p < self_pairs_.size();)
+  {
+    const auto centers = std::minmax({centerOf(self_pairs_[p].a), centerOf(self_pairs_[p].b)});
+    std::uint32_t end = p;
+    while (end < self_pairs_.size() &&
+           std::minmax({centerOf(self_pairs_[end].a), centerOf(self_pairs_[end].b)}) == centers)
+      ++end;
+    const Placed a = placed(centers.first);
+    const Placed b = placed(centers.second);
+    const double error =
+        a.error.position + b.error.position + kDistanceError * (a.error.far + b.error.far + a.radius + b.radius);
+    const bool is_tested = end - p > 1 && centers.first != centers.second;
+    self_groups_.push_back({{centers.first, centers.second},
+                            is_tested ? above(a.radius + b.radius + error) : std::numeric_limits<float>::infinity(),
+                            p,
+                            end});
+    p = end;
+  }
+}
+
+void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& forest)
+{
+  const std::vector<LaneObject> objects = laneObjects(problem, forest, origin_);
+  for (const LaneObject& object : objects)
+    objects_.push_back(object.object);
+  const std::vector<std::uint32_t> order = nearOrder(objects);
+  const auto is_checked = [&](std::size_t instance, std::size_t object)
+  {
+    return object < problem.world.size()
+               ? problem.world_pairs[instance * problem.world.size() + object] != 0
+               : problem.half_space_pairs[instance * problem.half_spaces.size() + object - problem.world.size()] != 0;
+  };
+  for (std::uint32_t b = 0; b < instances_.size(); ++b)
+  {
+    const BallCover& cover = *proofs_->covers[b];
+    Eigen::AlignedBox3d bounds;
+    const auto end_group = [&](std::uint32_t first)
+    {
+      const auto end = static_cast<std::uint32_t>(world_pairs_.size());
+      if (first == end)
+        return;
+      lanes::WorldGroup group{b, first, end, {}, {}};
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        group.center[axis] = static_cast<float>(bounds.center()[axis]);
+        const double rounding = 4.0 * kUnit * (std::abs(bounds.center()[axis]) + 0.5 * bounds.sizes()[axis]);
+        group.half[axis] = above(0.5 * bounds.sizes()[axis] + rounding);
+      }
+      world_groups_.push_back(group);
+      bounds.setEmpty();
+    };
+    auto first = static_cast<std::uint32_t>(world_pairs_.size());
+    for (const std::uint32_t o : order)
+    {
+      if (!is_checked(b, o))
+        continue;
+      const LaneObject& object = objects[o];
+      const double required = problem.robot[b].padding + object.padding;
+      const double error =
+          instance_errors_[b].position +
+          kDistanceError * (instance_errors_[b].far + object.far + required + static_cast<double>(instances_[b].outer));
+      const double layer = object.thickness > cover.layer ? 0.0 : cover.layer;
+      const lanes::Thresholds thresholds = {above(required + error), above(required + layer + error),
+                                            below(required - error)};
+      const Vector3d growth = Vector3d::Constant(static_cast<double>(thresholds.enclosing));
+      bounds.extend(object.bounds.min() - growth);
+      bounds.extend(object.bounds.max() + growth);
+      world_pairs_.push_back({b, o, thresholds});
+      pairs_.push_back({b, static_cast<std::uint32_t>(problem.robot.size()) + o});
+      if (world_pairs_.size() - first == kGroup)
+      {
+        end_group(first);
+        first = static_cast<std::uint32_t>(world_pairs_.size());
+      }
+    }
+    end_group(first);
+  }
+}
+
+bool LaneScene::isWithinBounds(const double* state) const
+{
+  for (std::size_t v = 0; v < largest_.size(); ++v)
+    if (!(std::abs(state[v]) <= largest_[v]))
+      return false;
+  return true;
+}
+
+bool LaneScene::fillGiven(const Isometry3d* link_poses, int lane, float* given) const
+{
+  for (std::size_t f = 0; f < frames_.size(); ++f)
+  {
+    if (link_of_given_[f] < 0)
+      continue;
+    Isometry3d pose = link_poses[link_of_given_[f]];
+    pose.translation() -= origin_;
+    if (!(pose.translation().norm() <= kLargestGiven))
+      return false;
+    float rows[12];
+    writePose(pose, rows);
+    for (std::size_t k = 0; k < 12; ++k)
+      given[(f * 12 + k) * lanes::kLanes + static_cast<std::size_t>(lane)] = rows[k];
+  }
+  return true;
+}
+}  // namespace gpu_planning_scene::core

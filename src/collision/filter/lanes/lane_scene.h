@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "collision/exact/cpu_forest.h"
+#include "collision/exact/cpu_traversal.h"
+#include "collision/filter/lanes/lane_model.h"
+#include "collision/filter/proofs/robot_proofs.h"
+#include "collision/problem/collision_problem.h"
+#include "gpu_planning_scene/robot_model.h"
+
+namespace gpu_planning_scene::core
+{
+/// A collision problem in the form of the lane kernel, with thresholds that include the kernel's rounding errors
+/// (docs/error_bounds.md). Immutable.
+class LaneScene
+{
+ public:
+  LaneScene(std::shared_ptr<const RobotModel> robot, const CollisionProblem& problem, const CpuForest& forest,
+            std::shared_ptr<const RobotProofs> proofs);
+
+  const lanes::Model& model() const { return model_; }
+
+  /// Whether the error bounds hold for a state: no value is too large for float arithmetic.
+  bool isWithinBounds(const double* state) const;
+
+  /// Whether some frames are of kind Given. If so, fillGiven must be called before the kernel.
+  bool hasGivenFrames() const { return has_given_; }
+
+  /// Sets the poses of the frames of kind Given in one lane, see lanes::Scratch. `link_poses`: of the lane's state.
+  /// Returns false if a frame is too far away for float arithmetic.
+  bool fillGiven(const Eigen::Isometry3d* link_poses, int lane, float* given) const;
+
+  /// The instances of a pair of the kernel.
+  const CpuTraversal::InstancePair& instancesOf(std::uint32_t pair) const { return pairs_[pair]; }
+  std::size_t pairCount() const { return pairs_.size(); }
+
+  /// The place of a kernel's self pair in CollisionProblem::self_pairs.
+  std::size_t selfPairOf(std::uint32_t pair) const { return self_pair_of_[pair]; }
+
+ private:
+  /// Error bounds of the kernel for a frame, in metres.
+  struct FrameError
+  {
+    double step = 0.0;      // largest distance of the frame's origin from the origin of its parent
+    double far = 0.0;       // largest distance of the frame's origin from the origin of coordinates
+    double rotation = 0.0;  // of a rotated vector of length 1
+    double position = 0.0;  // of the frame's origin
+  };
+
+  /// Error bounds for the centres of an instance's balls, in metres.
+  struct InstanceError
+  {
+    double far = 0.0;  // largest distance of a centre from the origin of coordinates
+    double position = 0.0;
+  };
+
+  void addFrames();
+  int addFrame(const Joint& joint, int link, int parent, const Eigen::Isometry3d& origin);
+  void addInstance(const ShapeInstance& instance, const BallCover& cover);
+  void addClusters();
+  void addSelfPairs(const CollisionProblem& problem);
+  void addSelfPair(std::size_t p, const CollisionProblem& problem);
+  void addSelfGroups(std::uint32_t first);
+  std::uint32_t centerOf(std::uint32_t instance) const;
+  void addWorld(const CollisionProblem& problem, const CpuForest& forest);
+  double selfError(std::uint32_t a, std::uint32_t b) const;
+
+  std::shared_ptr<const RobotModel> robot_;
+  std::shared_ptr<const RobotProofs> proofs_;
+  Eigen::Vector3d origin_;  // of the kernel's coordinates, in the planning frame
+
+  std::vector<int> frame_of_link_;
+  std::vector<Eigen::Isometry3d> in_frame_;  // of each link: its pose in its frame
+  std::vector<int> link_of_given_;           // of each frame: its link if it is of kind Given, else -1
+  bool has_given_ = false;
+  std::vector<double> largest_;  // of each variable, see isWithinBounds
+  std::vector<FrameError> frame_errors_;
+  std::vector<InstanceError> instance_errors_;
+
+  std::vector<lanes::Frame> frames_;
+  std::vector<lanes::Instance> instances_;
+  std::vector<lanes::Object> objects_;
+  std::vector<lanes::Table> tables_;
+  std::vector<lanes::Cluster> clusters_;
+  std::vector<int> cluster_of_frame_;  // -1: none
+  std::vector<lanes::SelfPair> self_pairs_;
+  std::vector<lanes::SelfGroup> self_groups_;
+  std::vector<lanes::WorldPair> world_pairs_;
+  std::vector<lanes::WorldGroup> world_groups_;
+  std::vector<CpuTraversal::InstancePair> pairs_;
+  std::vector<std::size_t> self_pair_of_;
+  lanes::Model model_ = {};
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,160 @@
+#include "collision/filter/proofs/proof_worker.h"
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/resource.h>
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr int kNice = 5;  // of the threads that make proofs, added to that of the process
+
+/// Lowers the priority of this thread and of the threads that it starts: checks come first. The thread may have been
+/// started by a real-time thread, whose policy it then has.
+void lowerPriority()
+{
+  const sched_param normal{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &normal);
+  constexpr int kThisThread = 0;  // on Linux
+  setpriority(PRIO_PROCESS, kThisThread, getpriority(PRIO_PROCESS, kThisThread) + kNice);
+}
+}  // namespace
+
+/// A thread that makes proofs, one job after the other.
+class ProofWorker
+{
+ public:
+  static ProofWorker& instance()
+  {
+    static ProofWorker worker;
+    return worker;
+  }
+
+  ~ProofWorker()
+  {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ending_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable())
+      thread_.join();
+  }
+  ProofWorker(const ProofWorker&) = delete;
+  ProofWorker& operator=(const ProofWorker&) = delete;
+
+  /// `makes` true: missing proofs are made. False: the job gets proofs only if none is missing.
+  std::shared_ptr<ProofJob> add(std::shared_ptr<const RobotModel> robot,
+                                std::shared_ptr<const CollisionProblem> problem,
+                                std::shared_ptr<const CpuForest> forest, bool makes)
+  {
+    auto job = std::make_shared<ProofJob>();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      tasks_.push_back({job, std::move(robot), std::move(problem), std::move(forest), makes});
+      try
+      {
+        if (!thread_.joinable())
+          thread_ = std::thread([this] { work(); });
+      }
+      catch (const std::system_error&)
+      {
+        tasks_.clear();  // without a thread there are no proofs, and the exact checker decides all states
+      }
+    }
+    changed_.notify_all();
+    return job;
+  }
+
+  void wait()
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return tasks_.empty() && !busy_; });
+  }
+
+ private:
+  struct Task
+  {
+    std::weak_ptr<ProofJob> job;
+    std::shared_ptr<const RobotModel> robot;
+    std::shared_ptr<const CollisionProblem> problem;
+    std::shared_ptr<const CpuForest> forest;
+    bool makes;
+  };
+
+  ProofWorker() = default;
+
+  void work()
+  {
+    lowerPriority();
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (true)
+    {
+      changed_.wait(lock, [this] { return ending_ || !tasks_.empty(); });
+      if (ending_)
+        return;
+      Task task = std::move(tasks_.front());
+      tasks_.pop_front();
+      busy_ = true;
+      lock.unlock();
+      const auto is_stopped = [&] { return ending_ || task.job.expired(); };
+      const auto publish = [&](RobotProofs proofs)
+      {
+        if (const std::shared_ptr<ProofJob> job = task.job.lock())
+          std::atomic_store(&job->proofs_, std::make_shared<const RobotProofs>(std::move(proofs)));
+      };
+      try
+      {
+        if (task.makes)
+          prover_.prove(*task.robot, *task.problem, task.forest, ProofCache::ofUser(), publish, is_stopped);
+        else
+          prover_.load(*task.robot, *task.problem, task.forest, ProofCache::ofUser(), publish, is_stopped);
+      }
+      catch (const std::exception&)
+      {
+        // Without proofs, the exact checker decides all states.
+      }
+      task = {};  // the last references to large objects may end here, not under the lock
+      lock.lock();
+      busy_ = false;
+      changed_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;  // guards the tasks and busy_
+  std::condition_variable changed_;
+  std::deque<Task> tasks_;
+  bool busy_ = false;
+  std::atomic<bool> ending_{false};
+  RobotProver prover_;  // used by the thread only
+  std::thread thread_;
+};
+
+std::shared_ptr<ProofJob> proveInBackground(std::shared_ptr<const RobotModel> robot,
+                                            std::shared_ptr<const CollisionProblem> problem,
+                                            std::shared_ptr<const CpuForest> forest)
+{
+  return ProofWorker::instance().add(std::move(robot), std::move(problem), std::move(forest), true);
+}
+
+std::shared_ptr<ProofJob> loadProofsInBackground(std::shared_ptr<const RobotModel> robot,
+                                                 std::shared_ptr<const CollisionProblem> problem,
+                                                 std::shared_ptr<const CpuForest> forest)
+{
+  return ProofWorker::instance().add(std::move(robot), std::move(problem), std::move(forest), false);
+}
+
+void waitForProofs()
+{
+  ProofWorker::instance().wait();
+}
+}  // namespace gpu_planning_scene::core

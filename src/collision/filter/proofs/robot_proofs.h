@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collision/exact/cpu_forest.h"
+#include "collision/filter/proofs/ball_cover.h"
+#include "collision/filter/proofs/joint_table.h"
+#include "collision/filter/proofs/proof_cache.h"
+#include "collision/filter/proofs/proof_key.h"
+#include "collision/problem/collision_problem.h"
+#include "gpu_planning_scene/robot_model.h"
+
+namespace gpu_planning_scene::core
+{
+/// The proofs about a robot and the objects that it carries. They do not depend on the world. Immutable.
+struct RobotProofs
+{
+  std::vector<std::shared_ptr<const BallCover>> covers;   ///< one per robot instance of the problem
+  std::vector<std::shared_ptr<const JointTable>> tables;  ///< one per self pair; null: none, or not made yet
+  bool has_all_tables = false;                            ///< no table is still to be made
+};
+
+/// The proofs that are available.
+enum class ProofStage
+{
+  None,
+  Covers,  ///< all covers, and the tables that needed no work
+  All
+};
+
+/// Makes the proofs of consecutive problems, for any robots. Covers and tables are kept as long as their trees are in
+/// use. One caller at a time.
+class RobotProver
+{
+ public:
+  /// Receives the proofs.
+  using Publish = std::function<void(RobotProofs)>;
+  /// The work ends early if this function returns true. Several threads call it, between parts of the work that take up
+  /// to a second.
+  using Stopped = std::function<bool()>;
+
+  /// Publishes the proofs of a problem if all of them are known or in the cache; otherwise nothing. Takes milliseconds.
+  void load(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
+            const ProofCache& cache, const Publish& publish, const Stopped& stopped);
+
+  /// Takes proofs from the cache, makes the missing ones on all cores, and stores them in the cache. This takes seconds
+  /// for a new robot. Publishes as soon as it has all covers, with the tables that are known or in the cache. If tables
+  /// are missing, it publishes again when they are made.
+  void prove(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
+             const ProofCache& cache, const Publish& publish, const Stopped& stopped);
+
+ private:
+  struct KnownShape
+  {
+    std::weak_ptr<const CpuTree> tree;
+    ShapeHash hash;
+    std::shared_ptr<const BallCover> cover;  // null: neither loaded nor made yet
+    std::optional<SolidDepth> depth;         // only if a cover or a table of the shape was made
+  };
+  /// One side of a pair with a table.
+  struct Side
+  {
+    std::weak_ptr<const CpuTree> tree;
+    int link;
+    Eigen::Isometry3d pose;
+  };
+  struct KnownTable
+  {
+    std::weak_ptr<const RobotModel> robot;
+    std::array<Side, 2> sides;
+    std::shared_ptr<const JointTable> table;  // null: the pair has none
+  };
+  /// A self pair whose table is neither known nor in the cache.
+  struct MissingTable
+  {
+    std::size_t pair;
+    std::string key;
+  };
+  /// The proofs that are known or in the cache.
+  struct Found
+  {
+    RobotProofs proofs;
+    std::vector<std::shared_ptr<KnownShape>> shapes;  // of each instance
+    std::vector<MissingTable> missing;
+  };
+
+  void forgetUnused();
+  std::shared_ptr<KnownShape> shape(const std::shared_ptr<const CpuTree>& tree, double sagitta,
+                                    const ProofCache& cache);
+  static void makeCover(KnownShape& shape, const CpuTree& tree, double sagitta, const ProofCache& cache);
+  const KnownTable* known(const RobotModel& robot, const std::array<Side, 2>& sides) const;
+  void findTables(const RobotModel& robot, const CollisionProblem& problem, const CpuForest& forest,
+                  const ProofCache& cache, Found& found);
+  void makeTables(const RobotModel& robot, const CollisionProblem& problem,
+                  const std::shared_ptr<const CpuForest>& forest, const ProofCache& cache, Found& found,
+                  const Stopped& stopped);
+
+  std::vector<std::shared_ptr<KnownShape>> shapes_;
+  std::vector<KnownTable> tables_;
+};
+}  // namespace gpu_planning_scene::core
