@@ -219,6 +219,7 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
   bool has_plane = false;
   for (std::size_t body = 0; body < poses.size(); ++body)
   {
+    const std::size_t begin = drawing.vertices.size();
     const BodyColor color = red.count(body) != 0 ? collidingColor(scene, body) : bodyColor(scene, body);
     for (const PlacedShape& shape : bodyShapes(scene, body))
     {
@@ -231,10 +232,14 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
       else
         painter.addMesh(*tessellations.of(shape.shape), pose, color);
     }
+    const std::size_t end = drawing.vertices.size();
+    const bool is_object = body >= links && body < links + scene.objects.size();
+    if (red.count(body) != 0 && !is_object)
+      drawing.colliding.push_back({begin, end});
     if (body < links)
-      drawing.links_end = drawing.vertices.size();
-    if (body < links + scene.objects.size())
-      drawing.objects_end = drawing.vertices.size();
+      drawing.links_end = end;
+    if (body < links || is_object)
+      drawing.objects_end = end;
   }
   drawing.bodies_end = drawing.vertices.size();
   const Shape dot = Sphere{0.5 * contactDiameter(scene, poses, colliding, near)};

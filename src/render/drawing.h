@@ -64,6 +64,7 @@ struct Drawing
   std::size_t objects_end = 0;
   std::size_t bodies_end = 0;
   std::size_t contacts_end = 0;
+  std::vector<std::array<std::size_t, 2>> colliding;  ///< begin and end of each link or attached object that collides
   Floor floor;
 };
 

@@ -263,10 +263,14 @@ Pixels GlPainter::roles(const Camera& camera, int width, int height, double near
   aim(camera, width, height);
   glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 1.0F, 0.0F, 1.0F, 1.0F);
+  for (const auto& [begin, end] : drawing_.colliding)
+    drawRange(begin, end);
+  // The colliding parts are drawn again, at the same depth, so their pixels keep their colour.
   glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 1.0F, 0.0F, 0.0F, 1.0F);
   drawRange(0, drawing_.links_end);
   drawRange(drawing_.objects_end, drawing_.bodies_end);
-  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 0.0F, 1.0F, 1.0F);
+  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 0.0F, 0.0F, 1.0F);
   drawRange(drawing_.links_end, drawing_.objects_end);
   glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 1.0F, 0.0F, 1.0F);
   pullContacts(camera, near_surface);

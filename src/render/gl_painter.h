@@ -24,8 +24,8 @@ class GlPainter
   /// are drawn in full; contact points farther behind are drawn faintly.
   Pixels picture(const Camera& camera, int width, int height, double near_surface);
 
-  /// A picture of the visible roles: red pixels show the robot, green pixels its contact points, blue pixels objects.
-  /// All other pixels are black.
+  /// A picture of the visible roles. The red channel shows the robot, the green channel its contact points, the blue
+  /// channel its links and attached objects that collide. All other pixels are black.
   Pixels roles(const Camera& camera, int width, int height, double near_surface);
 
  private:

@@ -61,13 +61,15 @@ double countOf(const Pixels& pixels, std::size_t channel)
 }
 }  // namespace
 
-Camera clearestView(const PlanningScene& scene, const double* state, const std::vector<Eigen::Vector3d>& contact_points,
-                    const Eigen::Vector3d& up, const std::string& device)
+Camera clearestView(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
+                    const std::vector<Eigen::Vector3d>& contact_points, const Eigen::Vector3d& up,
+                    const std::string& device)
 {
   const std::vector<Camera> views = viewsOf(scene, state, up);
-  const Drawing drawing = drawingOf(scene, state, {}, contact_points, up);
+  const Drawing drawing = drawingOf(scene, state, colliding, contact_points, up);
   std::vector<double> robot;
   std::vector<double> contacts;
+  std::vector<double> colliding_parts;
   GlThread thread(device);
   thread.run(
       [&]
@@ -78,14 +80,15 @@ Camera clearestView(const PlanningScene& scene, const double* state, const std::
           const Pixels pixels = painter.roles(view, kTrialWidth, kTrialHeight, nearSurface(scene, state));
           robot.push_back(countOf(pixels, 0));
           contacts.push_back(countOf(pixels, 1));
+          colliding_parts.push_back(countOf(pixels, 2));
         }
       });
-  // The robot and the contacts have equal weight. Each is compared with the view that shows most of it. A view that
-  // shows half of the contacts is good enough.
-  const double most_robot = std::max(1.0, *std::max_element(robot.begin(), robot.end()));
-  const double most_contacts = std::max(1.0, *std::max_element(contacts.begin(), contacts.end()));
+  // The robot, its colliding parts and the contacts have equal weight. Each is compared with the view that shows most
+  // of it. A view that shows half of the contacts is good enough.
+  const auto share = [](const std::vector<double>& pixels, std::size_t view)
+  { return pixels[view] / std::max(1.0, *std::max_element(pixels.begin(), pixels.end())); };
   const auto score = [&](std::size_t view)
-  { return robot[view] / most_robot + std::min(0.5, contacts[view] / most_contacts); };
+  { return share(robot, view) + share(colliding_parts, view) + std::min(0.5, share(contacts, view)); };
   std::size_t best = 0;
   double least = kPreference * score(0);
   for (std::size_t view = 1; view < views.size(); ++view)

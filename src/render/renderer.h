@@ -38,10 +38,11 @@ struct Image
 /// Every pair of bodies that collides in `state`, by the exact checker.
 std::vector<BodyPair> collidingPairs(const PlanningScene& scene, const double* state);
 
-/// The first of viewsOf, unless objects hide clearly less of the robot and of the contact points in another view. Same
-/// arguments and errors as render.
-Camera clearestView(const PlanningScene& scene, const double* state, const std::vector<Eigen::Vector3d>& contact_points,
-                    const Eigen::Vector3d& up, const std::string& device);
+/// The first of viewsOf, unless another view shows clearly more of the robot, of its colliding parts and of the contact
+/// points. Same arguments and errors as render.
+Camera clearestView(const PlanningScene& scene, const double* state, const std::vector<BodyPair>& colliding,
+                    const std::vector<Eigen::Vector3d>& contact_points, const Eigen::Vector3d& up,
+                    const std::string& device);
 
 /// A picture of the scene in the colours of drawingOf, with soft shadows. Hidden contact points are faint. `device`: a
 /// selector, as in EglContext. The same scene gives the same picture on the same device. Throws Error if the size, the

@@ -31,8 +31,8 @@ std::vector<Option> options()
   all.push_back({"--random", "SEED",
                  "a random state instead, within the joints' limits; planar\nand floating joints stay where they are"});
   all.push_back({"--camera", "X,Y,Z[,X,Y,Z]",
-                 "camera position and target; default: the view in which\nobjects hide least of the robot and the "
-                 "contact points"});
+                 "camera position and target; default: the view that shows\nmost of the robot, of its colliding parts "
+                 "and of the\ncontact points"});
   all.push_back({"--up", "X,Y,Z", "upward direction (default 0,0,1)"});
   all.push_back({"--size", "WxH", "pixels (default 960x720)"});
   all.push_back({"--device", "DEVICE", "auto (default), software, an index, or part of a renderer's name"});
@@ -55,14 +55,15 @@ std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene&
 }
 
 Camera cameraFrom(const CommandLine& arguments, const PlanningScene& scene, const double* state,
-                  const std::vector<Eigen::Vector3d>& contact_points)
+                  const std::vector<BodyPair>& colliding, const std::vector<Eigen::Vector3d>& contact_points)
 {
   const std::vector<double> up = numbersFrom("--up", arguments.value("--up", "0,0,1"), 3);
   const Eigen::Vector3d upward(up.data());
   if (upward.norm() == 0.0)
     throw UsageError("--up: the vector has length 0");
   if (!arguments.has("--camera"))
-    return clearestView(scene, state, contact_points, upward.normalized(), arguments.value("--device", "auto"));
+    return clearestView(scene, state, colliding, contact_points, upward.normalized(),
+                        arguments.value("--device", "auto"));
   Camera camera = viewsOf(scene, state, upward.normalized())[0];
   const std::string text = arguments.required("--camera");
   const bool has_target = std::count(text.begin(), text.end(), ',') > 2;
@@ -107,8 +108,8 @@ void run(const CommandLine& arguments)
   if (!colliding.empty())
     for (const Contact& contact : StateInspector(shared).contacts(state.data(), "", kMaxContacts, kMaxContactsOfPair))
       points.push_back(contact.point);
-  writePng(render(scene, state.data(), colliding, points, cameraFrom(arguments, scene, state.data(), points), width,
-                  height, arguments.value("--device", "auto")),
+  writePng(render(scene, state.data(), colliding, points, cameraFrom(arguments, scene, state.data(), colliding, points),
+                  width, height, arguments.value("--device", "auto")),
            out);
   for (const auto& pair : colliding)
     std::cerr << "collides: " << scene.bodyName(pair[0]) << " - " << scene.bodyName(pair[1]) << "\n";

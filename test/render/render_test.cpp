@@ -140,7 +140,7 @@ TEST(Render, TheClearestViewIsNotTheBackOfAShelf)
     return shareOf(render(scene, state.data(), {{1, 2}}, {}, camera, kWidth, kHeight, "software"), isRed);
   };
   const Camera front = viewsOf(scene, state.data(), up)[0];
-  EXPECT_EQ(clearestView(scene, state.data(), {}, up, "software").eye, front.eye) << "nothing hides the robot";
+  EXPECT_EQ(clearestView(scene, state.data(), {}, {}, up, "software").eye, front.eye) << "nothing hides the robot";
   WorldObject shelf;
   shelf.id = "shelf";
   shelf.pose.translation() = Eigen::Vector3d(0.5, -0.4, 0.3);
@@ -148,7 +148,27 @@ TEST(Render, TheClearestViewIsNotTheBackOfAShelf)
   shelf.shapes.push_back({Box{Eigen::Vector3d(0.02, 2.0, 2.0)}, Eigen::Isometry3d::Identity()});
   scene.objects.push_back(shelf);
   ASSERT_LT(red_in(viewsOf(scene, state.data(), up)[0]), 0.001);
-  EXPECT_GT(red_in(clearestView(scene, state.data(), {}, up, "software")), 0.005);
+  EXPECT_GT(red_in(clearestView(scene, state.data(), {}, {}, up, "software")), 0.005);
+}
+
+TEST(Render, TheClearestViewShowsACollidingLinkThatAnAttachedObjectHidesFromTheFront)
+{
+  PlanningScene scene = sliderAndWall();
+  const std::vector<double> state = cartAt(scene, 0.9);
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const std::vector<BodyPair> colliding = collidingPairs(scene, state.data());
+  ASSERT_FALSE(colliding.empty());
+  AttachedObject plate;
+  plate.object.id = "plate";
+  plate.object.pose.translation() = Eigen::Vector3d(1.4, -0.4, 0.3);
+  plate.object.pose.linear() = Eigen::AngleAxisd(-0.64, up).toRotationMatrix();
+  plate.object.shapes.push_back({Box{Eigen::Vector3d(0.02, 2.0, 2.0)}, Eigen::Isometry3d::Identity()});
+  plate.link = 0;
+  scene.attached.push_back(plate);
+  const auto red_in = [&](const Camera& camera)
+  { return shareOf(render(scene, state.data(), colliding, {}, camera, kWidth, kHeight, "software"), isRed); };
+  ASSERT_LT(red_in(viewsOf(scene, state.data(), up)[0]), 0.001);
+  EXPECT_GT(red_in(clearestView(scene, state.data(), colliding, {}, up, "software")), 0.005);
 }
 
 TEST(Render, AHalfSpaceIsAPlaneBelowTheRobotInsteadOfTheFloor)
