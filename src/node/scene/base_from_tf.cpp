@@ -75,8 +75,9 @@ AssumedBase BaseFromTf::at(std::int64_t stamp)
     AssumedBase base = valuesAt(*joint_, found.pose);
     const double age = 1e-9 * static_cast<double>(now_() - found.stamp);
     if (found.stamp != 0 && age > kOldAge)
-      base.warning = "the robot's pose comes from tf, and its newest transform " + frames + " is " +
-                     std::to_string(age) + " s old";
+      base.warning += (base.warning.empty() ? "" : "; ") +
+                      std::string("the robot's pose comes from tf, and its newest transform ") + frames + " is " +
+                      std::to_string(age) + " s old";
     return base;
   }
   catch (const tf2::TransformException&)
