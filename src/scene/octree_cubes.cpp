@@ -125,8 +125,9 @@ void writeNode(const GridLeaf* begin, const GridLeaf* end, std::uint64_t code, u
 
 void requireOctree(const std::vector<PlacedShape>& cubes)
 {
+  const double resolution = smallestEdge(cubes);
   if (!isRootAlone(cubes))
-    sortedLeaves(cubes, smallestEdge(cubes));
+    sortedLeaves(cubes, resolution);
 }
 
 SerializedOctree octreeOf(const std::vector<PlacedShape>& cubes)

@@ -2,7 +2,12 @@
 
 #include <cstdint>
 #include <random>
+#include <sstream>
+#include <string>
 
+#ifndef OCTOMAP_NODEBUGOUT
+#define OCTOMAP_NODEBUGOUT  // liboctomap prints progress if NDEBUG is not defined
+#endif
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 

@@ -1,7 +1,6 @@
 // Octomaps, object types, weights and postures in messages of the scene. No ROS master is needed.
 
 #include <gtest/gtest.h>
-#include <octomap/OcTree.h>
 
 #include "gpu_planning_scene/octomap.h"
 #include "model/model_testing.h"
