@@ -26,7 +26,7 @@ class OctomapVerdicts : public testing::TestWithParam<std::uint64_t>
  protected:
   OctomapVerdicts() : generator_(GetParam()), octree_(std::make_shared<octomap::OcTree>(0.04))
   {
-    fillAtRandom(*octree_, 1.2, 40, generator_);
+    fillAtRandom(*octree_, 0.8, 40, generator_);
     WorldObject object;
     object.id = kOctomapId;
     object.pose = randomPose(generator_, 0.2);
