@@ -22,6 +22,9 @@ add_message_files(FILES
   LinkPadding.msg
   LinkScale.msg
   ObjectColor.msg
+  ObjectType.msg
+  Octomap.msg
+  OctomapWithPose.msg
   PlanningScene.msg
   PlanningSceneComponents.msg
   PlanningSceneWorld.msg

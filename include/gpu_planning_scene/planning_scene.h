@@ -15,6 +15,38 @@
 
 namespace gpu_planning_scene::core
 {
+/// The type of an object in a database of known objects, as in object_recognition_msgs/ObjectType. It changes no
+/// verdict.
+struct ObjectType
+{
+  std::string key;
+  std::string db;
+
+  bool isEmpty() const { return key.empty() && db.empty(); }
+};
+inline bool operator==(const ObjectType& a, const ObjectType& b)
+{
+  return a.key == b.key && a.db == b.db;
+}
+
+/// A joint trajectory as in trajectory_msgs/JointTrajectory. Times are in nanoseconds.
+struct JointTrajectory
+{
+  struct Point
+  {
+    std::vector<double> positions;
+    std::vector<double> velocities;
+    std::vector<double> accelerations;
+    std::vector<double> effort;
+    std::int64_t time_from_start = 0;
+  };
+  std::string frame_id;
+  std::int64_t stamp = 0;
+  std::vector<std::string> joint_names;
+  std::vector<Point> points;
+};
+bool operator==(const JointTrajectory& a, const JointTrajectory& b);
+
 /// An object of the world.
 struct WorldObject
 {
@@ -23,6 +55,7 @@ struct WorldObject
   std::vector<PlacedShape> shapes;                          ///< in the object's frame
   double padding = 0.0;                                     ///< metres, at least 0: see PlanningScene::link_padding
   std::map<std::string, Eigen::Isometry3d> subframes = {};  ///< named poses in the object's frame: see frame()
+  ObjectType type = {};
 };
 
 /// An object that a link carries. It moves with the link and has the link's padding and scale. It is checked against
@@ -31,8 +64,10 @@ struct AttachedObject
 {
   WorldObject object;  ///< its pose is in the link's frame; its `padding` counts only after detach()
   int link = -1;
-  std::vector<int> touch_links = {};  ///< link indices; the carrying link need not be listed
-  double padding = 0.0;               ///< metres, at least 0, added to the link's padding
+  std::vector<int> touch_links = {};    ///< link indices; the carrying link need not be listed
+  double padding = 0.0;                 ///< metres, at least 0, added to the link's padding
+  double weight = 0.0;                  ///< kilograms; it changes no verdict
+  JointTrajectory detach_posture = {};  ///< releases the object; it changes no verdict
   /// The object's shapes at the scale of its link, see PlanningScene::scaleAttached; null: the shapes of `object`,
   /// unscaled.
   std::shared_ptr<const std::vector<PlacedShape>> scaled_shapes = nullptr;
@@ -126,9 +161,10 @@ struct PlanningScene
 /// own layout (poses with x, y, z, w keys; entry_values with `enabled`) or in a compact layout (`type: box`, poses as
 /// arrays, rows of the matrix without `enabled`). A list `allowed_collisions` of pairs of names adds to the allowed
 /// collision matrix. Object poses are in `planningFrame()`; header.frame_id can name this frame, a link, or a frame of
-/// fixed_frame_transforms. `meshes`: how to read the mesh files of the scene. `defaults`: padding and scale of the
-/// bodies that the file does not name. `warnings` (may be null) receives a line for each joint that the robot does not
-/// have and for each entry that is not modelled. Throws Error with file and line.
+/// fixed_frame_transforms. `octomap` can name a .bt or .ot file. `meshes`: how to read the mesh files of the scene.
+/// `defaults`: padding and scale of the bodies that the file does not name. `warnings` (may be null) receives a line
+/// for each joint that the robot does not have and for each entry that is not modelled. Throws Error with file and
+/// line.
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings = nullptr,
                             const MeshAccess& meshes = {}, const SceneDefaults& defaults = {});

@@ -36,7 +36,8 @@ inline bool operator<(const StampedFrame& a, const StampedFrame& b)
   return std::tie(a.name, a.stamp) < std::tie(b.name, b.stamp);
 }
 
-/// A change of one object.
+/// A change of one object. The object kOctomapId can only be added and removed. It is no error to remove it from a
+/// scene without an octomap, and to remove all objects leaves it in the scene.
 struct ObjectChange
 {
   Operation operation = Operation::Add;
@@ -49,8 +50,10 @@ struct ObjectChange
   std::vector<PlacedShape> shapes;             ///< in the object's frame: primitives, then meshes, then half-spaces
   std::vector<Eigen::Isometry3d> shape_poses;  ///< only for Move: none, or one per shape of the object, in that order
   std::map<std::string, Eigen::Isometry3d> subframes;  ///< in the object's frame
+  ObjectType type;                                     ///< empty: a new object has none, other objects keep theirs
   /// Only for Remove. True: the allowed collision matrix keeps the object's entries. This is for objects that come and
-  /// go, for example a point cloud. False, as in MoveIt: the entries are removed with the object.
+  /// go, for example a point cloud. False, as in MoveIt: the entries are removed with the object. The octomap (see
+  /// kOctomapId) always keeps its entries and its colour.
   bool keeps_allowed_collisions = false;
 };
 
@@ -63,6 +66,9 @@ struct AttachedChange
   ObjectChange object;
   std::string link;
   std::vector<std::string> touch_links;
+  /// Append keeps the old values if these are empty or 0. An object that returns to the world loses both.
+  JointTrajectory detach_posture = {};
+  double weight = 0.0;  ///< kilograms
 };
 
 /// A change of the robot state and of the attached objects.
@@ -99,6 +105,7 @@ struct SceneLimits
 {
   std::size_t objects = 100000;      ///< in the world and attached
   std::size_t shapes = 400000;       ///< of these objects
+  std::size_t voxels = 200000;       ///< occupied leaves of the octomap
   std::size_t triangles = 20000000;  ///< of distinct meshes, including the meshes of the robot
   std::size_t triangles_of_mesh = 5000000;
   std::size_t frames = 100000;     ///< fixed frames and subframes

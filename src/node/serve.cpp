@@ -12,6 +12,7 @@
 #include "node/markers/marker_publisher.h"
 #include "node/parameters/node_parameters.h"
 #include "node/planning/plan_service.h"
+#include "node/scene/base_from_tf.h"
 #include "node/scene/cloud_topic.h"
 #include "node/scene/frame_lookup.h"
 #include "node/scene/scene_publisher.h"
@@ -49,16 +50,17 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   PlanningScene scene = sceneFromParameters(node, own, defaults, &warnings);
   warn(warnings);
 
-  const std::string planning_frame = scene.robot->planningFrame();
+  std::atomic<bool> stopping{false};
+  const FrameLookup lookup(scene.robot->planningFrame(), options.tf_timeout,
+                           [&stopping] { return stopping || !ros::ok(); });
+  BaseFromTf base(lookup, scene.robot);
   Diagnostics diagnostics;
-  SceneStore store(std::move(scene), defaults, limits);
+  SceneStore store(std::move(scene), defaults, limits, [&base](std::int64_t stamp) { return base.at(stamp); });
   const CheckServer::MakeChecker make_checker = checkerMaker(checker_options, resilience, open_device, diagnostics);
   CheckServer server(store, make_checker, server_options);
   const SceneWatch watch(own, store, server);
 
   const MemoryGuard memory(options.max_memory);
-  std::atomic<bool> stopping{false};
-  const FrameLookup lookup(planning_frame, options.tf_timeout, [&stopping] { return stopping || !ros::ok(); });
   CheckServices checks(store, server, memory,
                        {server_options.max_states, options.max_motion_checks, options.max_inspected_states,
                         options.max_contacts, server_options.max_waiting_requests, plan_options.motions.rule});

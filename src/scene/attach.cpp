@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/octomap.h"
 #include "scene/frame.h"
 #include "scene/missing_link.h"
 #include "scene/validate_scene.h"
@@ -11,6 +12,12 @@
 // Attaching objects to links, and detaching them.
 namespace gpu_planning_scene::core
 {
+void requireNotOctomap(const std::string& id)
+{
+  if (id == kOctomapId)
+    throw Error("object '" + id + "' is the octomap, which cannot be attached; leave it in the world");
+}
+
 void requireAttachable(const WorldObject& object)
 {
   if (hasHalfSpace(object.shapes))
@@ -56,6 +63,7 @@ void PlanningScene::attach(const std::string& object, const std::string& link,
                     "' already; detach it first");
     throw Error("object '" + object + "' cannot be attached: the scene has no such object");
   }
+  requireNotOctomap(object);
   requireAttachable(*found);
   const int index = requireLink(*robot, link, "object '" + object + "' cannot be attached");
   AttachedObject added = attachedFromWorld(*robot, *found, index, state);

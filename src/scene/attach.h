@@ -8,6 +8,9 @@
 // Steps of attaching and detaching that PlanningScene and SceneChanger share.
 namespace gpu_planning_scene::core
 {
+/// Throws Error for the id of the octomap, which links cannot carry.
+void requireNotOctomap(const std::string& id);
+
 /// Throws Error if the object has a half-space.
 void requireAttachable(const WorldObject& object);
 

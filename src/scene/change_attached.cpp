@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "gpu_planning_scene/error.h"
 #include "scene/attach.h"
 #include "scene/frame.h"
@@ -15,8 +17,10 @@ void SceneChanger::changeAttached(const AttachedChange& change)
     detach(change);
     return;
   }
+  requireNotOctomap(id);
   requireNewId(id);
   require(change.object);
+  requireLoad(change);
   if (change.object.operation == Operation::Move)
     throw Error("attached object '" + id + "' cannot be moved; attach it again with its shapes");
   AttachedObject* const attached = attached_.find(id);
@@ -27,12 +31,23 @@ void SceneChanger::changeAttached(const AttachedChange& change)
   attached_here_.insert(id);
 }
 
+/// Weight and posture change no verdict, so only their size is limited.
+void SceneChanger::requireLoad(const AttachedChange& change) const
+{
+  const std::string where = "object '" + change.object.id + "'";
+  if (!(change.weight >= 0.0) || std::isinf(change.weight))
+    throw Error(where + ": the weight is " + std::to_string(change.weight) + "; it must be a number of at least 0");
+  count_.requirePosture(change.detach_posture, where);
+}
+
 void SceneChanger::attach(const AttachedChange& change)
 {
   const std::string& id = change.object.id;
   const int link = linkIndex(change.link, "object '" + id + "' cannot be attached");
   AttachedObject attached = change.object.shapes.empty() ? fromWorld(change, link) : fromShapes(change, link);
   requireAttachable(attached.object);
+  attached.detach_posture = change.detach_posture;
+  attached.weight = change.weight;
   addTouchLinks(*result_.scene.robot, change.touch_links, attached);
   attached.padding = defaults_.attached_padding;
   result_.scene.scaleAttached(attached);
@@ -89,6 +104,10 @@ void SceneChanger::appendToAttached(AttachedObject& attached, const AttachedChan
   if (hasHalfSpace(attached.object.shapes))
     throw Error("object '" + change.object.id + "' is attached and cannot have a half-space");
   count_.add(change.object.id, attached.object.shapes);
+  if (!change.detach_posture.joint_names.empty())
+    attached.detach_posture = change.detach_posture;
+  if (change.weight != 0.0)
+    attached.weight = change.weight;
   addTouchLinks(*result_.scene.robot, change.touch_links, attached);
   result_.scene.scaleAttached(attached);
 }

@@ -1,13 +1,16 @@
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/octomap.h"
 #include "scene/scene_changer.h"
 
 // Objects of the world: adding, appending to, moving and removing them.
 namespace gpu_planning_scene::core
 {
-void SceneChanger::clearWorld()
+void SceneChanger::clearWorld(bool keeps_octomap)
 {
   for (const std::string& id : objects_.ids())
   {
+    if (id == kOctomapId && keeps_octomap)
+      continue;
     count_.remove(objects_.take(id).shapes);
     forget(id);
   }
@@ -18,11 +21,13 @@ void SceneChanger::changeObject(const ObjectChange& change)
   if (change.operation == Operation::Remove)
   {
     if (change.id.empty())
-      clearWorld();
+      clearWorld(true);
     else
       removeObject(change);
     return;
   }
+  if (change.id == kOctomapId && change.operation != Operation::Add)
+    throw Error("the octomap can only be added, which replaces it, and removed");
   requireNewId(change.id);
   if (const AttachedObject* attached = attached_.find(change.id))
     throw Error("object '" + change.id + "' is attached to link '" + linkName(attached->link) +
@@ -88,6 +93,8 @@ void SceneChanger::moveObject(const ObjectChange& change)
     shapes[i].pose = has_lone_pose ? none : change.shape_poses[i];
   for (const auto& [name, pose] : change.subframes)
     object->subframes[name] = pose;
+  if (!change.type.isEmpty())
+    object->type = change.type;
 }
 
 /// MoveIt's tutorials attach an object and remove it from the world in one change. This removal is not an error.
@@ -103,7 +110,7 @@ void SceneChanger::removeObject(const ObjectChange& change)
       forget(id);
     return;
   }
-  if (attached_here_.count(id) != 0)
+  if (attached_here_.count(id) != 0 || id == kOctomapId)
     return;
   const AttachedObject* const attached = attached_.find(id);
   throw Error("object '" + id + "' cannot be removed: " +

@@ -3,6 +3,7 @@
 #include <unordered_set>
 #include <variant>
 
+#include "gpu_planning_scene/octomap.h"
 #include "gpu_planning_scene/scene_change.h"
 
 // The change that leads from one scene to another.
@@ -58,12 +59,14 @@ bool sameFrames(const Frames& a, const Frames& b)
 
 bool sameObject(const WorldObject& a, const WorldObject& b)
 {
-  return same(a.pose, b.pose) && sameShapes(a, b) && sameShapePoses(a, b) && sameFrames(a.subframes, b.subframes);
+  return same(a.pose, b.pose) && sameShapes(a, b) && sameShapePoses(a, b) && sameFrames(a.subframes, b.subframes) &&
+         a.type == b.type;
 }
 
 bool sameCarried(const AttachedObject& a, const AttachedObject& b)
 {
-  return a.link == b.link && a.touch_links == b.touch_links && sameObject(a.object, b.object);
+  return a.link == b.link && a.touch_links == b.touch_links && a.weight == b.weight &&
+         a.detach_posture == b.detach_posture && sameObject(a.object, b.object);
 }
 
 /// An object of a scene, in the world or attached.
@@ -91,6 +94,7 @@ ObjectChange addition(const WorldObject& object)
   change.pose = object.pose;
   change.shapes = object.shapes;
   change.subframes = object.subframes;
+  change.type = object.type;
   return change;
 }
 
@@ -103,6 +107,8 @@ AttachedChange attachment(const AttachedObject& attached, const RobotModel& robo
   change.object.frame.name = change.link;
   for (const int link : attached.touch_links)
     change.touch_links.push_back(name(link));
+  change.detach_posture = attached.detach_posture;
+  change.weight = attached.weight;
   return change;
 }
 
@@ -151,14 +157,16 @@ std::map<std::string, double> allLinks(const RobotModel& robot, const std::vecto
 }
 
 /// Returns true if a difference cannot express the change: the name or the fixed frames are removed; an object stays
-/// and its colour is removed; or an object is removed and its colour or its matrix entry stays.
+/// and its colour is removed; or an object is removed and its colour or its matrix entry stays. A removed octomap keeps
+/// both.
 bool needsFullScene(const PlanningScene& from, const PlanningScene& to)
 {
   if ((to.name.empty() && !from.name.empty()) || (to.fixed_frames.empty() && !from.fixed_frames.empty()))
     return true;
   const auto before = objectsOf(from);
   const auto after = objectsOf(to);
-  const auto goes = [&](const std::string& id) { return before.count(id) != 0 && after.count(id) == 0; };
+  const auto goes = [&](const std::string& id)
+  { return id != kOctomapId && before.count(id) != 0 && after.count(id) == 0; };
   const auto keepsEntries = [&](const std::string& id) { return goes(id) && to.allowed_collisions.row(id).known(); };
   return std::any_of(from.colors.begin(), from.colors.end(),
                      [&](const auto& color) { return to.colors.count(color.first) == 0 && !goes(color.first); }) ||
@@ -205,10 +213,11 @@ void compareObjects(const PlanningScene& from, const PlanningScene& to, SceneCha
   {
     const auto known = before.find(object.id);
     const WorldObject* const old = known == before.end() ? nullptr : known->second.object;
-    if (old == nullptr || !sameShapes(*old, object) || !sameFrames(old->subframes, object.subframes))
-      change.objects.push_back(addition(object));
-    else if (!sameObject(*old, object))
-      change.objects.push_back(move(*old, object));
+    if (old != nullptr && sameObject(*old, object))
+      continue;
+    const bool can_move = old != nullptr && object.id != kOctomapId && old->type == object.type &&
+                          sameShapes(*old, object) && sameFrames(old->subframes, object.subframes);
+    change.objects.push_back(can_move ? move(*old, object) : addition(object));
   }
 }
 }  // namespace

@@ -1,5 +1,7 @@
 #include "gpu_planning_scene/planning_scene.h"
 
+#include <algorithm>
+
 #include "scene/scene_reader.h"
 
 namespace gpu_planning_scene::core
@@ -12,6 +14,17 @@ PlanningScene::PlanningScene(std::shared_ptr<const RobotModel> robot_model, cons
 {
   if (!defaults.link_scale.empty())
     setLinkScale(defaults.link_scale);
+}
+
+bool operator==(const JointTrajectory& a, const JointTrajectory& b)
+{
+  const auto same_point = [](const JointTrajectory::Point& x, const JointTrajectory::Point& y)
+  {
+    return x.positions == y.positions && x.velocities == y.velocities && x.accelerations == y.accelerations &&
+           x.effort == y.effort && x.time_from_start == y.time_from_start;
+  };
+  return a.frame_id == b.frame_id && a.stamp == b.stamp && a.joint_names == b.joint_names &&
+         std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same_point);
 }
 
 const std::string& PlanningScene::bodyName(int body) const

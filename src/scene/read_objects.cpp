@@ -2,6 +2,7 @@
 #include <cctype>
 #include <set>
 
+#include "gpu_planning_scene/octomap.h"
 #include "scene/missing_link.h"
 #include "scene/scene_reader.h"
 #include "scene/validate_scene.h"
@@ -15,22 +16,6 @@ const std::vector<YamlValue>& itemsOf(const YamlValue* parent, const char* key)
   static const std::vector<YamlValue> none;
   const YamlValue* list = parent ? parent->find(key) : nullptr;
   return list ? list->items() : none;
-}
-
-/// ROS writes zeros for an object's pose that was never set. An object with one shape then takes the pose of
-/// that shape, as in messages.
-bool isUnsetPose(const YamlValue& value)
-{
-  for (const char* key : {"position", "orientation"})
-  {
-    const YamlValue* part = value.find(key);
-    if (!part || part->kind() != YamlValue::Kind::Map)
-      return false;
-    for (const auto& member : part->members())
-      if (member.second.number() != 0.0)
-        return false;
-  }
-  return true;
 }
 
 void requireAdd(const YamlValue& object)
@@ -59,6 +44,17 @@ std::map<std::string, Eigen::Isometry3d> readSubframes(const YamlValue& object)
   return subframes;
 }
 
+ObjectType readObjectType(const YamlValue& value, const SceneReader& reader)
+{
+  value.warnOfUnknownKeys({"key", "db"}, reader.warnings);
+  ObjectType type;
+  if (const YamlValue* key = value.find("key"))
+    type.key = key->text();
+  if (const YamlValue* db = value.find("db"))
+    type.db = db->text();
+  return type;
+}
+
 /// Reads an object. Its pose is in the frame that its header names.
 WorldObject readObject(const YamlValue& value, SceneReader& reader)
 {
@@ -71,10 +67,15 @@ WorldObject readObject(const YamlValue& value, SceneReader& reader)
   object.id = value.at("id").text();
   if (object.id.empty())
     value.fail("the object has no id");
+  if (object.id == kOctomapId)
+    value.fail("the id '" + object.id + "' is kept for the octomap; give it as world.octomap");
   object.shapes = readShapes(value, reader);
   if (object.shapes.empty())
     value.fail("object '" + object.id + "' has no shapes; give it primitives, meshes or planes" +
                value.unknownKeyText(keys));
+  if (const YamlValue* type = value.find("type"))
+    object.type = readObjectType(*type, reader);
+  // An unset pose counts as no pose. An object with one shape then takes the pose of that shape, as in messages.
   const YamlValue* pose = value.find("pose");
   if (pose && !isUnsetPose(*pose))
     object.pose = readPose(*pose);
@@ -124,6 +125,12 @@ AttachedObject readAttached(const YamlValue& value, SceneReader& reader)
   if (const YamlValue* links = value.find("touch_links"))
     for (const YamlValue& link : links->items())
       attached.touch_links.push_back(readLink(link, reader));
+  if (const YamlValue* posture = value.find("detach_posture"))
+    attached.detach_posture = readTrajectory(*posture, reader);
+  if (const YamlValue* weight = value.find("weight"))
+    attached.weight = weight->number();
+  if (attached.weight < 0.0)
+    value.at("weight").fail("the weight is negative; it must be at least 0 kg");
   return attached;
 }
 }  // namespace

@@ -42,6 +42,20 @@ Eigen::Isometry3d readPose(const YamlValue& value, const char* position_key, con
   return pose;
 }
 
+bool isUnsetPose(const YamlValue& value)
+{
+  for (const char* key : {"position", "orientation"})
+  {
+    const YamlValue* part = value.find(key);
+    if (!part || part->kind() != YamlValue::Kind::Map)
+      return false;
+    for (const auto& member : part->members())
+      if (member.second.number() != 0.0)
+        return false;
+  }
+  return true;
+}
+
 void readFixedFrame(const YamlValue& value, SceneReader& reader)
 {
   value.warnOfUnknownKeys({"header", "child_frame_id", "transform"}, reader.warnings);

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/octomap.h"
 #include "scene/frame.h"
 #include "scene/matrix_entries.h"
+#include "scene/octree_cubes.h"
 #include "scene/rigid_pose.h"
 #include "scene/shape_order.h"
 
@@ -47,7 +49,7 @@ Change SceneChanger::make(const SceneChange& change)
       keeps_matrix_ ? AllowedCollisionMatrix() : result_.scene.allowed_collisions;
   changeNames(change);
   if (!change.is_diff)
-    clearWorld();
+    clearWorld(false);
   changeFixedFrames(change);
   changeState(change.state, !change.is_diff);
   changeMatrix(change);
@@ -85,6 +87,7 @@ void SceneChanger::require(const ObjectChange& change)
     requirePose(*change.pose, where);
   for (const Eigen::Isometry3d& pose : change.shape_poses)
     requirePose(pose, where);
+  count_.requireType(change.type, where);
   for (const auto& [name, pose] : change.subframes)
   {
     count_.requireName(name, "subframe of " + where);
@@ -99,10 +102,17 @@ void SceneChanger::require(const ObjectChange& change)
     if (mesh != nullptr)
       valid_meshes_.insert(mesh->get());
   }
+  if (change.id == kOctomapId)
+  {
+    count_.requireVoxels(change.shapes.size());
+    requireOctree(change.shapes);
+  }
 }
 
 void SceneChanger::forget(const std::string& id)
 {
+  if (id == kOctomapId)
+    return;
   result_.scene.colors.erase(id);
   if (!keeps_matrix_)
     return;
@@ -113,7 +123,7 @@ void SceneChanger::forget(const std::string& id)
 void SceneChanger::warnOfAllowedCollisions(const std::string& id)
 {
   const AllowedCollisionMatrix& matrix = result_.scene.allowed_collisions;
-  if (has_new_matrix_ || objects_.find(id) != nullptr || attached_.find(id) != nullptr)
+  if (id == kOctomapId || has_new_matrix_ || objects_.find(id) != nullptr || attached_.find(id) != nullptr)
     return;
   const std::vector<std::string> partners = matrix.allowedPartners(id);
   if (partners.empty() && !matrix.defaultOf(id).value_or(false))
@@ -172,5 +182,7 @@ void appendShapes(const ObjectChange& change, WorldObject& object)
   orderShapes(object.shapes);
   for (const auto& [name, pose] : change.subframes)
     object.subframes[name] = pose;
+  if (!change.type.isEmpty())
+    object.type = change.type;
 }
 }  // namespace gpu_planning_scene::core

@@ -13,6 +13,7 @@
 
 namespace gpu_planning_scene::core
 {
+/// Adds the shapes and subframes. Sets the type if the change has one.
 void appendShapes(const ObjectChange& change, WorldObject& object);
 
 /// Applies one change to a copy of a scene. Each kind of part has a file of its own.
@@ -47,6 +48,7 @@ class SceneChanger
 
   // change_attached.cpp
   void changeAttached(const AttachedChange& change);
+  void requireLoad(const AttachedChange& change) const;
   void attach(const AttachedChange& change);
   AttachedObject fromWorld(const AttachedChange& change, int link);
   AttachedObject fromShapes(const AttachedChange& change, int link);
@@ -56,7 +58,7 @@ class SceneChanger
   Eigen::Isometry3d poseInLink(const Eigen::Isometry3d& pose, const StampedFrame& frame, int link);
 
   // change_objects.cpp
-  void clearWorld();
+  void clearWorld(bool keeps_octomap);
   void changeObject(const ObjectChange& change);
   void addObject(const ObjectChange& change);
   void appendToObject(WorldObject& object, const ObjectChange& change);

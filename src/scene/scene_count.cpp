@@ -10,6 +10,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+constexpr std::size_t kMostPostureNumbers = 10000;
+
 /// "a link", "an object".
 std::string withArticle(const std::string& noun)
 {
@@ -99,6 +101,30 @@ void SceneCount::requireName(const std::string& name, const std::string& what) c
   requireAtMost(name.size(), limits_.name_length, "the length of a name (" + what + ") is", "name_length");
   if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }))
     throw Error("the name of " + withArticle(what) + " contains a line break or another control character; remove it");
+}
+
+void SceneCount::requireType(const ObjectType& type, const std::string& where) const
+{
+  for (const std::string* text : {&type.key, &type.db})
+    requireAtMost(text->size(), limits_.name_length, "the length of a type (" + where + ") is", "name_length");
+}
+
+void SceneCount::requirePosture(const JointTrajectory& posture, const std::string& where) const
+{
+  std::size_t numbers = posture.joint_names.size() + posture.points.size();
+  for (const JointTrajectory::Point& point : posture.points)
+    numbers += point.positions.size() + point.velocities.size() + point.accelerations.size() + point.effort.size();
+  if (numbers > kMostPostureNumbers)
+    throw Error(where + ": the detach_posture has " + std::to_string(numbers) + " names and numbers; at most " +
+                std::to_string(kMostPostureNumbers) + " are allowed");
+  requireAtMost(posture.frame_id.size(), limits_.name_length, "the length of a name (" + where + ") is", "name_length");
+  for (const std::string& name : posture.joint_names)
+    requireName(name, "joint of the detach_posture of " + where);
+}
+
+void SceneCount::requireVoxels(std::size_t count) const
+{
+  requireAtMost(count, limits_.voxels, "the occupied leaves of the octomap are", "voxels");
 }
 
 void SceneCount::requireMatrix(const AllowedCollisionMatrix& matrix) const

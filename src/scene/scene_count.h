@@ -25,6 +25,10 @@ class SceneCount
 
   /// Checks that a name is not empty, not longer than the limit, and one line. `what` describes it in the message.
   void requireName(const std::string& name, const std::string& what) const;
+  void requireType(const ObjectType& type, const std::string& where) const;
+  void requirePosture(const JointTrajectory& posture, const std::string& where) const;
+  /// Checks the number of the octomap's occupied leaves.
+  void requireVoxels(std::size_t count) const;
   void requireMatrix(const AllowedCollisionMatrix& matrix) const;
 
  private:

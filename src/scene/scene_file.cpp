@@ -10,17 +10,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Refuses the parts of MoveIt's messages that this package does not model. Answers would be for another scene.
-void refuseUnsupported(const YamlValue& scene)
-{
-  const YamlValue* world = scene.find("world");
-  const YamlValue* octomap = world ? world->find("octomap") : nullptr;
-  const YamlValue* tree = octomap ? octomap->find("octomap") : nullptr;
-  const YamlValue* data = tree ? tree->find("data") : nullptr;
-  if (data && !data->items().empty())
-    data->fail("octomaps are not supported; give the obstacles as objects or as a point cloud");
-}
-
 PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                            const PackageResolver& packages, std::vector<std::string>* warnings,
                            const MeshAccess& meshes, const SceneDefaults& defaults)
@@ -36,6 +25,7 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
                                                                 "link_scale",
                                                                 "object_colors",
                                                                 "world",
+                                                                "octomap",
                                                                 "is_diff",
                                                                 "scene_revision"};
   if (std::none_of(known_keys.begin(), known_keys.end(), [&](const char* key) { return file.find(key) != nullptr; }))
@@ -44,7 +34,6 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
   const YamlValue* is_diff = file.find("is_diff");
   if (is_diff && is_diff->boolean())
     is_diff->fail("this is a difference to another scene (is_diff: true); a full scene is needed");
-  refuseUnsupported(file);
 
   const std::size_t slash = path.rfind('/');
   SceneReader reader{*robot, packages, slash == std::string::npos ? "." : path.substr(0, slash + 1), warnings,
@@ -80,6 +69,7 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
   scene.fixed_frames = reader.fixed_frames;
   scene.fixed_frames.erase(robot->planningFrame());
   readObjects(file, reader, scene);
+  readOctomap(file, reader, scene);
   if (const YamlValue* allowed = file.find("allowed_collisions"))
     addAllowedCollisions(*allowed, reader, scene);
   scene.current_state = reader.state;

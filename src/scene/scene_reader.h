@@ -39,6 +39,9 @@ Eigen::Vector3d readVector(const YamlValue& value);
 Eigen::Isometry3d readPose(const YamlValue& value, const char* position_key = "position",
                            const char* orientation_key = "orientation");
 
+/// Whether a pose has only zeros. ROS writes them for a pose that was never set.
+bool isUnsetPose(const YamlValue& value);
+
 /// Reads an entry of the scene's `fixed_frame_transforms` and adds it to `reader.fixed_frames`.
 void readFixedFrame(const YamlValue& value, SceneReader& reader);
 /// The pose in the planning frame of the frame that `header` names. Without a header or a name: the planning frame.
@@ -61,6 +64,12 @@ std::vector<PlacedShape> readShapes(const YamlValue& object, SceneReader& reader
 /// Reads the objects of the world and the attached objects (`robot_state.attached_collision_objects`). An id must not
 /// occur twice and must not be the name of a link.
 void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& result);
+
+/// Reads `world.octomap`, and the scene's `octomap`, and adds the octomap to the world of `result`.
+void readOctomap(const YamlValue& scene, const SceneReader& reader, PlanningScene& result);
+
+/// A joint trajectory in the layout of trajectory_msgs/JointTrajectory. Times can also be numbers of seconds.
+JointTrajectory readTrajectory(const YamlValue& value, const SceneReader& reader);
 
 /// `link_padding` and `link_scale`: one value per link of the robot. Empty if each padding is 0, or each scale is 1.
 std::vector<double> readLinkPadding(const YamlValue& scene, const SceneReader& reader);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/octomap.h"
 #include "model/open_file.h"
 #include "scene/message_values.h"
 #include "scene/shape_order.h"
@@ -57,6 +58,8 @@ class SceneTextReader
       tokens_.fail("the object has no name");
     if (!ids_.insert(object.id).second)
       tokens_.fail("object '" + object.id + "' is given twice");
+    if (object.id == kOctomapId)
+      tokens_.fail("the name '" + object.id + "' is kept for the octomap, which this format does not have");
     if (scene_.robot->linkIndex(object.id) >= 0)
       tokens_.fail("object '" + object.id + "' has the name of a link");
     if (tokens_.nextLineHasSeveralWords())

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/octomap.h"
 #include "model/base_joints.h"
 #include "scene/matrix_entries.h"
 
@@ -40,7 +41,8 @@ std::vector<double> startingState(const Snapshot& at, const std::map<std::string
 
 bool Snapshot::allKnown() const
 {
-  return std::find(known.begin(), known.end(), false) == known.end();
+  const std::vector<bool> all = base.values.empty() ? known : partialState().known;
+  return std::find(all.begin(), all.end(), false) == all.end();
 }
 
 PartialState Snapshot::partialState() const
@@ -57,13 +59,21 @@ std::string Snapshot::assumedBase(const std::vector<int>& given) const
   const RobotModel& robot = *scene->robot;
   for (const int variable : virtualVariables(robot))
     if (!known[static_cast<std::size_t>(variable)] && std::find(given.begin(), given.end(), variable) == given.end())
+    {
+      if (!base.values.empty())
+        return base.warning;
       return "no state has set " + robot.variables()[static_cast<std::size_t>(variable)].name +
-             " of the virtual joint, so the robot is assumed at the origin of frame '" + robot.planningFrame() + "'";
+             " of the virtual joint, so the robot is assumed at the origin of frame '" + robot.planningFrame() + "'" +
+             (base.warning.empty() ? "" : " (" + base.warning + ")");
+    }
   return "";
 }
 
-SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits)
-  : defaults_(std::move(defaults)), limits_(limits)
+SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits, BaseSource base_source)
+  : defaults_(std::move(defaults)),
+    limits_(limits),
+    base_source_(std::move(base_source)),
+    virtual_variables_(virtualVariables(*scene.robot))
 {
   state_ = PartialState(*scene.robot, scene.current_state).values;
   known_.assign(state_.size(), !scene.current_state.empty());
@@ -72,8 +82,26 @@ SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits 
 
 Snapshot SceneStore::snapshot() const
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return {scene_, state_, known_};
+  Snapshot now;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    now = {scene_, state_, known_};
+  }
+  now.base = assumeBase(0, now.known, now.state);
+  return now;
+}
+
+/// Sets the virtual joint in `state` if base_source_ has a value for it and no state has set it. Called without a lock.
+AssumedBase SceneStore::assumeBase(std::int64_t stamp, const std::vector<bool>& known, std::vector<double>& state) const
+{
+  const auto is_known = [&known](int variable) { return known[static_cast<std::size_t>(variable)]; };
+  if (!base_source_ || virtual_variables_.empty() ||
+      std::any_of(virtual_variables_.begin(), virtual_variables_.end(), is_known))
+    return {};
+  AssumedBase base = base_source_(stamp);
+  for (std::size_t i = 0; i < base.values.size(); ++i)
+    state[static_cast<std::size_t>(virtual_variables_[i])] = base.values[i];
+  return base;
 }
 
 SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& lookup)
@@ -102,6 +130,8 @@ SceneStore::Applied SceneStore::clear()
   std::vector<std::string> warnings;
   const auto forget = [&](const std::string& id)
   {
+    if (id == kOctomapId)  // its entries stay, as after any removal of the octomap
+      return;
     for (std::string& warning : removeEntriesOfObject(scene.allowed_collisions, id))
       warnings.push_back(std::move(warning));
   };
@@ -157,9 +187,16 @@ void SceneStore::updateState(const std::map<std::string, double>& variables, std
 
 std::vector<double> SceneStore::stateAt(std::int64_t stamp) const
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const std::vector<double>* known = stamp == 0 ? nullptr : history_.nearest(stamp);
-  return known != nullptr ? *known : state_;
+  std::vector<double> state;
+  std::vector<bool> known;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::vector<double>* at_stamp = stamp == 0 ? nullptr : history_.nearest(stamp);
+    state = at_stamp != nullptr ? *at_stamp : state_;
+    known = known_;
+  }
+  assumeBase(stamp, known, state);
+  return state;
 }
 
 void SceneStore::setListener(Listener listener)

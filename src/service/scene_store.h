@@ -14,13 +14,23 @@
 
 namespace gpu_planning_scene::core
 {
+/// The pose of the robot that is used while no state has set its virtual joint.
+struct AssumedBase
+{
+  std::vector<double> values = {};  ///< of virtualVariables(); empty: the robot stands at the origin
+  /// What a user must know about this pose, in one line; may be empty. If there are no values, the reason.
+  std::string warning = {};
+};
+
 /// An immutable scene, and the robot's state at the same instant.
 struct Snapshot
 {
   std::shared_ptr<const PlanningScene> scene;
   std::vector<double> state;  ///< one value per variable
-  std::vector<bool> known;    ///< one per variable; an unknown variable has its default value
+  std::vector<bool> known;    ///< one per variable; an unknown variable has its default value, or that of `base`
+  AssumedBase base = {};
 
+  /// The virtual joint counts as known if `base` has values.
   bool allKnown() const;
   /// The virtual joint counts as known: without a value, the robot stands at the origin of the planning frame.
   PartialState partialState() const;
@@ -33,8 +43,13 @@ struct Snapshot
 class SceneStore
 {
  public:
-  /// The robot's state starts as the current state of `scene`; without one, it is unknown.
-  SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits);
+  /// Returns the pose of the robot at a time in nanoseconds (0: the newest pose). It is called for each snapshot, while
+  /// no state has set any variable of the virtual joint. It must be thread-safe, and must not wait.
+  using BaseSource = std::function<AssumedBase(std::int64_t stamp)>;
+
+  /// The robot's state starts as the current state of `scene`; without one, it is unknown. Without `base_source`, the
+  /// robot stands at the origin of the planning frame until a state sets the virtual joint.
+  SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits, BaseSource base_source = {});
 
   Snapshot snapshot() const;
   const SceneLimits& limits() const { return limits_; }
@@ -72,6 +87,7 @@ class SceneStore
  private:
   std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables);
   void setVariables(const std::map<std::string, double>& variables);
+  AssumedBase assumeBase(std::int64_t stamp, const std::vector<bool>& known, std::vector<double>& state) const;
 
   std::mutex changes_;        // held during a change
   mutable std::mutex mutex_;  // guards the next four members
@@ -81,6 +97,8 @@ class SceneStore
   StateHistory history_;
   const SceneDefaults defaults_;
   const SceneLimits limits_;
+  const BaseSource base_source_;
+  const std::vector<int> virtual_variables_;
   Listener listener_;  // guarded by changes_
 };
 }  // namespace gpu_planning_scene::core

@@ -46,7 +46,8 @@ class SceneFiles(unittest.TestCase):
             "collision_objects primitives meshes planes resource vertices triangles scale coef pose primitive_poses "
             "mesh_poses header frame_id subframe_names subframe_poses joint_state multi_dof_joint_state "
             "attached_collision_objects link_name touch_links entry_names entry_values default_entry_names "
-            "default_entry_values link_padding link_scale fixed_frame_transforms object_colors"
+            "default_entry_values link_padding link_scale fixed_frame_transforms object_colors octomap origin binary "
+            "resolution data"
         ).split():
             self.assertRegex(text, rf"\b{field}:")
 

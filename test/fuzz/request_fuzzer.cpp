@@ -33,6 +33,7 @@ SceneLimits fewThings()
   SceneLimits limits;
   limits.objects = 20;
   limits.shapes = 50;
+  limits.voxels = 30;
   limits.triangles = 500;
   limits.triangles_of_mesh = 200;
   limits.matrix_entries = 10000;

@@ -111,6 +111,7 @@ void expectSameObject(const WorldObject& expected, const WorldObject& found, dou
   expectSameShapes(expected.shapes, found.shapes, tolerance);
   expectSameFrames(expected.subframes, found.subframes, tolerance);
   EXPECT_EQ(expected.padding, found.padding);
+  EXPECT_EQ(expected.type, found.type);
 }
 
 void expectOneLine(const std::string& message, const std::string& fragment)
@@ -181,6 +182,8 @@ void expectSameScene(const PlanningScene& expected, const PlanningScene& found, 
     expectSameObject(attached.object, other->object, tolerance);
     EXPECT_EQ(attached.link, other->link);
     EXPECT_EQ(attached.touch_links, other->touch_links);
+    EXPECT_EQ(attached.weight, other->weight);
+    EXPECT_TRUE(attached.detach_posture == other->detach_posture);
     EXPECT_EQ(attached.padding, other->padding);
     expectSameShapes(attached.shapes(), other->shapes(), tolerance);
   }

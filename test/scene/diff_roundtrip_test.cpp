@@ -45,6 +45,8 @@ class RandomChanges : public SceneChanges
       object.shapes = shapes();
     if (chance())
       object.pose = pose();
+    if (chance())
+      object.type = {id(), id()};
     if (chance() && object.operation != Operation::Remove)
       object.subframes[id()] = pose();
   }

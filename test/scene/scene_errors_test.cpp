@@ -194,7 +194,19 @@ const std::vector<WrongScene>& wrongScenes()
        "world:\n  collision_objects:\n    - {id: a, subframe_names: [tip], primitives: [{type: sphere, dimensions: "
        "[1]}]}\n",
        3, "0 subframe_poses for 1"},
-      {"Octomap", "world:\n  octomap:\n    octomap:\n      data: [1, 2]\n", 4, "octomaps are not supported"},
+      {"OctomapWithoutClass", "world:\n  octomap:\n    octomap:\n      data: [1, 2]\n", 4, "'binary' is missing"},
+      {"OctomapOfWrongBytes", "world:\n  octomap:\n    octomap: {binary: 1, id: OcTree, resolution: 0.1, data: [1]}\n",
+       3, "the data end inside of the octree"},
+      {"OctomapOfLargeNumbers",
+       "world:\n  octomap:\n    octomap: {binary: 1, id: OcTree, resolution: 0.1, data: [200, 1]}\n", 3,
+       "it must be from -128 to 127"},
+      {"OctomapFile", "octomap: no_such.bt\n", 1, "cannot read the file"},
+      {"ObjectWithTheNameOfTheOctomap", "world:\n  collision_objects:\n    - id: <octomap>\n", 3,
+       "is kept for the octomap"},
+      {"NegativeWeight",
+       "robot_state:\n  attached_collision_objects:\n    - {link_name: pole, weight: -1, object: {id: a, primitives: "
+       "[{type: box, dimensions: [1, 1, 1]}]}}\n",
+       3, "the weight is negative"},
 
       {"FrameInAnotherFrame",
        "fixed_frame_transforms:\n  - header: {frame_id: moon}\n    child_frame_id: camera\n    transform: {}\n", 2,

@@ -6,6 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/name_list.h"
 #include "node/messages/object_from_message.h"
+#include "node/messages/octomap_messages.h"
 #include "scene/frame.h"
 #include "scene/message_values.h"
 
@@ -240,6 +241,8 @@ SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& ro
     insertOnce(change.colors, color.id, Color{color.color.r, color.color.g, color.color.b, color.color.a}, "the color");
   for (const CollisionObject& object : message.world.collision_objects)
     change.objects.push_back(objectChangeFrom(object, meshes));
+  if (std::optional<ObjectChange> octomap = octomapChangeFrom(message.world.octomap, limits.voxels))
+    change.objects.push_back(std::move(*octomap));
   return change;
 }
 }  // namespace gpu_planning_scene::core

@@ -1,6 +1,7 @@
 #include "node/messages/object_from_message.h"
 
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/octomap.h"
 #include "model/coordinate_hash.h"
 #include "scene/message_values.h"
 
@@ -19,14 +20,6 @@ std::size_t hashOfMesh(const Mesh& mesh)
 Eigen::Isometry3d poseFrom(const geometry_msgs::Pose& pose)
 {
   return isometryOf(pose.position, pose.orientation);
-}
-
-/// ROS fills a pose that was never set with zeros.
-bool isUnset(const geometry_msgs::Pose& pose)
-{
-  const geometry_msgs::Point& p = pose.position;
-  const geometry_msgs::Quaternion& q = pose.orientation;
-  return p.x == 0.0 && p.y == 0.0 && p.z == 0.0 && q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;
 }
 
 Operation operationOf(const CollisionObject& message)
@@ -113,6 +106,25 @@ std::shared_ptr<const Mesh> InlineMeshes::meshOf(const shape_msgs::Mesh& message
   return meshes_.emplace(hash, std::make_shared<const Mesh>(std::move(mesh)))->second;
 }
 
+JointTrajectory postureFrom(const trajectory_msgs::JointTrajectory& message)
+{
+  JointTrajectory posture;
+  posture.frame_id = message.header.frame_id;
+  posture.stamp = static_cast<std::int64_t>(message.header.stamp.toNSec());
+  posture.joint_names = message.joint_names;
+  for (const trajectory_msgs::JointTrajectoryPoint& point : message.points)
+    posture.points.push_back(
+        {point.positions, point.velocities, point.accelerations, point.effort, point.time_from_start.toNSec()});
+  return posture;
+}
+
+bool isUnset(const geometry_msgs::Pose& pose)
+{
+  const geometry_msgs::Point& p = pose.position;
+  const geometry_msgs::Quaternion& q = pose.orientation;
+  return p.x == 0.0 && p.y == 0.0 && p.z == 0.0 && q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0;
+}
+
 Eigen::Quaterniond rotationOf(const geometry_msgs::Quaternion& message)
 {
   const Eigen::Vector4d components(message.x, message.y, message.z, message.w);
@@ -128,11 +140,14 @@ ObjectChange objectChangeFrom(const CollisionObject& message, InlineMeshes& mesh
   ObjectChange change;
   change.operation = operationOf(message);
   change.id = message.id;
+  if (change.id == kOctomapId)
+    throw Error("object '" + change.id + "': this id is kept for the octomap; send it as world.octomap");
   if (change.operation == Operation::Remove)
     return change;
   change.frame = {message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())};
   if (!isUnset(message.pose))
     change.pose = poseFrom(message.pose);
+  change.type = {message.type.key, message.type.db};
   if (message.subframe_poses.size() != message.subframe_names.size())
     throw Error("object '" + message.id + "': " + std::to_string(message.subframe_poses.size()) +
                 " subframe_poses for " + std::to_string(message.subframe_names.size()) + " subframe_names");
@@ -155,6 +170,8 @@ AttachedChange attachedChangeFrom(const AttachedCollisionObject& message, Inline
   change.object = objectChangeFrom(message.object, meshes);
   change.link = message.link_name;
   change.touch_links = message.touch_links;
+  change.detach_posture = postureFrom(message.detach_posture);
+  change.weight = message.weight;
   return change;
 }
 }  // namespace gpu_planning_scene::core

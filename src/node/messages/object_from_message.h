@@ -5,6 +5,7 @@
 
 #include <geometry_msgs/Quaternion.h>
 #include <shape_msgs/Mesh.h>
+#include <trajectory_msgs/JointTrajectory.h>
 
 #include "gpu_planning_scene/scene_change.h"
 #include "node/messages/messages.h"
@@ -23,6 +24,11 @@ class InlineMeshes
 
 ObjectChange objectChangeFrom(const CollisionObject& message, InlineMeshes& meshes);
 AttachedChange attachedChangeFrom(const AttachedCollisionObject& message, InlineMeshes& meshes);
+
+JointTrajectory postureFrom(const trajectory_msgs::JointTrajectory& message);
+
+/// Returns true for a pose whose numbers are all 0. ROS fills a pose that was never set with zeros.
+bool isUnset(const geometry_msgs::Pose& pose);
 
 Eigen::Quaterniond rotationOf(const geometry_msgs::Quaternion& message);
 

@@ -2,39 +2,15 @@
 
 #include <algorithm>
 
+#include "gpu_planning_scene/octomap.h"
+#include "node/messages/octomap_messages.h"
+#include "node/messages/pose_messages.h"
 #include "scene/message_values.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-geometry_msgs::Quaternion orientationOf(const Eigen::Isometry3d& pose)
-{
-  const Eigen::Quaterniond rotation(pose.linear());
-  geometry_msgs::Quaternion message;
-  message.x = rotation.x();
-  message.y = rotation.y();
-  message.z = rotation.z();
-  message.w = rotation.w();
-  return message;
-}
-
-template <class Position>
-void setPosition(Position& message, const Eigen::Vector3d& position)
-{
-  message.x = position.x();
-  message.y = position.y();
-  message.z = position.z();
-}
-
-geometry_msgs::Pose poseOf(const Eigen::Isometry3d& pose)
-{
-  geometry_msgs::Pose message;
-  setPosition(message.position, pose.translation());
-  message.orientation = orientationOf(pose);
-  return message;
-}
-
 geometry_msgs::Transform transformOf(const Eigen::Isometry3d& pose)
 {
   geometry_msgs::Transform message;
@@ -115,6 +91,8 @@ CollisionObject messageOf(const ObjectChange& change, const std::string& plannin
   CollisionObject message;
   message.operation = operationOf(change.operation);
   message.id = change.id;
+  message.type.key = change.type.key;
+  message.type.db = change.type.db;
   message.header.frame_id = change.frame.name.empty() ? planning_frame : change.frame.name;
   message.header.stamp.fromNSec(static_cast<std::uint64_t>(change.frame.stamp));
   if (change.pose)
@@ -131,12 +109,33 @@ CollisionObject messageOf(const ObjectChange& change, const std::string& plannin
   return message;
 }
 
+trajectory_msgs::JointTrajectory messageOf(const JointTrajectory& posture)
+{
+  trajectory_msgs::JointTrajectory message;
+  message.header.frame_id = posture.frame_id;
+  message.header.stamp.fromNSec(static_cast<std::uint64_t>(posture.stamp));
+  message.joint_names = posture.joint_names;
+  for (const JointTrajectory::Point& point : posture.points)
+  {
+    message.points.emplace_back();
+    trajectory_msgs::JointTrajectoryPoint& added = message.points.back();
+    added.positions = point.positions;
+    added.velocities = point.velocities;
+    added.accelerations = point.accelerations;
+    added.effort = point.effort;
+    added.time_from_start.fromNSec(point.time_from_start);
+  }
+  return message;
+}
+
 AttachedCollisionObject messageOf(const AttachedChange& change, const std::string& planning_frame)
 {
   AttachedCollisionObject message;
   message.link_name = change.link;
   message.object = messageOf(change.object, planning_frame);
   message.touch_links = change.touch_links;
+  message.detach_posture = messageOf(change.detach_posture);
+  message.weight = change.weight;
   return message;
 }
 
@@ -226,10 +225,10 @@ SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
       change.link_padding[link.name] = padding;
       change.link_scale[link.name] = scale;
     }
-  if (asked(Components::WORLD_OBJECT_GEOMETRY))
-    change.objects = full.objects;
-  else if (asked(Components::WORLD_OBJECT_NAMES))
-    for (const WorldObject& object : scene.objects)
+  for (const ObjectChange& object : full.objects)
+    if (asked(object.id == kOctomapId ? Components::OCTOMAP : Components::WORLD_OBJECT_GEOMETRY))
+      change.objects.push_back(object);
+    else if (object.id != kOctomapId && asked(Components::WORLD_OBJECT_NAMES))
     {
       change.objects.emplace_back();
       change.objects.back().id = object.id;
@@ -281,7 +280,10 @@ PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robo
     message.object_colors.back().color.a = color.a;
   }
   for (const ObjectChange& object : change.objects)
-    message.world.collision_objects.push_back(messageOf(object, planning_frame));
+    if (object.id == kOctomapId)
+      message.world.octomap = octomapMessageOf(object, planning_frame);
+    else
+      message.world.collision_objects.push_back(messageOf(object, planning_frame));
   return message;
 }
 

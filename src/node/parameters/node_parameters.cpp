@@ -150,6 +150,7 @@ SceneLimits sceneLimitsFromParameters(const ros::NodeHandle& own)
   SceneLimits limits;
   limits.objects = countParameter(own, "limits/objects", limits.objects, 0, kNoLimit);
   limits.shapes = countParameter(own, "limits/shapes", limits.shapes, 0, kNoLimit);
+  limits.voxels = countParameter(own, "limits/voxels", limits.voxels, 1, kNoLimit);
   limits.triangles = countParameter(own, "limits/triangles", limits.triangles, 0, kNoLimit);
   limits.triangles_of_mesh = countParameter(own, "limits/triangles_of_mesh", limits.triangles_of_mesh, 0, kNoLimit);
   limits.frames = countParameter(own, "limits/frames", limits.frames, 0, kNoLimit);

@@ -38,21 +38,28 @@ FrameLookup::Clock::time_point FrameLookup::deadline() const
          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(timeout_, kForEver)));
 }
 
-/// Polls tf2. The wait of tf2 itself uses ROS time, and never ends if ROS time stands still.
-Eigen::Isometry3d FrameLookup::operator()(const StampedFrame& frame, Clock::time_point until) const
+FrameLookup::Found FrameLookup::find(const StampedFrame& frame) const
 {
   ros::Time stamp;
   stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.stamp)));
+  const geometry_msgs::TransformStamped found =
+      buffer_.lookupTransform(planning_frame_, withoutSlash(frame.name), stamp);
+  const geometry_msgs::Vector3& place = found.transform.translation;
+  const geometry_msgs::Quaternion& turn = found.transform.rotation;
+  const Eigen::Quaterniond rotation(turn.w, turn.x, turn.y, turn.z);
+  return {Eigen::Translation3d(place.x, place.y, place.z) * rotation.normalized(),
+          static_cast<std::int64_t>(found.header.stamp.toNSec())};
+}
+
+/// Polls tf2. The wait of tf2 itself uses ROS time, and never ends if ROS time stands still.
+Eigen::Isometry3d FrameLookup::operator()(const StampedFrame& frame, Clock::time_point until) const
+{
   for (;; std::this_thread::sleep_for(kPause))
   {
     const bool last = Clock::now() >= until;
     try
     {
-      const geometry_msgs::Transform found =
-          buffer_.lookupTransform(planning_frame_, withoutSlash(frame.name), stamp).transform;
-      const Eigen::Quaterniond rotation(found.rotation.w, found.rotation.x, found.rotation.y, found.rotation.z);
-      return Eigen::Translation3d(found.translation.x, found.translation.y, found.translation.z) *
-             rotation.normalized();
+      return find(frame).pose;
     }
     catch (const tf2::TransformException& error)
     {
@@ -62,7 +69,7 @@ Eigen::Isometry3d FrameLookup::operator()(const StampedFrame& frame, Clock::time
         continue;
       std::string when = "at the latest time";
       if (frame.stamp != 0)
-        when = "at " + std::to_string(stamp.toSec()) + " s";
+        when = "at " + std::to_string(1e-9 * static_cast<double>(frame.stamp)) + " s";
       throw Error("frame '" + frame.name + "': not in the scene, and tf found no transform to the planning frame '" +
                   planning_frame_ + "' " + when + " within " + std::to_string(timeout_) +
                   " s (tf_timeout): " + reasonOf(error));

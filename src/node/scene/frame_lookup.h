@@ -22,6 +22,14 @@ class FrameLookup
 
   /// The deadline of a lookup that starts now.
   Clock::time_point deadline() const;
+  /// The pose of a frame, and the time in nanoseconds for which tf has it. The time is 0 if the frame never moves.
+  struct Found
+  {
+    Eigen::Isometry3d pose;
+    std::int64_t stamp;
+  };
+  /// The pose of the frame at its stamp (0: the latest). Does not wait. Throws tf2::TransformException.
+  Found find(const StampedFrame& frame) const;
   /// The pose of the frame at its stamp (0: the latest). Waits for the frame, at most until `until`; then throws Error.
   Eigen::Isometry3d operator()(const StampedFrame& frame, Clock::time_point until) const;
 

@@ -500,7 +500,7 @@ TEST_F(Messages, OnlyTheComponentsThatAreAskedForAreThere)
   EXPECT_EQ(2u, message.link_scale.size());
   message = get(Components::OBJECT_COLORS);
   EXPECT_EQ(0.5F, message.object_colors.at(0).color.r);
-  message = get(32);  // MoveIt's OCTOMAP
+  message = get(Components::OCTOMAP);
   EXPECT_TRUE(message.name.empty() && message.world.collision_objects.empty() && message.object_colors.empty());
 }
 

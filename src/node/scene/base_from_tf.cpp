@@ -1,0 +1,94 @@
+#include "node/scene/base_from_tf.h"
+
+#include <cmath>
+
+#include "gpu_planning_scene/error.h"
+#include "scene/message_values.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr double kOldAge = 1.0;  // seconds; localisation and odometry publish many times in this time
+
+/// The values of the virtual joint, and a warning if it cannot reach the pose. Only a planar joint cannot. MoveIt, too,
+/// leaves out the rest of the pose.
+AssumedBase valuesAt(const Joint& joint, const Eigen::Isometry3d& pose)
+{
+  try
+  {
+    return {variablesAt(joint, pose), ""};
+  }
+  catch (const Error&)
+  {
+    const Eigen::Matrix3d directions = planarDirections(joint.axis);
+    const Eigen::Vector3d place = directions.transpose() * pose.translation();
+    const Eigen::Matrix3d turn = directions.transpose() * pose.linear() * directions;
+    return {{place.x(), place.y(), std::atan2(turn(1, 0), turn(0, 0))},
+            "the robot's pose by tf leaves the plane of the planar virtual joint '" + joint.name +
+                "'; only its part in the plane is used"};
+  }
+}
+}  // namespace
+
+BaseFromTf::BaseFromTf(const FrameLookup& frames, std::shared_ptr<const RobotModel> robot)
+  : BaseFromTf([&frames](const StampedFrame& frame) { return frames.find(frame); },
+               [] { return static_cast<std::int64_t>(ros::Time::now().toNSec()); }, std::move(robot))
+{
+}
+
+BaseFromTf::BaseFromTf(Find find, Now now, std::shared_ptr<const RobotModel> robot)
+  : find_(std::move(find)), now_(std::move(now)), robot_(std::move(robot))
+{
+  for (const Joint& joint : robot_->joints())
+    if (joint.parent_link < 0 && variableCount(joint.type) > 0)
+    {
+      joint_ = &joint;
+      root_ = robot_->links()[static_cast<std::size_t>(joint.child_link)].name;
+    }
+}
+
+AssumedBase BaseFromTf::at(std::int64_t stamp)
+{
+  if (joint_ == nullptr)
+    return {};
+  if (stamp != 0)
+    try
+    {
+      return valuesAt(*joint_, find_({root_, stamp}).pose);
+    }
+    catch (const tf2::TransformException&)
+    {
+      // The newest pose is the nearest one, as for joint values.
+    }
+  const std::string frames = "from '" + robot_->planningFrame() + "' to '" + root_ + "'";
+  try
+  {
+    const FrameLookup::Found found = find_({root_, 0});
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (!newest_)
+        ROS_INFO_STREAM("no state has set the virtual joint '" << joint_->name << "', so tf sets it: the transform "
+                                                               << frames);
+      newest_ = found;
+    }
+    AssumedBase base = valuesAt(*joint_, found.pose);
+    const double age = 1e-9 * static_cast<double>(now_() - found.stamp);
+    if (found.stamp != 0 && age > kOldAge)
+      base.warning += (base.warning.empty() ? "" : "; ") +
+                      std::string("the robot's pose comes from tf, and its newest transform ") + frames + " is " +
+                      std::to_string(age) + " s old";
+    return base;
+  }
+  catch (const tf2::TransformException&)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!newest_)
+      return {{}, "tf has no transform " + frames};
+    AssumedBase base = valuesAt(*joint_, newest_->pose);
+    base.warning =
+        "the robot's pose comes from tf, which has lost the transform " + frames + "; the last one that it had is used";
+    return base;
+  }
+}
+}  // namespace gpu_planning_scene::core

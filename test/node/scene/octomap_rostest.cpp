@@ -1,0 +1,102 @@
+// Octomaps that come at 2 Hz while states are checked.
+
+#include <atomic>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "gpu_planning_scene/octomap.h"
+#include "node/node_client.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+class Octomaps : public RunningNode
+{
+ public:
+  /// An octomap with 10,000 leaves far from the robot, and a leaf of `size` metres around `place`.
+  static PlanningSceneMessage octomapAt(const Eigen::Vector3d& place, double size)
+  {
+    std::vector<PlacedShape> cubes;
+    const auto add = [&](double x, double y) {
+      cubes.push_back(
+          {Box{Eigen::Vector3d::Constant(size)}, Eigen::Isometry3d(Eigen::Translation3d(x, y, 0.5 * size))});
+    };
+    add(0.5 * size, 0.5 * size);
+    const int first = static_cast<int>(100.0 / size);
+    for (int i = 0; i < 100; ++i)
+      for (int j = 0; j < 100; ++j)
+        add((first + i + 0.5) * size, (j + 0.5) * size);
+    const SerializedOctree octree = octreeOf(cubes);
+    PlanningSceneMessage message = diffScene();
+    OctomapWithPose& map = message.world.octomap;
+    map.octomap.id = octree.id;
+    map.octomap.binary = 1;
+    map.octomap.resolution = octree.resolution;
+    map.octomap.data = octree.bytes;
+    map.origin = poseAt(Eigen::Vector3d(place - Eigen::Vector3d::Constant(0.5 * size)));
+    return message;
+  }
+};
+
+TEST_F(Octomaps, AtTwoHertzGiveEachRevisionItsVerdict)
+{
+  constexpr double kSize = 0.02;
+  const PlanningSceneMessage hit = octomapAt(tipPoint(), kSize);
+  const PlanningSceneMessage miss = octomapAt(farAway(), kSize);
+  std::map<std::uint64_t, bool> is_free;  // by revision
+  is_free[apply(miss)] = true;
+  std::atomic<bool> done{false};
+  std::vector<std::pair<std::uint64_t, bool>> answers;
+  std::thread client(
+      [&]
+      {
+        while (!done)
+        {
+          const CheckStates::Response response = check(free_state);
+          EXPECT_TRUE(response.success) << response.message;
+          answers.emplace_back(response.scene_revision, !response.valid.empty() && response.valid[0] != 0);
+        }
+      });
+  for (int i = 0; i < 10; ++i)
+  {
+    is_free[apply(i % 2 == 0 ? hit : miss)] = i % 2 != 0;
+    ros::WallDuration(0.5).sleep();
+  }
+  done = true;
+  client.join();
+  EXPECT_EQ(11U, is_free.size()) << "each octomap is a revision";
+  std::set<std::uint64_t> seen;
+  for (const auto& [revision, free] : answers)
+  {
+    ASSERT_EQ(1U, is_free.count(revision)) << revision;
+    EXPECT_EQ(is_free[revision], free) << "revision " << revision;
+    seen.insert(revision);
+  }
+  EXPECT_GT(seen.size(), 5U) << "the services answer meanwhile";
+}
+
+TEST_F(Octomaps, GoThroughTheTopicAndComeBackAndAreCleared)
+{
+  const PlanningSceneMessage hit = octomapAt(tipPoint(), 0.02);
+  ros::NodeHandle node;
+  ros::Publisher publisher = node.advertise<PlanningSceneMessage>(name("planning_scene"), 1);
+  for (int i = 0; i < 200 && (publisher.getNumSubscribers() == 0 || isFree()); ++i)
+  {
+    publisher.publish(hit);
+    ros::WallDuration(0.1).sleep();
+  }
+  EXPECT_EQ(kOctomapId + " " + tip, collision());
+  const PlanningSceneMessage back = scene();
+  EXPECT_TRUE(back.world.collision_objects.empty());
+  EXPECT_EQ(hit.world.octomap.octomap.data, back.world.octomap.octomap.data);
+  EXPECT_EQ(hit.world.octomap.octomap.resolution, back.world.octomap.octomap.resolution);
+  PlanningSceneMessage clear = diffScene();
+  clear.world.octomap.octomap.id = "cleared";
+  apply(clear);
+  EXPECT_TRUE(isFree());
+  EXPECT_TRUE(scene().world.octomap.octomap.data.empty());
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
