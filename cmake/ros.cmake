@@ -30,6 +30,7 @@ add_service_files(FILES
   ApplyPlanningScene.srv
   CheckMotions.srv
   CheckStates.srv
+  CheckTrajectory.srv
   Clear.srv
   GetPlanningScene.srv
   GetReport.srv

@@ -36,6 +36,20 @@ std::vector<double> startingState(const Snapshot& at, const std::map<std::string
       return {};
   return at.state;
 }
+
+/// Sets the given variables. Names that the robot lacks are ignored.
+void assign(const RobotModel& robot, const std::map<std::string, double>& variables, std::vector<double>& state,
+            std::vector<bool>& known)
+{
+  for (const auto& [name, value] : variables)
+  {
+    const int variable = robot.variableIndex(name);
+    if (variable < 0)
+      continue;
+    state[static_cast<std::size_t>(variable)] = value;
+    known[static_cast<std::size_t>(variable)] = true;
+  }
+}
 }  // namespace
 
 bool Snapshot::allKnown() const
@@ -95,6 +109,22 @@ SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& l
   }
 }
 
+SceneStore::Preview SceneStore::preview(const std::vector<SceneChange>& changes, const Lookup& lookup) const
+{
+  Preview preview{snapshot(), {}};
+  Snapshot& at = preview.snapshot;
+  ExternalFrames frames;
+  for (const SceneChange& change : changes)
+  {
+    findFrames(*at.scene, change, lookup, frames);
+    Change made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
+    at.scene = std::make_shared<const PlanningScene>(std::move(made.scene));
+    assign(*at.scene->robot, change.state.variables, at.state, at.known);
+    preview.warnings.insert(preview.warnings.end(), made.warnings.begin(), made.warnings.end());
+  }
+  return preview;
+}
+
 SceneStore::Applied SceneStore::clear()
 {
   const std::lock_guard<std::mutex> changing(changes_);
@@ -124,24 +154,11 @@ std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::strin
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     scene_ = after;
-    setVariables(variables);
+    assign(*scene_->robot, variables, state_, known_);
   }
   if (listener_)
     listener_(before, after);
   return after->revision;
-}
-
-/// The caller holds mutex_. Names that the robot lacks are ignored.
-void SceneStore::setVariables(const std::map<std::string, double>& variables)
-{
-  for (const auto& [name, value] : variables)
-  {
-    const int variable = scene_->robot->variableIndex(name);
-    if (variable < 0)
-      continue;
-    state_[static_cast<std::size_t>(variable)] = value;
-    known_[static_cast<std::size_t>(variable)] = true;
-  }
 }
 
 void SceneStore::updateState(const std::map<std::string, double>& variables, std::int64_t stamp)
@@ -151,7 +168,7 @@ void SceneStore::updateState(const std::map<std::string, double>& variables, std
   for (const auto& [name, value] : variables)
     if (robot.variableIndex(name) >= 0 && !std::isfinite(value))
       throw Error("the position of '" + name + "' is not a finite number");
-  setVariables(variables);
+  assign(robot, variables, state_, known_);
   history_.add(stamp, state_);
 }
 

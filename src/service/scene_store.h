@@ -51,6 +51,15 @@ class SceneStore
   /// nothing has changed.
   Applied apply(const SceneChange& change, const Lookup& lookup);
 
+  struct Preview
+  {
+    Snapshot snapshot;  ///< its scene has the revision of the store's scene
+    std::vector<std::string> warnings;
+  };
+  /// The scene and the state that apply() would leave after all these changes. The store stays as it is. Throws the
+  /// errors of apply().
+  Preview preview(const std::vector<SceneChange>& changes, const Lookup& lookup) const;
+
   /// Removes all objects and attached objects with their entries in the allowed collision matrix, and all colours.
   /// Warns of each body that an entry forbade to touch an object, if the default of the body allows it to touch a new
   /// object of the same name.
@@ -71,7 +80,6 @@ class SceneStore
 
  private:
   std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables);
-  void setVariables(const std::map<std::string, double>& variables);
 
   std::mutex changes_;        // held during a change
   mutable std::mutex mutex_;  // guards the next four members

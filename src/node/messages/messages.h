@@ -7,6 +7,7 @@
 #include <gpu_planning_scene/ApplyPlanningScene.h>
 #include <gpu_planning_scene/CheckMotions.h>
 #include <gpu_planning_scene/CheckStates.h>
+#include <gpu_planning_scene/CheckTrajectory.h>
 #include <gpu_planning_scene/Clear.h>
 #include <gpu_planning_scene/ContactInformation.h>
 #include <gpu_planning_scene/GetPlanningScene.h>
