@@ -21,6 +21,7 @@ add_message_files(FILES
   ContactInformation.msg
   LinkPadding.msg
   LinkScale.msg
+  NearestPair.msg
   ObjectColor.msg
   PlanningScene.msg
   PlanningSceneComponents.msg

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gpu_planning_scene/error.h"
 #include "model/base_joints.h"
@@ -81,13 +82,18 @@ SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits 
 {
   state_ = PartialState(*scene.robot, scene.current_state).values;
   known_.assign(state_.size(), !scene.current_state.empty());
+  stamps_.assign(state_.size(), 0);
   scene_ = std::make_shared<const PlanningScene>(std::move(scene));
 }
 
 Snapshot SceneStore::snapshot() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return {scene_, state_, known_};
+  std::int64_t oldest = std::numeric_limits<std::int64_t>::max();
+  for (std::size_t i = 0; i < known_.size(); ++i)
+    if (known_[i])
+      oldest = std::min(oldest, stamps_[i]);
+  return {scene_, state_, known_, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest};
 }
 
 SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& lookup)
@@ -155,13 +161,16 @@ std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::strin
     const std::lock_guard<std::mutex> lock(mutex_);
     scene_ = after;
     assign(*scene_->robot, variables, state_, known_);
+    for (const auto& [name, value] : variables)
+      if (const int variable = scene_->robot->variableIndex(name); variable >= 0)
+        stamps_[static_cast<std::size_t>(variable)] = 0;
   }
   if (listener_)
     listener_(before, after);
   return after->revision;
 }
 
-void SceneStore::updateState(const std::map<std::string, double>& variables, std::int64_t stamp)
+std::string SceneStore::updateState(const std::map<std::string, double>& variables, std::int64_t stamp)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const RobotModel& robot = *scene_->robot;
@@ -169,7 +178,21 @@ void SceneStore::updateState(const std::map<std::string, double>& variables, std
     if (robot.variableIndex(name) >= 0 && !std::isfinite(value))
       throw Error("the position of '" + name + "' is not a finite number");
   assign(robot, variables, state_, known_);
+  std::string warning;
+  for (const auto& [name, value] : variables)
+  {
+    const int variable = robot.variableIndex(name);
+    if (variable < 0)
+      continue;
+    std::int64_t& known = stamps_[static_cast<std::size_t>(variable)];
+    if (stamp != 0 && stamp < known && warning.empty())
+      warning = "the time of '" + name + "' jumped back by " +
+                std::to_string(static_cast<double>(known - stamp) * 1e-9) +
+                " s; the new value counts: if the clock was not set back, look for a second publisher of this joint";
+    known = stamp;
+  }
   history_.add(stamp, state_);
+  return warning;
 }
 
 std::vector<double> SceneStore::stateAt(std::int64_t stamp) const

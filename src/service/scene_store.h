@@ -20,6 +20,8 @@ struct Snapshot
   std::shared_ptr<const PlanningScene> scene;
   std::vector<double> state;  ///< one value per variable
   std::vector<bool> known;    ///< one per variable; an unknown variable has its default value
+  /// The oldest stamp (nanoseconds) of the known values; 0: a known value has no stamp, or no value is known.
+  std::int64_t stamp = 0;
 
   bool allKnown() const;
   /// The virtual joint counts as known: without a value, the robot stands at the origin of the planning frame.
@@ -66,8 +68,10 @@ class SceneStore
   Applied clear();
 
   /// Sets the robot's variables, by name; names that the robot lacks are ignored. The revision stays the same. If a
-  /// value is not finite, it throws Error and sets nothing. `stamp`: nanoseconds; 0: unknown.
-  void updateState(const std::map<std::string, double>& variables, std::int64_t stamp = 0);
+  /// value is not finite, it throws Error and sets nothing. `stamp`: nanoseconds; 0: unknown. Returns a warning if a
+  /// variable already has a value of a later time: the new value counts all the same, as in MoveIt. Otherwise
+  /// returns an empty text.
+  std::string updateState(const std::map<std::string, double>& variables, std::int64_t stamp = 0);
   /// The state whose stamp is nearest to `stamp` (nanoseconds; 0: the newest state). If no state had a stamp, it is the
   /// newest state. Throws Error if the states of that time have already been dropped (see StateHistory).
   std::vector<double> stateAt(std::int64_t stamp) const;
@@ -82,10 +86,11 @@ class SceneStore
   std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables);
 
   std::mutex changes_;        // held during a change
-  mutable std::mutex mutex_;  // guards the next four members
+  mutable std::mutex mutex_;  // guards the next five members
   std::shared_ptr<const PlanningScene> scene_;
   std::vector<double> state_;
   std::vector<bool> known_;
+  std::vector<std::int64_t> stamps_;  // of the values; 0: unknown
   StateHistory history_;
   const SceneDefaults defaults_;
   const SceneLimits limits_;

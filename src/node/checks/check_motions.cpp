@@ -20,7 +20,8 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         if (request.starts.size() != request.ends.size())
           throw Error(std::to_string(request.starts.size()) + " values in starts and " +
                       std::to_string(request.ends.size()) + " in ends; give one row of each per motion");
-        const RequestedScene scene = requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix);
+        const RequestedScene scene =
+            requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix);
         const Snapshot& now = scene.now;
         const RobotModel& robot = *now.scene->robot;
         const auto require_count = [this](std::size_t count) { server_.requireStateCount(count); };

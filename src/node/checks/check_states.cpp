@@ -33,13 +33,20 @@ std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
   return index < links + scene.objects.size() ? ContactInformation::WORLD_OBJECT : ContactInformation::ROBOT_ATTACHED;
 }
 
+geometry_msgs::Point pointOf(const Eigen::Vector3d& point)
+{
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = point.z();
+  return message;
+}
+
 ContactInformation messageOf(const Contact& contact, const PlanningScene& scene, std::size_t state)
 {
   ContactInformation message;
   message.header.frame_id = scene.robot->planningFrame();
-  message.position.x = contact.point.x();
-  message.position.y = contact.point.y();
-  message.position.z = contact.point.z();
+  message.position = pointOf(contact.point);
   message.normal.x = contact.normal.x();
   message.normal.y = contact.normal.y();
   message.normal.z = contact.normal.z();
@@ -52,6 +59,20 @@ ContactInformation messageOf(const Contact& contact, const PlanningScene& scene,
   return message;
 }
 
+NearestPairMessage messageOf(const NearestPair& pair, const PlanningScene& scene)
+{
+  NearestPairMessage message;
+  message.distance = pair.distance;
+  message.point_1 = pointOf(pair.points[0]);
+  message.point_2 = pointOf(pair.points[1]);
+  if (pair.bodies == kNoPair)
+    return message;
+  message.body_1 = scene.bodyName(pair.bodies[0]);
+  message.body_type_1 = bodyType(scene, pair.bodies[0]);
+  message.body_2 = scene.bodyName(pair.bodies[1]);
+  message.body_type_2 = bodyType(scene, pair.bodies[1]);
+  return message;
+}
 }  // namespace
 
 CheckStates::Response CheckServices::checkStates(const CheckStates::Request& request)
@@ -61,7 +82,8 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
       {
         memory_.require();
         CheckJob job;
-        const RequestedScene scene = requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix);
+        const RequestedScene scene =
+            requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix);
         const Snapshot& now = scene.now;
         const RobotModel& robot = *now.scene->robot;
         NamedRow rows{request.joint_names, request.positions};
@@ -97,7 +119,7 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         job.matrix = scene.matrix;
         if (scene.is_changed)
           job.scene = scene.now;
-        job.keep_states = request.max_contacts != 0 || request.clearance;
+        job.keep_states = request.max_contacts != 0 || request.clearance || request.nearest;
         const bool inspects = job.keep_states;
         std::optional<Admission::Pass> pass;
         if (inspects)
@@ -130,7 +152,8 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
 {
   const std::vector<std::uint8_t>& valid = answer.result.valid;
   const auto colliding = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
-  const std::size_t inspected = request.clearance ? valid.size() : colliding;
+  const bool has_distances = request.clearance || request.nearest;
+  const std::size_t inspected = has_distances ? valid.size() : colliding;
   if (inspected > options_.max_inspected_states)
     throw Error("contacts or clearance requested for " + std::to_string(inspected) + " states; the limit is " +
                 std::to_string(options_.max_inspected_states) +
@@ -158,16 +181,24 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
     }
   }
   constexpr std::size_t kStatesPerPart = 64;  // a part takes well below a second, so that the node can stop
-  for (std::size_t i = 0; request.clearance && i < valid.size(); i += kStatesPerPart)
+  for (std::size_t i = 0; has_distances && i < valid.size(); i += kStatesPerPart)
   {
     if (stopping_)
       throw shuttingDown();
     const std::size_t count = std::min(kStatesPerPart, valid.size() - i);
-    for (const Clearance& clearance : inspector->clearances(answer.states.data() + i * width, count, request.group))
-    {
-      response.clearance_world.push_back(clearance.world);
-      response.clearance_self.push_back(clearance.self);
-    }
+    const double* states = answer.states.data() + i * width;
+    if (request.clearance)
+      for (const Clearance& clearance : inspector->clearances(states, count, request.group))
+      {
+        response.clearance_world.push_back(clearance.world);
+        response.clearance_self.push_back(clearance.self);
+      }
+    if (request.nearest)
+      for (const NearestPairs& pairs : inspector->nearestPairs(states, count, request.group))
+      {
+        response.nearest_world.push_back(messageOf(pairs.world, *answer.scene));
+        response.nearest_self.push_back(messageOf(pairs.self, *answer.scene));
+      }
   }
 }
 

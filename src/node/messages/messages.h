@@ -1,6 +1,6 @@
 #pragma once
 // All messages and services of this package. ROS puts them into the namespace gpu_planning_scene, so their names can be
-// used in gpu_planning_scene::core without a prefix. Two names are also classes of the library; the aliases below name
+// used in gpu_planning_scene::core without a prefix. Three names are also classes of the library; the aliases below name
 // the messages.
 
 #include <gpu_planning_scene/AllowedCollisionMatrix.h>
@@ -12,6 +12,7 @@
 #include <gpu_planning_scene/ContactInformation.h>
 #include <gpu_planning_scene/GetPlanningScene.h>
 #include <gpu_planning_scene/GetReport.h>
+#include <gpu_planning_scene/NearestPair.h>
 #include <gpu_planning_scene/PlanMotion.h>
 #include <gpu_planning_scene/PlanningScene.h>
 #include <gpu_planning_scene/PlanningSceneComponents.h>
@@ -20,5 +21,6 @@
 namespace gpu_planning_scene::core
 {
 using AllowedCollisionMatrixMessage = gpu_planning_scene::AllowedCollisionMatrix;
+using NearestPairMessage = gpu_planning_scene::NearestPair;
 using PlanningSceneMessage = gpu_planning_scene::PlanningScene;
 }  // namespace gpu_planning_scene::core

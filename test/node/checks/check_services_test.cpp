@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <limits>
 #include <thread>
@@ -302,6 +303,29 @@ TEST_F(Service, ClearanceIsGivenWhereAsked)
   EXPECT_NEAR(0.3, response.clearance_world[0], 2e-6) << "the cart reaches to 0.6 m, the wall begins at 0.9 m";
   EXPECT_EQ(0.0, response.clearance_world[1]);
   EXPECT_EQ(2u, response.clearance_self.size());
+}
+
+TEST_F(Service, TheNearestPairHasASignedDistanceAndPoints)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.5, 0.0, 0.9});
+  asked.nearest = 1;
+  const CheckStates::Response response = answer(asked);
+  ASSERT_EQ(2u, response.nearest_world.size()) << response.message;
+  EXPECT_TRUE(response.clearance_world.empty());
+  const NearestPairMessage& apart = response.nearest_world[0];
+  EXPECT_EQ("cart", apart.body_1);
+  EXPECT_EQ("wall", apart.body_2);
+  EXPECT_EQ(ContactInformation::WORLD_OBJECT, apart.body_type_2);
+  EXPECT_NEAR(0.3, apart.distance, 2e-6) << "the cart reaches to 0.6 m, the wall begins at 0.9 m";
+  EXPECT_NEAR(0.6, apart.point_1.x, 1e-6);
+  EXPECT_NEAR(0.9, apart.point_2.x, 1e-6);
+  const NearestPairMessage& deep = response.nearest_world[1];
+  EXPECT_NEAR(-0.1, deep.distance, 1e-6) << "the cart reaches to 1.0 m";
+  EXPECT_EQ("wall", deep.body_2);
+  EXPECT_EQ(deep.point_1, deep.point_2);
+  ASSERT_EQ(2u, response.nearest_self.size());
+  const NearestPairMessage& self = response.nearest_self[0];
+  EXPECT_EQ(self.body_1.empty(), std::isinf(self.distance));
 }
 
 TEST_F(Service, NoMoreStatesAreInspectedThanTheLimit)
