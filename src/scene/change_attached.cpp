@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "gpu_planning_scene/error.h"
 #include "scene/attach.h"
 #include "scene/frame.h"
@@ -33,7 +35,7 @@ void SceneChanger::attach(const AttachedChange& change)
   const int link = linkIndex(change.link, "object '" + id + "' cannot be attached");
   AttachedObject attached = change.object.shapes.empty() ? fromWorld(change, link) : fromShapes(change, link);
   requireAttachable(attached.object);
-  addTouchLinks(*result_.scene.robot, change.touch_links, attached);
+  addTouchLinks(*result_.scene.robot, change.touch_links, attached, &result_.warnings);
   attached.padding = defaults_.attached_padding;
   result_.scene.scaleAttached(attached);
   warnOfAllowedCollisions(id);
@@ -89,8 +91,24 @@ void SceneChanger::appendToAttached(AttachedObject& attached, const AttachedChan
   if (hasHalfSpace(attached.object.shapes))
     throw Error("object '" + change.object.id + "' is attached and cannot have a half-space");
   count_.add(change.object.id, attached.object.shapes);
-  addTouchLinks(*result_.scene.robot, change.touch_links, attached);
+  addTouchLinks(*result_.scene.robot, change.touch_links, attached, &result_.warnings);
   result_.scene.scaleAttached(attached);
+}
+
+void SceneChanger::warnOfForbiddenCarrier(const AttachedObject& attached)
+{
+  const AllowedCollisionMatrix& matrix = result_.scene.allowed_collisions;
+  const std::string& id = attached.object.id;
+  const std::string& link = linkName(attached.link);
+  const std::vector<int>& touching = attached.touch_links;
+  if (matrix.allowed(id, link) || std::find(touching.begin(), touching.end(), attached.link) != touching.end())
+    return;
+  const std::vector<std::string> named = matrix.bodiesWithEntries();
+  if (!std::binary_search(named.begin(), named.end(), id) || !std::binary_search(named.begin(), named.end(), link))
+    return;
+  result_.warnings.push_back("the allowed-collision matrix forbids object '" + id + "' to touch link '" + link +
+                             "', but this pair is not checked, because the link carries the object; list the link in "
+                             "touch_links to silence this warning");
 }
 
 /// A pose in the link's own frame does not need the state of the robot.
