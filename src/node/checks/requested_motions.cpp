@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "collision/bounds/reach.h"
+#include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "model/joint_limits.h"
