@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes the objects of a planning_scene_node's scene to a .scene file, which RViz's MotionPlanning plugin reads too."""
+"""Writes the objects of a planning_scene_node's scene to a .scene file. RViz's MotionPlanning plugin reads it too."""
 import argparse
 import sys
 

@@ -4,8 +4,8 @@
 #include "gpu_planning_scene/error.h"
 #include "node/checks/check_services.h"
 #include "node/checks/requested_motions.h"
+#include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
-#include "node/messages/requested_scene.h"
 #include "node/messages/requested_states.h"
 
 // The service ~check_motions.

@@ -6,9 +6,9 @@
 #include "model/joint_limits.h"
 #include "model/seconds_since.h"
 #include "node/checks/check_services.h"
+#include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
 #include "node/endpoints/topic_warnings.h"
-#include "node/messages/requested_scene.h"
 #include "node/messages/requested_states.h"
 
 // The service ~check_states, with contacts and clearance.

@@ -9,8 +9,8 @@
 #include "model/math_constants.h"
 #include "node/checks/check_services.h"
 #include "node/checks/requested_motions.h"
+#include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
-#include "node/messages/requested_scene.h"
 #include "node/messages/requested_trajectory.h"
 
 // The service ~check_trajectory. The rows of a path are its start and its waypoints; part i goes from row i to row

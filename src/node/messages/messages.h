@@ -1,7 +1,7 @@
 #pragma once
 // All messages and services of this package. ROS puts them into the namespace gpu_planning_scene, so their names can be
-// used in gpu_planning_scene::core without a prefix. Three names are also classes of the library; the aliases below name
-// the messages.
+// used in gpu_planning_scene::core without a prefix. Three names are also classes of the library; the aliases below
+// name the messages.
 
 #include <gpu_planning_scene/AllowedCollisionMatrix.h>
 #include <gpu_planning_scene/ApplyPlanningScene.h>

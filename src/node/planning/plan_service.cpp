@@ -5,7 +5,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
 #include "node/endpoints/respond.h"
-#include "node/messages/requested_scene.h"
+#include "node/messages/requested_changes.h"
 #include "service/busy.h"
 
 namespace gpu_planning_scene::core
@@ -162,12 +162,16 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
 {
   const PlannerConfig config = configs_.find(request.planner, request.group);
   const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type, configs_.names());
-  RequestedScene scene = requestedScene(store_, lookup_, request.scene_diff, {});
-  const Snapshot& now = scene.now;
+  std::vector<std::string> warnings;
+  const std::vector<SceneChange> changes =
+      requestedChanges(*store_.snapshot().scene->robot, store_.limits(), request.scene_diff, {}, warnings);
+  const SceneStore::Preview preview = store_.preview(changes, lookup_);
+  warnings.insert(warnings.end(), preview.warnings.begin(), preview.warnings.end());
+  const Snapshot& now = preview.snapshot;
   PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
   if (std::string base = now.assumedBase(variableIndices(*now.scene->robot, request.start_names)); !base.empty())
-    scene.warnings.push_back(std::move(base));
-  return {now.scene, std::move(query), factory, config.type, std::move(scene.warnings)};
+    warnings.push_back(std::move(base));
+  return {now.scene, std::move(query), factory, config.type, std::move(warnings)};
 }
 
 PlanningResult PlanService::plan(const Task& task)

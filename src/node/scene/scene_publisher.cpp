@@ -1,5 +1,7 @@
 #include "node/scene/scene_publisher.h"
 
+#include <ros/single_subscriber_publisher.h>
+
 #include "node/messages/messages.h"
 #include "node/messages/to_messages.h"
 

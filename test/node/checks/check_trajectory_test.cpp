@@ -226,7 +226,7 @@ TEST_F(SliderTrajectory, ValuesBeyondTheLimitsAreNotProvenAndTheAnswerSaysSo)
   EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), response.waypoint_valid);
   EXPECT_EQ((std::vector<std::uint8_t>{1, 0}), response.part_valid);
   EXPECT_EQ(
-      "waypoint 1: joint 'slide' is -3, outside its limits -2 to 2 m; the motion rule \"bound\" proves no motion there",
+      "waypoint 1: joint 'slide' is -3, outside its limits -2 to 2; the motion rule \"bound\" proves no motion there",
       response.message);
 }
 
@@ -257,7 +257,7 @@ TEST(MultiDofTrajectory, IsCheckedAsTheSameValuesByName)
     robot.store.updateState({{"slide", 0.0}, {"turn", 0.0}});
     CheckTrajectory::Request transforms;
     transforms.resolution = transforms.translation_resolution = 0.05;
-    addTransforms("floor", {transformAt(0, 0, 0), transformAt(2, 0, 1.0), transformAt(3, 0, 1.0)}, transforms);
+    addTransforms("floor", {transformAt(0, 0, 0), transformAt(2, 0, 0), transformAt(3, 0, 1.0)}, transforms);
     transforms.multi_dof_joint_trajectory.header.frame_id = "hall";
     const auto response = robot.services.checkTrajectory(transforms);
     ASSERT_TRUE(response.success) << response.message;
@@ -266,13 +266,12 @@ TEST(MultiDofTrajectory, IsCheckedAsTheSameValuesByName)
     EXPECT_EQ((std::vector<std::uint8_t>{1, 1, 0}), response.part_valid);
 
     const std::vector<double> turned = {std::sin(0.5), std::cos(0.5)};
-    const auto named = type == "planar"
-                           ? trajectoryOf({"floor/x", "floor/y", "floor/theta"}, {{0, 0, 0}, {2, 0, 1}, {3, 0, 1}})
-                           : trajectoryOf({"floor/trans_x", "floor/trans_y", "floor/trans_z", "floor/rot_x",
-                                           "floor/rot_y", "floor/rot_z", "floor/rot_w"},
-                                          {{0, 0, 0, 0, 0, 0, 1},
-                                           {2, 0, 0, 0, 0, turned[0], turned[1]},
-                                           {3, 0, 0, 0, 0, turned[0], turned[1]}});
+    const auto named =
+        type == "planar"
+            ? trajectoryOf({"floor/x", "floor/y", "floor/theta"}, {{0, 0, 0}, {2, 0, 0}, {3, 0, 1}})
+            : trajectoryOf({"floor/trans_x", "floor/trans_y", "floor/trans_z", "floor/rot_x", "floor/rot_y",
+                            "floor/rot_z", "floor/rot_w"},
+                           {{0, 0, 0, 0, 0, 0, 1}, {2, 0, 0, 0, 0, 0, 1}, {3, 0, 0, 0, 0, turned[0], turned[1]}});
     const auto by_name = robot.services.checkTrajectory(named);
     EXPECT_EQ(response.waypoint_valid, by_name.waypoint_valid);
     EXPECT_EQ(response.part_valid, by_name.part_valid);

@@ -157,7 +157,11 @@ TEST_F(SceneDiff, OfObjectsHasTheAnswerOfAnAppliedChange)
   PlanningSceneMessage diff = diffScene();
   diff.world.collision_objects = {boxObject("crate", {-1.0, 0.0, 0.0}, 0.3)};
   EXPECT_NE(unchanged, compare(diff));
-  diff = diffScene();
+}
+
+TEST_F(SceneDiff, ThatRemovesAnObjectHasTheAnswerOfAnAppliedChange)
+{
+  PlanningSceneMessage diff = diffScene();
   diff.world.collision_objects.resize(1);
   diff.world.collision_objects[0].id = "wall";
   diff.world.collision_objects[0].operation = CollisionObject::REMOVE;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,14 +18,10 @@ struct RequestedScene
   std::vector<std::string> warnings;
 };
 
-/// The store's scene, with the changes of a request. The store stays as it is. `scene_diff`: empty, or a difference.
-/// `lookup`: finds frames that the scene does not have. Throws Error if `scene_diff` is a full scene, if it cannot be
-/// applied, or if it and `matrix` both give a matrix.
-RequestedScene requestedScene(const SceneStore& store, const SceneStore::Lookup& lookup,
-                              const PlanningSceneMessage& scene_diff, const AllowedCollisionMatrixMessage& matrix);
-
-/// The same, and then with a robot state. If the state has no attached objects, the links keep theirs.
+/// The store's scene, with the changes of a request (see requestedChanges). The store stays as it is. `lookup`: finds
+/// frames that the scene does not have. Throws Error if the changes cannot be made, or if `scene_diff` and `matrix`
+/// both have a matrix.
 RequestedScene requestedScene(const SceneStore& store, const SceneStore::Lookup& lookup,
                               const PlanningSceneMessage& scene_diff, const AllowedCollisionMatrixMessage& matrix,
-                              const RobotState& state);
+                              const RobotState& state = {});
 }  // namespace gpu_planning_scene::core
