@@ -21,6 +21,7 @@ add_message_files(FILES
   ContactInformation.msg
   LinkPadding.msg
   LinkScale.msg
+  NearestPair.msg
   ObjectColor.msg
   ObjectType.msg
   Octomap.msg
@@ -33,6 +34,7 @@ add_service_files(FILES
   ApplyPlanningScene.srv
   CheckMotions.srv
   CheckStates.srv
+  CheckTrajectory.srv
   Clear.srv
   GetPlanningScene.srv
   GetReport.srv

@@ -19,6 +19,7 @@
 #include "node/scene/scene_topics.h"
 #include "node/shutdown_call.h"
 #include "node/shutdown_deadline.h"
+#include "scene/frame.h"
 
 namespace gpu_planning_scene::core
 {
@@ -51,22 +52,26 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   warn(warnings);
 
   std::atomic<bool> stopping{false};
-  const FrameLookup lookup(scene.robot->planningFrame(), options.tf_timeout,
-                           [&stopping] { return stopping || !ros::ok(); });
+  const SceneStore* known = nullptr;  // the store below, which needs the lookup for the base
+  const FrameLookup lookup(
+      scene.robot->planningFrame(), options.tf_timeout, [&stopping] { return stopping || !ros::ok(); },
+      [&known] { return frameNames(*known->snapshot().scene); });
   BaseFromTf base(lookup, scene.robot);
   Diagnostics diagnostics;
   SceneStore store(std::move(scene), defaults, limits, [&base](std::int64_t stamp) { return base.at(stamp); });
+  known = &store;
   const CheckServer::MakeChecker make_checker = checkerMaker(checker_options, resilience, open_device, diagnostics);
   CheckServer server(store, make_checker, server_options);
   const SceneWatch watch(own, store, server);
 
   const MemoryGuard memory(options.max_memory);
+  const SceneStore::Lookup look_up = [&lookup](const StampedFrame& frame) { return lookup(frame, lookup.deadline()); };
   CheckServices checks(store, server, memory,
                        {server_options.max_states, options.max_motion_checks, options.max_inspected_states,
-                        options.max_contacts, server_options.max_waiting_requests, plan_options.motions.rule});
+                        options.max_contacts, server_options.max_waiting_requests, plan_options.motions.rule},
+                       look_up);
   PathPublisher paths(own, options.marker_rate, options.marker_triangles);
-  PlanService plans(own, store, make_checker, memory, paths, plan_options);
-  const SceneStore::Lookup look_up = [&lookup](const StampedFrame& frame) { return lookup(frame, lookup.deadline()); };
+  PlanService plans(own, store, look_up, make_checker, memory, paths, plan_options);
   SceneServices changes(store, look_up, memory);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
@@ -100,6 +105,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   Endpoints check_requests(node, own, 4 * server_options.max_waiting_requests + 8, diagnostics);
   check_requests.advertise<CheckMotions>(
       "check_motions", [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
+  check_requests.advertise<CheckTrajectory>(
+      "check_trajectory", [&](const CheckTrajectory::Request& r) { return checks.checkTrajectory(r); });
   check_requests.advertise<GetReport>(
       "get_report", [&](const GetReport::Request& r) { return checks.report(r); });
   check_requests.advertise<CheckStates>("check_states",

@@ -39,12 +39,19 @@ WorldObject detachedToWorld(const RobotModel& robot, AttachedObject attached, co
   return std::move(attached.object);
 }
 
-void addTouchLinks(const RobotModel& robot, const std::vector<std::string>& names, AttachedObject& attached)
+void addTouchLinks(const RobotModel& robot, const std::vector<std::string>& names, AttachedObject& attached,
+                   std::vector<std::string>* warnings)
 {
   std::vector<int>& links = attached.touch_links;
   for (const std::string& name : names)
   {
-    const int link = requireLink(robot, name, "touch link of object '" + attached.object.id + "'");
+    const std::string where = "touch link of object '" + attached.object.id + "'";
+    if (warnings != nullptr && robot.linkIndex(name) < 0)
+    {
+      warnings->push_back(where + " ignored: the robot " + noLinkText(robot, name));
+      continue;
+    }
+    const int link = requireLink(robot, name, where);
     if (std::find(links.begin(), links.end(), link) == links.end())
       links.push_back(link);
   }
@@ -67,7 +74,7 @@ void PlanningScene::attach(const std::string& object, const std::string& link,
   requireAttachable(*found);
   const int index = requireLink(*robot, link, "object '" + object + "' cannot be attached");
   AttachedObject added = attachedFromWorld(*robot, *found, index, state);
-  addTouchLinks(*robot, touch_links, added);
+  addTouchLinks(*robot, touch_links, added, nullptr);
   scaleAttached(added);
   attached.push_back(std::move(added));
   objects.erase(found);

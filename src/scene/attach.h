@@ -22,6 +22,8 @@ AttachedObject attachedFromWorld(const RobotModel& robot, const WorldObject& obj
 /// `state` is unknown or not finite.
 WorldObject detachedToWorld(const RobotModel& robot, AttachedObject attached, const double* state);
 
-/// Adds the links to the touch links of the object, each only once. Throws Error for an unknown link.
-void addTouchLinks(const RobotModel& robot, const std::vector<std::string>& names, AttachedObject& attached);
+/// Adds the links to the touch links of the object, each only once. An unknown link is left out with a warning, or is
+/// an Error if `warnings` is null.
+void addTouchLinks(const RobotModel& robot, const std::vector<std::string>& names, AttachedObject& attached,
+                   std::vector<std::string>* warnings);
 }  // namespace gpu_planning_scene::core

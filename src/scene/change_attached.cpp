@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
@@ -48,7 +49,7 @@ void SceneChanger::attach(const AttachedChange& change)
   requireAttachable(attached.object);
   attached.detach_posture = change.detach_posture;
   attached.weight = change.weight;
-  addTouchLinks(*result_.scene.robot, change.touch_links, attached);
+  addTouchLinks(*result_.scene.robot, change.touch_links, attached, &result_.warnings);
   attached.padding = defaults_.attached_padding;
   result_.scene.scaleAttached(attached);
   warnOfAllowedCollisions(id);
@@ -108,8 +109,24 @@ void SceneChanger::appendToAttached(AttachedObject& attached, const AttachedChan
     attached.detach_posture = change.detach_posture;
   if (change.weight != 0.0)
     attached.weight = change.weight;
-  addTouchLinks(*result_.scene.robot, change.touch_links, attached);
+  addTouchLinks(*result_.scene.robot, change.touch_links, attached, &result_.warnings);
   result_.scene.scaleAttached(attached);
+}
+
+void SceneChanger::warnOfForbiddenCarrier(const AttachedObject& attached)
+{
+  const AllowedCollisionMatrix& matrix = result_.scene.allowed_collisions;
+  const std::string& id = attached.object.id;
+  const std::string& link = linkName(attached.link);
+  const std::vector<int>& touching = attached.touch_links;
+  if (matrix.allowed(id, link) || std::find(touching.begin(), touching.end(), attached.link) != touching.end())
+    return;
+  const std::vector<std::string> named = matrix.bodiesWithEntries();
+  if (!std::binary_search(named.begin(), named.end(), id) || !std::binary_search(named.begin(), named.end(), link))
+    return;
+  result_.warnings.push_back("the allowed-collision matrix forbids object '" + id + "' to touch link '" + link +
+                             "', but this pair is not checked, because the link carries the object; list the link in "
+                             "touch_links to silence this warning");
 }
 
 /// A pose in the link's own frame does not need the state of the robot.

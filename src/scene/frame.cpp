@@ -1,10 +1,8 @@
 #include "scene/frame.h"
 
 #include <algorithm>
-#include <vector>
 
 #include "gpu_planning_scene/error.h"
-#include "gpu_planning_scene/planning_scene.h"
 
 namespace gpu_planning_scene::core
 {
@@ -81,6 +79,26 @@ std::optional<Eigen::Isometry3d> findFrame(const KnownFrames& known, const std::
 {
   const auto pose = findAsWritten(known, name, state);
   return pose || name.empty() || name[0] != '/' ? pose : findAsWritten(known, name.substr(1), state);
+}
+
+std::vector<std::string> frameNames(const PlanningScene& scene)
+{
+  std::vector<std::string> names = {scene.robot->planningFrame()};
+  for (const Link& link : scene.robot->links())
+    names.push_back(link.name);
+  const auto add = [&names](const WorldObject& object)
+  {
+    names.push_back(object.id);
+    for (const auto& [subframe, pose] : object.subframes)
+      names.push_back(object.id + "/" + subframe);
+  };
+  for (const WorldObject& object : scene.objects)
+    add(object);
+  for (const AttachedObject& attached : scene.attached)
+    add(attached.object);
+  for (const auto& [name, pose] : scene.fixed_frames)
+    names.push_back(name);
+  return names;
 }
 
 std::optional<Eigen::Isometry3d> PlanningScene::frame(const std::string& frame_name, const double* state) const

@@ -4,10 +4,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
-#include "gpu_planning_scene/robot_model.h"
+#include "gpu_planning_scene/planning_scene.h"
 
 namespace gpu_planning_scene::core
 {
@@ -38,6 +39,9 @@ std::string withoutLeadingSlash(const std::string& frame);
 /// empty `frame_id` is the planning frame. No value: neither name is the planning frame.
 std::optional<std::string> fixedFrameName(const std::string& frame_id, const std::string& child_frame_id,
                                           const std::string& planning_frame);
+
+/// The names that PlanningScene::frame knows, without slashes that may precede them.
+std::vector<std::string> frameNames(const PlanningScene& scene);
 
 /// See PlanningScene::frame.
 std::optional<Eigen::Isometry3d> findFrame(const KnownFrames& known, const std::string& name, const double* state);

@@ -63,6 +63,9 @@ Change SceneChanger::make(const SceneChange& change)
   count_.requireTriangles(result_.scene);
   count_.requireFramesAndColors(result_.scene);
   warnOfMatrixReset(change, matrix_before);
+  for (const AttachedObject& attached : result_.scene.attached)
+    if (has_new_matrix_ || attached_here_.count(attached.object.id) != 0)
+      warnOfForbiddenCarrier(attached);
   result_.scene.current_state = result_.state;
   return std::move(result_);
 }

@@ -57,6 +57,10 @@ class SceneChanger
   void detachToWorld(const std::string& id);
   Eigen::Isometry3d poseInLink(const Eigen::Isometry3d& pose, const StampedFrame& frame, int link);
 
+  /// Warns if the matrix has entries of the object and of the link that carries it, and does not allow them to touch:
+  /// this pair is never checked.
+  void warnOfForbiddenCarrier(const AttachedObject& attached);
+
   // change_objects.cpp
   void clearWorld(bool keeps_octomap);
   void changeObject(const ObjectChange& change);

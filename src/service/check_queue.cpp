@@ -83,7 +83,7 @@ CheckQueue::~CheckQueue()
 
 void CheckQueue::open()
 {
-  takeScene(nullptr);
+  takeScene({});
 }
 
 std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
@@ -157,9 +157,9 @@ CheckQueue::Batch CheckQueue::nextBatch()
   for (Request& request : waiting_)
   {
     const CheckJob& first = batch.front().job;
-    const bool joins = !first.report && !request.job.report && !first.motions && !request.job.motions &&
-                       states + request.count <= max_merged_states_ && request.job.group == first.group &&
-                       isEqual(request.job.matrix, first.matrix);
+    const bool joins = !first.report && !request.job.report && !first.motions && !request.job.motions && !first.scene &&
+                       !request.job.scene && states + request.count <= max_merged_states_ &&
+                       request.job.group == first.group && isEqual(request.job.matrix, first.matrix);
     states += joins ? request.count : 0;
     (joins ? batch : others).push_back(std::move(request));
   }
@@ -216,7 +216,7 @@ void CheckQueue::answer(Batch& batch)
 CheckAnswer CheckQueue::check(Batch& batch, std::size_t count)
 {
   const CheckJob& job = batch.front().job;
-  const Snapshot now = takeScene(job.matrix.get());
+  const Snapshot now = takeScene(job);
   std::vector<double> states = statesOf(batch, now);
   CheckAnswer answer;
   answer.scene = now.scene;
@@ -272,14 +272,22 @@ void CheckQueue::checkMotions(const CheckJob& job, const std::vector<double>& st
 {
   const auto start = std::chrono::steady_clock::now();
   const MotionChecker checker(checker_, answer.scene->robot, job.group, *job.motions);
-  const std::size_t count = width_ == 0 ? 0 : states.size() / width_ / 2;
-  if (count == 0)
+  const std::size_t rows = width_ == 0 ? 0 : states.size() / width_;
+  std::size_t count = rows / 2;
+  const double* ends = states.data() + count * width_;
+  if (job.is_path)
+  {
+    answer.result = checkStates(states, rows, job.group);
+    answer.states_checked = rows;
+    count = rows == 0 ? 0 : rows - 1;
+    ends = states.data() + (rows == 0 ? 0 : width_);
+  }
+  else if (count == 0)
     checker_->check(nullptr, 0, job.group);  // the checker must see an unknown group even without motions
-  answer.motions = checker.check(states.data(), states.data() + count * width_, count, MotionQuery::LastValid,
-                                 [this] { return isStopping(); });
+  answer.motions = checker.check(states.data(), ends, count, MotionQuery::LastValid, [this] { return isStopping(); });
   if (isStopping())
     std::rethrow_exception(shuttingDown());
-  answer.states_checked = checker.statesChecked();
+  answer.states_checked += checker.statesChecked();
   answer.result.revision = answer.scene->revision;
   answer.result.seconds = secondsSince(start);
 }
@@ -290,13 +298,13 @@ bool CheckQueue::isStopping() const
   return stopping_;
 }
 
-Snapshot CheckQueue::takeScene(const AllowedCollisionMatrix* matrix)
+Snapshot CheckQueue::takeScene(const CheckJob& job)
 {
-  Snapshot now = store_.snapshot();
-  if (matrix != nullptr)
+  Snapshot now = job.scene ? *job.scene : store_.snapshot();
+  if (job.matrix)
   {
     auto other = std::make_shared<PlanningScene>(*now.scene);
-    other->allowed_collisions = *matrix;
+    other->allowed_collisions = *job.matrix;
     other->matrix_source = MatrixSource::SceneFile;
     now.scene = std::move(other);
   }

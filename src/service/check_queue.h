@@ -43,8 +43,8 @@ class CheckQueue
   void checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer);
   bool isStopping() const;
   std::vector<double> statesOf(Batch& batch, const Snapshot& now) const;
-  /// Gives the checker the newest scene and returns it. `matrix` replaces the scene's matrix, unless it is null.
-  Snapshot takeScene(const AllowedCollisionMatrix* matrix);
+  /// Gives the checker the scene of the job and returns it.
+  Snapshot takeScene(const CheckJob& job);
   void countAnswered(const CheckAnswer& answer, std::size_t requests);
   void fail(Request& request, std::exception_ptr error);
 

@@ -10,14 +10,16 @@ namespace
 // check.
 constexpr std::size_t kBodiesOfSmallMatrix = 100;
 
-bool isSmall(const CheckJob& job)
+bool isSmall(const CheckJob& job, const SceneStore& store)
 {
-  return !job.matrix || job.matrix->bodies().size() <= kBodiesOfSmallMatrix;
+  const bool has_other_scene = job.scene && job.scene->scene != store.snapshot().scene;
+  return !has_other_scene && (!job.matrix || job.matrix->bodies().size() <= kBodiesOfSmallMatrix);
 }
 }  // namespace
 
 CheckServer::CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options)
-  : options_(options),
+  : store_(store),
+    options_(options),
     small_(std::make_unique<CheckQueue>(store, make_checker, options, options.max_batch_states)),
     large_(std::make_unique<CheckQueue>(store, make_checker, options, 0))
 {
@@ -40,11 +42,11 @@ std::future<CheckAnswer> CheckServer::submit(CheckJob job)
     throw Error(std::to_string(job.states.size()) + " values do not make rows of " + std::to_string(width) +
                 " variables");
   const std::size_t rows = width == 0 ? 0 : job.states.size() / width;
-  if (job.motions && rows % 2 != 0)
+  if (job.motions && !job.is_path && rows % 2 != 0)
     throw Error(std::to_string(rows) + " states: motions need as many ends as starts");
   const std::size_t count = job.motions ? job.samples : rows;
   requireStateCount(count);
-  CheckQueue& queue = count <= options_.small_request && isSmall(job) ? *small_ : *large_;
+  CheckQueue& queue = count <= options_.small_request && isSmall(job, store_) ? *small_ : *large_;
   return queue.submit(std::move(job), count);
 }
 

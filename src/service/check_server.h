@@ -32,17 +32,22 @@ struct CheckJob
   std::vector<int> columns;  ///< variable indices of the columns of `states`, each once; empty: all, in order
   std::vector<double> states;
   std::string group;
+  std::optional<Snapshot> scene;  ///< the scene and the robot's state of this job; no value: the store's newest
   std::shared_ptr<const AllowedCollisionMatrix> matrix;  ///< replaces the scene's matrix; null: the scene's is used
   bool report = false;                                   ///< whether the answer has the scene's report
   bool keep_states = false;                              ///< whether the answer has the full states
-  /// If set, `states` has the starts of straight motions, followed by as many ends, and the motions are checked.
+  /// If set, straight motions are checked. `states` has their starts, followed by as many ends; or, if `is_path` is
+  /// set, the waypoints of one path.
   std::optional<MotionCheckerOptions> motions;
+  /// True: the motions go from each row of `states` to the next one, and the rows are checked as states too.
+  bool is_path = false;
   std::size_t samples = 0;  ///< samples of the motions at their steps; the queues count them as the job's states
 };
 
 struct CheckAnswer
 {
-  /// `seconds` is the time of the whole batch. For a job with motions, only `revision` and `seconds` are set.
+  /// `seconds` is the time of the whole batch. For a job with motions, only `revision` and `seconds` are set, and for a
+  /// path also the verdicts of its waypoints.
   BatchResult result;
   std::vector<MotionVerdict> motions;  ///< for a job with motions: how far each motion is valid
   std::uint64_t states_checked = 0;
@@ -71,9 +76,10 @@ class CheckQueue;
 /// queue merges small requests that have the same group and matrix. The other queue answers large requests one by one.
 /// So a small request never waits for a large one. A motion counts as many states as it has samples. Under
 /// MotionRule::Bound, it may need more checks than samples (MotionCheckerOptions::max_samples). Other small requests
-/// wait until all these checks are made. A request with a large matrix counts as large, because a checker needs much
-/// time to take over such a matrix. A queue takes the store's newest scene when it starts a batch. So each answer
-/// belongs to one snapshot, which is at least as new as the store's snapshot at the arrival of the request.
+/// wait until all these checks are made. A request with a large matrix or with another scene than the newest counts as
+/// large, because a checker needs much time to take over such a matrix or scene. A queue takes the store's newest scene
+/// when it starts a batch. So each answer belongs to one snapshot, which is at least as new as the store's snapshot at
+/// the arrival of the request, or which the request brought along.
 class CheckServer
 {
  public:
@@ -100,6 +106,7 @@ class CheckServer
   CheckStatistics statistics() const;
 
  private:
+  const SceneStore& store_;
   const CheckServerOptions options_;
   std::unique_ptr<CheckQueue> small_;
   std::unique_ptr<CheckQueue> large_;

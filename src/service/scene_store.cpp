@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
@@ -36,6 +37,20 @@ std::vector<double> startingState(const Snapshot& at, const std::map<std::string
     if (!known[i] && variables.count(robot.variables()[i].name) == 0)
       return {};
   return at.state;
+}
+
+/// Sets the given variables. Names that the robot lacks are ignored.
+void assign(const RobotModel& robot, const std::map<std::string, double>& variables, std::vector<double>& state,
+            std::vector<bool>& known)
+{
+  for (const auto& [name, value] : variables)
+  {
+    const int variable = robot.variableIndex(name);
+    if (variable < 0)
+      continue;
+    state[static_cast<std::size_t>(variable)] = value;
+    known[static_cast<std::size_t>(variable)] = true;
+  }
 }
 }  // namespace
 
@@ -77,6 +92,7 @@ SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits 
 {
   state_ = PartialState(*scene.robot, scene.current_state).values;
   known_.assign(state_.size(), !scene.current_state.empty());
+  stamps_.assign(state_.size(), 0);
   scene_ = std::make_shared<const PlanningScene>(std::move(scene));
 }
 
@@ -85,7 +101,11 @@ Snapshot SceneStore::snapshot() const
   Snapshot now;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    now = {scene_, state_, known_};
+    std::int64_t oldest = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 0; i < known_.size(); ++i)
+      if (known_[i])
+        oldest = std::min(oldest, stamps_[i]);
+    now = {scene_, state_, known_, {}, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest};
   }
   now.base = assumeBase(0, now.known, now.state);
   return now;
@@ -123,6 +143,22 @@ SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& l
   }
 }
 
+SceneStore::Preview SceneStore::preview(const std::vector<SceneChange>& changes, const Lookup& lookup) const
+{
+  Preview preview{snapshot(), {}};
+  Snapshot& at = preview.snapshot;
+  ExternalFrames frames;
+  for (const SceneChange& change : changes)
+  {
+    findFrames(*at.scene, change, lookup, frames);
+    Change made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
+    at.scene = std::make_shared<const PlanningScene>(std::move(made.scene));
+    assign(*at.scene->robot, change.state.variables, at.state, at.known);
+    preview.warnings.insert(preview.warnings.end(), made.warnings.begin(), made.warnings.end());
+  }
+  return preview;
+}
+
 SceneStore::Applied SceneStore::clear()
 {
   const std::lock_guard<std::mutex> changing(changes_);
@@ -154,35 +190,39 @@ std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::strin
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     scene_ = after;
-    setVariables(variables);
+    assign(*scene_->robot, variables, state_, known_);
+    for (const auto& [name, value] : variables)
+      if (const int variable = scene_->robot->variableIndex(name); variable >= 0)
+        stamps_[static_cast<std::size_t>(variable)] = 0;
   }
   if (listener_)
     listener_(before, after);
   return after->revision;
 }
 
-/// The caller holds mutex_. Names that the robot lacks are ignored.
-void SceneStore::setVariables(const std::map<std::string, double>& variables)
-{
-  for (const auto& [name, value] : variables)
-  {
-    const int variable = scene_->robot->variableIndex(name);
-    if (variable < 0)
-      continue;
-    state_[static_cast<std::size_t>(variable)] = value;
-    known_[static_cast<std::size_t>(variable)] = true;
-  }
-}
-
-void SceneStore::updateState(const std::map<std::string, double>& variables, std::int64_t stamp)
+std::string SceneStore::updateState(const std::map<std::string, double>& variables, std::int64_t stamp)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const RobotModel& robot = *scene_->robot;
   for (const auto& [name, value] : variables)
     if (robot.variableIndex(name) >= 0 && !std::isfinite(value))
       throw Error("the position of '" + name + "' is not a finite number");
-  setVariables(variables);
+  assign(robot, variables, state_, known_);
+  std::string warning;
+  for (const auto& [name, value] : variables)
+  {
+    const int variable = robot.variableIndex(name);
+    if (variable < 0)
+      continue;
+    std::int64_t& known = stamps_[static_cast<std::size_t>(variable)];
+    if (stamp != 0 && stamp < known && warning.empty())
+      warning = "the time of '" + name + "' jumped back by " +
+                std::to_string(static_cast<double>(known - stamp) * 1e-9) +
+                " s; the new value counts: if the clock was not set back, look for a second publisher of this joint";
+    known = stamp;
+  }
   history_.add(stamp, state_);
+  return warning;
 }
 
 std::vector<double> SceneStore::stateAt(std::int64_t stamp) const

@@ -29,6 +29,8 @@ struct Snapshot
   std::vector<double> state;  ///< one value per variable
   std::vector<bool> known;    ///< one per variable; an unknown variable has its default value, or that of `base`
   AssumedBase base = {};
+  /// The oldest stamp (nanoseconds) of the known values; 0: a known value has no stamp, or no value is known.
+  std::int64_t stamp = 0;
 
   /// The virtual joint counts as known if `base` has values.
   bool allKnown() const;
@@ -66,14 +68,25 @@ class SceneStore
   /// nothing has changed.
   Applied apply(const SceneChange& change, const Lookup& lookup);
 
+  struct Preview
+  {
+    Snapshot snapshot;  ///< its scene has the revision of the store's scene
+    std::vector<std::string> warnings;
+  };
+  /// The scene and the state that apply() would leave after all these changes. The store stays as it is. Throws the
+  /// errors of apply().
+  Preview preview(const std::vector<SceneChange>& changes, const Lookup& lookup) const;
+
   /// Removes all objects and attached objects with their entries in the allowed collision matrix, and all colours.
   /// Warns of each body that an entry forbade to touch an object, if the default of the body allows it to touch a new
   /// object of the same name.
   Applied clear();
 
   /// Sets the robot's variables, by name; names that the robot lacks are ignored. The revision stays the same. If a
-  /// value is not finite, it throws Error and sets nothing. `stamp`: nanoseconds; 0: unknown.
-  void updateState(const std::map<std::string, double>& variables, std::int64_t stamp = 0);
+  /// value is not finite, it throws Error and sets nothing. `stamp`: nanoseconds; 0: unknown. Returns a warning if a
+  /// variable already has a value of a later time: the new value counts all the same, as in MoveIt. Otherwise
+  /// returns an empty text.
+  std::string updateState(const std::map<std::string, double>& variables, std::int64_t stamp = 0);
   /// The state whose stamp is nearest to `stamp` (nanoseconds; 0: the newest state). If no state had a stamp, it is the
   /// newest state. Throws Error if the states of that time have already been dropped (see StateHistory).
   std::vector<double> stateAt(std::int64_t stamp) const;
@@ -86,14 +99,14 @@ class SceneStore
 
  private:
   std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables);
-  void setVariables(const std::map<std::string, double>& variables);
   AssumedBase assumeBase(std::int64_t stamp, const std::vector<bool>& known, std::vector<double>& state) const;
 
   std::mutex changes_;        // held during a change
-  mutable std::mutex mutex_;  // guards the next four members
+  mutable std::mutex mutex_;  // guards the next five members
   std::shared_ptr<const PlanningScene> scene_;
   std::vector<double> state_;
   std::vector<bool> known_;
+  std::vector<std::int64_t> stamps_;  // of the values; 0: unknown
   StateHistory history_;
   const SceneDefaults defaults_;
   const SceneLimits limits_;

@@ -93,7 +93,7 @@ class Handlers
           store_,
           [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
           fewStates()),
-      checks_(store_, server_, memory_, {kMaxStates, 100 * kMaxStates, 10}),
+      checks_(store_, server_, memory_, {kMaxStates, 100 * kMaxStates, 10}, frameOfTf),
       scenes_(store_, frameOfTf, memory_),
       clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
   {
@@ -104,7 +104,7 @@ class Handlers
   void take(unsigned kind, const std::uint8_t* data, std::uint32_t size)
   {
     const auto make = [this](const auto& message) { scenes_.make(scenes_.changeOf(message), frameOfTf); };
-    switch (kind % 13)
+    switch (kind % 14)
     {
       case 0:
         return answer<ApplyPlanningScene>(data, size, [&](const auto& request) { return scenes_.apply(request); });
@@ -130,8 +130,11 @@ class Handlers
         return read<sensor_msgs::PointCloud2>(data, size, [&](const auto& message) { clouds_.take(message); });
       case 11:
         return read<ShowTreeLevel::Request>(data, size, [&](const auto& request) { draw(request); });
-      default:
+      case 12:
         return read<PlanMotion::Request>(data, size, [&](const auto& request) { plan(request); });
+      default:
+        return answer<CheckTrajectory>(data, size,
+                                       [&](const auto& request) { return checks_.checkTrajectory(request); });
     }
   }
 

@@ -190,9 +190,37 @@ TEST_F(ChangeAttached, InvalidChangesAreRefused)
   refused("attached to link 'pole', not to 'cart'", attachedChange(Operation::Remove, "held", "cart"));
   refused("no link 'crane'", attachedChange(Operation::Remove, "", "crane"));
   refused("radius", attachedChange(Operation::Add, "a", "pole", {{Sphere{-1.0}}}));
+}
+
+/// As in MoveIt, which accepts any name.
+TEST_F(ChangeAttached, AnUnknownTouchLinkIsLeftOutWithAWarning)
+{
+  change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
   AttachedChange touching = attachedChange(Operation::Add, "a", "pole");
-  touching.touch_links = {"crane"};
-  refused("touch link of object 'a'", touching);
+  touching.touch_links = {"card", "rail"};
+  change(touching);
+  EXPECT_EQ((std::vector<int>{link("rail")}), carried("a").touch_links);
+  EXPECT_TRUE(warned("touch link of object 'a' ignored: the robot has no link 'card'; did you mean 'cart'?"));
+}
+
+TEST_F(ChangeAttached, AMatrixThatForbidsTheCarryingLinkIsAWarning)
+{
+  change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
+  SceneChange forbid;
+  forbid.is_diff = true;
+  forbid.matrix = scene_.allowed_collisions;
+  forbid.matrix->setEntry("a", "pole", false);
+  apply(forbid);
+  EXPECT_FALSE(warned("forbids"));
+  change(attachedChange(Operation::Add, "a", "pole"));
+  EXPECT_TRUE(
+      warned("the allowed-collision matrix forbids object 'a' to touch link 'pole', but this pair is not checked"));
+  apply(forbid);
+  EXPECT_TRUE(warned("forbids object 'a'"));
+  AttachedChange touching = attachedChange(Operation::Append, "a", "pole");
+  touching.touch_links = {"pole"};
+  change(touching);
+  EXPECT_FALSE(warned("forbids"));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -175,6 +175,55 @@ TEST_F(Store, TheStateAtAStampIsTheNearestOfTheLastSeconds)
   EXPECT_EQ(0.125, store.stateAt(5 * kSecond).at(0));
 }
 
+TEST_F(Store, ATimeThatJumpsBackIsAWarningAndTheNewValueCounts)
+{
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  EXPECT_EQ("", store.updateState({{"slide", 0.25}}, 5 * kSecond));
+  EXPECT_EQ("", store.updateState({{"turn", 0.5}}, 4 * kSecond)) << "another publisher of another joint";
+  EXPECT_EQ("", store.updateState({{"slide", 0.5}}, 5 * kSecond));
+  EXPECT_EQ(
+      "the time of 'slide' jumped back by 2.000000 s; the new value counts: if the clock was not set back, look for a "
+      "second publisher of this joint",
+      store.updateState({{"slide", 0.75}}, 3 * kSecond));
+  EXPECT_EQ(0.75, store.snapshot().state.at(0));
+  EXPECT_EQ("", store.updateState({{"slide", 1.0}}, 4 * kSecond)) << "it goes on from there";
+}
+
+TEST_F(Store, TheStampOfASnapshotIsThatOfItsOldestValue)
+{
+  EXPECT_EQ(0, store.snapshot().stamp);
+  store.updateState({{"slide", 0.25}}, 5);
+  EXPECT_EQ(5, store.snapshot().stamp) << "the other variable is unknown";
+  store.updateState({{"turn", 0.25}}, 4);
+  EXPECT_EQ(4, store.snapshot().stamp);
+  store.updateState({{"turn", 0.25}});
+  EXPECT_EQ(0, store.snapshot().stamp) << "the other value has no stamp";
+  SceneChange change;
+  change.is_diff = true;
+  change.state.variables = {{"slide", 0.75}};
+  store.updateState({{"turn", 0.25}}, 6);
+  store.apply(change, unknownFrame);
+  EXPECT_EQ(0, store.snapshot().stamp) << "a change sets values without a stamp";
+}
+
+TEST_F(Store, APreviewIsWhatTheChangesWouldMakeAndLeavesTheStoreAsItIs)
+{
+  store.updateState({{"slide", 0.5}, {"turn", 0.0}});
+  const Snapshot before = store.snapshot();
+  SceneChange moved;
+  moved.is_diff = true;
+  moved.state.variables = {{"slide", 0.75}};
+  const SceneStore::Preview preview = store.preview({moved, boxIn("cart")}, unknownFrame);
+  EXPECT_EQ(before.scene, store.snapshot().scene);
+  EXPECT_EQ(before.state, store.snapshot().state);
+  EXPECT_EQ(before.scene->revision, preview.snapshot.scene->revision);
+  store.apply(moved, unknownFrame);
+  store.apply(boxIn("cart"), unknownFrame);
+  EXPECT_EQ(store.snapshot().state, preview.snapshot.state);
+  EXPECT_EQ(store.snapshot().scene->objects.at(0).pose.matrix(), preview.snapshot.scene->objects.at(0).pose.matrix());
+  EXPECT_THROW(store.preview({moved, boxIn("nowhere")}, unknownFrame), Error);
+}
+
 TEST_F(Store, FramesOfLinksAreWhereTheNewestJointStatesPutThem)
 {
   EXPECT_THROW(store.apply(boxIn("cart"), unknownFrame), Error) << "where the cart is, is not known yet";

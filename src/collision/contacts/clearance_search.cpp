@@ -28,13 +28,14 @@ struct Nearest
 {
   double clearance = std::numeric_limits<double>::infinity();
   BodyPair bodies = kNoPair;
+  CpuTraversal::InstancePair instances = {};
 
   /// Updates the result with a pair whose clearance lies between `lower` and `upper`. `collides` returns whether the
   /// pair collides. `clearance_of(x)` returns the pair's clearance if it is below x, otherwise x. Neither is called if
   /// `lower` is not below the best clearance so far, as for most pairs.
   template <class Collides, class ClearanceOf>
-  void consider(double lower, double upper, std::int32_t a, std::int32_t b, const Collides& collides,
-                const ClearanceOf& clearance_of)
+  void consider(double lower, double upper, const BodyPair& pair, const CpuTraversal::InstancePair& shapes,
+                const Collides& collides, const ClearanceOf& clearance_of)
   {
     if (std::max(0.0, lower) >= clearance)
       return;
@@ -44,7 +45,8 @@ struct Nearest
     if (!is_first && found >= clearance)
       return;
     clearance = found;
-    bodies = {std::min(a, b), std::max(a, b)};
+    bodies = {std::min(pair[0], pair[1]), std::max(pair[0], pair[1])};
+    instances = shapes;
   }
 };
 
@@ -98,7 +100,7 @@ class Search
       const ShapeInstance& a = problem_.robot[i];
       const ShapeInstance& b = problem_.robot[j];
       nearest.consider(
-          lower, maxDistance(bounds_[i], bounds_[j]), a.body, b.body,
+          lower, maxDistance(bounds_[i], bounds_[j]), {a.body, b.body}, pair,
           [&, i = i, j = j] { return pair_.collide(a.tree, poses_[i], b.tree, poses_[j], 0.0, scratch_); },
           [&, i = i, j = j](double most) {
             return pairClearance(forest_->tree(a.tree), poses_[i], forest_->tree(b.tree), poses_[j], 0.0, most,
@@ -116,7 +118,7 @@ class Search
       considerObjects(i, nearest);
       for (std::uint32_t k = 0; k < problem_.half_spaces.size(); ++k)
         if (problem_.half_space_pairs[i * problem_.half_spaces.size() + k] != 0)
-          considerHalfSpace(i, problem_.half_spaces[k], nearest);
+          considerHalfSpace(i, k, nearest);
     }
     return nearest;
   }
@@ -163,7 +165,8 @@ class Search
     const double required = a.padding + b.padding;
     nearest.consider(
         leastDistance(bounds_[instance], world_bounds_[object]) - required,
-        maxDistance(bounds_[instance], world_bounds_[object]) - required, a.body, b.body,
+        maxDistance(bounds_[instance], world_bounds_[object]) - required, {a.body, b.body},
+        {instance, static_cast<std::uint32_t>(problem_.robot.size()) + object},
         [&] { return pair_.collide(a.tree, poses_[instance], b.tree, b.pose, required, scratch_); },
         [&](double most)
         {
@@ -172,8 +175,10 @@ class Search
         });
   }
 
-  void considerHalfSpace(std::uint32_t instance, const WorldHalfSpace& half_space, Nearest& nearest)
+  void considerHalfSpace(std::uint32_t instance, std::uint32_t index, Nearest& nearest)
   {
+    const WorldHalfSpace& half_space = problem_.half_spaces[index];
+    const auto first = static_cast<std::uint32_t>(problem_.robot.size() + problem_.world.size());
     const ShapeInstance& a = problem_.robot[instance];
     const double required = a.padding + half_space.padding;
     const double center = half_space.normal.dot(bounds_[instance].center()) - half_space.offset - required;
@@ -184,7 +189,8 @@ class Search
                            scratch_);
     };
     nearest.consider(
-        center - reach, center + reach, a.body, half_space.body, [&] { return collides(0.0); },
+        center - reach, center + reach, {a.body, half_space.body}, {instance, first + index},
+        [&] { return collides(0.0); },
         [&](double most) { return collides(most) ? bisectLeast(0.0, most, collides) : most; });
   }
 
@@ -215,11 +221,11 @@ ClearanceSearch::ClearanceSearch(std::shared_ptr<const CollisionProblem> problem
     world_bounds_.push_back(boundsOf(forest_->tree(instance.tree), instance.pose));
 }
 
-Clearance ClearanceSearch::find(const Isometry3d* link_poses) const
+NearestInstances ClearanceSearch::find(const Isometry3d* link_poses) const
 {
   Search search(*problem_, forest_, *objects_, world_bounds_, link_poses);
   const Nearest world = search.world();
   const Nearest self = search.self();
-  return {world.clearance, self.clearance, world.bodies, self.bodies};
+  return {{world.clearance, self.clearance, world.bodies, self.bodies}, world.instances, self.instances};
 }
 }  // namespace gpu_planning_scene::core

@@ -6,12 +6,22 @@
 #include <Eigen/Geometry>
 
 #include "collision/exact/cpu_forest.h"
+#include "collision/exact/cpu_traversal.h"
 #include "collision/exact/object_tree.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/state_inspector.h"
 
 namespace gpu_planning_scene::core
 {
+/// The clearance of a state, and the shape instances that are nearest to each other. An instance pair is set only if
+/// the clearance has a pair of bodies.
+struct NearestInstances
+{
+  Clearance clearance;
+  CpuTraversal::InstancePair world = {};
+  CpuTraversal::InstancePair self = {};
+};
+
 /// Finds the clearance of a state with the exact test of pairs. A pair is at most x beyond its required distance v if
 /// it collides with the required distance v + x. Immutable.
 class ClearanceSearch
@@ -23,7 +33,7 @@ class ClearanceSearch
                   std::shared_ptr<const ObjectTree> objects);
 
   /// `link_poses`: the pose of each link in the planning frame.
-  Clearance find(const Eigen::Isometry3d* link_poses) const;
+  NearestInstances find(const Eigen::Isometry3d* link_poses) const;
 
  private:
   std::shared_ptr<const CollisionProblem> problem_;

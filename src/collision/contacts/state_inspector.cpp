@@ -36,14 +36,27 @@ struct Models
 
   void forgetUnused()
   {
-    for (auto entry = fcl.begin(); entry != fcl.end();)
-      entry = entry->first.expired() ? fcl.erase(entry) : std::next(entry);
+    for (FclModels* models : {&fcl, &triangles})
+      for (auto entry = models->begin(); entry != models->end();)
+        entry = entry->first.expired() ? models->erase(entry) : std::next(entry);
+  }
+
+  /// The triangles of a shape, for nearest points where FCL fails for the shape itself.
+  FclGeometry trianglesOf(const CollisionProblem& problem, std::uint32_t tree)
+  {
+    FclGeometry& model = triangles[problem.tessellations[tree].mesh];
+    if (!model)
+      model = makeFclSolid(problem.tessellations[tree].mesh, problem.tessellations[tree]);
+    return model;
   }
 
   std::mutex mutex;  // guards all members below
   ProblemMaker maker{optionsWithAllPairs()};
   ForestCache forests;
-  std::map<std::weak_ptr<const Mesh>, FclGeometry, std::owner_less<>> fcl;  // key: tessellation; shared by equal shapes
+  // Key: tessellation; shared by equal shapes.
+  using FclModels = std::map<std::weak_ptr<const Mesh>, FclGeometry, std::owner_less<>>;
+  FclModels fcl;
+  FclModels triangles;
 };
 
 /// The prepared data of one group.
@@ -119,6 +132,9 @@ struct StateInspector::Impl
   std::vector<Eigen::Isometry3d> linkPoses(const double* state) const;
   void addContacts(const Inspected& group, const CpuTraversal::InstancePair& pair, const CpuTraversal::Scratch& placed,
                    CpuShapePair::Scratch& scratch, std::map<BodyPair, std::vector<Contact>>& contacts);
+  std::array<Eigen::Vector3d, 2> nearestPoints(const Inspected& group, const CpuTraversal::InstancePair& pair,
+                                               const BodyPair& bodies, double clearance,
+                                               const std::vector<Eigen::Isometry3d>& link_poses);
 
   const std::shared_ptr<const PlanningScene> scene;
   const std::shared_ptr<Models> models;
@@ -186,6 +202,57 @@ void StateInspector::Impl::addContacts(const Inspected& group, const CpuTraversa
   }
 }
 
+/// The points in the order of `bodies`.
+std::array<Eigen::Vector3d, 2> StateInspector::Impl::nearestPoints(const Inspected& group,
+                                                                   const CpuTraversal::InstancePair& pair,
+                                                                   const BodyPair& bodies, double clearance,
+                                                                   const std::vector<Eigen::Isometry3d>& link_poses)
+{
+  // Triangles of a curved solid are off by up to 1e-4 m (their sagitta), on both sides.
+  constexpr double kTriangleTolerance = 3e-4;  // metres
+  const CollisionProblem& problem = *group.problem;
+  const ShapeInstance& a = problem.robot[pair[0]];
+  const Eigen::Isometry3d pose = link_poses[static_cast<std::size_t>(a.link)] * a.pose;
+  const std::size_t robots = problem.robot.size();
+  std::array<Eigen::Vector3d, 2> points;
+  if (pair[1] >= robots + problem.world.size())
+  {
+    const WorldHalfSpace& b = problem.half_spaces[pair[1] - robots - problem.world.size()];
+    points[0] = contactOf(pose, group.forest->tree(a.tree).shape, b, 0.0).point;
+    points[1] = points[0] - (b.normal.dot(points[0]) - b.offset) * b.normal;
+  }
+  else
+  {
+    const bool is_self = pair[1] < robots;
+    const ShapeInstance& b = is_self ? problem.robot[pair[1]] : problem.world[pair[1] - robots];
+    const double distance = clearance + (is_self ? 0.0 : a.padding + b.padding);
+    FclShape shape_a{a.tree, pose, nullptr};
+    FclShape shape_b{b.tree, is_self ? link_poses[static_cast<std::size_t>(b.link)] * b.pose : b.pose, nullptr};
+    const auto set_models = [&](FclGeometry (Models::*model_of)(const CollisionProblem&, std::uint32_t))
+    {
+      const std::lock_guard<std::mutex> lock(models->mutex);
+      shape_a.model = (*models.*model_of)(problem, a.tree);
+      shape_b.model = (*models.*model_of)(problem, b.tree);
+    };
+    set_models(&Models::modelOf);
+    auto found = fclNearestPoints(shape_a, shape_b, distance);
+    if (!found)
+    {
+      set_models(&Models::trianglesOf);
+      found = fclNearestPoints(shape_a, shape_b, distance, kTriangleTolerance);
+    }
+    if (!found)
+    {
+      const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+      return {none, none};
+    }
+    points = *found;
+  }
+  if (a.body != bodies[0])
+    std::swap(points[0], points[1]);
+  return points;
+}
+
 StateInspector::StateInspector(std::shared_ptr<const PlanningScene> scene, const StateInspector* previous)
 {
   requireRobot(scene);
@@ -247,7 +314,53 @@ std::vector<Clearance> StateInspector::clearances(const double* states, std::siz
               [&, poses = std::vector<Eigen::Isometry3d>(robot.links().size())](std::size_t i, std::size_t) mutable
               {
                 robot.linkPoses(states + i * robot.variables().size(), poses.data());
-                found[i] = inspected.clearance->find(poses.data());
+                found[i] = inspected.clearance->find(poses.data()).clearance;
+              });
+  return found;
+}
+
+std::vector<NearestPairs> StateInspector::nearestPairs(const double* states, std::size_t count,
+                                                       const std::string& group) const
+{
+  const Inspected& inspected = impl_->inspected(group);
+  const PlanningScene& scene = *impl_->scene;
+  const RobotModel& robot = *scene.robot;
+  validateStates(robot, states, count);
+  // Links and attached objects are the robot's bodies.
+  const auto is_world = [first = static_cast<std::int32_t>(robot.links().size()),
+                         count = static_cast<std::int32_t>(scene.objects.size())](std::int32_t body)
+  { return body >= first && body < first + count; };
+  std::vector<NearestPairs> found(count);
+  parallelFor(count, 1,
+              [&, poses = std::vector<Eigen::Isometry3d>(robot.links().size())](std::size_t i, std::size_t) mutable
+              {
+                const double* state = states + i * robot.variables().size();
+                robot.linkPoses(state, poses.data());
+                const NearestInstances nearest = inspected.clearance->find(poses.data());
+                const auto fill = [&](double clearance, const BodyPair& bodies, const CpuTraversal::InstancePair& pair,
+                                      NearestPair& to)
+                {
+                  to.bodies = bodies;
+                  to.distance = clearance;
+                  if (bodies != kNoPair && clearance > 0.0)
+                    to.points = impl_->nearestPoints(inspected, pair, bodies, clearance, poses);
+                };
+                NearestPairs& pairs = found[i];
+                fill(nearest.clearance.world, nearest.clearance.nearest_world, nearest.world, pairs.world);
+                fill(nearest.clearance.self, nearest.clearance.nearest_self, nearest.self, pairs.self);
+                if (pairs.world.distance > 0.0 && pairs.self.distance > 0.0)
+                  return;
+                const auto take = [](const Contact& contact, NearestPair& to)
+                {
+                  if (to.distance != 0.0)
+                    return;  // free, or already the deepest contact
+                  to.bodies = contact.bodies;
+                  to.distance = -contact.depth;
+                  to.points = {contact.point, contact.point};
+                };
+                // The deepest contact of each pair comes first.
+                for (const Contact& contact : contacts(state, group, std::numeric_limits<std::size_t>::max(), 1))
+                  take(contact, is_world(contact.bodies[0]) || is_world(contact.bodies[1]) ? pairs.world : pairs.self);
               });
   return found;
 }

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 
+#include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/state_inspector.h"
 #include "node/messages/messages.h"
 #include "service/admission.h"
@@ -23,17 +24,19 @@ struct CheckServicesOptions
   MotionRule motion_rule = MotionRule::Bound;  ///< rule of requests that name none: ~planning/motion_rule
 };
 
-/// Answers check_states, check_motions and get_report. Throws nothing: the response has the error. Thread-safe. A call
-/// blocks until it has its answer. Contacts and clearance are computed on the thread of the call. They can keep a core
-/// busy for long, so at most two calls compute them at the same time.
+/// Answers check_states, check_motions, check_trajectory and get_report, each in a file of its own. Throws nothing: the
+/// response has the error. Thread-safe. A call blocks until it has its answer. Contacts and clearance are computed on
+/// the thread of the call. They can keep a core busy for long, so at most two calls compute them at the same time.
 class CheckServices
 {
  public:
+  /// `lookup`: finds the frames of a request's scene_diff that the scene does not have.
   CheckServices(const SceneStore& store, CheckServer& server, const MemoryGuard& memory,
-                const CheckServicesOptions& options);
+                const CheckServicesOptions& options, SceneStore::Lookup lookup);
 
   CheckStates::Response checkStates(const CheckStates::Request& request);
   CheckMotions::Response checkMotions(const CheckMotions::Request& request);
+  CheckTrajectory::Response checkTrajectory(const CheckTrajectory::Request& request);
   GetReport::Response report(const GetReport::Request& request);
 
   /// Stops the computation of contacts and clearance. Running and queued requests for them get the error "shutting
@@ -41,6 +44,7 @@ class CheckServices
   void stop();
 
  private:
+  static Error shuttingDown();
   CheckAnswer answerOf(CheckJob job) const;
   void inspect(const CheckStates::Request& request, const CheckAnswer& answer, CheckStates::Response& response);
   std::shared_ptr<const StateInspector> inspectorOf(const std::shared_ptr<const PlanningScene>& scene);
@@ -49,6 +53,7 @@ class CheckServices
   CheckServer& server_;
   const MemoryGuard& memory_;
   const CheckServicesOptions options_;
+  const SceneStore::Lookup lookup_;
   Admission inspections_;
   std::atomic<bool> stopping_{false};
   std::mutex mutex_;                                 // guards the two members below

@@ -3,6 +3,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "model/one_line.h"
 
@@ -37,6 +38,13 @@ inline void addWarning(const std::string& warning, std::string& message)
 {
   if (!warning.empty())
     message += (message.empty() ? "" : "; ") + warning;
+}
+
+/// Appends all warnings to the message of a response.
+inline void addWarnings(const std::vector<std::string>& warnings, std::string& message)
+{
+  for (const std::string& warning : warnings)
+    addWarning(warning, message);
 }
 
 /// Returns the response that `work` fills in, with `success` set. If `work` throws, returns an empty response without

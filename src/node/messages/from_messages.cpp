@@ -5,10 +5,10 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/name_list.h"
+#include "node/messages/joint_transform.h"
 #include "node/messages/object_from_message.h"
 #include "node/messages/octomap_messages.h"
 #include "scene/frame.h"
-#include "scene/message_values.h"
 
 namespace gpu_planning_scene::core
 {
@@ -90,24 +90,11 @@ class StateReader
     (joint.mimic ? mimic_ : fixed_).push_back(name);
   }
 
-  /// The transform is that of the joint, relative to its parent link. MoveIt writes the planning frame into the header
-  /// even for joints with another parent, so both frames are accepted.
   void readTransform(const Joint& joint, const std::string& frame, const geometry_msgs::Transform& transform)
   {
     const std::string where = "robot_state: multi_dof_joint_state of '" + joint.name + "'";
-    if (joint.type != JointType::Planar && joint.type != JointType::Floating)
-      throw Error(where + ": the joint is neither planar nor floating; give its position in joint_state");
-    const std::string& parent = joint.parent_link < 0
-                                    ? robot_.planningFrame()
-                                    : robot_.links()[static_cast<std::size_t>(joint.parent_link)].name;
-    if (!frame.empty() && frame != robot_.planningFrame() && frame != parent)
-      throw Error(where + " is given in frame '" + frame + "'; it must be the planning frame '" +
-                  robot_.planningFrame() + "' or the joint's parent '" + parent + "'");
-    const Eigen::Isometry3d pose = isometryOf(transform.translation, transform.rotation);
-    if (!pose.matrix().allFinite())
-      throw Error(where + " is not finite");
     auto variable = static_cast<std::size_t>(joint.first_variable);
-    for (const double value : variablesAt(joint, pose))
+    for (const double value : variablesOfTransform(robot_, joint, frame, transform, where))
       insertOnce(state_.variables, robot_.variables()[variable++].name, value, "robot_state: the position");
   }
 

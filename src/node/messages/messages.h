@@ -7,10 +7,12 @@
 #include <gpu_planning_scene/ApplyPlanningScene.h>
 #include <gpu_planning_scene/CheckMotions.h>
 #include <gpu_planning_scene/CheckStates.h>
+#include <gpu_planning_scene/CheckTrajectory.h>
 #include <gpu_planning_scene/Clear.h>
 #include <gpu_planning_scene/ContactInformation.h>
 #include <gpu_planning_scene/GetPlanningScene.h>
 #include <gpu_planning_scene/GetReport.h>
+#include <gpu_planning_scene/NearestPair.h>
 #include <gpu_planning_scene/PlanMotion.h>
 #include <gpu_planning_scene/PlanningScene.h>
 #include <gpu_planning_scene/PlanningSceneComponents.h>
@@ -20,5 +22,6 @@ namespace gpu_planning_scene::core
 {
 using AllowedCollisionMatrixMessage = gpu_planning_scene::AllowedCollisionMatrix;
 using ObjectTypeMessage = gpu_planning_scene::ObjectType;
+using NearestPairMessage = gpu_planning_scene::NearestPair;
 using PlanningSceneMessage = gpu_planning_scene::PlanningScene;
 }  // namespace gpu_planning_scene::core

@@ -1,6 +1,7 @@
 #include "node/parameters/node_parameters.h"
 
 #include "gpu_planning_scene/error.h"
+#include "node/parameters/collision_operations.h"
 #include "node/parameters/padding_parameters.h"
 #include "node/parameters/parameter_values.h"
 
@@ -128,6 +129,9 @@ PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHa
   PlanningScene scene = scene_file.empty() ? PlanningScene(robot, defaults)
                                            : loadSceneFile(resolveUri(scene_file, "", options.packages), robot,
                                                            options.packages, warnings, options.meshes, defaults);
+  if (XmlRpcValue operations; node.getParam(urdf_parameter + "_planning/default_collision_operations", operations))
+    applyCollisionOperations(operations, node.resolveName(urdf_parameter + "_planning/default_collision_operations"),
+                             scene, warnings);
   scene.revision = 1;
   return scene;
 }

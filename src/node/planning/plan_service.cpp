@@ -5,6 +5,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
 #include "node/endpoints/respond.h"
+#include "node/messages/requested_changes.h"
 #include "service/busy.h"
 
 namespace gpu_planning_scene::core
@@ -109,9 +110,11 @@ class PlanService::CheckerLease
   std::shared_ptr<StateChecker> checker_;
 };
 
-PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, CheckServer::MakeChecker make_checker,
-                         const MemoryGuard& memory, PathPublisher& paths, const PlanServiceOptions& options)
+PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, SceneStore::Lookup lookup,
+                         CheckServer::MakeChecker make_checker, const MemoryGuard& memory, PathPublisher& paths,
+                         const PlanServiceOptions& options)
   : store_(store),
+    lookup_(std::move(lookup)),
     make_checker_(std::move(make_checker)),
     memory_(memory),
     paths_(paths),
@@ -159,10 +162,16 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
 {
   const PlannerConfig config = configs_.find(request.planner, request.group);
   const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type, configs_.names());
-  const Snapshot now = store_.snapshot();
+  std::vector<std::string> warnings;
+  const std::vector<SceneChange> changes =
+      requestedChanges(*store_.snapshot().scene->robot, store_.limits(), request.scene_diff, {}, warnings);
+  const SceneStore::Preview preview = store_.preview(changes, lookup_);
+  warnings.insert(warnings.end(), preview.warnings.begin(), preview.warnings.end());
+  const Snapshot& now = preview.snapshot;
   PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
-  return {now.scene, std::move(query), factory, config.type,
-          now.assumedBase(variableIndices(*now.scene->robot, request.start_names))};
+  if (std::string base = now.assumedBase(variableIndices(*now.scene->robot, request.start_names)); !base.empty())
+    warnings.push_back(std::move(base));
+  return {now.scene, std::move(query), factory, config.type, std::move(warnings)};
 }
 
 PlanningResult PlanService::plan(const Task& task)
@@ -194,7 +203,7 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   const Group& group = task.scene->robot->group(request.group);
   response.status = statusOf(result.status);
   response.message = result.message;
-  addWarning(task.warning, response.message);
+  addWarnings(task.warnings, response.message);
   response.trajectory = trajectoryOf(*task.scene, result, group);
   response.planner = task.planner;
   response.planning_time = result.planning_seconds;

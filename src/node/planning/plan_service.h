@@ -25,9 +25,11 @@ namespace gpu_planning_scene::core
 class PlanService
 {
  public:
-  /// Throws Error for wrong values in ~planners.
-  PlanService(ros::NodeHandle& own, const SceneStore& store, CheckServer::MakeChecker make_checker,
-              const MemoryGuard& memory, PathPublisher& paths, const PlanServiceOptions& options);
+  /// `lookup`: finds the frames of a request's scene_diff that the scene does not have. Throws Error for wrong values
+  /// in ~planners.
+  PlanService(ros::NodeHandle& own, const SceneStore& store, SceneStore::Lookup lookup,
+              CheckServer::MakeChecker make_checker, const MemoryGuard& memory, PathPublisher& paths,
+              const PlanServiceOptions& options);
 
   PlanMotion::Response plan(const PlanMotion::Request& request);
 
@@ -43,8 +45,8 @@ class PlanService
     std::shared_ptr<const PlanningScene> scene;
     PlanningQuery query;
     std::shared_ptr<const PlannerFactory> factory;
-    std::string planner;  // plugin name of the planner
-    std::string warning;  // for the answer; empty: none
+    std::string planner;                // plugin name of the planner
+    std::vector<std::string> warnings;  // for the answer
   };
 
   void fill(const PlanMotion::Request& request, PlanMotion::Response& response);
@@ -52,6 +54,7 @@ class PlanService
   PlanningResult plan(const Task& task);
 
   const SceneStore& store_;
+  const SceneStore::Lookup lookup_;
   const CheckServer::MakeChecker make_checker_;
   const MemoryGuard& memory_;
   PathPublisher& paths_;

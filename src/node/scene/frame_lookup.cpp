@@ -1,9 +1,11 @@
 #include "node/scene/frame_lookup.h"
 
 #include <algorithm>
+#include <sstream>
 #include <thread>
 
 #include "gpu_planning_scene/error.h"
+#include "scene/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {
@@ -18,17 +20,21 @@ std::string withoutSlash(const std::string& name)
   return name.empty() || name.front() != '/' ? name : name.substr(1);
 }
 
-/// The error in one line.
-std::string reasonOf(const tf2::TransformException& error)
+ros::Time stampOf(const StampedFrame& frame)
 {
-  std::string text = error.what();
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.stamp)));
+  return stamp;
 }
 }  // namespace
 
-FrameLookup::FrameLookup(std::string planning_frame, double timeout, std::function<bool()> stopping)
-  : planning_frame_(withoutSlash(planning_frame)), timeout_(timeout), stopping_(std::move(stopping)), listener_(buffer_)
+FrameLookup::FrameLookup(std::string planning_frame, double timeout, std::function<bool()> stopping,
+                         std::function<std::vector<std::string>()> scene_frames)
+  : planning_frame_(withoutSlash(planning_frame)),
+    timeout_(timeout),
+    stopping_(std::move(stopping)),
+    scene_frames_(std::move(scene_frames)),
+    listener_(buffer_)
 {
 }
 
@@ -40,10 +46,8 @@ FrameLookup::Clock::time_point FrameLookup::deadline() const
 
 FrameLookup::Found FrameLookup::find(const StampedFrame& frame) const
 {
-  ros::Time stamp;
-  stamp.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(0, frame.stamp)));
   const geometry_msgs::TransformStamped found =
-      buffer_.lookupTransform(planning_frame_, withoutSlash(frame.name), stamp);
+      buffer_.lookupTransform(planning_frame_, withoutSlash(frame.name), stampOf(frame));
   const geometry_msgs::Vector3& place = found.transform.translation;
   const geometry_msgs::Quaternion& turn = found.transform.rotation;
   const Eigen::Quaterniond rotation(turn.w, turn.x, turn.y, turn.z);
@@ -61,19 +65,44 @@ Eigen::Isometry3d FrameLookup::operator()(const StampedFrame& frame, Clock::time
     {
       return find(frame).pose;
     }
-    catch (const tf2::TransformException& error)
+    catch (const tf2::TransformException&)
     {
       if (stopping_())
         throw Error("shutting down: the lookup of frame '" + frame.name + "' was stopped");
       if (!last)
         continue;
-      std::string when = "at the latest time";
-      if (frame.stamp != 0)
-        when = "at " + std::to_string(1e-9 * static_cast<double>(frame.stamp)) + " s";
-      throw Error("frame '" + frame.name + "': not in the scene, and tf found no transform to the planning frame '" +
-                  planning_frame_ + "' " + when + " within " + std::to_string(timeout_) +
-                  " s (tf_timeout): " + reasonOf(error));
+      std::ostringstream text;
+      text << fault(withoutSlash(frame.name), stampOf(frame)) << " (waited " << timeout_ << " s: tf_timeout)";
+      throw Error(text.str());
     }
   }
+}
+
+/// Why tf has no transform from the frame to the planning frame, and the remedy.
+std::string FrameLookup::fault(const std::string& frame, const ros::Time& stamp) const
+{
+  const std::string name = "frame '" + frame + "'";
+  if (!buffer_._frameExists(frame))
+  {
+    std::vector<std::string> known;
+    buffer_._getFrameStrings(known);
+    const std::vector<std::string> of_scene = scene_frames_();
+    known.insert(known.end(), of_scene.begin(), of_scene.end());
+    const std::string near = didYouMean(frame, known);
+    return name + " is neither in the scene nor on tf" +
+           (near.empty() ? "; name a link, an object, OBJECT/SUBFRAME, a fixed frame of the scene, or a frame of tf"
+                         : near);
+  }
+  const std::string planning_frame = "planning frame '" + planning_frame_ + "'";
+  if (!buffer_._frameExists(planning_frame_))
+    return name + " is on tf, but the " + planning_frame + " is not; publish the transform between them";
+  if (stamp.isZero() || !buffer_.canTransform(planning_frame_, frame, ros::Time(0)))
+    return name + " and the " + planning_frame + " are on tf, but not connected; publish the transform between them";
+  std::ostringstream text;
+  text.precision(3);
+  text << name << " has no transform to the " << planning_frame << " at the stamp " << std::fixed << stamp.toSec()
+       << " s; the latest is at " << buffer_.lookupTransform(planning_frame_, frame, ros::Time(0)).header.stamp.toSec()
+       << " s: give a time that tf still has, or 0 for the latest";
+  return text.str();
 }
 }  // namespace gpu_planning_scene::core

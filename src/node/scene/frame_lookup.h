@@ -3,6 +3,7 @@
 #include <chrono>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include <tf2_ros/transform_listener.h>
 #include <Eigen/Geometry>
@@ -17,8 +18,10 @@ class FrameLookup
  public:
   using Clock = std::chrono::steady_clock;  // not ROS time, which may stand still
 
-  /// `timeout`: seconds. `stopping`: called from any thread; when it returns true, all waits end.
-  FrameLookup(std::string planning_frame, double timeout, std::function<bool()> stopping);
+  /// `timeout`: seconds. `stopping`: called from any thread; when it returns true, all waits end. `scene_frames`: names
+  /// of the scene's frames, one of which the caller may have meant.
+  FrameLookup(std::string planning_frame, double timeout, std::function<bool()> stopping,
+              std::function<std::vector<std::string>()> scene_frames);
 
   /// The deadline of a lookup that starts now.
   Clock::time_point deadline() const;
@@ -30,13 +33,17 @@ class FrameLookup
   };
   /// The pose of the frame at its stamp (0: the latest). Does not wait. Throws tf2::TransformException.
   Found find(const StampedFrame& frame) const;
-  /// The pose of the frame at its stamp (0: the latest). Waits for the frame, at most until `until`; then throws Error.
+  /// The pose of the frame at its stamp (0: the latest). Waits for the frame, at most until `until`; then throws Error
+  /// that says whether the name, the connection to the planning frame or the time is at fault.
   Eigen::Isometry3d operator()(const StampedFrame& frame, Clock::time_point until) const;
 
  private:
+  std::string fault(const std::string& frame, const ros::Time& stamp) const;
+
   const std::string planning_frame_;
   const double timeout_;
   const std::function<bool()> stopping_;
+  const std::function<std::vector<std::string>()> scene_frames_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;  // has its own thread
 };

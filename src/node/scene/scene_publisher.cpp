@@ -1,5 +1,7 @@
 #include "node/scene/scene_publisher.h"
 
+#include <ros/single_subscriber_publisher.h>
+
 #include "node/messages/messages.h"
 #include "node/messages/to_messages.h"
 
@@ -7,10 +9,13 @@ namespace gpu_planning_scene::core
 {
 ScenePublisher::ScenePublisher(ros::NodeHandle& own, SceneStore& store, double full_scene_period)
   : store_(store),
-    full_(own.advertise<PlanningSceneMessage>("monitored_planning_scene", 1, true)),
-    diffs_(own.advertise<PlanningSceneMessage>("monitored_planning_scene_diffs", 100))
+    diffs_(own.advertise<PlanningSceneMessage>("monitored_planning_scene_diffs", 100)),
+    full_revision_(store_.snapshot().scene->revision)
 {
-  publishFull(store_.snapshot());
+  // roscpp could latch the topic, but a new subscriber would then get the last message, which may be older than the
+  // scene.
+  full_ = own.advertise<PlanningSceneMessage>(
+      "monitored_planning_scene", 1, [this](const ros::SingleSubscriberPublisher& one) { sendTo(one); });
   store_.setListener([this](const auto& before, const auto& after) { changed(before, after); });
   timer_ = own.createWallTimer(ros::WallDuration(full_scene_period),
                                [this](const ros::WallTimerEvent&) { publishFull(store_.snapshot()); });
@@ -41,6 +46,13 @@ void ScenePublisher::changed(const std::shared_ptr<const PlanningScene>& before,
   {
     ROS_ERROR_STREAM("the scene was changed, but the change was not published: " << error.what());
   }
+}
+
+void ScenePublisher::sendTo(const ros::SingleSubscriberPublisher& subscriber)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Snapshot now = store_.snapshot();
+  subscriber.publish(messageOf(*now.scene, 0, now.state, now.known));
 }
 
 void ScenePublisher::publishFull(const Snapshot& now)

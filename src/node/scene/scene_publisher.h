@@ -9,10 +9,10 @@
 
 namespace gpu_planning_scene::core
 {
-/// Publishes the scene. ~monitored_planning_scene_diffs gets each change. ~monitored_planning_scene (latched) gets the
-/// whole scene: at the start, after each change that cannot be sent as a difference, and every `full_scene_period`
-/// seconds if the scene has changed. A difference names the revision before it, so that a client notices a missing one
-/// and requests the whole scene.
+/// Publishes the scene. ~monitored_planning_scene_diffs gets each change. ~monitored_planning_scene gets the whole
+/// scene: after each change that cannot be sent as a difference, and every `full_scene_period` seconds if the scene has
+/// changed. A new subscriber of it gets the newest scene immediately. A difference names the revision before it, so
+/// that a client notices a missing one and requests the whole scene.
 class ScenePublisher
 {
  public:
@@ -22,12 +22,14 @@ class ScenePublisher
  private:
   void changed(const std::shared_ptr<const PlanningScene>& before, const std::shared_ptr<const PlanningScene>& after);
   void publishFull(const Snapshot& now);
+  void sendTo(const ros::SingleSubscriberPublisher& subscriber);
 
   SceneStore& store_;
-  ros::Publisher full_;
   ros::Publisher diffs_;
-  ros::WallTimer timer_;
   std::mutex mutex_;  // keeps the full scenes in the order of their revisions
-  std::uint64_t full_revision_ = 0;
+  std::uint64_t full_revision_;
+  // These two come last, because their callbacks use the other members.
+  ros::Publisher full_;
+  ros::WallTimer timer_;
 };
 }  // namespace gpu_planning_scene::core

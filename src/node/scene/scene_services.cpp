@@ -91,6 +91,8 @@ GetPlanningScene::Response SceneServices::get(const GetPlanningScene::Request& r
   GetPlanningScene::Response response;
   const Snapshot now = store_.snapshot();
   response.scene = messageOf(*now.scene, request.components.components, now.state, now.known);
+  if (!response.scene.robot_state.joint_state.name.empty())
+    response.scene.robot_state.joint_state.header.stamp.fromNSec(static_cast<std::uint64_t>(now.stamp));
   return response;
 }
 
@@ -146,6 +148,8 @@ void SceneServices::take(const sensor_msgs::JointState& message)
   }
   if (const auto outside = findValueOutsideLimits(*scene->robot, columns, values.data(), 1))
     joint_warning_.log("joint_states: " + outside->text);
-  store_.updateState(variables, static_cast<std::int64_t>(message.header.stamp.toNSec()));
+  const std::string jump = store_.updateState(variables, static_cast<std::int64_t>(message.header.stamp.toNSec()));
+  if (!jump.empty())
+    time_warning_.log("joint_states: " + jump);
 }
 }  // namespace gpu_planning_scene::core

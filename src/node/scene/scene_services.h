@@ -39,5 +39,6 @@ class SceneServices
   const SceneStore::Lookup lookup_;
   const MemoryGuard& memory_;
   OccasionalWarning joint_warning_;
+  OccasionalWarning time_warning_;
 };
 }  // namespace gpu_planning_scene::core

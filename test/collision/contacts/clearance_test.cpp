@@ -92,6 +92,83 @@ TEST_F(ClearanceTest, OfAGroupIsOfThePairsThatItMoves)
   expectTheOracles(scene(), "arm", 12);
 }
 
+/// The problem of `scene` with only the pairs of these two bodies.
+std::shared_ptr<const CollisionProblem> pairOf(const PlanningScene& scene, const BodyPair& bodies)
+{
+  CollisionProblem problem = makeProblem(scene, "", nullptr);
+  const auto isOfPair = [&](std::int32_t a, std::int32_t b) {
+    return BodyPair{std::min(a, b), std::max(a, b)} == bodies;
+  };
+  std::vector<std::array<std::uint32_t, 2>> self_pairs;
+  for (const auto& pair : problem.self_pairs)
+    if (isOfPair(problem.robot[pair[0]].body, problem.robot[pair[1]].body))
+      self_pairs.push_back(pair);
+  problem.self_pairs = self_pairs;
+  for (std::size_t i = 0; i < problem.robot.size(); ++i)
+  {
+    for (std::size_t k = 0; k < problem.world.size(); ++k)
+      if (!isOfPair(problem.robot[i].body, problem.world[k].body))
+        problem.world_pairs[i * problem.world.size() + k] = 0;
+    for (std::size_t k = 0; k < problem.half_spaces.size(); ++k)
+      if (!isOfPair(problem.robot[i].body, problem.half_spaces[k].body))
+        problem.half_space_pairs[i * problem.half_spaces.size() + k] = 0;
+  }
+  return std::make_shared<const CollisionProblem>(problem);
+}
+
+TEST_F(ClearanceTest, HasANearestPairWithItsPointsAndInCollisionItsDepth)
+{
+  const auto made = std::make_shared<const PlanningScene>(scene());
+  const StateInspector inspector(made);
+  const std::size_t width = made->robot->variables().size();
+  constexpr std::size_t kCount = 40;
+  const std::vector<double> states = test_.randomStates(kCount, kSeed);
+  const std::vector<NearestPairs> found = inspector.nearestPairs(states.data(), kCount, "");
+  ASSERT_EQ(kCount, found.size());
+  const auto objects = static_cast<std::int32_t>(made->robot->links().size());
+  std::size_t free = 0;
+  std::size_t with_points = 0;
+  for (std::size_t i = 0; i < kCount; ++i)
+  {
+    const double* state = &states[i * width];
+    const Clearance clearance = inspector.clearance(state, "");
+    const auto poses = oracle::linkPoses(*made->robot, state);
+    const std::vector<Contact> contacts = inspector.contacts(state, "", 1000, 1);
+    for (const bool of_world : {true, false})
+    {
+      const NearestPair& pair = of_world ? found[i].world : found[i].self;
+      const double expected = of_world ? clearance.world : clearance.self;
+      EXPECT_EQ(of_world, pair.bodies[1] >= objects) << i;
+      if (expected == 0.0)
+      {
+        const auto deepest =
+            std::find_if(contacts.begin(), contacts.end(),
+                         [&](const Contact& contact) { return (contact.bodies[1] >= objects) == of_world; });
+        ASSERT_NE(contacts.end(), deepest);
+        EXPECT_EQ(-deepest->depth, pair.distance);
+        EXPECT_EQ(deepest->bodies, pair.bodies);
+        EXPECT_EQ(deepest->point, pair.points[1]);
+        continue;
+      }
+      ++free;
+      EXPECT_EQ(expected, pair.distance);
+      EXPECT_NEAR(oracle::ProblemOracle(pairOf(*made, pair.bodies)).clearance(poses, 10.0), pair.distance, 2e-6);
+      if (!pair.points[0].allFinite())
+        continue;
+      ++with_points;
+      double required = 0.0;
+      if (of_world)
+        required = 0.006 + (pair.bodies[1] < objects + static_cast<std::int32_t>(made->objects.size())
+                                ? made->objects[static_cast<std::size_t>(pair.bodies[1] - objects)].padding
+                                : 0.0);
+      EXPECT_NEAR(pair.distance + required, (pair.points[1] - pair.points[0]).norm(), 3.1e-4) << i;
+    }
+  }
+  EXPECT_GT(free, kCount / 4);
+  EXPECT_LT(free, 2 * kCount);
+  EXPECT_GT(with_points, free * 9 / 10);
+}
+
 TEST_F(ClearanceTest, IsInfiniteWhereNothingIsChecked)
 {
   PlanningScene alone(test_.scene->robot);

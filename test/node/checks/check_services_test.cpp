@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <limits>
 #include <thread>
@@ -51,7 +52,7 @@ class Service : public testing::Test
                      { return std::make_shared<CpuChecker>(std::move(scene)); },
                      {}};
   MemoryGuard memory{0};
-  CheckServices services{store, server, memory, {1000, 1000000, 10}};
+  CheckServices services{store, server, memory, {1000, 1000000, 10}, nullptr};
 };
 
 TEST_F(Service, AnswersEachStateInOrder)
@@ -108,7 +109,7 @@ class WaitingService : public Service
                            [this](std::shared_ptr<const PlanningScene> scene)
                            { return std::make_shared<GatedChecker>(std::move(scene), gate); },
                            {}};
-  CheckServices gated{store, gated_server, memory, {1000, 1000000, 10}};
+  CheckServices gated{store, gated_server, memory, {1000, 1000000, 10}, nullptr};
 };
 
 TEST_F(WaitingService, VariablesThatARequestLeavesOutAreThoseOfTheRevisionThatItNames)
@@ -149,7 +150,7 @@ class WaitingInspections : public WaitingService
     answers.push_back(std::async(std::launch::async, [this, asked] { return bounded.checkStates(asked); }));
   }
 
-  CheckServices bounded{store, gated_server, memory, {1000, 1000000, 10, 10, 1}};
+  CheckServices bounded{store, gated_server, memory, {1000, 1000000, 10, 10, 1}, nullptr};
   std::vector<std::future<CheckStates::Response>> answers;
 };
 
@@ -190,7 +191,7 @@ TEST_F(Service, TooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
   options.max_states = 2;
   CheckServer small(
       store, [](auto scene) { return std::make_shared<CpuChecker>(std::move(scene)); }, options);
-  CheckServices bounded(store, small, memory, {});
+  CheckServices bounded(store, small, memory, {}, nullptr);
   EXPECT_NE(std::string::npos,
             bounded.checkStates(request({"turn"}, {0.0, 0.0, kNan})).message.find("limits/request_states"));
   CheckMotions::Request motions;
@@ -270,7 +271,8 @@ TEST_F(Service, AMatrixOfARequestHasNoMoreEntriesThanTheLimit)
   for (AllowedCollisionEntry& row : asked.allowed_collision_matrix.entry_values)
     row.enabled = {0, 0};
   EXPECT_TRUE(answer(asked).success);
-  const std::string message = CheckServices(strict, server, memory, {1000, 1000000, 10}).checkStates(asked).message;
+  const std::string message =
+      CheckServices(strict, server, memory, {1000, 1000000, 10}, nullptr).checkStates(asked).message;
   EXPECT_NE(std::string::npos, message.find("limits/matrix_entries")) << message;
 }
 
@@ -303,6 +305,29 @@ TEST_F(Service, ClearanceIsGivenWhereAsked)
   EXPECT_EQ(2u, response.clearance_self.size());
 }
 
+TEST_F(Service, TheNearestPairHasASignedDistanceAndPoints)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.5, 0.0, 0.9});
+  asked.nearest = 1;
+  const CheckStates::Response response = answer(asked);
+  ASSERT_EQ(2u, response.nearest_world.size()) << response.message;
+  EXPECT_TRUE(response.clearance_world.empty());
+  const NearestPairMessage& apart = response.nearest_world[0];
+  EXPECT_EQ("cart", apart.body_1);
+  EXPECT_EQ("wall", apart.body_2);
+  EXPECT_EQ(ContactInformation::WORLD_OBJECT, apart.body_type_2);
+  EXPECT_NEAR(0.3, apart.distance, 2e-6) << "the cart reaches to 0.6 m, the wall begins at 0.9 m";
+  EXPECT_NEAR(0.6, apart.point_1.x, 1e-6);
+  EXPECT_NEAR(0.9, apart.point_2.x, 1e-6);
+  const NearestPairMessage& deep = response.nearest_world[1];
+  EXPECT_NEAR(-0.1, deep.distance, 1e-6) << "the cart reaches to 1.0 m";
+  EXPECT_EQ("wall", deep.body_2);
+  EXPECT_EQ(deep.point_1, deep.point_2);
+  ASSERT_EQ(2u, response.nearest_self.size());
+  const NearestPairMessage& self = response.nearest_self[0];
+  EXPECT_EQ(self.body_1.empty(), std::isinf(self.distance));
+}
+
 TEST_F(Service, NoMoreStatesAreInspectedThanTheLimit)
 {
   CheckStates::Request asked = request({"turn", "slide"}, std::vector<double>(22, 0.0));
@@ -314,7 +339,7 @@ TEST_F(Service, NoMoreStatesAreInspectedThanTheLimit)
 
 TEST_F(Service, MoreContactsThanTheLimitAreRefusedAndNotCutOff)
 {
-  CheckServices bounded(store, server, memory, {1000, 1000000, 10, 2});
+  CheckServices bounded(store, server, memory, {1000, 1000000, 10, 2}, nullptr);
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0, 0.0, 1.0, 0.0, 1.0});
   asked.max_contacts = 1;
   const CheckStates::Response refused = bounded.checkStates(asked);
@@ -421,7 +446,7 @@ TEST_F(Service, ANamedStateOfFixedJointsIsRefused)
 
 TEST_F(Service, MotionsThatNeedTooManyChecksAreNotFreeAndMarked)
 {
-  CheckServices few{store, server, memory, {1000, 8, 10}};
+  CheckServices few{store, server, memory, {1000, 8, 10}, nullptr};
   CheckMotions::Request asked;
   asked.joint_names = {"slide", "turn"};
   asked.starts = {-1.0, 0.0, 0.0, 0.0};
@@ -497,7 +522,7 @@ TEST_F(Service, AReportHasEachNameOnOneLine)
 TEST_F(Service, AProcessThatUsesTooMuchMemoryTakesNothingMore)
 {
   const MemoryGuard full(1);
-  CheckServices guarded(store, server, full, {});
+  CheckServices guarded(store, server, full, {}, nullptr);
   EXPECT_NE(std::string::npos,
             guarded.checkStates(request({"turn", "slide"}, {0.0, 0.0})).message.find("limits/memory"));
 }
@@ -518,7 +543,8 @@ TEST_F(Service, AFailureOfTheDeviceIsAnAnswer)
 {
   CheckServer failing(store, [](std::shared_ptr<const PlanningScene>) { return std::make_shared<FailingChecker>(); },
                       {});
-  const auto response = CheckServices(store, failing, memory, {}).checkStates(request({"turn", "slide"}, {0.0, 0.0}));
+  const auto response =
+      CheckServices(store, failing, memory, {}, nullptr).checkStates(request({"turn", "slide"}, {0.0, 0.0}));
   EXPECT_FALSE(response.success);
   EXPECT_EQ("device lost", response.message);
 }
@@ -540,7 +566,7 @@ class UnknownBase : public testing::Test
                      { return std::make_shared<CpuChecker>(std::move(scene)); },
                      {}};
   MemoryGuard memory{0};
-  CheckServices services{store, server, memory, {1000, 1000000, 10}};
+  CheckServices services{store, server, memory, {1000, 1000000, 10}, nullptr};
 };
 
 TEST_F(UnknownBase, IsAssumedAtTheOriginAndEachAnswerSaysSo)

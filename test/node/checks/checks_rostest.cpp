@@ -96,6 +96,68 @@ TEST_F(Checks, AMotionIsFreeUntilItsFirstCollision)
   EXPECT_GE(response.states_checked, 2u * 25u);
 }
 
+TEST_F(Checks, ATrajectoryHasTheVerdictsOfItsWaypointsAndMotions)
+{
+  std::vector<double> end = free_state;
+  end[0] += end[0] > 0.0 ? -0.5 : 0.5;
+  const Eigen::Vector3d in_link = linkPose(tip, free_state).inverse() * tipPoint();
+  apply(diffWith(boxObject("box", linkPose(tip, end) * in_link, 0.02)));
+  ASSERT_TRUE(isFree());
+  std::vector<double> beside = free_state;
+  beside[0] += end[0] > free_state[0] ? -0.2 : 0.2;
+
+  CheckTrajectory::Request request;
+  request.joint_trajectory.joint_names = {stateRequest(free_state).joint_names[0]};
+  request.joint_trajectory.points.resize(3);
+  request.joint_trajectory.points[0].positions = {beside[0]};
+  request.joint_trajectory.points[1].positions = {end[0]};
+  request.joint_trajectory.points[2].positions = {free_state[0]};
+  request.resolution = request.translation_resolution = 0.02;
+  const auto response = call<CheckTrajectory>("check_trajectory", request);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_TRUE(response.start_valid) << "it starts at the current state";
+  EXPECT_FALSE(response.valid);
+
+  const std::vector<std::vector<double>> path = {free_state, beside, end, free_state};
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    EXPECT_EQ(check(path[i + 1]).valid.at(0), response.waypoint_valid.at(i)) << i;
+    const auto part = call<CheckMotions>("check_motions", motion(path[i], path[i + 1]));
+    EXPECT_EQ(part.valid.at(0), response.part_valid.at(i)) << i;
+    EXPECT_EQ(part.first_invalid_fraction.at(0), response.first_invalid_fraction.at(i)) << i;
+    EXPECT_EQ(part.last_valid_fraction.at(0), response.last_valid_fraction.at(i)) << i;
+  }
+  EXPECT_EQ(0, response.waypoint_valid.at(1));
+  EXPECT_EQ(scene().scene_revision, response.scene_revision);
+  request.joint_trajectory.points[1].positions.clear();
+  EXPECT_FALSE(call<CheckTrajectory>("check_trajectory", request).success);
+}
+
+TEST_F(Checks, ASceneDiffCountsForItsRequestAlone)
+{
+  const PlanningSceneMessage before = scene();
+  CheckStates::Request request = stateRequest(free_state);
+  request.nearest = 1;
+  request.scene_diff = diffWith(boxObject("box", tipPoint(), 0.02));
+  const auto changed = call<CheckStates>("check_states", request);
+  ASSERT_TRUE(changed.success) << changed.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{0}), changed.valid);
+  EXPECT_EQ("box", changed.nearest_world.at(0).body_2);
+  EXPECT_LE(changed.nearest_world.at(0).distance, 0.0);
+  EXPECT_EQ(before.scene_revision, changed.scene_revision);
+  EXPECT_EQ(before, scene());
+  EXPECT_TRUE(isFree());
+
+  const std::uint64_t revision = apply(request.scene_diff);
+  request.scene_diff = PlanningSceneMessage();
+  const auto applied = call<CheckStates>("check_states", request);
+  EXPECT_EQ(changed.valid, applied.valid);
+  EXPECT_EQ(changed.nearest_world, applied.nearest_world);
+  EXPECT_EQ(revision, applied.scene_revision);
+  request.scene_diff = diffWith(objectOperation("box", CollisionObject::REMOVE));
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), call<CheckStates>("check_states", request).valid);
+}
+
 TEST_F(Checks, WrongMotionsAreRefused)
 {
   auto request = motion(free_state, free_state);

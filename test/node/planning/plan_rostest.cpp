@@ -96,6 +96,39 @@ TEST_F(Planning, FindsTheWayThroughASlotByPlannersOfAnyName)
   }
 }
 
+TEST_F(Planning, InAChangedSceneOfTheRequestLeavesTheSceneAsItIs)
+{
+  const PlanningSceneMessage before = scene();
+  PlanMotion::Request wanted = request();
+  wanted.scene_diff = diffWith(plate("post", {1.0, 0.0, 0.5}, {0.2, 0.2, 0.4}));
+  expectStatus(wanted, Response::GOAL_IN_COLLISION, "post");
+  wanted.scene_diff = diffWith(objectOperation("left", CollisionObject::REMOVE));
+  const Response response = plan(wanted);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_EQ(before.scene_revision, response.scene_revision);
+  EXPECT_EQ(before, scene());
+  wanted.scene_diff.is_diff = 0;
+  expectStatus(wanted, Response::BAD_REQUEST, "scene_diff: is_diff is false");
+  wanted.scene_diff = PlanningSceneMessage();
+  expectSolved(plan(wanted), wanted.start, wanted.goals);
+
+  // ~check_trajectory proves the whole path.
+  const Response path = plan(wanted);
+  CheckTrajectory::Request trajectory;
+  trajectory.group = "drive";
+  trajectory.start_state.joint_state.name = wanted.start_names;
+  trajectory.start_state.joint_state.position = wanted.start;
+  trajectory.joint_trajectory = path.trajectory;
+  trajectory.resolution = trajectory.translation_resolution = 0.001;
+  const auto checked = call<CheckTrajectory>("check_trajectory", trajectory);
+  ASSERT_TRUE(checked.success) << checked.message;
+  EXPECT_TRUE(checked.valid);
+  EXPECT_EQ(path.trajectory.points.size(), checked.part_valid.size());
+  trajectory.scene_diff = diffWith(plate("post", {0.0, 0.0, 0.5}, {0.2, 0.2, 0.4}));
+  EXPECT_FALSE(call<CheckTrajectory>("check_trajectory", trajectory).valid);
+  EXPECT_EQ(before, scene());
+}
+
 TEST_F(Planning, UsesAPlannerOfAnotherPackage)
 {
   PlanMotion::Request wanted = request();

@@ -123,7 +123,6 @@ TEST_F(AttachedObjects, WrongChangesAreRefusedAndChangeNothing)
   AttachedCollisionObject wrong = attach(boxObject("box", tipPoint(), 0.02));
   wrong.link_name = "no such link";
   expectRefusal(diffWith(wrong), "no such link");
-  expectRefusal(diffWith(attach(boxObject("box", tipPoint(), 0.02), {"no such touch link"})), "no such touch link");
   expectRefusal(diffWith(attach(objectOperation("no such object", CollisionObject::ADD))), "no such object");
   expectRefusal(diffWith(attach(objectOperation("no such object", CollisionObject::REMOVE))), "no such object");
 }

@@ -122,7 +122,43 @@ TEST_F(Frames, AFrameThatComesWithinTheTimeoutIsWaitedFor)
 TEST_F(Frames, AFrameThatNobodyKnowsIsAClearErrorAfterTheTimeout)
 {
   expectRefusal(diffWith(boxIn("nowhere", farAway())), "frame 'nowhere'");
-  expectRefusal(diffWith(boxIn("nowhere", farAway())), "tf_timeout");
+  expectRefusal(diffWith(boxIn("nowhere_at_all", farAway())),
+                "frame 'nowhere_at_all' is neither in the scene nor on tf; name a link, an object, OBJECT/SUBFRAME, a "
+                "fixed frame of the scene, or a frame of tf (waited 0.5 s: tf_timeout)");
+}
+
+TEST_F(Frames, AMistypedFrameIsAnsweredWithTheNearestName)
+{
+  expectRefusal(diffWith(boxIn(tip + "x", farAway())),
+                "is neither in the scene nor on tf; did you mean '" + tip + "'?");
+  tf2_ros::StaticTransformBroadcaster broadcaster;
+  broadcaster.sendTransform(transform("overhead_camera", farAway()));
+  ros::WallDuration(0.5).sleep();
+  expectRefusal(diffWith(boxIn("overhaed_camera", farAway())), "did you mean 'overhead_camera'?");
+}
+
+TEST_F(Frames, AFrameThatTfDoesNotConnectOrHasNoLongerIsNamed)
+{
+  tf2_ros::StaticTransformBroadcaster static_broadcaster;
+  geometry_msgs::TransformStamped apart = transform("palm_tree", farAway());
+  apart.header.frame_id = "island";
+  static_broadcaster.sendTransform({apart, transform("mainland", farAway())});
+  tf2_ros::TransformBroadcaster broadcaster;
+  ros::WallDuration(2.0).sleep();  // time for the node to subscribe
+  const ros::Time now = ros::Time::now();
+  geometry_msgs::TransformStamped message = transform("tram", farAway());
+  for (const double seconds : {-0.2, 0.0})
+  {
+    message.header.stamp = now + ros::Duration(seconds);
+    broadcaster.sendTransform(message);
+  }
+  ros::WallDuration(0.5).sleep();
+  expectRefusal(diffWith(boxIn("palm_tree", farAway())),
+                "frame 'palm_tree' and the planning frame '" + robot->planningFrame() +
+                    "' are on tf, but not connected; publish the transform between them");
+  CollisionObject box = boxIn("tram", farAway());
+  box.header.stamp = now - ros::Duration(100.0);
+  expectRefusal(diffWith(box), "give a time that tf still has, or 0 for the latest");
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -1,0 +1,78 @@
+#include <tuple>
+
+#include "collision/problem/state_validation.h"
+#include "gpu_planning_scene/error.h"
+#include "node/checks/check_services.h"
+#include "node/checks/requested_motions.h"
+#include "node/checks/requested_scene.h"
+#include "node/endpoints/respond.h"
+#include "node/messages/requested_states.h"
+
+// The service ~check_motions.
+namespace gpu_planning_scene::core
+{
+CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& request)
+{
+  return respond<CheckMotions::Response>(
+      [&](CheckMotions::Response& response)
+      {
+        memory_.require();
+        if (request.starts.size() != request.ends.size())
+          throw Error(std::to_string(request.starts.size()) + " values in starts and " +
+                      std::to_string(request.ends.size()) + " in ends; give one row of each per motion");
+        const RequestedScene scene =
+            requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix);
+        const Snapshot& now = scene.now;
+        const RobotModel& robot = *now.scene->robot;
+        const auto require_count = [this](std::size_t count) { server_.requireStateCount(count); };
+        CheckJob job;
+        job.columns =
+            requestedColumns(robot, {"joint_names", request.joint_names}, {"starts", request.starts}, require_count);
+        requestedColumns(robot, {"joint_names", request.joint_names}, {"ends", request.ends}, require_count);
+        requireWholeRotations(robot, job.columns);
+        const PartialState current = now.partialState();
+        const std::size_t count = request.starts.size() / job.columns.size();
+        const std::vector<double> starts = fullStates(robot, job.columns, request.starts.data(), count, current);
+        const std::vector<double> ends = fullStates(robot, job.columns, request.ends.data(), count, current);
+        validateStates(robot, starts.data(), count);
+        validateStates(robot, ends.data(), count);
+        std::tie(job.motions, job.samples) =
+            requestedMotions({request.motion_rule, request.resolution, request.translation_resolution, "motion"}, robot,
+                             starts.data(), ends.data(), count, options_);
+        const MotionRule motion_rule = job.motions->rule;
+        const std::string assumed_base = now.assumedBase(scene.is_changed ? std::vector<int>() : job.columns);
+        // The full states above serve to count the samples. For the check, the variables that the request does not name
+        // come from the checked snapshot, which may be newer than `now`.
+        job.states = request.starts;
+        job.states.insert(job.states.end(), request.ends.begin(), request.ends.end());
+        job.group = request.group;
+        job.matrix = scene.matrix;
+        if (scene.is_changed)
+          job.scene = scene.now;
+        const CheckAnswer answer = answerOf(std::move(job));
+        for (const MotionVerdict& verdict : answer.motions)
+        {
+          response.valid.push_back(verdict.valid ? 1 : 0);
+          response.last_valid_fraction.push_back(verdict.last_valid);
+          response.first_invalid_fraction.push_back(verdict.first_invalid);
+          response.given_up.push_back(verdict.given_up ? 1 : 0);
+          const bool collides = verdict.colliding != kNoPair;
+          response.body_1.push_back(collides ? answer.scene->bodyName(verdict.colliding[0]) : "");
+          response.body_2.push_back(collides ? answer.scene->bodyName(verdict.colliding[1]) : "");
+        }
+        if (motion_rule == MotionRule::Bound)
+        {
+          const auto name_of = [](std::size_t row) { return "motion " + std::to_string(row); };
+          response.message = beyondLimits(robot, starts.data(), count, name_of);
+          if (response.message.empty())
+            response.message = beyondLimits(robot, ends.data(), count, name_of);
+        }
+        addWarning(givenUp(answer.motions, options_.max_motion_checks, "motion"), response.message);
+        addWarnings(scene.warnings, response.message);
+        addWarning(assumed_base, response.message);
+        response.states_checked = answer.states_checked;
+        response.scene_revision = answer.result.revision;
+        response.seconds = answer.result.seconds;
+      });
+}
+}  // namespace gpu_planning_scene::core

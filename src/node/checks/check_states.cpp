@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+
+#include "gpu_planning_scene/error.h"
+#include "model/joint_limits.h"
+#include "model/seconds_since.h"
+#include "node/checks/check_services.h"
+#include "node/checks/requested_scene.h"
+#include "node/endpoints/respond.h"
+#include "node/endpoints/topic_warnings.h"
+#include "node/messages/requested_states.h"
+
+// The service ~check_states, with contacts and clearance.
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// The indices of all variables.
+std::vector<int> allColumns(const RobotModel& robot)
+{
+  std::vector<int> columns(robot.variables().size());
+  std::iota(columns.begin(), columns.end(), 0);
+  return columns;
+}
+
+std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
+{
+  const std::size_t links = scene.robot->links().size();
+  const auto index = static_cast<std::size_t>(body);
+  if (index < links)
+    return ContactInformation::ROBOT_LINK;
+  return index < links + scene.objects.size() ? ContactInformation::WORLD_OBJECT : ContactInformation::ROBOT_ATTACHED;
+}
+
+geometry_msgs::Point pointOf(const Eigen::Vector3d& point)
+{
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = point.z();
+  return message;
+}
+
+ContactInformation messageOf(const Contact& contact, const PlanningScene& scene, std::size_t state)
+{
+  ContactInformation message;
+  message.header.frame_id = scene.robot->planningFrame();
+  message.position = pointOf(contact.point);
+  message.normal.x = contact.normal.x();
+  message.normal.y = contact.normal.y();
+  message.normal.z = contact.normal.z();
+  message.depth = contact.depth;
+  message.contact_body_1 = scene.bodyName(contact.bodies[0]);
+  message.body_type_1 = bodyType(scene, contact.bodies[0]);
+  message.contact_body_2 = scene.bodyName(contact.bodies[1]);
+  message.body_type_2 = bodyType(scene, contact.bodies[1]);
+  message.state = static_cast<std::uint32_t>(state);
+  return message;
+}
+
+NearestPairMessage messageOf(const NearestPair& pair, const PlanningScene& scene)
+{
+  NearestPairMessage message;
+  message.distance = pair.distance;
+  message.point_1 = pointOf(pair.points[0]);
+  message.point_2 = pointOf(pair.points[1]);
+  if (pair.bodies == kNoPair)
+    return message;
+  message.body_1 = scene.bodyName(pair.bodies[0]);
+  message.body_type_1 = bodyType(scene, pair.bodies[0]);
+  message.body_2 = scene.bodyName(pair.bodies[1]);
+  message.body_type_2 = bodyType(scene, pair.bodies[1]);
+  return message;
+}
+}  // namespace
+
+CheckStates::Response CheckServices::checkStates(const CheckStates::Request& request)
+{
+  return respond<CheckStates::Response>(
+      [&](CheckStates::Response& response)
+      {
+        memory_.require();
+        CheckJob job;
+        const RequestedScene scene =
+            requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix);
+        const Snapshot& now = scene.now;
+        const RobotModel& robot = *now.scene->robot;
+        NamedRow rows{request.joint_names, request.positions};
+        std::vector<int> set_by_request;
+        const bool is_of_current_state =
+            request.named_state.empty() && request.joint_names.empty() && request.positions.empty();
+        if (is_of_current_state)
+        {
+          if (robot.variables().empty())
+            throw Error(
+                "the robot has no variables, so there is only one state; ~get_report tells whether it collides");
+          job.columns = allColumns(robot);
+          rows.values = fullStates(robot, {}, nullptr, 1, now.partialState());
+        }
+        if (!request.named_state.empty())
+          rows = requestedNamedState(robot, {"named_state", request.named_state},
+                                     request.joint_names.empty() && request.positions.empty());
+        if (!is_of_current_state)
+          set_by_request = job.columns = requestedColumns(
+              robot, {"joint_names", rows.names}, {"positions", rows.values},
+              [this](std::size_t count) { server_.requireStateCount(count); });
+        job.states = std::move(rows.values);
+        job.group = request.group;
+        if (const auto outside =
+                findValueOutsideLimits(robot, job.columns, job.states.data(), job.states.size() / job.columns.size()))
+        {
+          response.message = shortLine("state " + std::to_string(outside->row) + ": " + outside->text);
+          static OccasionalWarning warning;
+          warning.log("check_states: " + response.message);
+        }
+        addWarnings(scene.warnings, response.message);
+        addWarning(now.assumedBase(scene.is_changed ? std::vector<int>() : set_by_request), response.message);
+        job.matrix = scene.matrix;
+        if (scene.is_changed)
+          job.scene = scene.now;
+        job.keep_states = request.max_contacts != 0 || request.clearance || request.nearest;
+        const bool inspects = job.keep_states;
+        std::optional<Admission::Pass> pass;
+        if (inspects)
+          pass.emplace(inspections_);
+        const CheckAnswer answer = answerOf(std::move(job));
+        const BatchResult& result = answer.result;
+        response.valid = result.valid;
+        response.body_1.resize(result.valid.size());
+        response.body_2.resize(result.valid.size());
+        for (std::size_t i = 0; i < result.valid.size(); ++i)
+        {
+          if (result.valid[i])
+            continue;
+          response.body_1[i] = answer.scene->bodyName(result.colliding[i][0]);
+          response.body_2[i] = answer.scene->bodyName(result.colliding[i][1]);
+        }
+        response.scene_revision = result.revision;
+        response.seconds = result.seconds;
+        if (inspects)
+        {
+          const auto start = std::chrono::steady_clock::now();
+          inspect(request, answer, response);
+          response.seconds += secondsSince(start);
+        }
+      });
+}
+
+void CheckServices::inspect(const CheckStates::Request& request, const CheckAnswer& answer,
+                            CheckStates::Response& response)
+{
+  const std::vector<std::uint8_t>& valid = answer.result.valid;
+  const auto colliding = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
+  const bool has_distances = request.clearance || request.nearest;
+  const std::size_t inspected = has_distances ? valid.size() : colliding;
+  if (inspected > options_.max_inspected_states)
+    throw Error("contacts or clearance requested for " + std::to_string(inspected) + " states; the limit is " +
+                std::to_string(options_.max_inspected_states) +
+                " (limits/inspected_states): send fewer states per request");
+  if (inspected == 0)
+    return;
+  const std::shared_ptr<const StateInspector> inspector = inspectorOf(answer.scene);
+  const std::size_t width = answer.scene->robot->variables().size();
+  for (std::size_t i = 0; i < valid.size(); ++i)
+  {
+    if (stopping_)
+      throw shuttingDown();
+    const double* state = answer.states.data() + i * width;
+    if (!valid[i] && request.max_contacts != 0)
+    {
+      // One contact above the limit shows that there are too many.
+      const std::size_t max_contacts =
+          std::min<std::size_t>(request.max_contacts, options_.max_contacts + 1 - response.contacts.size());
+      for (const Contact& contact :
+           inspector->contacts(state, request.group, max_contacts, request.max_contacts_per_pair))
+        response.contacts.push_back(messageOf(contact, *answer.scene, i));
+      if (response.contacts.size() > options_.max_contacts)
+        throw Error("more than " + std::to_string(options_.max_contacts) +
+                    " contacts (limits/contacts): request fewer per state (max_contacts), or send fewer states");
+    }
+  }
+  constexpr std::size_t kStatesPerPart = 64;  // a part takes well below a second, so that the node can stop
+  for (std::size_t i = 0; has_distances && i < valid.size(); i += kStatesPerPart)
+  {
+    if (stopping_)
+      throw shuttingDown();
+    const std::size_t count = std::min(kStatesPerPart, valid.size() - i);
+    const double* states = answer.states.data() + i * width;
+    if (request.clearance)
+      for (const Clearance& clearance : inspector->clearances(states, count, request.group))
+      {
+        response.clearance_world.push_back(clearance.world);
+        response.clearance_self.push_back(clearance.self);
+      }
+    if (request.nearest)
+      for (const NearestPairs& pairs : inspector->nearestPairs(states, count, request.group))
+      {
+        response.nearest_world.push_back(messageOf(pairs.world, *answer.scene));
+        response.nearest_self.push_back(messageOf(pairs.self, *answer.scene));
+      }
+  }
+}
+
+/// The inspector is built without the lock, so that several can be built at the same time. The inspector of the newest
+/// scene is kept.
+std::shared_ptr<const StateInspector> CheckServices::inspectorOf(const std::shared_ptr<const PlanningScene>& scene)
+{
+  std::shared_ptr<const StateInspector> previous;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (inspected_ == scene)
+      return inspector_;
+    previous = inspector_;
+  }
+  auto inspector = std::make_shared<const StateInspector>(scene, previous.get());
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!inspected_ || inspected_->revision <= scene->revision)
+  {
+    inspected_ = scene;
+    inspector_ = inspector;
+  }
+  return inspector;
+}
+}  // namespace gpu_planning_scene::core

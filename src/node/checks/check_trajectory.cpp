@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "collision/problem/state_validation.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/interpolation.h"
+#include "model/full_states.h"
+#include "model/math_constants.h"
+#include "node/checks/check_services.h"
+#include "node/checks/requested_motions.h"
+#include "node/checks/requested_scene.h"
+#include "node/endpoints/respond.h"
+#include "node/messages/requested_trajectory.h"
+
+// The service ~check_trajectory. The rows of a path are its start and its waypoints; part i goes from row i to row
+// i + 1.
+namespace gpu_planning_scene::core
+{
+namespace
+{
+std::string rowName(std::size_t row)
+{
+  return row == 0 ? "the start" : "waypoint " + std::to_string(row - 1);
+}
+
+/// The start and the waypoints as full states.
+std::vector<double> pathOf(const RequestedTrajectory& trajectory, const std::vector<double>& start)
+{
+  const std::size_t width = start.size();
+  std::vector<double> path;
+  path.reserve((trajectory.waypoints + 1) * width);
+  for (std::size_t row = 0; row <= trajectory.waypoints; ++row)
+    path.insert(path.end(), start.begin(), start.end());
+  const double* value = trajectory.rows.data();
+  for (std::size_t row = 1; row <= trajectory.waypoints; ++row)
+    for (const int column : trajectory.columns)
+      path[row * width + static_cast<std::size_t>(column)] = *value++;
+  return path;
+}
+
+/// A warning about the first continuous joint that turns by more than half a turn within a part; otherwise empty. A
+/// controller may turn it in the longer direction, which is not checked.
+std::string longTurn(const RobotModel& robot, const std::vector<double>& path)
+{
+  const std::size_t width = robot.variables().size();
+  for (const Joint& joint : robot.joints())
+  {
+    if (joint.type != JointType::Continuous || joint.mimic || !isPeriodic(robot, joint))
+      continue;
+    const auto column = static_cast<std::size_t>(joint.first_variable);
+    for (std::size_t row = 1; row * width < path.size(); ++row)
+      if (std::abs(path[row * width + column] - path[(row - 1) * width + column]) > kPi)
+        return "continuous joint '" + joint.name + "' moves by more than half a turn before " + rowName(row) +
+               "; it is checked in the shorter direction: give more waypoints if it turns in the other one";
+  }
+  return "";
+}
+
+void fill(const CheckAnswer& answer, CheckTrajectory::Response& response)
+{
+  const BatchResult& states = answer.result;
+  const auto name_of = [&](const BodyPair& pair, std::size_t side)
+  { return pair == kNoPair ? std::string() : answer.scene->bodyName(pair[side]); };
+  response.start_valid = states.valid.at(0) != 0;
+  response.valid = response.start_valid;
+  for (std::size_t row = 1; row < states.valid.size(); ++row)
+  {
+    response.waypoint_valid.push_back(states.valid[row]);
+    response.waypoint_body_1.push_back(name_of(states.valid[row] != 0 ? kNoPair : states.colliding[row], 0));
+    response.waypoint_body_2.push_back(name_of(states.valid[row] != 0 ? kNoPair : states.colliding[row], 1));
+  }
+  for (const MotionVerdict& part : answer.motions)
+  {
+    response.valid = response.valid && part.valid;
+    response.part_valid.push_back(part.valid ? 1 : 0);
+    response.last_valid_fraction.push_back(part.last_valid);
+    response.first_invalid_fraction.push_back(part.first_invalid);
+    response.part_body_1.push_back(name_of(part.colliding, 0));
+    response.part_body_2.push_back(name_of(part.colliding, 1));
+    response.given_up.push_back(part.given_up ? 1 : 0);
+  }
+  response.states_checked = answer.states_checked;
+  response.scene_revision = states.revision;
+  response.seconds = states.seconds;
+}
+}  // namespace
+
+CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::Request& request)
+{
+  return respond<CheckTrajectory::Response>(
+      [&](CheckTrajectory::Response& response)
+      {
+        memory_.require();
+        server_.requireStateCount(
+            std::max(request.joint_trajectory.points.size(), request.multi_dof_joint_trajectory.points.size()));
+        RequestedScene scene =
+            requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix, request.start_state);
+        const RobotModel& robot = *scene.now.scene->robot;
+        const RequestedTrajectory trajectory = requestedTrajectory(robot, request);
+        const std::vector<double> start = fullStates(robot, {}, nullptr, 1, scene.now.partialState());
+        const std::vector<double> path = pathOf(trajectory, start);
+        const std::size_t width = start.size();
+        const std::size_t parts = trajectory.waypoints;
+        validateStates(robot, path.data(), parts + 1);
+
+        CheckJob job;
+        job.group = request.group;
+        job.is_path = true;
+        std::tie(job.motions, job.samples) =
+            requestedMotions({request.motion_rule, request.resolution, request.translation_resolution, "part"}, robot,
+                             path.data(), path.data() + width, parts, options_);
+        const MotionRule rule = job.motions->rule;
+        const std::string assumed_base = scene.now.assumedBase({});
+        job.states = path;
+        job.matrix = scene.matrix;
+        job.scene = scene.now;
+        const CheckAnswer answer = answerOf(std::move(job));
+        fill(answer, response);
+        response.motion_rule = rule == MotionRule::Bound ? "bound" : "samples";
+        if (rule == MotionRule::Bound)
+          response.message = beyondLimits(robot, path.data(), parts + 1, rowName);
+        addWarning(givenUp(answer.motions, options_.max_motion_checks, "part"), response.message);
+        addWarning(longTurn(robot, path), response.message);
+        addWarnings(scene.warnings, response.message);
+        addWarning(assumed_base, response.message);
+      });
+}
+}  // namespace gpu_planning_scene::core

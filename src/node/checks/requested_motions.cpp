@@ -1,0 +1,82 @@
+#include "node/checks/requested_motions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "collision/bounds/reach.h"
+#include "collision/problem/state_validation.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/interpolation.h"
+#include "model/joint_limits.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// The value of a field of the request: the largest step between two samples.
+double requestedStep(const char* field, double value, const char* unit)
+{
+  if (std::isfinite(value) && value > 0.0)
+    return value;
+  std::ostringstream text;
+  text << field << " is " << value << "; give the largest step between two samples: a finite number of " << unit
+       << " above 0, for example 0.02";
+  throw Error(text.str());
+}
+}  // namespace
+
+std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const RequestedMotions& request, const RobotModel& robot,
+                                                              const double* starts, const double* ends,
+                                                              std::size_t count, const CheckServicesOptions& limits)
+{
+  const std::size_t max_samples = limits.max_states;
+  MotionCheckerOptions options;
+  options.max_checks = limits.max_motion_checks;
+  options.rule = request.rule.empty() ? limits.motion_rule : motionRuleFromName(request.rule);
+  options.steps = {requestedStep("resolution", request.resolution, "radians"),
+                   requestedStep("translation_resolution", request.translation_resolution, "metres")};
+  if (options.rule == MotionRule::Samples)
+    options.max_samples = max_samples;
+  const std::size_t width = robot.variables().size();
+  const std::string what = request.what;
+  double all = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double samples = segmentCount(robot, starts + i * width, ends + i * width, options.steps) + 1.0;
+    all += samples;
+    const std::string motion = what + " " + std::to_string(i);
+    if (samples > static_cast<double>(options.max_samples))
+      throw Error(motion + " has more than " + std::to_string(options.max_samples) + " samples; cut it into several " +
+                  what + "s, or take larger steps");
+    if (all > static_cast<double>(max_samples))
+      throw Error("the " + what + "s up to " + motion + " have more than " + std::to_string(max_samples) +
+                  " samples in total (limits/request_states); send fewer " + what + "s, or take larger steps");
+  }
+  return {options, static_cast<std::size_t>(all)};
+}
+
+std::string beyondLimits(const RobotModel& robot, const double* states, std::size_t count,
+                         const std::function<std::string(std::size_t row)>& name_of)
+{
+  const std::size_t width = robot.variables().size();
+  const std::vector<VariableRange> ranges = limitRanges(robot);
+  for (std::size_t row = 0; row < count; ++row)
+    if (const ValuesOutsideLimits outside = valuesOutside(ranges, robot, states + row * width); outside.count() != 0)
+      return name_of(row) + ": " + outside.text() + "; the motion rule \"bound\" proves no motion there";
+  return "";
+}
+
+std::string givenUp(const std::vector<MotionVerdict>& motions, std::size_t max_checks, const std::string& what)
+{
+  const auto is_given_up = [](const MotionVerdict& motion) { return motion.given_up; };
+  const auto first = std::find_if(motions.begin(), motions.end(), is_given_up);
+  if (first == motions.end())
+    return "";
+  const auto count = std::count_if(first, motions.end(), is_given_up);
+  return std::to_string(count) + " of " + std::to_string(motions.size()) + " " + what +
+         "s are not proven free, because " + std::to_string(max_checks) +
+         " checks (limits/motion_checks) did not suffice; the first is " + what + " " +
+         std::to_string(first - motions.begin()) + "; send fewer or shorter " + what + "s in one request";
+}
+}  // namespace gpu_planning_scene::core

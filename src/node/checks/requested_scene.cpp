@@ -1,0 +1,30 @@
+#include "node/checks/requested_scene.h"
+
+#include "gpu_planning_scene/error.h"
+#include "node/messages/from_messages.h"
+#include "node/messages/requested_changes.h"
+#include "scene/matrix_entries.h"
+
+namespace gpu_planning_scene::core
+{
+RequestedScene requestedScene(const SceneStore& store, const SceneStore::Lookup& lookup,
+                              const PlanningSceneMessage& scene_diff, const AllowedCollisionMatrixMessage& matrix,
+                              const RobotState& state)
+{
+  RequestedScene requested;
+  if (!isEmpty(matrix) && !isEmpty(scene_diff.allowed_collision_matrix))
+    throw Error("allowed_collision_matrix is given in the request and in scene_diff; give one of the two");
+  const std::vector<SceneChange> changes =
+      requestedChanges(*store.snapshot().scene->robot, store.limits(), scene_diff, state, requested.warnings);
+  requested.is_changed = !changes.empty();
+  SceneStore::Preview preview = store.preview(changes, lookup);
+  requested.now = std::move(preview.snapshot);
+  requested.warnings.insert(requested.warnings.end(), preview.warnings.begin(), preview.warnings.end());
+  if (isEmpty(matrix))
+    return requested;
+  requested.matrix = std::make_shared<const AllowedCollisionMatrix>(matrixFrom(matrix, store.limits()));
+  if (std::string warning = warningOfDefaultsAlone(*requested.now.scene->robot, *requested.matrix); !warning.empty())
+    requested.warnings.push_back(std::move(warning));
+  return requested;
+}
+}  // namespace gpu_planning_scene::core
