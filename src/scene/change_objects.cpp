@@ -4,12 +4,13 @@
 // Objects of the world: adding, appending to, moving and removing them.
 namespace gpu_planning_scene::core
 {
-void SceneChanger::clearWorld()
+void SceneChanger::clearWorld(bool keeps_settings)
 {
   for (const std::string& id : objects_.ids())
   {
     count_.remove(objects_.take(id).shapes);
-    forget(id);
+    if (!keeps_settings)
+      forget(id);
   }
 }
 
@@ -18,7 +19,7 @@ void SceneChanger::changeObject(const ObjectChange& change)
   if (change.operation == Operation::Remove)
   {
     if (change.id.empty())
-      clearWorld();
+      clearWorld(change.keeps_allowed_collisions);
     else
       removeObject(change);
     return;

@@ -56,7 +56,7 @@ class SceneChanger
   Eigen::Isometry3d poseInLink(const Eigen::Isometry3d& pose, const StampedFrame& frame, int link);
 
   // change_objects.cpp
-  void clearWorld();
+  void clearWorld(bool keeps_settings);  // colours and entries of the matrix
   void changeObject(const ObjectChange& change);
   void addObject(const ObjectChange& change);
   void appendToObject(WorldObject& object, const ObjectChange& change);

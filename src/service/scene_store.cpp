@@ -67,13 +67,14 @@ SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits 
 {
   state_ = PartialState(*scene.robot, scene.current_state).values;
   known_.assign(state_.size(), !scene.current_state.empty());
+  measured_.assign(state_.size(), false);
   scene_ = std::make_shared<const PlanningScene>(std::move(scene));
 }
 
 Snapshot SceneStore::snapshot() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return {scene_, state_, known_};
+  return {scene_, state_, known_, measured_};
 }
 
 SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& lookup)
@@ -93,6 +94,14 @@ SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& l
     Change made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
     return {replace(std::move(made.scene), change.state.variables), std::move(made.warnings)};
   }
+}
+
+Change SceneStore::preview(const SceneChange& change, const Lookup& lookup) const
+{
+  const Snapshot at = snapshot();
+  ExternalFrames frames;
+  findFrames(*at.scene, change, lookup, frames);
+  return applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
 }
 
 SceneStore::Applied SceneStore::clear()
@@ -126,8 +135,8 @@ std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::strin
     scene_ = after;
     setVariables(variables);
   }
-  if (listener_)
-    listener_(before, after);
+  for (const auto& [owner, listener] : listeners_)
+    listener(before, after);
   return after->revision;
 }
 
@@ -152,6 +161,9 @@ void SceneStore::updateState(const std::map<std::string, double>& variables, std
     if (robot.variableIndex(name) >= 0 && !std::isfinite(value))
       throw Error("the position of '" + name + "' is not a finite number");
   setVariables(variables);
+  for (const auto& [name, value] : variables)
+    if (const int variable = robot.variableIndex(name); variable >= 0)
+      measured_[static_cast<std::size_t>(variable)] = true;
   history_.add(stamp, state_);
 }
 
@@ -162,9 +174,12 @@ std::vector<double> SceneStore::stateAt(std::int64_t stamp) const
   return known != nullptr ? *known : state_;
 }
 
-void SceneStore::setListener(Listener listener)
+void SceneStore::setListener(const void* owner, Listener listener)
 {
   const std::lock_guard<std::mutex> changing(changes_);
-  listener_ = std::move(listener);
+  if (listener)
+    listeners_[owner] = std::move(listener);
+  else
+    listeners_.erase(owner);
 }
 }  // namespace gpu_planning_scene::core

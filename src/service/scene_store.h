@@ -20,6 +20,7 @@ struct Snapshot
   std::shared_ptr<const PlanningScene> scene;
   std::vector<double> state;  ///< one value per variable
   std::vector<bool> known;    ///< one per variable; an unknown variable has its default value
+  std::vector<bool> measured;  ///< one per variable: whether SceneStore::updateState has set it
 
   bool allKnown() const;
   /// The virtual joint counts as known: without a value, the robot stands at the origin of the planning frame.
@@ -50,6 +51,8 @@ class SceneStore
   /// Calls applyChange. Changes are made one after the other. Each change increases the revision by 1. If it throws,
   /// nothing has changed.
   Applied apply(const SceneChange& change, const Lookup& lookup);
+  /// The scene and the state that the change would lead to. Nothing is changed. Throws as apply() does.
+  Change preview(const SceneChange& change, const Lookup& lookup) const;
 
   /// Removes all objects and attached objects with their entries in the allowed collision matrix, and all colours.
   /// Warns of each body that an entry forbade to touch an object, if the default of the body allows it to touch a new
@@ -64,23 +67,25 @@ class SceneStore
   std::vector<double> stateAt(std::int64_t stamp) const;
 
   /// Called after each change with the scenes before and after it, in the order of revisions. During the call, readers
-  /// continue and other changes wait. The listener must not change the scene.
+  /// continue and other changes wait. A listener must not change the scene.
   using Listener = std::function<void(const std::shared_ptr<const PlanningScene>& before,
                                       const std::shared_ptr<const PlanningScene>& after)>;
-  void setListener(Listener listener);
+  /// Each owner has one listener. An empty listener removes it.
+  void setListener(const void* owner, Listener listener);
 
  private:
   std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables);
   void setVariables(const std::map<std::string, double>& variables);
 
   std::mutex changes_;        // held during a change
-  mutable std::mutex mutex_;  // guards the next four members
+  mutable std::mutex mutex_;  // guards the next five members
   std::shared_ptr<const PlanningScene> scene_;
   std::vector<double> state_;
   std::vector<bool> known_;
+  std::vector<bool> measured_;
   StateHistory history_;
   const SceneDefaults defaults_;
   const SceneLimits limits_;
-  Listener listener_;  // guarded by changes_
+  std::map<const void*, Listener> listeners_;  // guarded by changes_
 };
 }  // namespace gpu_planning_scene::core

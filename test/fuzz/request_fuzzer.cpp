@@ -96,7 +96,7 @@ class Handlers
       scenes_(store_, frameOfTf, memory_),
       clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
   {
-    store_.setListener([this](const auto& before, const auto& after)
+    store_.setListener(this, [this](const auto& before, const auto& after)
                        { requireReadable(messageOf(diffOf(*before, *after), *after->robot)); });
   }
 

@@ -92,7 +92,7 @@ void finish(ChangeQueue& queue, std::promise<void>& opened, SceneStore& store)
 {
   std::promise<void> last;
   store.setListener(
-      [&last](const auto&, const auto& after)
+      &last, [&last](const auto&, const auto& after)
       {
         if (after->name == "last")
           last.set_value();

@@ -240,7 +240,7 @@ TEST_F(Store, AListenerHearsEachChangeInOrder)
 {
   std::vector<std::uint64_t> heard;
   store.setListener(
-      [&](const auto& before, const auto& after)
+      this, [&](const auto& before, const auto& after)
       {
         EXPECT_EQ(before->revision + 1, after->revision);
         EXPECT_EQ(after, store.snapshot().scene) << "readers have it already";

@@ -287,6 +287,29 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
       });
 }
 
+/// A scene of its own needs an inspector of its own, which takes the trees of the newest inspector.
+CheckStates::Response CheckServices::checkState(std::shared_ptr<const PlanningScene> scene,
+                                                const std::vector<double>& state, const CheckStates::Request& request)
+{
+  return respond<CheckStates::Response>(
+      [&](CheckStates::Response& response)
+      {
+        memory_.require();
+        const Admission::Pass pass(inspections_);
+        const std::shared_ptr<const StateInspector> previous = inspectorOf(store_.snapshot().scene);
+        const StateInspector inspector(scene, previous.get());
+        const auto max_contacts = std::clamp<std::size_t>(request.max_contacts, 1, options_.max_contacts);
+        const std::vector<Contact> contacts =
+            inspector.contacts(state.data(), request.group, max_contacts, request.max_contacts_per_pair);
+        response.valid.push_back(contacts.empty() ? 1 : 0);
+        response.body_1.push_back(contacts.empty() ? "" : scene->bodyName(contacts.front().bodies[0]));
+        response.body_2.push_back(contacts.empty() ? "" : scene->bodyName(contacts.front().bodies[1]));
+        if (request.max_contacts != 0)
+          for (const Contact& contact : contacts)
+            response.contacts.push_back(messageOf(contact, *scene, 0));
+      });
+}
+
 void CheckServices::inspect(const CheckStates::Request& request, const CheckAnswer& answer,
                             CheckStates::Response& response)
 {

@@ -11,14 +11,14 @@ ScenePublisher::ScenePublisher(ros::NodeHandle& own, SceneStore& store, double f
     diffs_(own.advertise<PlanningSceneMessage>("monitored_planning_scene_diffs", 100))
 {
   publishFull(store_.snapshot());
-  store_.setListener([this](const auto& before, const auto& after) { changed(before, after); });
+  store_.setListener(this, [this](const auto& before, const auto& after) { changed(before, after); });
   timer_ = own.createWallTimer(ros::WallDuration(full_scene_period),
                                [this](const ros::WallTimerEvent&) { publishFull(store_.snapshot()); });
 }
 
 ScenePublisher::~ScenePublisher()
 {
-  store_.setListener({});
+  store_.setListener(this, {});
 }
 
 /// Must not throw: the change has already been made.

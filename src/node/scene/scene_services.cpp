@@ -118,6 +118,20 @@ SceneChange SceneServices::changeOf(const AttachedCollisionObject& message) cons
   return change;
 }
 
+SceneChange SceneServices::changeOf(const PlanningSceneWorld& message) const
+{
+  PlanningSceneMessage scene;
+  scene.is_diff = true;
+  scene.robot_state.is_diff = true;
+  scene.world = message;
+  SceneChange change = changeOf(scene);
+  ObjectChange remove_all;
+  remove_all.operation = Operation::Remove;
+  remove_all.keeps_allowed_collisions = true;
+  change.objects.insert(change.objects.begin(), remove_all);
+  return change;
+}
+
 void SceneServices::make(const SceneChange& change, const SceneStore::Lookup& lookup)
 {
   warnOfMessage(apply(change, lookup).warnings);
