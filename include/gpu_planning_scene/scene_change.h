@@ -50,8 +50,7 @@ struct ObjectChange
   std::vector<Eigen::Isometry3d> shape_poses;  ///< only for Move: none, or one per shape of the object, in that order
   std::map<std::string, Eigen::Isometry3d> subframes;  ///< in the object's frame
   /// Only for Remove. True: the allowed collision matrix keeps the object's entries. This is for objects that come and
-  /// go, for example a point cloud. Without an id, the colours of all objects stay too. False, as in MoveIt: the entries
-  /// are removed with the object.
+  /// go, for example a point cloud. False, as in MoveIt: the entries are removed with the object.
   bool keeps_allowed_collisions = false;
 };
 

@@ -78,8 +78,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   Endpoints change_requests(node, own, 3, diagnostics, change_fault);
   change_requests.advertise<ApplyPlanningScene>(
       "apply_planning_scene", [&](const ApplyPlanningScene::Request& r) { return changes.apply(r); });
-  change_requests.advertise<Clear>(
-      "clear", [&](const Clear::Request&) { return changes.clear(); });
+  change_requests.advertise<Clear>("clear", [&](const Clear::Request&) { return changes.clear(); });
   Endpoints scene_requests(node, own, 3, diagnostics, scene_fault);
   scene_requests.advertise<GetPlanningScene>(
       "get_planning_scene", [&](const GetPlanningScene::Request& r) { return changes.get(r); });

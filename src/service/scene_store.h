@@ -18,8 +18,8 @@ namespace gpu_planning_scene::core
 struct Snapshot
 {
   std::shared_ptr<const PlanningScene> scene;
-  std::vector<double> state;  ///< one value per variable
-  std::vector<bool> known;    ///< one per variable; an unknown variable has its default value
+  std::vector<double> state;   ///< one value per variable
+  std::vector<bool> known;     ///< one per variable; an unknown variable has its default value
   std::vector<bool> measured;  ///< one per variable: whether SceneStore::updateState has set it
 
   bool allKnown() const;

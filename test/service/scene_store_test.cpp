@@ -239,13 +239,13 @@ TEST_F(Store, ASnapshotIsOfOneInstantWhileOthersChangeTheScene)
 TEST_F(Store, AListenerHearsEachChangeInOrder)
 {
   std::vector<std::uint64_t> heard;
-  store.setListener(
-      this, [&](const auto& before, const auto& after)
-      {
-        EXPECT_EQ(before->revision + 1, after->revision);
-        EXPECT_EQ(after, store.snapshot().scene) << "readers have it already";
-        heard.push_back(after->revision);
-      });
+  store.setListener(this,
+                    [&](const auto& before, const auto& after)
+                    {
+                      EXPECT_EQ(before->revision + 1, after->revision);
+                      EXPECT_EQ(after, store.snapshot().scene) << "readers have it already";
+                      heard.push_back(after->revision);
+                    });
   store.apply(boxIn(""), unknownFrame);
   EXPECT_THROW(store.apply(boxIn("nowhere", "other"), unknownFrame), Error);
   store.clear();

@@ -33,8 +33,9 @@ class CheckServices
                 const CheckServicesOptions& options);
 
   CheckStates::Response checkStates(const CheckStates::Request& request);
-  /// Checks one state in another scene than the store's, on the CPU. `state`: one value per variable. Of `request`, only
-  /// the group and the numbers of contacts are used. Of the response, only `valid`, the bodies and the contacts are set.
+  /// Checks one state in another scene than the store's, on the CPU. `state`: one value per variable. Of `request`,
+  /// only the group and the numbers of contacts are used. Of the response, only `valid`, the bodies and the contacts
+  /// are set.
   CheckStates::Response checkState(std::shared_ptr<const PlanningScene> scene, const std::vector<double>& state,
                                    const CheckStates::Request& request);
   CheckMotions::Response checkMotions(const CheckMotions::Request& request);

@@ -11,10 +11,10 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-const ros::WallDuration kPollInterval(0.05);        // between two looks at the connections
-constexpr std::chrono::milliseconds kRetry{500};    // between two fetches while the scene is not known
-constexpr std::chrono::milliseconds kSettle{500};   // from the first fetch to the next: see fetch()
-constexpr double kWatchPeriod = 0.1;                // seconds: between two looks at a fetch that takes too long
+const ros::WallDuration kPollInterval(0.05);          // between two looks at the connections
+constexpr std::chrono::milliseconds kRetry{500};      // between two fetches while the scene is not known
+constexpr std::chrono::milliseconds kSettle{500};     // from the first fetch to the next: see fetch()
+constexpr double kWatchPeriod = 0.1;                  // seconds: between two looks at a fetch that takes too long
 constexpr std::chrono::milliseconds kLongLoss{1000};  // after this time, a loss of the scene is logged
 
 std::string listed(const std::set<std::string>& parts)
@@ -25,13 +25,15 @@ std::string listed(const std::set<std::string>& parts)
 template <class Objects>
 bool hasObject(const Objects& objects, const std::string& id)
 {
-  return std::any_of(objects.begin(), objects.end(), [&id](const auto& object) { return object.id == id; });
+  return std::any_of(
+      objects.begin(), objects.end(), [&id](const auto& object) { return object.id == id; });
 }
 
 bool isAttached(const PlanningScene& scene, const std::string& id)
 {
-  return std::any_of(scene.attached.begin(), scene.attached.end(),
-                     [&id](const AttachedObject& attached) { return attached.object.id == id; });
+  return std::any_of(
+      scene.attached.begin(), scene.attached.end(),
+      [&id](const AttachedObject& attached) { return attached.object.id == id; });
 }
 
 /// Drops removals of objects that the scene does not have. After a fetch, a message can arrive that is older than the
@@ -85,9 +87,11 @@ FollowedScene::FollowedScene(const ros::NodeHandle& node, ros::NodeHandle& timer
   node_.setCallbackQueue(&queue_);
   // Without a bound, because roscpp drops messages silently. The thread takes them at once, except during a fetch,
   // which has a timeout.
-  subscriber_ = node_.subscribe(
-      options_.topic(), 0, boost::function<void(const Event&)>([this](const Event& event) { messages_.push_back(event); }));
-  timer_ = timers.createWallTimer(ros::WallDuration(kWatchPeriod), [this](const ros::WallTimerEvent&) { endLongCall(); });
+  subscriber_ = node_.subscribe<Message, const Event&>(
+      options_.topic(), 0,
+      boost::function<void(const Event&)>([this](const Event& event) { messages_.push_back(event); }));
+  timer_ = timers.createWallTimer(
+      ros::WallDuration(kWatchPeriod), [this](const ros::WallTimerEvent&) { endLongCall(); });
   thread_ = std::thread([this] { run(); });
 }
 
@@ -96,7 +100,8 @@ FollowedScene::~FollowedScene()
   stop();
 }
 
-/// Drops the connection of a running fetch, which ends the fetch. Repeats it, because the fetch may be about to connect.
+/// Drops the connection of a running fetch, which ends the fetch. Repeats it, because the fetch may be about to
+/// connect.
 void FollowedScene::stop()
 {
   stopping_ = true;
@@ -268,9 +273,8 @@ void FollowedScene::fetch()
     // another one.
     const std::chrono::duration<double> period(options_.period);
     const bool is_settled = is_current_;
-    next_fetch_ =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                           is_settled ? period : std::min<std::chrono::duration<double>>(period, kSettle));
+    next_fetch_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                     is_settled ? period : std::min<std::chrono::duration<double>>(period, kSettle));
     is_current_ = true;
     was_current_ = true;
     logged_.clear();

@@ -21,12 +21,10 @@ std::map<std::string, std::vector<std::string>> sectionsOf(const std::string& de
   std::vector<std::string>* section = &sections[""];
   std::istringstream text(definition);
   for (std::string line; std::getline(text, line);)
-  {
     if (line.rfind(kSeparator, 0) == 0)
       section = &sections[line.substr(line.rfind('/') + 1)];
     else if (!line.empty() && line.front() != '=')
       section->push_back(line.substr(0, line.find('#')));
-  }
   return sections;
 }
 

@@ -10,9 +10,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// The part of the node that speaks MoveIt's types. It follows the scene of a move_group (~monitor), or has the services
-/// and topics of a move_group itself (~moveit_names), and answers ~check_state_validity. A build without moveit_msgs has
-/// none of these.
+/// The part of the node that speaks MoveIt's types. It follows the scene of a move_group (~monitor), or has the
+/// services and topics of a move_group itself (~moveit_names), and answers ~check_state_validity. A build without
+/// moveit_msgs has none of these.
 class MoveItInterface
 {
  public:

@@ -36,8 +36,10 @@ MoveItScenePublisher::MoveItScenePublisher(ros::NodeHandle& node, SceneStore& st
       "move_group/monitored_planning_scene", 100,
       boost::function<void(const ros::SingleSubscriberPublisher&)>(
           [this](const ros::SingleSubscriberPublisher& subscriber) { publishFull(subscriber); }));
-  store_.setListener(this, [this](const auto& before, const auto& after) { changed(before, after); });
-  timer_ = node.createWallTimer(ros::WallDuration(kStatePeriod), [this](const ros::WallTimerEvent&) { publishState(); });
+  store_.setListener(
+      this, [this](const auto& before, const auto& after) { changed(before, after); });
+  timer_ =
+      node.createWallTimer(ros::WallDuration(kStatePeriod), [this](const ros::WallTimerEvent&) { publishState(); });
 }
 
 MoveItScenePublisher::~MoveItScenePublisher()
@@ -98,18 +100,17 @@ MoveItNames::MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices
     checks_(node, node, kCheckThreads, diagnostics),
     topics_(node, node, changes, lookup, diagnostics, max_changes, max_bytes)
 {
-  topics_.subscribe<MoveItScene>("planning_scene",
-                                 [&changes](const MoveItScene& m) { return changes.changeOf(m.message); });
-  topics_.subscribe<MoveItWorld>("planning_scene_world",
-                                 [&changes](const MoveItWorld& m) { return changes.changeOf(m.message); });
-  topics_.subscribe<MoveItObject>("collision_object",
-                                  [&changes](const MoveItObject& m) { return changes.changeOf(m.message); });
-  topics_.subscribe<MoveItAttachedObject>("attached_collision_object", [&changes](const MoveItAttachedObject& m)
-                                          { return changes.changeOf(m.message); });
+  topics_.subscribe<MoveItScene>(
+      "planning_scene", [&changes](const MoveItScene& m) { return changes.changeOf(m.message); });
+  topics_.subscribe<MoveItWorld>(
+      "planning_scene_world", [&changes](const MoveItWorld& m) { return changes.changeOf(m.message); });
+  topics_.subscribe<MoveItObject>(
+      "collision_object", [&changes](const MoveItObject& m) { return changes.changeOf(m.message); });
+  topics_.subscribe<MoveItAttachedObject>(
+      "attached_collision_object", [&changes](const MoveItAttachedObject& m) { return changes.changeOf(m.message); });
   checks_.advertise<MoveItStateValidity>(
       kStateValidity, [&validity](const MoveItStateValidity::Request& r) { return validity.answer(r.message); });
-  scenes_.advertise<MoveItGetScene>(kGetScene,
-                                    [&changes](const MoveItGetScene::Request& r)
+  scenes_.advertise<MoveItGetScene>(kGetScene, [&changes](const MoveItGetScene::Request& r)
                                     { return MoveItGetScene::Response{changes.get(r.message).scene}; });
   scenes_.advertise<MoveItApplyScene>(kApplyScene,
                                       [&changes](const MoveItApplyScene::Request& r)

@@ -29,8 +29,8 @@ class MoveItScenePublisher
   ros::WallTimer timer_;
 };
 
-/// The services and topics of a move_group, with MoveIt's names and types in the namespace of the node, so that MoveIt's
-/// clients can talk to the node where no move_group runs.
+/// The services and topics of a move_group, with MoveIt's names and types in the namespace of the node, so that
+/// MoveIt's clients can talk to the node where no move_group runs.
 class MoveItNames
 {
  public:

@@ -1,5 +1,7 @@
 #include "node/moveit/moveit_options.h"
 
+#include <ros/names.h>
+
 #include "gpu_planning_scene/error.h"
 #include "node/parameters/parameter_values.h"
 
@@ -18,8 +20,9 @@ MoveItOptions moveItOptionsFromParameters(const ros::NodeHandle& node, const ros
     return options;
   monitor.monitor = node.resolveName(name);
   // A move_group has its services beside its own name, and its topic below it.
-  monitor.service = service.empty() ? ros::names::append(ros::names::parentNamespace(monitor.monitor), "get_planning_scene")
-                                    : node.resolveName(service);
+  monitor.service = service.empty()
+                        ? ros::names::append(ros::names::parentNamespace(monitor.monitor), "get_planning_scene")
+                        : node.resolveName(service);
   if (options.names)
     throw Error("parameters ~monitor and ~moveit_names exclude each other: the move_group that ~monitor names has " +
                 std::string("MoveIt's names already; unset one of the two"));

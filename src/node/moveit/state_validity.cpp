@@ -51,8 +51,8 @@ MoveItStateValidity::Response StateValidity::answer(const StateValidityRequest& 
   const std::map<std::string, double>& variables = change.state.variables;
   const bool replaces_attached = !change.state.is_diff && !variables.empty() && !now.scene->attached.empty();
 
-  const std::size_t bodies = now.scene->robot->links().size() + now.scene->objects.size() +
-                             now.scene->attached.size() + change.state.attached.size();
+  const std::size_t bodies = now.scene->robot->links().size() + now.scene->objects.size() + now.scene->attached.size() +
+                             change.state.attached.size();
   CheckStates::Request check;
   check.group = request.group_name;
   check.max_contacts = static_cast<std::uint32_t>(std::min(bodies * bodies, max_contacts_));

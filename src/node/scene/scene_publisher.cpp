@@ -11,7 +11,8 @@ ScenePublisher::ScenePublisher(ros::NodeHandle& own, SceneStore& store, double f
     diffs_(own.advertise<PlanningSceneMessage>("monitored_planning_scene_diffs", 100))
 {
   publishFull(store_.snapshot());
-  store_.setListener(this, [this](const auto& before, const auto& after) { changed(before, after); });
+  store_.setListener(
+      this, [this](const auto& before, const auto& after) { changed(before, after); });
   timer_ = own.createWallTimer(ros::WallDuration(full_scene_period),
                                [this](const ros::WallTimerEvent&) { publishFull(store_.snapshot()); });
 }

@@ -22,18 +22,19 @@ class SceneTopics
 
   /// Subscribes to ~planning_scene, ~collision_object and ~attached_collision_object.
   void subscribeToOwn();
-  /// Subscribes to a topic with the name of the node handle, or "~NAME". `change_of` converts a message to a change, and
-  /// throws Error. roscpp's queue gets no bound (0), because it would drop the oldest messages silently. The thread of
-  /// topics_ moves all messages to queue_, which has a bound.
+  /// Subscribes to a topic with the name of the node handle, or "~NAME". `change_of` converts a message to a change,
+  /// and throws Error. roscpp's queue gets no bound (0), because it would drop the oldest messages silently. The thread
+  /// of topics_ moves all messages to queue_, which has a bound.
   template <class Message, class ChangeOf>
   void subscribe(const std::string& name, ChangeOf change_of)
   {
-    topics_.subscribe<Message>(name, 0,
-                               [this, name, change_of](const Message& message)
-                               {
-                                 const std::size_t bytes = ros::serialization::serializationLength(message);
-                                 queue_.add(topics_.topicName(name), change_of(message), bytes);
-                               });
+    topics_.subscribe<Message>(
+        name, 0,
+        [this, name, change_of](const Message& message)
+        {
+          const std::size_t bytes = ros::serialization::serializationLength(message);
+          queue_.add(topics_.topicName(name), change_of(message), bytes);
+        });
   }
 
   /// Rejects all further messages.
