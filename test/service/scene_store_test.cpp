@@ -52,6 +52,42 @@ TEST_F(Store, AChangeMakesANewRevisionAndLeavesOldScenesAlone)
   EXPECT_TRUE(store.snapshot().scene->objects.empty());
 }
 
+TEST_F(Store, APreviewIsTheSceneAfterTheChangeAndChangesNothing)
+{
+  const auto before = store.snapshot().scene;
+  EXPECT_EQ(1u, store.preview(boxIn(""), unknownFrame).scene.objects.size());
+  EXPECT_EQ(before, store.snapshot().scene);
+  EXPECT_THROW(store.preview(boxIn("nowhere"), unknownFrame), Error);
+}
+
+TEST_F(Store, OnlyVariablesOfUpdatesAreMeasured)
+{
+  SceneChange change;
+  change.is_diff = true;
+  change.state.variables = {{"turn", 0.5}};
+  store.apply(change, unknownFrame);
+  store.updateState({{"slide", 0.25}, {"unknown", 1.0}});
+  const Snapshot now = store.snapshot();
+  const auto measured = [&now](const char* name)
+  { return now.measured[static_cast<std::size_t>(now.scene->robot->variableIndex(name))]; };
+  EXPECT_TRUE(measured("slide"));
+  EXPECT_FALSE(measured("turn"));
+}
+
+TEST_F(Store, EachOwnerHasAListener)
+{
+  int first = 0;
+  int second = 0;
+  store.setListener(
+      &first, [&first](const auto&, const auto&) { ++first; });
+  store.setListener(&second, [&second](const auto&, const auto&) { ++second; });
+  store.clear();
+  store.setListener(&first, {});
+  store.clear();
+  EXPECT_EQ(1, first);
+  EXPECT_EQ(2, second);
+}
+
 /// As in MoveIt configurations for an arm on a table, whose drivers report no pose of the base.
 TEST_F(Store, TheVirtualJointStandsAtTheOriginUntilItIsSet)
 {

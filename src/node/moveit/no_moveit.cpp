@@ -1,9 +1,8 @@
-// The interface in a build without moveit_msgs.
-
 #include "gpu_planning_scene/error.h"
 #include "node/moveit/moveit_interface.h"
 #include "node/moveit/moveit_options.h"
 
+// The interface in a build without moveit_msgs.
 namespace gpu_planning_scene::core
 {
 struct MoveItInterface::Impl
