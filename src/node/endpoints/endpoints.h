@@ -17,6 +17,18 @@
 
 namespace gpu_planning_scene::core
 {
+/// Whether the response of a service has a field `success`.
+template <class Response, class = void>
+constexpr bool kHasSuccess = false;
+template <class Response>
+constexpr bool kHasSuccess<Response, std::void_t<decltype(Response::success)>> = true;
+
+/// Whether the response of a service has a field `message`.
+template <class Response, class = void>
+constexpr bool kHasMessage = false;
+template <class Response>
+constexpr bool kHasMessage<Response, std::void_t<decltype(Response::message)>> = true;
+
 /// Services and topics with a callback queue and threads of their own. Messages are read with bounds (see Bounded), and
 /// rejected messages are counted.
 class Endpoints
@@ -44,7 +56,7 @@ class Endpoints
         request.fault = refusal_();
       if (request.fault.empty())
         request.fault = errorOf([&] { response = answer(request.message); });
-      return close(name, request.fault, response, 0);
+      return close(name, request.fault, response);
     };
     ros::AdvertiseServiceOptions options = boundedService<Service>(own_.resolveName(name), handle, &queue_);
     services_.push_back(own_.advertiseService(options));
@@ -97,30 +109,24 @@ class Endpoints
  private:
   /// Reports a fault in the response. Returns false if the service call fails.
   template <class Response>
-  auto close(const std::string&, const std::string& fault, Response& response, int)
-      -> decltype(response.message, response.success, bool())
+  bool close(const std::string& name, const std::string& fault, Response& response)
   {
-    if (!fault.empty())
-      response = respond<Response>([&fault](Response&) { throw Error(fault); });
-    if (!response.success)
-      diagnostics_.refused(response.message);
-    return true;
-  }
-  template <class Response>
-  auto close(const std::string& name, const std::string& fault, Response& response, long)
-      -> decltype(response.success, bool())
-  {
-    response.success = fault.empty();
-    if (!fault.empty())
-      refuseRequest(name, fault);
-    return true;
-  }
-  template <class Response>
-  bool close(const std::string& name, const std::string& fault, Response&, double)
-  {
-    if (!fault.empty())
-      refuseRequest(name, fault);
-    return fault.empty();
+    if constexpr (kHasMessage<Response>)
+    {
+      if (!fault.empty())
+        response = respond<Response>([&fault](Response&) { throw Error(fault); });
+      if (!response.success)
+        diagnostics_.refused(response.message);
+      return true;
+    }
+    else
+    {
+      if (!fault.empty())
+        refuseRequest(name, fault);
+      if constexpr (kHasSuccess<Response>)
+        response.success = fault.empty();
+      return kHasSuccess<Response> || fault.empty();
+    }
   }
   void refuseRequest(const std::string& service, const std::string& why);
   void reportLost(const std::string& topic, const std::string& why);

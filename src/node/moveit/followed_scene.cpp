@@ -206,7 +206,7 @@ void FollowedScene::apply(const Event& event)
   const Message& message = *event.getConstMessage();
   if (!message.fault.empty())
     throw Error(message.fault);
-  SceneChange change = changes_.changeOf(message.message.message);
+  SceneChange change = changes_.changeOf(message.message.ours);
   if (change.is_diff)
     for (const std::string& part : partsOf(change))
       unconfirmed_.erase(part);
@@ -266,7 +266,7 @@ void FollowedScene::fetch()
   else if (!response.fault.empty())
     error = "the answer of " + options_.service + " cannot be read: " + response.fault;
   else
-    error = errorOf([&] { takeOver(response.message.message); });
+    error = errorOf([&] { takeOver(response.message.ours); });
   if (error.empty())
   {
     // A publisher needs a moment to send its messages to a new subscriber. So the first fetch is soon followed by

@@ -32,7 +32,7 @@ struct MoveItInterface::Impl
       names.emplace(node.node, node.store, node.changes, validity, node.lookup, node.diagnostics,
                     node.options.max_waiting_changes, node.options.message_size);
     requests.advertise<MoveItStateValidity>(
-        "check_state_validity", [this](const MoveItStateValidity::Request& r) { return validity.answer(r.message); });
+        "check_state_validity", [this](const MoveItStateValidity::Request& r) { return validity.answer(r.ours); });
   }
 
   std::string sceneFault() const { return followed ? followed->fault() : ""; }

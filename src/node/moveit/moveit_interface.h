@@ -4,6 +4,7 @@
 #include <string>
 
 #include "node/checks/check_services.h"
+#include "node/endpoints/diagnostics.h"
 #include "node/parameters/node_parameters.h"
 #include "node/scene/frame_lookup.h"
 #include "node/scene/scene_services.h"

@@ -23,7 +23,7 @@ namespace gpu_planning_scene::core
 template <class Ours, class Theirs>
 struct AsMoveIt
 {
-  Ours message;
+  Ours ours;
 };
 
 using MoveItScene = AsMoveIt<PlanningSceneMessage, moveit_msgs::PlanningScene>;
@@ -125,7 +125,7 @@ struct Serializer<gpu_planning_scene::core::AsMoveIt<Ours, Theirs>>
   template <class Stream, class T>
   static void allInOne(Stream& stream, T message)
   {
-    gpu_planning_scene::core::passFields(stream, message.message);
+    gpu_planning_scene::core::passFields(stream, message.ours);
   }
   ROS_DECLARE_ALLINONE_SERIALIZER
 };

@@ -101,22 +101,22 @@ MoveItNames::MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices
     topics_(node, node, changes, lookup, diagnostics, max_changes, max_bytes)
 {
   topics_.subscribe<MoveItScene>(
-      "planning_scene", [&changes](const MoveItScene& m) { return changes.changeOf(m.message); });
+      "planning_scene", [&changes](const MoveItScene& m) { return changes.changeOf(m.ours); });
   topics_.subscribe<MoveItWorld>(
-      "planning_scene_world", [&changes](const MoveItWorld& m) { return changes.changeOf(m.message); });
+      "planning_scene_world", [&changes](const MoveItWorld& m) { return changes.changeOf(m.ours); });
   topics_.subscribe<MoveItObject>(
-      "collision_object", [&changes](const MoveItObject& m) { return changes.changeOf(m.message); });
+      "collision_object", [&changes](const MoveItObject& m) { return changes.changeOf(m.ours); });
   topics_.subscribe<MoveItAttachedObject>(
-      "attached_collision_object", [&changes](const MoveItAttachedObject& m) { return changes.changeOf(m.message); });
+      "attached_collision_object", [&changes](const MoveItAttachedObject& m) { return changes.changeOf(m.ours); });
   checks_.advertise<MoveItStateValidity>(
-      kStateValidity, [&validity](const MoveItStateValidity::Request& r) { return validity.answer(r.message); });
+      kStateValidity, [&validity](const MoveItStateValidity::Request& r) { return validity.answer(r.ours); });
   scenes_.advertise<MoveItGetScene>(kGetScene, [&changes](const MoveItGetScene::Request& r)
-                                    { return MoveItGetScene::Response{changes.get(r.message).scene}; });
+                                    { return MoveItGetScene::Response{changes.get(r.ours).scene}; });
   scenes_.advertise<MoveItApplyScene>(kApplyScene,
                                       [&changes](const MoveItApplyScene::Request& r)
                                       {
                                         ApplyPlanningScene::Request request;
-                                        request.scene = r.message;
+                                        request.scene = r.ours;
                                         const ApplyPlanningScene::Response applied = changes.apply(request);
                                         if (!applied.success)
                                           throw Error(applied.message);

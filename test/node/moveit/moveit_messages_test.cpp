@@ -97,7 +97,7 @@ TEST(MoveItMessages, EveryFieldOfASceneIsReadAndWrittenBack)
   const auto theirs = filled<moveit_msgs::PlanningScene>(&fields);
   EXPECT_GT(fields, 1000U);
   const PlanningSceneMessage ours =
-      expectSameBothWays<PlanningSceneMessage, moveit_msgs::PlanningScene>(theirs).message;
+      expectSameBothWays<PlanningSceneMessage, moveit_msgs::PlanningScene>(theirs).ours;
   // Our message, filled in the order of its own fields, has the same bytes, but for the revisions at its end.
   std::vector<std::uint8_t> own = bytesOf(filled<PlanningSceneMessage>());
   own.resize(own.size() - 2 * sizeof(std::uint64_t));
@@ -110,7 +110,7 @@ TEST(MoveItMessages, FieldsKeepTheirNames)
 {
   const auto theirs = filled<moveit_msgs::PlanningScene>();
   const PlanningSceneMessage ours =
-      expectSameBothWays<PlanningSceneMessage, moveit_msgs::PlanningScene>(theirs).message;
+      expectSameBothWays<PlanningSceneMessage, moveit_msgs::PlanningScene>(theirs).ours;
   EXPECT_EQ(theirs.name, ours.name);
   EXPECT_EQ(theirs.robot_model_name, ours.robot_model_name);
   EXPECT_EQ(theirs.is_diff, ours.is_diff);
@@ -151,7 +151,7 @@ TEST(MoveItMessages, EveryFieldOfTheOtherMessagesIsReadAndWrittenBack)
   expectSameBothWays<PlanningSceneMessage>(filled<moveit_msgs::GetPlanningScene::Response>());
   expectSameBothWays<PlanningSceneMessage>(filled<moveit_msgs::ApplyPlanningScene::Request>());
   const auto theirs = filled<moveit_msgs::GetStateValidity::Request>();
-  const StateValidityRequest ours = expectSameBothWays<StateValidityRequest>(theirs).message;
+  const StateValidityRequest ours = expectSameBothWays<StateValidityRequest>(theirs).ours;
   EXPECT_EQ(theirs.group_name, ours.group_name);
   EXPECT_EQ(theirs.robot_state.attached_collision_objects.at(1).object.id,
             ours.robot_state.attached_collision_objects.at(1).object.id);
