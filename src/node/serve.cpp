@@ -10,6 +10,7 @@
 #include "node/endpoints/diagnostics.h"
 #include "node/endpoints/endpoints.h"
 #include "node/markers/marker_publisher.h"
+#include "node/moveit/moveit_interface.h"
 #include "node/parameters/node_parameters.h"
 #include "node/planning/plan_service.h"
 #include "node/scene/base_from_tf.h"
@@ -77,32 +78,38 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
   const ScenePublisher publisher(own, store, options.full_scene_period);
 
-  Endpoints scene_requests(node, own, 4, diagnostics);
-  scene_requests.advertise<ApplyPlanningScene>(
+  MoveItInterface moveit({node, own, store, changes, checks, lookup, diagnostics, options});
+  const Endpoints::Refusal scene_fault = [&moveit] { return moveit.sceneFault(); };
+  const Endpoints::Refusal change_fault = [&moveit] { return moveit.changeFault(); };
+
+  Endpoints change_requests(node, own, 3, diagnostics, change_fault);
+  change_requests.advertise<ApplyPlanningScene>(
       "apply_planning_scene", [&](const ApplyPlanningScene::Request& r) { return changes.apply(r); });
+  change_requests.advertise<Clear>("clear", [&](const Clear::Request&) { return changes.clear(); });
+  Endpoints scene_requests(node, own, 3, diagnostics, scene_fault);
   scene_requests.advertise<GetPlanningScene>(
       "get_planning_scene", [&](const GetPlanningScene::Request& r) { return changes.get(r); });
-  scene_requests.advertise<Clear>(
-      "clear", [&](const Clear::Request&) { return changes.clear(); });
   scene_requests.advertise<ShowTreeLevel>("show_tree_level",
                                           [&](const ShowTreeLevel::Request& r) { return markers.show(r); });
 
-  SceneTopics scene_topics(node, own, changes, lookup, diagnostics, options.max_waiting_changes, options.message_size);
-  Endpoints cloud_topics(node, own, 1, diagnostics);
+  SceneTopics scene_topics(node, own, changes, lookup, diagnostics, options.max_waiting_changes, options.message_size,
+                           change_fault);
+  scene_topics.subscribeToOwn();
+  Endpoints cloud_topics(node, own, 1, diagnostics, change_fault);
   cloud_topics.subscribe<sensor_msgs::PointCloud2>(options.cloud_topic, 1,
                                                    [&](const sensor_msgs::PointCloud2& m) { clouds.take(m); });
   Endpoints state_topics(node, own, 1, diagnostics);
   state_topics.subscribe<sensor_msgs::JointState>("joint_states", 100,
                                                   [&](const sensor_msgs::JointState& m) { changes.take(m); });
 
-  Endpoints plan_requests(node, own, plan_options.at_once + plan_options.max_waiting + 1, diagnostics);
+  Endpoints plan_requests(node, own, plan_options.at_once + plan_options.max_waiting + 1, diagnostics, scene_fault);
   plan_requests.advertise<PlanMotion>("plan", [&](const PlanMotion::Request& r) { return plans.plan(r); });
 
   // Each waiting request occupies a thread, and a thread must be free to answer "busy" immediately. Up to
   // max_waiting_requests requests each can be in the running batch of small requests, in the queue of small requests,
   // in the queue of large requests, and in the queue for contacts. check_states is advertised last: when it is there,
   // all other services are.
-  Endpoints check_requests(node, own, 4 * server_options.max_waiting_requests + 8, diagnostics);
+  Endpoints check_requests(node, own, 4 * server_options.max_waiting_requests + 8, diagnostics, scene_fault);
   check_requests.advertise<CheckMotions>(
       "check_motions", [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
   check_requests.advertise<CheckTrajectory>(
@@ -124,15 +131,17 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   // that send the answers are joined.
   stopping = true;
   deadline.emplace(kLongestEnd);
-  const std::array<Endpoints*, 5> endpoints = {
-      {&state_topics, &cloud_topics, &scene_requests, &plan_requests, &check_requests}};
+  const std::array<Endpoints*, 6> endpoints = {
+      {&state_topics, &cloud_topics, &change_requests, &scene_requests, &plan_requests, &check_requests}};
   for (Endpoints* some : endpoints)
     some->close();
   scene_topics.close();
+  moveit.close();
   checks.stop();
   plans.stop();
   server.stop();
   scene_topics.stop();
+  moveit.stop();
   for (Endpoints* some : endpoints)
     some->stop();
   timers.stop();
@@ -143,6 +152,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
     ros::WallDuration(0.05).sleep();
     for (Endpoints* some : endpoints)
       some->refuseWaiting();
+    moveit.refuseWaiting();
   }
 }
 }  // namespace gpu_planning_scene::core

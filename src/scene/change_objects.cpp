@@ -5,14 +5,15 @@
 // Objects of the world: adding, appending to, moving and removing them.
 namespace gpu_planning_scene::core
 {
-void SceneChanger::clearWorld(bool keeps_octomap)
+void SceneChanger::clearWorld(bool keeps_octomap, bool keeps_settings)
 {
   for (const std::string& id : objects_.ids())
   {
     if (id == kOctomapId && keeps_octomap)
       continue;
     count_.remove(objects_.take(id).shapes);
-    forget(id);
+    if (!keeps_settings)
+      forget(id);
   }
 }
 
@@ -21,7 +22,7 @@ void SceneChanger::changeObject(const ObjectChange& change)
   if (change.operation == Operation::Remove)
   {
     if (change.id.empty())
-      clearWorld(true);
+      clearWorld(true, change.keeps_allowed_collisions);
     else
       removeObject(change);
     return;

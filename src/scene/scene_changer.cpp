@@ -49,7 +49,7 @@ Change SceneChanger::make(const SceneChange& change)
       keeps_matrix_ ? AllowedCollisionMatrix() : result_.scene.allowed_collisions;
   changeNames(change);
   if (!change.is_diff)
-    clearWorld(false);
+    clearWorld(false, false);
   changeFixedFrames(change);
   changeState(change.state, !change.is_diff);
   changeMatrix(change);

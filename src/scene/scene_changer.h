@@ -62,7 +62,8 @@ class SceneChanger
   void warnOfForbiddenCarrier(const AttachedObject& attached);
 
   // change_objects.cpp
-  void clearWorld(bool keeps_octomap);
+  /// `keeps_settings`: colours and entries of the matrix.
+  void clearWorld(bool keeps_octomap, bool keeps_settings);
   void changeObject(const ObjectChange& change);
   void addObject(const ObjectChange& change);
   void appendToObject(WorldObject& object, const ObjectChange& change);

@@ -93,6 +93,7 @@ SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits 
   state_ = PartialState(*scene.robot, scene.current_state).values;
   known_.assign(state_.size(), !scene.current_state.empty());
   stamps_.assign(state_.size(), 0);
+  measured_.assign(state_.size(), false);
   scene_ = std::make_shared<const PlanningScene>(std::move(scene));
 }
 
@@ -105,7 +106,7 @@ Snapshot SceneStore::snapshot() const
     for (std::size_t i = 0; i < known_.size(); ++i)
       if (known_[i])
         oldest = std::min(oldest, stamps_[i]);
-    now = {scene_, state_, known_, {}, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest};
+    now = {scene_, state_, known_, measured_, {}, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest};
   }
   now.base = assumeBase(0, now.known, now.state);
   return now;
@@ -195,8 +196,8 @@ std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::strin
       if (const int variable = scene_->robot->variableIndex(name); variable >= 0)
         stamps_[static_cast<std::size_t>(variable)] = 0;
   }
-  if (listener_)
-    listener_(before, after);
+  for (const auto& [owner, listener] : listeners_)
+    listener(before, after);
   return after->revision;
 }
 
@@ -214,7 +215,9 @@ std::string SceneStore::updateState(const std::map<std::string, double>& variabl
     const int variable = robot.variableIndex(name);
     if (variable < 0)
       continue;
-    std::int64_t& known = stamps_[static_cast<std::size_t>(variable)];
+    const auto index = static_cast<std::size_t>(variable);
+    measured_[index] = true;
+    std::int64_t& known = stamps_[index];
     if (stamp != 0 && stamp < known && warning.empty())
       warning = "the time of '" + name + "' jumped back by " +
                 std::to_string(static_cast<double>(known - stamp) * 1e-9) +
@@ -239,9 +242,12 @@ std::vector<double> SceneStore::stateAt(std::int64_t stamp) const
   return state;
 }
 
-void SceneStore::setListener(Listener listener)
+void SceneStore::setListener(const void* owner, Listener listener)
 {
   const std::lock_guard<std::mutex> changing(changes_);
-  listener_ = std::move(listener);
+  if (listener)
+    listeners_[owner] = std::move(listener);
+  else
+    listeners_.erase(owner);
 }
 }  // namespace gpu_planning_scene::core

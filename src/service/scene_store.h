@@ -26,8 +26,9 @@ struct AssumedBase
 struct Snapshot
 {
   std::shared_ptr<const PlanningScene> scene;
-  std::vector<double> state;  ///< one value per variable
-  std::vector<bool> known;    ///< one per variable; an unknown variable has its default value, or that of `base`
+  std::vector<double> state;   ///< one value per variable
+  std::vector<bool> known;     ///< one per variable; an unknown variable has its default value, or that of `base`
+  std::vector<bool> measured;  ///< one per variable: whether SceneStore::updateState has set it
   AssumedBase base = {};
   /// The oldest stamp (nanoseconds) of the known values; 0: a known value has no stamp, or no value is known.
   std::int64_t stamp = 0;
@@ -92,26 +93,28 @@ class SceneStore
   std::vector<double> stateAt(std::int64_t stamp) const;
 
   /// Called after each change with the scenes before and after it, in the order of revisions. During the call, readers
-  /// continue and other changes wait. The listener must not change the scene.
+  /// continue and other changes wait. A listener must not change the scene.
   using Listener = std::function<void(const std::shared_ptr<const PlanningScene>& before,
                                       const std::shared_ptr<const PlanningScene>& after)>;
-  void setListener(Listener listener);
+  /// Each owner has one listener. An empty listener removes it.
+  void setListener(const void* owner, Listener listener);
 
  private:
   std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables);
   AssumedBase assumeBase(std::int64_t stamp, const std::vector<bool>& known, std::vector<double>& state) const;
 
   std::mutex changes_;        // held during a change
-  mutable std::mutex mutex_;  // guards the next five members
+  mutable std::mutex mutex_;  // guards the next six members
   std::shared_ptr<const PlanningScene> scene_;
   std::vector<double> state_;
   std::vector<bool> known_;
   std::vector<std::int64_t> stamps_;  // of the values; 0: unknown
+  std::vector<bool> measured_;
   StateHistory history_;
   const SceneDefaults defaults_;
   const SceneLimits limits_;
   const BaseSource base_source_;
   const std::vector<int> virtual_variables_;
-  Listener listener_;  // guarded by changes_
+  std::map<const void*, Listener> listeners_;  // guarded by changes_
 };
 }  // namespace gpu_planning_scene::core

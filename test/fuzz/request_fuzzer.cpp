@@ -97,8 +97,9 @@ class Handlers
       scenes_(store_, frameOfTf, memory_),
       clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
   {
-    store_.setListener([this](const auto& before, const auto& after)
-                       { requireReadable(messageOf(diffOf(*before, *after), *after->robot)); });
+    store_.setListener(
+        this, [this](const auto& before, const auto& after)
+        { requireReadable(messageOf(diffOf(*before, *after), *after->robot)); });
   }
 
   void take(unsigned kind, const std::uint8_t* data, std::uint32_t size)

@@ -31,9 +31,10 @@ LAYERS = {
     "node/parameters": ["service"],
     "node/scene": ["node/messages", "node/endpoints"],
     "node/checks": ["node/messages", "node/endpoints"],
+    "node/moveit": ["node/scene", "node/checks", "node/parameters"],
     "node/markers": ["node/messages", "node/endpoints", "render"],
     "node/planning": ["node/markers", "node/parameters", "planning"],
-    "node": ["node/scene", "node/checks", "node/planning", "command_line"],
+    "node": ["node/scene", "node/checks", "node/moveit", "node/planning", "command_line"],
     "moveit": ["collision/contacts"],
 }
 

@@ -91,12 +91,12 @@ class Queue : public testing::Test
 void finish(ChangeQueue& queue, std::promise<void>& opened, SceneStore& store)
 {
   std::promise<void> last;
-  store.setListener(
-      [&last](const auto&, const auto& after)
-      {
-        if (after->name == "last")
-          last.set_value();
-      });
+  store.setListener(&last,
+                    [&last](const auto&, const auto& after)
+                    {
+                      if (after->name == "last")
+                        last.set_value();
+                    });
   SceneChange change = diff();
   change.name = "last";
   queue.add("last", change, 0);

@@ -52,6 +52,34 @@ TEST_F(Store, AChangeMakesANewRevisionAndLeavesOldScenesAlone)
   EXPECT_TRUE(store.snapshot().scene->objects.empty());
 }
 
+TEST_F(Store, OnlyVariablesOfUpdatesAreMeasured)
+{
+  SceneChange change;
+  change.is_diff = true;
+  change.state.variables = {{"turn", 0.5}};
+  store.apply(change, unknownFrame);
+  store.updateState({{"slide", 0.25}, {"unknown", 1.0}});
+  const Snapshot now = store.snapshot();
+  const auto measured = [&now](const char* name)
+  { return now.measured[static_cast<std::size_t>(now.scene->robot->variableIndex(name))]; };
+  EXPECT_TRUE(measured("slide"));
+  EXPECT_FALSE(measured("turn"));
+}
+
+TEST_F(Store, EachOwnerHasAListener)
+{
+  int first = 0;
+  int second = 0;
+  store.setListener(
+      &first, [&first](const auto&, const auto&) { ++first; });
+  store.setListener(&second, [&second](const auto&, const auto&) { ++second; });
+  store.clear();
+  store.setListener(&first, {});
+  store.clear();
+  EXPECT_EQ(1, first);
+  EXPECT_EQ(2, second);
+}
+
 /// As in MoveIt configurations for an arm on a table, whose drivers report no pose of the base.
 TEST_F(Store, TheVirtualJointStandsAtTheOriginUntilItIsSet)
 {
@@ -288,13 +316,13 @@ TEST_F(Store, ASnapshotIsOfOneInstantWhileOthersChangeTheScene)
 TEST_F(Store, AListenerHearsEachChangeInOrder)
 {
   std::vector<std::uint64_t> heard;
-  store.setListener(
-      [&](const auto& before, const auto& after)
-      {
-        EXPECT_EQ(before->revision + 1, after->revision);
-        EXPECT_EQ(after, store.snapshot().scene) << "readers have it already";
-        heard.push_back(after->revision);
-      });
+  store.setListener(this,
+                    [&](const auto& before, const auto& after)
+                    {
+                      EXPECT_EQ(before->revision + 1, after->revision);
+                      EXPECT_EQ(after, store.snapshot().scene) << "readers have it already";
+                      heard.push_back(after->revision);
+                    });
   store.apply(boxIn(""), unknownFrame);
   EXPECT_THROW(store.apply(boxIn("nowhere", "other"), unknownFrame), Error);
   store.clear();

@@ -47,6 +47,12 @@ void Diagnostics::watch(const std::shared_ptr<const StateChecker>& checker)
   checkers_.push_back(checker);
 }
 
+void Diagnostics::watchScene(std::function<std::string()> fault)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  scene_fault_ = std::move(fault);
+}
+
 void Diagnostics::refused(const std::string& why)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -82,6 +88,13 @@ DiagnosticStatus Diagnostics::status(const SceneStore& store, const CheckServer&
     status.level = history.rebuild_failed ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN;
     status.message = "the device failed and the CPU is used: " + history.last_error;
   }
+  const std::string scene_fault = scene_fault_ ? scene_fault_() : "";
+  if (!scene_fault.empty())
+  {
+    status.level = DiagnosticStatus::ERROR;
+    status.message = scene_fault;
+  }
+  add(status, "scene_fault", scene_fault);
   add(status, "device", status.hardware_id);
   add(status, "on_cpu", history.on_cpu ? "true" : "false");
   add(status, "device_losses", std::to_string(history.losses));

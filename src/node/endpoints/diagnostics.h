@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -20,16 +21,21 @@ class Diagnostics
  public:
   /// Adds a checker to the status, for as long as the checker exists.
   void watch(const std::shared_ptr<const StateChecker>& checker);
+  /// Adds the fault of the scene to the status. `fault`: returns the reason why the scene is not known; empty if it is
+  /// known. Thread-safe.
+  void watchScene(std::function<std::string()> fault);
   /// Counts a rejected message or request. `why`: the reason.
   void refused(const std::string& why);
 
-  /// The level is WARN if the CPU answers for a lost device, ERROR if the device could not be opened again, else OK.
+  /// The level is WARN if the CPU answers for a lost device, ERROR if the device could not be opened again or the scene
+  /// is not known, else OK.
   /// The rate of states is counted since the last call.
   diagnostic_msgs::DiagnosticStatus status(const SceneStore& store, const CheckServer& server);
 
  private:
   std::mutex mutex_;
   std::vector<std::weak_ptr<const StateChecker>> checkers_;
+  std::function<std::string()> scene_fault_;
   std::uint64_t refused_ = 0;
   std::string last_refusal_;
   std::uint64_t states_ = 0;

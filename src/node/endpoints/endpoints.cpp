@@ -3,8 +3,8 @@
 namespace gpu_planning_scene::core
 {
 Endpoints::Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads,
-                     Diagnostics& diagnostics)
-  : node_(node), own_(own), diagnostics_(diagnostics)
+                     Diagnostics& diagnostics, Refusal refusal)
+  : node_(node), own_(own), diagnostics_(diagnostics), refusal_(std::move(refusal))
 {
   node_.setCallbackQueue(&queue_);
   own_.setCallbackQueue(&queue_);
@@ -44,11 +44,23 @@ void Endpoints::refuseWaiting()
   queue_.callAvailable();
 }
 
+std::string Endpoints::topicName(const std::string& name) const
+{
+  return name.front() == '~' ? own_.resolveName(name.substr(1)) : node_.resolveName(name);
+}
+
 void Endpoints::refuse(const std::string& topic, const std::string& why)
 {
   const std::string line = topic + ": " + shortLine(why);
   diagnostics_.refused(line);
   ROS_WARN_STREAM_THROTTLE(1.0, "message rejected on " << line);
+}
+
+void Endpoints::refuseRequest(const std::string& service, const std::string& why)
+{
+  const std::string line = own_.resolveName(service) + ": " + shortLine(why);
+  diagnostics_.refused(line);
+  ROS_WARN_STREAM_THROTTLE(1.0, "request refused on " << line);
 }
 
 void Endpoints::reportLost(const std::string& topic, const std::string& why)

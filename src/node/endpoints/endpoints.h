@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -16,26 +17,46 @@
 
 namespace gpu_planning_scene::core
 {
+/// Whether the response of a service has a field `success`.
+template <class Response, class = void>
+constexpr bool kHasSuccess = false;
+template <class Response>
+constexpr bool kHasSuccess<Response, std::void_t<decltype(Response::success)>> = true;
+
+/// Whether the response of a service has a field `message`.
+template <class Response, class = void>
+constexpr bool kHasMessage = false;
+template <class Response>
+constexpr bool kHasMessage<Response, std::void_t<decltype(Response::message)>> = true;
+
 /// Services and topics with a callback queue and threads of their own. Messages are read with bounds (see Bounded), and
 /// rejected messages are counted.
 class Endpoints
 {
  public:
-  Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads, Diagnostics& diagnostics);
+  /// Returns the reason why no request is answered and no message is taken now; empty: all are. Thread-safe.
+  using Refusal = std::function<std::string()>;
+
+  Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads, Diagnostics& diagnostics,
+            Refusal refusal = {});
   ~Endpoints();
 
-  /// Advertises a service in the node's namespace. `answer` turns a request into a response and throws nothing.
+  /// Advertises a service in the node's namespace. `answer` turns a request into a response. If it throws, the response
+  /// has the error in its fields `success` and `message`. Without these fields, the error is logged, and without
+  /// `success`, the call fails.
   template <class Service, class Answer>
   void advertise(const std::string& name, Answer answer)
   {
     const auto handle =
-        [this, answer](Bounded<typename Service::Request>& request, typename Service::Response& response)
+        [this, answer, name](Bounded<typename Service::Request>& request, typename Service::Response& response)
     {
       if (closed_ && request.fault.empty())
         request.fault = "shutting down: the request was not answered";
+      if (request.fault.empty() && refusal_)
+        request.fault = refusal_();
       if (request.fault.empty())
-        response = answer(request.message);
-      return close(request.fault, response, 0);
+        request.fault = errorOf([&] { response = answer(request.message); });
+      return close(name, request.fault, response);
     };
     ros::AdvertiseServiceOptions options = boundedService<Service>(own_.resolveName(name), handle, &queue_);
     services_.push_back(own_.advertiseService(options));
@@ -46,9 +67,8 @@ class Endpoints
   template <class Message, class Take>
   void subscribe(const std::string& name, std::uint32_t queue_size, Take take)
   {
-    ros::NodeHandle& node = name.front() == '~' ? own_ : node_;
-    const std::string topic = node.resolveName(name.front() == '~' ? name.substr(1) : name);
-    topics_.push_back(subscribeBounded<Message>(node, topic, queue_size,
+    const std::string topic = topicName(name);
+    topics_.push_back(subscribeBounded<Message>(node_, topic, queue_size,
                                                 [this, take, topic](const Bounded<Message>& message)
                                                 {
                                                   try
@@ -57,6 +77,9 @@ class Endpoints
                                                       throw Error(message.fault);
                                                     if (closed_)
                                                       throw Error("the node is shutting down");
+                                                    if (const std::string why = refusal_ ? refusal_() : "";
+                                                        !why.empty())
+                                                      throw Error(why);
                                                     take(message.message);
                                                   }
                                                   catch (const Busy& error)
@@ -70,6 +93,9 @@ class Endpoints
                                                 }));
   }
 
+  /// The full name of a topic of subscribe().
+  std::string topicName(const std::string& name) const;
+
   /// Counts and logs a rejected message.
   void refuse(const std::string& topic, const std::string& why);
 
@@ -81,29 +107,35 @@ class Endpoints
   void refuseWaiting();
 
  private:
-  /// Reports a fault in the response's `success` and `message`. Without these fields, the service call fails.
+  /// Reports a fault in the response. Returns false if the service call fails.
   template <class Response>
-  auto close(const std::string& fault, Response& response, int) -> decltype(response.success, bool())
+  bool close(const std::string& name, const std::string& fault, Response& response)
   {
-    if (!fault.empty())
-      response = respond<Response>([&fault](Response&) { throw Error(fault); });
-    if (!response.success)
-      diagnostics_.refused(response.message);
-    return true;
+    if constexpr (kHasMessage<Response>)
+    {
+      if (!fault.empty())
+        response = respond<Response>([&fault](Response&) { throw Error(fault); });
+      if (!response.success)
+        diagnostics_.refused(response.message);
+      return true;
+    }
+    else
+    {
+      if (!fault.empty())
+        refuseRequest(name, fault);
+      if constexpr (kHasSuccess<Response>)
+        response.success = fault.empty();
+      return kHasSuccess<Response> || fault.empty();
+    }
   }
-  template <class Response>
-  bool close(const std::string& fault, Response&, long)
-  {
-    if (!fault.empty())
-      diagnostics_.refused(fault);
-    return fault.empty();
-  }
+  void refuseRequest(const std::string& service, const std::string& why);
   void reportLost(const std::string& topic, const std::string& why);
 
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   ros::NodeHandle own_;
   Diagnostics& diagnostics_;
+  const Refusal refusal_;
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Subscriber> topics_;
   std::atomic<bool> closed_{false};

@@ -35,6 +35,16 @@ std::string textParameter(const ros::NodeHandle& node, const std::string& name, 
   return static_cast<std::string>(value);
 }
 
+bool flagParameter(const ros::NodeHandle& node, const std::string& name, bool fallback)
+{
+  XmlRpcValue value;
+  if (!node.getParam(name, value))
+    return fallback;
+  if (value.getType() != XmlRpcValue::TypeBoolean)
+    throw Error("parameter " + node.resolveName(name) + " is not true or false");
+  return static_cast<bool>(value);
+}
+
 double lengthParameter(const ros::NodeHandle& node, const std::string& name, double fallback)
 {
   const double value = numberParameter(node, name, fallback);

@@ -12,6 +12,8 @@ namespace gpu_planning_scene::core
 
 /// Integers are accepted as texts, because roslaunch turns a text like "0" into an integer.
 std::string textParameter(const ros::NodeHandle& node, const std::string& name, const std::string& fallback);
+/// true or false.
+bool flagParameter(const ros::NodeHandle& node, const std::string& name, bool fallback);
 /// Finite, and at least 0.
 double lengthParameter(const ros::NodeHandle& node, const std::string& name, double fallback);
 /// Finite, and above 0.

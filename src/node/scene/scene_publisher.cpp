@@ -16,14 +16,15 @@ ScenePublisher::ScenePublisher(ros::NodeHandle& own, SceneStore& store, double f
   // scene.
   full_ = own.advertise<PlanningSceneMessage>(
       "monitored_planning_scene", 1, [this](const ros::SingleSubscriberPublisher& one) { sendTo(one); });
-  store_.setListener([this](const auto& before, const auto& after) { changed(before, after); });
+  store_.setListener(
+      this, [this](const auto& before, const auto& after) { changed(before, after); });
   timer_ = own.createWallTimer(ros::WallDuration(full_scene_period),
                                [this](const ros::WallTimerEvent&) { publishFull(store_.snapshot()); });
 }
 
 ScenePublisher::~ScenePublisher()
 {
-  store_.setListener({});
+  store_.setListener(this, {});
 }
 
 /// Must not throw: the change has already been made.

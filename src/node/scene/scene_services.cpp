@@ -4,6 +4,7 @@
 
 #include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/octomap.h"
 #include "model/joint_limits.h"
 #include "model/one_line.h"
 #include "node/endpoints/respond.h"
@@ -117,6 +118,22 @@ SceneChange SceneServices::changeOf(const AttachedCollisionObject& message) cons
   SceneChange change;
   change.is_diff = true;
   change.state.attached.push_back(attachedChangeFrom(message));
+  return change;
+}
+
+SceneChange SceneServices::changeOf(const PlanningSceneWorld& message) const
+{
+  PlanningSceneMessage scene;
+  scene.is_diff = true;
+  scene.robot_state.is_diff = true;
+  scene.world = message;
+  SceneChange change = changeOf(scene);
+  ObjectChange remove_all;
+  remove_all.operation = Operation::Remove;
+  remove_all.keeps_allowed_collisions = true;
+  ObjectChange remove_octomap = remove_all;
+  remove_octomap.id = kOctomapId;
+  change.objects.insert(change.objects.begin(), {remove_all, remove_octomap});
   return change;
 }
 

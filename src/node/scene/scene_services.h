@@ -25,6 +25,9 @@ class SceneServices
   SceneChange changeOf(const PlanningSceneMessage& message) const;
   SceneChange changeOf(const CollisionObject& message) const;
   SceneChange changeOf(const AttachedCollisionObject& message) const;
+  /// As in MoveIt, the message replaces all objects of the world and the octomap. The allowed collision matrix keeps
+  /// their entries.
+  SceneChange changeOf(const PlanningSceneWorld& message) const;
   /// Makes the change. If it throws Error, nothing has changed. Warnings are logged.
   void make(const SceneChange& change, const SceneStore::Lookup& lookup);
 

@@ -1,0 +1,130 @@
+#include "node/moveit/layouts.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <sstream>
+
+#include "gpu_planning_scene/error.h"
+#include "node/moveit/moveit_messages.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr char kSeparator[] = "MSG: ";  // before the type of each message of a definition, except for the first one
+
+/// The lines of each message of a definition, by type without package. The first message has the type "".
+std::map<std::string, std::vector<std::string>> sectionsOf(const std::string& definition)
+{
+  std::map<std::string, std::vector<std::string>> sections;
+  std::vector<std::string>* section = &sections[""];
+  std::istringstream text(definition);
+  for (std::string line; std::getline(text, line);)
+    if (line.rfind(kSeparator, 0) == 0)
+      section = &sections[line.substr(line.rfind('/') + 1)];
+    else if (!line.empty() && line.front() != '=')
+      section->push_back(line.substr(0, line.find('#')));
+  return sections;
+}
+
+/// Two names of one type get one name. Packages are left out: our messages have the names of MoveIt's.
+std::string plainType(const std::string& type)
+{
+  const std::string base = type.substr(type.find('/') + 1);
+  if (base.rfind("byte", 0) == 0)
+    return "int8" + base.substr(4);
+  if (base.rfind("char", 0) == 0)
+    return "uint8" + base.substr(4);
+  return base;
+}
+
+bool isBuiltIn(const std::string& type)
+{
+  static const std::array<const char*, 14> kBuiltIn = {{"bool", "int8", "uint8", "int16", "uint16", "int32", "uint32",
+                                                        "int64", "uint64", "float32", "float64", "string", "time",
+                                                        "duration"}};
+  return std::find(kBuiltIn.begin(), kBuiltIn.end(), type) != kBuiltIn.end();
+}
+
+class LayoutReader
+{
+ public:
+  explicit LayoutReader(const std::string& definition) : sections_(sectionsOf(definition)) {}
+
+  std::vector<std::string> read()
+  {
+    add("", "");
+    return std::move(layout_);
+  }
+
+ private:
+  void add(const std::string& type, const std::string& prefix)
+  {
+    const auto section = sections_.find(type);
+    if (section == sections_.end())
+      throw Error("the definition of a message lacks the type '" + type + "'");
+    for (const std::string& line : section->second)
+    {
+      std::istringstream words(line);
+      std::string field_type;
+      std::string name;
+      if (!(words >> field_type >> name))
+        continue;
+      field_type = plainType(field_type);
+      if (const std::size_t equals = line.find('='); equals != std::string::npos)
+      {
+        std::string constant = line.substr(line.find(name));
+        constant.erase(std::remove(constant.begin(), constant.end(), ' '), constant.end());
+        layout_.push_back(field_type + " " + prefix + constant);
+        continue;
+      }
+      layout_.push_back(field_type + " " + prefix + name);
+      const std::string element = field_type.substr(0, field_type.find('['));
+      if (!isBuiltIn(element))
+        add(element, prefix + name + ".");
+    }
+  }
+
+  const std::map<std::string, std::vector<std::string>> sections_;
+  std::vector<std::string> layout_;
+};
+
+template <class Ours, class Theirs>
+void requireEqual(std::size_t only_ours)
+{
+  namespace traits = ros::message_traits;
+  requireEqualLayouts(traits::DataType<Theirs>::value(), traits::Definition<Ours>::value(),
+                      traits::Definition<Theirs>::value(), only_ours);
+}
+}  // namespace
+
+std::vector<std::string> layoutOf(const std::string& definition)
+{
+  return LayoutReader(definition).read();
+}
+
+void requireEqualLayouts(const std::string& name, const std::string& ours, const std::string& theirs,
+                         std::size_t only_ours)
+{
+  std::vector<std::string> our_layout = layoutOf(ours);
+  const std::vector<std::string> their_layout = layoutOf(theirs);
+  our_layout.resize(our_layout.size() - std::min(our_layout.size(), only_ours));
+  const auto [our, their] =
+      std::mismatch(our_layout.begin(), our_layout.end(), their_layout.begin(), their_layout.end());
+  if (our == our_layout.end() && their == their_layout.end())
+    return;
+  const auto text = [](const auto& at, const auto& end) { return at == end ? "no further field" : "'" + *at + "'"; };
+  throw Error(name + " has " + text(their, their_layout.end()) + " where the message of this package has " +
+              text(our, our_layout.end()) +
+              "; build this package with moveit_msgs 0.11 (or without moveit_msgs), or leave ~monitor and "
+              "~moveit_names unset");
+}
+
+void requireMoveItLayouts()
+{
+  constexpr std::size_t kRevisions = 2;
+  requireEqual<PlanningSceneMessage, moveit_msgs::PlanningScene>(kRevisions);
+  requireEqual<GetPlanningScene::Request, moveit_msgs::GetPlanningScene::Request>(0);
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,85 @@
+#include "node/moveit/moveit_interface.h"
+
+#include <optional>
+
+#include "node/moveit/followed_scene.h"
+#include "node/moveit/layouts.h"
+#include "node/moveit/moveit_names.h"
+#include "node/moveit/moveit_options.h"
+#include "node/moveit/state_validity.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::size_t kValidityThreads = 16;
+}  // namespace
+
+struct MoveItInterface::Impl
+{
+  explicit Impl(const Node& node)
+    : options((requireMoveItLayouts(), moveItOptionsFromParameters(node.node, node.own))),
+      look_up([&lookup = node.lookup](const StampedFrame& frame) { return lookup(frame, lookup.deadline()); }),
+      validity(node.store, node.changes, node.checks, node.options.max_contacts),
+      requests(node.node, node.own, kValidityThreads, node.diagnostics, [this] { return sceneFault(); })
+  {
+    if (!options.monitor.monitor.empty())
+    {
+      followed.emplace(node.node, node.own, options.monitor, node.store, node.changes, look_up);
+      node.diagnostics.watchScene([this] { return sceneFault(); });
+    }
+    if (options.names)
+      names.emplace(node.node, node.store, node.changes, validity, node.lookup, node.diagnostics,
+                    node.options.max_waiting_changes, node.options.message_size);
+    requests.advertise<MoveItStateValidity>(
+        "check_state_validity", [this](const MoveItStateValidity::Request& r) { return validity.answer(r.ours); });
+  }
+
+  std::string sceneFault() const { return followed ? followed->fault() : ""; }
+
+  const MoveItOptions options;
+  const SceneStore::Lookup look_up;
+  const StateValidity validity;
+  std::optional<FollowedScene> followed;
+  std::optional<MoveItNames> names;
+  Endpoints requests;
+};
+
+MoveItInterface::MoveItInterface(const Node& node) : impl_(std::make_unique<Impl>(node)) {}
+
+MoveItInterface::~MoveItInterface() = default;
+
+std::string MoveItInterface::sceneFault() const
+{
+  return impl_->sceneFault();
+}
+
+std::string MoveItInterface::changeFault() const
+{
+  const std::string& monitor = impl_->options.monitor.monitor;
+  return monitor.empty() ? "" : "the node follows the scene of " + monitor + " (~monitor); change the scene there";
+}
+
+void MoveItInterface::close()
+{
+  impl_->requests.close();
+  if (impl_->names)
+    impl_->names->close();
+}
+
+void MoveItInterface::stop()
+{
+  if (impl_->followed)
+    impl_->followed->stop();
+  impl_->requests.stop();
+  if (impl_->names)
+    impl_->names->stop();
+}
+
+void MoveItInterface::refuseWaiting()
+{
+  impl_->requests.refuseWaiting();
+  if (impl_->names)
+    impl_->names->refuseWaiting();
+}
+}  // namespace gpu_planning_scene::core
