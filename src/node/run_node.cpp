@@ -7,7 +7,7 @@
 
 #include <ros/ros.h>
 
-#include "node/planning/planner_plugins.h"
+#include "planners/planner_plugins.h"
 #include "node/serve.h"
 
 namespace gpu_planning_scene::core
