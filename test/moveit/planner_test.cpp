@@ -277,6 +277,17 @@ TEST_F(Planner, KeepsThePaddingOfTheScene)
   EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
 }
 
+TEST_F(Planner, ScalesLinksForTheCheckWithTheWorldOnly)
+{
+  addObject("box", box(0.02, 0.02, 0.02), goal_.getGlobalLinkTransform("panda_hand") * at(0.0, 0.0, 0.16));
+  scene_->getCollisionEnvNonConst()->setScale(2.5);
+  ASSERT_FALSE(collides(start_));  // the scaled links overlap
+  ASSERT_TRUE(collides(goal_));
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
+  scene_->getWorldNonConst()->clearObjects();
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
+}
+
 TEST_F(Planner, RefusesGroupsConstraintsAndGoalsThatItDoesNotPlanFor)
 {
   const auto refused = [this](const MotionPlanRequest& asked)
@@ -600,7 +611,12 @@ void fillScene(planning_scene::PlanningScene& scene, random_numbers::RandomNumbe
   }
   scene.processOctomapPtr(octree, at(0.1, 0.2, 0.3));
   for (const moveit::core::LinkModel* link : scene.getRobotModel()->getLinkModels())
+  {
     scene.getCollisionEnvNonConst()->setLinkPadding(link->getName(), random.uniformReal(0.0, 0.03));
+    if (random.uniform01() < 0.3)
+      scene.getCollisionEnvNonConst()->setLinkScale(link->getName(), random.uniformReal(0.5, 1.5));
+  }
+  scene.getCollisionEnvNonConst()->setLinkScale(carrying_link, 1.2);
   RobotState& state = scene.getCurrentStateNonConst();
   state.attachBody("tool", at(0.0, 0.0, 0.2), {box(0.05, 0.05, 0.05)}, {at(0.0, 0.0, 0.01)}, std::set<std::string>(),
                    carrying_link);

@@ -82,7 +82,12 @@ class Converter
     for (const LinkModel* link : model_.getLinkModels())
       addLink(*link);
     for (const std::string& link : needs_.carriers)
-      addCarrier(*model_.getLinkModel(link));
+      addFixedLink(*model_.getLinkModel(link), " (carrier)");
+    for (const auto& [name, scale] : needs_.scales)
+    {
+      const LinkModel& link = *model_.getLinkModel(name);
+      addShapesOf(link, scale, addFixedLink(link, " (scaled)"));
+    }
     for (const moveit::core::JointModelGroup* group : model_.getJointModelGroups())
       addGroup(*group);
     return std::move(parts_);
@@ -183,16 +188,22 @@ class Converter
     core::Link link;
     link.name = model.getName();
     link.parent_joint = model.getParentJointModel()->getJointIndex();
-    for (std::size_t i = 0; i < model.getShapes().size(); ++i)
-      addShapes(model.getShapes()[i], model.getCollisionOriginTransforms()[i], 1.0, Carried::Yes,
-                "link '" + link.name + "'", link.shapes);
+    addShapesOf(model, 1.0, link);
     parts_.tree.links.push_back(std::move(link));
   }
 
-  void addCarrier(const LinkModel& model)
+  static void addShapesOf(const LinkModel& model, double scale, core::Link& link)
+  {
+    for (std::size_t i = 0; i < model.getShapes().size(); ++i)
+      addShapes(model.getShapes()[i], model.getCollisionOriginTransforms()[i], scale, Carried::Yes,
+                "link '" + model.getName() + "'", link.shapes);
+  }
+
+  /// Adds a link at the place of another one.
+  core::Link& addFixedLink(const LinkModel& model, const char* suffix)
   {
     core::Joint joint;
-    joint.name = model.getName() + " (carrier)";
+    joint.name = model.getName() + suffix;
     joint.parent_link = RobotConversion::link(model);
     joint.child_link = static_cast<int>(parts_.tree.links.size());
     core::Link link;
@@ -200,6 +211,7 @@ class Converter
     link.parent_joint = static_cast<int>(parts_.tree.joints.size());
     parts_.tree.joints.push_back(std::move(joint));
     parts_.tree.links.push_back(std::move(link));
+    return parts_.tree.links.back();
   }
 
   void addGroup(const moveit::core::JointModelGroup& model)
@@ -253,12 +265,20 @@ RobotConversion::RobotConversion(const moveit::core::RobotModelConstPtr& model, 
   int next = static_cast<int>(model->getLinkModels().size());
   for (const std::string& link : needs.carriers)
     carriers_[link] = next++;
+  for (const auto& [link, scale] : needs.scales)
+    scaled_[link] = next++;
 }
 
 int RobotConversion::carrier(const LinkModel& its_link) const
 {
   const auto found = carriers_.find(its_link.getName());
   return found == carriers_.end() ? link(its_link) : found->second;
+}
+
+std::optional<int> RobotConversion::scaledLink(const LinkModel& its_link) const
+{
+  const auto found = scaled_.find(its_link.getName());
+  return found == scaled_.end() ? std::nullopt : std::optional<int>(found->second);
 }
 
 std::vector<double> RobotConversion::row(const moveit::core::RobotState& state) const
@@ -280,7 +300,8 @@ void RobotConversion::setVariables(const double* row, moveit::core::RobotState& 
 
 bool RobotConversion::serves(const moveit::core::RobotModelConstPtr& model, const RobotNeeds& needs) const
 {
-  if (model != model_ || needs.carriers != needs_.carriers || needs.own_values.size() != needs_.own_values.size() ||
+  if (model != model_ || needs.carriers != needs_.carriers || needs.scales != needs_.scales ||
+      needs.own_values.size() != needs_.own_values.size() ||
       needs.workspace.has_value() != needs_.workspace.has_value())
     return false;
   if (needs.workspace &&

@@ -24,6 +24,8 @@ struct RobotNeeds
   std::map<std::string, double> own_values;
   /// Links with a second link, see RobotConversion::carrier.
   std::set<std::string> carriers;
+  /// Scale of the links whose scale is not 1, see RobotConversion::scaledLink.
+  std::map<std::string, double> scales;
   /// Range of the translations of planar and floating joints without limits, in metres.
   std::optional<Eigen::AlignedBox3d> workspace;
 };
@@ -38,12 +40,17 @@ class RobotConversion
 
   const std::shared_ptr<const core::RobotModel>& robot() const { return robot_; }
 
-  /// Index of a link. The converted robot has the links of MoveIt's robot in the same order, then the carriers.
+  /// Index of a link. The converted robot has the links of MoveIt's robot in the same order, then those of carrier()
+  /// and scaledLink().
   static int link(const moveit::core::LinkModel& link) { return link.getLinkIndex(); }
   /// Index of the link to which the bodies that `link` carries are attached. For the links of RobotNeeds::carriers, it
   /// is a second link without shapes at the same place: this package does not check an attached object against its own
   /// link, while MoveIt does.
   int carrier(const moveit::core::LinkModel& link) const;
+
+  /// Index of a second link with the scaled shapes of `link`, at the same place; no value if the scale is 1. MoveIt
+  /// scales links for the check with the world, but not for the check with other links.
+  std::optional<int> scaledLink(const moveit::core::LinkModel& link) const;
 
   /// A row of all variables of the converted robot.
   std::vector<double> row(const moveit::core::RobotState& state) const;
@@ -61,6 +68,7 @@ class RobotConversion
   /// `index`: of MoveIt's variable.
   const MoveitVariable& variable(std::size_t index) const { return variables_[index]; }
 
+  const RobotNeeds& needs() const { return needs_; }
   /// Whether the conversion fits a robot and a request.
   bool serves(const moveit::core::RobotModelConstPtr& model, const RobotNeeds& needs) const;
 
@@ -70,6 +78,7 @@ class RobotConversion
   std::shared_ptr<const core::RobotModel> robot_;
   std::vector<MoveitVariable> variables_;  // by their index in MoveIt's robot
   std::map<std::string, int> carriers_;    // link indices, by the name of the carrying link
+  std::map<std::string, int> scaled_;      // link indices, by the name of the link
 };
 
 /// The mimic joints of a state whose value differs from the value that their leader gives, and these values.

@@ -9,8 +9,9 @@
 #include "moveit/planner/converted_shapes.h"
 #include "moveit/planner/refusal.h"
 
-// Where MoveIt's rules and those of this package differ, the converted scene has MoveIt's rule: attached objects are
-// checked against their own link (carriers).
+// Where MoveIt's rules and those of this package differ, the converted scene has MoveIt's rule. MoveIt checks attached
+// objects against their own link, so carriers hold them. MoveIt scales bodies only for the check with the world, so a
+// scaled body has a second body, and the matrix splits the pairs between the two.
 namespace gpu_planning_scene::pipeline
 {
 namespace
@@ -35,6 +36,16 @@ std::set<std::string> linksWithCarrier(const moveit::core::RobotState& start)
     if (!body->getAttachedLink()->getShapes().empty() && body->getTouchLinks().count(body->getAttachedLinkName()) == 0)
       links.insert(body->getAttachedLinkName());
   return links;
+}
+
+/// The links whose scale is not 1.
+std::map<std::string, double> scalesOf(const planning_scene::PlanningScene& scene)
+{
+  std::map<std::string, double> scales;
+  for (const auto& [link, scale] : scene.getCollisionEnv()->getLinkScale())
+    if (scale != 1.0 && scene.getRobotModel()->hasLinkModel(link))
+      scales[link] = scale;
+  return scales;
 }
 
 /// The mimic joints that need a variable of their own. Throws Refusal if the group moves their leader: they would jump.
@@ -71,8 +82,7 @@ class SceneBuilder
     for (const core::Link& link : scene_->robot->links())
       names_.insert(link.name);
     for (const LinkModel* link : from_.getRobotModel()->getLinkModels())
-      if (!link->getShapes().empty())
-        bodies_.push_back({link->getName(), link->getName(), false});
+      addLink(*link);
     addPadding();
     for (const auto& [id, object] : *from_.getWorld())
       addObject(*object);
@@ -83,31 +93,45 @@ class SceneBuilder
   }
 
  private:
+  /// Which pairs of a body are checked.
+  enum class Pairs
+  {
+    All,
+    WithRobot,  ///< of a body whose scaled copy is checked with the world
+    WithWorld   ///< of a scaled copy
+  };
   struct Body
   {
     std::string moveit_name;
     std::string name;
     bool in_world;
+    Pairs pairs;
   };
 
   /// MoveIt allows an object to have the name of a link or of an attached object; this package does not.
-  std::string addName(const std::string& moveit_name, bool in_world)
+  const std::string& addBody(const std::string& moveit_name, bool in_world, Pairs pairs = Pairs::All)
   {
     std::string name = moveit_name;
     while (!names_.insert(name).second)
       name += in_world ? " (object)" : " (attached)";
-    bodies_.push_back({moveit_name, name, in_world});
-    return name;
+    bodies_.push_back({moveit_name, name, in_world, pairs});
+    return bodies_.back().name;
+  }
+
+  void addLink(const LinkModel& link)
+  {
+    if (link.getShapes().empty())
+      return;
+    const auto scaled = robot_.scaledLink(link);
+    bodies_.push_back({link.getName(), link.getName(), false, scaled ? Pairs::WithRobot : Pairs::All});
+    if (scaled)
+      bodies_.push_back(
+          {link.getName(), scene_->robot->links()[static_cast<std::size_t>(*scaled)].name, false, Pairs::WithWorld});
   }
 
   void addPadding()
   {
     const collision_detection::CollisionEnv& env = *from_.getCollisionEnv();
-    for (const auto& [link, scale] : env.getLinkScale())
-      if (scale != 1.0)
-        throw Refusal(
-            MoveItErrorCodes::COLLISION_CHECKING_UNAVAILABLE,
-            "link '" + link + "' has the scale " + std::to_string(scale) + "; planning supports padding, but no scale");
     scene_->link_padding.assign(scene_->robot->links().size(), 0.0);
     for (const auto& [name, padding] : env.getLinkPadding())
     {
@@ -116,15 +140,18 @@ class SceneBuilder
       if (!link)
         continue;
       // As in the collision detector of this package, a negative padding counts as 0.
-      scene_->link_padding[RobotConversion::link(*link)] = std::max(0.0, padding);
-      scene_->link_padding[robot_.carrier(*link)] = std::max(0.0, padding);
+      const double used = std::max(0.0, padding);
+      scene_->link_padding[RobotConversion::link(*link)] = used;
+      scene_->link_padding[robot_.carrier(*link)] = used;
+      if (const auto scaled = robot_.scaledLink(*link))
+        scene_->link_padding[*scaled] = used;
     }
   }
 
   void addObject(const collision_detection::World::Object& from)
   {
     core::WorldObject object;
-    object.id = addName(from.id_, true);
+    object.id = addBody(from.id_, true);
     object.pose = from.pose_;
     for (std::size_t i = 0; i < from.shapes_.size(); ++i)
       addShapes(from.shapes_[i], from.shape_poses_[i], 1.0, Carried::No, "object '" + from.id_ + "'", object.shapes);
@@ -133,12 +160,21 @@ class SceneBuilder
 
   void addAttached(const AttachedBody& from)
   {
+    const auto scale = robot_.needs().scales.find(from.getAttachedLinkName());
+    if (scale == robot_.needs().scales.end())
+      return addAttached(from, 1.0, Pairs::All);
+    addAttached(from, 1.0, Pairs::WithRobot);
+    addAttached(from, scale->second, Pairs::WithWorld);
+  }
+
+  void addAttached(const AttachedBody& from, double scale, Pairs pairs)
+  {
     core::AttachedObject attached;
-    attached.object.id = addName(from.getName(), false);
+    attached.object.id = addBody(from.getName(), false, pairs);
     attached.object.pose = from.getPose();
     attached.link = robot_.carrier(*from.getAttachedLink());
     for (std::size_t i = 0; i < from.getShapes().size(); ++i)
-      addShapes(from.getShapes()[i], from.getShapePoses()[i], 1.0, Carried::Yes,
+      addShapes(from.getShapes()[i], from.getShapePoses()[i], scale, Carried::Yes,
                 "attached object '" + from.getName() + "'", attached.object.shapes);
     for (const std::string& link : from.getTouchLinks())
       if (const int index = scene_->robot->linkIndex(link); index >= 0)
@@ -165,6 +201,11 @@ class SceneBuilder
           converted.setEntry(body.name, other->name, type == ALWAYS);
       listed.push_back(&body);
     }
+    for (const Body& body : bodies_)
+      for (const Body& other : bodies_)
+        if (body.pairs != Pairs::All && &body != &other &&
+            body.pairs != (other.in_world ? Pairs::WithWorld : Pairs::WithRobot))
+          converted.setEntry(body.name, other.name, true);
   }
 
   const planning_scene::PlanningScene& from_;
@@ -194,7 +235,8 @@ ConvertedScene SceneConverter::convert(const planning_scene::PlanningScene& scen
     throw Refusal(MoveItErrorCodes::COLLISION_CHECKING_UNAVAILABLE,
                   "the scene has a feasibility predicate, which is not planned with; remove it");
   ConvertedScene converted;
-  converted.robot = robotFor(scene.getRobotModel(), {ownValues(start, group), linksWithCarrier(start), workspace});
+  converted.robot =
+      robotFor(scene.getRobotModel(), {ownValues(start, group), linksWithCarrier(start), scalesOf(scene), workspace});
   converted.scene = SceneBuilder(scene, start, *converted.robot).build();
   return converted;
 }
