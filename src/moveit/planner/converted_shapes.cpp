@@ -19,7 +19,7 @@ void addLeaves(const octomap::OcTree& octree, const Eigen::Isometry3d& pose, con
       {
         if (added.size() == limit)
           throw Refusal(MoveItErrorCodes::COLLISION_CHECKING_UNAVAILABLE,
-                        body + ": its octree has more than " + std::to_string(core::SceneLimits().shapes) +
+                        "'" + body + "': its octree has more than " + std::to_string(core::SceneLimits().shapes) +
                             " occupied leaves; use a coarser octree");
         const double side = octree.getNodeSize(static_cast<int>(depth));
         added.push_back({core::Box{Eigen::Vector3d::Constant(side)}, pose * Eigen::Translation3d(center)});
@@ -40,7 +40,7 @@ void addShapes(const shapes::ShapeConstPtr& shape, const Eigen::Isometry3d& pose
     case detector::ShapeKind::HalfSpace:
       if (carried == Carried::Yes)
         throw Refusal(MoveItErrorCodes::COLLISION_CHECKING_UNAVAILABLE,
-                      body + " has a plane; planes are planned around only in the world");
+                      "'" + body + "' has a plane; planes are planned around only in the world");
       added.push_back({converted->halfSpace(), pose});
       return;
     case detector::ShapeKind::Octree:
@@ -50,7 +50,7 @@ void addShapes(const shapes::ShapeConstPtr& shape, const Eigen::Isometry3d& pose
       return;
     case detector::ShapeKind::Faulty:
       throw Refusal(MoveItErrorCodes::COLLISION_CHECKING_UNAVAILABLE,
-                    body + ": a shape cannot be checked: " + converted->fault());
+                    "'" + body + "': a shape cannot be checked: " + converted->fault());
   }
 }
 }  // namespace gpu_planning_scene::pipeline

@@ -19,8 +19,8 @@ enum class Carried
 
 /// Appends a shape of MoveIt to the shapes of a body. An octree becomes the cubes of its occupied leaves, as they are
 /// now; a mesh without triangles becomes nothing. Meshes come from the shape cache of the detector, so a shape of
-/// MoveIt has the same mesh in every conversion. `scale`: as for detector::CollisionShape. `body`: for messages. Throws
-/// Refusal with COLLISION_CHECKING_UNAVAILABLE if the shape cannot be expressed exactly.
+/// MoveIt has the same mesh in every conversion. `scale`: as for detector::CollisionShape. `body`: its name, for
+/// messages. Throws Refusal with COLLISION_CHECKING_UNAVAILABLE if the shape cannot be expressed exactly.
 void addShapes(const shapes::ShapeConstPtr& shape, const Eigen::Isometry3d& pose, double scale, Carried carried,
                const std::string& body, std::vector<core::PlacedShape>& added);
 }  // namespace gpu_planning_scene::pipeline

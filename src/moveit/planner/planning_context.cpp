@@ -21,7 +21,7 @@ namespace
 using Clock = std::chrono::steady_clock;
 using Rows = std::vector<std::vector<double>>;
 
-constexpr double kLeastSeconds = 1e-3;  // planning needs a time above 0
+constexpr double kLeastSeconds = 1e-3;  // a plan with less time is not begun
 
 std::vector<std::uint8_t> freeOf(core::StateChecker& checker, const Rows& rows, const std::string& group)
 {
@@ -149,7 +149,11 @@ PlanningContext::Outcome PlanningContext::planOrThrow()
 
   core::CheckerPool::Lease lease(workshop_->checkers, converted.scene);
   query.goals = goalStates(regions, *lease.checker(), getGroupName());
-  query.seconds = std::max(kLeastSeconds, request_.allowed_planning_time - core::secondsSince(begin));
+  query.seconds = request_.allowed_planning_time - core::secondsSince(begin);
+  if (!(query.seconds >= kLeastSeconds))
+    throw Refusal(MoveItErrorCodes::TIMED_OUT,
+                  "allowed_planning_time is " + std::to_string(request_.allowed_planning_time) +
+                      " s; the conversion of the scene and the check of the goals took all of it");
   const core::PlanningResult result = planShortest(converted, lease.checker(), query);
   lease.giveBack();
 
@@ -158,7 +162,10 @@ PlanningContext::Outcome PlanningContext::planOrThrow()
   outcome.code = codeOf(result.status, in_time);
   outcome.message = result.message;
   if (stopped_ && outcome.code != MoveItErrorCodes::SUCCESS)
+  {
     outcome.code = MoveItErrorCodes::PREEMPTED;
+    outcome.message = "planning was terminated";
+  }
   moveit::core::robotStateToRobotStateMsg(start, outcome.start);
   if (outcome.code == MoveItErrorCodes::SUCCESS)
     outcome.trajectory = trajectoryOf(converted, result, start);
@@ -194,7 +201,7 @@ core::PlanningResult PlanningContext::planShortest(const ConvertedScene& convert
     const double left = seconds - core::secondsSince(begin);
     if (attempt > 0 && (left < kLeastSeconds || stopped_))
       break;
-    query.seconds = std::max(kLeastSeconds, left);
+    query.seconds = left;
     core::PlanningResult result = core::planMotion(converted.scene, checker, query, *choice_.factory, stop);
     if (result.status != core::PlanningStatus::Solved)
     {

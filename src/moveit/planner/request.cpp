@@ -78,10 +78,14 @@ void validateAttached(const moveit_msgs::AttachedCollisionObject& message, const
 bool hasTranslationWithoutLimits(const moveit::core::JointModelGroup& group)
 {
   for (const JointModel* joint : group.getActiveJointModels())
-    if ((joint->getType() == JointModel::PLANAR || joint->getType() == JointModel::FLOATING) &&
-        !(joint->getVariableBounds()[0].position_bounded_ && joint->getVariableBounds()[1].position_bounded_ &&
-          (joint->getType() == JointModel::PLANAR || joint->getVariableBounds()[2].position_bounded_)))
-      return true;
+  {
+    const int translations = joint->getType() == JointModel::PLANAR     ? 2
+                             : joint->getType() == JointModel::FLOATING ? 3
+                                                                        : 0;
+    for (int i = 0; i < translations; ++i)
+      if (!hasLimits(joint->getVariableBounds()[static_cast<std::size_t>(i)]))
+        return true;
+  }
   return false;
 }
 

@@ -141,24 +141,24 @@ class Converter
   void setRange(const moveit::core::VariableBounds& bounds, int axis, core::Variable& variable) const
   {
     constexpr double kNoWorkspace = 1.0;  // metres; a request that plans for a joint without limits has a workspace
-    variable.lower = bounds.position_bounded_ ? bounds.min_position_ : -kNoWorkspace;
-    variable.upper = bounds.position_bounded_ ? bounds.max_position_ : kNoWorkspace;
-    if (!needs_.workspace)
-      return;
-    const double least = needs_.workspace->min()[axis];
-    const double most = needs_.workspace->max()[axis];
-    variable.lower = bounds.position_bounded_ ? std::max(variable.lower, least) : least;
-    variable.upper = bounds.position_bounded_ ? std::min(variable.upper, most) : most;
+    const double least = needs_.workspace ? needs_.workspace->min()[axis] : -kNoWorkspace;
+    const double most = needs_.workspace ? needs_.workspace->max()[axis] : kNoWorkspace;
+    const bool is_limited = hasLimits(bounds);
+    variable.lower = !is_limited        ? least
+                     : needs_.workspace ? std::max(least, bounds.min_position_)
+                                        : bounds.min_position_;
+    variable.upper = !is_limited        ? most
+                     : needs_.workspace ? std::min(most, bounds.max_position_)
+                                        : bounds.max_position_;
   }
 
   void setLimits(const JointModel& model, const moveit::core::VariableBounds& bounds, core::Variable& variable) const
   {
-    if (!bounds.position_bounded_)
+    if (!hasLimits(bounds))
       throw core::Error("joint '" + model.getName() + "' has no limits; only continuous joints need none");
-    if (!(bounds.min_position_ <= bounds.max_position_) || !std::isfinite(bounds.min_position_) ||
-        !std::isfinite(bounds.max_position_))
+    if (!(bounds.min_position_ <= bounds.max_position_))
       throw core::Error("joint '" + model.getName() + "' has the limits " + std::to_string(bounds.min_position_) +
-                        " to " + std::to_string(bounds.max_position_) + "; they must be finite and in order");
+                        " to " + std::to_string(bounds.max_position_) + "; they must be in order");
     variable.bounded = true;
     variable.lower = bounds.min_position_;
     variable.upper = bounds.max_position_;
@@ -195,8 +195,8 @@ class Converter
   static void addShapesOf(const LinkModel& model, double scale, core::Link& link)
   {
     for (std::size_t i = 0; i < model.getShapes().size(); ++i)
-      addShapes(model.getShapes()[i], model.getCollisionOriginTransforms()[i], scale, Carried::Yes,
-                "link '" + model.getName() + "'", link.shapes);
+      addShapes(model.getShapes()[i], model.getCollisionOriginTransforms()[i], scale, Carried::Yes, model.getName(),
+                link.shapes);
   }
 
   /// Adds a link at the place of another one.
@@ -251,6 +251,11 @@ class Converter
   core::RobotParts parts_;
 };
 }  // namespace
+
+bool hasLimits(const moveit::core::VariableBounds& bounds)
+{
+  return bounds.position_bounded_ && std::isfinite(bounds.min_position_) && std::isfinite(bounds.max_position_);
+}
 
 RobotConversion::RobotConversion(const moveit::core::RobotModelConstPtr& model, const RobotNeeds& needs)
   : model_(model), needs_(needs), robot_(core::makeRobot(Converter(*model, needs).convert()))

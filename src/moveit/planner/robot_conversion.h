@@ -81,6 +81,9 @@ class RobotConversion
   std::map<std::string, int> scaled_;      // link indices, by the name of the link
 };
 
+/// Whether a variable has two limits. MoveIt's planar and floating joints have infinite limits if nothing else is set.
+bool hasLimits(const moveit::core::VariableBounds& bounds);
+
 /// The mimic joints of a state whose value differs from the value that their leader gives, and these values.
 std::map<std::string, double> ownMimicValues(const moveit::core::RobotState& state);
 

@@ -140,7 +140,7 @@ class SceneBuilder
       if (!link)
         continue;
       // As in the collision detector of this package, a negative padding counts as 0.
-      const double used = std::max(0.0, padding);
+      const double used = padding < 0.0 ? 0.0 : padding;
       scene_->link_padding[RobotConversion::link(*link)] = used;
       scene_->link_padding[robot_.carrier(*link)] = used;
       if (const auto scaled = robot_.scaledLink(*link))
@@ -154,7 +154,7 @@ class SceneBuilder
     object.id = addBody(from.id_, true);
     object.pose = from.pose_;
     for (std::size_t i = 0; i < from.shapes_.size(); ++i)
-      addShapes(from.shapes_[i], from.shape_poses_[i], 1.0, Carried::No, "object '" + from.id_ + "'", object.shapes);
+      addShapes(from.shapes_[i], from.shape_poses_[i], 1.0, Carried::No, from.id_, object.shapes);
     scene_->objects.push_back(std::move(object));
   }
 
@@ -174,8 +174,8 @@ class SceneBuilder
     attached.object.pose = from.getPose();
     attached.link = robot_.carrier(*from.getAttachedLink());
     for (std::size_t i = 0; i < from.getShapes().size(); ++i)
-      addShapes(from.getShapes()[i], from.getShapePoses()[i], scale, Carried::Yes,
-                "attached object '" + from.getName() + "'", attached.object.shapes);
+      addShapes(from.getShapes()[i], from.getShapePoses()[i], scale, Carried::Yes, from.getName(),
+                attached.object.shapes);
     for (const std::string& link : from.getTouchLinks())
       if (const int index = scene_->robot->linkIndex(link); index >= 0)
         attached.touch_links.push_back(index);
