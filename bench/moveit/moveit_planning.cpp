@@ -172,9 +172,19 @@ struct Times
   }
 };
 
+/// MoveIt only logs a mesh that it cannot read.
+moveit::core::RobotModelPtr loadRobot()
+{
+  moveit::core::RobotModelPtr robot = loadStudyRobot("ur5_robotiq");
+  for (const moveit::core::LinkModel* link : robot->getLinkModels())
+    if (robot->getURDF()->getLink(link->getName())->collision && link->getShapes().empty())
+      throw std::runtime_error("MoveIt has not read the mesh of link '" + link->getName() + "'");
+  return robot;
+}
+
 void run(std::size_t count, double seconds)
 {
-  const moveit::core::RobotModelPtr robot = loadStudyRobot("ur5_robotiq");
+  const moveit::core::RobotModelPtr robot = loadRobot();
   pluginlib::ClassLoader<planning_interface::PlannerManager> loader("moveit_core",
                                                                     "planning_interface::PlannerManager");
   const planning_interface::PlannerManagerPtr manager =
@@ -238,7 +248,7 @@ int main(int argc, char** argv)
   {
     ompl::msg::setLogLevel(ompl::msg::LOG_WARN);
     gpu_planning_scene::useMoveItResources();
-    gpu_planning_scene::useBuiltPlugins();
+    gpu_planning_scene::useBuiltPlugins(GPS_SHARED_DIR "/robots:");
     const long problems = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 140;
     const double seconds = argc > 2 ? std::strtod(argv[2], nullptr) : 10.0;
     if (argc > 3 || problems < 1 || !(seconds > 0.0))
