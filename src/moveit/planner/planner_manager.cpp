@@ -29,6 +29,7 @@ using planning_interface::MotionPlanRequest;
 using planning_interface::PlannerConfigurationSettings;
 
 constexpr double kWaypointDistance = 0.1;  // radians or metres: the default of NAMESPACE/waypoint_distance
+constexpr double kLeastWaypointDistance = 1e-3;
 
 /// The name of a group's planner in MoveIt's map of configurations.
 std::string settingsName(const std::string& group, const std::string& config)
@@ -75,9 +76,9 @@ class PlannerManager : public planning_interface::PlannerManager
         configs_ = readConfigs(*model, name_space);
         ros::param::get(name_space + "/device", device);
         ros::param::get(name_space + "/waypoint_distance", waypoint_distance_);
-        if (!(waypoint_distance_ >= 0.0))
+        if (waypoint_distance_ != 0.0 && !(waypoint_distance_ >= kLeastWaypointDistance))
           throw core::Error("parameter " + name_space + "/waypoint_distance is " + std::to_string(waypoint_distance_) +
-                            "; it must be 0 or above");
+                            "; it must be 0 or at least " + std::to_string(kLeastWaypointDistance));
       }
       workshop_ = std::make_shared<Workshop>(checkerMakerFor(device));
       setPlannerConfigurations(settings());

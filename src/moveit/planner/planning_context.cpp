@@ -229,7 +229,7 @@ robot_trajectory::RobotTrajectoryPtr PlanningContext::trajectoryOf(const Convert
                                                                    const moveit::core::RobotState& start) const
 {
   const core::RobotModel& robot = *converted.robot->robot();
-  const auto trajectory = std::make_shared<robot_trajectory::RobotTrajectory>(start.getRobotModel(), getGroupName());
+  auto trajectory = std::make_shared<robot_trajectory::RobotTrajectory>(start.getRobotModel(), getGroupName());
   moveit::core::RobotState state = start;
   const auto add = [&](const double* row)
   {
@@ -242,12 +242,13 @@ robot_trajectory::RobotTrajectoryPtr PlanningContext::trajectoryOf(const Convert
   {
     const double* const row = result.waypoints[i].data();
     const double* const before = i == 0 ? row : result.waypoints[i - 1].data();
-    double parts = 1.0;
+    std::size_t parts = 1;
     if (choice_.waypoint_distance > 0.0)
-      parts = core::segmentCount(robot, before, row, {choice_.waypoint_distance, choice_.waypoint_distance});
-    for (double part = 1.0; part < parts; ++part)
+      parts = static_cast<std::size_t>(
+          core::segmentCount(robot, before, row, {choice_.waypoint_distance, choice_.waypoint_distance}));
+    for (std::size_t part = 1; part < parts; ++part)
     {
-      core::interpolate(robot, before, row, part / parts, between.data());
+      core::interpolate(robot, before, row, static_cast<double>(part) / static_cast<double>(parts), between.data());
       add(between.data());
     }
     add(row);
