@@ -13,8 +13,9 @@ if(GPU_PLANNING_SCENE_ROS)
   install(TARGETS gpu_planning_scene_planners LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
   install(FILES planner_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
   if(TARGET gpu_planning_scene_moveit)
-    install(TARGETS gpu_planning_scene_moveit LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
-    install(FILES moveit_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+    install(TARGETS gpu_planning_scene_moveit gpu_planning_scene_moveit_planner
+      LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+    install(FILES moveit_plugins.xml moveit_planner_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
   endif()
   install(TARGETS add_object planning_scene_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   catkin_install_python(PROGRAMS scripts/demo_client.py scripts/joint_sliders.py scripts/save_scene.py scripts/show_scene.py

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include <urdf_model/model.h>
 
@@ -11,13 +12,14 @@
 #include "model/kinematics.h"
 #include "model/named_states.h"
 #include "model/one_line.h"
+#include "model/robot_parts.h"
 #include "model/srdf_reader.h"
 #include "model/tree_builder.h"
 #include "model/urdf_reader.h"
 
 namespace gpu_planning_scene::core
 {
-/// Builds a RobotModel from a URDF and an SRDF.
+/// Builds a RobotModel from a URDF and an SRDF, or from parts.
 class RobotModelBuilder
 {
  public:
@@ -35,15 +37,21 @@ class RobotModelBuilder
     RobotTree tree = buildTree(urdf, virtual_joint, options_, warnings_);
     model_->name_ = urdf.model->getName();
     model_->planning_frame_ = virtual_joint == nullptr ? root : virtual_joint->parent_frame;
-    model_->links_ = std::move(tree.links);
-    model_->joints_ = std::move(tree.joints);
-    model_->variables_ = std::move(tree.variables);
-    model_->kinematics_ = std::make_shared<Kinematics>(model_->links_, model_->joints_);
-    index();
+    take(std::move(tree));
 
     model_->srdf_collisions_.has_srdf = has_srdf;
     if (has_srdf)
       addSrdf(srdf);
+    return model_;
+  }
+
+  std::shared_ptr<const RobotModel> build(RobotParts parts)
+  {
+    limitTranslations(parts.tree);
+    model_->name_ = std::move(parts.name);
+    model_->planning_frame_ = std::move(parts.planning_frame);
+    take(std::move(parts.tree));
+    model_->groups_ = std::move(parts.groups);
     return model_;
   }
 
@@ -71,8 +79,12 @@ class RobotModelBuilder
     return found;
   }
 
-  void index()
+  void take(RobotTree tree)
   {
+    model_->links_ = std::move(tree.links);
+    model_->joints_ = std::move(tree.joints);
+    model_->variables_ = std::move(tree.variables);
+    model_->kinematics_ = std::make_shared<Kinematics>(model_->links_, model_->joints_);
     const auto number = [](const auto& items, std::unordered_map<std::string, int>& indices)
     {
       for (std::size_t i = 0; i < items.size(); ++i)
@@ -154,6 +166,11 @@ std::string readFile(const std::string& path, const char* what)
   return text;
 }
 }  // namespace
+
+std::shared_ptr<const RobotModel> makeRobot(RobotParts parts)
+{
+  return RobotModelBuilder({}).build(std::move(parts));
+}
 
 std::shared_ptr<const RobotModel> RobotModel::fromXml(const std::string& urdf, const std::string& srdf,
                                                       const RobotModelOptions& options,

@@ -29,7 +29,7 @@ class TreeBuilder
       addVirtualJoint(*virtual_joint);
     addSubtree(root);
     resolveMimics();
-    limitTranslations();
+    limitTranslations(tree_);
     return std::move(tree_);
   }
 
@@ -201,25 +201,6 @@ class TreeBuilder
     }
   }
 
-  // Bounds translations so that no joint, also no mimic joint, moves by more than kLargestLength.
-  void limitTranslations()
-  {
-    for (const Joint& joint : tree_.joints)
-    {
-      const int count = joint.type == JointType::Prismatic  ? 1
-                        : joint.type == JointType::Planar   ? 2
-                        : joint.type == JointType::Floating ? 3
-                                                            : 0;
-      const double limit =
-          std::max(0.0, kLargestLength - std::abs(joint.offset)) / std::max(std::abs(joint.multiplier), 1e-300);
-      for (int i = 0; i < count; ++i)
-      {
-        double& largest = tree_.variables[static_cast<std::size_t>(joint.first_variable + i)].largest;
-        largest = std::min(largest, limit);
-      }
-    }
-  }
-
   void requireOneVariable(const Joint& follower, const Joint& joint) const
   {
     if (joint.type != JointType::Revolute && joint.type != JointType::Continuous && joint.type != JointType::Prismatic)
@@ -236,6 +217,24 @@ class TreeBuilder
   RobotTree tree_;
 };
 }  // namespace
+
+void limitTranslations(RobotTree& tree)
+{
+  for (const Joint& joint : tree.joints)
+  {
+    const int count = joint.type == JointType::Prismatic  ? 1
+                      : joint.type == JointType::Planar   ? 2
+                      : joint.type == JointType::Floating ? 3
+                                                          : 0;
+    const double limit =
+        std::max(0.0, kLargestLength - std::abs(joint.offset)) / std::max(std::abs(joint.multiplier), 1e-300);
+    for (int i = 0; i < count; ++i)
+    {
+      double& largest = tree.variables[static_cast<std::size_t>(joint.first_variable + i)].largest;
+      largest = std::min(largest, limit);
+    }
+  }
+}
 
 RobotTree buildTree(const UrdfText& urdf, const SrdfVirtualJoint* virtual_joint, const RobotModelOptions& options,
                     std::vector<std::string>& warnings)

@@ -18,6 +18,9 @@ struct RobotTree
   std::vector<Variable> variables;
 };
 
+/// Sets Variable::largest of translations so that no joint, also no mimic joint, moves by more than kLargestLength.
+void limitTranslations(RobotTree& tree);
+
 /// Builds the tree and loads the meshes. `virtual_joint` moves the root link; null if there is none. Throws Error.
 RobotTree buildTree(const UrdfText& urdf, const SrdfVirtualJoint* virtual_joint, const RobotModelOptions& options,
                     std::vector<std::string>& warnings);

@@ -7,8 +7,8 @@
 
 #include <ros/ros.h>
 
-#include "node/planning/planner_plugins.h"
 #include "node/serve.h"
+#include "planners/planner_plugins.h"
 
 namespace gpu_planning_scene::core
 {

@@ -6,7 +6,7 @@
 #include <ros/node_handle.h>
 
 #include "gpu_planning_scene/planning/plan_motion.h"
-#include "node/planning/planner_configs.h"
+#include "planners/planner_configs.h"
 #include "service/scene_store.h"
 
 namespace gpu_planning_scene::core

@@ -77,50 +77,17 @@ auto asRequestError(const Work& work)
 }
 }  // namespace
 
-/// A checker with the scene, for the planning of one request. A checker that is not given back is dropped.
-class PlanService::CheckerLease
-{
- public:
-  CheckerLease(PlanService& service, const std::shared_ptr<const PlanningScene>& scene) : service_(service)
-  {
-    {
-      const std::lock_guard<std::mutex> lock(service_.mutex_);
-      if (!service_.idle_.empty())
-      {
-        checker_ = std::move(service_.idle_.back());
-        service_.idle_.pop_back();
-      }
-    }
-    if (checker_)
-      checker_->setScene(scene);
-    else
-      checker_ = service_.make_checker_(scene);
-  }
-
-  void giveBack()
-  {
-    const std::lock_guard<std::mutex> lock(service_.mutex_);
-    service_.idle_.push_back(std::move(checker_));
-  }
-
-  const std::shared_ptr<StateChecker>& checker() const { return checker_; }
-
- private:
-  PlanService& service_;
-  std::shared_ptr<StateChecker> checker_;
-};
-
 PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, SceneStore::Lookup lookup,
                          CheckServer::MakeChecker make_checker, const MemoryGuard& memory, PathPublisher& paths,
                          const PlanServiceOptions& options)
   : store_(store),
     lookup_(std::move(lookup)),
-    make_checker_(std::move(make_checker)),
     memory_(memory),
     paths_(paths),
     options_(options),
     configs_(PlannerConfigs::fromParameters(own)),
-    admission_(options.at_once, options.max_waiting)
+    admission_(options.at_once, options.max_waiting),
+    checkers_(std::move(make_checker))
 {
 }
 
@@ -176,7 +143,7 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
 
 PlanningResult PlanService::plan(const Task& task)
 {
-  CheckerLease lease(*this, task.scene);
+  CheckerPool::Lease lease(checkers_, task.scene);
   const auto stop = [this] { return stopping_.load(); };
   try
   {

@@ -2,19 +2,17 @@
 
 #include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <vector>
 
 #include <ros/node_handle.h>
 
 #include "node/markers/path_publisher.h"
 #include "node/planning/ompl_log.h"
 #include "node/planning/plan_request.h"
-#include "node/planning/planner_configs.h"
-#include "node/planning/planner_plugins.h"
+#include "planners/planner_configs.h"
+#include "planners/planner_plugins.h"
 #include "service/admission.h"
-#include "service/check_server.h"
+#include "service/checker_pool.h"
 #include "service/memory_guard.h"
 
 namespace gpu_planning_scene::core
@@ -37,8 +35,6 @@ class PlanService
   void stop();
 
  private:
-  class CheckerLease;
-
   /// A request, converted, with the scene for which it is planned.
   struct Task
   {
@@ -55,7 +51,6 @@ class PlanService
 
   const SceneStore& store_;
   const SceneStore::Lookup lookup_;
-  const CheckServer::MakeChecker make_checker_;
   const MemoryGuard& memory_;
   PathPublisher& paths_;
   const PlanServiceOptions options_;
@@ -64,7 +59,6 @@ class PlanService
   PlannerPlugins plugins_;
   Admission admission_;
   std::atomic<bool> stopping_{false};
-  std::mutex mutex_;
-  std::vector<std::shared_ptr<StateChecker>> idle_;  // guarded by mutex_
+  CheckerPool checkers_;
 };
 }  // namespace gpu_planning_scene::core

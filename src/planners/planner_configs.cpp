@@ -1,4 +1,4 @@
-#include "node/planning/planner_configs.h"
+#include "planners/planner_configs.h"
 
 #include <algorithm>
 #include <sstream>
@@ -12,8 +12,6 @@ namespace gpu_planning_scene::core
 namespace
 {
 using XmlRpc::XmlRpcValue;
-
-constexpr char kBatchPlanner[] = "gpu_planning_scene/BatchRrtConnect";
 
 const XmlRpcValue& requireType(const XmlRpcValue& value, XmlRpcValue::Type type, const std::string& name,
                                const char* what)
@@ -114,11 +112,15 @@ GroupPlanners groupOf(XmlRpcValue& value, const std::string& name)
 
 PlannerConfigs PlannerConfigs::fromParameters(const ros::NodeHandle& own)
 {
-  PlannerConfigs result;
   XmlRpcValue planners;
   if (!own.getParam("planners", planners))
-    return result;
-  const std::string name = own.resolveName("planners");
+    return {};
+  return fromValue(planners, own.resolveName("planners"));
+}
+
+PlannerConfigs PlannerConfigs::fromValue(XmlRpcValue& planners, const std::string& name)
+{
+  PlannerConfigs result;
   requireType(planners, XmlRpcValue::TypeStruct, name, "a map in the format of MoveIt's ompl_planning.yaml");
   for (auto& [key, value] : planners)
   {

@@ -1,4 +1,4 @@
-#include "node/planning/planner_plugins.h"
+#include "planners/planner_plugins.h"
 
 #include <cstdlib>
 #include <stdexcept>
@@ -6,7 +6,7 @@
 #include <pluginlib/class_loader.hpp>
 
 #include "gpu_planning_scene/error.h"
-#include "node/planning/unknown_planner.h"
+#include "planners/unknown_planner.h"
 
 namespace gpu_planning_scene::core
 {

@@ -1,4 +1,4 @@
-#include "node/planning/unknown_planner.h"
+#include "planners/unknown_planner.h"
 
 #include <algorithm>
 #include <cctype>

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "node/planning/unknown_planner.h"
+#include "planners/unknown_planner.h"
 
 namespace gpu_planning_scene::core
 {

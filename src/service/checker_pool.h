@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "service/check_server.h"
+
+namespace gpu_planning_scene::core
+{
+/// Keeps checkers for later use, with their trees and their thread. Thread-safe.
+class CheckerPool
+{
+ public:
+  explicit CheckerPool(CheckServer::MakeChecker make) : make_(std::move(make)) {}
+
+  /// A checker for one user at a time. The pool must outlive it.
+  class Lease
+  {
+   public:
+    /// Takes a kept checker, or makes one. The checker has `scene`. Throws the errors of setScene and of the function
+    /// that makes checkers.
+    Lease(CheckerPool& pool, const std::shared_ptr<const PlanningScene>& scene);
+
+    /// Keeps the checker for the next user. Without this call it is dropped, because it may be the cause of an error.
+    void giveBack();
+
+    const std::shared_ptr<StateChecker>& checker() const { return checker_; }
+
+   private:
+    CheckerPool& pool_;
+    std::shared_ptr<StateChecker> checker_;
+  };
+
+ private:
+  const CheckServer::MakeChecker make_;
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<StateChecker>> idle_;  // guarded by mutex_
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,699 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <geometric_shapes/mesh_operations.h>
+#include <geometric_shapes/shapes.h>
+#include <gtest/gtest.h>
+#include <moveit/kinematic_constraints/kinematic_constraint.h>
+#include <moveit/kinematic_constraints/utils.h>
+#include <moveit/planning_interface/planning_interface.h>
+#include <moveit/planning_scene/planning_scene.h>
+#include <moveit/robot_state/conversions.h>
+#include <moveit/utils/robot_model_test_utils.h>
+#include <octomap/OcTree.h>
+#include <pluginlib/class_loader.hpp>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/moveit/collision_detector_allocator.h"
+#include "moveit/moveit_resources.h"
+#include "moveit/planner/scene_conversion.h"
+
+// The planner for MoveIt, loaded as MoveIt loads it. Paths are checked with MoveIt's FCL detector.
+namespace gpu_planning_scene::pipeline
+{
+namespace
+{
+using collision_detection::CollisionRequest;
+using collision_detection::CollisionResult;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using moveit::core::RobotState;
+using moveit_msgs::MoveItErrorCodes;
+using planning_interface::MotionPlanRequest;
+using planning_interface::MotionPlanResponse;
+
+const bool kReady = (useMoveItResources(), useBuiltPlugins(), true);
+
+constexpr char kArm[] = "panda_arm";
+
+planning_interface::PlannerManagerPtr loadManager(const moveit::core::RobotModelConstPtr& robot)
+{
+  static pluginlib::ClassLoader<planning_interface::PlannerManager> loader("moveit_core",
+                                                                           "planning_interface::PlannerManager");
+  planning_interface::PlannerManagerPtr manager = loader.createUniqueInstance("gpu_planning_scene/PlannerManager");
+  if (!manager->initialize(robot, "planner_test"))
+    throw std::runtime_error("the planner manager cannot be initialised");
+  return manager;
+}
+
+Isometry3d at(double x, double y, double z)
+{
+  return Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+shapes::ShapeConstPtr box(double x, double y, double z)
+{
+  return std::make_shared<shapes::Box>(x, y, z);
+}
+
+class Planner : public testing::Test
+{
+ protected:
+  Planner() : scene_(std::make_shared<planning_scene::PlanningScene>(robot())), start_(robot()), goal_(robot())
+  {
+    start_.setToDefaultValues();
+    start_.setJointGroupPositions(kArm, std::vector<double>{-1.2, -0.3, 0.0, -2.0, 0.0, 1.7, 0.8});
+    start_.update();
+    goal_ = start_;
+    goal_.setJointGroupPositions(kArm, std::vector<double>{1.2, -0.3, 0.0, -2.0, 0.0, 1.7, 0.8});
+    goal_.update();
+    scene_->setCurrentState(start_);
+  }
+
+  static const moveit::core::RobotModelPtr& robot()
+  {
+    static const moveit::core::RobotModelPtr model = moveit::core::loadTestingRobotModel("panda");
+    return model;
+  }
+
+  static planning_interface::PlannerManager& manager()
+  {
+    static const planning_interface::PlannerManagerPtr manager = loadManager(robot());
+    return *manager;
+  }
+
+  /// A request from the scene's current state to goal_.
+  MotionPlanRequest request(const RobotState& goal, double tolerance = 1e-4) const
+  {
+    MotionPlanRequest request;
+    request.group_name = kArm;
+    request.allowed_planning_time = 20.0;
+    request.num_planning_attempts = 1;
+    request.start_state.is_diff = true;
+    request.goal_constraints.push_back(
+        kinematic_constraints::constructGoalConstraints(goal, robot()->getJointModelGroup(kArm), tolerance));
+    return request;
+  }
+
+  int plan(const MotionPlanRequest& request, MotionPlanResponse& response) const
+  {
+    moveit_msgs::MoveItErrorCodes code;
+    const planning_interface::PlanningContextPtr context = manager().getPlanningContext(scene_, request, code);
+    if (!context)
+      return code.val;
+    const bool solved = context->solve(response);
+    EXPECT_EQ(solved, response.error_code_.val == MoveItErrorCodes::SUCCESS);
+    EXPECT_EQ(solved, response.trajectory_ != nullptr);
+    return response.error_code_.val;
+  }
+
+  int plan(const MotionPlanRequest& request) const
+  {
+    MotionPlanResponse response;
+    return plan(request, response);
+  }
+
+  bool collides(const RobotState& state) const { return scene_->isStateColliding(state, kArm); }
+
+  /// The number of states of a path that collide: 100 in each motion between two waypoints.
+  int collidingStates(const robot_trajectory::RobotTrajectory& path) const
+  {
+    int count = 0;
+    RobotState state = path.getFirstWayPoint();
+    for (std::size_t i = 1; i < path.getWayPointCount(); ++i)
+      for (int k = 0; k <= 100; ++k)
+      {
+        path.getWayPoint(i - 1).interpolate(path.getWayPoint(i), 0.01 * k, state);
+        state.update();
+        count += collides(state) ? 1 : 0;
+      }
+    return count;
+  }
+
+  bool fulfils(const RobotState& state, const moveit_msgs::Constraints& goal) const
+  {
+    kinematic_constraints::KinematicConstraintSet constraints(robot());
+    constraints.add(goal, scene_->getTransforms());
+    return constraints.decide(state).satisfied;
+  }
+
+  void addObject(const std::string& name, const shapes::ShapeConstPtr& shape, const Isometry3d& pose)
+  {
+    scene_->getWorldNonConst()->addToObject(name, pose, shape, Isometry3d::Identity());
+  }
+
+  /// A post in front of the robot, between start and goal.
+  void addPost() { addObject("post", box(0.1, 0.1, 1.6), at(0.5, 0.0, 0.8)); }
+
+  /// A box at the hand in the goal.
+  void addBoxInGoal() { addObject("box", box(0.1, 0.1, 0.1), goal_.getGlobalLinkTransform("panda_hand")); }
+
+  void attachBox(const std::set<std::string>& touch_links, const Vector3d& size, const Isometry3d& pose)
+  {
+    RobotState& state = scene_->getCurrentStateNonConst();
+    state.attachBody("tool", pose, {box(size.x(), size.y(), size.z())}, {Isometry3d::Identity()}, touch_links,
+                     "panda_hand");
+    state.update();
+  }
+
+  planning_scene::PlanningScenePtr scene_;
+  RobotState start_;
+  RobotState goal_;
+};
+
+const std::set<std::string> kHandLinks = {"panda_hand", "panda_leftfinger", "panda_rightfinger"};
+
+TEST_F(Planner, FindsAPathAroundObjectsThatIsFreeForFcl)
+{
+  addPost();
+  addObject("ball", std::make_shared<shapes::Sphere>(0.1), at(0.3, 0.5, 0.7));
+  addObject("table", box(0.4, 2.0, 0.02), at(0.7, 0.0, 0.1));
+  const MotionPlanRequest asked = request(goal_);
+  MotionPlanResponse response;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked, response));
+  EXPECT_EQ(0, collidingStates(*response.trajectory_));
+  EXPECT_LT(2u, response.trajectory_->getWayPointCount());
+  EXPECT_EQ(0.0, response.trajectory_->getFirstWayPoint().distance(start_));
+  EXPECT_TRUE(fulfils(response.trajectory_->getLastWayPoint(), asked.goal_constraints[0]));
+  EXPECT_EQ("gpu_planning_scene/BatchRrtConnect", response.planner_id_);
+}
+
+TEST_F(Planner, WaypointsAreNotFartherApartThanTheDistance)
+{
+  MotionPlanResponse response;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_), response));
+  for (std::size_t i = 1; i < response.trajectory_->getWayPointCount(); ++i)
+    EXPECT_LE(std::abs(response.trajectory_->getWayPoint(i).getVariablePosition("panda_joint1") -
+                       response.trajectory_->getWayPoint(i - 1).getVariablePosition("panda_joint1")),
+              0.1 + 1e-9);
+}
+
+TEST_F(Planner, CarriesAttachedObjectsAroundObstacles)
+{
+  addPost();
+  attachBox(kHandLinks, {0.05, 0.05, 0.3}, at(0.0, 0.0, 0.25));
+  MotionPlanResponse response;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_), response));
+  EXPECT_EQ(0, collidingStates(*response.trajectory_));
+}
+
+TEST_F(Planner, TakesAttachedObjectsOfTheStartState)
+{
+  addObject("shelf", box(0.05, 0.05, 0.05), goal_.getGlobalLinkTransform("panda_hand") * at(0.0, 0.0, 0.35));
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
+  MotionPlanRequest carrying = request(goal_);
+  RobotState with_tool = start_;
+  with_tool.attachBody("tool", at(0.0, 0.0, 0.25), {box(0.05, 0.05, 0.3)}, {Isometry3d::Identity()}, kHandLinks,
+                       "panda_hand");
+  with_tool.update();
+  moveit::core::robotStateToRobotStateMsg(with_tool, carrying.start_state);
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(carrying));
+}
+
+TEST_F(Planner, ChecksAnAttachedObjectAgainstItsOwnLinkAsMoveItDoes)
+{
+  attachBox({}, {0.04, 0.04, 0.04}, at(0.0, 0.11, 0.03));
+  ASSERT_TRUE(collides(scene_->getCurrentState()));
+  EXPECT_EQ(int(MoveItErrorCodes::START_STATE_IN_COLLISION), plan(request(goal_)));
+  scene_->getAllowedCollisionMatrixNonConst().setEntry("tool", "panda_hand", true);
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
+}
+
+TEST_F(Planner, AvoidsTheOccupiedCellsOfAnOctomap)
+{
+  const auto octree = std::make_shared<octomap::OcTree>(0.05);
+  for (double z = 0.025; z < 1.6; z += 0.05)
+    for (double y = -0.075; y < 0.1; y += 0.05)
+      octree->updateNode(octomap::point3d(0.525F, static_cast<float>(y), static_cast<float>(z)), true);
+  scene_->processOctomapPtr(octree, Isometry3d::Identity());
+  MotionPlanResponse response;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_), response));
+  EXPECT_EQ(0, collidingStates(*response.trajectory_));
+  const Vector3d hand = goal_.getGlobalLinkTransform("panda_hand").translation();
+  octree->updateNode(
+      octomap::point3d(static_cast<float>(hand.x()), static_cast<float>(hand.y()), static_cast<float>(hand.z())), true);
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
+}
+
+TEST_F(Planner, TellsStartsAndGoalsThatCollide)
+{
+  addBoxInGoal();
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
+  scene_->setCurrentState(goal_);
+  EXPECT_EQ(int(MoveItErrorCodes::START_STATE_IN_COLLISION), plan(request(start_)));
+}
+
+TEST_F(Planner, FollowsTheAllowedCollisionMatrix)
+{
+  addBoxInGoal();
+  collision_detection::AllowedCollisionMatrix& matrix = scene_->getAllowedCollisionMatrixNonConst();
+  matrix.setDefaultEntry("box", true);
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
+  matrix.setEntry("box", "panda_hand", false);
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
+  matrix.setEntry("box", "panda_hand", true);
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
+  // A decider may forbid a contact, so it allows none here.
+  collision_detection::DecideContactFn always = [](collision_detection::Contact&) { return true; };
+  matrix.setEntry("box", "panda_hand", always);
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
+}
+
+TEST_F(Planner, KeepsThePaddingOfTheScene)
+{
+  addObject("box", box(0.02, 0.02, 0.02), goal_.getGlobalLinkTransform("panda_hand") * at(0.0, 0.0, 0.16));
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
+  scene_->getCollisionEnvNonConst()->setPadding(0.06);
+  scene_->propogateRobotPadding();
+  ASSERT_TRUE(collides(goal_));
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
+}
+
+TEST_F(Planner, ScalesLinksForTheCheckWithTheWorldOnly)
+{
+  addObject("box", box(0.02, 0.02, 0.02), goal_.getGlobalLinkTransform("panda_hand") * at(0.0, 0.0, 0.14));
+  ASSERT_FALSE(collides(goal_));
+  scene_->getCollisionEnvNonConst()->setScale(2.5);
+  ASSERT_FALSE(collides(start_));  // the scaled links overlap
+  ASSERT_TRUE(collides(goal_));
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
+  scene_->getWorldNonConst()->clearObjects();
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
+}
+
+TEST_F(Planner, RefusesGroupsConstraintsAndGoalsThatItDoesNotPlanFor)
+{
+  const auto refused = [this](const MotionPlanRequest& asked)
+  {
+    EXPECT_FALSE(manager().canServiceRequest(asked));
+    return plan(asked);
+  };
+  EXPECT_TRUE(manager().canServiceRequest(request(goal_)));
+  MotionPlanRequest asked = request(goal_);
+  asked.group_name = "no_such_group";
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_GROUP_NAME), refused(asked));
+  asked = request(goal_);
+  asked.path_constraints = asked.goal_constraints[0];
+  EXPECT_EQ(int(MoveItErrorCodes::PLANNING_FAILED), refused(asked));
+  asked = request(goal_);
+  asked.trajectory_constraints.constraints.resize(1);
+  EXPECT_EQ(int(MoveItErrorCodes::PLANNING_FAILED), refused(asked));
+  asked = request(goal_);
+  asked.goal_constraints.clear();
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), refused(asked));
+  geometry_msgs::PoseStamped pose;
+  pose.header.frame_id = "panda_link0";
+  pose.pose.orientation.w = 1.0;
+  asked.goal_constraints.push_back(kinematic_constraints::constructGoalConstraints("panda_link8", pose));
+  EXPECT_EQ(int(MoveItErrorCodes::UNRECOGNIZED_GOAL_TYPE), refused(asked));
+}
+
+TEST_F(Planner, RefusesGoalConstraintsThatCannotBeFulfilled)
+{
+  const auto with = [this](const std::function<void(moveit_msgs::JointConstraint&)>& change)
+  {
+    MotionPlanRequest asked = request(goal_);
+    change(asked.goal_constraints[0].joint_constraints[0]);
+    return plan(asked);
+  };
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), with([](auto& joint) { joint.joint_name = "elbow"; }));
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), with([](auto& joint) { joint.position = NAN; }));
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), with([](auto& joint) { joint.tolerance_below = -1.0; }));
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_STATE_INVALID), with([](auto& joint) { joint.position = 5.0; }));
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), with(
+                                                                 [](auto& joint)
+                                                                 {
+                                                                   joint.joint_name = "panda_finger_joint1";
+                                                                   joint.position = 0.03;
+                                                                 }));
+}
+
+TEST_F(Planner, SearchesAFreeStateWithinTheTolerances)
+{
+  addBoxInGoal();
+  const MotionPlanRequest asked = request(goal_, 0.3);
+  MotionPlanResponse response;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked, response));
+  EXPECT_EQ(0, collidingStates(*response.trajectory_));
+  EXPECT_TRUE(fulfils(response.trajectory_->getLastWayPoint(), asked.goal_constraints[0]));
+}
+
+TEST_F(Planner, ReachesOneOfSeveralGoals)
+{
+  addBoxInGoal();
+  MotionPlanRequest asked = request(goal_);
+  RobotState other = goal_;
+  other.setVariablePosition("panda_joint1", 0.2);
+  other.update();
+  asked.goal_constraints.push_back(request(other).goal_constraints[0]);
+  MotionPlanResponse response;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked, response));
+  EXPECT_TRUE(fulfils(response.trajectory_->getLastWayPoint(), asked.goal_constraints[1]));
+}
+
+TEST_F(Planner, LeavesJointsWithoutAConstraintToTheSearch)
+{
+  MotionPlanRequest asked = request(goal_);
+  asked.goal_constraints[0].joint_constraints.resize(2);
+  MotionPlanResponse response;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked, response));
+  EXPECT_TRUE(fulfils(response.trajectory_->getLastWayPoint(), asked.goal_constraints[0]));
+}
+
+TEST_F(Planner, RefusesStartStatesThatItCannotUse)
+{
+  MotionPlanRequest asked = request(goal_);
+  asked.start_state.joint_state.name = {"elbow"};
+  asked.start_state.joint_state.position = {0.0};
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan(asked));
+  asked.start_state.joint_state.name = {"panda_joint1"};
+  asked.start_state.joint_state.position = {5.0};
+  EXPECT_EQ(int(MoveItErrorCodes::START_STATE_INVALID), plan(asked));
+  asked.start_state.joint_state.position = {-1.0};
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked));
+  moveit_msgs::AttachedCollisionObject tool;
+  tool.link_name = "panda_hand";
+  tool.object.header.frame_id = "nowhere";
+  tool.object.id = "tool";
+  tool.object.primitives.resize(1);
+  tool.object.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
+  tool.object.primitives[0].dimensions = {0.1};
+  tool.object.primitive_poses.resize(1);
+  tool.object.primitive_poses[0].orientation.w = 1.0;
+  asked.start_state.attached_collision_objects.push_back(tool);
+  EXPECT_EQ(int(MoveItErrorCodes::FRAME_TRANSFORM_FAILURE), plan(asked));
+}
+
+TEST_F(Planner, RefusesScenesThatItCannotCheckExactly)
+{
+  addObject("flat", box(0.0, 0.1, 0.1), at(2.0, 2.0, 2.0));
+  EXPECT_EQ(int(MoveItErrorCodes::COLLISION_CHECKING_UNAVAILABLE), plan(request(goal_)));
+  scene_->getWorldNonConst()->removeObject("flat");
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
+  scene_->setStateFeasibilityPredicate([](const RobotState&, bool) { return true; });
+  EXPECT_EQ(int(MoveItErrorCodes::COLLISION_CHECKING_UNAVAILABLE), plan(request(goal_)));
+}
+
+TEST_F(Planner, PlansWithTheNamedPlanner)
+{
+  MotionPlanRequest asked = request(goal_);
+  asked.planner_id = "geometric::RRTConnect";
+  MotionPlanResponse response;
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked, response));
+  EXPECT_EQ(asked.planner_id, response.planner_id_);
+  asked.planner_id = "geometric::NoSuchPlanner";
+  EXPECT_EQ(int(MoveItErrorCodes::PLANNING_FAILED), plan(asked));
+
+  const planning_interface::PlannerConfigurationMap before = manager().getPlannerConfigurations();
+  EXPECT_EQ(1u, before.count(kArm));
+  planning_interface::PlannerConfigurationMap changed = before;
+  changed["panda_arm[Lazy]"] = {kArm, "panda_arm[Lazy]", {{"type", "geometric::SBL"}, {"range", "0.5"}}};
+  manager().setPlannerConfigurations(changed);
+  for (const char* id : {"Lazy", "panda_arm[Lazy]"})
+  {
+    asked.planner_id = id;
+    EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked, response));
+    EXPECT_EQ("geometric::SBL", response.planner_id_);
+  }
+  std::vector<std::string> names;
+  manager().getPlanningAlgorithms(names);
+  EXPECT_EQ(1, std::count(names.begin(), names.end(), "panda_arm[Lazy]"));
+  manager().setPlannerConfigurations(before);
+}
+
+TEST_F(Planner, ReturnsTheShortestOfSeveralAttempts)
+{
+  addPost();
+  MotionPlanRequest asked = request(goal_);
+  asked.num_planning_attempts = 4;
+  planning_interface::MotionPlanDetailedResponse response;
+  moveit_msgs::MoveItErrorCodes code;
+  const planning_interface::PlanningContextPtr context = manager().getPlanningContext(scene_, asked, code);
+  ASSERT_TRUE(context->solve(response));
+  ASSERT_EQ(1u, response.trajectory_.size());
+  EXPECT_EQ(response.trajectory_.size(), response.description_.size());
+  EXPECT_EQ(response.trajectory_.size(), response.processing_time_.size());
+  EXPECT_EQ(0, collidingStates(*response.trajectory_[0]));
+}
+
+TEST_F(Planner, KeepsTheMeasuredValueOfAMimicJoint)
+{
+  start_.setVariablePosition("panda_finger_joint1", 0.02);
+  std::vector<double> values(start_.getVariablePositions(), start_.getVariablePositions() + start_.getVariableCount());
+  const int follower = robot()->getVariableIndex("panda_finger_joint2");
+  values[follower] = 0.0213;  // a measured value, which setVariablePosition would overwrite
+  start_.setVariablePositions(values);
+  start_.update();
+  scene_->setCurrentState(start_);
+  scene_->getCurrentStateNonConst().setVariablePositions(values);
+  scene_->getCurrentStateNonConst().update();
+  MotionPlanResponse response;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_), response));
+  EXPECT_EQ(0.0213, response.trajectory_->getLastWayPoint().getVariablePosition(follower));
+
+  MotionPlanRequest hand;
+  hand.group_name = "hand";
+  hand.allowed_planning_time = 5.0;
+  hand.goal_constraints.resize(1);
+  hand.goal_constraints[0].joint_constraints.resize(1);
+  hand.goal_constraints[0].joint_constraints[0].joint_name = "panda_finger_joint1";
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan(hand));
+  values[follower] = 0.02;
+  scene_->getCurrentStateNonConst().setVariablePositions(values);
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(hand, response));
+  EXPECT_EQ(0.0, response.trajectory_->getLastWayPoint().getVariablePosition(follower));
+}
+
+/// A cart that drives on a floor, from the origin to a goal behind a wall.
+class Cart : public testing::Test
+{
+ protected:
+  Cart() : robot_(makeRobot()), scene_(std::make_shared<planning_scene::PlanningScene>(robot_))
+  {
+    scene_->getCurrentStateNonConst().setToDefaultValues();
+    scene_->getCurrentStateNonConst().update();
+    RobotState goal = scene_->getCurrentState();
+    goal.setVariablePosition("drive/x", 4.0);
+    goal.update();
+    request_.group_name = "cart";
+    request_.allowed_planning_time = 20.0;
+    request_.goal_constraints.push_back(
+        kinematic_constraints::constructGoalConstraints(goal, robot_->getJointModelGroup("cart"), 1e-3));
+    setWorkspace(5.0);
+    manager_ = loadManager(robot_);
+  }
+
+  static moveit::core::RobotModelPtr makeRobot()
+  {
+    moveit::core::RobotModelBuilder builder("cart", "base");
+    geometry_msgs::Pose pose;
+    pose.orientation.w = 1.0;
+    builder.addCollisionBox("base", {0.4, 0.4, 0.4}, pose);
+    builder.addVirtualJoint("world", "base", "planar", "drive");
+    builder.addGroup({}, {"drive"}, "cart");
+    return builder.build();
+  }
+
+  void setWorkspace(double reach)
+  {
+    request_.workspace_parameters.min_corner.x = request_.workspace_parameters.min_corner.y = -reach;
+    request_.workspace_parameters.max_corner.x = request_.workspace_parameters.max_corner.y = reach;
+  }
+
+  void addWall(double length)
+  {
+    scene_->getWorldNonConst()->addToObject("wall", at(2.0, 0.0, 0.0), box(0.2, length, 1.0), Isometry3d::Identity());
+  }
+
+  int plan()
+  {
+    moveit_msgs::MoveItErrorCodes code;
+    const planning_interface::PlanningContextPtr context = manager_->getPlanningContext(scene_, request_, code);
+    if (!context)
+      return code.val;
+    context->solve(response_);
+    return response_.error_code_.val;
+  }
+
+  moveit::core::RobotModelPtr robot_;
+  planning_scene::PlanningScenePtr scene_;
+  planning_interface::PlannerManagerPtr manager_;
+  MotionPlanRequest request_;
+  MotionPlanResponse response_;
+};
+
+TEST_F(Cart, StaysInTheWorkspace)
+{
+  addWall(4.0);
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan());
+  for (std::size_t i = 0; i < response_.trajectory_->getWayPointCount(); ++i)
+  {
+    const RobotState& waypoint = response_.trajectory_->getWayPoint(i);
+    EXPECT_FALSE(scene_->isStateColliding(waypoint, "cart"));
+    EXPECT_LE(std::abs(waypoint.getVariablePosition("drive/x")), 5.0);
+    EXPECT_LE(std::abs(waypoint.getVariablePosition("drive/y")), 5.0);
+  }
+  setWorkspace(3.0);
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_STATE_INVALID), plan());
+}
+
+TEST_F(Cart, NeedsAWorkspaceInAKnownFrame)
+{
+  setWorkspace(0.0);
+  EXPECT_EQ(int(MoveItErrorCodes::PLANNING_FAILED), plan());
+  setWorkspace(5.0);
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan());
+  request_.workspace_parameters.header.frame_id = "nowhere";
+  EXPECT_EQ(int(MoveItErrorCodes::FRAME_TRANSFORM_FAILURE), plan());
+}
+
+TEST_F(Cart, EndsWithTheTimeOrWhenItIsTerminated)
+{
+  addWall(20.0);  // across the workspace
+  request_.allowed_planning_time = 0.3;
+  EXPECT_EQ(int(MoveItErrorCodes::TIMED_OUT), plan());
+  request_.allowed_planning_time = 100.0;
+  std::atomic<bool> done{false};
+  std::thread terminating(
+      [&]
+      {
+        while (!done)
+        {
+          std::this_thread::sleep_for(std::chrono::milliseconds(50));
+          manager_->terminate();
+        }
+      });
+  EXPECT_EQ(int(MoveItErrorCodes::PREEMPTED), plan());
+  done = true;
+  terminating.join();
+}
+
+/// Fills a scene with shapes of all kinds, an octomap, padding, attached objects and a random matrix.
+void fillScene(planning_scene::PlanningScene& scene, random_numbers::RandomNumberGenerator& random,
+               const std::string& carrying_link)
+{
+  collision_detection::World& world = *scene.getWorldNonConst();
+  const auto place = [&random]
+  {
+    double q[4];
+    random.quaternion(q);
+    return Isometry3d(Eigen::Translation3d(random.uniformReal(-1.0, 1.0), random.uniformReal(-1.0, 1.0),
+                                           random.uniformReal(-0.2, 1.4)) *
+                      Eigen::Quaterniond(q[3], q[0], q[1], q[2]));
+  };
+  for (int i = 0; i < 4; ++i)
+  {
+    const std::string number = std::to_string(i);
+    world.addToObject("box" + number, place(), box(0.1, 0.2, 0.3), place());
+    world.addToObject("ball" + number, place(), std::make_shared<shapes::Sphere>(0.1), Isometry3d::Identity());
+    world.addToObject("can" + number, place(), std::make_shared<shapes::Cylinder>(0.1, 0.3), Isometry3d::Identity());
+    world.addToObject("cone" + number, place(), std::make_shared<shapes::Cone>(0.1, 0.3), Isometry3d::Identity());
+    world.addToObject("mesh" + number, place(),
+                      shapes::ShapeConstPtr(shapes::createMeshFromShape(shapes::Cylinder(0.1, 0.3))),
+                      Isometry3d::Identity());
+  }
+  world.addToObject("floor", Isometry3d::Identity(), std::make_shared<shapes::Plane>(0.0, 0.0, 1.0, 0.6),
+                    Isometry3d::Identity());
+  const auto octree = std::make_shared<octomap::OcTree>(0.05);
+  for (int i = 0; i < 60; ++i)
+  {
+    const Vector3d cell = place().translation();
+    octree->updateNode(
+        octomap::point3d(static_cast<float>(cell.x()), static_cast<float>(cell.y()), static_cast<float>(cell.z())),
+        true);
+  }
+  scene.processOctomapPtr(octree, at(0.1, 0.2, 0.3));
+  for (const moveit::core::LinkModel* link : scene.getRobotModel()->getLinkModels())
+  {
+    scene.getCollisionEnvNonConst()->setLinkPadding(link->getName(), random.uniformReal(0.0, 0.03));
+    if (random.uniform01() < 0.3)
+      scene.getCollisionEnvNonConst()->setLinkScale(link->getName(), random.uniformReal(0.5, 1.5));
+  }
+  scene.getCollisionEnvNonConst()->setLinkScale(carrying_link, 1.2);
+  RobotState& state = scene.getCurrentStateNonConst();
+  state.attachBody("tool", at(0.0, 0.0, 0.2), {box(0.05, 0.05, 0.05)}, {at(0.0, 0.0, 0.01)}, std::set<std::string>(),
+                   carrying_link);
+  state.attachBody("grip", at(0.0, 0.1, 0.1), {std::make_shared<shapes::Sphere>(0.05)}, {Isometry3d::Identity()},
+                   std::set<std::string>{carrying_link}, carrying_link);
+  state.update();
+  collision_detection::AllowedCollisionMatrix& matrix = scene.getAllowedCollisionMatrixNonConst();
+  matrix.setDefaultEntry("ball0", true);
+  matrix.setDefaultEntry(carrying_link, true);
+  matrix.setDefaultEntry("can1", false);
+  matrix.setEntry("ball0", carrying_link, false);
+  matrix.setEntry("floor", true);
+  matrix.setEntry("tool", "box1", true);
+  matrix.setEntry(planning_scene::PlanningScene::OCTOMAP_NS, "grip", true);
+}
+
+/// Allows the pairs that collide in a few random states, because the matrix of MoveIt's pr2 allows few pairs of links.
+void allowCollidingPairs(planning_scene::PlanningScene& scene, random_numbers::RandomNumberGenerator& random)
+{
+  RobotState state = scene.getCurrentState();
+  for (int i = 0; i < 5; ++i)
+  {
+    CollisionRequest request;
+    request.contacts = true;
+    request.max_contacts = 1000000;
+    CollisionResult result;
+    scene.checkCollision(request, result, state);
+    for (const auto& [pair, contacts] : result.contacts)
+      scene.getAllowedCollisionMatrixNonConst().setEntry(pair.first, pair.second, true);
+    state.setToRandomPositions(random);
+    state.update();
+  }
+}
+
+/// The converted scene has the answers of the detector, which takes MoveIt's scene as it is.
+void expectEqualAnswers(const moveit::core::RobotModelPtr& robot, const std::string& group_name,
+                        const std::string& carrying_link, int states)
+{
+  random_numbers::RandomNumberGenerator random(7);
+  planning_scene::PlanningScene scene(robot);
+  scene.getCurrentStateNonConst().setToDefaultValues();
+  fillScene(scene, random, carrying_link);
+  scene.setActiveCollisionDetector(detector::CollisionDetectorAllocator::create(), true);
+  if (robot->getName() == "pr2")
+    allowCollidingPairs(scene, random);
+  const moveit::core::JointModelGroup& group = *robot->getJointModelGroup(group_name);
+  SceneConverter converter;
+  const ConvertedScene converted = converter.convert(scene, scene.getCurrentState(), group, std::nullopt);
+  core::CpuChecker checker(converted.scene);
+  RobotState state = scene.getCurrentState();
+  int colliding = 0;
+  for (int i = 0; i < states; ++i)
+  {
+    state.setToRandomPositions(&group, random);
+    state.update();
+    CollisionRequest request;
+    request.group_name = group_name;
+    CollisionResult result;
+    scene.checkCollision(request, result, state);
+    const core::BatchResult answer = checker.check(converted.robot->row(state).data(), 1, group_name);
+    EXPECT_EQ(result.collision, answer.valid[0] == 0) << "state " << i;
+    colliding += result.collision ? 1 : 0;
+  }
+  EXPECT_LT(states / 100, colliding);
+  EXPECT_LT(colliding, states - states / 100);
+}
+
+TEST(ConvertedScene, HasTheAnswersOfTheDetectorForPanda)
+{
+  expectEqualAnswers(moveit::core::loadTestingRobotModel("panda"), "panda_arm_hand", "panda_hand", 3000);
+}
+
+TEST(ConvertedScene, HasTheAnswersOfTheDetectorForPr2)
+{
+  expectEqualAnswers(moveit::core::loadTestingRobotModel("pr2"), "right_arm", "r_wrist_roll_link", 1000);
+}
+}  // namespace
+}  // namespace gpu_planning_scene::pipeline
