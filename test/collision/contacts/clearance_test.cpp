@@ -121,7 +121,7 @@ TEST_F(ClearanceTest, HasANearestPairWithItsPointsAndInCollisionItsDepth)
   const auto made = std::make_shared<const PlanningScene>(scene());
   const StateInspector inspector(made);
   const std::size_t width = made->robot->variables().size();
-  constexpr std::size_t kCount = 40;
+  constexpr std::size_t kCount = 20;
   const std::vector<double> states = test_.randomStates(kCount, kSeed);
   const std::vector<NearestPairs> found = inspector.nearestPairs(states.data(), kCount, "");
   ASSERT_EQ(kCount, found.size());
