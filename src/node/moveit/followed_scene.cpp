@@ -5,7 +5,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/name_list.h"
 #include "node/endpoints/respond.h"
-#include "node/endpoints/topic_warnings.h"
+#include "node/moveit/mimic_joints.h"
 
 namespace gpu_planning_scene::core
 {
@@ -206,7 +206,7 @@ void FollowedScene::apply(const Event& event)
   const Message& message = *event.getConstMessage();
   if (!message.fault.empty())
     throw Error(message.fault);
-  SceneChange change = changes_.changeOf(message.message.ours);
+  SceneChange change = changes_.changeOf(withoutMimicJoints(message.message.ours, *store_.snapshot().scene->robot));
   if (change.is_diff)
     for (const std::string& part : partsOf(change))
       unconfirmed_.erase(part);
@@ -311,7 +311,7 @@ void FollowedScene::takeOver(const PlanningSceneMessage& whole)
 {
   if (whole.is_diff)
     throw Error("the answer is not a whole scene (is_diff is true)");
-  SceneChange full = changes_.changeOf(whole);
+  SceneChange full = changes_.changeOf(withoutMimicJoints(whole, *store_.snapshot().scene->robot));
   dropMeasured(full);
   const Snapshot now = store_.snapshot();
   const SceneStore::Preview wanted = store_.preview({full}, lookup_);

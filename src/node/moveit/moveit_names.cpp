@@ -3,6 +3,7 @@
 #include "gpu_planning_scene/error.h"
 #include "node/endpoints/topic_warnings.h"
 #include "node/messages/to_messages.h"
+#include "node/moveit/mimic_joints.h"
 
 namespace gpu_planning_scene::core
 {
@@ -100,8 +101,10 @@ MoveItNames::MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices
     checks_(node, node, kCheckThreads, diagnostics),
     topics_(node, node, changes, lookup, diagnostics, max_changes, max_bytes)
 {
+  const std::shared_ptr<const RobotModel> robot = store.snapshot().scene->robot;
   topics_.subscribe<MoveItScene>(
-      "planning_scene", [&changes](const MoveItScene& m) { return changes.changeOf(m.ours); });
+      "planning_scene",
+      [&changes, robot](const MoveItScene& m) { return changes.changeOf(withoutMimicJoints(m.ours, *robot)); });
   topics_.subscribe<MoveItWorld>(
       "planning_scene_world", [&changes](const MoveItWorld& m) { return changes.changeOf(m.ours); });
   topics_.subscribe<MoveItObject>(
@@ -113,10 +116,10 @@ MoveItNames::MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices
   scenes_.advertise<MoveItGetScene>(kGetScene, [&changes](const MoveItGetScene::Request& r)
                                     { return MoveItGetScene::Response{changes.get(r.ours).scene}; });
   scenes_.advertise<MoveItApplyScene>(kApplyScene,
-                                      [&changes](const MoveItApplyScene::Request& r)
+                                      [&changes, robot](const MoveItApplyScene::Request& r)
                                       {
                                         ApplyPlanningScene::Request request;
-                                        request.scene = r.ours;
+                                        request.scene = withoutMimicJoints(r.ours, *robot);
                                         const ApplyPlanningScene::Response applied = changes.apply(request);
                                         if (!applied.success)
                                           throw Error(applied.message);

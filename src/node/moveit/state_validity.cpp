@@ -4,6 +4,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "node/endpoints/topic_warnings.h"
+#include "node/moveit/mimic_joints.h"
 
 namespace gpu_planning_scene::core
 {
@@ -46,8 +47,8 @@ MoveItStateValidity::Response StateValidity::answer(const StateValidityRequest& 
   PlanningSceneMessage message;
   message.is_diff = true;
   message.robot_state = request.robot_state;
-  const SceneChange change = changes_.changeOf(message);
   const Snapshot now = store_.snapshot();
+  const SceneChange change = changes_.changeOf(withoutMimicJoints(message, *now.scene->robot));
   const std::map<std::string, double>& variables = change.state.variables;
   const bool replaces_attached = !change.state.is_diff && !variables.empty() && !now.scene->attached.empty();
 

@@ -18,7 +18,7 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLongest = 30.0;  // seconds: longest wait for the node
+constexpr double kLongest = 15.0;  // seconds: longest wait for the node
 constexpr int kStates = 40;        // per comparison of verdicts
 
 /// A move_group, and a node that follows it.

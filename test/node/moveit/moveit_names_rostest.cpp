@@ -18,7 +18,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kLongest = 30.0;  // seconds: longest wait for the node
+constexpr double kLongest = 10.0;  // seconds: longest wait for the node
 
 class MoveItNames : public testing::Test
 {
@@ -257,9 +257,11 @@ TEST_F(MoveItNames, ChangesComeByMoveItsTopics)
   EXPECT_TRUE(waitFor([] { return objects() == std::set<std::string>{"first"}; }));
   moveit_msgs::PlanningScene scene = diff();
   scene.world.collision_objects = {moveItBox("second", 1.5, 0.1)};
-  publisherOf<moveit_msgs::PlanningScene>("/planning_scene").publish(scene);
+  const ros::Publisher scenes = publisherOf<moveit_msgs::PlanningScene>("/planning_scene");
+  scenes.publish(scene);
   EXPECT_TRUE(waitFor([] { return objects() == std::set<std::string>{"first", "second"}; }));
-  publisherOf<moveit_msgs::AttachedCollisionObject>("/attached_collision_object").publish(carriedBox(0.05));
+  const ros::Publisher attached = publisherOf<moveit_msgs::AttachedCollisionObject>("/attached_collision_object");
+  attached.publish(carriedBox(0.05));
   EXPECT_TRUE(waitFor([] { return get().robot_state.attached_collision_objects.size() == 1; }));
 }
 
@@ -275,7 +277,8 @@ TEST_F(MoveItNames, AWorldReplacesAllObjectsAndKeepsTheMatrix)
   ASSERT_TRUE(apply(scene));
   moveit_msgs::PlanningSceneWorld world;
   world.collision_objects = {moveItBox("stays", 3.0, 0.1), moveItBox("comes", 2.0, 0.1)};
-  publisherOf<moveit_msgs::PlanningSceneWorld>("/planning_scene_world").publish(world);
+  const ros::Publisher worlds = publisherOf<moveit_msgs::PlanningSceneWorld>("/planning_scene_world");
+  worlds.publish(world);
   EXPECT_TRUE(waitFor([] { return objects() == std::set<std::string>{"stays", "comes"}; }));
   planning_scene::PlanningScene read(model);
   ASSERT_TRUE(read.setPlanningSceneMsg(get()));
@@ -300,14 +303,16 @@ TEST_F(MoveItNames, MoveItsOwnSceneFollowsTheNode)
   const ros::Subscriber subscriber = ros::NodeHandle().subscribe<moveit_msgs::PlanningScene>(
       "/move_group/monitored_planning_scene", 1000,
       boost::function<void(const moveit_msgs::PlanningSceneConstPtr&)>(take));
+  std::string difference;
   const auto is_equal = [&]
   {
     moveit_msgs::PlanningScene message;
     const std::lock_guard<std::mutex> lock(mutex);
     follower.getPlanningSceneMsg(message);
-    return differenceOf(get(), message).empty();
+    difference = differenceOf(get(), message);
+    return difference.empty();
   };
-  EXPECT_TRUE(waitFor(is_equal)) << "the whole scene comes first";
+  EXPECT_TRUE(waitFor(is_equal)) << "the whole scene comes first: " << difference;
   RandomChanges change(11);
   const auto parent = std::make_shared<planning_scene::PlanningScene>(model);
   parent->getCurrentStateNonConst().setToDefaultValues();
@@ -321,7 +326,7 @@ TEST_F(MoveItNames, MoveItsOwnSceneFollowsTheNode)
     scene->clearDiffs();
     ASSERT_TRUE(apply(message)) << i;
   }
-  EXPECT_TRUE(waitFor(is_equal));
+  EXPECT_TRUE(waitFor(is_equal)) << difference;
 }
 
 TEST_F(MoveItNames, TheCurrentStateIsCheckedWithContacts)
