@@ -177,7 +177,7 @@ std::optional<Eigen::AlignedBox3d> workspaceOf(const planning_interface::MotionP
   if (!scene.knowsFrameTransform(frame))
     throw Refusal(MoveItErrorCodes::FRAME_TRANSFORM_FAILURE,
                   "workspace_parameters are in the frame '" + frame + "', which the scene does not know");
-  const Eigen::Isometry3d pose = scene.getFrameTransform(frame);
+  const Eigen::Isometry3d& pose = scene.getFrameTransform(frame);
   if (!pose.linear().isIdentity(1e-9))
     throw Refusal(MoveItErrorCodes::FRAME_TRANSFORM_FAILURE, "workspace_parameters are in the frame '" + frame +
                                                                  "', which is rotated; give them in the frame '" +
