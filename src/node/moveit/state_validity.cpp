@@ -44,11 +44,12 @@ StateValidity::StateValidity(const SceneStore& store, const SceneServices& chang
 MoveItStateValidity::Response StateValidity::answer(const StateValidityRequest& request) const
 {
   requireNoConstraints(request.constraints);
+  const Snapshot now = store_.snapshot();
   PlanningSceneMessage message;
   message.is_diff = true;
   message.robot_state = request.robot_state;
-  const Snapshot now = store_.snapshot();
-  const SceneChange change = changes_.changeOf(withoutMimicJoints(message, *now.scene->robot));
+  message = withoutMimicJoints(std::move(message), *now.scene->robot);
+  const SceneChange change = changes_.changeOf(message);
   const std::map<std::string, double>& variables = change.state.variables;
   const bool replaces_attached = !change.state.is_diff && !variables.empty() && !now.scene->attached.empty();
 
