@@ -18,8 +18,8 @@ namespace
 using core::JointType;
 using core::kPi;
 
-constexpr double kRounding = 1e-9;  // radians or metres: of positions and limits that were written as text
-constexpr double kWide = 0.02;      // radians or metres
+constexpr double kTextRounding = 1e-9;  // radians or metres: of positions and limits that were written as text
+constexpr double kWide = 0.02;          // radians or metres
 
 enum class ValueKind
 {
@@ -56,7 +56,7 @@ struct Wanted
   {
     const double middle = 0.5 * (lower + upper);
     const double distance = kind == ValueKind::Angle ? core::shortestAngularDistance(middle, value) : value - middle;
-    return std::abs(distance) <= 0.5 * (upper - lower) + kRounding;
+    return std::abs(distance) <= 0.5 * (upper - lower) + kTextRounding;
   }
 };
 
@@ -103,7 +103,7 @@ std::map<int, Wanted> wantedValues(const moveit_msgs::Constraints& constraints, 
       refuse(constraint.joint_name, "is given twice; give it once");
     known->second.lower = std::max(known->second.lower, value.lower);
     known->second.upper = std::min(known->second.upper, value.upper);
-    if (known->second.lower > known->second.upper + kRounding)
+    if (known->second.lower > known->second.upper + kTextRounding)
       refuse(constraint.joint_name, "contradicts another constraint of the same joint");
   }
   return wanted;
@@ -172,7 +172,7 @@ GoalRegion::GoalRegion(const moveit_msgs::Constraints& constraints, const moveit
     {
       range.lower = std::max(range.lower, value->second.lower);
       range.upper = std::min(range.upper, value->second.upper);
-      if (range.lower > range.upper + kRounding)
+      if (range.lower > range.upper + kTextRounding)
         refuse(variable.name,
                "asks for " + std::to_string(value->second.lower) + " to " + std::to_string(value->second.upper) +
                    ", outside the limits " + std::to_string(variable.lower) + " to " + std::to_string(variable.upper),
