@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 // Distance bounds are widened by this margin, which exceeds their rounding error.
 constexpr double kDistanceMargin = 1e-9;  // metres
 
-struct NearestInstances
+struct NearestFound
 {
   double clearance = std::numeric_limits<double>::infinity();
   BodyPair bodies = kNoPair;
@@ -81,7 +81,7 @@ class Search
     }
   }
 
-  NearestInstances self()
+  NearestFound self()
   {
     struct Candidate
     {
@@ -93,7 +93,7 @@ class Search
       candidates.push_back({leastDistance(bounds_[pair[0]], bounds_[pair[1]]), pair});
     std::sort(candidates.begin(), candidates.end(),
               [](const Candidate& a, const Candidate& b) { return a.lower < b.lower; });
-    NearestInstances nearest;
+    NearestFound nearest;
     for (const auto& [lower, pair] : candidates)
     {
       const auto [i, j] = pair;
@@ -110,9 +110,9 @@ class Search
     return nearest;
   }
 
-  NearestInstances world()
+  NearestFound world()
   {
-    NearestInstances nearest;
+    NearestFound nearest;
     for (std::uint32_t i = 0; i < problem_.robot.size(); ++i)
     {
       considerObjects(i, nearest);
@@ -127,7 +127,7 @@ class Search
   /// Visits the tree over objects, the nearer child first. Skips nodes that are not nearer than the best clearance so
   /// far. The boxes of the tree and of the robot are grown by their padding. A grown box contains all points within the
   /// padding of its shape. So the distance of two grown boxes is at most the clearance of their pair.
-  void considerObjects(std::uint32_t instance, NearestInstances& nearest)
+  void considerObjects(std::uint32_t instance, NearestFound& nearest)
   {
     if (objects_.nodes().empty())
       return;
@@ -156,7 +156,7 @@ class Search
     }
   }
 
-  void considerObject(std::uint32_t instance, std::uint32_t object, NearestInstances& nearest)
+  void considerObject(std::uint32_t instance, std::uint32_t object, NearestFound& nearest)
   {
     if (problem_.world_pairs[instance * problem_.world.size() + object] == 0)
       return;
@@ -175,7 +175,7 @@ class Search
         });
   }
 
-  void considerHalfSpace(std::uint32_t instance, std::uint32_t index, NearestInstances& nearest)
+  void considerHalfSpace(std::uint32_t instance, std::uint32_t index, NearestFound& nearest)
   {
     const WorldHalfSpace& half_space = problem_.half_spaces[index];
     const auto first = static_cast<std::uint32_t>(problem_.robot.size() + problem_.world.size());
@@ -224,8 +224,8 @@ ClearanceSearch::ClearanceSearch(std::shared_ptr<const CollisionProblem> problem
 NearestInstances ClearanceSearch::find(const Isometry3d* link_poses) const
 {
   Search search(*problem_, forest_, *objects_, world_bounds_, link_poses);
-  const NearestInstances world = search.world();
-  const NearestInstances self = search.self();
+  const NearestFound world = search.world();
+  const NearestFound self = search.self();
   return {{world.clearance, self.clearance, world.bodies, self.bodies}, world.instances, self.instances};
 }
 }  // namespace gpu_planning_scene::core
