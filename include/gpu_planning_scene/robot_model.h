@@ -152,7 +152,7 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   const Group& group(const std::string& name) const;  ///< throws Error that lists the groups if it is unknown
   /// The state of the SRDF with this name: NAME or GROUP/NAME. If several groups have a state NAME, for example an arm
   /// and its hand, it has the values of all of them. Throws Error that lists the states if there is none, and Error if
-  /// two groups give a variable different values.
+  /// two groups give a variable different values or the state has no variable.
   NamedState namedState(const std::string& name) const;
 
   /// Pairs of adjacent links, sorted: each link with shapes, and its nearest ancestor with shapes.

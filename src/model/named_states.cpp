@@ -122,6 +122,9 @@ NamedState RobotModel::namedState(const std::string& name) const
   if (result.name.empty())
     throw Error("the SRDF has no state '" + name + "'; " +
                 (names.empty() ? "it names no states" : "its states: " + names));
+  if (result.variables.empty())
+    throw Error("the state '" + name + "' of the SRDF sets no variable: it has only joints that are fixed or follow " +
+                "other joints; name another state");
   return result;
 }
 }  // namespace gpu_planning_scene::core

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iomanip>
 #include <iostream>
 #include <random>
+#include <sstream>
 #include <string_view>
 
 #include "collision/checkers/scene_text.h"
@@ -52,6 +54,14 @@ std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene&
     if (const std::string warning = setValues(*scene.robot, arguments.value("--state", ""), state); !warning.empty())
       printWarnings({warning});
   return state;
+}
+
+/// "X,Y,Z", to the millimetre.
+std::string textOf(const Eigen::Vector3d& point)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(3) << point.x() << "," << point.y() << "," << point.z();
+  return text.str();
 }
 
 Camera cameraFrom(const CommandLine& arguments, const PlanningScene& scene, const double* state,
@@ -108,9 +118,11 @@ void run(const CommandLine& arguments)
   if (!colliding.empty())
     for (const Contact& contact : StateInspector(shared).contacts(state.data(), "", kMaxContacts, kMaxContactsOfPair))
       points.push_back(contact.point);
-  writePng(render(scene, state.data(), colliding, points, cameraFrom(arguments, scene, state.data(), colliding, points),
-                  width, height, arguments.value("--device", "auto")),
+  const Camera camera = cameraFrom(arguments, scene, state.data(), colliding, points);
+  writePng(render(scene, state.data(), colliding, points, camera, width, height, arguments.value("--device", "auto")),
            out);
+  if (!arguments.has("--camera"))
+    std::cerr << "camera: --camera " << textOf(camera.eye) << "," << textOf(camera.target) << "\n";
   for (const auto& pair : colliding)
     std::cerr << "collides: " << scene.bodyName(pair[0]) << " - " << scene.bodyName(pair[1]) << "\n";
   std::cerr << (colliding.empty() ? "free of collision" : counted(colliding.size(), "colliding pair")) << ", " << out

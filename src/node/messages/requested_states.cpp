@@ -34,10 +34,6 @@ NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::st
     throw Error(std::string(field.name) + " is '" + field.values +
                 "', but the request has joint names or positions too; give one of the two");
   const NamedState state = robot.namedState(field.values);
-  if (state.variables.empty())
-    throw Error(std::string(field.name) + " is '" + field.values +
-                "', which sets no variable: in the SRDF, this state has only joints that are fixed or follow other "
-                "joints; name another state");
   NamedRow row;
   row.values = state.values;
   for (const int variable : state.variables)

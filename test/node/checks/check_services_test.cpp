@@ -439,8 +439,8 @@ TEST_F(Service, ANamedStateOfFixedJointsIsRefused)
   const auto robot = RobotModel::fromXml(sliderUrdf(), srdf, {});
   const std::string error = errorOf([&] { requestedNamedState(*robot, {"named_state", "tight"}, true); });
   EXPECT_EQ(
-      "named_state is 'tight', which sets no variable: in the SRDF, this state has only joints that are fixed or "
-      "follow other joints; name another state",
+      "the state 'tight' of the SRDF sets no variable: it has only joints that are fixed or follow other joints; name "
+      "another state",
       error);
 }
 
