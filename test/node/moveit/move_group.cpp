@@ -62,7 +62,7 @@ std::string differenceOf(const moveit_msgs::CollisionObject& a, const moveit_msg
     return "poses of shapes";
   if (a.subframe_names != b.subframe_names || !samePoses(a.subframe_poses, b.subframe_poses))
     return "subframes";
-  if (std::getenv("GPS_OCTO") && (a.type.key != b.type.key || a.type.db != b.type.db))
+  if (a.type.key != b.type.key || a.type.db != b.type.db)
     return "type";
   return "";
 }
@@ -74,7 +74,7 @@ std::string differenceOf(const moveit_msgs::AttachedCollisionObject& a, const mo
   if (std::set<std::string>(a.touch_links.begin(), a.touch_links.end()) !=
       std::set<std::string>(b.touch_links.begin(), b.touch_links.end()))
     return "touch links";
-  if (std::getenv("GPS_OCTO") && bytesOf(a.detach_posture.points) != bytesOf(b.detach_posture.points))
+  if (bytesOf(a.detach_posture.points) != bytesOf(b.detach_posture.points))
     return "detach_posture";
   return differenceOf(a.object, b.object);
 }
