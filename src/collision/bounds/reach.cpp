@@ -28,8 +28,8 @@ constexpr double kReachMargin = 1e-6;  // metres
 
 // Beyond these values the resolution of a double is too coarse for the margin. The region then counts as unbounded, or
 // the joint as turning the full circle.
-constexpr double kFarthest = 1e6;        // metres
-constexpr double kLargestAngle = 100.0;  // radians
+constexpr double kFarthest = 1e6;            // metres
+constexpr double kLargestBallAngle = 100.0;  // radians
 
 // Sweeping through a joint takes some dozens of operations. Each has a rounding error of 2^-53 times the coordinates.
 constexpr double kReachRounding = 1e-12;  // relative to the distance from the origin plus the radius
@@ -111,8 +111,8 @@ int partsFor(double travel, double radius)
 }
 
 /// Covers a ball that turns about an axis through the origin by the angles from `lower` to `upper`, which are at most
-/// kLargestAngle in magnitude. The arc of the ball's centre, with radius rho, is cut into parts of half angle h. Each
-/// part lies in a ball around the middle of its chord with radius rho sin h if h < pi / 2: at an angle f from the
+/// kLargestBallAngle in magnitude. The arc of the ball's centre, with radius rho, is cut into parts of half angle h.
+/// Each part lies in a ball around the middle of its chord with radius rho sin h if h < pi / 2: at an angle f from the
 /// middle of the arc, the squared distance from this point is rho^2 (1 - 2 cos f cos h + cos^2 h). This is largest at
 /// the ends of the arc, f = h, where it equals (rho sin h)^2.
 void turn(const Ball& ball, const Vector3d& axis, double lower, double upper, std::vector<Ball>& result)
@@ -228,7 +228,7 @@ std::optional<Reach::Interval> Reach::positions(const Joint& joint) const
     return turns ? std::make_optional(circle) : std::nullopt;
   const double ends[2] = {joint.multiplier * variable->lower + joint.offset,
                           joint.multiplier * variable->upper + joint.offset};
-  const double largest = turns ? kLargestAngle : kFarthest;
+  const double largest = turns ? kLargestBallAngle : kFarthest;
   if (!(std::abs(ends[0]) <= largest && std::abs(ends[1]) <= largest))
     return turns ? std::make_optional(circle) : std::nullopt;
   const Interval interval = {std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};

@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kLargestAngle = 1048576.0;  // 2^20, see shaders/problem/kinematics.glsl
+constexpr double kLargestShaderAngle = 1048576.0;  // 2^20, see shaders/problem/kinematics.glsl
 
 using Texel = std::array<std::uint32_t, 4>;
 
@@ -41,7 +41,7 @@ std::vector<double> largestValues(const RobotModel& robot)
     double& least = largest[static_cast<std::size_t>(joint.first_variable) + (planar ? 2U : 0U)];
     const double multiplier = planar ? 1.0 : std::max(std::abs(joint.multiplier), 1e-300);
     const double offset = planar ? 0.0 : std::abs(joint.offset);
-    least = std::min(least, (kLargestAngle - offset) / multiplier * (1.0 - 1e-9));
+    least = std::min(least, (kLargestShaderAngle - offset) / multiplier * (1.0 - 1e-9));
   }
   return largest;
 }

@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 /// Large enough that threads rarely contend for chunks, small enough that they finish at about the same time.
-constexpr std::size_t kStatesPerChunk = 256;
+constexpr std::size_t kPosesPerChunk = 256;
 }  // namespace
 
 /// Computes the poses in double, subtracts the origin, and rounds each pose once to float.
@@ -19,7 +19,7 @@ void UploadedPoses::write(std::size_t begin, std::size_t count, TexelBuffer& pos
 {
   const std::vector<ShapeInstance>& instances = problem_.robot;
   std::vector<float> rows(count * instances.size() * POSE_FLOATS);
-  parallelFor(count, kStatesPerChunk,
+  parallelFor(count, kPosesPerChunk,
               [&, links = std::vector<Eigen::Isometry3d>(link_count_)](std::size_t from, std::size_t to) mutable
               {
                 for (std::size_t i = from; i < to; ++i)

@@ -15,7 +15,7 @@ using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kNoLimit = 1e15;  // metres: its square is finite in float
+constexpr double kEndless = 1e15;  // metres: its square is finite in float
 
 /// Kind, size and thickness of a primitive.
 struct Size
@@ -102,9 +102,9 @@ std::vector<LaneObject> laneObjects(const CollisionProblem& problem, const CpuFo
       made.object.from_planning_frame[axis] = static_cast<float>(half_space.normal[axis]);
     made.object.from_planning_frame[3] = static_cast<float>(-offset);
     made.padding = half_space.padding;
-    made.thickness = kNoLimit;
+    made.thickness = kEndless;
     made.far = std::abs(offset);
-    made.bounds = AlignedBox3d(Vector3d::Constant(-kNoLimit), Vector3d::Constant(kNoLimit));
+    made.bounds = AlignedBox3d(Vector3d::Constant(-kEndless), Vector3d::Constant(kEndless));
     objects.push_back(made);
   }
   return objects;

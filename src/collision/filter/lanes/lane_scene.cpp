@@ -23,9 +23,9 @@ constexpr double kProductError = 12.0 * kUnit;  // of a vector of length 1, by t
 constexpr double kSumError = 12.0 * kUnit;      // of a transformed point, times its largest coordinates
 constexpr double kDistanceError = 32.0 * kUnit;
 
-constexpr double kLargestAngle = 1e4;   // radians: a larger angle modulo 2 pi is not accurate
-constexpr double kLargestGiven = 32.0;  // metres: distance of a planar or floating joint's frame from the origin
-constexpr std::size_t kGroup = 8;       // world pairs of a group
+constexpr double kLargestLaneAngle = 1e4;  // radians: a larger angle modulo 2 pi is not accurate
+constexpr double kLargestGiven = 32.0;     // metres: distance of a planar or floating joint's frame from the origin
+constexpr std::size_t kGroup = 8;          // world pairs of a group
 
 float above(double x)
 {
@@ -137,7 +137,8 @@ int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry
     writeRotation(rotation * (Matrix3d::Identity() - along), frame.first);
     writeRotation(rotation * crossProductMatrix(joint.axis), frame.second);
     double& largest = largest_[static_cast<std::size_t>(joint.first_variable)];
-    largest = std::min(largest, (kLargestAngle - std::abs(joint.offset)) / std::max(1.0, std::abs(joint.multiplier)));
+    largest =
+        std::min(largest, (kLargestLaneAngle - std::abs(joint.offset)) / std::max(1.0, std::abs(joint.multiplier)));
     turn = kTurnError;
   }
   else if (joint.type == JointType::Prismatic)

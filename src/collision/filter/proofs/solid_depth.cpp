@@ -8,7 +8,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kPoints = 400;
-constexpr double kRounding = 1e-6;  // of a depth: exceeds the rounding to float
+constexpr double kDepthRounding = 1e-6;  // of a depth: exceeds the rounding to float
 }  // namespace
 
 SolidDepth::SolidDepth(const ShapeSamples& samples, double sagitta)
@@ -20,7 +20,7 @@ SolidDepth::SolidDepth(const ShapeSamples& samples, double sagitta)
   // The true surface of a curved primitive is up to the sagitta away from the triangles.
   for (const SolidCell& cell : samples.cells)
     depths_[grid_.numberOf(grid_.cubeOf(cell.center))] =
-        static_cast<float>(std::max(0.0, (1.0 - kRounding) * cell.depth - sagitta));
+        static_cast<float>(std::max(0.0, (1.0 - kDepthRounding) * cell.depth - sagitta));
 }
 
 double SolidDepth::at(const Eigen::Vector3d& point) const
