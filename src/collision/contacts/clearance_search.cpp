@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 // Distance bounds are widened by this margin, which exceeds their rounding error.
 constexpr double kDistanceMargin = 1e-9;  // metres
 
-struct NearestInstances
+struct NearestFound
 {
   double clearance = std::numeric_limits<double>::infinity();
   BodyPair bodies = kNoPair;
@@ -79,7 +79,7 @@ class Search
     }
   }
 
-  NearestInstances self()
+  NearestFound self()
   {
     struct Candidate
     {
@@ -91,7 +91,7 @@ class Search
       candidates.push_back({leastDistance(bounds_[pair[0]], bounds_[pair[1]]), pair});
     std::sort(candidates.begin(), candidates.end(),
               [](const Candidate& a, const Candidate& b) { return a.lower < b.lower; });
-    NearestInstances nearest;
+    NearestFound nearest;
     for (const auto& [lower, pair] : candidates)
     {
       const auto [i, j] = pair;
@@ -108,9 +108,9 @@ class Search
     return nearest;
   }
 
-  NearestInstances world()
+  NearestFound world()
   {
-    NearestInstances nearest;
+    NearestFound nearest;
     for (std::uint32_t i = 0; i < problem_.robot.size(); ++i)
     {
       considerObjects(i, nearest);
@@ -125,7 +125,7 @@ class Search
   /// Visits the tree over objects, the nearer child first. Skips nodes that are not nearer than the best clearance so
   /// far. The boxes of the tree and of the robot are grown by their padding. A grown box contains all points within the
   /// padding of its shape. So the distance of two grown boxes is at most the clearance of their pair.
-  void considerObjects(std::uint32_t instance, NearestInstances& nearest)
+  void considerObjects(std::uint32_t instance, NearestFound& nearest)
   {
     if (objects_.nodes().empty())
       return;
@@ -154,7 +154,7 @@ class Search
     }
   }
 
-  void considerObject(std::uint32_t instance, std::uint32_t object, NearestInstances& nearest)
+  void considerObject(std::uint32_t instance, std::uint32_t object, NearestFound& nearest)
   {
     if (problem_.world_pairs[instance * problem_.world.size() + object] == 0)
       return;
@@ -172,7 +172,7 @@ class Search
         });
   }
 
-  void considerHalfSpace(std::uint32_t instance, const WorldHalfSpace& half_space, NearestInstances& nearest)
+  void considerHalfSpace(std::uint32_t instance, const WorldHalfSpace& half_space, NearestFound& nearest)
   {
     const ShapeInstance& a = problem_.robot[instance];
     const double required = a.padding + half_space.padding;
@@ -218,8 +218,8 @@ ClearanceSearch::ClearanceSearch(std::shared_ptr<const CollisionProblem> problem
 Clearance ClearanceSearch::find(const Isometry3d* link_poses) const
 {
   Search search(*problem_, forest_, *objects_, world_bounds_, link_poses);
-  const NearestInstances world = search.world();
-  const NearestInstances self = search.self();
+  const NearestFound world = search.world();
+  const NearestFound self = search.self();
   return {world.clearance, self.clearance, world.bodies, self.bodies};
 }
 }  // namespace gpu_planning_scene::core
