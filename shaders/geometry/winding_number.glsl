@@ -13,10 +13,12 @@ bool boundsSolid(uint primitive)
   return (solid_triangles[triangle >> 5u] >> (triangle & 31u) & 1u) != 0u;
 }
 
-// Twice the signed area of the triangle between the origin and an edge.
-float spanned(vec2 from, vec2 to)
+// The vector between two points, rounded once. It is a function of its own because glslang 12 does not terminate when
+// `precise` reaches back through the stack of insideMesh.
+vec3 vectorBetween(vec3 from, vec3 to)
 {
-  return from.x * to.y - from.y * to.x;
+  precise const vec3 between = to - from;
+  return between;
 }
 
 // The crossing of a triangle by the ray from the origin along +z: +1 or -1 by the direction of the triangle, 0 if the
@@ -39,14 +41,15 @@ int crossing(vec3 c[3], float error)
     return 0;
   size += error;
   const float area_error = size * (3.0 * error + 6.0 * u * size) + TINY;
-  precise float area[3];
+  precise float area[3];  // twice the signed area of the triangle between the origin and each edge
   bool above = true;
   bool below = true;
   bool some_above = false;
   bool some_below = false;
   for (int i = 0; i < 3; ++i)
   {
-    area[i] = spanned(c[i].xy, c[(i + 1) % 3].xy);
+    const vec3 next = c[(i + 1) % 3];
+    area[i] = c[i].x * next.y - c[i].y * next.x;
     above = above && area[i] > area_error;
     below = below && area[i] < -area_error;
     some_above = some_above || area[i] > area_error;
@@ -79,7 +82,7 @@ uint insideMesh(uint root, vec3 point, float error, inout uint iterations)
     for (; top > 0 && certain && iterations > 0u; --iterations)
     {
       const TreeNode node = fetchNode(stack[--top]);
-      precise const vec3 to = node.box.center - point;
+      const vec3 to = vectorBetween(point, node.box.center);
       const vec3 reach = node.box.extent + error + 8.0 * u * (node.box.extent + abs(to));
       bvec3 misses = greaterThan(abs(to), reach);
       misses[axis] = to[axis] < -reach[axis];

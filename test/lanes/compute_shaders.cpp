@@ -1,0 +1,60 @@
+#include "lanes/compute_shaders.h"
+
+#include <cstdlib>
+
+#include "collision/gpu/gpu_kinematics.h"
+#include "collision/gpu/gpu_pair_checker.h"
+#include "gpu/float_arithmetic.h"
+#include "lanes/gl_device.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+const std::string kUntrusted = "#define FLOAT32_TRUSTED 0\n";
+
+/// A robot with a joint of each type.
+std::shared_ptr<const RobotModel> robotWithAllJoints()
+{
+  std::string xml = "<robot name='joints'><link name='l0'/>";
+  int link = 0;
+  for (const char* type : {"planar", "floating", "revolute", "continuous", "prismatic", "fixed"})
+  {
+    const std::string parent = "l" + std::to_string(link);
+    const std::string child = "l" + std::to_string(++link);
+    xml += "<link name='" + child + "'/><joint name='j" + child + "' type='" + type + "'><parent link='" + parent +
+           "'/><child link='" + child +
+           "'/><axis xyz='0 0.6 0.8'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>";
+  }
+  return RobotModel::fromXml(xml + "</robot>", "", {});
+}
+
+}  // namespace
+
+std::set<std::string> computeShaders(const std::string& folder)
+{
+  lanes::recordOnly();
+  lanes::replaceOpenGl();
+  setenv("GPU_PLANNING_SCENE_PROGRAM_CACHE", "off", 1);
+  for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
+  {
+    GpuPairChecker(folder, traversal, 64).prepareMargins();
+    const auto programs = makeTraversal(traversal, folder, kUntrusted, {64, 64, 64, 64});
+    for (const bool solids : {false, true})
+      for (const bool padded : {false, true})
+        for (const float tolerance : {0.0F, 0.001F})
+          programs->prepare({solids, padded, tolerance, 1});
+  }
+  findDoubleFault(folder);
+  const GpuKinematics kinematics(folder, robotWithAllJoints());
+  std::set<std::string> texts;
+  for (const std::string& text : lanes::compiledShaders())
+  {
+    texts.insert(text);
+    const std::size_t at = text.find(kUntrusted);
+    if (at != std::string::npos)
+      texts.insert(std::string(text).erase(at, kUntrusted.size()));
+  }
+  return texts;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lanes/simulator.h"
+
+namespace lanes
+{
+/// Replaces the OpenGL functions that src/gpu calls by functions that use `device()`, for the rest of the process. The
+/// entry points of libepoxy are variables, so the code of the project runs unchanged and needs no context.
+void replaceOpenGl();
+
+/// The simulated device behind the replaced functions.
+Simulator& device();
+
+/// The text of each shader that was compiled.
+const std::vector<std::string>& compiledShaders();
+
+/// Programs that are only recorded and do nothing when they run; for tests of the shaders' texts.
+void recordOnly();
+
+/// Each later memory barrier lacks these bits.
+void ignoreBarrierBits(std::uint32_t bits);
+}  // namespace lanes
