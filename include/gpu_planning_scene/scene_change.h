@@ -52,13 +52,8 @@ struct ObjectChange
   std::map<std::string, Eigen::Isometry3d> subframes;  ///< in the object's frame
   ObjectType type;                                     ///< empty: a new object has none, other objects keep theirs
   /// Only for Remove. True: the allowed collision matrix keeps the object's entries. This is for objects that come and
-<<<<<<< ours
-  /// go, for example a point cloud. False, as in MoveIt: the entries are removed with the object. The octomap (see
-  /// kOctomapId) always keeps its entries and its colour.
-=======
   /// go, for example a point cloud. Without an id, the colours of all objects stay too. False, as in MoveIt: the
-  /// entries are removed with the object.
->>>>>>> theirs
+  /// entries are removed with the object. The octomap (see kOctomapId) always keeps its entries and its colour.
   bool keeps_allowed_collisions = false;
 };
 
