@@ -81,6 +81,8 @@ def main():
     carried = [attached.object.id for attached in scene.robot_state.attached_collision_objects]
     if carried:
         print(f"not written, because links carry them: {', '.join(carried)}", file=sys.stderr)
+    if scene.world.octomap.octomap.data:
+        print("not written, because the format has no octomaps: <octomap>", file=sys.stderr)
     print(f"{len(scene.world.collision_objects)} objects of revision {scene.scene_revision} in {arguments.file}")
 
 

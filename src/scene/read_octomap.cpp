@@ -88,12 +88,12 @@ void readOctomap(const YamlValue& scene, const SceneReader& reader, PlanningScen
   const YamlValue* const message = value->find("octomap");
   if (resource == nullptr && message == nullptr)
     return;
+  if (resource != nullptr && message != nullptr)
+    resource->fail("an octomap must not have both 'resource' and 'octomap'");
   const SerializedOctree octree =
       resource != nullptr ? readOctreeFile(*resource, reader) : readOctree(*message, reader);
   if (octree.bytes.empty())
     return;
-  if (resource != nullptr && message != nullptr)
-    resource->fail("an octomap must not have both 'resource' and 'octomap'");
   if (file != nullptr)
     file->fail("the scene has an octomap already, in 'world'; give one of the two");
   const YamlValue* const origin = value->find("origin");

@@ -9,7 +9,7 @@ namespace
 constexpr double kNanoseconds = 1e9;  // in a second
 
 /// A time or duration: seconds, or MoveIt's map of secs and nsecs.
-std::int64_t readTime(const YamlValue* value)
+std::int64_t readTime(const YamlValue* value, double least, double most)
 {
   if (value == nullptr)
     return 0;
@@ -22,7 +22,7 @@ std::int64_t readTime(const YamlValue* value)
   }
   else
     seconds = value->number();
-  if (std::abs(seconds) > 4e9)
+  if (!(seconds >= least && seconds <= most))
     value->fail("a time is beyond the range of ROS");
   return std::llround(seconds * kNanoseconds);
 }
@@ -45,7 +45,7 @@ JointTrajectory readTrajectory(const YamlValue& value, const SceneReader& reader
   {
     if (const YamlValue* const frame = header->find("frame_id"))
       trajectory.frame_id = frame->text();
-    trajectory.stamp = readTime(header->find("stamp"));
+    trajectory.stamp = readTime(header->find("stamp"), 0.0, 4294967295.0);
   }
   if (const YamlValue* const names = value.find("joint_names"))
     for (const YamlValue& name : names->items())
@@ -57,7 +57,7 @@ JointTrajectory readTrajectory(const YamlValue& value, const SceneReader& reader
                               reader.warnings);
       trajectory.points.push_back({readNumbers(point, "positions"), readNumbers(point, "velocities"),
                                    readNumbers(point, "accelerations"), readNumbers(point, "effort"),
-                                   readTime(point.find("time_from_start"))});
+                                   readTime(point.find("time_from_start"), -2147483647.0, 2147483647.0)});
     }
   return trajectory;
 }

@@ -84,6 +84,17 @@ std::string Snapshot::assumedBase(const std::vector<int>& given) const
   return "";
 }
 
+void dropUnknown(const Snapshot& now, SceneChange& change)
+{
+  std::map<std::string, double>& variables = change.state.variables;
+  for (auto variable = variables.begin(); variable != variables.end();)
+  {
+    const int index = now.scene->robot->variableIndex(variable->first);
+    const bool is_known = index >= 0 && now.known[static_cast<std::size_t>(index)];
+    variable = is_known ? std::next(variable) : variables.erase(variable);
+  }
+}
+
 SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits, BaseSource base_source)
   : defaults_(std::move(defaults)),
     limits_(limits),

@@ -41,6 +41,9 @@ struct Snapshot
   std::string assumedBase(const std::vector<int>& given) const;
 };
 
+/// Takes out the values of variables that are not known, for example of a base that only the BaseSource knows.
+void dropUnknown(const Snapshot& now, SceneChange& change);
+
 /// The scene of a running service. A change is made completely or not at all. Thread-safe; readers never wait for a
 /// change.
 class SceneStore

@@ -355,7 +355,7 @@ std::vector<NearestPairs> StateInspector::nearestPairs(const double* states, std
                   if (to.distance != 0.0)
                     return;  // free, or already the deepest contact
                   to.bodies = contact.bodies;
-                  to.distance = -contact.depth;
+                  to.distance = -std::max(0.0, contact.depth);
                   to.points = {contact.point, contact.point};
                 };
                 // The deepest contact of each pair comes first.

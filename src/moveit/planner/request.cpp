@@ -131,6 +131,10 @@ RobotState startOf(const planning_interface::MotionPlanRequest& request, const p
   if (message.is_diff || !is_empty)
   {
     validateJoints(message, scene);
+    // MoveIt keeps an object of the same name if the new one is not valid. It must not pass for the new one.
+    for (const moveit_msgs::AttachedCollisionObject& attached : message.attached_collision_objects)
+      if (attached.object.operation == moveit_msgs::CollisionObject::ADD)
+        state.clearAttachedBody(attached.object.id);
     try
     {
       if (!moveit::core::robotStateMsgToRobotState(scene.getTransforms(), message, state))

@@ -117,7 +117,7 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         addWarnings(scene.warnings, response.message);
         addWarning(now.assumedBase(scene.is_changed ? std::vector<int>() : set_by_request), response.message);
         job.matrix = scene.matrix;
-        if (scene.is_changed)
+        if (scene.is_changed || is_of_current_state)
           job.scene = scene.now;
         job.keep_states = request.max_contacts != 0 || request.clearance || request.nearest;
         const bool inspects = job.keep_states;

@@ -11,6 +11,7 @@
 #include "node/checks/requested_motions.h"
 #include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
+#include "node/messages/requested_states.h"
 #include "node/messages/requested_trajectory.h"
 
 // The service ~check_trajectory. The rows of a path are its start and its waypoints; part i goes from row i to row
@@ -39,19 +40,21 @@ std::vector<double> pathOf(const RequestedTrajectory& trajectory, const std::vec
   return path;
 }
 
-/// A warning about the first continuous joint that turns by more than half a turn within a part; otherwise empty. A
-/// controller may turn it in the longer direction, which is not checked.
+/// A warning about the first continuous or planar joint that turns by more than half a turn within a part; otherwise
+/// empty. A controller may turn it in the longer direction, which is not checked.
 std::string longTurn(const RobotModel& robot, const std::vector<double>& path)
 {
   const std::size_t width = robot.variables().size();
   for (const Joint& joint : robot.joints())
   {
-    if (joint.type != JointType::Continuous || joint.mimic || !isPeriodic(robot, joint))
+    const bool turns =
+        joint.type == JointType::Planar || (joint.type == JointType::Continuous && isPeriodic(robot, joint));
+    if (!turns || joint.mimic)
       continue;
-    const auto column = static_cast<std::size_t>(joint.first_variable);
+    const auto column = static_cast<std::size_t>(joint.first_variable) + (joint.type == JointType::Planar ? 2U : 0U);
     for (std::size_t row = 1; row * width < path.size(); ++row)
       if (std::abs(path[row * width + column] - path[(row - 1) * width + column]) > kPi)
-        return "continuous joint '" + joint.name + "' moves by more than half a turn before " + rowName(row) +
+        return "joint '" + joint.name + "' moves by more than half a turn before " + rowName(row) +
                "; it is checked in the shorter direction: give more waypoints if it turns in the other one";
   }
   return "";
@@ -98,6 +101,7 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
             requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix, request.start_state);
         const RobotModel& robot = *scene.now.scene->robot;
         const RequestedTrajectory trajectory = requestedTrajectory(robot, request);
+        requireWholeRotations(robot, trajectory.columns);
         const std::vector<double> start = fullStates(robot, {}, nullptr, 1, scene.now.partialState());
         const std::vector<double> path = pathOf(trajectory, start);
         const std::size_t width = start.size();

@@ -12,7 +12,7 @@ void fillReport(const CheckAnswer& answer, GetReport::Response& response)
 {
   const SceneReport& report = *answer.report;
   response.lines = describeScene(*answer.scene, report, answer.device);
-  response.lines.emplace_back("not modelled: octomaps, object types, weights; padding between links");
+  response.lines.emplace_back("not modelled: padding between links");
   const auto add = [&response](const char* name, std::size_t value)
   {
     response.names.emplace_back(name);

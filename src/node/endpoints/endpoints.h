@@ -56,6 +56,8 @@ class Endpoints
         request.fault = refusal_();
       if (request.fault.empty())
         request.fault = errorOf([&] { response = answer(request.message); });
+      if (request.fault.empty() && refusal_)
+        request.fault = refusal_();  // the reason may have come while the request waited
       return close(name, request.fault, response);
     };
     ros::AdvertiseServiceOptions options = boundedService<Service>(own_.resolveName(name), handle, &queue_);

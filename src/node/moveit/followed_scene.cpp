@@ -11,10 +11,14 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-const ros::WallDuration kPollInterval(0.05);          // between two looks at the connections
-constexpr std::chrono::milliseconds kRetry{500};      // between two fetches while the scene is not known
-constexpr std::chrono::milliseconds kSettle{500};     // from the first fetch to the next: see fetch()
-constexpr double kWatchPeriod = 0.1;                  // seconds: between two looks at a fetch that takes too long
+const ros::WallDuration kPollInterval(0.05);       // between two looks at the connections
+constexpr std::chrono::milliseconds kRetry{500};   // between two fetches while the scene is not known
+constexpr std::chrono::milliseconds kSettle{500};  // from the first fetch to the next: see fetch()
+constexpr double kWatchPeriod = 0.1;               // seconds: between two looks at a fetch that takes too long
+// A fetch that takes longer is noticed if messages wait. MoveIt's own publisher collects changes for as long.
+constexpr std::chrono::milliseconds kLongFetch{500};
+// All bits of PlanningSceneComponents. Some servers leave parts out if the request is 0.
+constexpr std::uint32_t kAllComponents = 1023;
 constexpr std::chrono::milliseconds kLongLoss{1000};  // after this time, a loss of the scene is logged
 
 std::string listed(const std::set<std::string>& parts)
@@ -123,6 +127,9 @@ std::string FollowedScene::fault() const
   const std::lock_guard<std::mutex> lock(mutex_);
   if (fault_.empty() && is_calling_ && Clock::now() - call_began_ > std::chrono::duration<double>(options_.timeout))
     return unknown(options_.service + " does not answer");
+  // While the thread fetches, messages wait.
+  if (fault_.empty() && is_fetching_ && Clock::now() - call_began_ > kLongFetch && !queue_.isEmpty())
+    return unknown("it changes while it is being fetched, which takes long");
   return fault_;
 }
 
@@ -206,7 +213,7 @@ void FollowedScene::apply(const Event& event)
   const Message& message = *event.getConstMessage();
   if (!message.fault.empty())
     throw Error(message.fault);
-  SceneChange change = changes_.changeOf(withoutMimicJoints(message.message.ours, *store_.snapshot().scene->robot));
+  SceneChange change = changeOf(message.message.ours);
   if (change.is_diff)
     for (const std::string& part : partsOf(change))
       unconfirmed_.erase(part);
@@ -216,6 +223,19 @@ void FollowedScene::apply(const Event& event)
   if (change.is_diff)
     dropRemovalsOfMissing(*store_.snapshot().scene, change);
   changes_.make(change, lookup_);
+}
+
+SceneChange FollowedScene::changeOf(const PlanningSceneMessage& message)
+{
+  const Snapshot now = store_.snapshot();
+  const RobotModel& robot = *now.scene->robot;
+  if (const std::string fault = mimicFault(message, robot, now.state); !fault.empty())
+    mimic_warning_.log(options_.topic() + ": " + fault);
+  SceneChange change = changes_.changeOf(withoutMimicJoints(message, robot));
+  // An empty matrix of a whole scene allows nothing in MoveIt. Elsewhere in this package, it means that of the SRDF.
+  if (!change.is_diff && !change.matrix)
+    change.matrix = AllowedCollisionMatrix();
+  return change;
 }
 
 void FollowedScene::dropMeasured(SceneChange& change) const
@@ -257,6 +277,7 @@ void FollowedScene::logLongLoss()
 void FollowedScene::fetch()
 {
   MoveItGetScene::Request request;
+  request.ours.components.components = kAllComponents;
   Bounded<MoveItGetScene::Response> response;
   const bool was_answered = call(request, response);
   next_fetch_ = Clock::now() + kRetry;
@@ -267,6 +288,10 @@ void FollowedScene::fetch()
     error = "the answer of " + options_.service + " cannot be read: " + response.fault;
   else
     error = errorOf([&] { takeOver(response.message.ours); });
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_fetching_ = false;
+  }
   if (error.empty())
   {
     // A publisher needs a moment to send its messages to a new subscriber. So the first fetch is soon followed by
@@ -290,14 +315,17 @@ bool FollowedScene::call(MoveItGetScene::Request& request, Bounded<MoveItGetScen
   ros::ServiceClient client;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!client_.isValid())
-    {
-      ros::ServiceClientOptions service(options_.service, ros::service_traits::md5sum<MoveItGetScene>(), true, {});
-      client_ = node_.serviceClient(service);
-    }
     client = client_;
-    is_calling_ = true;
+    is_calling_ = is_fetching_ = true;
     call_began_ = Clock::now();
+  }
+  if (!client.isValid())
+  {
+    // It connects at once, which can take long. So it is made without the lock.
+    ros::ServiceClientOptions service(options_.service, ros::service_traits::md5sum<MoveItGetScene>(), true, {});
+    client = node_.serviceClient(service);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    client_ = client;
   }
   const bool was_answered =
       client.isValid() && client.call(request, response, ros::service_traits::md5sum<MoveItGetScene>());
@@ -311,7 +339,9 @@ void FollowedScene::takeOver(const PlanningSceneMessage& whole)
 {
   if (whole.is_diff)
     throw Error("the answer is not a whole scene (is_diff is true)");
-  SceneChange full = changes_.changeOf(withoutMimicJoints(whole, *store_.snapshot().scene->robot));
+  if (whole.robot_model_name.empty())
+    throw Error("the answer names no robot (robot_model_name is empty)");
+  SceneChange full = changeOf(whole);
   dropMeasured(full);
   const Snapshot now = store_.snapshot();
   const SceneStore::Preview wanted = store_.preview({full}, lookup_);

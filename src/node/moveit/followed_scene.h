@@ -57,6 +57,7 @@ class FollowedScene
   bool call(MoveItGetScene::Request& request, Bounded<MoveItGetScene::Response>& response);
   void takeOver(const PlanningSceneMessage& whole);
   void report(const std::set<std::string>& differences);
+  SceneChange changeOf(const PlanningSceneMessage& message);
   void dropMeasured(SceneChange& change) const;
   void endLongCall();
 
@@ -64,7 +65,7 @@ class FollowedScene
   SceneStore& store_;
   SceneServices& changes_;
   const SceneStore::Lookup lookup_;
-  ros::CallbackQueue queue_;
+  mutable ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   ros::Subscriber subscriber_;
 
@@ -77,11 +78,13 @@ class FollowedScene
   Clock::time_point lost_at_ = Clock::now();
   std::set<std::string> unconfirmed_;  // parts that the last fetch changed, and that no message has named since
   std::string logged_;                 // the last reason in the log
+  OccasionalWarning mimic_warning_;
 
   mutable std::mutex mutex_;  // guards the members below
   std::string fault_;
   ros::ServiceClient client_;
   bool is_calling_ = false;
+  bool is_fetching_ = false;
   Clock::time_point call_began_;
 
   std::atomic<bool> stopping_{false};

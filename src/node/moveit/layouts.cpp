@@ -116,9 +116,7 @@ void requireEqualLayouts(const std::string& name, const std::string& ours, const
     return;
   const auto text = [](const auto& at, const auto& end) { return at == end ? "no further field" : "'" + *at + "'"; };
   throw Error(name + " has " + text(their, their_layout.end()) + " where the message of this package has " +
-              text(our, our_layout.end()) +
-              "; build this package with moveit_msgs 0.11 (or without moveit_msgs), or leave ~monitor and "
-              "~moveit_names unset");
+              text(our, our_layout.end()) + "; build this package with moveit_msgs 0.11 or without moveit_msgs");
 }
 
 void requireMoveItLayouts()

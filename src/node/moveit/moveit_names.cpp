@@ -59,7 +59,12 @@ void MoveItScenePublisher::changed(const std::shared_ptr<const PlanningScene>& b
       [&]
       {
         const std::lock_guard<std::mutex> lock(mutex_);
-        publisher_.publish(asMoveIt(messageOf(diffOf(*before, *after), *after->robot)));
+        const Snapshot now = store_.snapshot();
+        SceneChange change = diffOf(*before, *after);
+        dropUnknown(now, change);
+        // A full scene of a change leaves out the robot's own matrix, which MoveIt would take as an empty one.
+        publisher_.publish(asMoveIt(change.is_diff ? messageOf(change, *after->robot)
+                                                   : messageOf(*now.scene, 0, now.state, now.known)));
       });
   if (!error.empty())
     ROS_ERROR_STREAM("the scene was changed, but the change was not published for MoveIt: " << error);

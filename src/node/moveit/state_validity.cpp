@@ -19,6 +19,20 @@ void requireNoConstraints(const moveit_msgs::Constraints& constraints)
     throw Error("constraints cannot be evaluated; leave them empty");
 }
 
+/// Elsewhere, unknown joints are left out with a warning. Here the answer would be that of another state.
+void requireKnownJoints(const RobotState& state, const RobotModel& robot)
+{
+  const auto require = [&robot](const std::string& name)
+  {
+    if (robot.variableIndex(name) < 0 && robot.jointIndex(name) < 0)
+      throw Error("robot_state names '" + name + "', which is no joint of the robot");
+  };
+  for (const std::string& name : state.joint_state.name)
+    require(name);
+  for (const std::string& name : state.multi_dof_joint_state.joint_names)
+    require(name);
+}
+
 moveit_msgs::ContactInformation moveItContact(const ContactInformation& ours)
 {
   moveit_msgs::ContactInformation contact;
@@ -45,9 +59,12 @@ MoveItStateValidity::Response StateValidity::answer(const StateValidityRequest& 
 {
   requireNoConstraints(request.constraints);
   const Snapshot now = store_.snapshot();
+  requireKnownJoints(request.robot_state, *now.scene->robot);
   PlanningSceneMessage message;
   message.is_diff = true;
   message.robot_state = request.robot_state;
+  if (const std::string fault = mimicFault(message, *now.scene->robot, now.state); !fault.empty())
+    throw Error(fault);
   message = withoutMimicJoints(std::move(message), *now.scene->robot);
   const SceneChange change = changes_.changeOf(message);
   const std::map<std::string, double>& variables = change.state.variables;

@@ -45,5 +45,6 @@ void applyCollisionOperations(const XmlRpcValue& operations, const std::string& 
     return;
   }
   scene.allowed_collisions = std::move(matrix);
+  scene.matrix_source = MatrixSource::SceneFile;  // it is no longer the robot's own
 }
 }  // namespace gpu_planning_scene::core

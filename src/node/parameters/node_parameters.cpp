@@ -1,6 +1,7 @@
 #include "node/parameters/node_parameters.h"
 
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/octomap.h"
 #include "node/parameters/collision_operations.h"
 #include "node/parameters/padding_parameters.h"
 #include "node/parameters/parameter_values.h"
@@ -198,6 +199,8 @@ ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own)
   options.marker_triangles = countParameter(own, "markers/triangles", options.marker_triangles, 0, kNoLimit);
   options.cloud_topic = textParameter(own, "cloud/topic", options.cloud_topic);
   options.cloud_id = textParameter(own, "cloud/id", options.cloud_id);
+  if (options.cloud_id == kOctomapId)
+    throw Error("parameter ~cloud/id is '" + options.cloud_id + "', the id of the octomap; choose another id");
   options.cloud.voxel = positiveParameter(own, "cloud/voxel", options.cloud.voxel);
   options.cloud.robot_padding = lengthParameter(own, "cloud/robot_padding", options.cloud.robot_padding);
   options.cloud.max_distance = positiveParameter(own, "cloud/range", options.cloud.max_distance);

@@ -29,8 +29,6 @@ class BaseFromTf
   AssumedBase at(std::int64_t stamp);
 
  private:
-  AssumedBase baseOf(const FrameLookup::Found& found) const;
-
   const Find find_;
   const Now now_;
   const std::shared_ptr<const RobotModel> robot_;

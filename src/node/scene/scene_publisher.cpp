@@ -33,7 +33,8 @@ void ScenePublisher::changed(const std::shared_ptr<const PlanningScene>& before,
 {
   try
   {
-    const SceneChange change = diffOf(*before, *after);
+    SceneChange change = diffOf(*before, *after);
+    dropUnknown(store_.snapshot(), change);
     if (!change.is_diff)
       publishFull(store_.snapshot());
     if (diffs_.getNumSubscribers() == 0)

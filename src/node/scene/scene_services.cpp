@@ -30,9 +30,10 @@ bool takesMemory(const SceneChange& change)
 /// Whether the change places an object relative to a link, so that it depends on the robot's state.
 bool needsLinkPoses(const SceneChange& change, const RobotModel& robot)
 {
-  const auto is_at_link = [&robot](const ObjectChange& object)
-  { return object.frame.name != robot.planningFrame() && robot.linkIndex(object.frame.name) >= 0; };
-  return !change.state.attached.empty() || std::any_of(change.objects.begin(), change.objects.end(), is_at_link);
+  // The frame may also be an attached object or its subframe.
+  const auto may_move = [&robot](const ObjectChange& object)
+  { return !object.frame.name.empty() && object.frame.name != robot.planningFrame(); };
+  return !change.state.attached.empty() || std::any_of(change.objects.begin(), change.objects.end(), may_move);
 }
 
 /// All warnings of a change, in one line.

@@ -329,7 +329,7 @@ TEST(ContinuousTrajectory, TurnsInTheShorterDirectionAndSaysWhereThatMayNotBeMea
   const auto shorter = robot.services.checkTrajectory(trajectoryOf({"turn"}, {{1.7}}));
   EXPECT_FALSE(shorter.valid) << "3.2 rad are more than half a turn";
   EXPECT_EQ(
-      "continuous joint 'turn' moves by more than half a turn before waypoint 0; it is checked in the shorter "
+      "joint 'turn' moves by more than half a turn before waypoint 0; it is checked in the shorter "
       "direction: give more waypoints if it turns in the other one",
       shorter.message);
 }

@@ -31,7 +31,6 @@ class SaveScene : public RunningNode
   {
     using shape_msgs::SolidPrimitive;
     CollisionObject object = boxObject("big table", farAway(), 0.3);
-    object.primitive_poses.push_back(poseAt(Eigen::Vector3d(0.0, 0.0, 0.0)));
     addPrimitive(SolidPrimitive::SPHERE, {0.1}, object);
     addPrimitive(SolidPrimitive::CYLINDER, {0.7, 0.1}, object);
     addPrimitive(SolidPrimitive::CONE, {0.6, 1.0 / 3.0}, object);
