@@ -31,7 +31,8 @@ class GroupResolver
     {
       result.push_back(finish(group->name, jointsOf(*group)));
       if (result.back().variables.empty())
-        warnings_.push_back(group->where + ": group '" + group->name + "' has no joint that can move, so it cannot be planned for");
+        warnings_.push_back(group->where + ": group '" + group->name +
+                            "' has no joint that can move, so it cannot be planned for");
     }
     return result;
   }
