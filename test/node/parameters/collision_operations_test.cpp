@@ -34,8 +34,13 @@ TEST(CollisionOperations, DisableAllowsContactAndEnableForbidsIt)
   operations[1] = operation("pole", "wall", "disable");
   applyCollisionOperations(operations, "p", scene, nullptr);
   EXPECT_TRUE(isFreeAtTheWall());
-  operations[0] = operation("wall", "cart", "enable");
-  applyCollisionOperations(operations, "p", scene, nullptr);
+  EXPECT_EQ(MatrixSource::SceneFile, scene.matrix_source) << "a whole scene must have this matrix";
+  scene = sliderAndWall();
+  XmlRpc::XmlRpcValue both;
+  both[0] = operation("cart", "wall", "disable");
+  both[1] = operation("pole", "wall", "disable");
+  both[2] = operation("wall", "cart", "enable");
+  applyCollisionOperations(both, "p", scene, nullptr);
   EXPECT_FALSE(isFreeAtTheWall());
 }
 
