@@ -123,8 +123,8 @@ NamedState RobotModel::namedState(const std::string& name) const
     throw Error("the SRDF has no state '" + name + "'; " +
                 (names.empty() ? "it names no states" : "its states: " + names));
   if (result.variables.empty())
-    throw Error("the state '" + name + "' of the SRDF sets no variable: it has only joints that are fixed or follow " +
-                "other joints; name another state");
+    throw Error("the state '" + name + "' of the SRDF sets no variable: each of its joints is fixed, follows another " +
+                "joint, or has a value that was ignored with a warning; name another state");
   return result;
 }
 }  // namespace gpu_planning_scene::core

@@ -225,7 +225,10 @@ TEST(SrdfStates, WithFaultsGiveWarnings)
     <group_state name="b" group="arm"><joint name="arm_9" value="0.5"/><joint name="arm_1" value="0.5 1"/>
       <joint name="arm_2" value="0.5x"/></group_state>)"),
                              &warnings);
-  EXPECT_TRUE(robot->namedState("b").variables.empty());
+  EXPECT_EQ(
+      "the state 'b' of the SRDF sets no variable: each of its joints is fixed, follows another joint, or has a value "
+      "that was ignored with a warning; name another state",
+      errorOf([&] { robot->namedState("b"); }));
   const std::vector<std::string> expected = {
       "test.srdf:3: state 'a' is ignored: its group 'legs' does not exist",
       "test.srdf:4: state 'b': joint 'arm_9' is not in the robot, the entry is ignored",

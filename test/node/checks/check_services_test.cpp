@@ -439,8 +439,8 @@ TEST_F(Service, ANamedStateOfFixedJointsIsRefused)
   const auto robot = RobotModel::fromXml(sliderUrdf(), srdf, {});
   const std::string error = errorOf([&] { requestedNamedState(*robot, {"named_state", "tight"}, true); });
   EXPECT_EQ(
-      "the state 'tight' of the SRDF sets no variable: it has only joints that are fixed or follow other joints; name "
-      "another state",
+      "the state 'tight' of the SRDF sets no variable: each of its joints is fixed, follows another joint, or has a "
+      "value that was ignored with a warning; name another state",
       error);
 }
 
