@@ -18,7 +18,7 @@ namespace gpu_planning_scene::core
 struct AssumedBase
 {
   std::vector<double> values = {};  ///< of virtualVariables(); empty: the robot stands at the origin
-  /// What a user must know about this pose, in one line; may be empty. If there are no values, the reason.
+  /// A warning about this pose in one line, or empty. If there are no values: the reason.
   std::string warning = {};
 };
 

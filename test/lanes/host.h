@@ -76,7 +76,7 @@ class Memory
   ~Memory() = default;
 };
 
-/// What a kernel needs while it runs.
+/// The state of a running kernel: its memory, its lane, its arithmetic and its random numbers.
 struct Run
 {
   Memory* memory = nullptr;

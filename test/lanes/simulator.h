@@ -48,7 +48,7 @@ struct Block
 class Simulator : private Memory
 {
  public:
-  /// What a program of the device is: a compiled kernel, and a name for messages.
+  /// A program of the device: a compiled kernel, and a name for messages.
   struct Program
   {
     Kernel* kernel = nullptr;

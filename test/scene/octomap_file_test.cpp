@@ -115,6 +115,25 @@ TEST_F(OctomapFile, ThatIsGivenTwiceIsRefused)
   EXPECT_THROW(
       load("world: {octomap: {resource: map.bt, octomap: {data: [0, 0], binary: 1, id: OcTree, resolution: 1}}}\n"),
       Error);
+  octomap::OcTree(0.1).writeBinary(folder_.path("empty.bt"));
+  EXPECT_THROW(
+      load("world: {octomap: {resource: empty.bt, octomap: {data: [0, 0], binary: 1, id: OcTree, resolution: 1}}}\n"),
+      Error)
+      << "the message must not be dropped because the file is empty";
+}
+
+TEST_F(OctomapFile, TimesOfAPostureThatRosCannotHoldAreRefused)
+{
+  const auto posture = [this](const std::string& text)
+  {
+    return load(
+        "robot_state: {attached_collision_objects: [{link_name: pole, object: {id: tool, primitives: "
+        "[{type: box, dimensions: [0.1, 0.1, 0.1]}]}, detach_posture: " +
+        text + "}]}\n");
+  };
+  EXPECT_NO_THROW(posture("{header: {stamp: 4294967295}, joint_names: [], points: [{time_from_start: -2147483647}]}"));
+  EXPECT_THROW(posture("{header: {stamp: -1}, joint_names: [], points: []}"), Error);
+  EXPECT_THROW(posture("{joint_names: [], points: [{time_from_start: 3e9}]}"), Error);
 }
 
 TEST_F(OctomapFile, ObjectsKeepTheFieldsThatChangeNoVerdict)

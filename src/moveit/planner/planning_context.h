@@ -16,7 +16,7 @@
 
 namespace gpu_planning_scene::pipeline
 {
-/// What the requests of a planner manager share. Thread-safe.
+/// The parts that all requests of a planner manager share. Thread-safe.
 struct Workshop
 {
   explicit Workshop(core::CheckServer::MakeChecker make_checker) : checkers(std::move(make_checker)) {}

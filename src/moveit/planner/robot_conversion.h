@@ -16,7 +16,7 @@
 
 namespace gpu_planning_scene::pipeline
 {
-/// What a request needs of the converted robot. Requests with equal needs share a robot.
+/// The properties of the converted robot that differ between requests. Requests with equal needs share a robot.
 struct RobotNeeds
 {
   /// Mimic joints whose value in the start state differs from the value that their leader gives. Each becomes a joint

@@ -306,6 +306,23 @@ TEST(MultiDofTrajectory, IsCheckedAsTheSameValuesByName)
   }
 }
 
+TEST(MultiDofTrajectory, APartOfARotationIsRefused)
+{
+  Answering robot((PlanningScene(sliderRobotOnFloor("floating"))));
+  robot.store.updateState({{"slide", 0.0}, {"turn", 0.0}});
+  EXPECT_FALSE(robot.services.checkTrajectory(trajectoryOf({"floor/rot_x"}, {{0.7}})).success);
+}
+
+TEST(MultiDofTrajectory, APlanarJointThatTurnsFarGivesAWarning)
+{
+  Answering robot((PlanningScene(sliderRobotOnFloor("planar"))));
+  robot.store.updateState({{"slide", 0.0}, {"turn", 0.0}, {"floor/x", 0.0}, {"floor/y", 0.0}, {"floor/theta", 0.0}});
+  const auto said = [&robot](double angle)
+  { return robot.services.checkTrajectory(trajectoryOf({"floor/theta"}, {{angle}})).message; };
+  EXPECT_NE(std::string::npos, said(4.0).find("joint 'floor' moves by more than half a turn before waypoint 0"));
+  EXPECT_EQ(std::string::npos, said(3.0).find("half a turn"));
+}
+
 TEST(ContinuousTrajectory, TurnsInTheShorterDirectionAndSaysWhereThatMayNotBeMeant)
 {
   // The arm reaches from 0.2 m to 1 m along x; the post is in the direction of -x.

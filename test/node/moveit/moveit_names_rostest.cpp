@@ -371,6 +371,21 @@ TEST_F(MoveItNames, TheStateOfTheRequestIsCheckedForItsGroup)
   EXPECT_FALSE(validity(request)) << "the call fails";
 }
 
+TEST_F(MoveItNames, AStateThatWouldBeCheckedAsAnotherOneIsRefused)
+{
+  moveit_msgs::GetStateValidity::Request request;
+  request.robot_state.is_diff = true;
+  request.robot_state.joint_state.name = {"panda_joint_1"};
+  request.robot_state.joint_state.position = {1.0};
+  EXPECT_FALSE(validity(request)) << "the robot has no such joint";
+  // The second finger follows the first one.
+  request.robot_state.joint_state.name = {"panda_finger_joint1", "panda_finger_joint2"};
+  request.robot_state.joint_state.position = {0.0, 0.04};
+  EXPECT_FALSE(validity(request));
+  request.robot_state.joint_state.position = {0.03, 0.03};
+  EXPECT_TRUE(validity(request));
+}
+
 TEST_F(MoveItNames, ObjectsOfTheRequestCountForThisRequestAlone)
 {
   moveit_msgs::PlanningScene scene = diff();

@@ -132,6 +132,18 @@ TEST_F(BaseByTf, OutsideOfThePlaneOfAPlanarJointIsProjectedWithAWarning)
   EXPECT_NE(store_->snapshot().assumedBase({}).find("leaves the plane"), std::string::npos);
 }
 
+TEST_F(BaseByTf, IsNoPartOfAPublishedChange)
+{
+  start("planar");
+  poses_[now_] = poseAt(3.0, 0.0, 0.0);
+  store_->updateState({{"slide", 0.5}, {"turn", 0.0}});
+  SceneChange change;
+  change.is_diff = true;
+  change.state.variables = {{"slide", 0.25}, {"floor/x", 3.0}, {"floor/y", 0.0}, {"floor/theta", 0.0}};
+  dropUnknown(store_->snapshot(), change);
+  EXPECT_EQ((std::map<std::string, double>{{"slide", 0.25}}), change.state.variables);
+}
+
 TEST_F(BaseByTf, PlacesObjectsInLinkFrames)
 {
   start("floating");
