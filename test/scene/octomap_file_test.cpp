@@ -42,6 +42,7 @@ class OctomapFile : public testing::Test
     }
   }
 
+ protected:
   TemporaryFolder folder_;
   PackageResolver packages_ = [this](const std::string& package)
   { return package == "maps" ? folder_.path("") : std::string(); };
