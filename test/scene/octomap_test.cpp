@@ -47,7 +47,7 @@ std::vector<CubeNumbers> occupiedOf(const Tree& tree)
   for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf)
     if (tree.isNodeOccupied(*leaf))
     {
-      const octomap::OcTreeKey key = leaf.getKey();
+      const octomap::OcTreeKey& key = leaf.getKey();
       const unsigned depth = leaf.getDepth();
       numbers.push_back({tree.keyToCoord(key[0], depth), tree.keyToCoord(key[1], depth), tree.keyToCoord(key[2], depth),
                          leaf.getSize()});

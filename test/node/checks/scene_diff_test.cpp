@@ -231,7 +231,7 @@ TEST_F(SceneDiff, OfRandomBoxesHasTheAnswerOfAnAppliedChange)
 
 TEST_F(SceneDiff, ThatCannotBeAppliedIsRefusedAndChangesNothing)
 {
-  const auto expectRefusal = [this](const PlanningSceneMessage& diff, const std::string& reason)
+  const auto expect_refusal = [this](const PlanningSceneMessage& diff, const std::string& reason)
   {
     const std::shared_ptr<const PlanningScene> before = asked.store.snapshot().scene;
     CheckStates::Request request = states;
@@ -245,12 +245,12 @@ TEST_F(SceneDiff, ThatCannotBeAppliedIsRefusedAndChangesNothing)
   PlanningSceneMessage diff = diffScene();
   diff.world.collision_objects = {boxObject("crate", {0.0, 0.0, 0.0}, 0.3)};
   diff.is_diff = 0;
-  expectRefusal(diff,
-                "scene_diff: is_diff is false; set it to true, because a request can only change the scene and not "
-                "replace it");
+  expect_refusal(diff,
+                 "scene_diff: is_diff is false; set it to true, because a request can only change the scene and not "
+                 "replace it");
   diff.is_diff = 1;
   diff.world.collision_objects[0].header.frame_id = "kitchen";
-  expectRefusal(diff, "frame 'kitchen' is not known");
+  expect_refusal(diff, "frame 'kitchen' is not known");
   diff.world.collision_objects[0].header.frame_id = "";
   diff.world.collision_objects[0].primitives[0].dimensions = {std::numeric_limits<double>::quiet_NaN(), 1.0, 1.0};
   CheckStates::Request request = states;
