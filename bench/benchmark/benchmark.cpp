@@ -20,8 +20,8 @@
 #include "benchmark/statistics.h"
 #include "command_line/command_line.h"
 #include "gpu/egl_context.h"
-#include "model/name_list.h"
 #include "model/real_robots.h"
+#include "model/text/name_list.h"
 #include "peers/vamp/vamp_check.h"
 #include "support/test_scenes.h"
 

@@ -11,7 +11,7 @@
 #include "benchmark/statistics.h"
 #include "command_line/command_line.h"
 #include "gpu_planning_scene/cpu_checker.h"
-#include "model/name_list.h"
+#include "model/text/name_list.h"
 #include "volumes/methods.h"
 
 using namespace gpu_planning_scene::core;

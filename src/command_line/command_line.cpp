@@ -4,7 +4,7 @@
 #include <iostream>
 #include <new>
 
-#include "scene/parse_number.h"
+#include "model/text/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "command_line/robot_arguments.h"
-#include "scene/parse_number.h"
+#include "model/text/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

@@ -2,7 +2,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/base_joints.h"
-#include "model/name_list.h"
+#include "model/text/name_list.h"
 
 namespace gpu_planning_scene::core
 {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
-#include "model/name_list.h"
-#include "scene/nearest_key.h"
+#include "model/text/name_list.h"
+#include "model/text/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {

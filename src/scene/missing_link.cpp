@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "gpu_planning_scene/error.h"
-#include "model/name_list.h"
-#include "scene/nearest_key.h"
+#include "model/text/name_list.h"
+#include "model/text/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {

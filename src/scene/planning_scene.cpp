@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "scene/scene_reader.h"
-
 namespace gpu_planning_scene::core
 {
 PlanningScene::PlanningScene(std::shared_ptr<const RobotModel> robot_model, const SceneDefaults& defaults)
@@ -36,11 +34,5 @@ const std::string& PlanningScene::bodyName(int body) const
   if (index - links < objects.size())
     return objects[index - links].id;
   return attached.at(index - links - objects.size()).object.id;
-}
-
-void SceneReader::warn(const std::string& line) const
-{
-  if (warnings)
-    warnings->push_back(line);
 }
 }  // namespace gpu_planning_scene::core

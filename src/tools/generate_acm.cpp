@@ -9,7 +9,7 @@
 
 #include "collision/checkers/scene_text.h"
 #include "command_line/robot_arguments.h"
-#include "model/name_list.h"
+#include "model/text/name_list.h"
 #include "tools/acm_generator.h"
 #include "tools/srdf_writer.h"
 

@@ -18,7 +18,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/resources.h"
-#include "model/mesh_pipe.h"
+#include "model/files/mesh_pipe.h"
 
 namespace
 {

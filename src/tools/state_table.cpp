@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
-#include "model/open_file.h"
-#include "scene/parse_number.h"
+#include "model/files/open_file.h"
+#include "model/text/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

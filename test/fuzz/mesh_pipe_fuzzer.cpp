@@ -1,7 +1,7 @@
 // Any bytes of a mesh reader, even of a compromised one, become a mesh or one line of error.
 
 #include "fuzz/fuzz_target.h"
-#include "model/mesh_pipe.h"
+#include "model/files/mesh_pipe.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {

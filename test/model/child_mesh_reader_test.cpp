@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/mesh_reader.h"
+#include "model/files/mesh_pipe.h"
 #include "model/mesh_files.h"
-#include "model/mesh_pipe.h"
 #include "model/model_testing.h"
 
 namespace gpu_planning_scene::core

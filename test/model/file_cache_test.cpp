@@ -1,7 +1,7 @@
 // Files of the user's cache are found again, and damaged or foreign ones never are. Failures of the file system are no
 // errors.
 
-#include "model/file_cache.h"
+#include "model/files/file_cache.h"
 
 #include <csignal>
 #include <cstdlib>

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/number_text.h"
+#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {

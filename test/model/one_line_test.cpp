@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "model/one_line.h"
+#include "model/text/one_line.h"
 
 namespace gpu_planning_scene::core
 {

@@ -28,7 +28,7 @@ class Documents(unittest.TestCase):
 
     def test_a_file_that_does_not_exist_is_found(self):
         self.assertEqual(["src/none.cpp", "none.md"],
-                         missing("`src/none.cpp` `src/scene/read_*.cpp` [a](none.md#b) [c](README.md)", ROOT))
+                         missing("`src/none.cpp` `src/scene/files/read_*.cpp` [a](none.md#b) [c](README.md)", ROOT))
 
 
 if __name__ == "__main__":

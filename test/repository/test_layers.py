@@ -6,14 +6,19 @@ from folders import ROOT
 
 # Each folder may include itself, the folders listed for it, and the folders that these may include.
 LAYERS = {
-    "model": [],
-    "gpu": ["model"],
+    "model/text": [],
+    "model": ["model/text"],
+    "model/files": ["model"],
+    "model/description": ["model"],
+    "gpu": ["model/files"],
     "scene": ["model"],
+    "scene/changes": ["scene"],
+    "scene/files": ["scene/changes", "model/files"],
     "collision/geometry": ["model"],
     "collision/problem": ["collision/geometry", "collision", "scene"],
     "collision/exact": ["collision/problem"],
     "collision/bounds": ["collision/exact"],
-    "collision/filter/proofs": ["collision/exact"],
+    "collision/filter/proofs": ["collision/exact", "model/files"],
     "collision/filter/lanes": ["collision/filter/proofs"],
     "collision/gpu": ["collision/bounds", "gpu"],
     "collision/contacts": ["collision/bounds"],
@@ -21,10 +26,10 @@ LAYERS = {
     "collision/checkers": ["collision/filter/lanes", "collision/gpu", "collision/contacts", "collision/motion"],
     "collision": [],  # shared by all rooms
     "planning": ["collision/checkers"],
-    "service": ["collision/checkers"],
+    "service": ["collision/checkers", "scene/changes"],
     "render": ["collision/checkers"],
     "command_line": ["collision/checkers"],
-    "tools": ["command_line", "render"],
+    "tools": ["command_line", "render", "model/files"],
     "plugins": ["planning"],
     "planners": ["planning"],
     "node/messages": ["scene"],
@@ -37,7 +42,7 @@ LAYERS = {
     "node/planning": ["node/markers", "node/parameters", "planners"],
     "node": ["node/scene", "node/checks", "node/moveit", "node/planning", "command_line"],
     "moveit": ["collision/contacts"],
-    "moveit/planner": ["moveit", "planners", "service"],
+    "moveit/planner": ["moveit", "planners", "service", "model/description"],
 }
 
 

@@ -8,7 +8,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "scene/change_testing.h"
-#include "scene/octree_cubes.h"
+#include "scene/changes/octree_cubes.h"
 #include "scene/random_octree.h"
 
 namespace gpu_planning_scene::core

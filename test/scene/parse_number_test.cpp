@@ -1,4 +1,4 @@
-#include "scene/parse_number.h"
+#include "model/text/parse_number.h"
 
 #include <cmath>
 #include <limits>

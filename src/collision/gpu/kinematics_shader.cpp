@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "model/number_text.h"
+#include "model/text/number_text.h"
 
 // Forward kinematics as straight-line code: the pose of each link is the pose of its parent times the pose of its
 // joint. Rotations use Rodrigues' formula (K. M. Lynch, F. C. Park: Modern Robotics, 2017, chapters 3 and 4).

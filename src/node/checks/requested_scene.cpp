@@ -3,7 +3,7 @@
 #include "gpu_planning_scene/error.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/requested_changes.h"
-#include "scene/matrix_entries.h"
+#include "scene/changes/matrix_entries.h"
 
 namespace gpu_planning_scene::core
 {

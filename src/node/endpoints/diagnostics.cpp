@@ -3,7 +3,7 @@
 #include <ros/this_node.h>
 
 #include "collision/checkers/resilient_checker.h"
-#include "model/one_line.h"
+#include "model/text/one_line.h"
 #include "service/memory_guard.h"
 
 namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "gpu_planning_scene/error.h"
-#include "model/name_list.h"
+#include "model/text/name_list.h"
 #include "node/messages/joint_transform.h"
 #include "node/messages/object_from_message.h"
 #include "node/messages/octomap_messages.h"

@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
-#include "model/name_list.h"
+#include "model/text/name_list.h"
 #include "node/messages/joint_transform.h"
 
 namespace gpu_planning_scene::core

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "gpu_planning_scene/error.h"
-#include "model/name_list.h"
+#include "model/text/name_list.h"
 #include "node/endpoints/respond.h"
 #include "node/moveit/mimic_joints.h"
 

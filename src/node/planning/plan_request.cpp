@@ -8,9 +8,9 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "model/full_states.h"
+#include "model/text/parse_number.h"
 #include "node/messages/requested_states.h"
 #include "node/parameters/parameter_values.h"
-#include "scene/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

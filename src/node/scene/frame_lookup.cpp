@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "gpu_planning_scene/error.h"
-#include "scene/nearest_key.h"
+#include "model/text/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {

@@ -6,7 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "model/joint_limits.h"
-#include "model/one_line.h"
+#include "model/text/one_line.h"
 #include "node/endpoints/respond.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/to_messages.h"

@@ -7,7 +7,7 @@
 
 #include "collision/filter/proofs/ball_cover.h"
 #include "collision/filter/proofs/joint_table.h"
-#include "model/file_cache.h"
+#include "model/files/file_cache.h"
 
 namespace gpu_planning_scene::core
 {

@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include <urdf_model/model.h>
+
+#include "gpu_planning_scene/error.h"
+#include "model/description/groups.h"
+#include "model/description/named_states.h"
+#include "model/description/robot_parts.h"
+#include "model/description/srdf_reader.h"
+#include "model/description/tree_builder.h"
+#include "model/description/urdf_reader.h"
+#include "model/kinematics.h"
+#include "model/text/one_line.h"
+
+namespace gpu_planning_scene::core
+{
+/// Builds a RobotModel from a URDF and an SRDF, or from parts.
+class RobotModelBuilder
+{
+ public:
+  explicit RobotModelBuilder(const RobotModelOptions& options) : options_(options), model_(new RobotModel) {}
+
+  std::shared_ptr<const RobotModel> build(const std::string& urdf_text, const std::string& srdf_text)
+  {
+    const UrdfText urdf(urdf_text, options_.urdf_name);
+    warnings_ = urdf.warnings;
+    const bool has_srdf = !srdf_text.empty();
+    const Srdf srdf = has_srdf ? readSrdf(srdf_text, options_.srdf_name) : Srdf();
+
+    const std::string root = urdf.model->getRoot()->name;
+    const SrdfVirtualJoint* virtual_joint = findVirtualJoint(srdf, root);
+    RobotTree tree = buildTree(urdf, virtual_joint, options_, warnings_);
+    model_->name_ = urdf.model->getName();
+    model_->planning_frame_ = virtual_joint == nullptr ? root : virtual_joint->parent_frame;
+    take(std::move(tree));
+
+    model_->srdf_collisions_.has_srdf = has_srdf;
+    if (has_srdf)
+      addSrdf(srdf);
+    return model_;
+  }
+
+  std::shared_ptr<const RobotModel> build(RobotParts parts)
+  {
+    limitTranslations(parts.tree);
+    model_->name_ = std::move(parts.name);
+    model_->planning_frame_ = std::move(parts.planning_frame);
+    take(std::move(parts.tree));
+    model_->groups_ = std::move(parts.groups);
+    return model_;
+  }
+
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  const SrdfVirtualJoint* findVirtualJoint(const Srdf& srdf, const std::string& root)
+  {
+    const SrdfVirtualJoint* found = nullptr;
+    for (const SrdfVirtualJoint& joint : srdf.virtual_joints)
+    {
+      const bool fits = joint.child_link == root && !joint.parent_frame.empty();
+      if (fits && found == nullptr)
+      {
+        found = &joint;
+        continue;
+      }
+      ignored_joints_.insert(joint.name);
+      warnings_.push_back(joint.where + ": virtual joint '" + joint.name + "' is ignored: " +
+                          (fits ? "a virtual joint was defined before it"
+                           : joint.parent_frame.empty()
+                               ? "its parent frame is empty"
+                               : "its child link '" + joint.child_link + "' is not the root link '" + root + "'"));
+    }
+    return found;
+  }
+
+  void take(RobotTree tree)
+  {
+    model_->links_ = std::move(tree.links);
+    model_->joints_ = std::move(tree.joints);
+    model_->variables_ = std::move(tree.variables);
+    model_->kinematics_ = std::make_shared<Kinematics>(model_->links_, model_->joints_);
+    const auto number = [](const auto& items, std::unordered_map<std::string, int>& indices)
+    {
+      for (std::size_t i = 0; i < items.size(); ++i)
+        indices[items[i].name] = static_cast<int>(i);
+    };
+    number(model_->links_, model_->link_indices_);
+    number(model_->joints_, model_->joint_indices_);
+    number(model_->variables_, model_->variable_indices_);
+  }
+
+  void addSrdf(const Srdf& srdf)
+  {
+    if (srdf.robot_name != model_->name_)
+    {
+      warnings_.push_back(srdf.where + ": the SRDF is for robot '" + srdf.robot_name + "', but the URDF is of robot '" +
+                          model_->name_ + "'");
+    }
+    for (const SrdfName& passive : srdf.passive_joints)
+    {
+      const int joint = model_->jointIndex(passive.name);
+      if (joint >= 0)
+        model_->joints_[joint].passive = true;
+      else
+        warnings_.push_back(passive.where + ": passive joint '" + passive.name + "' is not in the robot");
+    }
+    SrdfCollisions& collisions = model_->srdf_collisions_;
+    collisions.disabled = resolvePairs(srdf.disabled);
+    collisions.enabled = resolvePairs(srdf.enabled);
+    for (const SrdfName& link : srdf.disabled_by_default)
+    {
+      const int index = knownLink(link.name, link.where);
+      if (index >= 0)
+        collisions.disabled_by_default.push_back(index);
+    }
+    model_->groups_ = resolveGroups(srdf.groups, *model_, ignored_joints_, warnings_);
+    model_->named_states_ = resolveNamedStates(srdf.named_states, *model_, ignored_joints_, warnings_);
+  }
+
+  int knownLink(const std::string& link, const std::string& where)
+  {
+    const int index = model_->linkIndex(link);
+    if (index < 0)
+      warnings_.push_back(where + ": link '" + link + "' is not in the robot, the entry is ignored");
+    return index;
+  }
+
+  std::vector<LinkPair> resolvePairs(const std::vector<SrdfPair>& pairs)
+  {
+    std::vector<LinkPair> result;
+    for (const SrdfPair& pair : pairs)
+    {
+      const int link_1 = knownLink(pair.link_1, pair.where);
+      const int link_2 = link_1 < 0 ? -1 : knownLink(pair.link_2, pair.where);
+      if (link_1 >= 0 && link_1 == link_2)
+        warnings_.push_back(pair.where + ": link '" + pair.link_1 + "' is paired with itself, the entry is ignored");
+      else if (link_1 >= 0 && link_2 >= 0)
+        result.push_back({std::min(link_1, link_2), std::max(link_1, link_2), pair.reason});
+    }
+    return result;
+  }
+
+  const RobotModelOptions& options_;
+  std::shared_ptr<RobotModel> model_;
+  std::vector<std::string> warnings_;
+  std::set<std::string> ignored_joints_;
+};
+
+namespace
+{
+std::string readFile(const std::string& path, const char* what)
+{
+  std::error_code unreadable;
+  std::ifstream file(path, std::ios::binary);
+  if (!file.is_open() || std::filesystem::is_directory(path, unreadable))
+    throw Error(std::string("cannot read ") + what + " '" + path + "'");
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (text.empty())
+    throw Error(std::string(what) + " '" + path + "' is empty");
+  return text;
+}
+}  // namespace
+
+std::shared_ptr<const RobotModel> makeRobot(RobotParts parts)
+{
+  return RobotModelBuilder({}).build(std::move(parts));
+}
+
+std::shared_ptr<const RobotModel> RobotModel::fromXml(const std::string& urdf, const std::string& srdf,
+                                                      const RobotModelOptions& options,
+                                                      std::vector<std::string>* warnings)
+{
+  RobotModelBuilder builder(options);
+  std::shared_ptr<const RobotModel> model;
+  try
+  {
+    model = builder.build(urdf, srdf);
+  }
+  catch (const Error& error)
+  {
+    throw Error(onOneLine(error.what()));
+  }
+  if (warnings != nullptr)
+    warnings->insert(warnings->end(), builder.warnings().begin(), builder.warnings().end());
+  return model;
+}
+
+std::shared_ptr<const RobotModel> RobotModel::fromFiles(const std::string& urdf_path, const std::string& srdf_path,
+                                                        RobotModelOptions options, std::vector<std::string>* warnings)
+{
+  const std::filesystem::path folder = std::filesystem::path(urdf_path).parent_path();
+  options.urdf_folder = folder.empty() ? "." : folder.string();
+  options.urdf_name = urdf_path;
+  options.srdf_name = srdf_path;
+  const std::string srdf = srdf_path.empty() ? std::string() : readFile(srdf_path, "SRDF");
+  return fromXml(readFile(urdf_path, "URDF"), srdf, options, warnings);
+}
+}  // namespace gpu_planning_scene::core

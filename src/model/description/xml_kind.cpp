@@ -1,0 +1,93 @@
+#include "model/description/xml_kind.h"
+
+#include <cstring>
+#include <initializer_list>
+#include <string>
+
+#include <tinyxml2.h>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using tinyxml2::XMLElement;
+
+bool isXacro(const XMLElement& element)
+{
+  return std::strncmp(element.Name(), "xacro:", 6) == 0;
+}
+
+/// Whether the robot is incomplete or wrong if xacro has not expanded this element. Properties and arguments are
+/// harmless: expressionOf finds their uses.
+bool isDirective(const XMLElement& element)
+{
+  for (const char* name : {"include", "macro", "if", "unless", "insert_block", "element", "attribute"})
+    if (isXacro(element) && std::strcmp(element.Name() + 6, name) == 0)
+      return true;
+  return false;
+}
+
+/// An attribute with an expression that xacro would have replaced; null if there is none.
+const tinyxml2::XMLAttribute* expressionOf(const XMLElement& element)
+{
+  for (const auto* attribute = element.FirstAttribute(); attribute != nullptr; attribute = attribute->Next())
+    if (std::strstr(attribute->Value(), "${") != nullptr || std::strstr(attribute->Value(), "$(") != nullptr)
+      return attribute;
+  return nullptr;
+}
+
+/// `kind`: "urdf" or "srdf". `leftovers` receives all other elements of xacro.
+void refuseXacro(const XmlText& xml, const XMLElement& element, const std::string& kind,
+                 std::vector<const XMLElement*>& leftovers)
+{
+  const auto* expression = expressionOf(element);
+  if (expression != nullptr || isDirective(element))
+    throw Error(xml.where(element) + ": " +
+                (expression != nullptr ? std::string(expression->Name()) + "=\"" + expression->Value() + "\""
+                                       : std::string("<") + element.Name() + ">") +
+                " is xacro, which must be expanded first: xacro FILE > robot." + kind + ", or for the launch file " +
+                kind + "_command:=\"xacro FILE\" instead of " + kind + ":=FILE");
+  if (isXacro(element))
+    leftovers.push_back(&element);
+  for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+    refuseXacro(xml, *child, kind, leftovers);
+}
+
+const XMLElement* firstOf(const XmlText& xml, std::initializer_list<const char*> tags)
+{
+  for (const char* tag : tags)
+    if (const XMLElement* child = xml.root().FirstChildElement(tag))
+      return child;
+  return nullptr;
+}
+}  // namespace
+
+void requireUrdf(const XmlText& xml, std::vector<std::string>& warnings)
+{
+  std::vector<const XMLElement*> leftovers;
+  refuseXacro(xml, xml.root(), "urdf", leftovers);
+  for (const XMLElement* element : leftovers)
+    warnings.push_back(xml.where(*element) + ": <" + element->Name() + "> was not expanded by xacro; it is not used");
+  const XMLElement* of_srdf =
+      firstOf(xml, {"group", "disable_collisions", "virtual_joint", "end_effector", "group_state", "passive_joint"});
+  if (firstOf(xml, {"link"}) == nullptr && of_srdf != nullptr)
+    throw Error(xml.where(*of_srdf) + ": <" + of_srdf->Name() +
+                "> without any <link>: this is an SRDF, and a URDF is needed here; give the SRDF as srdf:=FILE (launch "
+                "file), --srdf FILE (tools) or in robot_description_semantic");
+}
+
+void requireSrdf(const XmlText& xml)
+{
+  std::vector<const XMLElement*> leftovers;
+  refuseXacro(xml, xml.root(), "srdf", leftovers);
+  if (!leftovers.empty())
+    throw Error(xml.where(*leftovers[0]) + ": <" + leftovers[0]->Name() +
+                "> was not expanded by xacro; expand the file with all that it includes: xacro FILE > robot.srdf");
+  if (const XMLElement* of_urdf = firstOf(xml, {"link", "joint"}))
+    throw Error(xml.where(*of_urdf) + ": <" + of_urdf->Name() +
+                "> is an element of a URDF, and an SRDF is needed here; give the URDF as urdf:=FILE (launch file), "
+                "--urdf FILE (tools) or in robot_description");
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,108 @@
+#include <cmath>
+
+#include "scene/files/scene_reader.h"
+#include "scene/frame.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+Eigen::Quaterniond readOrientation(const YamlValue& value)
+{
+  const Eigen::Vector4d components = value.kind() == YamlValue::Kind::Map
+                                         ? Eigen::Vector4d(value.at("x").number(), value.at("y").number(),
+                                                           value.at("z").number(), value.at("w").number())
+                                         : Eigen::Vector4d(value.numbers(4).data());
+  const double norm = components.stableNorm();
+  if (norm == 0.0)
+    value.fail("the quaternion is zero; the identity is [0, 0, 0, 1]");
+  // The components are divided first, so that squares of large components do not overflow.
+  return Eigen::Quaterniond(Eigen::Vector4d(components / norm)).normalized();
+}
+}  // namespace
+
+Eigen::Vector3d readVector(const YamlValue& value)
+{
+  if (value.kind() == YamlValue::Kind::Map)
+    return Eigen::Vector3d(value.at("x").number(), value.at("y").number(), value.at("z").number());
+  return Eigen::Vector3d(value.numbers(3).data());
+}
+
+Eigen::Isometry3d readPose(const YamlValue& value, const char* position_key, const char* orientation_key)
+{
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  for (const auto& member : value.members())
+    if (member.first != position_key && member.first != orientation_key)
+      member.second.fail("unknown key '" + member.first + "' in a pose; it has '" + position_key + "' and '" +
+                         orientation_key + "'");
+  if (const YamlValue* position = value.find(position_key))
+    pose.translation() = readVector(*position);
+  if (const YamlValue* orientation = value.find(orientation_key))
+    pose.linear() = readOrientation(*orientation).toRotationMatrix();
+  return pose;
+}
+
+bool isUnsetPose(const YamlValue& value)
+{
+  for (const char* key : {"position", "orientation"})
+  {
+    const YamlValue* part = value.find(key);
+    if (!part || part->kind() != YamlValue::Kind::Map)
+      return false;
+    for (const auto& member : part->members())
+      if (member.second.number() != 0.0)
+        return false;
+  }
+  return true;
+}
+
+void readFixedFrame(const YamlValue& value, SceneReader& reader)
+{
+  value.warnOfUnknownKeys({"header", "child_frame_id", "transform"}, reader.warnings);
+  const std::string& planning_frame = reader.robot.planningFrame();
+  const YamlValue* header = value.find("header");
+  const YamlValue* parent = header ? header->find("frame_id") : nullptr;
+  const YamlValue& child = value.at("child_frame_id");
+  const std::string frame_id = parent ? parent->text() : "";
+  const std::optional<std::string> name = fixedFrameName(frame_id, child.text(), planning_frame);
+  if (!name)
+    (parent ? *parent : child)
+        .fail("the transform is between frames '" + frame_id + "' and '" + child.text() +
+              "'; one of them must be the planning frame '" + planning_frame +
+              "' (the robot's root link, or the parent frame of the SRDF's virtual joint)");
+  const Eigen::Isometry3d pose = readPose(value.at("transform"), "translation", "rotation");
+  if (*name == planning_frame && !pose.isApprox(Eigen::Isometry3d::Identity(), 1e-12))
+    child.fail("frame '" + *name + "' is the planning frame; its transform must be the identity");
+  if (*name != planning_frame && reader.robot.linkIndex(*name) >= 0)
+    child.fail("fixed frame '" + *name + "' has the name of a link");
+  if (!reader.fixed_frames.emplace(*name, pose).second)
+    child.fail("fixed frame '" + *name + "' is given twice");
+}
+
+Eigen::Isometry3d readFrame(const YamlValue* header, const SceneReader& reader)
+{
+  const YamlValue* value = header ? header->find("frame_id") : nullptr;
+  if (!value || value->text().empty())
+    return Eigen::Isometry3d::Identity();
+  // Old tf1 names begin with a slash, and so do the links of some robots. So the name is tried as written, then without
+  // the slash.
+  for (const std::string& frame : {value->text(), withoutLeadingSlash(value->text())})
+  {
+    if (frame == reader.robot.planningFrame())
+      return Eigen::Isometry3d::Identity();
+    const auto fixed = reader.fixed_frames.find(frame);
+    if (fixed != reader.fixed_frames.end())
+      return fixed->second;
+    const int link = reader.robot.linkIndex(frame);
+    if (link < 0)
+      continue;
+    if (reader.state.empty())
+      value->fail("frame '" + frame + "' is a link; the file must give the robot_state that places this link");
+    std::vector<Eigen::Isometry3d> poses(reader.robot.links().size());
+    reader.robot.linkPoses(reader.state.data(), poses.data());
+    return poses[link];
+  }
+  value->fail("unknown frame '" + value->text() + "'; known are the planning frame '" + reader.robot.planningFrame() +
+              "', the robot's links and the file's fixed_frame_transforms");
+}
+}  // namespace gpu_planning_scene::core

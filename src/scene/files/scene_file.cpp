@@ -1,0 +1,103 @@
+#include <algorithm>
+
+#include "gpu_planning_scene/error.h"
+#include "model/text/one_line.h"
+#include "scene/changes/matrix_entries.h"
+#include "scene/files/scene_reader.h"
+#include "scene/files/scene_text_file.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
+                           const PackageResolver& packages, std::vector<std::string>* warnings,
+                           const MeshAccess& meshes, const SceneDefaults& defaults)
+{
+  const YamlValue file = YamlValue::loadFile(path);
+  static const std::initializer_list<const char*> known_keys = {"name",
+                                                                "robot_state",
+                                                                "robot_model_name",
+                                                                "fixed_frame_transforms",
+                                                                "allowed_collision_matrix",
+                                                                "allowed_collisions",
+                                                                "link_padding",
+                                                                "link_scale",
+                                                                "object_colors",
+                                                                "world",
+                                                                "octomap",
+                                                                "is_diff",
+                                                                "scene_revision"};
+  if (std::none_of(known_keys.begin(), known_keys.end(), [&](const char* key) { return file.find(key) != nullptr; }))
+    file.fail("not a planning scene: it has no 'world', 'robot_state' or 'allowed_collision_matrix'");
+  file.warnOfUnknownKeys(known_keys, warnings);
+  const YamlValue* is_diff = file.find("is_diff");
+  if (is_diff && is_diff->boolean())
+    is_diff->fail("this is a difference to another scene (is_diff: true); a full scene is needed");
+
+  const std::size_t slash = path.rfind('/');
+  SceneReader reader{*robot, packages, slash == std::string::npos ? "." : path.substr(0, slash + 1), warnings,
+                     defaults};
+  reader.meshes = meshes;
+  reader.mesh_files = MeshCache(meshes.read);
+  PlanningScene scene(robot, defaults);
+  const YamlValue* robot_name = file.find("robot_model_name");
+  if (robot_name && !robot_name->text().empty() && robot_name->text() != robot->name())
+    reader.warn(robot_name->where() + ": the scene is for robot '" + robot_name->text() + "', the robot is '" +
+                robot->name() + "'");
+  if (const YamlValue* name = file.find("name"))
+    scene.name = name->text();
+  if (const YamlValue* state = file.find("robot_state"))
+    reader.state = readRobotState(*state, reader);
+  if (const YamlValue* frames = file.find("fixed_frame_transforms"))
+    for (const YamlValue& frame : frames->items())
+      readFixedFrame(frame, reader);
+  if (const YamlValue* matrix = file.find("allowed_collision_matrix"))
+  {
+    if (readMatrix(*matrix, reader, scene.allowed_collisions))
+    {
+      scene.matrix_source = MatrixSource::SceneFile;
+      if (const std::string warning = warningOfDefaultsAlone(*robot, scene.allowed_collisions); !warning.empty())
+        reader.warn(matrix->where() + ": " + warning);
+    }
+    else
+      reader.warn(matrix->where() + ": the allowed_collision_matrix is empty; the robot's own is kept");
+  }
+  scene.link_padding = readLinkPadding(file, reader);
+  scene.setLinkScale(readLinkScale(file, reader));
+  scene.colors = readColors(file, reader);
+  scene.fixed_frames = reader.fixed_frames;
+  scene.fixed_frames.erase(robot->planningFrame());
+  readObjects(file, reader, scene);
+  readOctomap(file, reader, scene);
+  if (const YamlValue* allowed = file.find("allowed_collisions"))
+    addAllowedCollisions(*allowed, reader, scene);
+  scene.current_state = reader.state;
+  return scene;
+}
+}  // namespace
+
+void SceneReader::warn(const std::string& line) const
+{
+  if (warnings)
+    warnings->push_back(line);
+}
+
+PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
+                            const PackageResolver& packages, std::vector<std::string>* warnings,
+                            const MeshAccess& meshes, const SceneDefaults& defaults)
+{
+  const std::string extension = ".scene";
+  const bool is_text =
+      path.size() >= extension.size() && path.compare(path.size() - extension.size(), extension.size(), extension) == 0;
+  try
+  {
+    return is_text ? loadSceneTextFile(path, std::move(robot), defaults)
+                   : loadYamlFile(path, std::move(robot), packages, warnings, meshes, defaults);
+  }
+  catch (const Error& error)
+  {
+    throw Error(onOneLine(error.what()));
+  }
+}
+}  // namespace gpu_planning_scene::core
