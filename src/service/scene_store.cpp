@@ -13,6 +13,11 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+using Clock = std::chrono::steady_clock;
+
+// Longer than between two messages of a running robot's joints. A joint whose messages end takes values from others.
+constexpr std::chrono::seconds kMeasuredFor{1};
+
 /// Looks up the frames that the change needs and that neither the scene nor `frames` has. Adds them to `frames`.
 void findFrames(const PlanningScene& scene, const SceneChange& change, const SceneStore::Lookup& lookup,
                 ExternalFrames& frames)
@@ -104,7 +109,7 @@ SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits 
   state_ = PartialState(*scene.robot, scene.current_state).values;
   known_.assign(state_.size(), !scene.current_state.empty());
   stamps_.assign(state_.size(), 0);
-  measured_.assign(state_.size(), false);
+  measured_at_.assign(state_.size(), Clock::time_point::min());
   scene_ = std::make_shared<const PlanningScene>(std::move(scene));
 }
 
@@ -117,7 +122,11 @@ Snapshot SceneStore::snapshot() const
     for (std::size_t i = 0; i < known_.size(); ++i)
       if (known_[i])
         oldest = std::min(oldest, stamps_[i]);
-    now = {scene_, state_, known_, measured_, {}, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest};
+    std::vector<bool> measured;
+    const Clock::time_point recently = Clock::now() - kMeasuredFor;
+    for (const Clock::time_point at : measured_at_)
+      measured.push_back(at >= recently);
+    now = {scene_, state_, known_, measured, {}, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest};
   }
   now.base = assumeBase(0, now.known, now.state);
   return now;
@@ -227,7 +236,7 @@ std::string SceneStore::updateState(const std::map<std::string, double>& variabl
     if (variable < 0)
       continue;
     const auto index = static_cast<std::size_t>(variable);
-    measured_[index] = true;
+    measured_at_[index] = Clock::now();
     std::int64_t& known = stamps_[index];
     if (stamp != 0 && stamp < known && warning.empty())
       warning = "the time of '" + name + "' jumped back by " +

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -28,7 +29,7 @@ struct Snapshot
   std::shared_ptr<const PlanningScene> scene;
   std::vector<double> state;   ///< one value per variable
   std::vector<bool> known;     ///< one per variable; an unknown variable has its default value, or that of `base`
-  std::vector<bool> measured;  ///< one per variable: whether SceneStore::updateState has set it
+  std::vector<bool> measured;  ///< one per variable: whether SceneStore::updateState has set it in the last second
   AssumedBase base = {};
   /// The oldest stamp (nanoseconds) of the known values; 0: a known value has no stamp, or no value is known.
   std::int64_t stamp = 0;
@@ -50,7 +51,8 @@ class SceneStore
 {
  public:
   /// Returns the pose of the robot at a time in nanoseconds (0: the newest pose). It is called for each snapshot, while
-  /// no state has set any variable of the virtual joint. It must be thread-safe, and must not wait.
+  /// no state has set any variable of the virtual joint. It must be thread-safe, and must not wait. Throws Error if the
+  /// pose of that time is no longer available, never for 0.
   using BaseSource = std::function<AssumedBase(std::int64_t stamp)>;
 
   /// The robot's state starts as the current state of `scene`; without one, it is unknown. Without `base_source`, the
@@ -92,7 +94,8 @@ class SceneStore
   /// returns an empty text.
   std::string updateState(const std::map<std::string, double>& variables, std::int64_t stamp = 0);
   /// The state whose stamp is nearest to `stamp` (nanoseconds; 0: the newest state). If no state had a stamp, it is the
-  /// newest state. Throws Error if the states of that time have already been dropped (see StateHistory).
+  /// newest state. Throws Error if the states of that time have already been dropped (see StateHistory,
+  /// BaseSource).
   std::vector<double> stateAt(std::int64_t stamp) const;
 
   /// Called after each change with the scenes before and after it, in the order of revisions. During the call, readers
@@ -111,8 +114,8 @@ class SceneStore
   std::shared_ptr<const PlanningScene> scene_;
   std::vector<double> state_;
   std::vector<bool> known_;
-  std::vector<std::int64_t> stamps_;  // of the values; 0: unknown
-  std::vector<bool> measured_;
+  std::vector<std::int64_t> stamps_;                                // of the values; 0: unknown
+  std::vector<std::chrono::steady_clock::time_point> measured_at_;  // when updateState set it last; initially min()
   StateHistory history_;
   const SceneDefaults defaults_;
   const SceneLimits limits_;

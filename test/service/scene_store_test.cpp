@@ -1,6 +1,7 @@
 // The scene of a running service: revisions, the robot's state, frames of external sources, and listeners.
 
 #include <atomic>
+#include <chrono>
 #include <limits>
 #include <thread>
 
@@ -52,18 +53,22 @@ TEST_F(Store, AChangeMakesANewRevisionAndLeavesOldScenesAlone)
   EXPECT_TRUE(store.snapshot().scene->objects.empty());
 }
 
-TEST_F(Store, OnlyVariablesOfUpdatesAreMeasured)
+TEST_F(Store, OnlyVariablesOfUpdatesAreMeasuredAndOnlyForASecond)
 {
   SceneChange change;
   change.is_diff = true;
   change.state.variables = {{"turn", 0.5}};
   store.apply(change, unknownFrame);
   store.updateState({{"slide", 0.25}, {"unknown", 1.0}});
-  const Snapshot now = store.snapshot();
-  const auto measured = [&now](const char* name)
-  { return now.measured[static_cast<std::size_t>(now.scene->robot->variableIndex(name))]; };
+  const auto measured = [this](const char* name)
+  {
+    const Snapshot now = store.snapshot();
+    return now.measured[static_cast<std::size_t>(now.scene->robot->variableIndex(name))];
+  };
   EXPECT_TRUE(measured("slide"));
   EXPECT_FALSE(measured("turn"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+  EXPECT_FALSE(measured("slide")) << "no message has come for a second";
 }
 
 TEST_F(Store, EachOwnerHasAListener)

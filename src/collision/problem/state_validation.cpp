@@ -44,13 +44,13 @@ void validateNeighbourhood(const RobotModel& robot, const JointNeighbourhood& ar
                   std::to_string(travel.angle) + " rad; both must be finite and at least 0");
 }
 
-void validateStates(const RobotModel& robot, const double* states, std::size_t count)
+void validateStates(const RobotModel& robot, const double* states, std::size_t count, const char* what)
 {
   const auto& variables = robot.variables();
   for (std::size_t row = 0; row < count; ++row, states += variables.size())
     for (std::size_t i = 0; i < variables.size(); ++i)
       if (!(std::abs(states[i]) <= variables[i].largest))
-        throw Error("state " + std::to_string(row) + ": the value of variable '" + variables[i].name + "' is " +
+        throw Error(what + (" " + std::to_string(row)) + ": the value of variable '" + variables[i].name + "' is " +
                     (std::isfinite(states[i]) ? text(states[i]) + "; it must be within " + text(variables[i].largest) +
                                                     ", because no joint can move by more than 1000 km"
                                               : "not a finite number"));

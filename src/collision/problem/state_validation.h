@@ -18,8 +18,8 @@ void requireRobot(const std::shared_ptr<const PlanningScene>& scene);
 void validateNeighbourhood(const RobotModel& robot, const JointNeighbourhood& around, std::size_t count);
 
 /// Throws Error if one of `count` states (rows of the robot's variables) has a value that is not finite or exceeds
-/// Variable::largest in magnitude.
-void validateStates(const RobotModel& robot, const double* states, std::size_t count);
+/// Variable::largest in magnitude. `what`: what the message calls a row.
+void validateStates(const RobotModel& robot, const double* states, std::size_t count, const char* what = "state");
 
 /// The values of a state (a row of the robot's variables) that are outside of `ranges`, which are joint limits.
 ValuesOutsideLimits valuesOutside(const std::vector<VariableRange>& ranges, const RobotModel& robot,

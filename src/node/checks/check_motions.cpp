@@ -34,13 +34,18 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         const std::size_t count = request.starts.size() / job.columns.size();
         const std::vector<double> starts = fullStates(robot, job.columns, request.starts.data(), count, current);
         const std::vector<double> ends = fullStates(robot, job.columns, request.ends.data(), count, current);
-        validateStates(robot, starts.data(), count);
-        validateStates(robot, ends.data(), count);
+        validateStates(robot, starts.data(), count, "motion");
+        validateStates(robot, ends.data(), count, "motion");
         std::tie(job.motions, job.samples) =
             requestedMotions({request.motion_rule, request.resolution, request.translation_resolution, "motion"}, robot,
                              starts.data(), ends.data(), count, options_);
         const MotionRule motion_rule = job.motions->rule;
         const std::string assumed_base = now.assumedBase(scene.is_changed ? std::vector<int>() : job.columns);
+        const auto name_of = [](std::size_t row) { return "motion " + std::to_string(row); };
+        for (const auto& [full, given] : {std::tie(starts, request.starts), std::tie(ends, request.ends)})
+          if (response.message.empty())
+            response.message = motion_rule == MotionRule::Bound ? beyondLimits(robot, full.data(), count, name_of)
+                                                                : outsideLimits(robot, job.columns, given, name_of);
         // The full states above serve to count the samples. For the check, the variables that the request does not name
         // come from the checked snapshot, which may be newer than `now`.
         job.states = request.starts;
@@ -59,13 +64,6 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
           const bool collides = verdict.colliding != kNoPair;
           response.body_1.push_back(collides ? answer.scene->bodyName(verdict.colliding[0]) : "");
           response.body_2.push_back(collides ? answer.scene->bodyName(verdict.colliding[1]) : "");
-        }
-        if (motion_rule == MotionRule::Bound)
-        {
-          const auto name_of = [](std::size_t row) { return "motion " + std::to_string(row); };
-          response.message = beyondLimits(robot, starts.data(), count, name_of);
-          if (response.message.empty())
-            response.message = beyondLimits(robot, ends.data(), count, name_of);
         }
         addWarning(givenUp(answer.motions, options_.max_motion_checks, "motion"), response.message);
         addWarnings(scene.warnings, response.message);

@@ -106,7 +106,7 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
         const std::vector<double> path = pathOf(trajectory, start);
         const std::size_t width = start.size();
         const std::size_t parts = trajectory.waypoints;
-        validateStates(robot, path.data(), parts + 1);
+        validateStates(robot, path.data() + width, parts, "waypoint");
 
         CheckJob job;
         job.group = request.group;
@@ -122,8 +122,10 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
         const CheckAnswer answer = answerOf(std::move(job));
         fill(answer, response);
         response.motion_rule = rule == MotionRule::Bound ? "bound" : "samples";
-        if (rule == MotionRule::Bound)
-          response.message = beyondLimits(robot, path.data(), parts + 1, rowName);
+        response.message = rule == MotionRule::Bound ? beyondLimits(robot, path.data(), parts + 1, rowName)
+                                                     : outsideLimits(
+                                                           robot, trajectory.columns, trajectory.rows,
+                                                           [](std::size_t i) { return rowName(i + 1); });
         addWarning(givenUp(answer.motions, options_.max_motion_checks, "part"), response.message);
         addWarning(longTurn(robot, path), response.message);
         addWarnings(scene.warnings, response.message);

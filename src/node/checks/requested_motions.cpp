@@ -67,6 +67,13 @@ std::string beyondLimits(const RobotModel& robot, const double* states, std::siz
   return "";
 }
 
+std::string outsideLimits(const RobotModel& robot, const std::vector<int>& columns, const std::vector<double>& rows,
+                          const std::function<std::string(std::size_t row)>& name_of)
+{
+  const auto outside = findValueOutsideLimits(robot, columns, rows.data(), rows.size() / columns.size());
+  return outside ? name_of(outside->row) + ": " + outside->text : "";
+}
+
 std::string givenUp(const std::vector<MotionVerdict>& motions, std::size_t max_checks, const std::string& what)
 {
   const auto is_given_up = [](const MotionVerdict& motion) { return motion.given_up; };

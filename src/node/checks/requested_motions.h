@@ -31,6 +31,11 @@ std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const RequestedMot
 std::string beyondLimits(const RobotModel& robot, const double* states, std::size_t count,
                          const std::function<std::string(std::size_t row)>& name_of);
 
+/// A warning if a value that the request gives is outside its joint limits; otherwise empty. For the rule "samples",
+/// which checks such motions. `rows`: rows of values for the variables `columns`.
+std::string outsideLimits(const RobotModel& robot, const std::vector<int>& columns, const std::vector<double>& rows,
+                          const std::function<std::string(std::size_t row)>& name_of);
+
 /// A warning if the limit of checks left motions undecided; otherwise empty. `what`: see RequestedMotions.
 std::string givenUp(const std::vector<MotionVerdict>& motions, std::size_t max_checks, const std::string& what);
 }  // namespace gpu_planning_scene::core

@@ -65,6 +65,10 @@ AssumedBase BaseFromTf::at(std::int64_t stamp)
   try
   {
     const FrameLookup::Found found = find_({root_, 0});
+    if (const double before = 1e-9 * static_cast<double>(found.stamp - stamp);
+        stamp != 0 && found.stamp != 0 && before > kOldAge)
+      throw Error("the robot's pose of " + std::to_string(before) + " s before the newest transform " + frames +
+                  " is not available on tf");
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (!newest_)

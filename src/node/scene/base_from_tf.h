@@ -25,7 +25,9 @@ class BaseFromTf
   BaseFromTf(Find find, Now now, std::shared_ptr<const RobotModel> robot);
 
   /// The pose at a time in nanoseconds; the newest pose if `stamp` is 0 or tf has no pose for it. If tf no longer knows
-  /// the root link, it is the last pose that tf had, with a warning. No values: tf never had a pose.
+  /// the root link, it is the last pose that tf had, with a warning. No values: tf never had a pose. Throws Error if
+  /// tf has no pose for `stamp` and its newest one is more than 1 s younger, as for a cloud that is older than tf's
+  /// memory.
   AssumedBase at(std::int64_t stamp);
 
  private:

@@ -401,6 +401,11 @@ TEST_F(Service, MotionsAreProvenByTheRuleOfTheRequestOrByTheNodes)
   EXPECT_NE(std::string::npos,
             beyond.message.find("motion 0: joint 'slide' is 7, outside its limits -2 to 2; the motion rule"))
       << beyond.message;
+  asked.motion_rule = "samples";
+  asked.ends[0] = 90.0;
+  EXPECT_EQ(0u, services.checkMotions(asked).message.find("motion 0: joint 'slide' is 90, outside its limits -2 to 2"));
+  asked.ends[0] = 1e7;
+  EXPECT_EQ(0u, services.checkMotions(asked).message.find("motion 0: the value of variable 'slide' is 10000000;"));
   asked.ends[0] = 0.5;
   asked.motion_rule = "sample";
   EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("must be samples or bound"));

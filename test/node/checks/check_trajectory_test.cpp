@@ -230,6 +230,19 @@ TEST_F(SliderTrajectory, ValuesBeyondTheLimitsAreNotProvenAndTheAnswerSaysSo)
       response.message);
 }
 
+TEST_F(SliderTrajectory, SampledValuesBeyondTheLimitsAreNamedWithTheirWaypoint)
+{
+  slider.store.updateState({{"slide", 0.0}, {"turn", 0.0}});
+  auto request = trajectoryOf({"slide", "turn"}, {{0.5, 0.0}, {0.5, 90.0}});
+  request.motion_rule = "samples";
+  EXPECT_EQ(
+      "waypoint 1: joint 'turn' is 90, outside its limits -3 to 3 rad; values are in radians, and 90 degrees are "
+      "1.5708 rad",
+      answer(request).message);
+  request.joint_trajectory.points[0].positions[0] = 1e7;
+  EXPECT_EQ(0u, slider.services.checkTrajectory(request).message.find("waypoint 0: the value of variable 'slide' is"));
+}
+
 TEST_F(SliderTrajectory, PartsThatNeedTooManyChecksAreMarked)
 {
   Answering few(sliderAndWall(), 8);

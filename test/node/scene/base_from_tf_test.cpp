@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu_planning_scene/error.h"
 #include "model/base_joints.h"
 #include "node/scene/base_from_tf.h"
 #include "node/scene/scene_services.h"
@@ -103,6 +104,24 @@ TEST_F(BaseByTf, IsThatOfTheTimeOfAStampIfTfHasIt)
   poses_[now_] = poseAt(2.0, 0.0, 0.0);
   EXPECT_NEAR(1.0, rootPose(store_->stateAt(now_ - kSecond)).translation().x(), 1e-12);
   EXPECT_NEAR(2.0, rootPose(store_->stateAt(now_ + 1)).translation().x(), 1e-12) << "the newest is the nearest";
+  EXPECT_NEAR(2.0, rootPose(store_->stateAt(now_ - kSecond / 2)).translation().x(), 1e-12) << "near enough";
+}
+
+TEST_F(BaseByTf, IsRefusedForATimeThatTfHasForgotten)
+{
+  start("planar");
+  poses_[now_] = poseAt(2.0, 0.0, 0.0);
+  try
+  {
+    store_->stateAt(now_ - 5 * kSecond);
+    ADD_FAILURE() << "the robot was elsewhere 5 s before";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_STREQ(
+        "the robot's pose of 5.000000 s before the newest transform from 'hall' to 'rail' is not available on tf",
+        error.what());
+  }
 }
 
 TEST_F(BaseByTf, ThatIsOldOrLostIsUsedWithAWarning)
