@@ -11,6 +11,8 @@ import rospy
 import rosservice
 import rostest
 
+from gpu_planning_scene.srv import CheckStates
+
 from documents_rostest import ROOT, examples
 
 PATIENCE = 60  # seconds
@@ -59,12 +61,32 @@ class FreshNode(unittest.TestCase):
         self.assertEqual(3, output.count("True"), output)
         self.assertRegex(output, r"(?m)^(free|\w+ - \w+) [0-9.inf]+$")
 
-    def test_a_collision_is_allowed_and_the_srdfs_matrix_comes_back(self):
-        output = self.output_of(os.path.join("docs", "node.md"), 'init_node("allow_a_collision")')
-        verdicts = [line.strip() for line in output.splitlines() if line.startswith(("free", "palm", "workpiece"))]
-        self.assertEqual(3, len(verdicts), output)
-        for verdict, collides in zip(verdicts, (True, False, True)):
-            self.assertIn(verdict, ("palm - workpiece", "workpiece - palm") if collides else ("free",), output)
+    def is_hand_in_workpiece(self):
+        joints = ["shoulder_yaw", "shoulder_pitch", "elbow_pitch", "elbow_roll", "wrist_pitch", "wrist_roll"]
+        check = rospy.ServiceProxy("/planning_scene/check_states", CheckStates)
+        answer = check(joint_names=joints, positions=[-0.3, 0.3, 0.3, 0.0, 0.0, 0.0])
+        pair = {answer.body_1[0], answer.body_2[0]}
+        self.assertIn(pair, ({""}, {"palm", "workpiece"}), answer)
+        return pair != {""}
+
+    def allow_collision(self, *arguments):
+        return subprocess.run([sys.executable, os.path.join(ROOT, "scripts", "allow_collision.py"), *arguments],
+                              capture_output=True, text=True, timeout=60, check=False)
+
+    def test_a_collision_is_allowed_and_forbidden_and_the_srdfs_matrix_comes_back(self):
+        self.assertTrue(self.is_hand_in_workpiece())
+        for arguments, collides in ((["palm", "workpiece"], False), (["workpiece", "palm", "--forbid"], True),
+                                    (["workpiece", "palm"], False)):
+            answer = self.allow_collision(*arguments)
+            self.assertEqual((0, "done"), (answer.returncode, answer.stdout.strip()), answer)
+            self.assertEqual(collides, self.is_hand_in_workpiece(), arguments)
+        self.output_of(os.path.join("docs", "node.md"), 'init_node("srdf_matrix")')
+        self.assertTrue(self.is_hand_in_workpiece())
+
+    def test_a_collision_of_an_unknown_body_is_not_allowed(self):
+        answer = self.allow_collision("palm", "workpice")
+        self.assertEqual(1, answer.returncode)
+        self.assertRegex(answer.stderr, "'workpice' is neither a link nor an object of the scene; there are: .*workpiece")
 
 
 if __name__ == "__main__":
