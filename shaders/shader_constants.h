@@ -146,6 +146,7 @@
 #define BINDING_ORIENTED_NODES 0
 #define BINDING_LARGE_NODES 1
 #define BINDING_LARGE_COUNT 2
+#define UNIT_CLUSTERS 0  // unit of the buffer texture of the clusters of BINDING_CLUSTERS_IN
 
 // --- Drawing -------------------------------------------------------------------------------------------------------
 #define UNIT_SHADOW_MAP 0  // unit of the shadow map's texture

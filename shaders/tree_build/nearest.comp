@@ -7,10 +7,20 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "tree_build/cluster.glsl"
 layout(location = LOCATION_ROUND_INDEX) uniform uint round_index;
-layout(std430, binding = BINDING_CLUSTERS_IN) readonly buffer Clusters { uvec4 clusters[]; };
+layout(binding = UNIT_CLUSTERS) uniform usamplerBuffer clusters;
 layout(std430, binding = BINDING_CLUSTER_INFO_IN) readonly buffer ClusterInfo { uvec2 cluster_info[]; };
 layout(std430, binding = BINDING_ROUNDS) readonly buffer Rounds { uint rounds[]; };
 layout(std430, binding = BINDING_NEAREST) writeonly buffer Nearest { uint nearest[]; };
+
+vec3 lowOf(uint cluster)
+{
+  return uintBitsToFloat(texelFetch(clusters, int(CLUSTER_TEXELS * cluster)).xyz);
+}
+
+vec3 highOf(uint cluster)
+{
+  return uintBitsToFloat(texelFetch(clusters, int(CLUSTER_TEXELS * cluster + 1u)).xyz);
+}
 
 void main()
 {
@@ -25,19 +35,24 @@ void main()
     nearest[i] = partner < cluster_count && cluster_info[partner].x == mesh ? partner : i;
     return;
   }
-  const vec3 low = uintBitsToFloat(clusters[CLUSTER_TEXELS * i].xyz);
-  const vec3 high = uintBitsToFloat(clusters[CLUSTER_TEXELS * i + 1u].xyz);
-  const uint begin = i < SEARCH_RADIUS ? 0u : i - SEARCH_RADIUS;
-  const uint end = min(i + SEARCH_RADIUS + 1u, cluster_count);
+  const vec3 low = lowOf(i);
+  const vec3 high = highOf(i);
+  // The clusters of a mesh follow each other.
+  uint begin = i < SEARCH_RADIUS ? 0u : i - SEARCH_RADIUS;
+  while (cluster_info[begin].x != mesh)
+    ++begin;
+  uint end = min(i + SEARCH_RADIUS + 1u, cluster_count);
+  while (cluster_info[end - 1u].x != mesh)
+    --end;
   uint best = i;
   float best_area = 3.4e38;
   for (uint j = begin; j < end; ++j)
   {
-    const vec3 union_low = min(low, uintBitsToFloat(clusters[CLUSTER_TEXELS * j].xyz));
-    const vec3 union_high = max(high, uintBitsToFloat(clusters[CLUSTER_TEXELS * j + 1u].xyz));
+    const vec3 union_low = min(low, lowOf(j));
+    const vec3 union_high = max(high, highOf(j));
     const float area = halfArea(union_high - union_low);
     const bool better = best == i || area < best_area || (area == best_area && (i ^ j) < (i ^ best));
-    if (j != i && cluster_info[j].x == mesh && better)
+    if (j != i && better)
     {
       best = j;
       best_area = area;

@@ -187,7 +187,7 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   keys_[0].bindStorage(BINDING_KEYS_IN);
   mesh_of_.bindStorage(BINDING_MESH_OF);
   boxes_.bindStorage(BINDING_BOXES);
-  clusters_[0].bindStorage(BINDING_CLUSTERS_OUT);
+  clusters_[0].buffer().bindStorage(BINDING_CLUSTERS_OUT);
   cluster_info_[0].bindStorage(BINDING_CLUSTER_INFO_OUT);
   gather_program_.set(LOCATION_PRIMITIVE_COUNT, static_cast<std::uint32_t>(count));
   gather_program_.dispatch(groupsFor(count));
@@ -220,9 +220,10 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   for (std::uint32_t round = 0; round < BUILD_ROUNDS; ++round)
   {
     const std::size_t record = kUint * round * ROUND_STRIDE;
-    clusters_[round & 1].bindStorage(BINDING_CLUSTERS_IN);
+    clusters_[round & 1].buffer().bindStorage(BINDING_CLUSTERS_IN);
+    clusters_[round & 1].bindTexture(UNIT_CLUSTERS);
     cluster_info_[round & 1].bindStorage(BINDING_CLUSTER_INFO_IN);
-    clusters_[~round & 1].bindStorage(BINDING_CLUSTERS_OUT);
+    clusters_[~round & 1].buffer().bindStorage(BINDING_CLUSTERS_OUT);
     cluster_info_[~round & 1].bindStorage(BINDING_CLUSTER_INFO_OUT);
     for (const Program* program : {&nearest_program_, &count_program_, &scan_program_, &write_program_})
       program->set(LOCATION_ROUND_INDEX, round);
@@ -247,8 +248,8 @@ void GpuForestBuilder::layOut(std::size_t mesh_count, std::uint32_t leaf_size, c
                               const TexelBuffer& nodes, const Buffer& leaf_order)
 {
   pair_starts_.reserve((region.primitive_count - mesh_count) * kUint);
-  clusters_[0].bindStorage(BINDING_CLUSTERS_EVEN);
-  clusters_[1].bindStorage(BINDING_CLUSTERS_ODD);
+  clusters_[0].buffer().bindStorage(BINDING_CLUSTERS_EVEN);
+  clusters_[1].buffer().bindStorage(BINDING_CLUSTERS_ODD);
   rounds_.bindStorage(BINDING_ROUNDS);
   first_primitive_.bindStorage(BINDING_FIRST_PRIMITIVE);
   pair_starts_.bindStorage(BINDING_PAIR_STARTS);

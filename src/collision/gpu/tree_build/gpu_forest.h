@@ -57,7 +57,8 @@ class GpuForestBuilder
   Program gather_program_, nearest_program_, count_program_, scan_program_, write_program_;
   Program layout_roots_program_, layout_pairs_program_, triangles_program_;
 
-  Buffer vertices_, boxes_, mesh_of_, first_primitive_, bounds_, keys_[2], counts_, clusters_[2], cluster_info_[2];
+  Buffer vertices_, boxes_, mesh_of_, first_primitive_, bounds_, keys_[2], counts_, cluster_info_[2];
+  TexelBuffer clusters_[2];
   Buffer rounds_, nearest_, sums_, pairs_, pair_starts_;
 };
 }  // namespace gpu_planning_scene::core
