@@ -19,7 +19,7 @@ constexpr double kWatchPeriod = 0.1;               // seconds: between two looks
 constexpr std::chrono::milliseconds kLongFetch{500};
 // All bits of PlanningSceneComponents. Some servers leave parts out if the request is 0.
 constexpr std::uint32_t kAllComponents = 1023;
-constexpr double kForEver = 1e8;                      // seconds; a longer period would overflow the clock
+constexpr double kLongestPeriod = 1e8;                // seconds; a longer period would overflow the clock
 constexpr std::chrono::milliseconds kLongLoss{1000};  // after this time, a loss of the scene is logged
 
 std::string listed(const std::set<std::string>& parts)
@@ -297,7 +297,7 @@ void FollowedScene::fetch()
   {
     // A publisher needs a moment to send its messages to a new subscriber. So the first fetch is soon followed by
     // another one.
-    const std::chrono::duration<double> period(std::min(options_.period, kForEver));
+    const std::chrono::duration<double> period(std::min(options_.period, kLongestPeriod));
     const bool is_settled = is_current_;
     next_fetch_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                      is_settled ? period : std::min<std::chrono::duration<double>>(period, kSettle));

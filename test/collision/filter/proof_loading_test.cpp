@@ -1,7 +1,5 @@
 // Proofs are loaded from the user's cache when a checker has many states, and made when it has very many.
 
-#include "collision/filter/proofs/proof_worker.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -11,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/filter/proof_scene.h"
+#include "collision/filter/proofs/proof_worker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 
 namespace gpu_planning_scene::core
