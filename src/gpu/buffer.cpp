@@ -18,10 +18,27 @@ void waitForShaders()
 {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
 }
+
+/// OpenGL reports a limit beyond the range of GLint as the largest GLint.
+std::size_t limit(GLenum name)
+{
+  GLint value = 0;
+  glGetIntegerv(name, &value);
+  return static_cast<std::size_t>(std::max(0, value));
+}
+
+void requireWithin(std::size_t size, std::size_t max_bytes)
+{
+  if (size > max_bytes)
+    throw Error("the scene needs a buffer of " + std::to_string(size) +
+                " bytes, but a shader of this device can use at " + "most " + std::to_string(max_bytes) +
+                "; use fewer triangles, a smaller batch or the device 'cpu'");
+}
 }  // namespace
 
 Buffer::Buffer(std::size_t size) : size_(std::max<std::size_t>(size, 16))
 {
+  requireWithin(size, maxBytes());
   glCreateBuffers(1, &id_);
   glNamedBufferStorage(id_, static_cast<GLsizeiptr>(size_), nullptr, GL_DYNAMIC_STORAGE_BIT);
   checkGl(("allocating " + std::to_string(size_) + " bytes").c_str());
@@ -42,11 +59,16 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept
   return *this;
 }
 
+std::size_t Buffer::maxBytes()
+{
+  return limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+}
+
 void Buffer::reserve(std::size_t size, std::size_t max_bytes)
 {
   if (size <= size_)
     return;
-  Buffer larger(std::max(size, std::min(max_bytes, size_ + size_ / 2)));
+  Buffer larger(std::max(size, std::min({max_bytes, maxBytes(), size_ + size_ / 2})));
   if (size_)
     larger.copyFrom(*this, size_);
   *this = std::move(larger);
@@ -110,9 +132,7 @@ TexelBuffer::~TexelBuffer()
 
 std::size_t TexelBuffer::maxBytes()
 {
-  GLint texels = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-  return static_cast<std::size_t>(texels) * kTexelBytes;
+  return std::min(limit(GL_MAX_TEXTURE_BUFFER_SIZE) * kTexelBytes, Buffer::maxBytes());
 }
 
 void TexelBuffer::reserve(std::size_t size)
@@ -120,10 +140,7 @@ void TexelBuffer::reserve(std::size_t size)
   if (size <= buffer_.size() && texture_)
     return;
   const std::size_t max_bytes = maxBytes();
-  if (size > max_bytes)
-    throw Error("the scene needs " + std::to_string((size + kTexelBytes - 1) / kTexelBytes) +
-                " texels in a buffer texture, but the device holds at most " + std::to_string(max_bytes / kTexelBytes) +
-                "; use fewer triangles, a smaller batch or the device 'cpu'");
+  requireWithin(size, max_bytes);
   buffer_.reserve(size, max_bytes);
   if (!texture_)
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);

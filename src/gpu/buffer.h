@@ -8,7 +8,7 @@
 namespace gpu_planning_scene::core
 {
 /// A block of GPU memory. Move-only; used on the context's thread. All sizes are in bytes. Throws Error if OpenGL fails
-/// (out of memory, out of range).
+/// (out of memory, out of range), and for more than maxBytes().
 class Buffer
 {
  public:
@@ -20,9 +20,12 @@ class Buffer
 
   std::size_t size() const { return size_; }
   std::uint32_t id() const { return id_; }
+  /// The most bytes that the device lets a shader bind as a storage buffer. Beyond it, OpenGL may drop what shaders
+  /// write.
+  static std::size_t maxBytes();
 
   /// Grows to at least `size` bytes and keeps the contents. It grows by at least half of its size, so that it seldom
-  /// grows, unless this would exceed `max_bytes`.
+  /// grows, unless this would exceed `max_bytes` or maxBytes().
   void reserve(std::size_t size, std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
   void write(const void* data, std::size_t size, std::size_t offset = 0);
   void read(void* data, std::size_t size, std::size_t offset = 0) const;
@@ -62,7 +65,7 @@ class TexelBuffer
   void reserve(std::size_t size);
   Buffer& buffer() { return buffer_; }
   const Buffer& buffer() const { return buffer_; }
-  static std::size_t maxBytes();  ///< the device's limit
+  static std::size_t maxBytes();  ///< the device's limit for a buffer that shaders write and fetch
   static constexpr std::size_t kTexelBytes = 16;
   void bindTexture(std::uint32_t unit) const;
 

@@ -1,6 +1,7 @@
 // Errors of shaders and buffers are detected, and their messages name the cause.
 
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -93,6 +94,27 @@ TEST_F(ProgramTest, MoreTexelsThanTheDeviceHoldsAreRefused)
 {
   TexelBuffer texels;
   EXPECT_THROW(texels.reserve(std::size_t{1} << 50), Error);
+}
+
+TEST_F(ProgramTest, ABufferThatNoShaderCouldWriteWholeIsRefused)
+{
+  Buffer buffer(16);
+  TexelBuffer texels;
+  const std::vector<std::function<void()>> requests = {[&] { buffer.reserve(Buffer::maxBytes() + 1); },
+                                                       [&] { texels.reserve(TexelBuffer::maxBytes() + 1); }};
+  for (const auto& request : requests)
+    try
+    {
+      request();
+      ADD_FAILURE() << "the device may drop what shaders write beyond " << Buffer::maxBytes() << " bytes";
+    }
+    catch (const Error& error)
+    {
+      EXPECT_NE(std::string(error.what()).find("but a shader of this device can use at most"), std::string::npos)
+          << error.what();
+    }
+  EXPECT_EQ(buffer.size(), 16U);
+  EXPECT_LE(TexelBuffer::maxBytes(), Buffer::maxBytes());
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
