@@ -68,11 +68,18 @@ TEST(DeviceLost, IsAnErrorOfOpenGl)
   EXPECT_EQ(error, "the GPU failed in a wrong call: GL_INVALID_ENUM");
 }
 
-TEST(DeviceLost, TooLargeBuffersAreNotALoss)
+TEST(DeviceLost, TooLittleMemoryIsNotALoss)
 {
   GlThread thread("auto");
-  // No device has this much memory.
-  EXPECT_THROW(thread.run([] { Buffer(std::size_t{1} << 62); }), OutOfDeviceMemory);
+  const auto allocate_too_much = []
+  {
+    GLuint buffer = 0;
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, GLsizeiptr{1} << 62, nullptr, 0);  // no device has this much memory
+    glDeleteBuffers(1, &buffer);
+    checkGl("an allocation");
+  };
+  EXPECT_THROW(thread.run(allocate_too_much), OutOfDeviceMemory);
   EXPECT_EQ(lossIn(thread, [] { Buffer(16); }), "");
 }
 }  // namespace
