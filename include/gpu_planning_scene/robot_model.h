@@ -169,8 +169,12 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   void addLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const;
 
   /// Writes a random state: variables are uniform between lower and upper, rotations of floating joints uniform over
-  /// SO(3).
+  /// SO(3). The base moves too, where a planar or floating joint carries it, such as the virtual joint of an SRDF.
   void randomState(std::mt19937_64& generator, double* state) const;
+
+  /// Writes a random state, in which planar and floating joints have the values of the state `base`: the robot stands
+  /// still. `base` must not be `state`.
+  void randomState(std::mt19937_64& generator, const double* base, double* state) const;
 
   /// A state with all variables 0, or in the middle of their limits if 0 is outside. Floating joints have the identity
   /// rotation.

@@ -9,7 +9,4 @@ namespace gpu_planning_scene::core
 /// The variables of the SRDF's virtual joint. No driver reports this joint, because it is not in the URDF. So a state
 /// without these variables gets their default values: the robot stands at the origin of the planning frame.
 std::vector<int> virtualVariables(const RobotModel& robot);
-
-/// Sets planar and floating joints, which move the robot's base, to their values in another state.
-void keepBase(const RobotModel& robot, const double* from, double* state);
 }  // namespace gpu_planning_scene::core

@@ -122,6 +122,14 @@ void RobotModel::randomState(std::mt19937_64& generator, double* state) const
       randomQuaternion(generator, state + joint.first_variable + 3);
 }
 
+void RobotModel::randomState(std::mt19937_64& generator, const double* base, double* state) const
+{
+  randomState(generator, state);
+  for (const Joint& joint : joints_)
+    if (joint.type == JointType::Planar || joint.type == JointType::Floating)
+      std::copy_n(base + joint.first_variable, variableCount(joint.type), state + joint.first_variable);
+}
+
 std::vector<double> RobotModel::defaultState() const
 {
   std::vector<double> state(variables_.size(), 0.0);

@@ -6,7 +6,6 @@
 
 #include "command_line/command_line.h"
 #include "command_line/scene_arguments.h"
-#include "model/base_joints.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
 
@@ -58,8 +57,9 @@ std::string setValues(const RobotModel& robot, const std::string& text, std::vec
 void randomise(const RobotModel& robot, std::mt19937_64& generator, const std::vector<double>& start, bool keep_base,
                double* state)
 {
-  robot.randomState(generator, state);
   if (keep_base)
-    keepBase(robot, start.data(), state);
+    robot.randomState(generator, start.data(), state);
+  else
+    robot.randomState(generator, state);
 }
 }  // namespace gpu_planning_scene::core

@@ -45,6 +45,27 @@ TEST(State, RandomStatesFillTheirLimitsAndStayInside)
   }
 }
 
+TEST(State, RandomStatesCanKeepPlanarAndFloatingJoints)
+{
+  for (const std::string type : {"planar", "floating"})
+  {
+    SCOPED_TRACE(type);
+    const auto robot = robotOf(boxLink("ground") + boxLink("a") + boxLink("b") + jointXml("base", type, "ground", "a") +
+                               jointXml("j", "prismatic", "a", "b", limits("0", "1")));
+    std::vector<double> base = robot->defaultState();
+    base[0] = 7.0;
+    std::vector<double> state(base.size());
+    std::mt19937_64 generator(5);
+    robot->randomState(generator, base.data(), state.data());
+    const auto slide = static_cast<std::size_t>(robot->variableIndex("j"));
+    EXPECT_NE(base[slide], state[slide]);
+    base[slide] = state[slide];
+    EXPECT_EQ(base, state);
+    robot->randomState(generator, state.data());
+    EXPECT_NE(7.0, state[0]);
+  }
+}
+
 TEST(State, RandomStatesAreTheSameWithEveryStandardLibrary)
 {
   std::mt19937_64 generator;  // the C++ standard specifies its 10,000th number

@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <rosgraph_msgs/Log.h>
 
 #include "node/child_node.h"
 #include "node/node_client.h"
@@ -33,6 +34,15 @@ TEST_F(Fault, DiagnosticsTellThatTheCpuHasTakenOver)
                                                            if (message->status.at(0).name == "faulty_node: checks")
                                                              latest = message->status.at(0);
                                                          });
+  std::string warning;
+  const ros::Subscriber log = handle.subscribe<rosgraph_msgs::Log>(
+      "/rosout", 100,
+      [&](const rosgraph_msgs::Log::ConstPtr& message)
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (message->name == "/faulty_node" && message->level == rosgraph_msgs::Log::WARN)
+          warning = message->msg;
+      });
   const auto level = [&]
   {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -47,8 +57,10 @@ TEST_F(Fault, DiagnosticsTellThatTheCpuHasTakenOver)
     ASSERT_EQ(1, call.response.valid.at(0));
   }
   EXPECT_EQ(DiagnosticStatus::WARN, level());
+  ros::Duration(1.0).sleep();  // for the log
   const std::lock_guard<std::mutex> lock(mutex);
   EXPECT_EQ(0u, latest.message.find("the device failed and the CPU is used: ")) << latest.message;
+  EXPECT_EQ(latest.message + "; the answers stay the same", warning);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -5,7 +5,6 @@
 #include <random>
 #include <vector>
 
-#include "model/base_joints.h"
 #include "model/seconds_since.h"
 
 // Times both checks at a few sizes, takes the fastest of several runs, and interpolates the size at which their times
@@ -102,10 +101,7 @@ std::vector<double> sampleOf(const RobotModel& robot, const CollisionProblem& pr
     if (count >= kEnough && isValidFor(problem, own))
       std::copy(own, own + width, row);
     else
-    {
-      robot.randomState(generator, row);
-      keepBase(robot, base.data(), row);
-    }
+      robot.randomState(generator, base.data(), row);
   }
   return sample;
 }

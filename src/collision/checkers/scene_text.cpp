@@ -132,9 +132,16 @@ std::vector<std::string> warningsOfScene(const PlanningScene& scene, const Scene
                     "allowed_collisions, which adds pairs; in a message, send the matrix of get_planning_scene with "
                     "your entries added");
   if (!other.empty())
+  {
+    const auto links = static_cast<std::int32_t>(scene.robot->links().size());
+    const bool are_links = std::all_of(other.begin(), other.end(),
+                                       [links](const BodyPair& pair) { return pair[0] < links && pair[1] < links; });
     lines.push_back(counted(other.size(), "pair") + found + pairList(scene, other) +
-                    "; move these bodies apart, or allow a pair that may touch: allowed_collisions: [[" +
+                    (are_links ? "; these are links of the robot: generate_acm --srdf OLD --out NEW makes an SRDF that "
+                                 "allows what always collides, or allow a pair: allowed_collisions: [["
+                               : "; move these bodies apart, or allow a pair that may touch: allowed_collisions: [[") +
                     scene.bodyName(other[0][0]) + ", " + scene.bodyName(other[0][1]) + "]] in a scene file");
+  }
   std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
   return lines;
 }

@@ -4,8 +4,6 @@
 #include <iterator>
 #include <random>
 
-#include "model/base_joints.h"
-
 // Intersects the sets of colliding pairs of random states. MoveIt's Setup Assistant finds pairs that always collide in
 // a similar way.
 namespace gpu_planning_scene::core
@@ -21,8 +19,7 @@ std::vector<BodyPair> collidingInSamples(const RobotModel& robot, const Collisio
   std::vector<BodyPair> pairs;
   for (std::size_t i = 0; i < kSampledStates; ++i)
   {
-    robot.randomState(generator, state.data());
-    keepBase(robot, base.data(), state.data());
+    robot.randomState(generator, base.data(), state.data());
     if (!isValidFor(problem, state.data()))
       return {};
     robot.linkPoses(state.data(), poses.data());

@@ -1,5 +1,6 @@
 #include "node/endpoints/diagnostics.h"
 
+#include <ros/console.h>
 #include <ros/this_node.h>
 
 #include "collision/checkers/resilient_checker.h"
@@ -60,6 +61,17 @@ void Diagnostics::refused(const std::string& why)
   last_refusal_ = shortLine(why);
 }
 
+void Diagnostics::logDevice(const std::string& fault)
+{
+  if (fault == logged_fault_)
+    return;
+  if (fault.empty())
+    ROS_INFO("the device is used again");
+  else
+    ROS_WARN_STREAM(fault << "; the answers stay the same");
+  logged_fault_ = fault;
+}
+
 DiagnosticStatus Diagnostics::status(const SceneStore& store, const CheckServer& server)
 {
   const CheckStatistics checks = server.statistics();
@@ -83,11 +95,14 @@ DiagnosticStatus Diagnostics::status(const SceneStore& store, const CheckServer&
   status.hardware_id = checkers.empty() ? "" : checkers.front()->deviceName();
   status.level = DiagnosticStatus::OK;
   status.message = "checks states";
+  const std::string device_fault =
+      history.on_cpu ? "the device failed and the CPU is used: " + history.last_error : std::string();
   if (history.on_cpu)
   {
     status.level = history.rebuild_failed ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN;
-    status.message = "the device failed and the CPU is used: " + history.last_error;
+    status.message = device_fault;
   }
+  logDevice(device_fault);
   const std::string scene_fault = scene_fault_ ? scene_fault_() : "";
   if (!scene_fault.empty())
   {

@@ -29,11 +29,14 @@ class Diagnostics
 
   /// The level is WARN if the CPU answers for a lost device, ERROR if the device could not be opened again or the scene
   /// is not known, else OK.
-  /// The rate of states is counted since the last call.
+  /// The rate of states is counted since the last call. Logs once when the CPU takes over, and once when it ends.
   diagnostic_msgs::DiagnosticStatus status(const SceneStore& store, const CheckServer& server);
 
  private:
+  void logDevice(const std::string& fault);
+
   std::mutex mutex_;
+  std::string logged_fault_;
   std::vector<std::weak_ptr<const StateChecker>> checkers_;
   std::function<std::string()> scene_fault_;
   std::uint64_t refused_ = 0;

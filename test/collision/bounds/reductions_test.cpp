@@ -361,7 +361,17 @@ TEST_F(SmallScene, ReportsThePairsThatCollideInEverySample)
   EXPECT_EQ(0U, warnings[0].find("3 pairs in collision in each of 64 random states, so probably no state is valid: "))
       << warnings[0];
   EXPECT_NE(std::string::npos, warnings[0].find("arm - plate")) << warnings[0];
+  EXPECT_NE(std::string::npos, warnings[0].find("move these bodies apart")) << warnings[0];
   EXPECT_NE(std::string::npos, warnings[0].find("allowed_collisions: [[base, plate]]")) << warnings[0];
+}
+
+TEST_F(SmallScene, WarnsOfLinksThatAlwaysCollideWithTheToolThatAllowsThem)
+{
+  SceneReport report;
+  report.colliding_in_samples = {{scene_->robot->linkIndex("base"), scene_->robot->linkIndex("arm")}};
+  const std::vector<std::string> warnings = warningsOfScene(*scene_, report);
+  ASSERT_EQ(1U, warnings.size());
+  EXPECT_NE(std::string::npos, warnings[0].find("generate_acm --srdf OLD --out NEW")) << warnings[0];
 }
 
 TEST_F(SmallScene, AsksForFixedLinksOnlyWhereTheGroupMovesThem)
