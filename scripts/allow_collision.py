@@ -59,7 +59,7 @@ def main():
         sys.exit(f"allow_collision.py: {arguments.node} does not answer: {error}")
     if not answer.success:
         sys.exit("allow_collision.py: " + answer.message)
-    print(answer.message or "done")
+    print("done" + (f"; the node answers: {answer.message}" if answer.message else ""))
 
 
 if __name__ == "__main__":
