@@ -55,8 +55,9 @@ bool footWithin(vec3 corner, vec3 origin, vec3 e1, vec3 e2, out vec3 foot)
 // one frame (metres); the corners of b are off by at most `error` relative to the corners of a.
 uint triangleDistance(vec3 a[3], vec3 b[3], float error, float distance, float gap)
 {
-  vec3 pa[3];
-  vec3 pb[3];
+  // Relative to a corner. Without `precise`, a compiler may add a point's terms in another order, and lose this.
+  precise vec3 pa[3];
+  precise vec3 pb[3];
   for (int i = 0; i < 3; ++i)
   {
     pa[i] = a[i] - a[0];

@@ -1,10 +1,12 @@
 #pragma once
-// Float32 arithmetic that uses every freedom of docs/error_bounds.md, as the seed chooses. Own method: a Float keeps
-// the terms of the sum that it is, so that a later addition may evaluate all terms in another order, with fused
-// operations. A `precise` expression rounds each operation on its own.
+// Arithmetic of floats and doubles that uses every freedom of docs/error_bounds.md, as the seed chooses. Own method: a
+// number keeps the terms of the sum that it is, so that a later addition may evaluate all terms in another order, with
+// fused operations, and a later product may multiply each term. A `precise` expression rounds each operation on its
+// own.
 
-#include <math.h>
 #include <string.h>
+
+#include <cmath>
 
 #include "lanes/host.h"
 
@@ -40,36 +42,55 @@ inline uint floatToBits(float value)
   return bits;
 }
 
-inline float flushed(float x)
+/// A float or double, and a wider type in which its operations have no error, or one that does not matter.
+template <class T>
+struct Format;
+template <>
+struct Format<float>
 {
-  if (x != 0.0f && fabsf(x) < 1.17549435e-38f && kernel().run->choose(kernel().run->arithmetic.flush))
-    return 0.0f;
+  using Wide = double;
+  static constexpr float kLeastNormal = 1.17549435e-38f;
+};
+template <>
+struct Format<double>
+{
+  using Wide = long double;
+  static constexpr double kLeastNormal = 2.2250738585072014e-308;
+};
+
+template <class T>
+T flushed(T x)
+{
+  if (x != T(0) && fabs(x) < Format<T>::kLeastNormal && kernel().run->choose(kernel().run->arithmetic.flush))
+    return T(0);
   return x;
 }
 
-/// The float that is `steps` floats above a finite one (below, if negative).
-inline float stepped(float x, int steps)
+/// The number that is `steps` numbers of its format above a finite one (below, if negative).
+template <class T>
+T stepped(T x, int steps)
 {
-  if (!isfinite(x) || steps == 0)
+  if (!std::isfinite(x) || steps == 0)
     return x;
-  const float target = steps > 0 ? INFINITY : -INFINITY;
-  for (int i = steps < 0 ? -steps : steps; i > 0 && isfinite(x); --i)
-    x = nextafterf(x, target);
+  const T target = steps > 0 ? T(INFINITY) : T(-INFINITY);
+  for (int i = steps < 0 ? -steps : steps; i > 0 && std::isfinite(x); --i)
+    x = std::nextafter(x, target);
   return x;
 }
 
-/// `exact` as a float, in the direction of rounding that the seed chose.
-inline float rounded(double exact)
+/// `exact` as a T, in the direction of rounding that the seed chose.
+template <class T>
+T rounded(typename Format<T>::Wide exact)
 {
   using Rounding = Arithmetic::Rounding;
   Run& run = *kernel().run;
-  const float nearest = static_cast<float>(exact);
-  float result = nearest;
+  const T nearest = static_cast<T>(exact);
+  T result = nearest;
   const Rounding rounding = run.arithmetic.rounding;
-  if (rounding != Rounding::Nearest && isfinite(nearest) && static_cast<double>(nearest) != exact)
+  if (rounding != Rounding::Nearest && std::isfinite(nearest) && nearest != exact)
   {
     const bool random_up = rounding == Rounding::Random && (run.next() & 1U) != 0;
-    const bool up = rounding == Rounding::Up || random_up || (rounding == Rounding::ToZero && exact < 0.0);
+    const bool up = rounding == Rounding::Up || random_up || (rounding == Rounding::ToZero && exact < 0);
     if (up && nearest < exact)
       result = stepped(nearest, 1);
     if (!up && nearest > exact)
@@ -79,37 +100,43 @@ inline float rounded(double exact)
 }
 
 /// `exact` with the error of a division or square root: up to 2.5 units in the last place.
-inline float approximate(double exact)
+template <class T>
+T approximate(typename Format<T>::Wide exact)
 {
   Run& run = *kernel().run;
   const int steps =
       run.arithmetic.steps == Arithmetic::kRandomSteps ? static_cast<int>(run.next() % 5) - 2 : run.arithmetic.steps;
-  const float nearest = static_cast<float>(exact);
-  return nearest == 0.0f ? nearest : flushed(stepped(nearest, steps));
+  const T nearest = static_cast<T>(exact);
+  return nearest == T(0) ? nearest : flushed(stepped(nearest, steps));
 }
 
-struct Float
+template <class T>
+struct Real
 {
+  using Wide = typename Format<T>::Wide;
   static constexpr int kTerms = 4;
   struct Term  // a * b, rounded only when it is added
   {
-    float a, b;
+    T a, b;
   };
-  float value;
+  T value;
   int count;  // 0: `value` alone
   Term terms[kTerms];
 
-  Float() : count(0) { value = bitsToFloat(0x7fc00001u); }
-  explicit Float(float x) : value(x), count(0) {}
-  explicit Float(double x) : value(static_cast<float>(x)), count(0) {}
-  Float(int x) : value(static_cast<float>(x)), count(0) {}
-  Float(uint x) : value(static_cast<float>(x)), count(0) {}
-  Float(const Float& other) : value(other.value), count(other.count)
+  Real() : value(static_cast<T>(bitsToFloat(0x7fc00001u))), count(0) {}
+  explicit Real(T x) : value(x), count(0) {}
+  Real(int x) : value(static_cast<T>(x)), count(0) {}
+  Real(uint x) : value(static_cast<T>(x)), count(0) {}
+  template <class S>
+  explicit Real(const Real<S>& x) : value(static_cast<T>(x.value)), count(0)
+  {
+  }
+  Real(const Real& other) : value(other.value), count(other.count)
   {
     for (int i = 0; i < count; ++i)
       terms[i] = other.terms[i];
   }
-  Float& operator=(const Float& other)
+  Real& operator=(const Real& other)
   {
     value = other.value;
     count = other.count;
@@ -117,100 +144,117 @@ struct Float
       terms[i] = other.terms[i];
     return *this;
   }
-  explicit operator uint() const { return value >= 4294967296.0f ? ~0U : value > 0.0f ? static_cast<uint>(value) : 0U; }
+  explicit operator uint() const { return value >= T(4294967296) ? ~0U : value > T(0) ? static_cast<uint>(value) : 0U; }
   explicit operator int() const { return static_cast<int>(value); }
 
-  friend Float operator+(const Float& x, const Float& y) { return sum(x, y, 1.0f); }
-  friend Float operator-(const Float& x, const Float& y) { return sum(x, y, -1.0f); }
-  friend Float operator*(const Float& x, const Float& y)
+  friend Real operator+(const Real& x, const Real& y) { return sum(x, y, T(1)); }
+  friend Real operator-(const Real& x, const Real& y) { return sum(x, y, T(-1)); }
+  friend Real operator*(const Real& x, const Real& y)
   {
-    Float r(rounded(static_cast<double>(x.value) * y.value));
-    if (!kernel().run->lane->precise)
+    Run& run = *kernel().run;
+    if (!run.lane->precise && x.count > 1 && run.choose(run.arithmetic.distribute))
+      return distributed(x, y.value);
+    if (!run.lane->precise && y.count > 1 && run.choose(run.arithmetic.distribute))
+      return distributed(y, x.value);
+    Real r(rounded<T>(static_cast<Wide>(x.value) * y.value));
+    if (!run.lane->precise)
     {
       r.count = 1;
       r.terms[0] = {x.value, y.value};
     }
     return r;
   }
-  friend Float operator/(const Float& x, const Float& y)
+  friend Real operator/(const Real& x, const Real& y)
   {
-    return Float(approximate(static_cast<double>(x.value) / y.value));
+    return Real(approximate<T>(static_cast<Wide>(x.value) / y.value));
   }
-  friend Float operator-(const Float& x)
+  friend Real operator-(const Real& x)
   {
-    Float r(x);
+    Real r(x);
     r.value = -r.value;
     for (int i = 0; i < r.count; ++i)
       r.terms[i].a = -r.terms[i].a;
     return r;
   }
-  friend Float& operator+=(Float& x, const Float& y) { return x = x + y; }
-  friend Float& operator-=(Float& x, const Float& y) { return x = x - y; }
-  friend Float& operator*=(Float& x, const Float& y) { return x = x * y; }
-  friend Float& operator/=(Float& x, const Float& y) { return x = x / y; }
+  friend Real& operator+=(Real& x, const Real& y) { return x = x + y; }
+  friend Real& operator-=(Real& x, const Real& y) { return x = x - y; }
+  friend Real& operator*=(Real& x, const Real& y) { return x = x * y; }
+  friend Real& operator/=(Real& x, const Real& y) { return x = x / y; }
 
-  friend bool operator<(const Float& x, const Float& y) { return compared(x, y, x.value < y.value); }
-  friend bool operator>(const Float& x, const Float& y) { return compared(x, y, x.value > y.value); }
-  friend bool operator<=(const Float& x, const Float& y) { return compared(x, y, x.value <= y.value); }
-  friend bool operator>=(const Float& x, const Float& y) { return compared(x, y, x.value >= y.value); }
-  friend bool operator==(const Float& x, const Float& y) { return compared(x, y, x.value == y.value); }
-  friend bool operator!=(const Float& x, const Float& y) { return !(x == y); }
+  friend bool operator<(const Real& x, const Real& y) { return compared(x, y, x.value < y.value); }
+  friend bool operator>(const Real& x, const Real& y) { return compared(x, y, x.value > y.value); }
+  friend bool operator<=(const Real& x, const Real& y) { return compared(x, y, x.value <= y.value); }
+  friend bool operator>=(const Real& x, const Real& y) { return compared(x, y, x.value >= y.value); }
+  friend bool operator==(const Real& x, const Real& y) { return compared(x, y, x.value == y.value); }
+  friend bool operator!=(const Real& x, const Real& y) { return !(x == y); }
 
  private:
-  static bool compared(const Float& x, const Float& y, bool result)
+  static bool compared(const Real& x, const Real& y, bool result)
   {
-    if (isnan(x.value) || isnan(y.value))
+    if (std::isnan(x.value) || std::isnan(y.value))
       return kernel().run->choose(kernel().run->arithmetic.nan_is_true);
     return result;
   }
-  static void addTerms(const Float& x, float sign, Float& to)
+  static void addTerms(const Real& x, T sign, Real& to)
   {
     if (x.count == 0)
-      to.terms[to.count++] = {sign * x.value, 1.0f};
+      to.terms[to.count++] = {sign * x.value, T(1)};
     for (int i = 0; i < x.count; ++i)
       to.terms[to.count++] = {sign * x.terms[i].a, x.terms[i].b};
   }
-  static int termsOf(const Float& x) { return x.count == 0 ? 1 : x.count; }
+  static int termsOf(const Real& x) { return x.count == 0 ? 1 : x.count; }
 
-  static Float sum(const Float& x, const Float& y, float sign)
+  static Real sum(const Real& x, const Real& y, T sign)
   {
     Run& run = *kernel().run;
-    const double plain = static_cast<double>(x.value) + static_cast<double>(sign) * y.value;
+    const Wide plain = static_cast<Wide>(x.value) + static_cast<Wide>(sign) * y.value;
     if (run.lane->precise)
-      return Float(rounded(plain));
-    Float r;
+      return Real(rounded<T>(plain));
+    Real r;
     if (termsOf(x) + termsOf(y) > kTerms)
     {
-      r.terms[0] = {x.value, 1.0f};
-      r.terms[1] = {sign * y.value, 1.0f};
+      r.terms[0] = {x.value, T(1)};
+      r.terms[1] = {sign * y.value, T(1)};
       r.count = 2;
-      r.value = rounded(plain);
+      r.value = rounded<T>(plain);
       return r;
     }
-    addTerms(x, 1.0f, r);
+    addTerms(x, T(1), r);
     addTerms(y, sign, r);
     if (run.choose(run.arithmetic.reorder))
       r.value = reordered(r);
     else if (y.count == 1 && run.choose(run.arithmetic.contract))
-      r.value = rounded(static_cast<double>(sign) * y.terms[0].a * y.terms[0].b + x.value);
+      r.value = rounded<T>(static_cast<Wide>(sign) * y.terms[0].a * y.terms[0].b + x.value);
     else if (x.count == 1 && run.choose(run.arithmetic.contract))
-      r.value = rounded(static_cast<double>(x.terms[0].a) * x.terms[0].b + static_cast<double>(sign) * y.value);
+      r.value = rounded<T>(static_cast<Wide>(x.terms[0].a) * x.terms[0].b + static_cast<Wide>(sign) * y.value);
     else
-      r.value = rounded(plain);
+      r.value = rounded<T>(plain);
+    return r;
+  }
+
+  /// The product of a sum and a factor, as the sum of the products of its terms.
+  static Real distributed(const Real& x, T factor)
+  {
+    Real r;
+    for (int i = 0; i < x.count; ++i)
+      r.terms[i] = {x.terms[i].b == T(1) ? x.terms[i].a : rounded<T>(static_cast<Wide>(x.terms[i].a) * x.terms[i].b),
+                    factor};
+    r.count = x.count;
+    r.value = reordered(r);
     return r;
   }
 
   /// The sum of all terms in a random order. A fused operation adds a product before it is rounded.
-  static float reordered(const Float& x)
+  static T reordered(const Real& x)
   {
     Run& run = *kernel().run;
-    double exact[kTerms];  // of each summand
-    bool open[kTerms];     // it is a product that is not rounded yet
+    Wide exact[kTerms];  // of each summand
+    bool open[kTerms];   // it is a product that is not rounded yet
     int left = x.count;
     for (int i = 0; i < left; ++i)
     {
-      exact[i] = static_cast<double>(x.terms[i].a) * x.terms[i].b;
-      open[i] = x.terms[i].b != 1.0f;
+      exact[i] = static_cast<Wide>(x.terms[i].a) * x.terms[i].b;
+      open[i] = x.terms[i].b != T(1);
     }
     while (left > 1)
     {
@@ -218,18 +262,20 @@ struct Float
       int j = static_cast<int>(run.next() % static_cast<uint>(left - 1));
       j += j >= i ? 1 : 0;
       if (open[j])
-        exact[j] = rounded(exact[j]);
+        exact[j] = rounded<T>(exact[j]);
       if (open[i] && !run.choose(run.arithmetic.contract))
-        exact[i] = rounded(exact[i]);
-      exact[i] = rounded(exact[i] + exact[j]);
+        exact[i] = rounded<T>(exact[i]);
+      exact[i] = rounded<T>(exact[i] + exact[j]);
       open[i] = false;
       --left;
       exact[j] = exact[left];
       open[j] = open[left];
     }
-    return static_cast<float>(exact[0]);
+    return static_cast<T>(exact[0]);
   }
 };
+using Float = Real<float>;
+using Double = Real<double>;
 
 inline Float uintBitsToFloat(uint bits)
 {
@@ -239,23 +285,27 @@ inline uint floatBitsToUint(const Float& x)
 {
   return floatToBits(x.value);
 }
-inline Float sqrt(const Float& x)
-{
-  return Float(approximate(::sqrt(static_cast<double>(x.value))));
-}
 inline Float inversesqrt(const Float& x)
 {
-  return Float(approximate(1.0 / ::sqrt(static_cast<double>(x.value))));
+  return Float(approximate<float>(1.0 / ::sqrt(static_cast<double>(x.value))));
 }
-inline Float abs(const Float& x)
+template <class T>
+Real<T> sqrt(const Real<T>& x)
 {
-  return Float(fabsf(x.value));
+  return Real<T>(approximate<T>(std::sqrt(static_cast<typename Format<T>::Wide>(x.value))));
 }
-inline Float min(const Float& x, const Float& y)
+template <class T>
+Real<T> abs(const Real<T>& x)
+{
+  return Real<T>(std::abs(x.value));
+}
+template <class T>
+Real<T> min(const Real<T>& x, const Real<T>& y)
 {
   return y < x ? y : x;
 }
-inline Float max(const Float& x, const Float& y)
+template <class T>
+Real<T> max(const Real<T>& x, const Real<T>& y)
 {
   return x < y ? y : x;
 }
@@ -263,25 +313,9 @@ inline Float clamp(const Float& x, const Float& low, const Float& high)
 {
   return min(max(x, low), high);
 }
-inline double sqrt(double x)
+inline Double roundEven(const Double& x)
 {
-  return ::sqrt(x);
-}
-inline double abs(double x)
-{
-  return fabs(x);
-}
-inline double roundEven(double x)
-{
-  return nearbyint(x);
-}
-inline double min(double x, double y)
-{
-  return y < x ? y : x;
-}
-inline double max(double x, double y)
-{
-  return x < y ? y : x;
+  return Double(nearbyint(x.value));
 }
 inline uint min(uint x, uint y)
 {

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -23,9 +25,20 @@ GLuint last_id = 0;
 GLuint current_program = 0;
 GLuint indirect_block = 0;
 std::map<GLuint, GLuint> blocks;  // by buffer
+std::set<GLuint> mapped;          // buffers
+std::uint32_t pending_bits = 0;   // of memory barriers since the last command
 std::uint32_t ignored_bits = 0;
+std::string ignored_before;  // the kind of command, empty: every command
 bool recording = false;
 std::recursive_mutex lock;
+
+/// Lets the memory barriers since the last command take effect. `command`: the kind of the command that follows.
+void applyBarriers(const char* command)
+{
+  const bool ignored = ignored_before.empty() || ignored_before == command;
+  device().memoryBarrier(pending_bits & ~(ignored ? ignored_bits : 0U));
+  pending_bits = 0;
+}
 
 GLenum noError()
 {
@@ -49,31 +62,46 @@ void deleteBuffers(GLsizei count, const GLuint* buffers)
   {
     device().removeBlock(blocks.at(buffers[i]));
     blocks.erase(buffers[i]);
+    mapped.erase(buffers[i]);
   }
 }
 
-void bufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data)
+void writeBuffer(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data)
 {
   device().commandWrite(blocks.at(buffer), static_cast<std::size_t>(offset), static_cast<std::size_t>(size), data);
 }
 
-void getBufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data)
+void readBuffer(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data)
 {
   device().commandRead(blocks.at(buffer), static_cast<std::size_t>(offset), static_cast<std::size_t>(size), data,
                        BufferUpdate);
 }
 
+void bufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data)
+{
+  applyBarriers("upload");
+  writeBuffer(buffer, offset, size, data);
+}
+
+void getBufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data)
+{
+  applyBarriers("download");
+  readBuffer(buffer, offset, size, data);
+}
+
 void clearBufferSubData(GLuint buffer, GLenum, GLintptr offset, GLsizeiptr size, GLenum, GLenum, const void*)
 {
+  applyBarriers("clear");
   const std::vector<char> zeros(static_cast<std::size_t>(size));
-  bufferSubData(buffer, offset, size, zeros.data());
+  writeBuffer(buffer, offset, size, zeros.data());
 }
 
 void copyBufferSubData(GLuint from, GLuint to, GLintptr from_offset, GLintptr to_offset, GLsizeiptr size)
 {
+  applyBarriers(mapped.count(to) > 0 ? "readback" : "copy");
   std::vector<char> bytes(static_cast<std::size_t>(size));
-  getBufferSubData(from, from_offset, size, bytes.data());
-  bufferSubData(to, to_offset, size, bytes.data());
+  readBuffer(from, from_offset, size, bytes.data());
+  writeBuffer(to, to_offset, size, bytes.data());
 }
 
 void bindBufferBase(GLenum, GLuint binding, GLuint buffer)
@@ -96,6 +124,7 @@ void bindBuffer(GLenum, GLuint buffer)
 
 void* mapBufferRange(GLuint buffer, GLintptr offset, GLsizeiptr, GLbitfield)
 {
+  mapped.insert(buffer);
   return reinterpret_cast<char*>(device().block(blocks.at(buffer)).values.get()) + offset;
 }
 
@@ -123,7 +152,7 @@ void getIntegerv(GLenum name, GLint* value)
 
 void memoryBarrier(GLbitfield bits)
 {
-  device().memoryBarrier(bits & ~ignored_bits);
+  pending_bits |= bits;
 }
 
 GLuint createName(GLenum)
@@ -189,22 +218,29 @@ void useProgram(GLuint program)
   current_program = program;
 }
 
+void runProgram(GLuint columns, GLuint rows)
+{
+  writeUniforms(current_program);
+  device().dispatch(programs.at(current_program), columns, rows);
+}
+
 void dispatchCompute(GLuint columns, GLuint rows, GLuint)
 {
   if (recording)
     return;
-  writeUniforms(current_program);
-  device().dispatch(programs.at(current_program), columns, rows);
+  applyBarriers("dispatch");
+  runProgram(columns, rows);
 }
 
 void dispatchComputeIndirect(GLintptr offset)
 {
   if (recording)
     return;
+  applyBarriers("indirect dispatch");
   GLuint groups[3] = {};
   device().commandRead(indirect_block, static_cast<std::size_t>(offset), sizeof(groups), groups, Command);
   if (groups[0] * groups[1] * groups[2] != 0)
-    dispatchCompute(groups[0], groups[1], groups[2]);
+    runProgram(groups[0], groups[1]);
 }
 
 GLsync fenceSync(GLenum, GLbitfield)
@@ -294,8 +330,9 @@ void recordOnly()
   recording = true;
 }
 
-void ignoreBarrierBits(std::uint32_t bits)
+void ignoreBarrierBits(std::uint32_t bits, const std::string& command)
 {
   ignored_bits = bits;
+  ignored_before = command;
 }
 }  // namespace lanes

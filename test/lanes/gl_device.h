@@ -21,6 +21,7 @@ const std::vector<std::string>& compiledShaders();
 /// Programs that are only recorded and do nothing when they run; for tests of the shaders' texts.
 void recordOnly();
 
-/// Each later memory barrier lacks these bits.
-void ignoreBarrierBits(std::uint32_t bits);
+/// Each later memory barrier before a command of this kind lacks these bits. `command`: dispatch, indirect dispatch,
+/// upload, download, clear, copy or readback (a copy to a mapped buffer); empty: all kinds.
+void ignoreBarrierBits(std::uint32_t bits, const std::string& command);
 }  // namespace lanes

@@ -3,7 +3,7 @@
 The input is a complete shader without preprocessor lines. Own method: GLSL is close enough to C++ that rules on single
 tokens suffice for the subset that the shaders use:
 - variables in storage blocks and in shared memory become objects whose accesses the simulator sees,
-- `precise` becomes a call of precisely(), `float` and its literals become Float,
+- `precise` becomes a call of precisely(); `float`, `double` and their literals become Float and Double,
 - arrays become array<T, N>, swizzles become calls, out parameters become references.
 """
 import re
@@ -31,7 +31,7 @@ def end_of(tokens, start):
 def literal(token):
     """A number in C++."""
     if token.lower().endswith("lf"):
-        return token[:-2]
+        return f"Double({token[:-2]})"
     if re.match(r"0[xX]", token) or not re.search(r"[.eE]", token):
         return token
     return f"Float({token.rstrip('fF')}f)"
@@ -109,7 +109,7 @@ class Translator:
 
     @staticmethod
     def type_of(token):
-        return "Float" if token == "float" else token
+        return {"float": "Float", "double": "Double"}.get(token, token)
 
     def rewrite(self, tokens):
         """The C++ of tokens of a declaration, a statement or an expression."""

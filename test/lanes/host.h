@@ -23,9 +23,10 @@ struct Arithmetic
     Random
   };
   Rounding rounding = Rounding::Nearest;
-  Choice contract = Choice::Never;  ///< computes a product and a sum with one rounding
-  Choice reorder = Choice::Never;   ///< adds the terms of a sum in another order
-  Choice flush = Choice::Never;     ///< turns denormals into 0
+  Choice contract = Choice::Never;    ///< computes a product and a sum with one rounding
+  Choice reorder = Choice::Never;     ///< adds the terms of a sum in another order
+  Choice distribute = Choice::Never;  ///< multiplies the terms of a sum one by one
+  Choice flush = Choice::Never;       ///< turns denormals into 0
   /// Steps by which sqrt, inversesqrt and division miss the nearest float: -2 to 2, or kRandomSteps.
   int steps = 0;
   Choice nan_is_true = Choice::Never;  ///< the result of a comparison with NaN

@@ -108,9 +108,9 @@ using uvec2 = vec<uint, 2>;
 using uvec3 = vec<uint, 3>;
 using uvec4 = vec<uint, 4>;
 using bvec3 = vec<bool, 3>;
-using dvec2 = vec<double, 2>;
-using dvec3 = vec<double, 3>;
-using dvec4 = vec<double, 4>;
+using dvec2 = vec<Double, 2>;
+using dvec3 = vec<Double, 3>;
+using dvec4 = vec<Double, 4>;
 
 #define LANES_ONE(name)              \
   template <class T, int N>          \
@@ -245,7 +245,7 @@ struct Matrix
   }
 };
 using mat3 = Matrix<Float>;
-using dmat3 = Matrix<double>;
+using dmat3 = Matrix<Double>;
 
 template <class T, int N>
 struct array
@@ -269,7 +269,8 @@ template <class T>
 void settle(T&)
 {
 }
-inline void settle(Float& x)
+template <class T>
+void settle(Real<T>& x)
 {
   x.count = 0;
 }
@@ -315,11 +316,11 @@ vec<uint, N> floatBitsToUint(const vec<Float, N>& values)
     r[i] = floatBitsToUint(values[i]);
   return r;
 }
-inline double packDouble2x32(const uvec2& words)
+inline Double packDouble2x32(const uvec2& words)
 {
   double value;
   memcpy(&value, &words, sizeof(value));
-  return value;
+  return Double(value);
 }
 
 // --- Variables of a kernel -----------------------------------------------------------------------------------------
@@ -358,9 +359,9 @@ inline void pack(Float value, uint*& words)
 {
   *words++ = floatBitsToUint(value);
 }
-inline void pack(double value, uint*& words)
+inline void pack(Double value, uint*& words)
 {
-  memcpy(words, &value, sizeof(value));
+  memcpy(words, &value.value, sizeof(double));
   words += 2;
 }
 template <class T, int N>
@@ -377,9 +378,10 @@ inline void unpack(Float& value, const uint*& words)
 {
   value = uintBitsToFloat(*words++);
 }
-inline void unpack(double& value, const uint*& words)
+inline void unpack(Double& value, const uint*& words)
 {
-  memcpy(&value, words, sizeof(value));
+  value = Double();
+  memcpy(&value.value, words, sizeof(double));
   words += 2;
 }
 template <class T, int N>
@@ -394,6 +396,10 @@ template <>
 inline constexpr int kWords<Float> = 1;
 template <int N>
 inline constexpr int kWords<vec<Float, N>> = N;
+template <>
+inline constexpr int kWords<Double> = 2;
+template <int N>
+inline constexpr int kWords<vec<Double, N>> = 2 * N;
 
 /// A place to which the operators of assignment store.
 template <class M, class T>

@@ -85,6 +85,7 @@ Simulator::Program loadKernel(const std::string& shader)
   program.kernel = reinterpret_cast<Kernel* (*)()>(dlsym(handle, "lanesKernel"))();
   program.main = reinterpret_cast<void (*)()>(dlsym(handle, "lanesMain"));
   program.name = nameOf(shader);
+  program.tests_arithmetic = shader.find("src/gpu/float_arithmetic.cpp checks them") != std::string::npos;
   return program;
 }
 }  // namespace lanes

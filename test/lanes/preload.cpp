@@ -25,7 +25,8 @@ struct Preload
     lanes::device().setSeed(number("GPS_LANES_SEED", 1));
     if (number("GPS_LANES_EXACT", 0) != 0)
       lanes::device().useExactArithmetic();
-    lanes::ignoreBarrierBits(static_cast<std::uint32_t>(number("GPS_LANES_IGNORE_BITS", 0)));
+    const char* const before = std::getenv("GPS_LANES_IGNORE_BEFORE");
+    lanes::ignoreBarrierBits(static_cast<std::uint32_t>(number("GPS_LANES_IGNORE_BITS", 0)), before ? before : "");
     lanes::replaceOpenGl();
   }
   ~Preload()

@@ -231,6 +231,8 @@ void Simulator::noteWrite(Block::Word& word, std::uint32_t value, bool atomicall
     report("a race: a lane writes what another lane reads from " + nameOf(binding) + " in the same dispatch");
   if (word.written_in != dispatch_ && !covered(word.written_in, ShaderStorage))
     report(nameOf(binding) + " is written without GL_SHADER_STORAGE_BARRIER_BIT after an earlier dispatch wrote it");
+  if (word.read_in != dispatch_ && !covered(word.read_in, ShaderStorage))
+    report(nameOf(binding) + " is written without GL_SHADER_STORAGE_BARRIER_BIT after an earlier dispatch read it");
   if (word.written_in != dispatch_)
     word.before = value;
   word.written_in = dispatch_;
@@ -393,10 +395,15 @@ void Simulator::chooseFreedoms()
   run_.arithmetic.rounding = static_cast<Arithmetic::Rounding>(random_() % 5);
   run_.arithmetic.contract = choice();
   run_.arithmetic.reorder = choice();
+  run_.arithmetic.distribute = choice();
   run_.arithmetic.flush = choice();
   constexpr int kSteps[] = {0, 2, -2, Arithmetic::kRandomSteps};
   run_.arithmetic.steps = kSteps[random_() % 4];
   run_.arithmetic.nan_is_true = choice();
+  if (!program_->tests_arithmetic)
+    return;
+  run_.arithmetic.rounding = Arithmetic::Rounding::Nearest;
+  run_.arithmetic.nan_is_true = Arithmetic::Choice::Never;
 }
 
 void Simulator::startGroup(std::uint32_t number, std::uint32_t columns, std::uint32_t rows)

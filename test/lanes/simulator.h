@@ -54,6 +54,9 @@ class Simulator : private Memory
     Kernel* kernel = nullptr;
     void (*main)() = nullptr;
     std::string name;
+    /// The program tests the device's arithmetic. It then finds no fault: sums are rounded to nearest, and comparisons
+    /// with NaN are false. A device that fails this test may not use the kernels that a run is to test.
+    bool tests_arithmetic = false;
   };
 
   Simulator();

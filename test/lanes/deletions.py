@@ -1,0 +1,149 @@
+#!/usr/bin/python3
+"""Shows that the simulated device finds faults: deletes one after the other each barrier() and each `precise` of the
+shaders, and each bit of glMemoryBarrier at each kind of command, and runs small tasks until one of them is wrong.
+Prints a table (Markdown). See docs/gpu.md.
+
+    deletions.py BUILD [--seeds N] [--only TEXT]
+"""
+import argparse
+import concurrent.futures
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+STATEMENTS = [
+    (re.compile(r"^\s*(barrier|memoryBarrier\w*|groupMemoryBarrier)\(\);"), re.compile(r"\w+\(\);")),
+    (re.compile(r"^\s*precise\s"), re.compile(r"precise\s")),
+]
+# The commands that a memory barrier precedes, by the file of the barrier.
+COMMANDS = {
+    "src/gpu/program.cpp": ["dispatch", "indirect dispatch"],
+    "src/gpu/buffer.cpp": ["upload", "download", "clear", "copy"],
+    "src/gpu/readback.cpp": ["readback"],
+}
+BITS = {"GL_TEXTURE_FETCH_BARRIER_BIT": 0x8, "GL_COMMAND_BARRIER_BIT": 0x40, "GL_BUFFER_UPDATE_BARRIER_BIT": 0x200,
+        "GL_SHADER_STORAGE_BARRIER_BIT": 0x2000}
+# Tasks for a folder of shaders; others try all tasks.
+BATCHES = ["work_queue", "breadth_first"]
+FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic"]
+# Families of `stability` for what the tasks do not find.
+FAMILIES = ["random rigid motions", "far", "sliver", "in or near a closed mesh", "primitive", "padding"]
+
+
+def lines_of(path):
+    with open(os.path.join(SOURCE, path), encoding="utf-8") as file:
+        return file.read().split("\n")
+
+
+def shader_deletions():
+    """Tuples (path, line, text): the line of a shader, and the line without the deleted words."""
+    for folder, _, names in sorted(os.walk(os.path.join(SOURCE, "shaders"))):
+        for name in sorted(names):
+            path = os.path.relpath(os.path.join(folder, name), SOURCE)
+            for number, line in enumerate(lines_of(path), 1):
+                for statement, words in STATEMENTS:
+                    if statement.search(line):
+                        yield path, number, words.sub("", line, count=1)
+
+
+def bit_deletions():
+    """Tuples (path, line, bit, command)."""
+    for folder, _, names in sorted(os.walk(os.path.join(SOURCE, "src"))):
+        for name in sorted(names):
+            path = os.path.relpath(os.path.join(folder, name), SOURCE)
+            for number, line in enumerate(lines_of(path), 1):
+                for bit in re.findall(r"GL_\w+_BARRIER_BIT", line):
+                    for command in COMMANDS[path]:
+                        yield path, number, bit, command
+
+
+class Runner:
+    def __init__(self, build, seeds):
+        self.programs = os.path.join(build, "devel", "lib", "gpu_planning_scene")
+        self.device = os.path.join(build, "devel", "lib", "liblanes_device.so")
+        self.seeds = seeds
+
+    def tasks(self, shaders, names, variables):
+        """What the tasks find with these shaders; None if nothing is wrong."""
+        process = subprocess.run([os.path.join(self.programs, "lanes_workload"), shaders, str(self.seeds), *names],
+                                 env={**os.environ, **variables}, capture_output=True, text=True)
+        if process.returncode == 0:
+            return None
+        if process.returncode != 1:
+            raise RuntimeError(process.stderr)
+        name, seed, *wrong = process.stdout.strip().split("\t")
+        return name, seed, wrong[0]
+
+    def families(self, shaders):
+        """The same for the hard cases of `stability`, if this program is built."""
+        program = os.path.join(self.programs, "stability")
+        if not os.path.exists(program):
+            return None
+        for seed in range(1, 4):
+            for family in FAMILIES:
+                process = subprocess.run(
+                    [program, "--shaders", shaders, "--family", family, "--cases", "4", "--proofs", "0", "--seed",
+                     str(seed)],
+                    env={**os.environ, "LD_PRELOAD": self.device, "GPS_LANES_SEED": str(seed)}, capture_output=True,
+                    text=True)
+                if process.returncode != 0:
+                    wrong = [line.strip() for line in process.stderr.split("\n")
+                             if "lanes:" in line or " is wrong in case" in line]
+                    return f"stability, {family}", str(seed), (wrong or [process.stderr.strip()[-200:]])[0]
+        return None
+
+    def without_line(self, path, number, text):
+        """What is found without the deleted words of a shader."""
+        with tempfile.TemporaryDirectory() as folder:
+            shaders = os.path.join(folder, "shaders")
+            shutil.copytree(os.path.join(SOURCE, "shaders"), shaders)
+            lines = lines_of(path)
+            lines[number - 1] = text
+            with open(os.path.join(folder, path), "w", encoding="utf-8") as file:
+                file.write("\n".join(lines))
+            barrier = "precise" not in lines_of(path)[number - 1]
+            found = self.tasks(shaders, BATCHES if barrier else FUNCTIONS, {})
+            if not found and not barrier:
+                found = self.tasks(shaders, BATCHES, {}) or self.families(shaders)
+            return found
+
+    def without_bit(self, bit, command):
+        variables = {"GPS_LANES_IGNORE_BITS": hex(BITS[bit]), "GPS_LANES_IGNORE_BEFORE": command}
+        return self.tasks(os.path.join(SOURCE, "shaders"), BATCHES, variables)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build")
+    parser.add_argument("--seeds", type=int, default=20, help="seeds of each task (default 20)")
+    parser.add_argument("--only", default="", help="only deletions whose line in the table contains this text")
+    arguments = parser.parse_args()
+    runner = Runner(arguments.build, arguments.seeds)
+    undamaged = runner.tasks(os.path.join(SOURCE, "shaders"), [], {})
+    if undamaged:
+        sys.exit(f"the shaders are wrong without a deletion: {undamaged}")
+    jobs = []
+    with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
+        for path, number, text in shader_deletions():
+            what = f"{path}:{number}: `{lines_of(path)[number - 1].strip()}`"
+            if arguments.only in what:
+                jobs.append((what, pool.submit(runner.without_line, path, number, text)))
+        for path, number, bit, command in bit_deletions():
+            what = f"{path}:{number}: {bit} before {command}"
+            if arguments.only in what:
+                jobs.append((what, pool.submit(runner.without_bit, bit, command)))
+        print("| deletion | task | seed | what is wrong |\n| --- | --- | --- | --- |", flush=True)
+        missed = 0
+        for what, job in jobs:
+            found = job.result()
+            missed += not found
+            print("| " + " | ".join([what, *(found or ("not found", "", ""))]) + " |", flush=True)
+    print(f"\n{len(jobs) - missed} of {len(jobs)} deletions are found.")
+
+
+if __name__ == "__main__":
+    main()

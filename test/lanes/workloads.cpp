@@ -1,0 +1,186 @@
+#include "lanes/workloads.h"
+
+#include <functional>
+#include <map>
+#include <random>
+#include <stdexcept>
+
+#include "collision/exact/binned_sah.h"
+#include "collision/exact/cpu_traversal.h"
+#include "collision/gpu/gpu_checker.h"
+#include "gpu/float_arithmetic.h"
+#include "lanes/gl_device.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+constexpr std::size_t kStates = 24;
+
+Isometry3d at(double x, double y, double z)
+{
+  return Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+/// A surface of cells x cells squares of 0.1 m with hills of 0.04 m. Copies of it above each other do not touch, but
+/// their boxes overlap.
+std::shared_ptr<const Mesh> hills(int cells)
+{
+  auto mesh = std::make_shared<Mesh>();
+  for (int i = 0; i <= cells; ++i)
+    for (int j = 0; j <= cells; ++j)
+      mesh->vertices.emplace_back(0.1 * i, 0.1 * j, 0.04 * ((i * 7 + j * 5) % 3));
+  const auto row = static_cast<std::uint32_t>(cells + 1);
+  for (std::uint32_t i = 0; i + 1 < row; ++i)
+    for (std::uint32_t j = 0; j + 1 < row; ++j)
+    {
+      const std::uint32_t corner = i * row + j;
+      mesh->triangles.push_back({corner, corner + row, corner + 1});
+      mesh->triangles.push_back({corner + 1, corner + row, corner + row + 1});
+    }
+  return mesh;
+}
+
+std::uint32_t addTree(CollisionProblem& problem, const Shape& shape)
+{
+  problem.tessellations.push_back(tessellate(shape));
+  problem.shapes.insert(problem.shapes.end(), 1, shape);
+  return static_cast<std::uint32_t>(problem.shapes.size() - 1);
+}
+
+/// A lift with hills and an arm with a block above hills. `objects`: number of the other objects.
+std::shared_ptr<CollisionProblem> problemOf(std::size_t objects)
+{
+  auto problem = std::make_shared<CollisionProblem>();
+  const std::uint32_t few = addTree(*problem, hills(4));
+  const std::uint32_t block = addTree(*problem, tessellate(Box{{0.05, 0.07, 0.03}}).mesh);
+  problem->robot = {{few, 1, 1, at(0.0, 0.0, 0.0)}, {block, 2, 2, at(0.1, 0.0, 0.1), 0.002}};
+  problem->self_pairs = {{0, 1}};
+  std::int32_t body = 3;
+  const auto add = [&](const Shape& shape, const Isometry3d& pose, double padding) {
+    problem->world.push_back({addTree(*problem, shape), body++, -1, pose, padding});
+  };
+  problem->world.push_back({few, body++, -1, at(0.0, 0.0, -0.01)});
+  const std::vector<std::function<void()>> others = {
+      [&] { add(hills(9), at(0.25, -0.3, 0.05), 0.001); },
+      [&] {
+        add(tessellate(Box{{0.1, 0.1, 0.1}}).mesh, at(0.35, 0.2, 0.2), 0.0);
+      },
+      [&] {
+        add(Cylinder{0.04, 0.1}, at(0.2, 0.35, 0.2), 0.001);
+      },
+      [&] {
+        add(Box{{0.05, 0.04, 0.03}}, at(0.3, 0.1, 0.15), 0.0);
+      },
+  };
+  for (std::size_t i = 0; i < objects; ++i)
+    others[i]();
+  problem->world_pairs.assign(2 * problem->world.size(), 1);
+  problem->half_spaces = {{body, Vector3d(0.1, 0.2, 1.0).normalized(), -0.02, 0.001}};
+  problem->half_space_pairs = {0, 1};
+  problem->origin = {0.1, 0.2, 0.0};
+  return problem;
+}
+
+std::shared_ptr<const RobotModel> liftAndArm()
+{
+  return RobotModel::fromXml(R"(<robot name="lift_and_arm"><link name="base"/><link name="lift"/><link name="arm"/>
+      <joint name="rise" type="prismatic"><parent link="base"/><child link="lift"/><axis xyz="0 0 1"/>
+        <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+      <joint name="turn" type="continuous"><parent link="lift"/><child link="arm"/><axis xyz="0.3 0.2 1"/>
+        <origin xyz="0.2 0.2 0.12"/></joint></robot>)",
+                             "", {});
+}
+
+/// Checks two batches of states in two scenes, of which the second has more objects.
+std::vector<std::string> checkStates(Traversal traversal, const std::string& shaders, std::uint64_t seed)
+{
+  std::vector<std::string> wrong;
+  BatchCheckerOptions options;
+  options.traversal = traversal;
+  options.shader_folder = shaders;
+  options.max_batch = kStates;
+  GpuChecker checker(options);
+  if (!checker.floatFault().empty())
+    wrong.push_back("the test of the arithmetic fails: " + checker.floatFault());
+  const auto robot = liftAndArm();
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> height(-0.008, 0.04);
+  std::uniform_real_distribution<double> angle(-3.0, 3.0);
+  for (const std::size_t objects : {1, 4})
+  {
+    const auto problem = problemOf(objects);
+    checker.setProblem(problem, robot);
+    std::vector<double> states;
+    for (std::size_t i = 0; i < kStates; ++i)
+      for (const double value : {height(generator), angle(generator)})
+        states.push_back(value);
+    BatchResult result;
+    checker.check(states.data(), kStates, result);
+    const CpuTraversal exact(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
+    CpuTraversal::Scratch scratch;
+    std::vector<Isometry3d> links(robot->links().size());
+    for (std::size_t i = 0; i < kStates; ++i)
+    {
+      robot->linkPoses(&states[2 * i], links.data());
+      if ((result.valid[i] != 0) != !exact.firstCollision(links.data(), scratch))
+        wrong.push_back("state " + std::to_string(i) + " of " + std::to_string(kStates) + " is called " +
+                        (result.valid[i] != 0 ? "free" : "a collision"));
+    }
+  }
+  return wrong;
+}
+
+std::vector<std::string> testArithmetic(const std::string& shaders)
+{
+  std::vector<std::string> wrong;
+  for (const std::string& fault : {findFloatFault(shaders), findDoubleFault(shaders)})
+    if (!fault.empty())
+      wrong.push_back(fault);
+  return wrong;
+}
+
+using Task = std::function<std::vector<std::string>(const std::string&, std::uint64_t)>;
+
+const std::map<std::string, Task>& tasks()
+{
+  static const std::map<std::string, Task> all = {
+      {"arithmetic", [](const std::string& shaders, std::uint64_t) { return testArithmetic(shaders); }},
+      {"breadth_first", [](const std::string& shaders, std::uint64_t seed)
+       { return checkStates(Traversal::BreadthFirst, shaders, seed); }},
+      {"work_queue",
+       [](const std::string& shaders, std::uint64_t seed) { return checkStates(Traversal::WorkQueue, shaders, seed); }},
+      {"transforms", checkTransforms},
+      {"triangles", checkTriangles},
+      {"distances", checkDistances},
+      {"kinematics", checkKinematics},
+  };
+  return all;
+}
+}  // namespace
+
+std::vector<std::string> workloadNames()
+{
+  std::vector<std::string> names;
+  for (const auto& [name, task] : tasks())
+    names.push_back(name);
+  return names;
+}
+
+std::vector<std::string> runWorkload(const std::string& name, const std::string& shaders, std::uint64_t seed)
+{
+  const auto task = tasks().find(name);
+  if (task == tasks().end())
+    throw std::runtime_error("there is no workload " + name);
+  lanes::device().setSeed(seed);
+  lanes::device().clearFaults();
+  const std::vector<std::string> wrong = task->second(shaders, seed);
+  const auto& faults = lanes::device().faults();
+  std::vector<std::string> all(faults.begin(), faults.end());
+  all.insert(all.end(), wrong.begin(), wrong.end());
+  return all;
+}
+}  // namespace gpu_planning_scene::core
