@@ -1,7 +1,10 @@
 // Compares the distance of two triangles with a required distance. The nearest points are searched among edges and
 // corners (Ericson 2005, "Real-Time Collision Detection", 5.1). The accuracy of the search does not matter. The
 // distance of the found points is an upper bound on the distance of the triangles, and the extents of the corners along
-// the line between these points give a lower bound.
+// the line between these points give a lower bound. A degenerate triangle may make the found points NaN. The last two
+// comparisons then prove nothing.
+#include "common/comparisons.glsl"
+
 struct Witness
 {
   vec3 on_a;
@@ -89,7 +92,7 @@ uint triangleDistance(vec3 a[3], vec3 b[3], float error, float distance, float g
   }
   const float span = lengthAtMost(axis) * (1.0 + 8.0 * u);
   const float off = error + 24.0 * u * size;
-  if (span + off <= distance * (1.0 - 4.0 * u))
+  if (provenGreater(distance * (1.0 - 4.0 * u), span + off))
     return STATE_HIT;
-  return from_b - from_a > span * (gap + off) * (1.0 + 8.0 * u) + TINY ? 0u : STATE_UNDECIDED;
+  return provenGreater(from_b - from_a, span * (gap + off) * (1.0 + 8.0 * u) + TINY) ? 0u : STATE_UNDECIDED;
 }

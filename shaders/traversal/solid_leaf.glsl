@@ -1,10 +1,12 @@
 // Tests one triangle of a leaf against a solid: separating axes prove that they are apart, alternating projections
 // prove a hit. triangleSolid names the sources. Lengths are in metres.
+#include "common/comparisons.glsl"
 #include "geometry/error_bounds.glsl"
 #include "problem/triangles.glsl"
 #include "geometry/solid.glsl"
 
-// The point of a triangle that is nearest to p, up to rounding. The result is a point of the triangle in any case.
+// The point of a triangle that is nearest to p, up to rounding. The result is a point of the triangle in any case, or NaN
+// if the triangle is degenerate and the device takes comparisons with NaN for true.
 vec3 nearestOfTriangle(vec3 corners[3], vec3 p)
 {
   const vec3 e1 = corners[1] - corners[0];
@@ -43,7 +45,8 @@ bool liesBeyond(vec3 corners[3], Instance solid, vec3 n, float beyond)
   const float least = min(heights.x, min(heights.y, heights.z));
   const float most = max(heights.x, max(heights.y, heights.z));
   const bool above = least > -most;
-  return max(least, -most) - extentAlong(solid, above ? n : -n) > beyond * lengthAtMost(n) * (1.0 + 16.0 * u) + TINY;
+  return provenGreater(max(least, -most) - extentAlong(solid, above ? n : -n),
+                       beyond * lengthAtMost(n) * (1.0 + 16.0 * u) + TINY);
 }
 
 // Tests a triangle against a solid. The corners, in the frame of the solid, are off by at most `error`. Returns
@@ -85,7 +88,7 @@ uint triangleSolid(vec3 corners[3], Instance solid, float error, float distance,
     const vec3 next = nearestOfTriangle(corners, q);
     if (liesBeyond(corners, solid, n, beyond) || liesBeyond(corners, solid, next - q, beyond))
       found = 0u;
-    if (span + off <= depth + distance * (1.0 - 4.0 * u))
+    if (provenGreater(depth + distance * (1.0 - 4.0 * u), span + off))
       found = STATE_HIT;
     const float gain = dot(n, p - next);
     const float stretch = step % 3u != 2u && gain > 0.0 ? min(span * span / gain, 1e4) : 1.0;

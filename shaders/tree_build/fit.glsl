@@ -7,6 +7,7 @@
 // - the same normal and the axis of the frame that is nearest to the plane of the triangle.
 // src/collision/geometry/oriented_box.cpp does the same in double. All coordinates are relative to `origin`, the centre
 // of the node's axis-aligned box, in metres.
+#include "common/comparisons.glsl"
 #include "geometry/quaternion.glsl"
 
 #define FIT_BOXES 4
@@ -163,7 +164,8 @@ void writeBest(uint at, TreeNode node, Extents extents, vec4 axes[FIT_BOXES])
 {
   int best = 0;
   for (int box = 1; box < FIT_BOXES; ++box)
-    if (halfSurface(extents.high[box] - extents.low[box]) < halfSurface(extents.high[best] - extents.low[best]))
+    if (provenGreater(halfSurface(extents.high[best] - extents.low[best]),
+                      halfSurface(extents.high[box] - extents.low[box])))
       best = box;
   const vec3 low = extents.low[best];
   const vec3 high = extents.high[best];

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <sstream>
 #include <vector>
@@ -68,8 +69,10 @@ const char* faultOf(double x, double y, const Outcome& found)
 
 std::string findFloatFault(const std::string& shader_folder)
 {
-  const std::vector<std::array<float, 2>> numbers = someNumbers();
-  Buffer input(kCases * sizeof(numbers.front()));
+  std::vector<std::array<float, 2>> numbers = someNumbers();
+  constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
+  numbers.push_back({kNoNumber, kNoNumber});
+  Buffer input(numbers.size() * sizeof(numbers.front()));
   input.write(numbers);
   Buffer output(kCases * sizeof(Outcome));
   input.bindStorage(BINDING_C);

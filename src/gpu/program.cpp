@@ -22,11 +22,10 @@ namespace
 constexpr std::size_t kMaxGroups = MAX_GROUPS;
 
 /// Orders the next dispatch after earlier writes that it may read: storage buffers, buffer textures, indirect
-/// arguments.
+/// arguments. Transfers have barriers of their own, see Buffer and Readback.
 void waitForEarlierDispatches()
 {
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                  GL_BUFFER_UPDATE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
 void appendFile(const std::string& folder, const std::string& name, std::set<std::string>& seen, std::string& text);

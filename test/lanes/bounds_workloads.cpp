@@ -138,6 +138,13 @@ Pair nearPair(Random& random)
   pair.b = {nearest + (edges ? Vector3d(-s * other) : Vector3d::Zero()),
             nearest + (edges ? Vector3d((1.0 - s) * other) : above(random.vector(size))),
             nearest + above(random.vector(size))};
+  // One in eight is a segment or a point.
+  if (random.below(8) == 0)
+    pair.b[2] = pair.b[0];
+  if (random.below(8) == 0)
+    pair.a[1] = pair.a[0];
+  if (random.below(32) == 0)
+    pair.a = {pair.a[0], pair.a[0], pair.a[0]};
   for (auto* corners : {&pair.a, &pair.b})
   {
     for (Vector3d& corner : *corners)

@@ -24,8 +24,11 @@ int main(int argc, char** argv)
                              before ? before : "");
     lanes::replaceOpenGl();
     const std::vector<std::string> names = argc > 3 ? std::vector<std::string>(argv + 3, argv + argc) : workloadNames();
-    const std::uint64_t seeds = std::strtoull(argv[2], nullptr, 0);
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed)
+    char* rest = nullptr;
+    const std::uint64_t number = std::strtoull(argv[2], &rest, 10);
+    const std::uint64_t first = *rest == '-' ? number : 1;
+    const std::uint64_t last = *rest == '-' ? std::strtoull(rest + 1, nullptr, 10) : number;
+    for (std::uint64_t seed = first; seed <= last; ++seed)
       for (const std::string& name : names)
       {
         const std::vector<std::string> wrong = runWorkload(name, argv[1], seed);

@@ -41,6 +41,10 @@ std::shared_ptr<const Mesh> hills(int cells)
       mesh->triangles.push_back({corner, corner + row, corner + 1});
       mesh->triangles.push_back({corner + 1, corner + row, corner + row + 1});
     }
+  // Triangles without area.
+  mesh->triangles.push_back({row, row, row + 1});
+  mesh->triangles.push_back({0, 1, 1});
+  mesh->triangles.push_back({row + 1, row + 1, row + 1});
   return mesh;
 }
 
