@@ -21,12 +21,10 @@ namespace
 {
 constexpr std::size_t kMaxGroups = MAX_GROUPS;
 
-/// Orders the next dispatch after earlier writes that it may read: storage buffers, buffer textures, indirect
-/// arguments. Transfers have barriers of their own, see Buffer and Readback.
-void waitForEarlierDispatches()
-{
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-}
+/// Orders the next dispatch after earlier writes that it may read. Transfers have barriers of their own, see Buffer and
+/// Readback.
+constexpr GLbitfield kBeforeDispatch = GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
+constexpr GLbitfield kBeforeIndirectDispatch = kBeforeDispatch | GL_COMMAND_BARRIER_BIT;
 
 void appendFile(const std::string& folder, const std::string& name, std::set<std::string>& seen, std::string& text);
 
@@ -196,14 +194,14 @@ void Program::dispatch(std::size_t groups) const
   if (rows > kMaxGroups)
     throw Error("a dispatch of " + std::to_string(groups) +
                 " workgroups exceeds the limit of OpenGL; use a smaller batch");
-  waitForEarlierDispatches();
+  glMemoryBarrier(kBeforeDispatch);
   glUseProgram(id_);
   glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
 }
 
 void Program::dispatchIndirect(const Buffer& arguments, std::size_t offset) const
 {
-  waitForEarlierDispatches();
+  glMemoryBarrier(kBeforeIndirectDispatch);
   glUseProgram(id_);
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, arguments.id());
   glDispatchComputeIndirect(static_cast<GLintptr>(offset));

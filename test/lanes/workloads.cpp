@@ -1,5 +1,6 @@
 #include "lanes/workloads.h"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <random>
@@ -9,7 +10,10 @@
 #include "collision/exact/cpu_traversal.h"
 #include "collision/gpu/gpu_checker.h"
 #include "gpu/float_arithmetic.h"
+#include "gpu/program.h"
+#include "gpu/readback.h"
 #include "lanes/gl_device.h"
+#include "shader_constants.h"
 
 namespace gpu_planning_scene::core
 {
@@ -147,12 +151,58 @@ std::vector<std::string> testArithmetic(const std::string& shaders)
   return wrong;
 }
 
+/// Transfers directly after a dispatch that writes to their buffer.
+std::vector<std::string> transferAfterDispatches(const std::string& shaders)
+{
+  constexpr std::size_t kBytes = GROUP_SIZE * sizeof(std::uint32_t);
+  const Program program = Program::fromText(shaders, "numbers", R"(// One invocation per number: writes 7.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+layout(std430, binding = 0) buffer Numbers { uint numbers[]; };
+void main()
+{
+  numbers[gl_LocalInvocationID.x] = 7u;
+}
+)");
+  Buffer numbers(kBytes);
+  numbers.bindStorage(0);
+  std::vector<std::string> wrong;
+  const auto expect = [&](const std::string& what, const std::uint32_t* found, std::uint32_t number)
+  {
+    if (std::count(found, found + GROUP_SIZE, number) != GROUP_SIZE)
+      wrong.push_back(what + " gives wrong numbers");
+  };
+  std::vector<std::uint32_t> found(GROUP_SIZE);
+  program.dispatch(1);
+  numbers.read(found.data(), kBytes);
+  expect("a download", found.data(), 7);
+  program.dispatch(1);
+  numbers.write(std::vector<std::uint32_t>(GROUP_SIZE, 8));
+  numbers.read(found.data(), kBytes);
+  expect("an upload", found.data(), 8);
+  program.dispatch(1);
+  numbers.clear();
+  numbers.read(found.data(), kBytes);
+  expect("a buffer that was cleared", found.data(), 0);
+  program.dispatch(1);
+  Buffer copy(kBytes);
+  copy.copyFrom(numbers, kBytes);
+  copy.read(found.data(), kBytes);
+  expect("a copy", found.data(), 7);
+  program.dispatch(1);
+  Readback readback;
+  readback.begin(numbers, kBytes);
+  expect("a readback", readback.wait(), 7);
+  return wrong;
+}
+
 using Task = std::function<std::vector<std::string>(const std::string&, std::uint64_t)>;
 
 const std::map<std::string, Task>& tasks()
 {
   static const std::map<std::string, Task> all = {
       {"arithmetic", [](const std::string& shaders, std::uint64_t) { return testArithmetic(shaders); }},
+      {"buffers", [](const std::string& shaders, std::uint64_t) { return transferAfterDispatches(shaders); }},
       {"breadth_first", [](const std::string& shaders, std::uint64_t seed)
        { return checkStates(Traversal::BreadthFirst, shaders, seed); }},
       {"work_queue",
