@@ -5,8 +5,8 @@
 #include "problem/triangles.glsl"
 #include "geometry/solid.glsl"
 
-// The point of a triangle that is nearest to p, up to rounding. The result is a point of the triangle in any case, or NaN
-// if the triangle is degenerate and the device takes comparisons with NaN for true.
+// The point of a triangle that is nearest to p, up to rounding. The result is a point of the triangle in any case, or
+// NaN if the triangle is degenerate and the device takes comparisons with NaN for true.
 vec3 nearestOfTriangle(vec3 corners[3], vec3 p)
 {
   const vec3 e1 = corners[1] - corners[0];

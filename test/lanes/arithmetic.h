@@ -4,9 +4,8 @@
 // fused operations, and a later product may multiply each term. A `precise` expression rounds each operation on its
 // own.
 
-#include <string.h>
-
 #include <cmath>
+#include <cstring>
 
 #include "lanes/host.h"
 
@@ -32,13 +31,13 @@ struct FunctionScope
 inline float bitsToFloat(uint bits)
 {
   float value;
-  memcpy(&value, &bits, sizeof(value));
+  std::memcpy(&value, &bits, sizeof(value));
   return value;
 }
 inline uint floatToBits(float value)
 {
   uint bits;
-  memcpy(&bits, &value, sizeof(bits));
+  std::memcpy(&bits, &value, sizeof(bits));
   return bits;
 }
 

@@ -147,7 +147,8 @@ void bindTextureUnit(GLuint unit, GLuint texture)
 
 void getIntegerv(GLenum name, GLint* value)
 {
-  *value = name == GL_MAX_TEXTURE_BUFFER_SIZE ? 1 << 27 : 0;
+  const bool is_limit = name == GL_MAX_TEXTURE_BUFFER_SIZE || name == GL_MAX_SHADER_STORAGE_BLOCK_SIZE;
+  *value = is_limit ? 1 << 27 : 0;
 }
 
 void memoryBarrier(GLbitfield bits)
