@@ -14,7 +14,8 @@ namespace
 {
 constexpr char kSeparator[] = "MSG: ";  // before the type of each message of a definition, except for the first one
 
-/// The lines of each message of a definition, by type without package. The first message has the type "".
+/// The lines of each message of a definition, by type without package. The first message has the type "". Of a type
+/// that is defined twice, the first definition counts.
 std::map<std::string, std::vector<std::string>> sectionsOf(const std::string& definition)
 {
   std::map<std::string, std::vector<std::string>> sections;
@@ -22,8 +23,11 @@ std::map<std::string, std::vector<std::string>> sectionsOf(const std::string& de
   std::istringstream text(definition);
   for (std::string line; std::getline(text, line);)
     if (line.rfind(kSeparator, 0) == 0)
-      section = &sections[line.substr(line.rfind('/') + 1)];
-    else if (!line.empty() && line.front() != '=')
+    {
+      const auto [type, is_new] = sections.emplace(line.substr(line.rfind('/') + 1), std::vector<std::string>());
+      section = is_new ? &type->second : nullptr;
+    }
+    else if (section != nullptr && !line.empty() && line.front() != '=')
       section->push_back(line.substr(0, line.find('#')));
   return sections;
 }
@@ -90,12 +94,25 @@ class LayoutReader
   std::vector<std::string> layout_;
 };
 
-template <class Ours, class Theirs>
-void requireEqual(std::size_t only_ours)
+template <class Message>
+std::string definitionOf()
 {
-  namespace traits = ros::message_traits;
-  requireEqualLayouts(traits::DataType<Theirs>::value(), traits::Definition<Ours>::value(),
-                      traits::Definition<Theirs>::value(), only_ours);
+  return ros::message_traits::Definition<Message>::value();
+}
+
+template <class Ours, class Theirs>
+LayoutPair pairOf(std::size_t only_ours = 0)
+{
+  return {ros::message_traits::DataType<Theirs>::value(), definitionOf<Ours>(), definitionOf<Theirs>(), only_ours};
+}
+
+/// StateValidityRequest is no message of ROS, so it has no definition of its own.
+std::string stateValidityDefinition()
+{
+  const std::string separator = std::string("\n") + kSeparator;
+  return "RobotState robot_state\nstring group_name\nConstraints constraints" + separator +
+         "gpu_planning_scene/RobotState\n" + definitionOf<RobotState>() + separator + "moveit_msgs/Constraints\n" +
+         definitionOf<moveit_msgs::Constraints>();
 }
 }  // namespace
 
@@ -104,25 +121,37 @@ std::vector<std::string> layoutOf(const std::string& definition)
   return LayoutReader(definition).read();
 }
 
-void requireEqualLayouts(const std::string& name, const std::string& ours, const std::string& theirs,
-                         std::size_t only_ours)
+void requireEqualLayouts(const LayoutPair& pair)
 {
-  std::vector<std::string> our_layout = layoutOf(ours);
-  const std::vector<std::string> their_layout = layoutOf(theirs);
-  our_layout.resize(our_layout.size() - std::min(our_layout.size(), only_ours));
+  std::vector<std::string> our_layout = layoutOf(pair.ours);
+  const std::vector<std::string> their_layout = layoutOf(pair.theirs);
+  our_layout.resize(our_layout.size() - std::min(our_layout.size(), pair.only_ours));
   const auto [our, their] =
       std::mismatch(our_layout.begin(), our_layout.end(), their_layout.begin(), their_layout.end());
   if (our == our_layout.end() && their == their_layout.end())
     return;
   const auto text = [](const auto& at, const auto& end) { return at == end ? "no further field" : "'" + *at + "'"; };
-  throw Error(name + " has " + text(their, their_layout.end()) + " where the message of this package has " +
+  throw Error(pair.name + " has " + text(their, their_layout.end()) + " where the message of this package has " +
               text(our, our_layout.end()) + "; build this package with moveit_msgs 0.11 or without moveit_msgs");
+}
+
+std::vector<LayoutPair> moveItLayouts()
+{
+  constexpr std::size_t kRevisions = 2;
+  return {pairOf<PlanningSceneMessage, moveit_msgs::PlanningScene>(kRevisions),
+          pairOf<CollisionObject, moveit_msgs::CollisionObject>(),
+          pairOf<AttachedCollisionObject, moveit_msgs::AttachedCollisionObject>(),
+          pairOf<PlanningSceneWorld, moveit_msgs::PlanningSceneWorld>(),
+          pairOf<GetPlanningScene::Request, moveit_msgs::GetPlanningScene::Request>(),
+          pairOf<GetPlanningScene::Response, moveit_msgs::GetPlanningScene::Response>(kRevisions),
+          pairOf<ApplyPlanningScene::Request, moveit_msgs::ApplyPlanningScene::Request>(kRevisions),
+          {ros::message_traits::DataType<moveit_msgs::GetStateValidity::Request>::value(), stateValidityDefinition(),
+           definitionOf<moveit_msgs::GetStateValidity::Request>(), 0}};
 }
 
 void requireMoveItLayouts()
 {
-  constexpr std::size_t kRevisions = 2;
-  requireEqual<PlanningSceneMessage, moveit_msgs::PlanningScene>(kRevisions);
-  requireEqual<GetPlanningScene::Request, moveit_msgs::GetPlanningScene::Request>(0);
+  for (const LayoutPair& pair : moveItLayouts())
+    requireEqualLayouts(pair);
 }
 }  // namespace gpu_planning_scene::core

@@ -10,11 +10,22 @@ namespace gpu_planning_scene::core
 /// Error if a type is not defined in the text.
 std::vector<std::string> layoutOf(const std::string& definition);
 
-/// Throws Error if the layouts of two messages differ; it names the first difference. `only_ours`: number of fields at
-/// the end of our message that MoveIt's message lacks. `name`: of the message, for the error.
-void requireEqualLayouts(const std::string& name, const std::string& ours, const std::string& theirs,
-                         std::size_t only_ours);
+/// A message of moveit_msgs and the message of this package as which its bytes are read or written.
+struct LayoutPair
+{
+  std::string name;           ///< of MoveIt's message
+  std::string ours;           ///< definition, as for layoutOf()
+  std::string theirs;         ///< definition of MoveIt's message
+  std::size_t only_ours = 0;  ///< number of fields at the end of our message that MoveIt's message lacks
+};
 
-/// Throws Error if a message of moveit_msgs has another layout than our message of the same name.
+/// Throws Error if the two layouts differ; it names the message and the first difference.
+void requireEqualLayouts(const LayoutPair& pair);
+
+/// All messages whose bytes the node reads or writes as MoveIt's: those of the topics, and the requests and responses
+/// of the services.
+std::vector<LayoutPair> moveItLayouts();
+
+/// Throws Error if a message of moveItLayouts() has another layout than our message.
 void requireMoveItLayouts();
 }  // namespace gpu_planning_scene::core

@@ -1,6 +1,8 @@
 // MoveIt's messages are read as ours and written back. No ROS master is needed.
 
 #include <functional>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -167,30 +169,61 @@ TEST(MoveItMessages, TheLayoutsOfThisBuildAreEqual)
   EXPECT_NO_THROW(requireMoveItLayouts());
 }
 
+/// The message of the error for two layouts; empty if they are equal.
+std::string refusalOf(const LayoutPair& pair)
+{
+  try
+  {
+    requireEqualLayouts(pair);
+    return "";
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+}
+
+TEST(MoveItMessages, AFieldMoreInAnyPartOfAMoveItMessageIsRefused)
+{
+  std::set<std::string> names;
+  for (LayoutPair pair : moveItLayouts())
+  {
+    names.insert(pair.name);
+    const std::string definition = pair.theirs + "\n====\n";
+    for (std::size_t end = definition.find("\n===="); end != std::string::npos;
+         end = definition.find("\n====", end + 1))
+    {
+      pair.theirs = definition;
+      pair.theirs.insert(end, "\nbool added");
+      EXPECT_EQ(0U, refusalOf(pair).rfind(pair.name + " has 'bool ", 0)) << pair.theirs.substr(0, end + 20);
+    }
+  }
+  EXPECT_EQ((std::set<std::string>{"moveit_msgs/ApplyPlanningSceneRequest", "moveit_msgs/AttachedCollisionObject",
+                                   "moveit_msgs/CollisionObject", "moveit_msgs/GetPlanningSceneRequest",
+                                   "moveit_msgs/GetPlanningSceneResponse", "moveit_msgs/GetStateValidityRequest",
+                                   "moveit_msgs/PlanningScene", "moveit_msgs/PlanningSceneWorld"}),
+            names);
+}
+
 TEST(Layouts, NamesOfPackagesAndOfEqualTypesDoNotCount)
 {
   const std::string ours = "Item[] items # the items\nbyte ADD=0\nbyte operation\n====\nMSG: ours/Item\nstring id\n";
   const std::string theirs = "theirs/Item[] items\nint8 ADD = 0\nint8 operation\n====\nMSG: theirs/Item\nstring id\n";
   EXPECT_EQ((std::vector<std::string>{"Item[] items", "string items.id", "int8 ADD=0", "int8 operation"}),
             layoutOf(ours));
-  EXPECT_NO_THROW(requireEqualLayouts("theirs/Items", ours, theirs, 0));
+  EXPECT_NO_THROW(requireEqualLayouts({"theirs/Items", ours, theirs, 0}));
+}
+
+TEST(Layouts, OfATypeThatIsDefinedTwiceTheFirstDefinitionCounts)
+{
+  EXPECT_EQ((std::vector<std::string>{"Item item", "string item.id"}),
+            layoutOf("Item item\n====\nMSG: a/Item\nstring id\n====\nMSG: a/Item\nstring id\n"));
 }
 
 TEST(Layouts, ADifferentLayoutIsRefusedWithBothFields)
 {
   const std::string ours = "string id\nfloat64 weight\nuint32 KIND=1\nuint64 revision\n";
-  const auto refusal = [&ours](const std::string& theirs) -> std::string
-  {
-    try
-    {
-      requireEqualLayouts("theirs/Item", ours, theirs, 1);
-      return "";
-    }
-    catch (const Error& error)
-    {
-      return error.what();
-    }
-  };
+  const auto refusal = [&ours](const std::string& theirs) { return refusalOf({"theirs/Item", ours, theirs, 1}); };
   EXPECT_EQ("", refusal("string id\nfloat64 weight\nuint32 KIND=1\n"));
   EXPECT_EQ(0U,
             refusal("string id\nfloat32 weight\nuint32 KIND=1\n")
