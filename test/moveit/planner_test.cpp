@@ -20,6 +20,8 @@
 #include <moveit/robot_state/conversions.h>
 #include <moveit/utils/robot_model_test_utils.h>
 #include <octomap/OcTree.h>
+#include <srdfdom/model.h>
+#include <urdf_parser/urdf_parser.h>
 #include <pluginlib/class_loader.hpp>
 
 #include "gpu_planning_scene/cpu_checker.h"
@@ -96,7 +98,7 @@ class Planner : public testing::Test
   {
     MotionPlanRequest request;
     request.group_name = kArm;
-    request.allowed_planning_time = 20.0;
+    request.allowed_planning_time = 100.0;  // a device on a busy machine compiles a new robot's shader for long
     request.num_planning_attempts = 1;
     request.start_state.is_diff = true;
     request.goal_constraints.push_back(
@@ -393,6 +395,99 @@ TEST_F(Planner, RefusesStartStatesThatItCannotUse)
   EXPECT_EQ(int(MoveItErrorCodes::FRAME_TRANSFORM_FAILURE), plan(asked));
 }
 
+/// A sphere in front of the hand, as a part of a start state.
+moveit_msgs::AttachedCollisionObject ball(double radius)
+{
+  moveit_msgs::AttachedCollisionObject ball;
+  ball.link_name = "panda_hand";
+  ball.touch_links = {kHandLinks.begin(), kHandLinks.end()};
+  ball.object.header.frame_id = "panda_hand";
+  ball.object.id = "ball";
+  ball.object.pose.position.z = 0.2;
+  ball.object.pose.orientation.w = 1.0;
+  ball.object.primitives.resize(1);
+  ball.object.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
+  ball.object.primitives[0].dimensions = {radius};
+  ball.object.primitive_poses.resize(1);
+  ball.object.primitive_poses[0].orientation.w = 1.0;
+  return ball;
+}
+
+TEST_F(Planner, RefusesStartStatesWithValuesThatAreNoNumbers)
+{
+  for (const double value : {double(NAN), double(INFINITY)})
+  {
+    MotionPlanRequest asked = request(goal_);
+    asked.start_state.joint_state.name = {"panda_joint1"};
+    asked.start_state.joint_state.position = {value};
+    EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan(asked));
+    asked = request(goal_);
+    asked.start_state.attached_collision_objects = {ball(0.02)};
+    EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked));
+    asked.start_state.attached_collision_objects[0].object.pose.position.x = value;
+    EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan(asked));
+  }
+  scene_->getCurrentStateNonConst().setVariablePosition("panda_joint1", NAN);
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan(request(goal_)));
+}
+
+TEST_F(Planner, AnAttachedObjectThatIsNotValidIsNotReplacedByTheOldOne)
+{
+  MotionPlanRequest asked = request(goal_);
+  asked.start_state.attached_collision_objects = {ball(0.02)};
+  RobotState carrying = start_;
+  ASSERT_TRUE(moveit::core::robotStateMsgToRobotState(scene_->getTransforms(), asked.start_state, carrying));
+  scene_->setCurrentState(carrying);
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
+  // MoveIt logs that the new ball has no pose for its shape, and keeps the old ball, which has one shape too.
+  asked.start_state.attached_collision_objects[0].object.primitive_poses.clear();
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan(asked));
+  asked.start_state.attached_collision_objects = {ball(-1.0)};
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan(asked));
+}
+
+TEST_F(Planner, AnInfiniteToleranceAllowsEveryValueOnItsSide)
+{
+  MotionPlanRequest asked = request(goal_);
+  moveit_msgs::JointConstraint& first = asked.goal_constraints[0].joint_constraints[0];
+  first.position = 5.0;  // outside the limits of the joint
+  first.tolerance_below = first.tolerance_above = INFINITY;
+  MotionPlanResponse response;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked, response));
+  EXPECT_TRUE(fulfils(response.trajectory_->getLastWayPoint(), asked.goal_constraints[0]));
+  first.tolerance_below = 0.0;
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_STATE_INVALID), plan(asked));
+
+  // A joint that the group does not move is at 0 in the start.
+  first.joint_name = "panda_finger_joint1";
+  first.position = 0.03;
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), plan(asked));
+  first.tolerance_below = INFINITY;
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked));
+  first.tolerance_above = 0.0;
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked));
+  first.position = -0.01;
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), plan(asked));
+}
+
+TEST_F(Planner, AContextOutlivesItsManager)
+{
+  for (const char* planner : {"", "geometric::RRTConnect"})
+  {
+    MotionPlanRequest asked = request(goal_);
+    asked.planner_id = planner;
+    planning_interface::PlannerManagerPtr manager = loadManager(robot());
+    moveit_msgs::MoveItErrorCodes code;
+    planning_interface::PlanningContextPtr context = manager->getPlanningContext(scene_, asked, code);
+    ASSERT_TRUE(context);
+    manager.reset();
+    MotionPlanResponse response;
+    EXPECT_TRUE(context->solve(response));
+    EXPECT_EQ(0, collidingStates(*response.trajectory_));
+    context.reset();
+  }
+}
+
 TEST_F(Planner, RefusesScenesThatItCannotCheckExactly)
 {
   addObject("flat", box(0.0, 0.1, 0.1), at(2.0, 2.0, 2.0));
@@ -556,6 +651,37 @@ TEST_F(Cart, NeedsAWorkspaceInAKnownFrame)
   EXPECT_EQ(int(MoveItErrorCodes::FRAME_TRANSFORM_FAILURE), plan());
 }
 
+TEST_F(Cart, TakesTheWorkspaceInAFrameOfTheScene)
+{
+  scene_->getTransformsNonConst().setTransform(at(3.0, 0.0, 0.0), "hall");
+  request_.workspace_parameters.header.frame_id = "hall";
+  request_.workspace_parameters.max_corner.x = 2.0;
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan());
+  request_.workspace_parameters.max_corner.x = 0.5;
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_STATE_INVALID), plan());
+}
+
+TEST_F(Cart, StartsWhereTheJointsOfTheRequestAre)
+{
+  sensor_msgs::MultiDOFJointState& joints = request_.start_state.multi_dof_joint_state;
+  request_.start_state.is_diff = true;
+  joints.header.frame_id = robot_->getModelFrame();
+  joints.joint_names = {"drive"};
+  joints.transforms.resize(1);
+  joints.transforms[0].translation.x = 1.0;
+  joints.transforms[0].rotation.w = 1.0;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan());
+  EXPECT_EQ(1.0, response_.trajectory_->getFirstWayPoint().getVariablePosition("drive/x"));
+  joints.header.frame_id = "nowhere";
+  EXPECT_EQ(int(MoveItErrorCodes::FRAME_TRANSFORM_FAILURE), plan());
+  joints.header.frame_id = robot_->getModelFrame();
+  joints.transforms[0].rotation.z = NAN;
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan());
+  joints.transforms[0].rotation.z = 0.0;
+  joints.joint_names = {"wheel"};
+  EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan());
+}
+
 TEST_F(Cart, EndsWithTheTimeOrWhenItIsTerminated)
 {
   addWall(20.0);  // across the workspace
@@ -611,6 +737,15 @@ void fillScene(planning_scene::PlanningScene& scene, random_numbers::RandomNumbe
         octomap::point3d(static_cast<float>(cell.x()), static_cast<float>(cell.y()), static_cast<float>(cell.z())),
         true);
   }
+  // Eight cells become one leaf of twice the size.
+  for (int i = 0; i < 20; ++i)
+  {
+    const Vector3d cell = (place().translation() / 0.1).array().floor() * 0.1 + 0.025;
+    for (unsigned k = 0; k < 8; ++k)
+      octree->updateNode(cell.x() + ((k & 1u) != 0 ? 0.05 : 0.0), cell.y() + ((k & 2u) != 0 ? 0.05 : 0.0),
+                         cell.z() + ((k & 4u) != 0 ? 0.05 : 0.0), true);
+  }
+  octree->prune();
   scene.processOctomapPtr(octree, at(0.1, 0.2, 0.3));
   for (const moveit::core::LinkModel* link : scene.getRobotModel()->getLinkModels())
   {
@@ -684,6 +819,46 @@ void expectEqualAnswers(const moveit::core::RobotModelPtr& robot, const std::str
   }
   EXPECT_LT(states / 100, colliding);
   EXPECT_LT(colliding, states - states / 100);
+}
+
+TEST(ConvertedScene, FollowersKeepTheirMultiplierAndOffset)
+{
+  const auto joint = [](const std::string& name, const std::string& child, const std::string& rest)
+  {
+    return "<link name='" + child + "'/><joint name='" + name +
+           "' type='prismatic'><parent link='palm'/><child link='" + child +
+           "'/><axis xyz='1 0 0'/><limit lower='-1' upper='1' effort='1' velocity='1'/>" + rest + "</joint>";
+  };
+  const urdf::ModelInterfaceSharedPtr urdf = urdf::parseURDF(
+      "<robot name='gripper'><link name='palm'/>" + joint("left", "left_finger", "") +
+      joint("right", "right_finger", "<mimic joint='left' multiplier='-0.5' offset='0.1'/>") + "</robot>");
+  const auto srdf = std::make_shared<srdf::Model>();
+  ASSERT_TRUE(urdf && srdf->initString(*urdf,
+                                       "<robot name='gripper'><group name='hand'><joint name='left'/>"
+                                       "<joint name='right'/></group></robot>"));
+  const auto model = std::make_shared<moveit::core::RobotModel>(urdf, srdf);
+  planning_scene::PlanningScene scene(model);
+  RobotState& state = scene.getCurrentStateNonConst();
+  state.setToDefaultValues();
+  state.update();
+  SceneConverter converter;
+  const RobotConversion& robot =
+      *converter.convert(scene, state, *model->getJointModelGroup("hand"), std::nullopt).robot;
+  for (const double value : {-0.3, 0.0, 0.2})
+  {
+    state.setVariablePosition("left", value);
+    state.update();
+    const std::vector<double> row = robot.row(state);
+    std::vector<Isometry3d> poses(robot.robot()->links().size());
+    robot.robot()->linkPoses(row.data(), poses.data());
+    for (const moveit::core::LinkModel* link : model->getLinkModels())
+      EXPECT_TRUE(poses[static_cast<std::size_t>(RobotConversion::link(*link))].isApprox(
+          state.getGlobalLinkTransform(link), 1e-12))
+          << link->getName() << " at " << value;
+    RobotState back(model);
+    robot.setVariables(row.data(), back);
+    EXPECT_EQ(0.0, back.distance(state));
+  }
 }
 
 TEST(ConvertedScene, HasTheAnswersOfTheDetectorForPanda)

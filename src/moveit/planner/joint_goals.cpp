@@ -51,12 +51,12 @@ struct Wanted
   double lower;
   double upper;
 
-  /// Whether a value fulfils the constraints.
+  /// Whether a value fulfils the constraints. As in MoveIt, an angle counts at its shortest distance from the position.
   bool contains(double value, ValueKind kind) const
   {
-    const double middle = 0.5 * (lower + upper);
-    const double distance = kind == ValueKind::Angle ? core::shortestAngularDistance(middle, value) : value - middle;
-    return std::abs(distance) <= 0.5 * (upper - lower) + kTextRounding;
+    if (kind == ValueKind::Angle)
+      value = position + core::shortestAngularDistance(position, value);
+    return value >= lower - kTextRounding && value <= upper + kTextRounding;
   }
 };
 

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,6 +46,32 @@ core::CheckServer::MakeChecker checkerMakerFor(const std::string& device)
                                      [](const std::string& warning) { ROS_WARN_STREAM_NAMED(kLogName, warning); });
 }
 
+std::string textParameter(const std::string& name, const std::string& fallback)
+{
+  XmlRpc::XmlRpcValue value;
+  if (!ros::param::get(name, value))
+    return fallback;
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeInt)  // roslaunch makes an integer of a text like "0"
+    return std::to_string(static_cast<int>(value));
+  if (value.getType() != XmlRpc::XmlRpcValue::TypeString)
+    throw core::Error("parameter " + name + " must be a text, such as auto or cpu");
+  return static_cast<std::string>(value);
+}
+
+double waypointDistance(const std::string& name)
+{
+  XmlRpc::XmlRpcValue value;
+  if (!ros::param::get(name, value))
+    return kWaypointDistance;
+  const double distance = value.getType() == XmlRpc::XmlRpcValue::TypeDouble ? static_cast<double>(value)
+                          : value.getType() == XmlRpc::XmlRpcValue::TypeInt  ? static_cast<int>(value)
+                                                                             : std::nan("");
+  if (distance != 0.0 && !(distance >= kLeastWaypointDistance && std::isfinite(distance)))
+    throw core::Error("parameter " + name + " must be a finite number: 0 or at least " +
+                      std::to_string(kLeastWaypointDistance));
+  return distance;
+}
+
 /// The parameters of MoveIt's namespace, with the names and the layout of ompl_planning.yaml.
 PlannerConfigs readConfigs(const moveit::core::RobotModel& model, const std::string& name_space)
 {
@@ -74,13 +101,12 @@ class PlannerManager : public planning_interface::PlannerManager
       if (ros::isInitialized())
       {
         configs_ = readConfigs(*model, name_space);
-        ros::param::get(name_space + "/device", device);
-        ros::param::get(name_space + "/waypoint_distance", waypoint_distance_);
-        if (waypoint_distance_ != 0.0 && !(waypoint_distance_ >= kLeastWaypointDistance))
-          throw core::Error("parameter " + name_space + "/waypoint_distance is " + std::to_string(waypoint_distance_) +
-                            "; it must be 0 or at least " + std::to_string(kLeastWaypointDistance));
+        device = textParameter(name_space + "/device", device);
+        waypoint_distance_ = waypointDistance(name_space + "/waypoint_distance");
       }
       workshop_ = std::make_shared<Workshop>(checkerMakerFor(device));
+      // Opens the device now, so that the first request need not wait for it.
+      core::CheckerPool::Lease(workshop_->checkers, workshop_->converter.emptyScene(model)).giveBack();
       setPlannerConfigurations(settings());
       return true;
     }
@@ -183,7 +209,7 @@ class PlannerManager : public planning_interface::PlannerManager
     }
     else if (choice.type.empty())
       choice.type = core::kBatchPlanner;
-    choice.factory = plugins_.find(choice.type, configs_.names());
+    choice.factory = workshop_->plugins.find(choice.type, configs_.names());
     const core::GroupPlanners& group = configs_.ofGroup(request.group_name);
     choice.projection = group.projection;
     choice.longest_valid_segment_fraction = group.longest_valid_segment_fraction;
@@ -195,7 +221,6 @@ class PlannerManager : public planning_interface::PlannerManager
   PlannerConfigs configs_;
   double waypoint_distance_ = kWaypointDistance;
   std::shared_ptr<Workshop> workshop_;
-  mutable core::PlannerPlugins plugins_;
 };
 }  // namespace gpu_planning_scene::pipeline
 

@@ -90,7 +90,7 @@ struct PlanningContext::Outcome
 };
 
 PlanningContext::PlanningContext(const std::string& group, PlannerChoice choice, std::shared_ptr<Workshop> workshop)
-  : planning_interface::PlanningContext(choice.type, group), choice_(std::move(choice)), workshop_(std::move(workshop))
+  : planning_interface::PlanningContext(choice.type, group), workshop_(std::move(workshop)), choice_(std::move(choice))
 {
 }
 

@@ -12,17 +12,20 @@
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "moveit/planner/joint_goals.h"
 #include "moveit/planner/scene_conversion.h"
+#include "planners/planner_plugins.h"
 #include "service/checker_pool.h"
 
 namespace gpu_planning_scene::pipeline
 {
-/// The parts that all requests of a planner manager share. Thread-safe.
+/// The parts that all requests of a planner manager share. Contexts keep them, so a context may outlive its manager.
+/// Thread-safe.
 struct Workshop
 {
   explicit Workshop(core::CheckServer::MakeChecker make_checker) : checkers(std::move(make_checker)) {}
 
   SceneConverter converter;
   core::CheckerPool checkers;
+  core::PlannerPlugins plugins;
 };
 
 /// How a request is planned.
@@ -60,8 +63,8 @@ class PlanningContext : public planning_interface::PlanningContext
   robot_trajectory::RobotTrajectoryPtr trajectoryOf(const ConvertedScene& converted, const core::PlanningResult& result,
                                                     const moveit::core::RobotState& start) const;
 
-  const PlannerChoice choice_;
   const std::shared_ptr<Workshop> workshop_;
+  const PlannerChoice choice_;  // destroyed before the plugins of the workshop, because its factory is one of them
   std::atomic<bool> stopped_{false};
 };
 }  // namespace gpu_planning_scene::pipeline

@@ -1,5 +1,7 @@
 #include "moveit/planner/request.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <moveit/robot_state/conversions.h>
@@ -27,6 +29,15 @@ bool isConstrained(const moveit_msgs::Constraints& constraints)
          !constraints.orientation_constraints.empty() || !constraints.visibility_constraints.empty();
 }
 
+bool isFinite(const geometry_msgs::Transform& transform)
+{
+  const geometry_msgs::Vector3& translation = transform.translation;
+  const geometry_msgs::Quaternion& rotation = transform.rotation;
+  return std::isfinite(translation.x) && std::isfinite(translation.y) && std::isfinite(translation.z) &&
+         std::isfinite(rotation.x) && std::isfinite(rotation.y) && std::isfinite(rotation.z) &&
+         std::isfinite(rotation.w);
+}
+
 bool knowsFrame(const planning_scene::PlanningScene& scene, const RobotState& state, const std::string& frame)
 {
   return state.knowsFrameTransform(frame) || scene.getTransforms().canTransform(frame);
@@ -38,13 +49,18 @@ void validateJoints(const moveit_msgs::RobotState& message, const planning_scene
   if (message.joint_state.name.size() != message.joint_state.position.size())
     refuseStart("joint_state has " + std::to_string(message.joint_state.name.size()) + " names and " +
                 std::to_string(message.joint_state.position.size()) + " positions; give one position per name");
+  for (std::size_t i = 0; i < message.joint_state.name.size(); ++i)
+    if (!std::isfinite(message.joint_state.position[i]))
+      refuseStart("the position of joint '" + message.joint_state.name[i] + "' is not finite");
   const sensor_msgs::MultiDOFJointState& joints = message.multi_dof_joint_state;
   if (joints.joint_names.size() != joints.transforms.size())
     refuseStart("multi_dof_joint_state has " + std::to_string(joints.joint_names.size()) + " names and " +
                 std::to_string(joints.transforms.size()) + " transforms; give one transform per name");
-  for (const std::string& name : joints.joint_names)
-    if (!model.hasJointModel(name))
-      refuseStart("multi_dof_joint_state names joint '" + name + "', which the robot does not have");
+  for (std::size_t i = 0; i < joints.joint_names.size(); ++i)
+    if (!model.hasJointModel(joints.joint_names[i]))
+      refuseStart("multi_dof_joint_state names joint '" + joints.joint_names[i] + "', which the robot does not have");
+    else if (!isFinite(joints.transforms[i]))
+      refuseStart("the transform of joint '" + joints.joint_names[i] + "' is not finite");
   if (!joints.joint_names.empty() &&
       !moveit::core::Transforms::sameFrame(joints.header.frame_id, model.getModelFrame()) &&
       !scene.getTransforms().canTransform(joints.header.frame_id))
@@ -73,6 +89,19 @@ void validateAttached(const moveit_msgs::AttachedCollisionObject& message, const
       message.object.primitives.size() + message.object.meshes.size() + message.object.planes.size();
   if (!body || shapes == 0 || body->getShapes().size() != shapes)
     refuseStart(where + "has no shape, a shape that is not valid, or not one pose for each shape");
+  const auto is_finite = [](const Eigen::Isometry3d& pose) { return pose.matrix().allFinite(); };
+  if (!is_finite(body->getPose()) ||
+      !std::all_of(body->getShapePoses().begin(), body->getShapePoses().end(), is_finite))
+    refuseStart(where + "has a pose that is not finite");
+}
+
+/// The scene's current state can have such values too.
+void requireFinite(const RobotState& state)
+{
+  for (const std::string& name : state.getVariableNames())
+    if (!std::isfinite(state.getVariablePosition(name)))
+      throw Refusal(MoveItErrorCodes::INVALID_ROBOT_STATE,
+                    "the start: the position of joint '" + name + "' is not finite");
 }
 
 bool hasTranslationWithoutLimits(const moveit::core::JointModelGroup& group)
@@ -150,6 +179,7 @@ RobotState startOf(const planning_interface::MotionPlanRequest& request, const p
   }
   else if (!message.attached_collision_objects.empty())
     refuseStart("it has attached objects, but no joints; set is_diff to add the objects to the current state");
+  requireFinite(state);
   state.update();
   return state;
 }
