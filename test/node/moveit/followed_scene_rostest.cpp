@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <chrono>
+#include <set>
+#include <thread>
 
 #include <moveit_msgs/GetStateValidity.h>
 #include <rosgraph_msgs/Log.h>
@@ -34,11 +36,11 @@ class Following : public testing::Test
         "/rosout", 1000, [this](const rosgraph_msgs::LogConstPtr& message) { take(*message); });
   }
 
-  void startNode(const std::string& period = "0.3")
+  void startNode(const std::string& period = "0.3", const std::string& timeout = "1.0")
   {
     node_ = std::make_unique<ChildNode>(
         "follower", std::vector<std::string>{"_device:=cpu", "_monitor:=/arm/move_group", "_monitor_period:=" + period,
-                                             "_monitor_timeout:=1.0"});
+                                             "_monitor_timeout:=" + timeout});
   }
 
   /// The node's scene as MoveIt's message. No value: the node refuses to answer.
@@ -119,6 +121,14 @@ class Following : public testing::Test
       ros::WallDuration(0.02).sleep();
     }
     return "";
+  }
+
+  /// The answer for the current state.
+  CheckStates::Response checkCurrent() const
+  {
+    CheckStates call;
+    EXPECT_TRUE(callPersistently(node_->service("check_states"), call));
+    return call.response;
   }
 
   void change() { group_.change(std::ref(changes_)); }
@@ -276,6 +286,34 @@ TEST_F(Following, ADifferenceThatCannotBeAppliedLeadsToTheWholeScene)
   EXPECT_EQ(1, warningsWith("object 'other'"));
 }
 
+TEST_F(Following, ARemovalThatTheFetchedSceneHasAlreadyIsNoFault)
+{
+  startNode("60.0");
+  ASSERT_EQ("", remainingDifference());
+  ros::WallDuration(1.0).sleep();  // the second fetch is over
+  moveit_msgs::PlanningScene removal;
+  removal.is_diff = true;
+  removal.robot_state.is_diff = true;
+  removal.world.collision_objects.push_back(moveItBox("gone", 0.6, 0.1));
+  removal.world.collision_objects[0].operation = moveit_msgs::CollisionObject::REMOVE;
+  moveit_msgs::AttachedCollisionObject detached;
+  detached.link_name = "panda_hand";
+  detached.object = removal.world.collision_objects[0];
+  detached.object.id = "dropped";
+  removal.robot_state.attached_collision_objects.push_back(detached);
+  removal.world.collision_objects.push_back(moveItBox("new", 0.6, 0.1));
+  group_.publish(removal);
+  const auto has_new = [this]
+  {
+    const std::optional<moveit_msgs::PlanningScene> scene = nodeScene();
+    return scene && !scene->world.collision_objects.empty();
+  };
+  for (const auto end = Clock::now() + std::chrono::duration<double>(kLongest); !has_new() && Clock::now() < end;)
+    ros::WallDuration(0.05).sleep();
+  EXPECT_TRUE(has_new()) << "the rest of the message counts";
+  EXPECT_EQ(0, warningsWith("cannot be applied"));
+}
+
 TEST_F(Following, WithoutThePublisherRequestsAreRefused)
 {
   startNode();
@@ -304,6 +342,115 @@ TEST_F(Following, WhileTheServiceHangsRequestsAreRefused)
   const std::string why = refusal();
   group_.hang(false);
   EXPECT_NE(std::string::npos, why.find("does not answer")) << why;
+  EXPECT_EQ("", remainingDifference());
+}
+
+TEST_F(Following, DuringASlowFetchRequestsAreRefusedIfMessagesWait)
+{
+  startNode("0.3", "30.0");
+  ASSERT_EQ("", remainingDifference());
+  ros::WallDuration(1.0).sleep();  // the publisher sends to the node now
+  group_.hang(true);
+  ros::WallDuration(1.5).sleep();  // a fetch has begun more than half a second ago
+  EXPECT_TRUE(checkCurrent().success) << "the scene has not changed";
+  changeObject("new");
+  group_.publish();
+  const std::string why = refusal();
+  group_.hang(false);
+  EXPECT_NE(std::string::npos, why.find("it changes while it is being fetched")) << why;
+  EXPECT_EQ("", remainingDifference());
+  EXPECT_TRUE(checkCurrent().success);
+}
+
+TEST_F(Following, ARequestDuringWhichTheSceneIsLostIsRefused)
+{
+  startNode();
+  ASSERT_EQ("", remainingDifference());
+  PlanMotion plan;
+  plan.request.group = "panda_arm";
+  plan.request.planner = "geometric::RRTstar";  // uses all of its time
+  plan.request.allowed_planning_time = 3.0;
+  plan.request.named_start = "ready";
+  plan.request.goal_names = {"panda_joint1"};
+  plan.request.goals = {0.5};
+  std::thread losing(
+      [this]
+      {
+        ros::WallDuration(1.0).sleep();
+        group_.stop();
+      });
+  EXPECT_TRUE(callPersistently(node_->service("plan"), plan));
+  losing.join();
+  EXPECT_FALSE(plan.response.success);
+  EXPECT_EQ(0U, plan.response.message.rfind("the scene of /arm/move_group is not known: ", 0)) << plan.response.message;
+  group_.start();
+  EXPECT_EQ("", remainingDifference());
+  EXPECT_TRUE(callPersistently(node_->service("plan"), plan));
+  EXPECT_TRUE(plan.response.success) << plan.response.message;
+}
+
+TEST_F(Following, AnEmptyMatrixAllowsNothing)
+{
+  startNode();
+  ASSERT_EQ("", remainingDifference());
+  EXPECT_NE(0U, nodeScene()->allowed_collision_matrix.entry_names.size());
+  group_.change([](planning_scene::PlanningScene& scene) { scene.getAllowedCollisionMatrixNonConst().clear(); });
+  group_.publish();
+  EXPECT_EQ("", remainingDifference());
+  // Neighbouring links touch in all states.
+  EXPECT_EQ(kStates, expectSameVerdicts());
+}
+
+TEST_F(Following, TheCurrentStateIsCheckedInItsOwnScene)
+{
+  // With each change, the arm turns away from the place to which the box goes.
+  const auto turn = [this](double angle)
+  {
+    group_.change(
+        [angle](planning_scene::PlanningScene& scene)
+        {
+          moveit::core::RobotState& state = scene.getCurrentStateNonConst();
+          state.setToDefaultValues(model->getJointModelGroup("panda_arm"), "ready");
+          state.setVariablePosition("panda_joint1", angle);
+          state.update();
+          const Eigen::Vector3d hand = state.getGlobalLinkTransform("panda_hand").translation();
+          moveit_msgs::CollisionObject box = moveItBox("box", -hand.x(), 0.1);
+          box.pose.position.y = -hand.y();
+          box.pose.position.z = hand.z();
+          scene.processCollisionObjectMsg(box);
+        });
+    group_.publish();
+  };
+  turn(1.5);
+  startNode();
+  ASSERT_EQ("", remainingDifference());
+  ASSERT_TRUE(checkCurrent().success) << checkCurrent().message;
+  std::atomic<bool> done{false};
+  std::atomic<int> answered{0};
+  std::set<std::uint64_t> revisions;
+  std::thread client(
+      [&]
+      {
+        for (; !done; ++answered)
+        {
+          const CheckStates::Response answer = checkCurrent();
+          if (answer.success)
+          {
+            EXPECT_EQ(std::vector<std::uint8_t>{1}, answer.valid)
+                << answer.body_1.at(0) << " - " << answer.body_2.at(0);
+            revisions.insert(answer.scene_revision);
+          }
+        }
+      });
+  for (int i = 0; i < 1000; ++i)
+  {
+    turn(i % 2 == 0 ? -1.6416 : 1.5);
+    ros::WallDuration(0.003).sleep();
+  }
+  done = true;
+  client.join();
+  EXPECT_GT(answered, 100);
+  EXPECT_GT(revisions.size(), 50U);
   EXPECT_EQ("", remainingDifference());
 }
 

@@ -229,9 +229,7 @@ bool MoveGroup::answer(moveit_msgs::GetPlanningScene::Request& request,
 {
   const std::lock_guard<std::mutex> hanging(hanging_);
   const std::lock_guard<std::mutex> lock(mutex_);
-  moveit_msgs::PlanningSceneComponents all;
-  all.components = 1023;
-  scene_->getPlanningSceneMsg(response.scene, request.components.components == 0 ? all : request.components);
+  scene_->getPlanningSceneMsg(response.scene, request.components);
   return true;
 }
 

@@ -14,7 +14,8 @@
 namespace gpu_planning_scene::core
 {
 /// MoveIt's planning scene with the service and the topic of a move_group. It collects changes and publishes them as
-/// differences, as MoveIt's planning scene monitor does. Thread-safe.
+/// differences, as MoveIt's planning scene monitor does. As some servers, it answers a request without components with
+/// an empty scene. Thread-safe.
 class MoveGroup
 {
  public:

@@ -330,6 +330,36 @@ TEST_F(MoveItNames, MoveItsOwnSceneFollowsTheNode)
   EXPECT_TRUE(waitFor(is_equal)) << difference;
 }
 
+TEST_F(MoveItNames, MoveItsOwnSceneFollowsTheJoints)
+{
+  planning_scene::PlanningScene follower(model);
+  std::mutex mutex;
+  const auto take = [&](const moveit_msgs::PlanningSceneConstPtr& message)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    follower.usePlanningSceneMsg(*message);
+  };
+  const ros::Subscriber subscriber = ros::NodeHandle().subscribe<moveit_msgs::PlanningScene>(
+      "/move_group/monitored_planning_scene", 1000,
+      boost::function<void(const moveit_msgs::PlanningSceneConstPtr&)>(take));
+  for (const double angle : {0.4, -0.7})
+  {
+    moveit_msgs::PlanningScene turned = diff();
+    turned.robot_state.joint_state.name = {"panda_joint1", "panda_finger_joint1"};
+    turned.robot_state.joint_state.position = {angle, 0.02};
+    ASSERT_TRUE(apply(turned));
+    const auto has_turned = [&]
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      const moveit::core::RobotState& state = follower.getCurrentState();
+      return state.getVariablePosition("panda_joint1") == angle &&
+             state.getVariablePosition("panda_finger_joint1") == 0.02 &&
+             state.getVariablePosition("panda_finger_joint2") == 0.02;
+    };
+    EXPECT_TRUE(waitFor(has_turned)) << angle;
+  }
+}
+
 TEST_F(MoveItNames, TheCurrentStateIsCheckedWithContacts)
 {
   const auto free = validity({});
@@ -351,6 +381,8 @@ TEST_F(MoveItNames, TheCurrentStateIsCheckedWithContacts)
     EXPECT_EQ(moveit_msgs::ContactInformation::WORLD_OBJECT,
               contact.contact_body_1 == "box" ? contact.body_type_1 : contact.body_type_2);
     EXPECT_GT(contact.depth, 0.0);
+    EXPECT_NEAR(1.0, Eigen::Vector3d(contact.normal.x, contact.normal.y, contact.normal.z).norm(), 1e-9);
+    EXPECT_LT((Eigen::Vector3d(contact.position.x, contact.position.y, contact.position.z) - hand()).norm(), 0.2);
   }
 }
 
