@@ -1,20 +1,25 @@
 // Compares the detector for MoveIt with MoveIt's FCL detector, in one process:
 //
-//     moveit_study agreement ROBOT STATES    verdicts and pairs of random states; each difference is explained and
-//     counted moveit_study cost ROBOT                time of one state and of a change of the scene; memory of copied
-//     scenes
+//     moveit_study agreement ROBOT STATES [NODE]
+//         verdicts and pairs of random states; each difference is explained and counted
+//     moveit_study cost ROBOT
+//         time of one state and of a change of the scene; memory of copied scenes
 //
-// ROBOT: panda, pr2 or ur5_robotiq. ROS_PACKAGE_PATH must contain MoveIt's test robots, and ../shared/robots.
+// ROBOT: panda, pr2 or ur5_robotiq. ROS_PACKAGE_PATH must contain MoveIt's test robots, and ../shared/robots. NODE: the
+// full name of a running planning_scene_node with this robot and ~moveit_names. It gets each scene in MoveIt's message,
+// and its verdicts are compared with those of the detector. bench/moveit/study.launch starts both.
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -22,7 +27,10 @@
 
 #include <malloc.h>
 #include <ros/console.h>
+#include <ros/init.h>
+#include <ros/node_handle.h>
 
+#include "moveit/study_node.h"
 #include "moveit/study_scenes.h"
 
 namespace gpu_planning_scene
@@ -132,7 +140,38 @@ std::string reasonOf(const Scenes& scenes, const RobotState& state, const std::p
   return "UNEXPLAINED: only ours finds it";
 }
 
-int agreement(const std::string& name, int states)
+/// The verdicts of the detector on random states.
+struct Verdicts
+{
+  std::vector<double> rows;  ///< of the active variables
+  std::vector<std::uint8_t> free;
+
+  void add(const RobotState& state, bool is_free)
+  {
+    for (const std::string& variable : activeVariables(*state.getRobotModel()))
+      rows.push_back(state.getVariablePosition(variable));
+    free.push_back(is_free ? 1 : 0);
+  }
+};
+
+/// Returns the number of states whose verdict by the node differs from that of the detector.
+int differencesOfNode(const StudyNode& node, const PlanningScene& scene, const RobotState& state,
+                      const Verdicts& verdicts)
+{
+  node.setScene(scene, state);
+  const auto pairs = node.collidingPairs(*scene.getRobotModel(), verdicts.rows);
+  int differences = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (pairs[i].first.empty() != (verdicts.free[i] != 0))
+    {
+      ++differences;
+      std::fprintf(stderr, "state %zu: for the node alone, it is %s %s - %s\n", i,
+                   pairs[i].first.empty() ? "free" : "in collision", pairs[i].first.c_str(), pairs[i].second.c_str());
+    }
+  return differences;
+}
+
+int agreement(const std::string& name, int states, const std::optional<StudyNode>& node)
 {
   const moveit::core::RobotModelPtr robot = loadStudyRobot(name);
   struct Kind
@@ -143,7 +182,9 @@ int agreement(const std::string& name, int states)
     bool tool;
     double padding;
   };
-  std::printf("robot,scene,states,colliding,colliding pairs,states that differ,reason,pairs that differ\n");
+  std::printf(
+      "robot,scene,states,colliding,colliding pairs,states that differ,reason,pairs that differ,"
+      "states that differ for the node\n");
   int unexplained = 0;
   for (const Kind& kind : {Kind{"20 objects", 20, 0, false, 0.0}, Kind{"20 objects and a tool", 20, 0, true, 0.0},
                            Kind{"octomap", 0, 3000, false, 0.0}, Kind{"octomap and a tool", 6, 3000, true, 0.0},
@@ -165,11 +206,13 @@ int agreement(const std::string& name, int states)
     int pairs = 0;
     int differences = 0;
     std::map<std::string, int> reasons;
+    Verdicts verdicts;
     for (int i = 0; i < states / 5; ++i)
     {
       randomizeState(state, random);
       const bool verdict = collides(*scenes.ours, state);
       const bool differs = verdict != collides(*scenes.fcl, state);
+      verdicts.add(state, !verdict);
       colliding += verdict ? 1 : 0;
       differences += differs ? 1 : 0;
       if (!differs && i % kStatesPerPairs != 0)
@@ -198,9 +241,16 @@ int agreement(const std::string& name, int states)
     }
     if (reasons.empty())
       reasons["-"] = 0;
+    std::string of_node = "-";
+    if (node)
+    {
+      const int differ = differencesOfNode(*node, *scenes.ours, state, verdicts);
+      unexplained += differ;
+      of_node = std::to_string(differ);
+    }
     for (const auto& [reason, count] : reasons)
-      std::printf("%s,\"%s\",%d,%d,%d,%d,%s,%d\n", name.c_str(), kind.title, states / 5, colliding, pairs, differences,
-                  reason.c_str(), count);
+      std::printf("%s,\"%s\",%d,%d,%d,%d,%s,%d,%s\n", name.c_str(), kind.title, states / 5, colliding, pairs,
+                  differences, reason.c_str(), count, of_node.c_str());
     std::fflush(stdout);
   }
   return unexplained == 0 ? 0 : 1;
@@ -350,15 +400,25 @@ int cost(const std::string& name)
 
 int main(int argc, char** argv)
 {
+  ros::init(argc, argv, "moveit_study", ros::init_options::NoRosout);
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Error);
   try
   {
-    if (arguments.size() == 3 && arguments[0] == "agreement")
-      return gpu_planning_scene::agreement(arguments[1], std::stoi(arguments[2]));
+    if ((arguments.size() == 3 || arguments.size() == 4) && arguments[0] == "agreement")
+    {
+      std::optional<ros::NodeHandle> ros_is_up;
+      std::optional<gpu_planning_scene::StudyNode> node;
+      if (arguments.size() == 4)
+      {
+        ros_is_up.emplace();
+        node.emplace(arguments[3]);
+      }
+      return gpu_planning_scene::agreement(arguments[1], std::stoi(arguments[2]), node);
+    }
     if (arguments.size() == 2 && arguments[0] == "cost")
       return gpu_planning_scene::cost(arguments[1]);
-    std::fprintf(stderr, "usage: moveit_study agreement ROBOT STATES | moveit_study cost ROBOT\n");
+    std::fprintf(stderr, "usage: moveit_study agreement ROBOT STATES [NODE] | moveit_study cost ROBOT\n");
     return 2;
   }
   catch (const std::exception& error)

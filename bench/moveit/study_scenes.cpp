@@ -189,10 +189,7 @@ void attachStudyTool(moveit::core::RobotState& state)
 
 void randomizeState(moveit::core::RobotState& state, random_numbers::RandomNumberGenerator& random)
 {
-  std::vector<double> values(state.getVariableCount());
-  for (const moveit::core::JointModel* joint : state.getRobotModel()->getActiveJointModels())
-    joint->getVariableRandomPositions(random, &values[static_cast<std::size_t>(joint->getFirstVariableIndex())]);
-  state.setVariablePositions(values);
+  state.setToRandomPositions(random);
   state.update();
 }
 }  // namespace gpu_planning_scene

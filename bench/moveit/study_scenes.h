@@ -24,6 +24,6 @@ void addStudyOctomap(planning_scene::PlanningScene& scene, int cells, unsigned s
 /// Attaches a box and a mesh to the last link of a chain of the robot.
 void attachStudyTool(moveit::core::RobotState& state);
 
-/// A state with random values of all joints.
+/// A state with random values of all joints. Joints that follow others have the values that these give them.
 void randomizeState(moveit::core::RobotState& state, random_numbers::RandomNumberGenerator& random);
 }  // namespace gpu_planning_scene
