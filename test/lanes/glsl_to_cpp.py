@@ -76,7 +76,7 @@ class Translator:
             end = end_of(tokens, i + 1)
             kind, name = tokens[i + 2:i + 4]
             self.memory[name] = tokens[i + 4] == "["
-            flags = " | ".join(["0", *sorted(f"k_{word}" for word in qualifiers - {"buffer"})])
+            flags = " | ".join(["0", *sorted(f"k{word.capitalize()}" for word in qualifiers - {"buffer"})])
             return f"static const Storage<{self.type_of(kind)}> {name}({layout['binding']}, {flags}, \"{name}\");", end + 2
         if "shared" in qualifiers:
             end = tokens.index(";", i)

@@ -112,13 +112,13 @@ struct Variable
   std::uint32_t place;  ///< binding, location, or offset in shared memory
   std::uint32_t size;   ///< shared memory: bytes of an element
   std::uint32_t count;  ///< shared memory: elements
-  std::uint32_t flags;  ///< storage blocks: k_coherent, ...
+  std::uint32_t flags;  ///< storage blocks: kCoherent, ...
   const char* name;
   void* value;  ///< uniforms
 };
-constexpr std::uint32_t k_coherent = 1;
-constexpr std::uint32_t k_readonly = 2;
-constexpr std::uint32_t k_writeonly = 4;
+constexpr std::uint32_t kCoherent = 1;
+constexpr std::uint32_t kReadonly = 2;
+constexpr std::uint32_t kWriteonly = 4;
 
 /// Everything that the simulator must know about a kernel.
 struct Kernel

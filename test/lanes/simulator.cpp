@@ -195,7 +195,7 @@ void Simulator::load(std::uint32_t binding, std::uint64_t first, std::uint32_t c
   if (!block)
     return;
   const Variable& from = *variable(binding);
-  if (from.flags & k_writeonly)
+  if (from.flags & kWriteonly)
     report(nameOf(binding) + " is writeonly, but is read");
   for (std::uint32_t i = 0; i < count; ++i)
   {
@@ -205,14 +205,14 @@ void Simulator::load(std::uint32_t binding, std::uint64_t first, std::uint32_t c
       report("a read of " + nameOf(binding) + " where nothing was written");
     if (word.written_in == dispatch_ && word.written_by != running_->id)
     {
-      if (!(from.flags & k_coherent) || !word.written_atomically)
+      if (!(from.flags & kCoherent) || !word.written_atomically)
         report("a race: a lane reads what another lane writes to " + nameOf(binding) + " in the same dispatch");
       else if (random_() & 1U)
         values[i] = word.before;  // a coherent read may be older than the atomic write of another lane
     }
     else if (word.written_in != dispatch_ && !covered(word.written_in, ShaderStorage))
       report(nameOf(binding) + " is read as storage without GL_SHADER_STORAGE_BARRIER_BIT after it was written");
-    if (!(from.flags & k_coherent))
+    if (!(from.flags & kCoherent))
     {
       word.read_by_several = word.read_in == dispatch_ && (word.read_by_several || word.read_by != running_->id);
       word.read_in = dispatch_;
@@ -247,7 +247,7 @@ void Simulator::store(std::uint32_t binding, std::uint64_t first, std::uint32_t 
   Block* block = find(binding, first, count, at);
   if (!block)
     return;
-  if (variable(binding)->flags & k_readonly)
+  if (variable(binding)->flags & kReadonly)
     report(nameOf(binding) + " is readonly, but is written");
   for (std::uint32_t i = 0; i < count; ++i)
   {
