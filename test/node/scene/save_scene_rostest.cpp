@@ -1,7 +1,10 @@
 // save_scene.py writes the objects of a running node to a .scene file.
 
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
 
+#include "gpu_planning_scene/octomap.h"
 #include "model/model_testing.h"
 #include "node/messages/to_messages.h"
 #include "node/node_client.h"
@@ -70,6 +73,35 @@ TEST_F(SaveScene, TheFileHasTheSameObjects)
   const PlanningSceneMessage found = messageOf(loaded, 0, {}, {});
   EXPECT_EQ(expected.world.collision_objects, found.world.collision_objects);
   EXPECT_EQ(expected.object_colors, found.object_colors);
+}
+
+TEST_F(SaveScene, TheOctomapAndCarriedObjectsAreNamedAsNotWritten)
+{
+  PlanningSceneMessage with_octomap = change();
+  const SerializedOctree octree =
+      octreeOf({{Box{Eigen::Vector3d::Constant(0.1)}, Eigen::Isometry3d(Eigen::Translation3d(0.05, 0.05, 0.05))}});
+  Octomap& octomap = with_octomap.world.octomap.octomap;
+  octomap.id = octree.id;
+  octomap.binary = 1;
+  octomap.resolution = octree.resolution;
+  octomap.data = octree.bytes;
+  with_octomap.world.octomap.origin = poseAt(farAway());
+  AttachedCollisionObject carried;
+  carried.link_name = tip;
+  carried.object = boxObject("carried", Eigen::Vector3d(0.0, 0.0, 0.0), 0.01);
+  carried.object.header.frame_id = tip;
+  with_octomap.robot_state.attached_collision_objects = {carried};
+  apply(with_octomap);
+  const TemporaryFolder folder;
+  const std::string file = folder.path("saved.scene");
+  const std::string errors = folder.path("errors");
+  ASSERT_EQ(0, run(file + " 2> " + errors));
+  std::ostringstream said;
+  said << std::ifstream(errors).rdbuf();
+  EXPECT_NE(std::string::npos, said.str().find("not written, because the format has no octomaps: <octomap>"))
+      << said.str();
+  EXPECT_NE(std::string::npos, said.str().find("not written, because links carry them: carried")) << said.str();
+  EXPECT_EQ(2U, loadSceneFile(file, robot, {}).objects.size());
 }
 
 TEST_F(SaveScene, ANameThatTheFormatCannotHoldIsAnError)
