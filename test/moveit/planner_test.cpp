@@ -98,7 +98,7 @@ class Planner : public testing::Test
   {
     MotionPlanRequest request;
     request.group_name = kArm;
-    request.allowed_planning_time = 100.0;  // a device on a busy machine compiles a new robot's shader for long
+    request.allowed_planning_time = 20.0;
     request.num_planning_attempts = 1;
     request.start_state.is_diff = true;
     request.goal_constraints.push_back(
