@@ -74,8 +74,10 @@ class CacheOfATest
 /// A checker in a new process: nobody else has its robot and its trees.
 struct FreshChecker
 {
-  std::shared_ptr<const RobotModel> robot = sliderRobot();
-  CpuChecker checker{proofScene(robot)};
+  FreshChecker() : robot(sliderRobot()), checker(proofScene(robot)) {}
+
+  std::shared_ptr<const RobotModel> robot;
+  CpuChecker checker;
 };
 
 TEST(ProofLoading, IsLeftOutForACheckerWithoutProofs)
