@@ -1,4 +1,5 @@
 #include "collision/checkers/scene_text.h"
+#include "model/robot_text.h"
 #include "node/checks/check_services.h"
 #include "node/endpoints/respond.h"
 
@@ -13,6 +14,8 @@ void fillReport(const CheckAnswer& answer, GetReport::Response& response)
   const SceneReport& report = *answer.report;
   response.lines = describeScene(*answer.scene, report, answer.device);
   response.lines.emplace_back("not modelled: padding between links");
+  const std::vector<std::string> robot = describeRobot(*answer.scene->robot);
+  response.lines.insert(response.lines.end(), robot.begin(), robot.end());
   const auto add = [&response](const char* name, std::size_t value)
   {
     response.names.emplace_back(name);

@@ -514,6 +514,16 @@ TEST_F(Service, AReportHasLinesAndNumbers)
   EXPECT_EQ(5u, response.scene_revision);
 }
 
+TEST_F(Service, AReportNamesTheVariablesGroupsAndStatesThatARequestCanUse)
+{
+  const std::vector<std::string> lines = services.report({}).lines;
+  const auto has = [&lines](const std::string& line) { return std::count(lines.begin(), lines.end(), line) == 1; };
+  EXPECT_TRUE(has("variables, with their limits in radians or metres: slide (-2 to 2), turn (-3 to 3)"))
+      << testing::PrintToString(lines);
+  EXPECT_TRUE(has("groups: drive, mast")) << testing::PrintToString(lines);
+  EXPECT_TRUE(has("named states: drive/left, drive/right")) << testing::PrintToString(lines);
+}
+
 TEST_F(Service, AReportHasEachNameOnOneLine)
 {
   PlanningScene scene = sliderAndWall();

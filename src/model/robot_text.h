@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu_planning_scene/robot_model.h"
+
+namespace gpu_planning_scene::core
+{
+/// Lines for a person who writes a request: the variables with their limits (radians, metres), the planning groups, and
+/// the named states of the SRDF. A line is left out if the robot has none of its kind.
+std::vector<std::string> describeRobot(const RobotModel& robot);
+}  // namespace gpu_planning_scene::core
