@@ -65,7 +65,7 @@ Eigen::Matrix4f projection(const Camera& camera, double aspect, double near, dou
   return (lens * viewFrom(camera.eye, camera.target, camera.up)).cast<float>();
 }
 
-/// A colour buffer and a depth buffer of the given size, bound for drawing.
+/// A colour buffer and a buffer of depth and stencil of the given size, bound for drawing.
 class Target
 {
  public:
@@ -73,10 +73,10 @@ class Target
   {
     glCreateRenderbuffers(2, buffers_.data());
     glNamedRenderbufferStorage(buffers_[0], GL_RGBA8, width, height);
-    glNamedRenderbufferStorage(buffers_[1], GL_DEPTH_COMPONENT32F, width, height);
+    glNamedRenderbufferStorage(buffers_[1], GL_DEPTH32F_STENCIL8, width, height);
     glCreateFramebuffers(1, &frame_);
     glNamedFramebufferRenderbuffer(frame_, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffers_[0]);
-    glNamedFramebufferRenderbuffer(frame_, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
+    glNamedFramebufferRenderbuffer(frame_, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, buffers_[1]);
     const bool complete = glCheckNamedFramebufferStatus(frame_, GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
     if (!complete)
       throw Error("the device cannot draw a picture of that size; choose a smaller size");
@@ -217,6 +217,59 @@ void GlPainter::pullContacts(const Camera& camera, double distance)
   glProgramUniform4f(vertex_stage_, LOCATION_PULL, eye.x(), eye.y(), eye.z(), static_cast<float>(distance));
 }
 
+/// Draws the bodies. Then the stencil is 1 where an object of the world is in front, and 0 elsewhere.
+void GlPainter::drawBodies()
+{
+  glEnable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glStencilFunc(GL_ALWAYS, 0, 1);
+  drawRange(0, drawing_.links_end);
+  drawRange(drawing_.objects_end, drawing_.bodies_end);
+  glStencilFunc(GL_ALWAYS, 1, 1);
+  drawRange(drawing_.links_end, drawing_.objects_end);
+  glDisable(GL_STENCIL_TEST);
+}
+
+/// Draws faintly, and in one colour, what is behind the surfaces that are already drawn.
+template <typename Draw>
+void GlPainter::drawHidden(const BodyColor& color, Draw draw)
+{
+  const auto channel = [](std::uint8_t value) { return static_cast<float>(value) / 255.0F; };
+  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, channel(color[0]), channel(color[1]), channel(color[2]),
+                     kHiddenOpacity);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  glDepthFunc(GL_GREATER);
+  draw();
+  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 0.0F, 0.0F, 0.0F);
+  glDisable(GL_BLEND);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LESS);
+}
+
+/// Links and attached objects that collide behind an object of the world, for example inside a shelf.
+void GlPainter::drawHiddenParts()
+{
+  glEnable(GL_STENCIL_TEST);
+  glStencilFunc(GL_EQUAL, 1, 1);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_ZERO);  // each pixel is blended once
+  drawHidden(kCollidingColor,
+             [this]
+             {
+               for (const auto& [begin, end] : drawing_.colliding)
+                 drawRange(begin, end);
+             });
+  glDisable(GL_STENCIL_TEST);
+}
+
+void GlPainter::drawHiddenContacts()
+{
+  glEnable(GL_CULL_FACE);  // each pixel of a point is blended once
+  drawHidden(kContactColor, [this] { drawRange(drawing_.bodies_end, drawing_.contacts_end); });
+  glDisable(GL_CULL_FACE);
+}
+
 Pixels GlPainter::picture(const Camera& camera, int width, int height, double near_surface)
 {
   const Eigen::Vector3d back = (camera.eye - camera.target).normalized();
@@ -225,8 +278,8 @@ Pixels GlPainter::picture(const Camera& camera, int width, int height, double ne
   const Target target(width, height);
   aim(camera, width, height);
   glClearColor(kBackground[0], kBackground[1], kBackground[2], 1.0F);
-  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  drawRange(0, drawing_.bodies_end);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+  drawBodies();
   // From below, the floor would hide the scene.
   const Floor& floor = drawing_.floor;
   if (floor.radius > 0.0 && (camera.eye - floor.center).dot(camera.up) > 0.0)
@@ -237,21 +290,9 @@ Pixels GlPainter::picture(const Camera& camera, int width, int height, double ne
     drawRange(drawing_.contacts_end, drawing_.vertices.size());
     glProgramUniform4f(fragment_stage_, LOCATION_GROUND, 0.0F, 0.0F, 0.0F, 0.0F);
   }
+  drawHiddenParts();
   pullContacts(camera, near_surface);
-  glEnable(GL_CULL_FACE);  // each pixel of a faint point is blended once
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glDepthMask(GL_FALSE);
-  glDepthFunc(GL_GREATER);
-  const auto channel = [](std::uint8_t value) { return static_cast<float>(value) / 255.0F; };
-  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, channel(kContactColor[0]), channel(kContactColor[1]),
-                     channel(kContactColor[2]), kHiddenOpacity);
-  drawRange(drawing_.bodies_end, drawing_.contacts_end);
-  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 0.0F, 0.0F, 0.0F);
-  glDisable(GL_BLEND);
-  glDisable(GL_CULL_FACE);
-  glDepthMask(GL_TRUE);
-  glDepthFunc(GL_LESS);
+  drawHiddenContacts();
   drawRange(drawing_.bodies_end, drawing_.contacts_end);
   pullContacts(camera, 0.0);
   return readPixels(width, height);

@@ -21,7 +21,8 @@ class GlPainter
   explicit GlPainter(const Drawing& drawing);
 
   /// A picture with light and shadows. Contact points that lie within `near_surface` metres behind a visible surface
-  /// are drawn in full; contact points farther behind are drawn faintly.
+  /// are drawn in full; contact points farther behind are drawn faintly. Parts of colliding links and
+  /// attached objects that an object of the world hides are drawn faintly too.
   Pixels picture(const Camera& camera, int width, int height, double near_surface);
 
   /// A picture of the visible roles. The red channel shows the robot, the green channel its contact points, the blue
@@ -32,6 +33,11 @@ class GlPainter
   void castShadows(const Eigen::Vector3d& lamp);
   void aim(const Camera& camera, int width, int height);
   void pullContacts(const Camera& camera, double distance);
+  void drawBodies();
+  template <typename Draw>
+  void drawHidden(const BodyColor& color, Draw draw);
+  void drawHiddenParts();
+  void drawHiddenContacts();
   void drawRange(std::size_t begin, std::size_t end);
 
   const Drawing& drawing_;

@@ -138,7 +138,8 @@ int main(int argc, char** argv)
                   "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
                   "              [--state ITEM,...] --out FILE.png [options]",
                   "Draws a robot in its scene: links grey, objects in colours, bodies that collide red,\ncontact "
-                  "points yellow (faint behind other bodies). It draws the collision shapes of the URDF, not the\n"
+                  "points yellow. Hidden contact points and colliding links are faint. It draws the collision shapes "
+                  "of the URDF, not the\n"
                   "visual meshes. Unless the scene has a plane, it adds a floor below the scene, with shadows.\n"
                   "Needs an OpenGL device (a software device works too), but no window system.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",

@@ -36,6 +36,10 @@ bool isRed(int red, int green, int blue)
 {
   return red > 60 && red > 3 * green && red > 3 * blue;
 }
+bool isBrightRed(int red, int green, int blue)
+{
+  return isRed(red, green, blue) && red > 150;
+}
 bool isYellow(int red, int green, int blue)
 {
   return red > 100 && 10 * green > 7 * red && 3 * blue < red;
@@ -106,6 +110,27 @@ TEST(Render, HiddenContactPointsAreFaintAndNearOnesAreNot)
   EXPECT_GT(yellow_at(1.09), 0.0) << "in the wall, near its surface";
   EXPECT_EQ(yellow_at(0.8), 0.0) << "behind the wall";
   EXPECT_NE(picture_of({{0.8, 0.0, 0.0}}).rgb, picture_of({}).rgb) << "faint, but visible";
+}
+
+TEST(Render, CollidingLinksThatAnObjectHidesAreFaint)
+{
+  const PlanningScene scene = sliderAndWall();
+  const std::vector<double> state = cartAt(scene, 0.0);
+  const int cart = scene.robot->linkIndex("cart");
+  const int wall = static_cast<int>(scene.robot->links().size());
+  const auto picture_from = [&](double x, const std::vector<BodyPair>& colliding)
+  {
+    Camera camera;
+    camera.eye = Eigen::Vector3d(x, 0.0, 0.0);
+    camera.target = Eigen::Vector3d(0.0, 0.0, 0.0);
+    return render(scene, state.data(), colliding, {}, camera, kWidth, kHeight, "software");
+  };
+  // From x = 3 m, the wall hides the cart. In both pictures the wall collides, so only the cart differs.
+  const Image behind = picture_from(3.0, {{cart, wall}});
+  const Image alone = picture_from(3.0, {{wall, wall}});
+  EXPECT_NE(behind.rgb, alone.rgb);
+  EXPECT_EQ(shareOf(behind, isBrightRed), 0.0) << "faint";
+  EXPECT_GT(shareOf(picture_from(-3.0, {{cart, wall}}), isBrightRed), 0.0) << "in front of the wall";
 }
 
 /// The same scene without grey bodies, which look like a shaded floor.
