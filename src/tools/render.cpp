@@ -137,10 +137,10 @@ int main(int argc, char** argv)
   const Tool tool{"render",
                   "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [--scene FILE] [--object ID=FILE]...\n"
                   "              [--state ITEM,...] --out FILE.png [options]",
-                  "Draws a robot in its scene: links grey, objects in colours, bodies that collide red,\ncontact "
-                  "points yellow. Hidden contact points and colliding links are faint. It draws the collision shapes "
-                  "of the URDF, not the\n"
-                  "visual meshes. Unless the scene has a plane, it adds a floor below the scene, with shadows.\n"
+                  "Draws a robot in its scene: links grey, objects in colours, bodies that collide red,\n"
+                  "contact points yellow. Hidden contact points and colliding links are faint. It draws the\n"
+                  "collision shapes of the URDF, not the visual meshes. Unless the scene has a plane, it adds a\n"
+                  "floor below the scene, with shadows.\n"
                   "Needs an OpenGL device (a software device works too), but no window system.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",
                   options(), run};
