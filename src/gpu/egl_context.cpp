@@ -9,6 +9,7 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include "gpu/gl_debug.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core
@@ -84,24 +85,22 @@ EGLContext makeContext(EGLDisplay display, std::string* why_not)
     *why_not = "no desktop OpenGL";
     return EGL_NO_CONTEXT;
   }
-  // Requests notification of resets if the driver offers it. refuseLostContext() then detects a lost device.
-  const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                               4,
-                               EGL_CONTEXT_MINOR_VERSION,
-                               5,
-                               EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                               EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                               EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
-                               EGL_LOSE_CONTEXT_ON_RESET,
-                               EGL_NONE};
-  EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-  if (context == EGL_NO_CONTEXT)
+  const std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,       4,
+                                       EGL_CONTEXT_MINOR_VERSION,       5,
+                                       EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                       EGL_CONTEXT_OPENGL_DEBUG,        wantsDebugContext() ? EGL_TRUE : EGL_FALSE};
+  const auto create = [&](std::vector<EGLint> list)
   {
-    const EGLint without[] = {
-        EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 5, EGL_CONTEXT_OPENGL_PROFILE_MASK,
-        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-    context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, without);
-  }
+    list.push_back(EGL_NONE);
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, list.data());
+  };
+  // Requests notification of resets if the driver offers it. refuseLostContext() then detects a lost device.
+  std::vector<EGLint> with_notification = attributes;
+  with_notification.insert(with_notification.end(),
+                           {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
+  EGLContext context = create(with_notification);
+  if (context == EGL_NO_CONTEXT)
+    context = create(attributes);
   if (context == EGL_NO_CONTEXT)
   {
     *why_not = "no OpenGL 4.5 core context";
@@ -113,6 +112,7 @@ EGLContext makeContext(EGLDisplay display, std::string* why_not)
     *why_not = "the context cannot be made current without a surface";
     return EGL_NO_CONTEXT;
   }
+  reportDriverMessages();
   return context;
 }
 

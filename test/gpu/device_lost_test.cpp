@@ -5,6 +5,7 @@
 #include <epoxy/gl.h>
 
 #include "gpu/buffer.h"
+#include "gpu/expected_gl_errors.h"
 #include "gpu/gl_check.h"
 #include "gpu/gl_thread.h"
 #include "gpu_planning_scene/error.h"
@@ -62,6 +63,7 @@ TEST(DeviceLost, IsAnErrorOfOpenGl)
   const std::string error = lossIn(thread,
                                    []
                                    {
+                                     const ExpectedGlErrors expected;
                                      glEnable(0xffffu);
                                      checkGl("a wrong call");
                                    });
@@ -73,6 +75,7 @@ TEST(DeviceLost, TooLittleMemoryIsNotALoss)
   GlThread thread("auto");
   const auto allocate_too_much = []
   {
+    const ExpectedGlErrors expected;
     GLuint buffer = 0;
     glCreateBuffers(1, &buffer);
     glNamedBufferStorage(buffer, GLsizeiptr{1} << 62, nullptr, 0);  // no device has this much memory

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/egl_context.h"
+#include "gpu/expected_gl_errors.h"
 #include "gpu/program.h"
 #include "gpu_planning_scene/error.h"
 #include "support/shader_folder.h"
@@ -38,6 +39,7 @@ class ProgramTest : public testing::Test
 
 TEST_F(ProgramTest, CompileErrorsNameTheShader)
 {
+  const ExpectedGlErrors expected;
   folder_.write("bad.comp", "layout(local_size_x = 1) in;\nvoid main() { undeclared_thing = 1; }\n");
   const std::string error = errorOf("bad.comp");
   EXPECT_NE(error.find("bad.comp"), std::string::npos) << error;
@@ -84,6 +86,7 @@ TEST_F(ProgramTest, BuffersKeepWhatTheyHeldWhenTheyGrow)
 
 TEST_F(ProgramTest, AccessBeyondABufferIsAnError)
 {
+  const ExpectedGlErrors expected;
   Buffer buffer(64);
   std::vector<std::uint32_t> data(100);
   EXPECT_THROW(buffer.write(data), Error);

@@ -77,7 +77,7 @@ class GpuStep : public testing::Test
                       "layout(location = LOCATION_CASE_COUNT) uniform uint case_count;\n"
                       "layout(std430, binding = 0) readonly buffer Input { float data[]; };\n"
                       "layout(std430, binding = 1) writeonly buffer Output { uint result[]; };\n"
-                      "uint base;\n"
+                      "uint base = 0u;\n"
                       "vec3 at(uint i) { return vec3(data[base + 3u * i], data[base + 3u * i + 1u], data[base + 3u * i "
                       "+ 2u]); }\n"
                       "void main() { const uint i = invocationIndex(); if (i >= case_count) return; base = i * " +
