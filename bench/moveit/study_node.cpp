@@ -18,7 +18,7 @@ constexpr char kApplyScene[] = "/apply_planning_scene";
 
 StudyNode::StudyNode(std::string name) : name_(std::move(name))
 {
-  constexpr double kLongest = 60.0;  // seconds
+  constexpr double kLongest = 600.0;  // seconds: the node may compile shaders beside other programs
   if (!ros::service::waitForService(kApplyScene, ros::Duration(kLongest)))
     throw std::runtime_error(name_ + " does not come up");
 }

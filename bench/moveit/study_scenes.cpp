@@ -84,6 +84,18 @@ void allowCollidingPairs(planning_scene::PlanningScene& scene)
 }
 }  // namespace
 
+namespace
+{
+/// MoveIt only logs an error if it cannot read a mesh. Without meshes, hardly anything collides.
+void requireAllShapes(const urdf::ModelInterface& urdf, const moveit::core::RobotModel& robot)
+{
+  for (const auto& [name, link] : urdf.links_)
+    if (robot.getLinkModel(name)->getShapes().size() != link->collision_array.size())
+      throw std::runtime_error("link '" + name +
+                               "' lacks collision shapes; is the folder of its meshes in ROS_PACKAGE_PATH?");
+}
+}  // namespace
+
 moveit::core::RobotModelPtr loadStudyRobot(const std::string& name)
 {
   if (name != "ur5_robotiq")
@@ -98,7 +110,9 @@ moveit::core::RobotModelPtr loadStudyRobot(const std::string& name)
   const auto srdf = std::make_shared<srdf::Model>();
   if (!urdf || !srdf->initString(*urdf, contentOf(folder + "srdf/ur5.srdf")))
     throw std::runtime_error("cannot load the robot in " + folder);
-  return std::make_shared<moveit::core::RobotModel>(urdf, srdf);
+  auto robot = std::make_shared<moveit::core::RobotModel>(urdf, srdf);
+  requireAllShapes(*urdf, *robot);
+  return robot;
 }
 
 planning_scene::PlanningScenePtr makeStudyScene(const moveit::core::RobotModelPtr& robot, bool ours)
