@@ -112,8 +112,8 @@ std::vector<std::string> checkStates(Traversal traversal, const std::string& sha
   options.shader_folder = shaders;
   options.max_batch = kStates;
   GpuChecker checker(options);
-  if (!checker.floatFault().empty())
-    wrong.push_back("the test of the arithmetic fails: " + checker.floatFault());
+  if (!checker.fault().empty())
+    wrong.push_back("the test of the arithmetic fails: " + checker.fault());
   const auto robot = liftAndArm();
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> height(-0.008, 0.04);

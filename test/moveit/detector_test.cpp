@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <map>
 #include <thread>
 
 #include <geometric_shapes/shapes.h>
@@ -345,6 +346,81 @@ TEST_F(Detector, ChecksAttachedObjectsAgainstTheirOwnLink)
   EXPECT_FALSE(result.collision);
   add("box", box(0.2), at(0.28, 0, 0));  // meets the tool, not the cart
   EXPECT_TRUE(collides());
+}
+
+TEST_F(Detector, DoesNotCheckObjectsOnOneLinkAgainstEachOther)
+{
+  const AllowedCollisionMatrix matrix;
+  const std::vector<shapes::ShapeConstPtr> cube = {box(0.2)};
+  const EigenSTL::vector_Isometry3d poses = {Isometry3d::Identity()};
+  const std::vector<std::string> touch_links = {"cart"};
+  state_.attachBody("tool", at(0.3, 0, 0), cube, poses, touch_links, "cart");
+  state_.attachBody("part", at(0.4, 0, 0), cube, poses, touch_links, "cart");
+  state_.update();
+  CollisionResult result;
+  env_->checkSelfCollision(CollisionRequest(), result, state_, matrix);
+  EXPECT_FALSE(result.collision);
+  state_.clearAttachedBody("part");
+  state_.attachBody("part", at(0.4, 0, 0), cube, poses, touch_links, "base");
+  state_.update();
+  env_->checkSelfCollision(CollisionRequest(), result, state_, matrix);
+  EXPECT_TRUE(result.collision);
+}
+
+TEST_F(Detector, ReadsAnotherWorld)
+{
+  add("old", box(0.2), Isometry3d::Identity());
+  const auto world = std::make_shared<collision_detection::World>();
+  world->addToObject("new", at(1, 0, 0), box(0.2), Isometry3d::Identity());
+  env_->setWorld(world);
+  EXPECT_FALSE(collides()) << "with the old world";
+  state_ = stateAt(1.0);
+  EXPECT_TRUE(collides());
+  world->removeObject("new");
+  EXPECT_FALSE(collides());
+}
+
+TEST_F(Detector, ChecksTheRobotAgainstItselfForThePairsOfAGroupAlone)
+{
+  moveit::core::RobotModelBuilder builder("two_carts", "base");
+  geometry_msgs::Pose pose;
+  pose.orientation.w = 1.0;
+  builder.addVirtualJoint("world", "base", "fixed", "root");
+  for (const char* cart : {"left", "right"})
+  {
+    builder.addChain(std::string("base->") + cart, "prismatic", {pose}, urdf::Vector3(1, 0, 0));
+    builder.addCollisionBox(cart, {0.2, 0.2, 0.2}, pose);
+    builder.addGroupChain("base", cart, std::string(cart) + "_arm");
+  }
+  builder.addCollisionBox("base", {0.1, 0.1, 0.1}, pose);
+  const RobotModelPtr robot = builder.build();
+  const auto env = CollisionDetectorAllocator().allocateEnv(robot);
+  RobotState state(robot);
+  state.setToDefaultValues();
+  state.setVariablePosition(robot->getJointModel("base-left-joint")->getFirstVariableIndex(), 1.0);
+  state.update();
+  const AllowedCollisionMatrix matrix;  // the right cart is in the base
+  for (const auto& [group, expected] :
+       std::map<std::string, bool>{{"", true}, {"right_arm", true}, {"left_arm", false}})
+  {
+    CollisionRequest request;
+    request.group_name = group;
+    CollisionResult result;
+    env->checkSelfCollision(request, result, state, matrix);
+    EXPECT_EQ(result.collision, expected) << "group '" << group << "'";
+  }
+}
+
+TEST_F(Detector, KeepsTheSmallestDistanceOfSeveralChecks)
+{
+  add("box", box(0.2), at(0.5, 0, 0));
+  CollisionRequest request;
+  request.distance = true;
+  CollisionResult result;
+  env_->checkRobotCollision(request, result, state_);
+  EXPECT_NEAR(result.distance, 0.3, 2e-6);
+  env_->checkRobotCollision(request, result, stateAt(-0.5));
+  EXPECT_NEAR(result.distance, 0.3, 2e-6);
 }
 
 TEST_F(Detector, GivesDistancesPerPairAndNearestPoints)

@@ -212,7 +212,7 @@ GpuWork BatchChecker::lastWork() const
 
 std::string BatchChecker::deviceWarning() const
 {
-  return impl_->gpu_checker.floatFault();
+  return impl_->gpu_checker.fault();
 }
 
 std::string BatchChecker::deviceName() const

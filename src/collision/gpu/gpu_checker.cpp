@@ -101,11 +101,23 @@ void GpuChecker::apply(const CollisionProblem& problem, const std::shared_ptr<co
   if (!robot || !double_fault_.empty() || robot->links().size() > kMaxLinks)
   {
     kinematics_.reset();
+    kinematics_fault_.clear();
     return;
   }
   if (!kinematics_ || kinematics_->robot() != robot)
+  {
     kinematics_ = std::make_unique<GpuKinematics>(shader_folder_, robot);
+    kinematics_fault_ = kinematics_->findFault();
+  }
   kinematics_->setInstances(problem);
+}
+
+std::string GpuChecker::fault() const
+{
+  for (const std::string& fault : {pairs_->floatFault(), double_fault_, kinematics_fault_})
+    if (!fault.empty())
+      return fault;
+  return {};
 }
 
 void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
@@ -134,7 +146,7 @@ void GpuChecker::check(const double* states, std::size_t count, BatchResult& res
   const std::size_t width = robot.variables().size();
   const LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* poses)
   { robot.linkPoses(states + row * width, poses); };
-  bool on_gpu = kinematics_ != nullptr;
+  bool on_gpu = kinematics_ != nullptr && kinematics_fault_.empty();
   for (std::size_t i = 0; on_gpu && i < count; ++i)
     on_gpu = kinematics_->canPlace(states + i * width);
   const std::size_t links = robot.links().size();

@@ -52,8 +52,9 @@ class GpuChecker
   const GpuWork& lastWork() const { return pairs_->lastWork(); }
 
   const Device& device() const { return gl_.device(); }
-  /// See GpuPairChecker.
-  const std::string& floatFault() const { return pairs_->floatFault(); }
+  /// One line if the device's arithmetic, or its forward kinematics of the robot, is not as the error bounds assume.
+  /// The CPU then does the affected work. Else empty.
+  std::string fault() const;
 
  private:
   using LinkPoses = UploadedPoses::LinkPoses;
@@ -69,10 +70,11 @@ class GpuChecker
   std::string shader_folder_;
   GlThread gl_;
   // `pairs_` and `kinematics_` are created, used and destroyed on the GL thread. `kinematics_` is null if the device's
-  // double precision is not reliable, or if the robot has too many links.
+  // double precision is not reliable, or if the robot has too many links. It is not used if it has a fault.
   std::unique_ptr<GpuPairChecker> pairs_;
   std::unique_ptr<GpuKinematics> kinematics_;
   std::string double_fault_;
+  std::string kinematics_fault_;
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
   bool usable_ = false;  // the device holds exactly `problem_`

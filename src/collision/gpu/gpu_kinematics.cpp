@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <random>
 
 #include "collision/gpu/kinematics_shader.h"
 #include "shader_constants.h"
@@ -15,6 +16,23 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr double kLargestShaderAngle = 1048576.0;  // 2^20, see shaders/problem/kinematics.glsl
+
+constexpr std::size_t kTestedStates = 64;
+// The error of the double computation, relative to the distance from the origin (docs/error_bounds.md), with room.
+constexpr double kDoubleError = 1e-11;
+
+/// Whether the twelve floats are the rows of the pose.
+bool isNear(const float* rows, const Eigen::Isometry3d& pose)
+{
+  const double error = kDoubleError * (1.0 + pose.translation().norm());
+  for (int entry = 0; entry < POSE_FLOATS; ++entry)
+  {
+    const double expected = pose(entry / 4, entry % 4);
+    if (!(std::abs(static_cast<double>(rows[entry]) - expected) <= 0.5 * UNIT_ROUNDOFF * std::abs(expected) + error))
+      return false;
+  }
+  return true;
+}
 
 using Texel = std::array<std::uint32_t, 4>;
 
@@ -52,6 +70,37 @@ GpuKinematics::GpuKinematics(const std::string& shader_folder, std::shared_ptr<c
     program_(Program::fromText(shader_folder, "kinematics of " + robot_->name(), kinematicsShader(*robot_))),
     largest_(largestValues(*robot_))
 {
+}
+
+std::string GpuKinematics::findFault()
+{
+  const std::size_t links = robot_->links().size();
+  CollisionProblem problem;
+  for (std::size_t link = 0; link < links; ++link)
+    problem.robot.push_back(
+        {0, static_cast<std::int32_t>(link), static_cast<std::int32_t>(link), Eigen::Isometry3d::Identity()});
+  const std::size_t width = largest_.size();
+  std::vector<double> states(kTestedStates * width);
+  std::mt19937_64 generator(20033);
+  for (std::size_t i = 0; i < kTestedStates; ++i)
+    robot_->randomState(generator, states.data() + i * width);
+  setInstances(problem);
+  setStates(states.data());
+  TexelBuffer poses;
+  poses.reserve(kTestedStates * links * POSE_FLOATS * sizeof(float));
+  write(0, kTestedStates, poses);
+  std::vector<float> found(kTestedStates * links * POSE_FLOATS);
+  poses.buffer().read(found.data(), found.size() * sizeof(float));
+  std::vector<Eigen::Isometry3d> expected(links);
+  for (std::size_t i = 0; i < kTestedStates; ++i)
+  {
+    robot_->linkPoses(states.data() + i * width, expected.data());
+    for (std::size_t link = 0; link < links; ++link)
+      if (!isNear(&found[(link * kTestedStates + i) * POSE_FLOATS], expected[link]))
+        return "forward kinematics: link '" + robot_->links()[link].name +
+               "' is elsewhere than the robot model says; the CPU computes the link poses";
+  }
+  return {};
 }
 
 void GpuKinematics::setInstances(const CollisionProblem& problem)

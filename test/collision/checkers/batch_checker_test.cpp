@@ -13,6 +13,7 @@
 #include "gpu_planning_scene/error.h"
 #include "support/kept_trees.h"
 #include "support/repetitions.h"
+#include "support/shader_folder.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
@@ -238,6 +239,24 @@ TEST_F(BatchCheckerTest, AgreesWithTheCpuAtALatticeOfStates)
   EXPECT_GT(std::count(expected.begin(), expected.end(), 0), 50);
   for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
     EXPECT_EQ(BatchChecker(scene_, with(traversal)).check(states.data(), count).valid, expected);
+}
+
+TEST_F(BatchCheckerTest, ADriverThatPlacesLinksElsewhereIsReportedAndAnswersAreRightAllTheSame)
+{
+  ShaderFolder folder;
+  folder.replace("problem/kinematics.glsl", "1.0lf / 6.0lf", "1.0lf / 7.0lf");  // a term of the sine
+  BatchCheckerOptions options = with(Traversal::WorkQueue);
+  options.shader_folder = folder.path();
+  BatchChecker checker(scene_, options);
+  EXPECT_NE(checker.deviceWarning().find("forward kinematics"), std::string::npos) << checker.deviceWarning();
+  std::mt19937_64 generator(kSeed);
+  constexpr std::size_t kStates = 2000;
+  std::vector<double> states(kStates * 2);
+  for (std::size_t i = 0; i < kStates; ++i)
+    scene_->robot->randomState(generator, &states[2 * i]);
+  EXPECT_EQ(checker.check(states.data(), kStates).valid, CpuChecker(scene_).check(states.data(), kStates).valid)
+      << "seed " << kSeed;
+  EXPECT_EQ(BatchChecker(scene_, with(Traversal::WorkQueue)).deviceWarning(), "");
 }
 
 TEST_F(BatchCheckerTest, RefusesOptionsThatMakeNoSense)

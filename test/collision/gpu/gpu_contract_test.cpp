@@ -254,7 +254,7 @@ TEST_P(GpuContract, ADeviceWithOtherArithmeticIsReportedAndAnswersAreRightAllThe
   BatchCheckerOptions other = options();
   other.shader_folder = folder.path();
   GpuChecker checker(other);
-  EXPECT_NE(checker.floatFault().find("two-product"), std::string::npos) << checker.floatFault();
+  EXPECT_NE(checker.fault().find("two-product"), std::string::npos) << checker.fault();
   CollisionProblem problem = problemOf(meshOf(Sphere{0.1}));
   addObject(problem, meshOf(Box{{0.2, 0.2, 0.2}}), at(0.5));
   checker.setProblem(std::make_shared<const CollisionProblem>(problem));
@@ -265,7 +265,7 @@ TEST_P(GpuContract, ADeviceWithOtherArithmeticIsReportedAndAnswersAreRightAllThe
                                                                           : 0.35); }, result);
   EXPECT_EQ(result.valid, (std::vector<std::uint8_t>{1, 1, 0}));
   EXPECT_GE(result.undecided_states, 1U);  // at least the last state
-  EXPECT_EQ(GpuChecker(options()).floatFault(), "");
+  EXPECT_EQ(GpuChecker(options()).fault(), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Traversals, GpuContract, testing::Values(Traversal::BreadthFirst, Traversal::WorkQueue),

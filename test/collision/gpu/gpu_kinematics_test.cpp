@@ -140,6 +140,16 @@ TEST(GpuKinematics, LeavesAnglesBeyondItsSineToTheCpu)
     EXPECT_FALSE(kinematics.canPlace(&angle)) << angle;
 }
 
+TEST(GpuKinematics, AShaderThatPlacesALinkElsewhereIsFoundOut)
+{
+  EglContext context("auto");
+  const auto robot = robotOf(boxLink("a") + boxLink("b") + jointXml("spin", "continuous", "a", "b"));
+  ShaderFolder folder;
+  EXPECT_EQ(GpuKinematics(folder.path(), robot).findFault(), "");
+  folder.replace("problem/kinematics.glsl", "1.0lf / 120.0lf", "1.0lf / 121.0lf");
+  EXPECT_NE(GpuKinematics(folder.path(), robot).findFault().find("link 'b'"), std::string::npos);
+}
+
 TEST(GpuKinematics, ADeviceWithOtherDoublesIsFoundOut)
 {
   EglContext context("auto");
