@@ -57,7 +57,7 @@ void BatchRrtConnect::setBranches(unsigned int branches)
 void BatchRrtConnect::setup()
 {
   Planner::setup();
-  bulkValidatorOf(*si_, getName());
+  bulkValidatorOf(*si_, getName().c_str());
   if (range_ <= 0.0)
     range_ = kRangeOfExtent * si_->getMaximumExtent();
 }
@@ -128,7 +128,7 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
                status == ob::PlannerStatus::INVALID_START ? "start" : "goal");
     return status;
   }
-  const MotionValidator& validator = bulkValidatorOf(*si_, getName());
+  const MotionValidator& validator = bulkValidatorOf(*si_, getName().c_str());
   const ompl::time::point start = ompl::time::now();
   RrtSearch::Path path;
   while (!path && !ptc)

@@ -4,7 +4,7 @@
 
 namespace gpu_planning_scene::core
 {
-const MotionValidator& bulkValidatorOf(const ompl::base::SpaceInformation& information, const std::string& user)
+const MotionValidator& bulkValidatorOf(const ompl::base::SpaceInformation& information, const char* user)
 {
   const auto* validator = dynamic_cast<const MotionValidator*>(information.getMotionValidator().get());
   if (!validator)

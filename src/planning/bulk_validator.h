@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include <ompl/base/SpaceInformation.h>
 
 #include "gpu_planning_scene/planning/motion_validator.h"
@@ -10,5 +8,5 @@ namespace gpu_planning_scene::core
 {
 /// The motion validator of the space information. Throws ompl::Exception in the name of `user` if it is not a
 /// MotionValidator of this package, which checks motions in bulk.
-const MotionValidator& bulkValidatorOf(const ompl::base::SpaceInformation& information, const std::string& user);
+const MotionValidator& bulkValidatorOf(const ompl::base::SpaceInformation& information, const char* user);
 }  // namespace gpu_planning_scene::core

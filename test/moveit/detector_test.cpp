@@ -408,7 +408,28 @@ TEST_F(Detector, ChecksTheRobotAgainstItselfForThePairsOfAGroupAlone)
     CollisionResult result;
     env->checkSelfCollision(request, result, state, matrix);
     EXPECT_EQ(result.collision, expected) << "group '" << group << "'";
+    DistanceRequest distance;
+    distance.group_name = group;
+    distance.acm = &matrix;
+    distance.enableGroup(robot);
+    DistanceResult measured;
+    env->distanceSelf(distance, measured, state);
+    EXPECT_EQ(measured.collision, expected) << "group '" << group << "'";
   }
+}
+
+TEST_F(Detector, RefusesAMotionDuringWhichTheRobotPicksSomethingUp)
+{
+  add("box", box(0.2), at(0.0, 1.0, 0));
+  RobotState to = stateAt(1.0);
+  CollisionResult result;
+  env_->checkRobotCollision(CollisionRequest(), result, state_, to);
+  EXPECT_FALSE(result.collision);
+  to.attachBody("tool", at(0, -0.3, 0), std::vector<shapes::ShapeConstPtr>{box(0.1)},
+                EigenSTL::vector_Isometry3d{Isometry3d::Identity()}, std::vector<std::string>{"cart"}, "cart");
+  to.update();
+  env_->checkRobotCollision(CollisionRequest(), result, state_, to);
+  EXPECT_TRUE(result.collision);
 }
 
 TEST_F(Detector, KeepsTheSmallestDistanceOfSeveralChecks)

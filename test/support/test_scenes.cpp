@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <random>
 #include <regex>
@@ -283,10 +284,10 @@ TestScene withPadding(const TestScene& scene, double padding)
   return padded;
 }
 
-const TestScene& testScene(const std::string& name)
+const TestScene& testScene(std::string_view name)
 {
-  static std::map<std::string, TestScene> loaded;
+  static std::map<std::string, TestScene, std::less<>> loaded;
   const auto known = loaded.find(name);
-  return known != loaded.end() ? known->second : loaded.emplace(name, load(name)).first->second;
+  return known != loaded.end() ? known->second : loaded.emplace(name, load(std::string(name))).first->second;
 }
 }  // namespace gpu_planning_scene::core

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gpu_planning_scene/planning_scene.h"
@@ -41,5 +42,5 @@ std::shared_ptr<const RobotModel> loadRobotOf(const std::string& name);
 TestScene withPadding(const TestScene& scene, double padding);
 
 /// Loads a scene, once per process.
-const TestScene& testScene(const std::string& name);
+const TestScene& testScene(std::string_view name);
 }  // namespace gpu_planning_scene::core
