@@ -432,6 +432,28 @@ TEST_F(Detector, RefusesAMotionDuringWhichTheRobotPicksSomethingUp)
   EXPECT_TRUE(result.collision);
 }
 
+TEST_F(Detector, GivesAtMostTheContactsOfAPairThatAreAskedFor)
+{
+  for (const double x : {0.15, -0.15})
+    add("cube" + std::to_string(x), meshCube(0.2), at(x, 0.05, 0.05));
+  const auto contacts_with = [this](std::size_t in_all, std::size_t per_pair)
+  {
+    CollisionRequest request;
+    request.contacts = true;
+    request.max_contacts = in_all;
+    request.max_contacts_per_pair = per_pair;
+    CollisionResult result;
+    env_->checkRobotCollision(request, result, state_);
+    std::size_t most = 0;
+    for (const auto& [pair, contacts] : result.contacts)
+      most = std::max(most, contacts.size());
+    return std::make_pair(result.contact_count, most);
+  };
+  EXPECT_GT(contacts_with(100, 100).second, 2u);
+  EXPECT_EQ(contacts_with(100, 2).second, 2u);
+  EXPECT_EQ(contacts_with(2, 100).first, 2u);
+}
+
 TEST_F(Detector, KeepsTheSmallestDistanceOfSeveralChecks)
 {
   add("box", box(0.2), at(0.5, 0, 0));
