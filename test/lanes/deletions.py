@@ -9,7 +9,9 @@ import argparse
 import concurrent.futures
 import os
 import re
+import resource
 import shutil
+import signal
 import subprocess
 import tempfile
 
@@ -30,8 +32,15 @@ BITS = {"GL_TEXTURE_FETCH_BARRIER_BIT": 0x8, "GL_COMMAND_BARRIER_BIT": 0x40, "GL
 # Tasks for a folder of shaders; others try all tasks.
 BATCHES = ["work_queue", "breadth_first"]
 FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic"]
+# A run that needs more processor time than this, in seconds, does not end. A run without a deletion needs a few seconds.
+MOST_SECONDS = 60
 # Families of `stability` for what the tasks do not find.
 FAMILIES = ["random rigid motions", "far", "sliver", "in or near a closed mesh", "primitive", "padding"]
+
+
+def limit_time():
+    """Processor time, because a wait for a busy machine is not a fault."""
+    resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 5))
 
 
 def lines_of(path):
@@ -70,24 +79,36 @@ class Runner:
         self.undamaged = {}
 
     def run_tasks(self, shaders, seeds, names, variables):
-        """The task, its seed and what is wrong with these shaders and seeds (1 to N, or A-B); None if nothing is."""
-        process = subprocess.run([os.path.join(self.programs, "lanes_workload"), shaders, seeds, *names],
-                                 env={**os.environ, **variables}, capture_output=True, text=True)
+        """The task, its seed and what is wrong with these shaders and seeds (1 to N); None if nothing is."""
+        for seed in range(1, seeds + 1):
+            found = self.run_seed(shaders, seed, names, variables)
+            if found:
+                return found
+        return None
+
+    def run_seed(self, shaders, seed, names, variables):
+        """The same for one seed."""
+        process = subprocess.run([os.path.join(self.programs, "lanes_workload"), shaders, f"{seed}-{seed}", *names],
+                                 env={**os.environ, **variables}, capture_output=True, text=True,
+                                 preexec_fn=limit_time)
         if process.returncode == 0:
             return None
+        if process.returncode == -signal.SIGXCPU:
+            return ", ".join(names), str(seed), f"the run does not end: it needs more than {MOST_SECONDS} s"
         if process.returncode != 1:
             raise RuntimeError(process.stderr)
         name, seed, *wrong = process.stdout.strip().split("\t")
-        return name, seed, wrong[0]
+        hangs = [line for line in wrong[1:] if "does not end" in line]
+        return name, seed, "; ".join([wrong[0], *hangs[:1]])
 
     def tasks(self, shaders, names, variables):
         """The same, for what is right without the deletion."""
-        found = self.run_tasks(shaders, str(self.seeds), names, variables)
+        found = self.run_tasks(shaders, self.seeds, names, variables)
         if not found:
             return None
         name, seed, _ = found
         if (name, seed) not in self.undamaged:
-            self.undamaged[name, seed] = self.run_tasks(SHADERS, f"{seed}-{seed}", [name], {})
+            self.undamaged[name, seed] = self.run_seed(SHADERS, seed, name.split(", "), {})
         if self.undamaged[name, seed]:
             raise RuntimeError(f"{name} is wrong without a deletion: {self.undamaged[name, seed]}")
         return found

@@ -14,8 +14,9 @@ namespace
 constexpr std::size_t kStackBytes = std::size_t{512} * 1024;
 /// Work groups that are in flight at the same time.
 constexpr std::size_t kResidentGroups = 3;
-/// A dispatch that switches more often than this hangs.
-constexpr std::uint64_t kMostResumes = 200'000'000;
+/// An invocation with more accesses to memory than this hangs. The loops of a shader have at most INVOCATION_ITERATIONS
+/// iterations, and an iteration has fewer than 64 accesses.
+constexpr std::uint32_t kMostAccesses = 4'000'000;
 
 std::string text(std::uint64_t number)
 {
@@ -52,7 +53,9 @@ struct Simulator::Fiber
   Lane lane;
   Group* group = nullptr;
   void (*main)() = nullptr;
+  bool started = false;  // main() has begun and has not ended
   bool finished = false;
+  std::uint32_t accesses = 0;
   int barrier = 0;  // the barrier at which the lane waits; 0: none
   std::uint32_t id = 0;
   boost::context::fiber context, scheduler;
@@ -64,7 +67,9 @@ struct Simulator::Fiber
                 scheduler = std::move(from);
                 while (main)
                 {
+                  started = true;
                   main();
+                  started = false;
                   finished = true;
                   pause();
                 }
@@ -72,10 +77,11 @@ struct Simulator::Fiber
               })
   {
   }
+  /// A lane that hangs is unwound by the destructor of its context.
   ~Fiber()
   {
     main = nullptr;
-    if (context)
+    if (context && !started)
       resume();
   }
   Fiber(const Fiber&) = delete;
@@ -89,6 +95,7 @@ Simulator::~Simulator() = default;
 
 void Simulator::setSeed(std::uint64_t seed)
 {
+  hangs_ = false;
   random_.seed(seed);
   run_.random = seed * 0x9e3779b97f4a7c15ULL + 1;
 }
@@ -346,13 +353,24 @@ void* Simulator::shared(std::uint32_t offset, std::uint32_t place, SharedAccess 
 
 void Simulator::barrier(int site)
 {
+  countAccess();
   running_->barrier = site;
   ++running_->group->waiting;
   running_->pause();
 }
 
+void Simulator::countAccess()
+{
+  if (++running_->accesses <= kMostAccesses)
+    return;
+  report("the dispatch does not end: an invocation has more than " + text(kMostAccesses) + " accesses to memory");
+  hangs_ = true;
+  running_->pause();
+}
+
 void Simulator::maybeSwitch()
 {
+  countAccess();
   if (switch_one_in_ == 0 || random_() % switch_one_in_ != 0)
     return;
   running_->pause();
@@ -424,6 +442,7 @@ void Simulator::startGroup(std::uint32_t number, std::uint32_t columns, std::uin
     fiber->group = group.get();
     fiber->main = program_->main;
     fiber->finished = false;
+    fiber->accesses = 0;
     fiber->barrier = 0;
     fiber->id = number * kernel.group_size + i;
     group->lanes.push_back(std::move(fiber));
@@ -433,6 +452,8 @@ void Simulator::startGroup(std::uint32_t number, std::uint32_t columns, std::uin
 
 void Simulator::dispatch(const Program& program, std::uint32_t columns, std::uint32_t rows)
 {
+  if (hangs_)
+    return;
   ++dispatch_;
   program_ = &program;
   run_.memory = this;
@@ -442,7 +463,6 @@ void Simulator::dispatch(const Program& program, std::uint32_t columns, std::uin
   for (std::size_t i = 0; i < pending.size(); ++i)
     pending[i] = static_cast<std::uint32_t>(i);
   std::shuffle(pending.begin(), pending.end(), random_);
-  std::uint64_t resumes = 0;
   while (!pending.empty() || !groups_.empty())
   {
     while (!pending.empty() && groups_.size() < kResidentGroups)
@@ -461,10 +481,10 @@ void Simulator::dispatch(const Program& program, std::uint32_t columns, std::uin
     run_.lane = &running_->lane;
     running_->resume();
     ++switches_;
-    if (++resumes > kMostResumes)
+    if (hangs_)
     {
-      report("the dispatch does not end");
-      std::abort();
+      groups_.clear();
+      break;
     }
     if (running_->finished)
       ++group.finished;

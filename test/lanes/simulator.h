@@ -64,6 +64,7 @@ class Simulator : private Memory
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
+  /// Also ends the state after a dispatch that hung.
   void setSeed(std::uint64_t seed);
   /// Uses IEEE arithmetic in place of the seed's.
   void useExactArithmetic() { chosen_arithmetic_ = false; }
@@ -80,6 +81,7 @@ class Simulator : private Memory
   void commandRead(std::uint32_t block, std::size_t offset, std::size_t bytes, void* data, BarrierBit bit);
   void commandWrite(std::uint32_t block, std::size_t offset, std::size_t bytes, const void* data);
 
+  /// A dispatch that does not end is a fault. It is given up, and later dispatches do nothing, as on a lost device.
   void dispatch(const Program& program, std::uint32_t columns, std::uint32_t rows);
 
   /// The faults so far, each once.
@@ -112,6 +114,7 @@ class Simulator : private Memory
   void noteWrite(Block::Word& word, std::uint32_t value, bool atomically, std::uint32_t binding);
   bool covered(std::uint32_t dispatch, std::uint32_t bit) const;
   void chooseFreedoms();
+  void countAccess();
   void maybeSwitch();
   void startGroup(std::uint32_t number, std::uint32_t columns, std::uint32_t rows);
   bool release(Group& group);
@@ -127,6 +130,7 @@ class Simulator : private Memory
   std::mt19937_64 random_{1};
   std::set<std::string> faults_;
   std::uint64_t switches_ = 0;
+  bool hangs_ = false;
 
   const Program* program_ = nullptr;
   std::vector<std::unique_ptr<Fiber>> fibers_, idle_;

@@ -231,7 +231,15 @@ std::vector<std::string> runWorkload(const std::string& name, const std::string&
     throw std::runtime_error("there is no workload " + name);
   lanes::device().setSeed(seed);
   lanes::device().clearFaults();
-  const std::vector<std::string> wrong = task->second(shaders, seed);
+  std::vector<std::string> wrong;
+  try
+  {
+    wrong = task->second(shaders, seed);
+  }
+  catch (const std::exception& error)
+  {
+    wrong.push_back(std::string("the task ends with an exception: ") + error.what());
+  }
   const auto& faults = lanes::device().faults();
   std::vector<std::string> all(faults.begin(), faults.end());
   all.insert(all.end(), wrong.begin(), wrong.end());
