@@ -31,7 +31,7 @@ BITS = {"GL_TEXTURE_FETCH_BARRIER_BIT": 0x8, "GL_COMMAND_BARRIER_BIT": 0x40, "GL
         "GL_SHADER_STORAGE_BARRIER_BIT": 0x2000}
 # Tasks for a folder of shaders; others try all tasks.
 BATCHES = ["work_queue", "breadth_first"]
-FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic"]
+FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "half_spaces"]
 # A run that needs more processor time than this, in seconds, does not end. A run without a deletion needs a few seconds.
 MOST_SECONDS = 60
 # Families of `stability` for what the tasks do not find.
@@ -98,7 +98,7 @@ class Runner:
         if process.returncode != 1:
             raise RuntimeError(process.stderr)
         name, seed, *wrong = process.stdout.strip().split("\t")
-        hangs = [line for line in wrong[1:] if "does not end" in line]
+        hangs = [line for line in wrong[1:] if "does not end" in line or "given up" in line]
         return name, seed, "; ".join([wrong[0], *hangs[:1]])
 
     def tasks(self, shaders, names, variables):

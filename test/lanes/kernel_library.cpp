@@ -52,7 +52,7 @@ std::string nameOf(const std::string& shader)
 void run(const std::string& command, const std::string& log)
 {
   if (std::system((command + " > " + log + " 2>&1").c_str()) != 0)
-    throw std::runtime_error("a shader does not become C++: " + command + "\n" + contents(log));
+    throw TranslationError("a shader does not become C++: " + command + "\n" + contents(log));
 }
 }  // namespace
 

@@ -17,6 +17,9 @@ constexpr std::size_t kResidentGroups = 3;
 /// An invocation with more accesses to memory than this hangs. The loops of a shader have at most INVOCATION_ITERATIONS
 /// iterations, and an iteration has fewer than 64 accesses.
 constexpr std::uint32_t kMostAccesses = 4'000'000;
+/// A dispatch with more accesses than this after the first fault is given up: a fault may make it as large as the
+/// largest number of work groups.
+constexpr std::uint32_t kMostAccessesAfterFault = 1'000'000;
 
 std::string text(std::uint64_t number)
 {
@@ -361,9 +364,13 @@ void Simulator::barrier(int site)
 
 void Simulator::countAccess()
 {
-  if (++running_->accesses <= kMostAccesses)
+  accesses_after_fault_ += faults_.empty() ? 0 : 1;
+  const bool lane_hangs = ++running_->accesses > kMostAccesses;
+  if (!lane_hangs && accesses_after_fault_ <= kMostAccessesAfterFault)
     return;
-  report("the dispatch does not end: an invocation has more than " + text(kMostAccesses) + " accesses to memory");
+  report(lane_hangs ? "the dispatch does not end: an invocation has more than " + text(kMostAccesses) + " accesses"
+                    : "the dispatch is given up: it has more than " + text(kMostAccessesAfterFault) +
+                          " accesses after a fault");
   hangs_ = true;
   running_->pause();
 }
@@ -455,6 +462,7 @@ void Simulator::dispatch(const Program& program, std::uint32_t columns, std::uin
   if (hangs_)
     return;
   ++dispatch_;
+  accesses_after_fault_ = 0;
   program_ = &program;
   run_.memory = this;
   program.kernel->run = &run_;

@@ -131,6 +131,7 @@ class Simulator : private Memory
   std::set<std::string> faults_;
   std::uint64_t switches_ = 0;
   bool hangs_ = false;
+  std::uint32_t accesses_after_fault_ = 0;  // of the current dispatch
 
   const Program* program_ = nullptr;
   std::vector<std::unique_ptr<Fiber>> fibers_, idle_;

@@ -13,6 +13,7 @@
 #include "gpu/program.h"
 #include "gpu/readback.h"
 #include "lanes/gl_device.h"
+#include "lanes/kernel_library.h"
 #include "shader_constants.h"
 
 namespace gpu_planning_scene::core
@@ -211,6 +212,8 @@ const std::map<std::string, Task>& tasks()
       {"triangles", checkTriangles},
       {"distances", checkDistances},
       {"kinematics", checkKinematics},
+      {"crossings", checkCrossings},
+      {"half_spaces", checkHalfSpaces},
   };
   return all;
 }
@@ -235,6 +238,10 @@ std::vector<std::string> runWorkload(const std::string& name, const std::string&
   try
   {
     wrong = task->second(shaders, seed);
+  }
+  catch (const lanes::TranslationError&)
+  {
+    throw;
   }
   catch (const std::exception& error)
   {

@@ -1,0 +1,195 @@
+// Tasks for the shaders that place points against solids: the crossing of a ray and a triangle, on which the winding
+// number rests, and the heights of corners above a half-space.
+
+#include <cmath>
+#include <random>
+#include <sstream>
+
+#include "collision/exact/binned_sah.h"
+#include "collision/exact/cpu_traversal.h"
+#include "collision/gpu/gpu_checker.h"
+#include "gpu/program.h"
+#include "lanes/workloads.h"
+#include "oracle/quad.h"
+#include "shader_constants.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using oracle::Quad;
+
+constexpr std::size_t kTriangles = 256;
+constexpr std::size_t kStates = 64;
+
+using Texel = std::array<float, 4>;
+using Corners = std::array<Texel, 3>;
+
+class Random
+{
+ public:
+  explicit Random(std::uint64_t seed) : generator_(seed) {}
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator_); }
+  Vector3d vector() { return {uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)}; }
+  double sign() { return generator_() % 2 == 0 ? 1.0 : -1.0; }
+
+ private:
+  std::mt19937_64 generator_;
+};
+
+/// The plane or an edge of the triangle passes 1e-10 to 1e-1 of the triangle's size from the origin.
+Corners nearOrigin(Random& random)
+{
+  const double size = std::pow(10.0, random.uniform(-2.0, 2.0));
+  const double gap = random.sign() * std::pow(10.0, random.uniform(-10.0, -1.0));
+  std::array<Vector3d, 3> corners = {random.vector(), random.vector(), random.vector()};
+  const double first = random.uniform(-0.1, 1.0);
+  const double second = random.uniform(0.0, 1.0) * (1.0 - first);
+  Vector3d foot = corners[0] + first * (corners[1] - corners[0]) + second * (corners[2] - corners[0]);
+  if (random.sign() > 0.0)
+    foot = corners[0] + first * (corners[1] - corners[0]);
+  foot += gap * random.vector();
+  Corners rounded;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Vector3d corner = size * (corners[i] - foot);
+    rounded[i] = {static_cast<float>(corner.x()), static_cast<float>(corner.y()), static_cast<float>(corner.z()), 0.0F};
+  }
+  return rounded;
+}
+
+/// 1 or -1 if the ray from the origin along +z crosses the triangle, by its direction; 0 if it misses. `touches`: it
+/// meets an edge, or begins on the triangle, so that both answers are right.
+int exactCrossing(const Corners& c, bool& touches)
+{
+  Quad area[3];
+  int positive = 0;
+  int negative = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const Texel& next = c[(i + 1) % 3];
+    area[i] = Quad(c[i][0]) * next[1] - Quad(c[i][1]) * next[0];
+    positive += area[i] > 0 ? 1 : 0;
+    negative += area[i] < 0 ? 1 : 0;
+  }
+  const Quad height = area[1] * c[0][2] + area[2] * c[1][2] + area[0] * c[2][2];
+  touches = (positive == 0 || negative == 0) && (positive + negative < 3 || height == 0);
+  if (positive == 3)
+    return height > 0 ? 1 : 0;
+  return negative == 3 && height < 0 ? -1 : 0;
+}
+}  // namespace
+
+std::vector<std::string> checkCrossings(const std::string& shaders, std::uint64_t seed)
+{
+  Random random(seed);
+  std::vector<Corners> triangles;
+  std::vector<Texel> values;
+  for (std::size_t i = 0; i < kTriangles; ++i)
+  {
+    triangles.push_back(nearOrigin(random));
+    values.insert(values.end(), triangles.back().begin(), triangles.back().end());
+  }
+  const Program program = Program::fromText(shaders, "crossings", R"(// One invocation per triangle: its crossing.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "geometry/pose.glsl"
+#include "problem/nodes.glsl"
+#include "problem/triangles.glsl"
+#include "geometry/error_bounds.glsl"
+#include "geometry/winding_number.glsl"
+layout(std430, binding = BINDING_C) readonly buffer Values { vec4 values[]; };
+layout(std430, binding = BINDING_D) writeonly buffer Results { vec4 results[]; };
+void main()
+{
+  const uint first = 3u * invocationIndex();
+  vec3 corners[3];
+  for (uint i = 0u; i < 3u; ++i)
+    corners[i] = values[first + i].xyz;
+  results[invocationIndex()] = vec4(float(crossing(corners, 0.0)), 0.0, 0.0, 0.0);
+}
+)");
+  Buffer input(values.size() * sizeof(Texel));
+  input.write(values);
+  Buffer output(kTriangles * sizeof(Texel));
+  input.bindStorage(BINDING_C);
+  output.bindStorage(BINDING_D);
+  program.dispatch(groupsFor(kTriangles));
+  std::vector<Texel> results(kTriangles);
+  output.read(results.data(), results.size() * sizeof(Texel));
+  constexpr float kUncertain = 1000.0F;  // UNCERTAIN_CROSSING
+  std::vector<std::string> wrong;
+  for (std::size_t i = 0; i < kTriangles; ++i)
+  {
+    bool touches = false;
+    const int exact = exactCrossing(triangles[i], touches);
+    const float found = results[i][0];
+    if (found != kUncertain && !touches && found != static_cast<float>(exact))
+    {
+      std::ostringstream line;
+      line << "triangle " << i << " has the crossing " << found << ", not " << exact;
+      wrong.push_back(line.str());
+    }
+  }
+  return wrong;
+}
+
+/// A box on a lift that moves it along the normal of a half-space, up to 300 m from the origin. Its lowest corner is
+/// 3e-9 m to 1e-3 m above or below the plane.
+std::vector<std::string> checkHalfSpaces(const std::string& shaders, std::uint64_t seed)
+{
+  Random random(seed);
+  const Vector3d normal = random.vector().normalized();
+  const Vector3d place = std::pow(10.0, random.uniform(-1.0, 2.5)) * random.vector();
+  const double offset = normal.dot(place);
+  std::ostringstream xml;
+  xml.precision(17);
+  xml << R"(<robot name="lift"><link name="base"/><link name="box"/><joint name="rise" type="prismatic">)"
+      << R"(<parent link="base"/><child link="box"/><limit lower="-9" upper="9" effort="1" velocity="1"/><axis xyz=")"
+      << normal.x() << " " << normal.y() << " " << normal.z() << R"("/><origin xyz=")" << place.x() << " " << place.y()
+      << " " << place.z() << R"("/></joint></robot>)";
+  const auto robot = RobotModel::fromXml(xml.str(), "", {});
+  const auto problem = std::make_shared<CollisionProblem>();
+  const Shape box = tessellate(Box{{0.5, 0.4, 0.3}}).mesh;
+  problem->tessellations.push_back(tessellate(box));
+  problem->shapes.insert(problem->shapes.end(), 1, box);
+  const Isometry3d pose(Eigen::AngleAxisd(random.uniform(0.0, 3.0), random.vector().normalized()));
+  problem->robot = {{0, 1, 1, pose}};
+  problem->half_spaces = {{2, normal, offset, 0.0}};
+  problem->half_space_pairs = {1};
+  BatchCheckerOptions options;
+  options.shader_folder = shaders;
+  options.max_batch = kStates;
+  GpuChecker checker(options);
+  checker.setProblem(problem, robot);
+
+  Isometry3d links[2];
+  const double zero = 0.0;
+  robot->linkPoses(&zero, links);
+  double lowest = INFINITY;
+  for (const Vector3d& vertex : problem->tessellations[0].mesh->vertices)
+    lowest = std::min(lowest, normal.dot(links[1] * pose * vertex) - offset);
+  std::vector<double> states;
+  for (std::size_t i = 0; i < kStates; ++i)
+    states.push_back(random.sign() * std::pow(10.0, random.uniform(-8.5, -3.0)) - lowest);
+  BatchResult result;
+  checker.check(states.data(), kStates, result);
+  const CpuTraversal exact(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
+  CpuTraversal::Scratch scratch;
+  std::vector<std::string> wrong;
+  for (std::size_t i = 0; i < kStates; ++i)
+  {
+    robot->linkPoses(&states[i], links);
+    if ((result.valid[i] != 0) == !exact.firstCollision(links, scratch))
+      continue;
+    std::ostringstream line;
+    line << "a box " << states[i] + lowest << " m above a half-space is called "
+         << (result.valid[i] != 0 ? "free" : "a collision");
+    wrong.push_back(line.str());
+  }
+  return wrong;
+}
+}  // namespace gpu_planning_scene::core
