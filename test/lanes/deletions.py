@@ -3,7 +3,7 @@
 shaders, and each bit of glMemoryBarrier at each kind of command, and runs small tasks until one of them is wrong.
 Prints a table (Markdown). See docs/gpu.md.
 
-    deletions.py BUILD [--seeds N] [--only TEXT]
+    deletions.py BUILD [--seeds N] [--quick] [--only TEXT]
 """
 import argparse
 import concurrent.futures
@@ -32,6 +32,16 @@ BITS = {"GL_TEXTURE_FETCH_BARRIER_BIT": 0x8, "GL_COMMAND_BARRIER_BIT": 0x40, "GL
 # Tasks for a folder of shaders; others try all tasks.
 BATCHES = ["work_queue", "breadth_first"]
 FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "half_spaces"]
+# With --quick, a `precise` is looked for by the function task of its file alone.
+FUNCTION_OF = {
+    "shaders/broad_phase/half_spaces.comp": ["half_spaces"],
+    "shaders/geometry/pose.glsl": ["transforms"],
+    "shaders/geometry/triangle_distance.glsl": ["distances"],
+    "shaders/geometry/triangle_pair.glsl": ["triangles", "distances"],
+    "shaders/geometry/winding_number.glsl": ["crossings"],
+    "shaders/problem/kinematics.glsl": ["kinematics"],
+    "shaders/self_test/float_arithmetic.comp": ["arithmetic"],
+}
 # A run that needs more processor time than this, in seconds, does not end. A run without a deletion needs a few seconds.
 MOST_SECONDS = 60
 # Families of `stability` for what the tasks do not find.
@@ -72,7 +82,8 @@ def bit_deletions():
 
 
 class Runner:
-    def __init__(self, build, seeds):
+    def __init__(self, build, seeds, quick):
+        self.quick = quick
         self.programs = os.path.join(build, "devel", "lib", "gpu_planning_scene")
         self.device = os.path.join(build, "devel", "lib", "liblanes_device.so")
         self.seeds = seeds
@@ -143,6 +154,8 @@ class Runner:
             barrier = "precise" not in lines_of(path)[number - 1]
             if barrier:
                 return self.tasks(shaders, BATCHES, {})
+            if self.quick:
+                return self.tasks(shaders, FUNCTION_OF[path], {})
             return self.tasks(shaders, FUNCTIONS, {}) or self.tasks(shaders, BATCHES, {}) or self.families(shaders)
 
     def without_bit(self, bit, command):
@@ -154,9 +167,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build")
     parser.add_argument("--seeds", type=int, default=20, help="seeds of each task (default 20)")
+    parser.add_argument("--quick", action="store_true", help="for `precise`, only the function task of its file")
     parser.add_argument("--only", default="", help="only deletions whose line in the table contains this text")
     arguments = parser.parse_args()
-    runner = Runner(arguments.build, arguments.seeds)
+    runner = Runner(arguments.build, arguments.seeds, arguments.quick)
     jobs = []
     with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
         for path, number, text in shader_deletions():

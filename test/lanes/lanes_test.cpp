@@ -85,12 +85,11 @@ TEST_F(SimulatedDevice, FindsAMissingMemoryBarrierBeforeADownload)
   EXPECT_TRUE(isFound("buffers", kShaders));
 }
 
-TEST_F(SimulatedDevice, FindsAMissingPreciseInTheTestOfTheArithmetic)
+TEST_F(SimulatedDevice, FindsAMissingPreciseBeforeADifferenceIsRotated)
 {
   const ShaderFolder shaders;
-  shaders.replace("self_test/float_arithmetic.comp", "precise const float rest = scaled - x;",
-                  "const float rest = scaled - x;");
-  EXPECT_TRUE(isFound("arithmetic", shaders.path()));
+  shaders.replace("geometry/pose.glsl", "precise const vec3 between", "const vec3 between");
+  EXPECT_TRUE(isFound("transforms", shaders.path()));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
