@@ -130,7 +130,7 @@ struct Real
   explicit Real(const Real<S>& x) : value(static_cast<T>(x.value)), count(0)
   {
   }
-  Real(const Real& other) : value(other.value), count(other.count)
+  Real(const Real& other) : value(other.value), count(other.validCount())
   {
     for (int i = 0; i < count; ++i)
       terms[i] = other.terms[i];
@@ -138,7 +138,7 @@ struct Real
   Real& operator=(const Real& other)
   {
     value = other.value;
-    count = other.count;
+    count = other.validCount();
     for (int i = 0; i < count; ++i)
       terms[i] = other.terms[i];
     return *this;
@@ -188,6 +188,9 @@ struct Real
   friend bool operator!=(const Real& x, const Real& y) { return !(x == y); }
 
  private:
+  /// Shared memory that nobody wrote has random bytes, so `count` may be any number there.
+  int validCount() const { return count >= 0 && count <= kTerms ? count : 0; }
+
   static bool compared(const Real& x, const Real& y, bool result)
   {
     if (std::isnan(x.value) || std::isnan(y.value))
