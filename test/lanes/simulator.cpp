@@ -1,6 +1,7 @@
 #include "lanes/simulator.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <cstring>
 
@@ -323,6 +324,7 @@ void* Simulator::shared(std::uint32_t offset, std::uint32_t place, SharedAccess 
         offset < candidate.place + candidate.size * candidate.count)
       of = &candidate;
   }
+  assert(of != nullptr);  // the translated shader accesses shared memory only through its variables
   Group& group = *running_->group;
   std::vector<Group::Place>& places = group.places[of->place];
   places.resize(of->count);

@@ -109,7 +109,7 @@ TEST(ProofLoading, BeginsWithTheFirstLargeBatchAndMakesNoProofs)
     sliderRobot()->randomState(generator, states.data() + i * 2);
   const auto check = [&states](FreshChecker& fresh, std::size_t count)
   {
-    const std::vector<std::uint8_t> valid = fresh.checker.check(states.data(), count).valid;
+    std::vector<std::uint8_t> valid = fresh.checker.check(states.data(), count).valid;
     waitForProofs();
     return valid;
   };
