@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "gpu_planning_scene/shapes.h"
+
+/// Collision tests of two rigid meshes from the literature, to be compared with each other and with this package.
+namespace gpu_planning_scene::core::literature
+{
+/// The total work of all calls: a name, for example "box tests", and a number.
+using WorkCounts = std::vector<std::pair<std::string, double>>;
+
+/// A collision test of two meshes, prepared for these meshes. Not thread-safe.
+class Method
+{
+ public:
+  virtual ~Method() = default;
+  /// One byte for each pose of `b` in the frame of `a`: 1 if the method reports a collision, else 0.
+  virtual std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) = 0;
+  virtual WorkCounts work() const { return {}; }
+};
+
+/// The cases for which the authors of a method claim correct answers.
+struct Domain
+{
+  bool concave = true;       ///< shapes that are not convex
+  bool open = true;          ///< meshes that do not enclose a volume
+  bool containment = false;  ///< one shape inside the other, without a common point of the surfaces
+};
+
+struct MethodInfo
+{
+  std::string name;    ///< on the command line and in tables
+  std::string title;   ///< in charts
+  std::string source;  ///< authors and year, or the library and its version
+  std::string family;  ///< methods of a family have one colour in charts: "trees", "image space", "convex", "library"
+  Domain domain;
+  /// Prepares the method for two meshes. Throws Error if it cannot check them.
+  std::function<std::unique_ptr<Method>(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b)>
+      make;
+};
+
+/// Trees of bounding volumes on the CPU, after their papers.
+std::vector<MethodInfo> treeMethods();
+/// Methods that render the shapes and compare pixels.
+std::vector<MethodInfo> imageSpaceMethods();
+/// Convex pieces of surfaces.
+std::vector<MethodInfo> convexMethods();
+/// Other libraries, used as their users use them.
+std::vector<MethodInfo> libraryMethods();
+/// This package, and the exact checker as the truth.
+std::vector<MethodInfo> ourMethods();
+}  // namespace gpu_planning_scene::core::literature
