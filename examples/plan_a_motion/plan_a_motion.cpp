@@ -47,6 +47,14 @@ Arguments argumentsFrom(int argc, char** argv)
   return arguments;
 }
 
+std::string variableNames(const GroupStateSpace& space, const char* separator)
+{
+  std::string names;
+  for (const int variable : space.variables())
+    names += (names.empty() ? "" : separator) + space.robot()->variables()[variable].name;
+  return names;
+}
+
 /// Writes the state that `text` describes into `row`, which has a value for each variable of the robot.
 void setState(const std::string& text, const GroupStateSpace& space, std::vector<double>& row)
 {
@@ -62,12 +70,9 @@ void setState(const std::string& text, const GroupStateSpace& space, std::vector
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');)
     values.push_back(std::stod(word));
-  std::string names;
-  for (const int variable : space.variables())
-    names += (names.empty() ? "" : ",") + robot.variables()[variable].name;
   if (values.size() != space.variables().size())
-    throw Error("'" + text + "' has " + std::to_string(values.size()) + " values; the group has the variables " +
-                names);
+    throw Error("'" + text + "' has " + std::to_string(values.size()) + (values.size() == 1 ? " value" : " values") +
+                "; the group has the variables " + variableNames(space, ","));
   for (std::size_t i = 0; i < values.size(); ++i)
     row[space.variables()[i]] = values[i];
 }
@@ -124,6 +129,7 @@ try
   const ompl::base::PlannerStatus status = setup.solve(10.0);
   if (status != ompl::base::PlannerStatus::EXACT_SOLUTION)
     throw Error("no path was found within 10 s: " + status.asString());
+  std::cout << variableNames(*space, " ") << "\n";
   setup.getSolutionPath().printAsMatrix(std::cout);  // a row per waypoint; the path is free between them too
   return 0;
 }

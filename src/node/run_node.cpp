@@ -1,6 +1,7 @@
 #include "node/run_node.h"
 
 #include <csignal>
+#include <cstdio>
 #include <iostream>
 
 #include <malloc.h>
@@ -55,6 +56,8 @@ int connectAndServe(const OpenDevice& open_device)
 int runNode(int argc, char** argv, const OpenDevice& open_device)
 {
   useOneHeap();
+  // So that a log file has each line at once, and not only when four kilobytes have been written.
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   try
   {
     PlannerPlugins::prepareEnvironment();

@@ -14,7 +14,7 @@ void requireDimensions(const std::vector<double>& dimensions, std::size_t count,
   const auto surplus = dimensions.begin() + static_cast<std::ptrdiff_t>(std::min(count, dimensions.size()));
   if (dimensions.size() < count || std::any_of(surplus, dimensions.end(), [](double d) { return d != 0.0; }))
     throw Error("expected the dimensions " + std::string(meaning) + ", found " + std::to_string(dimensions.size()) +
-                " numbers");
+                (dimensions.size() == 1 ? " number" : " numbers"));
 }
 }  // namespace
 

@@ -19,10 +19,13 @@ class PlanAMotion(unittest.TestCase):
 
     def rows(self, answer):
         self.assertEqual(answer.returncode, 0, answer.stderr)
-        return [[float(word) for word in line.split()] for line in answer.stdout.splitlines() if line.strip()]
+        lines = [line.split() for line in answer.stdout.splitlines() if line.strip()]
+        return [[float(word) for word in line] for line in lines[1:]]  # the first line has the names
 
     def test_plans_between_values(self):
-        rows = self.rows(self.slider("drive", "-1,0.5", "1,-0.5"))
+        answer = self.slider("drive", "-1,0.5", "1,-0.5")
+        rows = self.rows(answer)
+        self.assertEqual("slide turn", answer.stdout.splitlines()[0])
         self.assertEqual((rows[0], rows[-1]), ([-1.0, 0.5], [1.0, -0.5]))
 
     def test_plans_between_named_states(self):
@@ -45,7 +48,7 @@ class PlanAMotion(unittest.TestCase):
         answer = self.slider("drive", "-1", "1,0")
         self.assertEqual(answer.returncode, 1)
         self.assertEqual(
-            answer.stderr, "plan_a_motion: '-1' has 1 values; the group has the variables slide,turn\n"
+            answer.stderr, "plan_a_motion: '-1' has 1 value; the group has the variables slide,turn\n"
         )
 
     def test_plans_between_the_states_of_the_demos_arm(self):

@@ -5,6 +5,8 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
+import time
 import unittest
 
 import rospy
@@ -33,7 +35,8 @@ class FreshNode(unittest.TestCase):
     def setUp(self):
         command = "exec " + readme_command() + " device:=cpu"
         self.assertNotIn("$PWD", command)
-        self.node = subprocess.Popen(["bash", "-c", command])
+        self.log = tempfile.NamedTemporaryFile(prefix="node_log")
+        self.node = subprocess.Popen(["bash", "-c", command], stdout=self.log)
         rospy.wait_for_service("/planning_scene/check_states", PATIENCE)
 
     def tearDown(self):
@@ -41,6 +44,18 @@ class FreshNode(unittest.TestCase):
         self.node.wait(PATIENCE)
         while "/planning_scene/check_states" in rosservice.get_service_list():
             rospy.sleep(0.1)
+        self.log.close()
+
+    def test_a_log_file_says_that_the_node_is_ready_while_the_node_runs(self):
+        wanted = "ready: /planning_scene/check_states"
+        end = time.monotonic() + PATIENCE
+        text = ""
+        while wanted not in text and time.monotonic() < end:
+            time.sleep(0.05)
+            with open(self.log.name, encoding="utf-8") as file:
+                text = file.read()
+        self.assertIn(wanted, text)
+        self.assertIsNone(self.node.poll(), "the node has ended")
 
     def output_of(self, document, start):
         """What the program prints whose text contains `start`."""
