@@ -58,6 +58,10 @@ includer_of()
 # the messages there.
 lint()
 {
+  if [[ "$(clang-tidy --version)" != *"version 14."* ]]; then
+    say "clang-tidy is left out: the code is held to version 14, and other versions have other findings"
+    return
+  fi
   local list="$temporary/lint" folder="$build/lint" target=gpu_planning_scene_generate_messages_cpp
   files_to_lint > "$list.changed"
   if [[ -s "$list.changed" ]]; then

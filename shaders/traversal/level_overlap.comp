@@ -3,6 +3,7 @@
 // the chunk. A pair that is proven to collide is reported, and its mask is 0.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
+#include "common/comparisons.glsl"
 #include "common/invocation.glsl"
 #include "traversal/level.glsl"
 #include "problem/instances.glsl"

@@ -1,6 +1,7 @@
 // Tests nodes against solids, in the programs for solids. These tests separate more pairs than tests of two boxes,
 // because the box around a curved solid has corners that the solid does not fill. They are separating axis tests with
 // one axis. The choice of this axis is our own. Lengths are in metres.
+#include "common/comparisons.glsl"
 #include "geometry/solid.glsl"
 
 // Returns true if a box is proven to lie beyond the solid by more than `margin`. The axis is the line from the nearest
@@ -10,7 +11,7 @@ bool boxBeyondSolid(Instance solid, vec3 center, mat3 axes, vec3 extent, float m
 {
   const vec3 n = center - projectToCore(solid.kind, coreSize(solid, 0.0), center);
   const float gap = dot(n, center) - dot(abs(n * axes), extent) - extentAlong(solid, n);
-  return gap > margin * lengthAtMost(n) * (1.0 + 16.0 * u) + TINY;
+  return provenGreater(gap, margin * lengthAtMost(n) * (1.0 + 16.0 * u) + TINY);
 }
 
 // The same test for two nodes, one of which stands for a solid: node a if its instance is a primitive, otherwise node b

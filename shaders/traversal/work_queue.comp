@@ -10,6 +10,7 @@
 // other writes happen once a round.
 #include "shader_constants.h"
 layout(local_size_x = QUEUE_INVOCATIONS) in;
+#include "common/comparisons.glsl"
 #include "common/invocation.glsl"
 #include "traversal/root_pairs.glsl"
 #include "problem/nodes.glsl"

@@ -47,11 +47,11 @@ const char* faultOf(double x, double y, const Outcome& found)
   const double sum = x + y;
   const double product = x * y;
   const double length = std::sqrt(2.0 * x * x + y * y);
-  if (std::abs(found.sum - sum) > UNIT_ROUNDOFF * std::abs(sum))
+  if (!(std::abs(found.sum - sum) <= UNIT_ROUNDOFF * std::abs(sum)))
     return "a sum is not rounded properly";
   if (static_cast<double>(found.sum) + found.sum_error != sum)
     return "two-sum does not give the rounding error of a sum";
-  if (std::abs(found.product - product) > UNIT_ROUNDOFF * std::abs(product))
+  if (!(std::abs(found.product - product) <= UNIT_ROUNDOFF * std::abs(product)))
     return "a product is not rounded properly";
   if (static_cast<double>(found.product) + found.product_error != product)
     return "two-product does not give the rounding error of a product";
@@ -59,7 +59,7 @@ const char* faultOf(double x, double y, const Outcome& found)
     return "a product and a difference are contracted where `precise` forbids it";
   if (!(std::abs(found.length - length) <= 4.0 * UNIT_ROUNDOFF * length))
     return "a length has a relative error above 2^-21";
-  if (std::abs(found.dot - (x * y + y * y + x * x)) > 3.0 * UNIT_ROUNDOFF * (std::abs(x * y) + y * y + x * x))
+  if (!(std::abs(found.dot - (x * y + y * y + x * x)) <= 3.0 * UNIT_ROUNDOFF * (std::abs(x * y) + y * y + x * x)))
     return "a dot product is off by more than 3 units of 2^-23 of its terms";
   if (found.comparison_holds != 0.0F)
     return "a comparison with NaN is true";

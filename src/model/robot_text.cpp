@@ -11,13 +11,14 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// "elbow (-1.57 to 1.57)"; the name alone if there are no limits.
+/// "elbow (-1.57 to 1.57)"; the name alone if there are no limits. The limits have so many digits that a request may
+/// use them as values.
 std::string textOf(const Variable& variable)
 {
   if (!variable.bounded)
     return variable.name;
   char limits[64];
-  std::snprintf(limits, sizeof limits, " (%.4g to %.4g)", variable.lower, variable.upper);
+  std::snprintf(limits, sizeof limits, " (%.9g to %.9g)", variable.lower, variable.upper);
   return variable.name + limits;
 }
 

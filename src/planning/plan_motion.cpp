@@ -1,8 +1,11 @@
 #include "gpu_planning_scene/planning/plan_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <string>
 #include <utility>
 
 #include <ompl/base/goals/GoalStates.h>
@@ -64,6 +67,13 @@ void validateQuery(const PlanningScene& scene, const PlanningQuery& query)
     throw Error("the planning time is " + std::to_string(query.seconds) + " s; it must be above 0 and at most 1e9");
 }
 
+std::string seconds(double value)
+{
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.3g s", value);
+  return text.data();
+}
+
 /// The work on one query.
 class Plan
 {
@@ -103,6 +113,15 @@ class Plan
   std::string faultOf(const og::PathGeometric* path, const ob::Goal* goals) const;
   void finish(og::PathGeometric& path, const std::string& planner);
 
+  /// Why the planner had little time, for a message. Empty if it had most of the query's time.
+  std::string reasonOfDelay() const
+  {
+    if (endpoint_seconds_ < 0.5 * query_.seconds)
+      return "";
+    return "; checking the start and the goals took " + seconds(endpoint_seconds_) +
+           " of this time, because the first checks in a scene prepare the later ones, or the machine is busy";
+  }
+
   ob::PlannerTerminationCondition within(double seconds) const
   {
     const auto timed = ob::timedPlannerTerminationCondition(seconds);
@@ -110,6 +129,7 @@ class Plan
   }
 
   const Clock::time_point begin_ = Clock::now();
+  double endpoint_seconds_ = 0.0;  // of checking the start and the goals
   std::shared_ptr<const PlanningScene> scene_;
   std::shared_ptr<CountedChecker> checker_;
   const PlanningQuery& query_;
@@ -153,8 +173,8 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
   const bool exact = status == ob::PlannerStatus::EXACT_SOLUTION;
   result_.status = exact ? PlanningStatus::Solved : PlanningStatus::NoSolution;
   if (!exact)
-    result_.message = "no solution within " + std::to_string(query_.seconds) + " s (" + planner->getName() + ": " +
-                      status.asString() + ")";
+    result_.message = "no solution within " + seconds(query_.seconds) + " (" + planner->getName() + ": " +
+                      status.asString() + ")" + reasonOfDelay();
   if (!definition->hasSolution() && !exact)
     return;
   const auto path = std::dynamic_pointer_cast<og::PathGeometric>(definition->getSolutionPath());
@@ -198,6 +218,7 @@ void Plan::finish(og::PathGeometric& path, const std::string& planner)
 PlanningResult Plan::run(const PlannerFactory& factory)
 {
   const CheckedEndpoints endpoints = checkEndpoints(*scene_, *checker_, space_, query_);
+  endpoint_seconds_ = secondsSince(begin_);
   result_.status = endpoints.status;
   result_.message = endpoints.message;
   result_.planning_seconds = secondsSince(begin_);

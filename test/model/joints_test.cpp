@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
 
 namespace gpu_planning_scene::core
@@ -134,6 +135,20 @@ TEST(Joints, AChainOfMimicsFollowsItsFinalLeader)
   EXPECT_EQ(first.first_variable, 0);
   EXPECT_EQ(first.multiplier, 6.0);
   EXPECT_EQ(first.offset, -1.5);  // 2 (3 x - 1) + 0.5
+}
+
+TEST(Joints, NoFollowerTurnsByAnInfiniteAngle)
+{
+  const auto with_multiplier = [](const std::string& multiplier)
+  {
+    return robotOf(
+        boxLink("a") + boxLink("b") + boxLink("c") + jointXml("leader", "continuous", "a", "b") +
+        jointXml("follower", "continuous", "a", "c", "<mimic joint='leader' multiplier='" + multiplier + "'/>"));
+  };
+  const double largest = with_multiplier("2e10")->variables()[0].largest;
+  EXPECT_TRUE(std::isfinite(2e10 * largest)) << largest;
+  EXPECT_GT(largest, 1e6);
+  EXPECT_THROW(with_multiplier("inf"), Error);
 }
 
 TEST(Joints, AdjacentLinksStepOverLinksWithoutShapes)

@@ -140,6 +140,19 @@ TEST(PlanMotion, RefusesAnApproximateSolutionThatDoesNotBeginAtTheStart)
   EXPECT_EQ(wrong.message.find("no solution within"), 0U) << wrong.message;
 }
 
+TEST(PlanMotion, SaysIfTheFirstChecksTookMostOfTheTime)
+{
+  PlanningQuery wanted = query({-1.0, 0.0}, {{1.0, 0.0}});
+  wanted.seconds = 1e-6;
+  const PlanningResult late = plan<Lost<false, ob::PlannerStatus::TIMEOUT>>({}, wanted);
+  EXPECT_NE(late.message.find("no solution within 1e-06 s (Lost: Timeout); checking the start and the goals took"),
+            std::string::npos)
+      << late.message;
+  wanted.seconds = 1000.0;
+  const PlanningResult other = plan<Lost<false, ob::PlannerStatus::TIMEOUT>>({}, wanted);
+  EXPECT_EQ(other.message.find("checking the start"), std::string::npos) << other.message;
+}
+
 TEST(PlanMotion, AnswersAStraightWayByItsEnds)
 {
   const PlanningResult result = plan<BatchRrtConnect>({}, query({-1.0, -1.5}, {{1.0, 1.5}}));

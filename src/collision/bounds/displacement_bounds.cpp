@@ -143,7 +143,7 @@ void DisplacementBounds::margins(const JointTravel* travel, double* margins) con
       if (joint.angle != 0.0)
         sum += levers_[k].angle * joint.angle;
     }
-    margins[i] = sum == 0.0 ? 0.0 : std::min(kLargestLength, sum * (1.0 + 1e-9) + kDisplacementRounding);
+    margins[i] = sum == 0.0 ? 0.0 : std::min(kLargestMargin, sum * (1.0 + 1e-9) + kDisplacementRounding);
   }
 }
 }  // namespace gpu_planning_scene::core

@@ -14,6 +14,9 @@
 
 namespace gpu_planning_scene::core
 {
+/// The margin of a pair without a bound, in metres: more than any distance of two bodies.
+constexpr double kLargestMargin = 1e12;
+
 /// The distances that the pairs of a problem need in addition to their required distance, for each state of a batch.
 struct Margins
 {
@@ -83,7 +86,7 @@ class DisplacementBounds
 
   /// The margins of `count` states (rows of the robot's variables), in metres. For a robot instance: the largest
   /// displacement of its points in the planning frame. For a self pair: the largest displacement of the points of one
-  /// instance relative to the other. The margins include rounding. A margin is kLargestLength if there is no bound, and
+  /// instance relative to the other. The margins include rounding. A margin is kLargestMargin if there is no bound, and
   /// 0 if nothing moves. `around` must be valid, see validateNeighbourhood.
   Margins margins(const JointNeighbourhood& around, const double* states, std::size_t count) const;
 

@@ -17,6 +17,9 @@ namespace
 {
 constexpr double kLargestShaderAngle = 1048576.0;  // 2^20, see shaders/problem/kinematics.glsl
 
+// A device may replace denormal doubles by 0, also the reciprocal of a very large number.
+constexpr double kLargestQuaternion = 1e150;
+
 constexpr std::size_t kTestedStates = 64;
 // The error of the double computation, relative to the distance from the origin (docs/error_bounds.md), with room.
 constexpr double kDoubleError = 1e-11;
@@ -70,6 +73,9 @@ GpuKinematics::GpuKinematics(const std::string& shader_folder, std::shared_ptr<c
     program_(Program::fromText(shader_folder, "kinematics of " + robot_->name(), kinematicsShader(*robot_))),
     largest_(largestValues(*robot_))
 {
+  for (const Joint& joint : robot_->joints())
+    if (joint.type == JointType::Floating)
+      quaternions_.push_back(static_cast<std::size_t>(joint.first_variable) + 3);
 }
 
 std::string GpuKinematics::findFault()
@@ -139,7 +145,12 @@ bool GpuKinematics::canPlace(const double* state) const
   for (std::size_t i = 0; i < largest_.size(); ++i)
     if (!(std::abs(state[i]) <= largest_[i]))
       return false;
-  return true;
+  return std::all_of(quaternions_.begin(), quaternions_.end(),
+                     [state](std::size_t first)
+                     {
+                       const double largest = Eigen::Map<const Eigen::Vector4d>(state + first).cwiseAbs().maxCoeff();
+                       return largest == 0.0 || (largest >= 1.0 / kLargestQuaternion && largest <= kLargestQuaternion);
+                     });
 }
 
 void GpuKinematics::write(std::size_t begin, std::size_t count, TexelBuffer& poses)

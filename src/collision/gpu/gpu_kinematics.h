@@ -39,7 +39,8 @@ class GpuKinematics : public PoseSource
  private:
   std::shared_ptr<const RobotModel> robot_;
   Program program_;
-  std::vector<double> largest_;  // largest magnitude of each variable for canPlace
+  std::vector<double> largest_;           // largest magnitude of each variable for canPlace
+  std::vector<std::size_t> quaternions_;  // the first variables of the quaternions of floating joints
   const double* states_ = nullptr;
   // Two buffers, so that states are uploaded while the GPU works on the previous part.
   std::array<TexelBuffer, 2> uploads_;

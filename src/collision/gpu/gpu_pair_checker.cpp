@@ -253,7 +253,7 @@ void GpuPairChecker::start(const Batch& batch, Part& part)
   testRoots();
   traverse(scene_.isPadded() || batch.margins);
   testContainment();
-  part.serial = ++serial_;
+  part.serial = serial_ = std::max(1U, serial_ + 1U);  // 0 is the value of a cleared counter
   done_program_.set(LOCATION_SERIAL, part.serial);
   done_program_.dispatch(1);
   part.answers.copyFrom(lists_.counters, COUNTER_WORDS * sizeof(std::uint32_t));

@@ -67,7 +67,8 @@ void describeSolid(const Shape& shape, InstanceRecord& record)
     size = {cylinder->radius, cylinder->radius, cylinder->length / 2.0};
     core = {cylinder->radius / std::sqrt(2.0), cylinder->radius / std::sqrt(2.0), cylinder->length / 2.0};
   }
-  else if (const auto* cone = std::get_if<Cone>(&shape))
+  // The slopes of a thinner cone may overflow or vanish in float32. Its triangles are tested instead.
+  else if (const auto* cone = std::get_if<Cone>(&shape); cone && std::min(cone->radius, cone->length) > 1e-12)
   {
     record.kind = SOLID_CONE;
     size = {cone->radius, cone->radius, cone->length / 2.0};

@@ -52,7 +52,8 @@ void validateStates(const RobotModel& robot, const double* states, std::size_t c
       if (!(std::abs(states[i]) <= variables[i].largest))
         throw Error(what + (" " + std::to_string(row)) + ": the value of variable '" + variables[i].name + "' is " +
                     (std::isfinite(states[i]) ? text(states[i]) + "; it must be within " + text(variables[i].largest) +
-                                                    ", because no joint can move by more than 1000 km"
+                                                    ", because no joint can move by more than 1000 km or turn by "
+                                                    "more than 1e300"
                                               : "not a finite number"));
 }
 

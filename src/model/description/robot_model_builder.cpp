@@ -47,7 +47,7 @@ class RobotModelBuilder
 
   std::shared_ptr<const RobotModel> build(RobotParts parts)
   {
-    limitTranslations(parts.tree);
+    limitVariables(parts.tree);
     model_->name_ = std::move(parts.name);
     model_->planning_frame_ = std::move(parts.planning_frame);
     take(std::move(parts.tree));

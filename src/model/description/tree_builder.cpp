@@ -29,7 +29,7 @@ class TreeBuilder
       addVirtualJoint(*virtual_joint);
     addSubtree(root);
     resolveMimics();
-    limitTranslations(tree_);
+    limitVariables(tree_);
     return std::move(tree_);
   }
 
@@ -197,6 +197,8 @@ class TreeBuilder
         leader = found->second;
       }
       requireOneVariable(joint, *leader);
+      if (!std::isfinite(joint.multiplier) || !std::isfinite(joint.offset))
+        throw Error(whereJoint(joint.name) + " has a <mimic> whose multiplier or offset is not finite");
       joint.first_variable = leader->first_variable;
     }
   }
@@ -218,14 +220,21 @@ class TreeBuilder
 };
 }  // namespace
 
-void limitTranslations(RobotTree& tree)
+void limitVariables(RobotTree& tree)
 {
+  constexpr double kLargestAngle = 1e300;  // the sine of an infinite angle is not a number
   for (const Joint& joint : tree.joints)
   {
     const int count = joint.type == JointType::Prismatic  ? 1
                       : joint.type == JointType::Planar   ? 2
                       : joint.type == JointType::Floating ? 3
                                                           : 0;
+    if (joint.type == JointType::Revolute || joint.type == JointType::Continuous)
+    {
+      double& largest = tree.variables[static_cast<std::size_t>(joint.first_variable)].largest;
+      largest = std::min(largest, (kLargestAngle - std::abs(joint.offset)) / std::max(std::abs(joint.multiplier), 1.0));
+      continue;
+    }
     const double limit =
         std::max(0.0, kLargestLength - std::abs(joint.offset)) / std::max(std::abs(joint.multiplier), 1e-300);
     for (int i = 0; i < count; ++i)

@@ -18,8 +18,9 @@ struct RobotTree
   std::vector<Variable> variables;
 };
 
-/// Sets Variable::largest of translations so that no joint, also no mimic joint, moves by more than kLargestLength.
-void limitTranslations(RobotTree& tree);
+/// Sets Variable::largest so that no joint, also no mimic joint, moves by more than kLargestLength, and no angle
+/// overflows.
+void limitVariables(RobotTree& tree);
 
 /// Builds the tree and loads the meshes. `virtual_joint` moves the root link; null if there is none. Throws Error.
 RobotTree buildTree(const UrdfText& urdf, const SrdfVirtualJoint* virtual_joint, const RobotModelOptions& options,

@@ -135,6 +135,25 @@ TEST_F(Displacement, HasNoBoundOutsideOfTheLimits)
   EXPECT_EQ(checker.check(state.data(), 1).valid[0], 1);
 }
 
+/// The base stands 990 km on one side of the ball, and its neighbourhood reaches beyond the ball.
+TEST_F(Displacement, OfABaseWithHugeTravelIsNotCutOff)
+{
+  const auto robot =
+      robotOf(boxLink("base"), "<virtual_joint name='world' type='floating' parent_frame='map' child_link='base'/>");
+  const auto scene = sceneWith(robot, {9.9e5, 0.0, 0.0}, 0.0);
+  std::vector<double> state = robot->defaultState();
+  state[0] = -9.9e5;
+  JointNeighbourhood around;
+  around.rows = {0};
+  CpuChecker checker(scene);
+  for (const auto& [length, valid] : {std::pair(1.98e6, 0), std::pair(1.97e6, 1)})
+  {
+    around.travel.assign(robot->joints().size(), {});
+    around.travel.at(0).length = length;
+    EXPECT_EQ(checker.check(state.data(), 1, "", &around).valid[0], valid) << length;
+  }
+}
+
 TEST_F(Displacement, RefusesInvalidNeighbourhoods)
 {
   const auto robot = arm();

@@ -121,6 +121,16 @@ TEST_P(BatchLimits, ListsThatOverflowSplitTheBatch)
   EXPECT_LT(hits, kStates * 9 / 10);
 }
 
+TEST_P(BatchLimits, MoreRootPairsThanNodePairsLoseNoCollision)
+{
+  const Verdicts roomy = verdictsWith({});
+  ListCapacities few_node_pairs;
+  few_node_pairs.node_pairs = 1;
+  const Verdicts verdicts = verdictsWith(few_node_pairs);
+  for (std::size_t i = 0; i < kStates; ++i)
+    EXPECT_TRUE(verdicts.flags[i] != 0 || roomy.flags[i] == 0) << "state " << i;
+}
+
 TEST_P(BatchLimits, AStateThatOverflowsAloneIsUndecided)
 {
   ListCapacities none;

@@ -247,6 +247,15 @@ TEST_P(GpuContract, TheOriginChangesNoAnswerFarFromTheWorlds)
   EXPECT_EQ(freeAt(problem, {at(1e5 + 0.2999, 2e5), at(1e5 + 0.3001, 2e5 + 0.01, 0.02)}), (std::vector<int>{1, 0}));
 }
 
+TEST_P(GpuContract, ADeviceWhoseDotProductsAreNotNumbersIsReported)
+{
+  ShaderFolder folder;
+  folder.replace("self_test/float_arithmetic.comp", "dot(vec3(x, y, x), vec3(y, y, x))", "sqrt(-1.0 - x * x)");
+  BatchCheckerOptions other = options();
+  other.shader_folder = folder.path();
+  EXPECT_NE(GpuChecker(other).fault().find("dot product"), std::string::npos);
+}
+
 TEST_P(GpuContract, ADeviceWithOtherArithmeticIsReportedAndAnswersAreRightAllTheSame)
 {
   ShaderFolder folder;

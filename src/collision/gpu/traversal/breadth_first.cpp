@@ -1,5 +1,6 @@
 #include "collision/gpu/traversal/breadth_first.h"
 
+#include <algorithm>
 #include <array>
 
 #include "shader_constants.h"
@@ -14,6 +15,12 @@ constexpr std::size_t offsetOf(std::size_t counter)
 {
   return counter * sizeof(std::uint32_t);
 }
+
+/// The entries of a level: root pairs on the first level, node pairs on the others.
+std::uint32_t largestLevel(const ListCapacities& capacities)
+{
+  return std::max(capacities.root_pairs, capacities.node_pairs);
+}
 }  // namespace
 
 BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definitions, const ListCapacities& capacities)
@@ -22,8 +29,8 @@ BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definit
     expand_(folder, "traversal/level_expand.comp", definitions),
     overlap_(folder, "traversal/level_overlap.comp", definitions, TaskPrograms::Needs::NoPadding),
     triangles_(folder, "traversal/level_triangles.comp", definitions, TaskPrograms::Needs::NoTolerance),
-    masks_(std::size_t{capacities.node_pairs} * 4),
-    sums_((std::size_t{capacities.node_pairs} / LEVEL_CHUNK + 1) * 8)
+    masks_(std::size_t{largestLevel(capacities)} * 4),
+    sums_((std::size_t{largestLevel(capacities)} / LEVEL_CHUNK + 1) * 8)
 {
   leaf_pairs_.reserve(std::size_t{capacities.leaf_pairs} * TexelBuffer::kTexelBytes);
 }
