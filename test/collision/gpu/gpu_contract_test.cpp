@@ -247,6 +247,21 @@ TEST_P(GpuContract, TheOriginChangesNoAnswerFarFromTheWorlds)
   EXPECT_EQ(freeAt(problem, {at(1e5 + 0.2999, 2e5), at(1e5 + 0.3001, 2e5 + 0.01, 0.02)}), (std::vector<int>{1, 0}));
 }
 
+/// In float32, the slope of the first cone is infinite, and that of the second one is 0.
+TEST_P(GpuContract, AVeryFlatOrThinConeHasTheVerdictsOfItsTriangles)
+{
+  const auto triangle = std::make_shared<Mesh>();
+  triangle->vertices = {{0.0, 0.0, 0.0}, {0.001, 0.0, 0.0}, {0.0, 0.001, 0.001}};
+  triangle->triangles = {{0, 1, 2}};
+  CollisionProblem flat = problemOf(triangle);
+  addObject(flat, Cone{0.1, 1e-46}, at(0.0), 0.01);
+  EXPECT_EQ(freeAt(flat, {at(0.1, 0.1, 0.005), at(0.0, 0.0, 0.02), at(0.05, 0.0, 0.005)}), (std::vector<int>{1, 1, 0}));
+  CollisionProblem thin = problemOf(triangle);
+  addObject(thin, Cone{1e-46, 0.2}, at(0.0), 0.01);
+  EXPECT_EQ(freeAt(thin, {at(0.02, 0.0, 0.05), at(0.0, 0.0, -0.12), at(0.005, 0.0, -0.05)}),
+            (std::vector<int>{1, 1, 0}));
+}
+
 TEST_P(GpuContract, ADeviceWhoseDotProductsAreNotNumbersIsReported)
 {
   ShaderFolder folder;
