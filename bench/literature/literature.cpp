@@ -7,6 +7,7 @@
 #include "benchmark/csv_table.h"
 #include "command_line/command_line.h"
 #include "literature/experiment.h"
+#include "literature/families.h"
 #include "literature/models.h"
 #include "model/text/name_list.h"
 
@@ -15,6 +16,7 @@ using namespace gpu_planning_scene::core::literature;
 
 namespace
 {
+const std::vector<std::string> kParts = {"experiment", "families"};
 const std::vector<std::string> kProtocols = {"turning", "clearance"};
 constexpr std::size_t kMostTriangles = 10000000;
 
@@ -94,7 +96,9 @@ void run(const CommandLine& arguments)
   settings.seed = arguments.count("--seed", 1, 0, 1ULL << 62);
   benchmark::makeTableFolder(settings.out);
   writeMethods(settings);
-  const std::size_t wrong = measureExperiment(settings);
+  std::size_t wrong = 0;
+  for (const std::string& part : chosen(arguments, "--parts", kParts))
+    wrong += part == "experiment" ? measureExperiment(settings) : judgeFamilies(settings);
   std::cout << settings.out << '\n';
   if (wrong > 0)
     throw Error(std::to_string(wrong) + " wrong answers of this package");
@@ -107,11 +111,13 @@ int main(int argc, char** argv)
       {"literature",
        "[--quick] [--out DIR] [--methods A,B] [--models A,B] [--triangles N,M] ...",
        "Measures collision tests of two rigid meshes from the literature, this package among them: time a query\n"
-       "and wrong answers, for two copies of a model at many distances. The exact checker is the truth.\n"
-       "Writes methods.csv, builds.csv, experiment.csv and work.csv. Exit status 1 if this package gives a wrong "
-       "answer.",
+       "and wrong answers for two copies of a model at many distances (part experiment), and wrong answers in hard\n"
+       "cases (part families). The truth is the exact checker in the first part, and true distances in the second.\n"
+       "Writes methods.csv, builds.csv, experiment.csv, work.csv, families.csv and refusals.csv. Exit status 1 if\n"
+       "this package gives a wrong answer.",
        {{"--quick", "", "small models and few poses: under two minutes"},
         {"--out", "DIR", "folder for the tables (default literature)"},
+        {"--parts", "A,B", "of " + nameList(kParts) + " (default: both)"},
         {"--methods", "A,B", "an unknown name prints the list"},
         {"--models", "A,B", "of " + nameList(madeModelNames()) + " (default: all, and links of robots)"},
         {"--triangles", "N,M", "of each model (default 1000,10000,100000,1000000; with --quick 1000)"},

@@ -2,6 +2,8 @@
 
 #include <fcl/config.h>
 #include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
+#include <fcl/narrowphase/detail/traversal/collision_node.h>
 
 #include "literature/libraries/fcl_tree.h"
 
@@ -14,6 +16,29 @@ namespace gpu_planning_scene::core::literature
 {
 namespace
 {
+using Result = fcl::CollisionResult<double>;
+
+template <class Volume>
+bool collides(const fcl::BVHModel<Volume>& a, const fcl::BVHModel<Volume>& b, const Eigen::Isometry3d& pose)
+{
+  Result result;
+  return fcl::collide(&a, Eigen::Isometry3d(Eigen::Isometry3d::Identity()), &b, pose, fcl::CollisionRequest<double>(),
+                      result) > 0;
+}
+
+template <>
+bool collides(const fcl::BVHModel<fcl::RSS<double>>& a, const fcl::BVHModel<fcl::RSS<double>>& b,
+              const Eigen::Isometry3d& pose)
+{
+  Result result;
+  fcl::detail::MeshCollisionTraversalNodeRSS<double> node;
+  if (!fcl::detail::initialize(node, a, Eigen::Isometry3d(Eigen::Isometry3d::Identity()), b, pose,
+                               fcl::CollisionRequest<double>(), result))
+    throw std::logic_error("FCL refuses a tree of RSS");
+  fcl::detail::collide(&node);
+  return result.numContacts() > 0;
+}
+
 template <class Volume>
 class Fcl : public Method
 {
@@ -22,14 +47,9 @@ class Fcl : public Method
 
   std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
   {
-    const Eigen::Isometry3d fixed = Eigen::Isometry3d::Identity();
-    const fcl::CollisionRequest<double> request;
     std::vector<std::uint8_t> answers;
     for (const Eigen::Isometry3d& pose : b_in_a)
-    {
-      fcl::CollisionResult<double> result;
-      answers.push_back(fcl::collide(a_.get(), fixed, b_.get(), pose, request, result) > 0 ? 1 : 0);
-    }
+      answers.push_back(collides(*a_, *b_, pose) ? 1 : 0);
     return answers;
   }
 

@@ -1,0 +1,50 @@
+// The program `literature` writes its tables, and fails if this package gives a wrong answer.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tools/run_program.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+std::vector<std::string> linesInFile(const std::string& path)
+{
+  std::ifstream file(path);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+std::string newFolder(const std::string& name)
+{
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / name;
+  std::filesystem::remove_all(folder);
+  return folder.string();
+}
+}  // namespace
+
+TEST(LiteratureProgram, MeasuresEachMethodAtEachDistance)
+{
+  const std::string folder = newFolder("literature_experiment");
+  const ProgramOutput output =
+      runProgram(GPS_LITERATURE, {"--quick", "--parts", "experiment", "--out", folder, "--models", "sphere,torus",
+                                  "--triangles", "300", "--methods", "exact_cpu,rapid", "--seconds", "0.001"});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_EQ(linesInFile(folder + "/methods.csv").size(), 3U);
+  EXPECT_EQ(linesInFile(folder + "/builds.csv").size(), 5U);
+  EXPECT_EQ(linesInFile(folder + "/experiment.csv").size(), 1U + 2U * 2U * 3U);
+  EXPECT_EQ(linesInFile(folder + "/work.csv").size(), 1U + 2U * 3U * 2U);
+}
+
+TEST(LiteratureProgram, AnUnknownMethodIsAnError)
+{
+  const ProgramOutput output = runProgram(GPS_LITERATURE, {"--methods", "magic"});
+  EXPECT_EQ(output.exit_code, 2);
+  EXPECT_NE(output.err.find("box_tree"), std::string::npos) << output.err;
+}
+}  // namespace gpu_planning_scene::core
