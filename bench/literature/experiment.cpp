@@ -25,6 +25,7 @@ using Answers = std::vector<std::uint8_t>;
 constexpr std::size_t kFewPoses = 4;  // of the trial that finds how slow a method is
 constexpr std::size_t kMostRepeats = 5;
 constexpr std::size_t kClearancePoses = 60;
+constexpr std::size_t kMostQuickTriangles = 5000;  // of a robot's link that --quick measures
 
 /// Poses of one protocol at one distance, with the true answers.
 struct Sample
@@ -217,6 +218,10 @@ std::size_t measureExperiment(const Settings& settings)
 {
   Tables tables(settings.out);
   std::vector<Model> models = settings.robot_links ? robotLinks() : std::vector<Model>();
+  if (settings.quick)
+    models.erase(std::remove_if(models.begin(), models.end(),
+                                [](const Model& model) { return model.mesh->triangles.size() > kMostQuickTriangles; }),
+                 models.end());
   for (const std::string& name : settings.models)
     for (const std::size_t triangles : settings.triangles)
       models.push_back(madeModel(name, triangles, settings.seed));

@@ -41,6 +41,25 @@ TEST(LiteratureProgram, MeasuresEachMethodAtEachDistance)
   EXPECT_EQ(linesInFile(folder + "/work.csv").size(), 1U + 2U * 3U * 2U);
 }
 
+TEST(LiteratureProgram, CountsMissedAndFalseCollisionsInHardCases)
+{
+  const std::string folder = newFolder("literature_families");
+  const ProgramOutput output =
+      runProgram(GPS_LITERATURE, {"--quick", "--parts", "families", "--out", folder, "--methods", "exact_cpu,rapid"});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
+  const std::vector<std::string> lines = linesInFile(folder + "/families.csv");
+  ASSERT_GT(lines.size(), 100U);
+  EXPECT_EQ(lines.front(),
+            "hard_case,level,method,title,family,in_domain,poses,surfaces_collide,solids_collide,missed_surfaces,"
+            "false_surfaces,missed_solids,false_solids,within_contract");
+  const auto has = [&](const std::string& line) { return std::count(lines.begin(), lines.end(), line) == 1; };
+  // A mesh inside another is a collision of solids, not of surfaces.
+  EXPECT_TRUE(has("containment,0.1,rapid,oriented boxes (RAPID),trees,no,4,0,4,0,0,4,0,0"));
+  EXPECT_TRUE(has("containment,0.1,exact_cpu,\"ours, exact checker\",ours,yes,4,0,4,0,4,0,0,0"));
+  EXPECT_TRUE(has("linked tori,0.2,rapid,oriented boxes (RAPID),trees,yes,4,0,0,0,0,0,0,0"));
+  EXPECT_TRUE(has("faces in one plane,0,rapid,oriented boxes (RAPID),trees,yes,4,4,4,0,0,0,0,0"));
+}
+
 TEST(LiteratureProgram, AnUnknownMethodIsAnError)
 {
   const ProgramOutput output = runProgram(GPS_LITERATURE, {"--methods", "magic"});

@@ -4,6 +4,9 @@
 #ifdef GPS_LITERATURE_OPCODE
 #include "literature/libraries/opcode.h"
 #endif
+#ifdef GPS_LITERATURE_CGAL
+#include "literature/cgal/cgal_method.h"
+#endif
 #ifdef GPS_LITERATURE_EMBREE
 #include "literature/libraries/embree.h"
 #endif
@@ -21,6 +24,9 @@ std::vector<MethodInfo> libraryMethods()
   add(gimpactMethods());
 #ifdef GPS_LITERATURE_EMBREE
   add(embreeMethods());
+#endif
+#ifdef GPS_LITERATURE_CGAL
+  add(cgalMethods());
 #endif
   return methods;
 }
