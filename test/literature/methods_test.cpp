@@ -25,20 +25,21 @@ std::vector<MethodInfo> allMethods()
   return methods;
 }
 
-std::vector<Isometry3d> easyPoses(const Model& model)
+/// For meshes of about a metre.
+std::vector<Isometry3d> easyPoses()
 {
   std::vector<Isometry3d> poses;
   for (const double distance : {0.4, 0.7, 0.8, 0.95})
-    for (const Isometry3d& pose : posesAt(distance * model.size, kPoses, 1))
+    for (const Isometry3d& pose : posesAt(distance, kPoses, 1))
       poses.push_back(pose);
   return poses;
 }
 
 /// What the surfaces do at each pose. Poses within a hundredth of a millimetre of contact count as -1.
-std::vector<int> trueAnswers(const Model& model, const std::vector<Isometry3d>& poses)
+std::vector<int> trueAnswers(const Model& a, const Model& b, const std::vector<Isometry3d>& poses)
 {
   constexpr double kEasy = 1e-5;  // metres
-  const PairTruth truth(model.mesh, model.mesh);
+  const PairTruth truth(a.mesh, b.mesh);
   std::vector<int> answers;
   for (const Isometry3d& pose : poses)
   {
@@ -76,13 +77,15 @@ const MethodInfo& named(const std::vector<MethodInfo>& methods, const std::strin
 }
 }  // namespace
 
+// The meshes differ. With two copies of one mesh, the inverse of a pose would get the same answer.
 TEST(LiteratureMethods, AgreeWithTheOracleInEasyCases)
 {
-  for (const char* name : {"torus", "car"})
+  const std::vector<Isometry3d> poses = easyPoses();
+  const Model torus = madeModel("torus", 500, 1);
+  for (const char* name : {"lump", "car"})
   {
-    const Model model = madeModel(name, 500, 1);
-    const std::vector<Isometry3d> poses = easyPoses(model);
-    const std::vector<int> expected = trueAnswers(model, poses);
+    const Model other = madeModel(name, 500, 1);
+    const std::vector<int> expected = trueAnswers(torus, other, poses);
     EXPECT_GT(std::count(expected.begin(), expected.end(), 1), static_cast<std::ptrdiff_t>(kPoses / 2)) << name;
     EXPECT_GT(std::count(expected.begin(), expected.end(), 0), static_cast<std::ptrdiff_t>(kPoses / 2)) << name;
     for (const MethodInfo& info : allMethods())
@@ -90,7 +93,7 @@ TEST(LiteratureMethods, AgreeWithTheOracleInEasyCases)
       // The car has needles, for which GImpact invents contacts: one or two in a hundred free poses.
       if (info.name == "gimpact" && name == std::string("car"))
         continue;
-      const Answers answers = answersOf(info, model.mesh, model.mesh, poses);
+      const Answers answers = answersOf(info, torus.mesh, other.mesh, poses);
       ASSERT_EQ(answers.size(), poses.size());
       for (std::size_t i = 0; i < poses.size(); ++i)
         EXPECT_TRUE(expected[i] < 0 || answers[i] == expected[i]) << info.name << ", " << name << ", pose " << i;
@@ -112,7 +115,7 @@ TEST(LiteratureMethods, OrientedBoxesGiveTheSameAnswersInEveryUnit)
 {
   const std::vector<MethodInfo> methods = treeMethods();
   const Model model = madeModel("torus", 500, 1);
-  const std::vector<Isometry3d> poses = easyPoses(model);
+  const std::vector<Isometry3d> poses = easyPoses();
   const Answers expected = answersOf(named(methods, "rapid"), model.mesh, model.mesh, poses);
   for (const double unit : {1e-6, 1e6})
   {
