@@ -1,11 +1,10 @@
 #include "literature/hard_pairs.h"
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "literature/exact_pair.h"
-#include "literature/models.h"
+#include "literature/hard_meshes.h"
 #include "literature/poses.h"
 
 namespace gpu_planning_scene::core::literature
@@ -14,96 +13,13 @@ namespace
 {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using MeshPtr = std::shared_ptr<const Mesh>;
 using Levels = std::vector<double>;
 
-constexpr std::size_t kTriangles = 400;
 constexpr std::size_t kManyTriangles = 20000;
 constexpr double kRemote = 5e5;  // metres; kLargestLength is twice as much
 
 const Levels kFineLevels = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, -1e-6, -1e-5, -1e-4, -1e-3, -1e-2};
 const Levels kCoarseLevels = {1e-2, 1e-3, 1e-5, -1e-5, -1e-3, -1e-2};
-
-MeshPtr mesh(const char* model, std::size_t triangles = kTriangles)
-{
-  return madeModel(model, triangles, 1).mesh;
-}
-
-MeshPtr box(const Vector3d& size)
-{
-  return tessellate(Box{size}).mesh;
-}
-
-MeshPtr moved(const MeshPtr& mesh, const Isometry3d& pose, double scale = 1.0)
-{
-  auto made = std::make_shared<Mesh>(*mesh);
-  for (Vector3d& vertex : made->vertices)
-    vertex = pose * (scale * vertex);
-  return made;
-}
-
-MeshPtr scaled(const MeshPtr& mesh, double scale)
-{
-  return moved(mesh, Isometry3d::Identity(), scale);
-}
-
-enum class Damage
-{
-  Removed,
-  Flipped,
-  Doubled
-};
-
-/// Every tenth triangle, in a random order, is damaged.
-MeshPtr damaged(const MeshPtr& mesh, Damage damage, std::uint64_t seed)
-{
-  auto made = std::make_shared<Mesh>(*mesh);
-  std::shuffle(made->triangles.begin(), made->triangles.end(), std::mt19937_64(seed));
-  const std::size_t tenth = made->triangles.size() / 10;
-  for (std::size_t i = 0; i < tenth; ++i)
-    if (damage == Damage::Removed)
-      made->triangles.pop_back();
-    else if (damage == Damage::Flipped)
-      std::swap(made->triangles[i][0], made->triangles[i][1]);
-    else
-      made->triangles.push_back(std::array<std::uint32_t, 3>(made->triangles[i]));
-  return made;
-}
-
-/// Triangles from a common centre, a metre long and a ten-thousandth as wide.
-MeshPtr needles(std::uint64_t seed)
-{
-  auto made = std::make_shared<Mesh>();
-  made->name = "needles";
-  for (const Isometry3d& pose : posesAt(0.0, 100, seed))
-  {
-    const auto first = static_cast<std::uint32_t>(made->vertices.size());
-    for (const Vector3d& corner : {Vector3d(0.05, 0, 0), Vector3d(0.5, 0, 0), Vector3d(0.3, 5e-5, 0)})
-      made->vertices.push_back(pose * corner);
-    made->triangles.push_back({first, first + 1, first + 2});
-  }
-  return made;
-}
-
-/// Boxes of a tenth of a metre, as one mesh of about a metre.
-MeshPtr pile(std::uint64_t seed)
-{
-  auto made = std::make_shared<Mesh>();
-  made->name = "pile";
-  std::mt19937_64 generator(seed);
-  std::uniform_real_distribution<double> place(-0.45, 0.45);
-  for (const Isometry3d& turn : posesAt(0.0, 150, seed))
-  {
-    const Vector3d at(place(generator), place(generator), place(generator));
-    const MeshPtr part = box({0.1, 0.06, 0.03});
-    const auto first = static_cast<std::uint32_t>(made->vertices.size());
-    for (const Vector3d& vertex : part->vertices)
-      made->vertices.push_back(turn * vertex + at);
-    for (const auto& t : part->triangles)
-      made->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-  }
-  return made;
-}
 
 /// A pose in which b just does not touch a, and the direction from a to b.
 struct Contact
@@ -197,7 +113,7 @@ void addClearances(std::size_t count, std::uint64_t seed, std::vector<HardPair>&
   for (const char* name : {"box", "sphere", "torus", "lump"})
   {
     HardPair pair;
-    pair.a = name == std::string("box") ? box({1.0, 0.7, 0.4}) : mesh(name);
+    pair.a = name == std::string("box") ? boxMesh({1.0, 0.7, 0.4}) : modelMesh(name);
     pair.b = pair.a;
     pair.convex = name == std::string("box") || name == std::string("sphere");
     const std::string kind = pair.convex ? "convex" : "concave";
@@ -209,7 +125,7 @@ void addClearances(std::size_t count, std::uint64_t seed, std::vector<HardPair>&
 
 void addCoordinates(std::size_t count, std::uint64_t seed, std::vector<HardPair>& pairs)
 {
-  const MeshPtr torus = mesh("torus");
+  const MeshPtr torus = modelMesh("torus");
   HardPair aligned;
   aligned.a = aligned.b = torus;
   addLevels("", contacts(torus, torus, 3.0, false, count, seed), kCoarseLevels, 1.0, aligned);
@@ -230,7 +146,7 @@ void addCoordinates(std::size_t count, std::uint64_t seed, std::vector<HardPair>
 
 void addSurfaces(std::size_t count, std::uint64_t seed, std::vector<HardPair>& pairs)
 {
-  const MeshPtr lump = mesh("lump");
+  const MeshPtr lump = modelMesh("lump");
   const auto add = [&](const char* family, Damage damage, bool open)
   {
     const MeshPtr broken = damaged(lump, damage, seed);
@@ -240,12 +156,13 @@ void addSurfaces(std::size_t count, std::uint64_t seed, std::vector<HardPair>& p
   add("a tenth of the faces removed", Damage::Removed, true);
   add("a tenth of the faces flipped", Damage::Flipped, true);
   add("a tenth of the faces doubled", Damage::Doubled, true);
-  const MeshPtr dense = mesh("lump", kManyTriangles);
+  const MeshPtr dense = modelMesh("lump", kManyTriangles);
   pairs.push_back(nearContact("triangles below a pixel", dense, dense, kCoarseLevels, 1.0, count, seed));
   const MeshPtr star = needles(seed);
   pairs.push_back(nearContact("needles", star, star, kCoarseLevels, 1.0, count, seed));
   pairs.back().open = true;
-  pairs.push_back(nearContact("sizes 1 : 1000", lump, scaled(mesh("sphere"), 1e-3), kCoarseLevels, 1e-3, count, seed));
+  pairs.push_back(
+      nearContact("sizes 1 : 1000", lump, scaled(modelMesh("sphere"), 1e-3), kCoarseLevels, 1e-3, count, seed));
 }
 
 void addPlaces(std::size_t count, std::uint64_t seed, std::vector<HardPair>& pairs)
@@ -258,8 +175,8 @@ void addPlaces(std::size_t count, std::uint64_t seed, std::vector<HardPair>& pai
   for (const double level : {0.5, 0.1, 1e-3})
   {
     HardPair inside;
-    inside.a = mesh("sphere");
-    inside.b = scaled(mesh("lump"), level);
+    inside.a = modelMesh("sphere");
+    inside.b = scaled(modelMesh("lump"), level);
     inside.contained = true;
     for (const Isometry3d& pose : posesAt(0.15, count, seed))
       inside.poses.push_back({"containment", level, pose});
@@ -267,7 +184,7 @@ void addPlaces(std::size_t count, std::uint64_t seed, std::vector<HardPair>& pai
   }
   // Level: the largest turn out of the middle of the hole, in radians.
   HardPair linked;
-  linked.a = linked.b = mesh("torus");
+  linked.a = linked.b = modelMesh("torus");
   for (const double level : {0.0, 0.1, 0.2})
     for (std::size_t i = 0; i < count; ++i)
     {
@@ -279,7 +196,7 @@ void addPlaces(std::size_t count, std::uint64_t seed, std::vector<HardPair>& pai
   pairs.push_back(linked);
   // Two plates, one over the other. Level: their gap, or their overlap below 0, in metres.
   HardPair plates;
-  plates.a = plates.b = box({1.0, 1.0, 1e-3});
+  plates.a = plates.b = boxMesh({1.0, 1.0, 1e-3});
   plates.convex = true;
   for (const double level : kFineLevels)
     for (std::size_t i = 0; i < count; ++i)
@@ -291,7 +208,7 @@ void addPlaces(std::size_t count, std::uint64_t seed, std::vector<HardPair>& pai
   pairs.push_back(plates);
   // Level 0: exact contact, if the coordinates of the poses have no rounding.
   HardPair touching;
-  touching.a = touching.b = box({1.0, 0.5, 0.25});
+  touching.a = touching.b = boxMesh({1.0, 0.5, 0.25});
   touching.convex = true;
   for (std::size_t i = 0; i < count; ++i)
   {

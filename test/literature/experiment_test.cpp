@@ -1,9 +1,9 @@
 // The program `literature` writes its tables, and fails if this package gives a wrong answer.
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
+
+#include <gtest/gtest.h>
 
 #include "tools/run_program.h"
 

@@ -1,22 +1,15 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "literature/method.h"
+#include "literature/trees/float_box.h"
 #include "literature/trees/triangle_overlap.h"
 
 namespace gpu_planning_scene::core::literature
 {
-/// A box in the frame of a mesh.
-struct FloatBox
-{
-  std::array<float, 3> lower;
-  std::array<float, 3> upper;
-};
-
 /// A tree of boxes over the triangles of a mesh. Only the root has a whole box: each other node cuts one side off the
 /// box of its parent.
 class BoxTree
