@@ -1,5 +1,6 @@
 #include "literature/method.h"
 #include "literature/trees/box_tree.h"
+#include "literature/trees/breadth_first.h"
 #include "literature/trees/dop18.h"
 #include "literature/trees/dop24.h"
 #include "literature/trees/oriented_boxes.h"
@@ -32,6 +33,7 @@ std::vector<MethodInfo> treeMethods()
           [](const Mesh& a, const Mesh& b) { return makeDop18(a, b, DopDescent::Larger); }),
       info("dop24", "24-DOPs, realigned", "Zachmann 1998", makeDop24),
       info("box_tree", "box trees", "Zachmann 2002", makeBoxTree),
+      info("breadth_first", "oriented boxes, breadth-first", "Gress, Zachmann 2003, on the CPU", makeBreadthFirst),
   };
 }
 }  // namespace gpu_planning_scene::core::literature
