@@ -2,17 +2,16 @@
 // time against distance for two meshes in many relative poses.
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
-#include <random>
 
 #include "benchmark/csv_table.h"
 #include "benchmark/settings.h"
 #include "benchmark/statistics.h"
-#include "collision/exact/cpu_traversal.h"
 #include "collision/parallel_for.h"
 #include "gpu_planning_scene/mesh_pair_checker.h"
-#include "support/obstacles.h"
+#include "literature/exact_pair.h"
+#include "literature/models.h"
+#include "literature/poses.h"
 #include "tools/progress_bar.h"
 
 namespace gpu_planning_scene::core::benchmark
@@ -20,60 +19,11 @@ namespace gpu_planning_scene::core::benchmark
 namespace
 {
 using Eigen::Isometry3d;
-using Eigen::Vector3d;
+using literature::ExactPair;
+using literature::pairProblem;
 
-constexpr double kRadius = 0.5;
 constexpr std::size_t kTriangles = 70000;  // about the size of the Stanford bunny, which is common in such experiments
 constexpr std::size_t kQuickTriangles = 2000;
-
-/// A closed, concave surface with hollows and humps, similar to a scanned object.
-std::shared_ptr<const Mesh> lump(std::size_t triangles)
-{
-  return closedSurface(
-      "lump", triangles, 2.0,
-      [](double along, double angle) -> Vector3d
-      {
-        const double down = M_PI * along;
-        const Vector3d direction(std::sin(down) * std::cos(angle), std::sin(down) * std::sin(angle), -std::cos(down));
-        const double humps = 0.8 + 0.2 * std::sin(5.0 * direction.x()) * std::cos(4.0 * direction.y() + 1.0) +
-                             0.05 * std::sin(17.0 * direction.z()) * std::sin(13.0 * direction.x());
-        return kRadius * humps * direction;
-      });
-}
-
-/// Poses of b with random rotations. The centre of b has `distance` from the centre of a, in a random direction.
-std::vector<Isometry3d> posesAt(double distance, std::size_t count, std::uint64_t seed)
-{
-  std::mt19937_64 generator(seed);
-  std::normal_distribution<double> normal;
-  const auto turn = [&]
-  {
-    const double w = normal(generator);
-    const double x = normal(generator);
-    const double y = normal(generator);
-    return Eigen::Quaterniond(w, x, y, normal(generator)).normalized();
-  };
-  std::vector<Isometry3d> poses;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    Isometry3d pose(turn());
-    pose.pretranslate(turn() * (distance * Vector3d::UnitX()));
-    poses.push_back(pose);
-  }
-  return poses;
-}
-
-/// b is link 0. a is the world.
-std::shared_ptr<const CollisionProblem> problemOf(const Shape& a, const Shape& b)
-{
-  auto problem = std::make_shared<CollisionProblem>();
-  problem->shapes = {b, a};
-  problem->tessellations = {tessellate(b), tessellate(a)};
-  problem->robot = {{0, 0, 0, Isometry3d::Identity()}};
-  problem->world = {{1, 1, -1, Isometry3d::Identity()}};
-  problem->world_pairs = {1};
-  return problem;
-}
 
 using Answers = std::vector<std::uint8_t>;
 using Collide = std::function<Answers(const std::vector<Isometry3d>&)>;
@@ -96,19 +46,8 @@ Collide onGpu(const Shape& a, const Shape& b, const MethodInfo& info, const Sett
 
 Collide exactly(const std::shared_ptr<const CollisionProblem>& problem)
 {
-  auto traversal = std::make_shared<const CpuTraversal>(
-      problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
-  return [traversal](const std::vector<Isometry3d>& poses)
-  {
-    Answers answers(poses.size());
-    parallelFor(poses.size(), 16,
-                [&, scratch = CpuTraversal::Scratch()](std::size_t begin, std::size_t end) mutable
-                {
-                  for (std::size_t i = begin; i < end; ++i)
-                    answers[i] = traversal->firstCollision(&poses[i], scratch) ? 1 : 0;
-                });
-    return answers;
-  };
+  auto pair = std::make_shared<const ExactPair>(problem);
+  return [pair](const std::vector<Isometry3d>& poses) { return pair->collide(poses); };
 }
 
 Collide byPeer(const std::shared_ptr<const CollisionProblem>& problem, const PeerMaker& make)
@@ -131,7 +70,7 @@ Collide byPeer(const std::shared_ptr<const CollisionProblem>& problem, const Pee
 
 std::vector<PairMethod> methodsFor(const Shape& a, const Shape& b, const Settings& settings)
 {
-  const auto problem = problemOf(a, b);
+  const auto problem = pairProblem(a, b);
   std::vector<PairMethod> methods;
   for (const MethodInfo& info : settings.methods)
   {
@@ -153,9 +92,9 @@ std::size_t measureMeshPairs(const Settings& settings)
                  {"triangles", "distance_m", "colliding_share", "method", "title", "family", "poses", "us_a_pose",
                   "cpu_us_a_pose", "wrong"});
   const std::size_t triangles = settings.quick ? kQuickTriangles : kTriangles;
-  const Shape mesh = lump(triangles);
+  const Shape mesh = literature::lump(triangles);
   const std::vector<PairMethod> methods = methodsFor(mesh, mesh, settings);
-  const Collide truth = exactly(problemOf(mesh, mesh));
+  const Collide truth = exactly(pairProblem(mesh, mesh));
   const std::size_t count = settings.quick ? 256 : 4096;
   const std::vector<double> distances = settings.quick
                                             ? std::vector<double>{0.7, 0.9}
@@ -165,7 +104,7 @@ std::size_t measureMeshPairs(const Settings& settings)
   std::size_t wrong_of_exact = 0;
   for (const double distance : distances)
   {
-    const std::vector<Isometry3d> poses = posesAt(distance, count, settings.seed);
+    const std::vector<Isometry3d> poses = literature::posesAt(distance, count, settings.seed);
     const Answers expected = truth(poses);
     const auto colliding = static_cast<double>(std::count(expected.begin(), expected.end(), 1));
     for (const PairMethod& method : methods)

@@ -1,0 +1,130 @@
+// literature: the methods that the literature names, side by side, with one truth; see --help. Needs no ROS.
+
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+
+#include "benchmark/csv_table.h"
+#include "command_line/command_line.h"
+#include "literature/experiment.h"
+#include "literature/families.h"
+#include "literature/models.h"
+#include "model/text/name_list.h"
+
+using namespace gpu_planning_scene::core;
+using namespace gpu_planning_scene::core::literature;
+
+namespace
+{
+const std::vector<std::string> kParts = {"experiment", "families"};
+const std::vector<std::string> kProtocols = {"turning", "clearance"};
+constexpr std::size_t kMostTriangles = 10000000;
+
+std::vector<std::string> split(const std::string& text)
+{
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word, ',');)
+    if (!word.empty())
+      words.push_back(word);
+  return words;
+}
+
+/// The words of an option. Throws UsageError for a word that is not in `known`. Without the option: all known words.
+std::vector<std::string> chosen(const CommandLine& arguments, const std::string& option,
+                                const std::vector<std::string>& known)
+{
+  if (!arguments.has(option))
+    return known;
+  std::vector<std::string> words = split(arguments.required(option));
+  for (const std::string& word : words)
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw UsageError(option + ": there is no '" + word + "'; known names: " + nameList(known));
+  return words;
+}
+
+std::vector<MethodInfo> allMethods()
+{
+  std::vector<MethodInfo> methods = ourMethods();
+  const auto add = [&](const std::vector<MethodInfo>& others)
+  { methods.insert(methods.end(), others.begin(), others.end()); };
+  add(treeMethods());
+#ifdef GPS_LITERATURE_IMAGE_SPACE
+  add(imageSpaceMethods());
+#endif
+#ifdef GPS_LITERATURE_CONVEX
+  add(convexMethods());
+#endif
+  add(libraryMethods());
+  return methods;
+}
+
+std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
+{
+  std::vector<std::string> names;
+  for (const MethodInfo& method : allMethods())
+    names.push_back(method.name);
+  names = chosen(arguments, "--methods", names);
+  std::vector<MethodInfo> methods;
+  for (const MethodInfo& method : allMethods())
+    if (std::find(names.begin(), names.end(), method.name) != names.end())
+      methods.push_back(method);
+  return methods;
+}
+
+std::vector<std::size_t> chosenTriangles(const CommandLine& arguments)
+{
+  std::vector<std::size_t> counts;
+  const std::string all = arguments.has("--quick") ? "1000" : "1000,10000,100000,1000000";
+  for (const std::string& word : split(arguments.value("--triangles", all)))
+    counts.push_back(CommandLine({{"--triangles", "N", ""}}, 3, std::array{"", "--triangles", word.c_str()}.data())
+                         .count("--triangles", 0, 100, kMostTriangles));
+  return counts;
+}
+
+void run(const CommandLine& arguments)
+{
+  Settings settings;
+  settings.quick = arguments.has("--quick");
+  settings.out = arguments.value("--out", "literature");
+  settings.methods = chosenMethods(arguments);
+  settings.models = chosen(arguments, "--models", madeModelNames());
+  settings.robot_links = !arguments.has("--models");
+  settings.triangles = chosenTriangles(arguments);
+  settings.protocols = chosen(arguments, "--protocols", kProtocols);
+  settings.seconds = arguments.number("--seconds", settings.quick ? 0.02 : 0.5, 0.001, 1e4);
+  settings.seed = arguments.count("--seed", 1, 0, 1ULL << 62);
+  benchmark::makeTableFolder(settings.out);
+  writeMethods(settings);
+  std::size_t wrong = 0;
+  for (const std::string& part : chosen(arguments, "--parts", kParts))
+    wrong += part == "experiment" ? measureExperiment(settings) : judgeFamilies(settings);
+  std::cout << settings.out << '\n';
+  if (wrong > 0)
+    throw Error(std::to_string(wrong) + " wrong answers of this package");
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  return runTool(
+      {"literature",
+       "[--quick] [--out DIR] [--methods A,B] [--models A,B] [--triangles N,M] ...",
+       "Measures collision tests of two rigid meshes from the literature, this package among them: time a query\n"
+       "and wrong answers for two copies of a model at many distances (part experiment), and wrong answers in hard\n"
+       "cases (part families). The truth is the exact checker in the first part, and true distances in the second.\n"
+       "Writes methods.csv, builds.csv, experiment.csv, work.csv, families.csv and refusals.csv. Exit status 1 if\n"
+       "this package gives a wrong answer.",
+       {{"--quick", "", "small models and few poses: under two minutes"},
+        {"--out", "DIR", "folder for the tables (default literature)"},
+        {"--parts", "A,B", "of " + nameList(kParts) + " (default: both)"},
+        {"--methods", "A,B", "an unknown name prints the list"},
+        {"--models", "A,B", "of " + nameList(madeModelNames()) + " (default: all, and links of robots)"},
+        {"--triangles", "N,M", "of each model (default 1000,10000,100000,1000000; with --quick 1000)"},
+        {"--protocols", "A,B", "of " + nameList(kProtocols) + " (default: both)"},
+        {"--seconds", "S",
+         "a method that takes longer at a distance gets fewer poses (default 0.5; with --quick 0.02)"},
+        {"--seed", "N", "seed of models and poses (default 1)"}},
+       run},
+      argc, argv);
+}

@@ -1,0 +1,79 @@
+#include "gpu_planning_scene/mesh_pair_checker.h"
+#include "literature/exact_pair.h"
+#include "literature/method.h"
+
+// The methods of this package. Domain: any mesh; a closed component is a solid, so containment is found.
+namespace gpu_planning_scene::core::literature
+{
+namespace
+{
+/// The exact checker on one core, as the other methods on the CPU are measured. The experiments use ExactPair itself as
+/// the truth.
+class ExactCpu : public Method
+{
+ public:
+  ExactCpu(const Shape& a, const Shape& b) : pair_(pairProblem(a, b)) {}
+
+  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
+  {
+    std::vector<std::uint8_t> answers;
+    for (const Eigen::Isometry3d& pose : b_in_a)
+      answers.push_back(pair_.collides(pose, scratch_) ? 1 : 0);
+    return answers;
+  }
+
+ private:
+  ExactPair pair_;
+  CpuTraversal::Scratch scratch_;
+};
+
+/// The checker for two meshes on the device. The CPU decides the poses that the device leaves undecided.
+class OnDevice : public Method
+{
+ public:
+  OnDevice(const Shape& a, const Shape& b, Traversal traversal) : checker_(a, b, options(traversal)) {}
+
+  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
+  {
+    std::vector<std::uint8_t> answers = checker_.collide(b_in_a);
+    undecided_ += static_cast<double>(checker_.undecided());
+    return answers;
+  }
+  WorkCounts work() const override { return {{"undecided", undecided_}}; }
+
+ private:
+  static BatchCheckerOptions options(Traversal traversal)
+  {
+    BatchCheckerOptions made;
+    made.traversal = traversal;
+    made.cpu_below = 0;
+    return made;
+  }
+
+  MeshPairChecker checker_;
+  double undecided_ = 0.0;
+};
+
+MethodInfo onDevice(const char* name, const char* title, Traversal traversal)
+{
+  return {name,
+          title,
+          "this package",
+          "ours",
+          {true, true, true},
+          [traversal](const auto& a, const auto& b) { return std::make_unique<OnDevice>(a, b, traversal); }};
+}
+}  // namespace
+
+std::vector<MethodInfo> ourMethods()
+{
+  return {{"exact_cpu",
+           "ours, exact checker",
+           "this package",
+           "ours",
+           {true, true, true},
+           [](const auto& a, const auto& b) { return std::make_unique<ExactCpu>(a, b); }},
+          onDevice("ours_work_queue", "ours, work queues", Traversal::WorkQueue),
+          onDevice("ours_breadth_first", "ours, breadth-first", Traversal::BreadthFirst)};
+}
+}  // namespace gpu_planning_scene::core::literature
