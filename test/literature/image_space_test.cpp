@@ -1,0 +1,285 @@
+// The image-space methods agree with the oracle in easy cases of their domain, and fail where their papers say.
+
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/device.h"
+#include "gpu_planning_scene/error.h"
+#include "literature/image_space/cullide.h"
+#include "literature/method.h"
+#include "literature/solids.h"
+#include "oracle/oracle.h"
+
+namespace gpu_planning_scene::core::literature
+{
+namespace
+{
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using MeshPtr = std::shared_ptr<const Mesh>;
+
+constexpr double kSize = 1.0;  // metres: all shapes
+
+/// A pair of shapes for which the distance changes by as much as b moves along `direction`.
+struct Pair
+{
+  MeshPtr a;
+  MeshPtr b;
+  Isometry3d touching;  ///< the pose of b in a's frame
+  Vector3d direction;   ///< away from a
+};
+
+Isometry3d moved(const Pair& pair, double distance)
+{
+  Isometry3d pose = pair.touching;
+  pose.pretranslate(distance * pair.direction);
+  return pose;
+}
+
+/// Moves b along `direction` until the shapes touch, with the distances of the oracle.
+Pair touching(const MeshPtr& a, const MeshPtr& b, const Isometry3d& start, const Vector3d& direction)
+{
+  const oracle::PreparedShape prepared_a{Shape(a)};
+  const oracle::PreparedShape prepared_b{Shape(b)};
+  double near = 0.0;
+  double far = 4.0 * kSize;
+  while (far - near > 1e-6)
+  {
+    const double middle = 0.5 * (near + far);
+    Isometry3d pose = start;
+    pose.pretranslate(middle * direction);
+    const bool collides = oracle::verdict(prepared_a, oracle::Motion(), prepared_b, oracle::Motion(pose), 0.0) ==
+                          oracle::Verdict::Collides;
+    (collides ? near : far) = middle;
+  }
+  Isometry3d pose = start;
+  pose.pretranslate(far * direction);
+  return {a, b, pose, direction};
+}
+
+MeshPtr turned(const MeshPtr& mesh, const Eigen::Quaterniond& turn)
+{
+  auto copy = std::make_shared<Mesh>(*mesh);
+  for (Vector3d& vertex : copy->vertices)
+    vertex = turn * vertex;
+  return copy;
+}
+
+/// Two spheres and two boxes, with random rotations and directions. No face of a box is parallel to a view.
+std::vector<Pair> convexPairs()
+{
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal;
+  const auto turn = [&]
+  {
+    const double w = normal(generator);
+    const double x = normal(generator);
+    const double y = normal(generator);
+    return Eigen::Quaterniond(w, x, y, normal(generator)).normalized();
+  };
+  std::vector<Pair> pairs;
+  for (int i = 0; i < 6; ++i)
+  {
+    const Isometry3d start(turn());
+    const Vector3d direction = turn() * Vector3d::UnitX();
+    if (i % 2 == 0)
+      pairs.push_back(touching(sphereMesh(0.5 * kSize), sphereMesh(0.4 * kSize), start, direction));
+    else
+      pairs.push_back(
+          touching(turned(boxMesh({kSize, 0.6, 0.5}), turn()), boxMesh({0.7, kSize, 0.4}), start, direction));
+  }
+  return pairs;
+}
+
+const MethodInfo& named(const std::string& name)
+{
+  static const std::vector<MethodInfo> methods = imageSpaceMethods();
+  for (const MethodInfo& method : methods)
+    if (method.name == name)
+      return method;
+  throw std::logic_error("there is no method " + name);
+}
+
+std::vector<std::uint8_t> answers(const std::string& method, const MeshPtr& a, const MeshPtr& b,
+                                  const std::vector<Isometry3d>& b_in_a)
+{
+  return named(method).make(a, b)->collide(b_in_a);
+}
+
+bool collides(const std::string& method, const MeshPtr& a, const MeshPtr& b, const Isometry3d& b_in_a)
+{
+  return answers(method, a, b, {b_in_a})[0] != 0;
+}
+
+bool hasDevice()
+{
+  try
+  {
+    return !listDevices().empty();
+  }
+  catch (const Error&)
+  {
+    return false;
+  }
+}
+
+class ImageSpace : public ::testing::Test
+{
+ protected:
+  void SetUp() override
+  {
+    if (!hasDevice())
+      GTEST_SKIP() << "there is no EGL device";
+  }
+};
+
+/// Each method at each resolution and with one and three views.
+class EachImageSpaceMethod : public ImageSpace, public ::testing::WithParamInterface<std::string>
+{
+};
+
+std::vector<std::string> allNames()
+{
+  std::vector<std::string> names;
+  for (const MethodInfo& method : imageSpaceMethods())
+    names.push_back(method.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EachImageSpaceMethod, ::testing::ValuesIn(allNames()),
+                         [](const auto& tested) { return tested.param; });
+
+TEST_P(EachImageSpaceMethod, FindsATenthOfPenetrationAndLeavesATenthOfClearanceFree)
+{
+  for (const Pair& pair : convexPairs())
+  {
+    const std::vector<std::uint8_t> expected{1, 0, 0};
+    EXPECT_EQ(answers(GetParam(), pair.a, pair.b,
+                      {moved(pair, -0.1 * kSize), moved(pair, 0.1 * kSize), moved(pair, 5.0 * kSize)}),
+              expected);
+  }
+}
+
+/// One method of each kind, with few pixels.
+class EachKindOfImageSpaceMethod : public ImageSpace, public ::testing::WithParamInterface<std::string>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(All, EachKindOfImageSpaceMethod, ::testing::Values("recode", "cinder", "cullide"),
+                         [](const auto& tested) { return tested.param; });
+
+TEST_P(EachKindOfImageSpaceMethod, ChecksMorePosesThanAnAtlasHolds)
+{
+  const Pair pair = convexPairs()[1];
+  std::vector<Isometry3d> poses;
+  std::vector<std::uint8_t> expected;
+  for (int i = 0; i < 50; ++i)
+  {
+    const bool hit = i % 3 == 1;
+    poses.push_back(moved(pair, (hit ? -0.1 : i % 3 == 0 ? 0.05 : 5.0) * kSize));
+    expected.push_back(hit ? 1 : 0);
+  }
+  for (const char* kind : {"_512x1", "_512x3"})
+    EXPECT_EQ(answers(GetParam() + kind, pair.a, pair.b, poses), expected) << kind;
+}
+
+TEST_P(EachKindOfImageSpaceMethod, DoesNotDependOnTheUnitOrOnThePlaceOfTheFrames)
+{
+  const Pair pair = convexPairs()[1];
+  for (const double unit : {1e-4, 1.0, 1e4})
+  {
+    const Vector3d shift = 1e4 * unit * Vector3d(1.0, -2.0, 3.0);
+    const auto changed = [&](const MeshPtr& mesh)
+    {
+      auto copy = std::make_shared<Mesh>(*mesh);
+      for (Vector3d& vertex : copy->vertices)
+        vertex = unit * vertex + shift;
+      return copy;
+    };
+    std::vector<Isometry3d> poses;
+    for (const double distance : {-0.1, 0.1})
+    {
+      Isometry3d pose = moved(pair, distance * kSize);
+      pose.translation() *= unit;
+      poses.push_back(Eigen::Translation3d(shift) * pose * Eigen::Translation3d(-shift));
+    }
+    EXPECT_EQ(answers(GetParam() + "_64x1", changed(pair.a), changed(pair.b), poses), (std::vector<std::uint8_t>{1, 0}))
+        << unit;
+  }
+}
+
+/// A ball in a box, at a distance from all surfaces.
+bool reportsContainment(const std::string& method)
+{
+  const Isometry3d pose(Eigen::Translation3d(0.02, -0.05, 0.03));
+  const MeshPtr box = boxMesh({kSize, 0.9, 0.8});
+  const MeshPtr ball = sphereMesh(0.15 * kSize);
+  EXPECT_EQ(collides(method, box, ball, pose), collides(method, ball, box, pose.inverse())) << "the order counts";
+  return collides(method, box, ball, pose);
+}
+
+TEST_F(ImageSpace, RecodeAndCinderFindContainment)
+{
+  for (const char* method : {"recode_64x1", "recode_64x3", "cinder_64x1", "cinder_64x3"})
+    EXPECT_TRUE(reportsContainment(method)) << method;
+}
+
+TEST_F(ImageSpace, CullideMissesContainment)
+{
+  EXPECT_FALSE(reportsContainment("cullide_256x1"));
+  EXPECT_FALSE(reportsContainment("cullide_256x3"));
+}
+
+/// Two tori that are linked like the parts of a chain, without contact.
+Isometry3d linked()
+{
+  Isometry3d pose(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitX()));
+  pose.pretranslate(Vector3d(0.4 * kSize, 0.0, 0.0));
+  return pose;
+}
+
+const MeshPtr kTorus = torusMesh(0.4 * kSize, 0.1 * kSize);
+
+TEST_F(ImageSpace, RecodeReportsLinkedToriThatAreApart)
+{
+  const oracle::PreparedShape torus{Shape(kTorus)};
+  ASSERT_GT(oracle::distance(torus, oracle::Motion(), torus, oracle::Motion(linked())), 0.05 * kSize);
+  EXPECT_TRUE(collides("recode_256x1", kTorus, kTorus, linked()));
+  EXPECT_TRUE(collides("recode_256x3", kTorus, kTorus, linked()));
+}
+
+TEST_F(ImageSpace, CinderAndCullideLeaveLinkedToriFree)
+{
+  for (const char* method : {"cinder_256x1", "cinder_256x3", "cullide_256x1", "cullide_256x3"})
+    EXPECT_FALSE(collides(method, kTorus, kTorus, linked())) << method;
+}
+
+TEST_F(ImageSpace, RecodeMissesAnOverlapBelowThePixelAndFindsItWithMorePixels)
+{
+  int coarse = 0;
+  int fine = 0;
+  for (const Pair& pair : convexPairs())
+  {
+    coarse += collides("recode_64x1", pair.a, pair.b, moved(pair, -2e-5 * kSize)) ? 1 : 0;
+    fine += collides("recode_512x1", pair.a, pair.b, moved(pair, -1e-3 * kSize)) ? 1 : 0;
+  }
+  EXPECT_LT(coarse, 3);
+  EXPECT_EQ(fine, 6);
+}
+
+// No fragment shows a face that is parallel to the view.
+TEST_F(ImageSpace, CullideMissesADeepOverlapOfABoxWithThreeViewsAlongItsAxes)
+{
+  Isometry3d pose(Eigen::AngleAxisd(0.7, Vector3d(1.0, 2.0, 3.0).normalized()));
+  pose.pretranslate(Vector3d(0.4, 0.3, 0.2));
+  const MeshPtr box = boxMesh({kSize, kSize, kSize});
+  EXPECT_TRUE(collides("cullide_256x1", box, box, pose));
+  EXPECT_FALSE(collides("cullide_256x3", box, box, pose));
+  ImageOptions options;
+  options.views = 3;
+  options.view_frame = Eigen::AngleAxisd(0.5, Vector3d(3.0, 1.0, 2.0).normalized());
+  EXPECT_TRUE(Cullide(box, box, options).collide({pose})[0] != 0) << "views along other directions";
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core::literature
