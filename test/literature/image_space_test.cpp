@@ -7,6 +7,7 @@
 #include "gpu_planning_scene/device.h"
 #include "gpu_planning_scene/error.h"
 #include "literature/image_space/cullide.h"
+#include "literature/image_space/failure_cases.h"
 #include "literature/method.h"
 #include "literature/solids.h"
 #include "oracle/oracle.h"
@@ -166,7 +167,8 @@ class EachKindOfImageSpaceMethod : public ImageSpace, public ::testing::WithPara
 {
 };
 
-INSTANTIATE_TEST_SUITE_P(All, EachKindOfImageSpaceMethod, ::testing::Values("recode", "cinder", "cullide"),
+INSTANTIATE_TEST_SUITE_P(All, EachKindOfImageSpaceMethod,
+                         ::testing::Values("recode", "cinder", "cullide", "cullide_fattened"),
                          [](const auto& tested) { return tested.param; });
 
 TEST_P(EachKindOfImageSpaceMethod, ChecksMorePosesThanAnAtlasHolds)
@@ -174,7 +176,7 @@ TEST_P(EachKindOfImageSpaceMethod, ChecksMorePosesThanAnAtlasHolds)
   const Pair pair = convexPairs()[1];
   std::vector<Isometry3d> poses;
   std::vector<std::uint8_t> expected;
-  for (int i = 0; i < 50; ++i)
+  for (int i = 0; i < 30; ++i)
   {
     const bool hit = i % 3 == 1;
     poses.push_back(moved(pair, (hit ? -0.1 : i % 3 == 0 ? 0.05 : 5.0) * kSize));
@@ -227,32 +229,42 @@ TEST_F(ImageSpace, RecodeAndCinderFindContainment)
 
 TEST_F(ImageSpace, CullideMissesContainment)
 {
-  EXPECT_FALSE(reportsContainment("cullide_256x1"));
-  EXPECT_FALSE(reportsContainment("cullide_256x3"));
+  for (const char* method : {"cullide_256x1", "cullide_256x3", "cullide_fattened_256x1", "cullide_fattened_256x3"})
+    EXPECT_FALSE(reportsContainment(method)) << method;
 }
 
-/// Two tori that are linked like the parts of a chain, without contact.
-Isometry3d linked()
+double distanceOf(const FailureCase& failure)
 {
-  Isometry3d pose(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitX()));
-  pose.pretranslate(Vector3d(0.4 * kSize, 0.0, 0.0));
-  return pose;
+  return oracle::distance(oracle::PreparedShape(Shape(failure.a)), oracle::Motion(),
+                          oracle::PreparedShape(Shape(failure.b)), oracle::Motion(failure.b_in_a));
 }
 
-const MeshPtr kTorus = torusMesh(0.4 * kSize, 0.1 * kSize);
-
-TEST_F(ImageSpace, RecodeReportsLinkedToriThatAreApart)
+bool collides(const std::string& method, const FailureCase& failure)
 {
-  const oracle::PreparedShape torus{Shape(kTorus)};
-  ASSERT_GT(oracle::distance(torus, oracle::Motion(), torus, oracle::Motion(linked())), 0.05 * kSize);
-  EXPECT_TRUE(collides("recode_256x1", kTorus, kTorus, linked()));
-  EXPECT_TRUE(collides("recode_256x3", kTorus, kTorus, linked()));
+  return collides(method, failure.a, failure.b, failure.b_in_a);
 }
 
-TEST_F(ImageSpace, CinderAndCullideLeaveLinkedToriFree)
+TEST_F(ImageSpace, RecodeReportsLinkedToriThatAreApartAndNoOtherMethodDoes)
 {
-  for (const char* method : {"cinder_256x1", "cinder_256x3", "cullide_256x1", "cullide_256x3"})
-    EXPECT_FALSE(collides(method, kTorus, kTorus, linked())) << method;
+  const FailureCase tori = linkedTori();
+  ASSERT_GT(distanceOf(tori), 0.05 * kSize);
+  for (const char* method : {"recode_256x1", "recode_256x3"})
+    EXPECT_TRUE(collides(method, tori)) << method;
+  for (const char* kind : {"cinder", "cullide", "cullide_fattened"})
+    for (const char* views : {"_256x1", "_256x3"})
+      EXPECT_FALSE(collides(kind + std::string(views), tori)) << kind << views;
+}
+
+TEST_F(ImageSpace, CinderMissesEdgesThatOtherEdgesHideAndFindsThemInOtherViews)
+{
+  const FailureCase block = blockInPlate();
+  ASSERT_EQ(distanceOf(block), 0.0);
+  for (const char* resolution : {"64", "128", "256", "512"})
+  {
+    EXPECT_FALSE(collides(std::string("cinder_") + resolution + "x1", block));
+    EXPECT_TRUE(collides(std::string("cinder_") + resolution + "x3", block));
+    EXPECT_TRUE(collides(std::string("recode_") + resolution + "x1", block));
+  }
 }
 
 TEST_F(ImageSpace, RecodeMissesAnOverlapBelowThePixelAndFindsItWithMorePixels)
@@ -268,6 +280,19 @@ TEST_F(ImageSpace, RecodeMissesAnOverlapBelowThePixelAndFindsItWithMorePixels)
   EXPECT_EQ(fine, 6);
 }
 
+TEST_F(ImageSpace, FattenedCullideFindsOverlapsBelowThePixelThatCullideMisses)
+{
+  int plain = 0;
+  for (const Pair& pair : convexPairs())
+  {
+    const Isometry3d pose = moved(pair, -2e-5 * kSize);
+    plain += collides("cullide_64x3", pair.a, pair.b, pose) ? 1 : 0;
+    EXPECT_TRUE(collides("cullide_fattened_64x3", pair.a, pair.b, pose));
+    EXPECT_FALSE(collides("cullide_fattened_64x3", pair.a, pair.b, moved(pair, 2e-5 * kSize)));
+  }
+  EXPECT_LT(plain, 3);
+}
+
 // No fragment shows a face that is parallel to the view.
 TEST_F(ImageSpace, CullideMissesADeepOverlapOfABoxWithThreeViewsAlongItsAxes)
 {
@@ -280,6 +305,7 @@ TEST_F(ImageSpace, CullideMissesADeepOverlapOfABoxWithThreeViewsAlongItsAxes)
   options.views = 3;
   options.view_frame = Eigen::AngleAxisd(0.5, Vector3d(3.0, 1.0, 2.0).normalized());
   EXPECT_TRUE(Cullide(box, box, options).collide({pose})[0] != 0) << "views along other directions";
+  EXPECT_TRUE(collides("cullide_fattened_256x3", box, box, pose));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core::literature

@@ -1,5 +1,6 @@
 #include "literature/image_space/cinder.h"
 #include "literature/image_space/cullide.h"
+#include "literature/image_space/fattened_cullide.h"
 #include "literature/image_space/recode.h"
 
 namespace gpu_planning_scene::core::literature
@@ -39,6 +40,7 @@ std::vector<MethodInfo> imageSpaceMethods()
   append<Recode>(methods, "recode", "RECODE", "Baciu, Wong, Sun 1999", convex_solids);
   append<Cinder>(methods, "cinder", "CInDeR", "Knott, Pai 2003", solids);
   append<Cullide>(methods, "cullide", "CULLIDE", "Govindaraju, Redon, Lin, Manocha 2003", {});
+  append<FattenedCullide>(methods, "cullide_fattened", "CULLIDE, fattened", "Govindaraju, Lin, Manocha 2004", {});
   return methods;
 }
 }  // namespace gpu_planning_scene::core::literature
