@@ -19,7 +19,9 @@ using Color = std::array<std::uint8_t, 3>;
 
 constexpr Color kEmpty{255, 255, 255};
 constexpr Color kHit{224, 45, 45};
-constexpr int kBorder = 8;  // pixels between two passes
+constexpr int kMeetingIntervals = 1;  // hits of RECODE have a stencil above this value
+constexpr int kEdgeInside = 0x80;     // hits of CInDeR have a stencil above this value
+constexpr int kBorder = 8;            // pixels between two passes
 
 /// From dark (near) to light (far), in the range of depths of a picture.
 Color depthColor(float depth, float nearest, float farthest)
@@ -78,13 +80,14 @@ class Strip
   int side_ = 0;
 };
 
-/// Draws all passes of a method, and prints their names and the answer. `hit`: see Strip::add.
+/// Draws all passes of the first view of a method, and prints their names and the answer. `hit`: see Strip::add.
 template <class Drawn>
-void drawPasses(const std::string& path, const FailureCase& failure, int resolution, int hit)
+void drawPasses(const std::string& path, const FailureCase& failure, int resolution, int views, int hit)
 {
   Strip strip;
   ImageOptions options;
   options.resolution = resolution;
+  options.views = views;
   std::cout << path << ", from left to right:";
   options.observe = [&](const std::string& pass, const TilePixels& pixels)
   {
@@ -101,8 +104,9 @@ void run(const CommandLine& arguments)
 {
   const std::string folder = arguments.required("--out");
   const int resolution = static_cast<int>(arguments.integer("--resolution", 256, 64, 512));
-  drawPasses<Recode>(folder + "/recode_linked_tori.png", linkedTori(), resolution, 1);
-  drawPasses<Cinder>(folder + "/cinder_hidden_edges.png", blockInPlate(), resolution, 0x80);
+  drawPasses<Recode>(folder + "/recode_linked_tori.png", linkedTori(), resolution, 1, kMeetingIntervals);
+  drawPasses<Cinder>(folder + "/cinder_from_above.png", blockInPlate(), resolution, 1, kEdgeInside);
+  drawPasses<Cinder>(folder + "/cinder_from_the_side.png", blockInPlate(), resolution, 3, kEdgeInside);
 }
 }  // namespace
 
@@ -112,7 +116,8 @@ int main(int argc, char** argv)
                   "--out DIR [--resolution N]",
                   "Draws the depth buffers of RECODE for linked tori that are apart, and of CInDeR for a block in a\n"
                   "plate. Dark pixels are near, light ones far, white ones empty. Red: the pixels of the stencil that\n"
-                  "the method counts as a hit. Prints the passes and the answers, which are wrong in both cases.",
+                  "the method counts as a hit. Prints the passes and the answers. They are wrong, except for CInDeR\n"
+                  "with three views, the first of which is from the side.",
                   {{"--out", "DIR", "folder for the pictures; it must exist"},
                    {"--resolution", "N", "pixels along each side, 64 to 512 (default 256)"}},
                   run},

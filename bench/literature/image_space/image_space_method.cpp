@@ -94,7 +94,7 @@ std::vector<Tile> ImageSpaceMethod::tilesOf(const std::vector<PlacedPair>& pairs
   for (const PlacedPair& pair : pairs)
     for (const int axis : pair.axes)
     {
-      const Projection projection = projectionAlong(axis, pair.volume);
+      const Projection projection = projectionAlong(axis, pair.volume, options_.resolution);
       tiles.push_back({rowsOf(projection, a_in_view_, a_->center()),
                        rowsOf(projection, a_in_view_ * pair.b_in_a, b_->center()),
                        fatteningOf(projection, pair.volume, options_.resolution)});

@@ -28,14 +28,15 @@ std::vector<int> viewAxes(const ViewVolume& volume, int views)
   return {shortest};
 }
 
-Projection projectionAlong(int axis, const ViewVolume& volume)
+Projection projectionAlong(int axis, const ViewVolume& volume, int resolution)
 {
+  const double border = 1.0 - 1.0 / resolution;
   const double least = kLeastWidth * volume.whole.diagonal().norm();
   Projection projection = Projection::Zero();
   for (int row = 0; row < 2; ++row)
   {
     const int from = (axis + 1 + row) % 3;
-    const double scale = 1.0 / std::max(least, 0.5 * volume.common.sizes()[from]);
+    const double scale = border / std::max(least, 0.5 * volume.common.sizes()[from]);
     projection(row, from) = scale;
     projection(row, 3) = -scale * volume.common.center()[from];
   }

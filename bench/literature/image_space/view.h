@@ -26,7 +26,8 @@ std::vector<int> viewAxes(const ViewVolume& volume, int views);
 /// A linear map and a translation: [rotation and scale | translation].
 using Projection = Eigen::Matrix<double, 3, 4>;
 
-/// The parallel projection along an axis onto the cube from -1 to 1. As with glOrtho, the depth z grows away from the
-/// viewer, so triangles that face the viewer are counterclockwise.
-Projection projectionAlong(int axis, const ViewVolume& volume);
+/// The parallel projection along an axis onto the cube from -1 to 1. The picture extends half a pixel beyond `common`,
+/// so that it shows edges on the border. As with glOrtho, the depth z grows away from the viewer, so triangles that
+/// face the viewer are counterclockwise. `resolution`: pixels along each side.
+Projection projectionAlong(int axis, const ViewVolume& volume, int resolution);
 }  // namespace gpu_planning_scene::core::literature
