@@ -67,28 +67,29 @@ MeshPtr turned(const MeshPtr& mesh, const Eigen::Quaterniond& turn)
   return copy;
 }
 
+Eigen::Quaterniond randomTurn(std::mt19937& generator)
+{
+  std::normal_distribution<double> normal;
+  const double w = normal(generator);
+  const double x = normal(generator);
+  const double y = normal(generator);
+  return Eigen::Quaterniond(w, x, y, normal(generator)).normalized();
+}
+
 /// Two spheres and two boxes, with random rotations and directions. No face of a box is parallel to a view.
 std::vector<Pair> convexPairs()
 {
   std::mt19937 generator(1);
-  std::normal_distribution<double> normal;
-  const auto turn = [&]
-  {
-    const double w = normal(generator);
-    const double x = normal(generator);
-    const double y = normal(generator);
-    return Eigen::Quaterniond(w, x, y, normal(generator)).normalized();
-  };
   std::vector<Pair> pairs;
   for (int i = 0; i < 6; ++i)
   {
-    const Isometry3d start(turn());
-    const Vector3d direction = turn() * Vector3d::UnitX();
+    const Isometry3d start(randomTurn(generator));
+    const Vector3d direction = randomTurn(generator) * Vector3d::UnitX();
     if (i % 2 == 0)
       pairs.push_back(touching(sphereMesh(0.5 * kSize), sphereMesh(0.4 * kSize), start, direction));
     else
-      pairs.push_back(
-          touching(turned(boxMesh({kSize, 0.6, 0.5}), turn()), boxMesh({0.7, kSize, 0.4}), start, direction));
+      pairs.push_back(touching(turned(boxMesh({kSize, 0.6, 0.5}), randomTurn(generator)), boxMesh({0.7, kSize, 0.4}),
+                               start, direction));
   }
   return pairs;
 }
@@ -189,9 +190,9 @@ TEST_P(EachKindOfImageSpaceMethod, ChecksMorePosesThanAnAtlasHolds)
 TEST_P(EachKindOfImageSpaceMethod, DoesNotDependOnTheUnitOrOnThePlaceOfTheFrames)
 {
   const Pair pair = convexPairs()[1];
-  for (const double unit : {1e-4, 1.0, 1e4})
+  for (const double unit : {1e-3, 1.0, 1e2})
   {
-    const Vector3d shift = 1e4 * unit * Vector3d(1.0, -2.0, 3.0);
+    const Vector3d shift = 1e7 * unit * Vector3d(1.0, -2.0, 3.0);
     const auto changed = [&](const MeshPtr& mesh)
     {
       auto copy = std::make_shared<Mesh>(*mesh);
@@ -282,15 +283,19 @@ TEST_F(ImageSpace, RecodeMissesAnOverlapBelowThePixelAndFindsItWithMorePixels)
 
 TEST_F(ImageSpace, FattenedCullideFindsOverlapsBelowThePixelThatCullideMisses)
 {
+  std::mt19937 generator(2);
   int plain = 0;
-  for (const Pair& pair : convexPairs())
+  for (int i = 0; i < 30; ++i)
   {
-    const Isometry3d pose = moved(pair, -2e-5 * kSize);
-    plain += collides("cullide_64x3", pair.a, pair.b, pose) ? 1 : 0;
-    EXPECT_TRUE(collides("cullide_fattened_64x3", pair.a, pair.b, pose));
-    EXPECT_FALSE(collides("cullide_fattened_64x3", pair.a, pair.b, moved(pair, 2e-5 * kSize)));
+    const MeshPtr a = turned(boxMesh({kSize, 0.6, 0.5}), randomTurn(generator));
+    const MeshPtr b = boxMesh({0.7, kSize, 0.4});
+    const Pair pair = touching(a, b, Isometry3d(randomTurn(generator)), randomTurn(generator) * Vector3d::UnitX());
+    const Isometry3d pose = moved(pair, -1e-5 * kSize);
+    plain += collides("cullide_64x3", a, b, pose) ? 1 : 0;
+    EXPECT_TRUE(collides("cullide_fattened_64x3", a, b, pose)) << i;
+    EXPECT_FALSE(collides("cullide_fattened_64x3", a, b, moved(pair, 1e-5 * kSize))) << i;
   }
-  EXPECT_LT(plain, 3);
+  EXPECT_LT(plain, 10);
 }
 
 // No fragment shows a face that is parallel to the view.

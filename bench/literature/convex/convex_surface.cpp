@@ -14,7 +14,8 @@
 // Domain: closed 2-manifolds. The hull of a patch is then a part of the solid.
 // Failures: at saddles and at the edges of holes, the patches are single triangles, and the tree has as many leaves as
 // one over triangles. Where a mesh is open, the hull of a patch is no part of a solid, so there are false hits. A shape
-// deep inside another one touches no hull, so containment is missed, unless the outer shape is one patch.
+// deep inside another one touches no hull, so containment is missed, unless the outer shape is one patch. The epsilon
+// of libccd, 1e-10, is absolute, so shapes of a micrometre collide too early.
 namespace gpu_planning_scene::core::literature
 {
 namespace
