@@ -298,6 +298,41 @@ TEST_F(ImageSpace, FattenedCullideFindsOverlapsBelowThePixelThatCullideMisses)
   EXPECT_LT(plain, 10);
 }
 
+/// Three tetrahedra of `size`, far apart on a diagonal.
+MeshPtr tinyTetrahedra(double size)
+{
+  auto mesh = std::make_shared<Mesh>();
+  for (const double place : {-0.5, 0.0, 0.5})
+  {
+    const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
+    for (const Vector3d& corner : {Vector3d(1, 1, 1), Vector3d(1, -1, -1), Vector3d(-1, 1, -1), Vector3d(-1, -1, 1)})
+      mesh->vertices.push_back(Vector3d::Constant(place * kSize) + 0.5 * size * corner);
+    for (const auto& t : std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}})
+      mesh->triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return mesh;
+}
+
+TEST_F(ImageSpace, FattenedCullideFindsTrianglesBelowThePixelThatCullideMisses)
+{
+  const MeshPtr mesh = tinyTetrahedra(1e-3 * kSize);  // a pixel has 0.016 of the size
+  std::mt19937 generator(4);
+  std::vector<Isometry3d> poses;
+  for (int i = 0; i < 30; ++i)
+    poses.emplace_back(Eigen::Translation3d(randomTurn(generator) * Vector3d(3e-4 * kSize, 0.0, 0.0)));
+  const oracle::PreparedShape prepared{Shape(mesh)};
+  for (const Isometry3d& pose : poses)
+    ASSERT_EQ(oracle::distance(prepared, oracle::Motion(), prepared, oracle::Motion(pose)), 0.0);
+  const auto hits = [&](const char* method)
+  {
+    const std::vector<std::uint8_t> found = answers(method, mesh, mesh, poses);
+    return std::count(found.begin(), found.end(), 1);
+  };
+  EXPECT_LT(hits("cullide_64x1"), 3);
+  EXPECT_EQ(hits("cullide_fattened_64x1"), 30);
+  EXPECT_EQ(hits("cullide_fattened_64x3"), 30);
+}
+
 // No fragment shows a face that is parallel to the view.
 TEST_F(ImageSpace, CullideMissesADeepOverlapOfABoxWithThreeViewsAlongItsAxes)
 {
