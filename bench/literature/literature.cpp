@@ -49,12 +49,8 @@ std::vector<MethodInfo> allMethods()
   const auto add = [&](const std::vector<MethodInfo>& others)
   { methods.insert(methods.end(), others.begin(), others.end()); };
   add(treeMethods());
-#ifdef GPS_LITERATURE_IMAGE_SPACE
   add(imageSpaceMethods());
-#endif
-#ifdef GPS_LITERATURE_CONVEX
   add(convexMethods());
-#endif
   add(libraryMethods());
   return methods;
 }

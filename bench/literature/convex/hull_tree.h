@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "gpu_planning_scene/shapes.h"
+
+namespace gpu_planning_scene::core::literature
+{
+/// A binary tree of convex hulls over the convex patches of a mesh. A leaf has the hull of a patch, an inner node the
+/// hull of its children.
+class HullTree
+{
+ public:
+  explicit HullTree(const Mesh& mesh);
+
+  /// The root is node 0. The children of an inner node are `child` and `child + 1`.
+  struct Node
+  {
+    std::vector<Eigen::Vector3d> vertices;
+    Eigen::Vector3d center;   ///< the mean of the vertices
+    double radius = 0.0;      ///< of a sphere around `center` that contains the vertices
+    std::uint32_t child = 0;  ///< 0: a leaf
+  };
+  const std::vector<Node>& nodes() const { return nodes_; }
+  std::size_t patchCount() const { return (nodes_.size() + 1) / 2; }
+
+ private:
+  void build(std::uint32_t node, std::vector<Node>& leaves, std::size_t begin, std::size_t end);
+
+  double tolerance_;
+  std::vector<Node> nodes_;
+};
+}  // namespace gpu_planning_scene::core::literature

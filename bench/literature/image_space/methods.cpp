@@ -1,0 +1,46 @@
+#include "literature/image_space/cinder.h"
+#include "literature/image_space/cullide.h"
+#include "literature/image_space/fattened_cullide.h"
+#include "literature/image_space/recode.h"
+
+namespace gpu_planning_scene::core::literature
+{
+namespace
+{
+template <class Drawn>
+void append(std::vector<MethodInfo>& methods, const std::string& name, const std::string& title,
+            const std::string& source, const Domain& domain)
+{
+  for (const int resolution : {64, 128, 256, 512})
+    for (const int views : {1, 3})
+    {
+      ImageOptions options;
+      options.resolution = resolution;
+      options.views = views;
+      const std::string side = std::to_string(resolution);
+      methods.push_back({name + "_" + side + "x" + std::to_string(views),
+                         title + ", " + side + " x " + side + " pixels, " + (views == 1 ? "1 view" : "3 views"), source,
+                         "image space", domain,
+                         [options](const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b)
+                         { return std::make_unique<Drawn>(a, b, options); }});
+    }
+}
+}  // namespace
+
+std::vector<MethodInfo> imageSpaceMethods()
+{
+  Domain convex_solids;
+  convex_solids.concave = false;
+  convex_solids.open = false;
+  convex_solids.containment = true;
+  Domain solids;
+  solids.open = false;
+  solids.containment = true;
+  std::vector<MethodInfo> methods;
+  append<Recode>(methods, "recode", "RECODE", "Baciu, Wong, Sun 1999", convex_solids);
+  append<Cinder>(methods, "cinder", "CInDeR", "Knott, Pai 2003", solids);
+  append<Cullide>(methods, "cullide", "CULLIDE", "Govindaraju, Redon, Lin, Manocha 2003", {});
+  append<FattenedCullide>(methods, "cullide_fattened", "CULLIDE, fattened", "Govindaraju, Lin, Manocha 2004", {});
+  return methods;
+}
+}  // namespace gpu_planning_scene::core::literature

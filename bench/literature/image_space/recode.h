@@ -1,0 +1,28 @@
+#pragma once
+
+#include "literature/image_space/draw_program.h"
+#include "literature/image_space/image_space_method.h"
+
+namespace gpu_planning_scene::core::literature
+{
+/// RECODE: overlap of depth intervals (see recode.cpp). With three views, a pair collides if all views report it.
+class Recode : public ImageSpaceMethod
+{
+ public:
+  Recode(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b, const ImageOptions& options);
+  ~Recode() override;
+
+ protected:
+  std::vector<std::uint8_t> draw(const std::vector<PlacedPair>& pairs) override;
+
+ private:
+  struct Programs
+  {
+    DrawProgram depth;
+    DrawProgram mark;
+  };
+  void drawShape(const DrawProgram& program, unsigned number, std::size_t tiles);
+
+  std::unique_ptr<Programs> programs_;
+};
+}  // namespace gpu_planning_scene::core::literature
