@@ -1,5 +1,3 @@
-#include "render/renderer.h"
-
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -9,6 +7,7 @@
 #include "bindings/bindings.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/state_inspector.h"
+#include "render/renderer.h"
 
 namespace gpu_planning_scene::python
 {
