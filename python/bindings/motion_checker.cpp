@@ -49,7 +49,7 @@ MotionQuery queryFrom(const std::string& name)
   throw core::Error("the query is '" + name + "'; it must be valid, last_valid or samples");
 }
 
-MotionVerdicts check(const SharedMotionChecker& checker, py::object starts, py::object ends,
+MotionVerdicts checkMotions(const SharedMotionChecker& checker, py::object starts, py::object ends,
                      const Arg<std::string>& query)
 {
   const MotionQuery question = queryFrom(query.value);
@@ -144,7 +144,7 @@ void addMotionChecker(py::module_& module)
            py::arg("resolution") = defaults.steps.revolute,
            py::arg("translation_resolution") = defaults.steps.prismatic, py::arg("max_samples") = defaults.max_samples,
            py::arg("max_checks") = py::none())
-      .def("check", &check, py::arg("starts"), py::arg("ends"), py::arg("query") = "valid",
+      .def("check", &checkMotions, py::arg("starts"), py::arg("ends"), py::arg("query") = "valid",
            "Checks straight motions.\n\nstarts, ends: shape (n, variables) or (variables,), radians and metres. query: "
            "\"valid\" ends at the first collision; \"last_valid\" also finds up to which fraction a motion is valid; "
            "\"samples\" uses the rule \"samples\". Returns MotionVerdicts.\n\nRaises Error for other shapes, for "

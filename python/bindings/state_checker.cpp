@@ -25,7 +25,7 @@ using core::PlanningScene;
 using core::StateChecker;
 using ScenePtr = std::shared_ptr<PlanningScene>;
 
-constexpr std::size_t kFirstPart = 4096;  // states, before the rate is known
+constexpr std::size_t kFirstStates = 4096;  // states, before the rate is known
 constexpr std::size_t kLeastPart = 1024;  // smaller parts would take longer for each state
 constexpr double kSecondsOfPart = 0.25;   // so Ctrl-C needs at most about as long
 
@@ -59,7 +59,7 @@ CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& de
                 { return core::openChecker(copy, options); });
 }
 
-BatchResult check(SharedChecker& checker, py::object states, const Arg<std::string>& group)
+BatchResult checkStates(SharedChecker& checker, py::object states, const Arg<std::string>& group)
 {
   const Rows rows = rowsFrom(states, *checker.scene()->robot, "states");
   const double* data = rows.data();
@@ -150,7 +150,7 @@ core::SceneReport SharedChecker::report(const std::string& group)
 std::size_t SharedChecker::statesOfPart() const
 {
   if (seconds_per_state_ <= 0.0)
-    return kFirstPart;
+    return kFirstStates;
   return std::max(kLeastPart, static_cast<std::size_t>(std::min(kSecondsOfPart / seconds_per_state_, 1e15)));
 }
 
@@ -198,7 +198,7 @@ void addStateChecker(py::module_& module)
       .def(py::init(&openedOnDevice), py::arg("scene"), py::arg("device") = defaults.device,
            py::arg("tolerance") = defaults.tolerance, py::arg("max_batch") = defaults.max_batch,
            py::arg("cpu_below") = py::none(), py::arg("traversal") = "work_queue")
-      .def("check", &check, py::arg("states"), py::arg("group") = "",
+      .def("check", &checkStates, py::arg("states"), py::arg("group") = "",
            "Checks states.\n\nstates: shape (n, variables) or (variables,), radians and metres. A C-contiguous array "
            "of float64 is not copied; it must not change during the call. group: only pairs with a link that this "
            "planning group moves are checked. Returns a BatchResult.\n\nRaises Error for another shape, an unknown "
