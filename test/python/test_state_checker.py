@@ -4,6 +4,7 @@ import ctypes
 import os
 import signal
 import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -28,16 +29,20 @@ def answers_of_the_tool(count, seed, device):
 
 def memory_in_use():
     """Bytes that malloc has given to this process."""
-    class Information(ctypes.Structure):
-        _fields_ = [(name, ctypes.c_size_t) for name in
-                    "arena ordblks smblks hblks hblkhd usmblks fsmblks uordblks fordblks keepcost".split()]
-
     process = ctypes.CDLL(None)
     if SANITIZED:
-        process.__sanitizer_get_current_allocated_bytes.restype = ctypes.c_size_t
-        return process.__sanitizer_get_current_allocated_bytes()
-    process.mallinfo2.restype = Information
-    information = process.mallinfo2()
+        allocated = getattr(process, "__sanitizer_get_current_allocated_bytes")
+        allocated.restype = ctypes.c_size_t
+        return allocated()
+    has_new = hasattr(process, "mallinfo2")  # since glibc 2.33
+
+    class Information(ctypes.Structure):
+        _fields_ = [(name, ctypes.c_size_t if has_new else ctypes.c_int) for name in
+                    "arena ordblks smblks hblks hblkhd usmblks fsmblks uordblks fordblks keepcost".split()]
+
+    mallinfo = process.mallinfo2 if has_new else process.mallinfo
+    mallinfo.restype = Information
+    information = mallinfo()
     return information.uordblks + information.hblkhd
 
 
@@ -235,6 +240,9 @@ class StateChecker(Case):
             raise AssertionError("the other thread did not run")
 
         signal.signal(signal.SIGALRM, give_up)
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(1000)  # Python itself does not let the other thread run before the call
+        self.addCleanup(sys.setswitchinterval, interval)
         with many_states() as states:
             thread = threading.Thread(target=interrupt)
             thread.start()
