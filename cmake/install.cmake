@@ -3,6 +3,13 @@ set(libraries gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_sce
   gpu_planning_scene_planning)
 set(export_folder ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
 
+# A wheel has only the libraries and the shaders of the Python module. The prefix is the folder of the Python package.
+if(GPU_PLANNING_SCENE_WHEEL)
+  install(TARGETS ${libraries} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  install(DIRECTORY shaders DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  return()
+endif()
+
 install(TARGETS ${libraries} EXPORT gpu_planning_scene-targets LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 install(TARGETS check_states generate_acm read_mesh render RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY include/ DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION})

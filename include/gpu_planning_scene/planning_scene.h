@@ -168,4 +168,11 @@ struct PlanningScene
 PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
                             const PackageResolver& packages, std::vector<std::string>* warnings = nullptr,
                             const MeshAccess& meshes = {}, const SceneDefaults& defaults = {});
+
+/// The same for the text of a scene file. `name`: takes the place of the path in messages; a name that ends in .scene
+/// means the text format of RViz's plugin. `folder`: start of the relative paths of mesh files.
+PlanningScene loadSceneText(const std::string& text, const std::string& name, const std::string& folder,
+                            std::shared_ptr<const RobotModel> robot, const PackageResolver& packages,
+                            std::vector<std::string>* warnings = nullptr, const MeshAccess& meshes = {},
+                            const SceneDefaults& defaults = {});
 }  // namespace gpu_planning_scene::core

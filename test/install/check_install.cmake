@@ -7,6 +7,8 @@
 #   PREFIX     the CMAKE_INSTALL_PREFIX of BUILD
 #   GENERATOR  the CMake generator of BUILD, because a machine may have only one
 #   SANITIZE   whether BUILD has sanitizers, which CONSUMER then needs too
+#   MODULE     whether BUILD has the Python module
+#   MODULE_ENVIRONMENT  variables with which Python can load a sanitized module
 
 # All files go to a temporary folder. In the package's own folder, roslaunch would find the installed launch file too.
 execute_process(COMMAND mktemp --directory OUTPUT_VARIABLE folder OUTPUT_STRIP_TRAILING_WHITESPACE)
@@ -95,6 +97,13 @@ foreach(file setup.bash ${share}/launch/planning_scene.launch ${share}/config/de
     fail("${file} is not installed")
   endif()
 endforeach()
+
+# The Python module stands beside the messages of the same package.
+if(MODULE)
+  set(ENV{PYTHONPATH} ${prefix}/lib/python3/dist-packages)
+  run("the Python module gives wrong answers" ${CMAKE_COMMAND} -E env ${MODULE_ENVIRONMENT} ${PYTHON_EXECUTABLE} -B
+    ${CMAKE_CURRENT_LIST_DIR}/check_module.py ${prefix} ${ROBOT}.urdf)
+endif()
 
 # The programs compile the installed shaders: with a damaged shader the program fails and names it.
 file(WRITE ${prefix}/share/gpu_planning_scene/shaders/shader_constants.h "#error the installed one\n")

@@ -6,9 +6,9 @@ import unittest
 
 from folders import ROOT
 
-FOLDERS = ["include", "src", "test", "bench", "examples"]
+FOLDERS = ["include", "src", "python", "test", "bench", "examples"]
 # Paths of our own includes begin in one of these folders.
-INCLUDE_FOLDERS = ["include", "src", "shaders", "test", "bench"]
+INCLUDE_FOLDERS = ["include", "src", "shaders", "python", "test", "bench"]
 # The order of the includes of a file.
 OWN_HEADER, STANDARD, LIBRARY, PROJECT = range(4)
 

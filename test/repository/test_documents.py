@@ -5,7 +5,7 @@ import unittest
 from folders import ROOT
 
 # A path in backticks counts if it begins with one of these folders.
-FOLDERS = "bench|cmake|config|docs|examples|include|launch|msg|scripts|shaders|src|srv|test"
+FOLDERS = "bench|cmake|config|docs|examples|include|launch|msg|python|scripts|shaders|src|srv|test"
 
 
 def documents():

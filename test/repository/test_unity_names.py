@@ -10,8 +10,9 @@ NAMES = re.compile(r"^(?:constexpr [\w:<>, ]+?[ &]|struct |class |enum class )(\
 
 
 def libraries():
-    """The folders of src/ that add a library each, and the C++ files below them that no inner library has."""
-    folders = [path.parent for path in (ROOT / "src").rglob("CMakeLists.txt") if "add_library(" in path.read_text()]
+    """The folders that add a library or module each, and the C++ files below them that no inner library has."""
+    folders = [path.parent for path in [*(ROOT / "src").rglob("CMakeLists.txt"), ROOT / "python" / "CMakeLists.txt"]
+               if re.search("add_library\\(|add_module\\(", path.read_text())]
     for folder in folders:
         inner = [other for other in folders if other != folder and folder in other.parents]
         yield folder, [path for path in folder.rglob("*.cpp") if not any(i in path.parents for i in inner)]

@@ -10,11 +10,11 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotModel> robot,
-                           const PackageResolver& packages, std::vector<std::string>* warnings,
-                           const MeshAccess& meshes, const SceneDefaults& defaults)
+/// `folder`: start of the relative paths of mesh files.
+PlanningScene sceneFromYaml(const YamlValue& file, const std::string& folder, std::shared_ptr<const RobotModel> robot,
+                            const PackageResolver& packages, std::vector<std::string>* warnings,
+                            const MeshAccess& meshes, const SceneDefaults& defaults)
 {
-  const YamlValue file = YamlValue::loadFile(path);
   static const std::initializer_list<const char*> known_keys = {"name",
                                                                 "robot_state",
                                                                 "robot_model_name",
@@ -35,9 +35,7 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
   if (is_diff && is_diff->boolean())
     is_diff->fail("this is a difference to another scene (is_diff: true); a full scene is needed");
 
-  const std::size_t slash = path.rfind('/');
-  SceneReader reader{*robot, packages, slash == std::string::npos ? "." : path.substr(0, slash + 1), warnings,
-                     defaults};
+  SceneReader reader{*robot, packages, folder, warnings, defaults};
   reader.meshes = meshes;
   reader.mesh_files = MeshCache(meshes.read);
   PlanningScene scene(robot, defaults);
@@ -75,6 +73,14 @@ PlanningScene loadYamlFile(const std::string& path, std::shared_ptr<const RobotM
   scene.current_state = reader.state;
   return scene;
 }
+
+/// Whether a path or name is that of a file in the text format of RViz's plugin.
+bool isSceneText(const std::string& path)
+{
+  const std::string extension = ".scene";
+  return path.size() >= extension.size() &&
+         path.compare(path.size() - extension.size(), extension.size(), extension) == 0;
+}
 }  // namespace
 
 void SceneReader::warn(const std::string& line) const
@@ -87,13 +93,29 @@ PlanningScene loadSceneFile(const std::string& path, std::shared_ptr<const Robot
                             const PackageResolver& packages, std::vector<std::string>* warnings,
                             const MeshAccess& meshes, const SceneDefaults& defaults)
 {
-  const std::string extension = ".scene";
-  const bool is_text =
-      path.size() >= extension.size() && path.compare(path.size() - extension.size(), extension.size(), extension) == 0;
+  const std::size_t slash = path.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
   try
   {
-    return is_text ? loadSceneTextFile(path, std::move(robot), defaults)
-                   : loadYamlFile(path, std::move(robot), packages, warnings, meshes, defaults);
+    return isSceneText(path) ? loadSceneTextFile(path, std::move(robot), defaults)
+                             : sceneFromYaml(YamlValue::loadFile(path), folder, std::move(robot), packages, warnings,
+                                             meshes, defaults);
+  }
+  catch (const Error& error)
+  {
+    throw Error(onOneLine(error.what()));
+  }
+}
+
+PlanningScene loadSceneText(const std::string& text, const std::string& name, const std::string& folder,
+                            std::shared_ptr<const RobotModel> robot, const PackageResolver& packages,
+                            std::vector<std::string>* warnings, const MeshAccess& meshes, const SceneDefaults& defaults)
+{
+  try
+  {
+    return isSceneText(name) ? readSceneText(text, name, std::move(robot), defaults)
+                             : sceneFromYaml(YamlValue::fromText(text, name), folder, std::move(robot), packages,
+                                             warnings, meshes, defaults);
   }
   catch (const Error& error)
   {

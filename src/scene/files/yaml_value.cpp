@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
@@ -145,12 +146,23 @@ class YamlTreeBuilder : public YAML::EventHandler
 YamlValue YamlValue::loadFile(const std::string& path)
 {
   std::ifstream file = openFile(path);
-  YamlTreeBuilder builder(std::make_shared<const std::string>(path));
+  return read(file, path);
+}
+
+YamlValue YamlValue::fromText(const std::string& text, const std::string& name)
+{
+  std::istringstream stream(text);
+  return read(stream, name);
+}
+
+YamlValue YamlValue::read(std::istream& stream, const std::string& name)
+{
+  YamlTreeBuilder builder(std::make_shared<const std::string>(name));
   YamlValue document;
   try
   {
     // `rostopic echo` ends each message with "---", which begins another, empty document.
-    YAML::Parser parser(file);
+    YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder))
     {
       YamlValue next = builder.takeDocument();
@@ -163,10 +175,10 @@ YamlValue YamlValue::loadFile(const std::string& path)
   }
   catch (const YAML::Exception& error)
   {
-    throw Error(path + ":" + std::to_string(error.mark.line + 1) + ": not YAML: " + error.msg);
+    throw Error(name + ":" + std::to_string(error.mark.line + 1) + ": not YAML: " + error.msg);
   }
   if (document.kind_ == Kind::Null)
-    throw Error(path + ": the file holds no YAML value");
+    throw Error(name + ": the file holds no YAML value");
   return document;
 }
 

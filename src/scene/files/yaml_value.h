@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <initializer_list>
+#include <istream>
 #include <memory>
 #include <string>
 #include <utility>
@@ -23,6 +24,8 @@ class YamlValue
 
   /// Throws Error if the file cannot be read, is not YAML, has a key twice, or does not hold exactly one document.
   static YamlValue loadFile(const std::string& path);
+  /// The same for a text. `name` takes the place of the path in messages.
+  static YamlValue fromText(const std::string& text, const std::string& name);
 
   Kind kind() const { return kind_; }
   std::string where() const;  ///< "FILE:LINE"
@@ -54,6 +57,8 @@ class YamlValue
 
  private:
   friend class YamlTreeBuilder;
+  static YamlValue read(std::istream& stream, const std::string& name);
+
   Kind kind_ = Kind::Null;
   int line_ = 0;
   int key_line_ = 0;  ///< of a map's member: the line of its key

@@ -1,0 +1,156 @@
+#include "bindings/motion_checker.h"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "bindings/bindings.h"
+#include "bindings/interrupt.h"
+#include "bindings/state_checker.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::python
+{
+namespace
+{
+using core::MotionChecker;
+using core::MotionCheckerOptions;
+using core::MotionQuery;
+using core::MotionVerdict;
+
+/// The answers of one call; the arrays of Python show its memory.
+struct MotionVerdicts
+{
+  std::vector<MotionVerdict> all;
+};
+
+/// A checker of motions with its robot, which gives the rows their width.
+struct SharedMotionChecker
+{
+  SharedMotionChecker(const SharedChecker& checker, const std::string& group, const MotionCheckerOptions& options)
+    : robot(checker.scene()->robot), motions(checker.checker(), robot, group, options)
+  {
+    if (!group.empty())
+      robot->group(group);  // throws Error for an unknown group
+  }
+
+  std::shared_ptr<const core::RobotModel> robot;
+  MotionChecker motions;
+};
+
+MotionQuery queryFrom(const std::string& name)
+{
+  if (name == "valid")
+    return MotionQuery::Valid;
+  if (name == "last_valid")
+    return MotionQuery::LastValid;
+  if (name == "samples")
+    return MotionQuery::Samples;
+  throw core::Error("the query is '" + name + "'; it must be valid, last_valid or samples");
+}
+
+MotionVerdicts checkMotions(const SharedMotionChecker& checker, py::object starts, py::object ends,
+                     const Arg<std::string>& query)
+{
+  const MotionQuery question = queryFrom(query.value);
+  const Rows from = rowsFrom(starts, *checker.robot, "starts");
+  const Rows to = rowsFrom(ends, *checker.robot, "ends");
+  if (from.count != to.count)
+    throw core::Error("there are " + std::to_string(from.count) + " starts and " + std::to_string(to.count) +
+                      " ends; give one end for each start");
+  const double* from_data = from.data();
+  const double* to_data = to.data();
+  Interrupt interrupt;
+  auto verdicts = withoutLock(
+      [&] {
+        return checker.motions.check(from_data, to_data, from.count, question, [&] { return interrupt.requested(); });
+      });
+  interrupt.rethrow();
+  return {std::move(verdicts)};
+}
+
+/// An array of one member of all verdicts, whose values are `width` numbers of type T.
+template <typename T, typename Member>
+py::array membersOf(py::object self, Member MotionVerdict::*member, py::ssize_t width = 0)
+{
+  const auto& all = self.cast<const MotionVerdicts&>().all;
+  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(all.size())};
+  std::vector<py::ssize_t> strides = {sizeof(MotionVerdict)};
+  if (width > 0)
+  {
+    shape.push_back(width);
+    strides.push_back(sizeof(T));
+  }
+  return viewOf(all.empty() ? nullptr : reinterpret_cast<const T*>(&(all.front().*member)), shape, strides, self);
+}
+}  // namespace
+
+MotionCheckerOptions motionOptionsFrom(const Arg<std::string>& rule, Arg<double> resolution,
+                                       Arg<double> translation_resolution, Arg<std::size_t> max_samples)
+{
+  MotionCheckerOptions options;
+  options.rule = core::motionRuleFromName(rule.value);
+  options.steps = {resolution.value, translation_resolution.value};
+  core::validateSteps(options.steps);
+  options.max_samples = max_samples.value;
+  return options;
+}
+
+void addMotionChecker(py::module_& module)
+{
+  const MotionCheckerOptions defaults;
+  py::class_<MotionVerdicts>(module, "MotionVerdicts",
+                             "The answers of MotionChecker.check, one for each motion. The arrays show its memory.")
+      .def_property_readonly(
+          "valid", [](py::object self) { return membersOf<bool>(self, &MotionVerdict::valid); },
+          "True: the motion is valid. Shape (n,), bool.")
+      .def_property_readonly(
+          "last_valid", [](py::object self) { return membersOf<double>(self, &MotionVerdict::last_valid); },
+          "The fraction of the motion, 0 to 1, up to which it is valid. With the query \"valid\" it is 0 for each "
+          "motion that is not valid. Shape (n,).")
+      .def_property_readonly(
+          "first_invalid", [](py::object self) { return membersOf<double>(self, &MotionVerdict::first_invalid); },
+          "The fraction of the sample that collides, or around which the motion is not proven free; 1 if the motion "
+          "is valid. Shape (n,).")
+      .def_property_readonly(
+          "colliding", [](py::object self) { return membersOf<std::int32_t>(self, &MotionVerdict::colliding, 2); },
+          "The body indices of the colliding pair at first_invalid; -1, -1 if no sample collides. Shape (n, 2), int32.")
+      .def_property_readonly(
+          "given_up", [](py::object self) { return membersOf<bool>(self, &MotionVerdict::given_up); },
+          "True: max_checks ended the checks of this motion too early. Shape (n,), bool.")
+      .def(
+          "__len__", [](const MotionVerdicts& verdicts) { return verdicts.all.size(); });
+  py::class_<SharedMotionChecker>(
+      module, "MotionChecker",
+      "Checks straight motions between states, many at once.\n\nchecker: a StateChecker; the motions are checked in "
+      "its scene. group: as in StateChecker.check. rule: \"bound\" proves that a motion is free between its samples, "
+      "too; \"samples\" checks only the samples, as MoveIt and OMPL do. resolution, translation_resolution: the "
+      "largest step between samples, in radians and metres. max_samples: a motion that needs more samples is not "
+      "valid. max_checks: the largest number of state checks of one call; None: no limit.\n\nRaises Error for an "
+      "unknown group or rule and for a step that is not above 0.\n\n"
+      "    motions = gps.MotionChecker(checker, rule=\"samples\")\n"
+      "    print(motions.check(states[:-1], states[1:]).valid)")
+      .def(py::init(
+               [](const Arg<CheckerPtr>& checker, const Arg<std::string>& group, const Arg<std::string>& rule,
+                  Arg<double> resolution, Arg<double> translation_resolution, Arg<std::size_t> max_samples,
+                  py::object max_checks)
+               {
+                 auto options = motionOptionsFrom(rule, resolution, translation_resolution, max_samples);
+                 if (!max_checks.is_none())
+                   options.max_checks = max_checks.cast<Arg<std::size_t>>().value;
+                 return std::make_unique<SharedMotionChecker>(*checker.value, group.value, options);
+               }),
+           py::arg("checker"), py::arg("group") = "", py::arg("rule") = "bound",
+           py::arg("resolution") = defaults.steps.revolute,
+           py::arg("translation_resolution") = defaults.steps.prismatic, py::arg("max_samples") = defaults.max_samples,
+           py::arg("max_checks") = py::none())
+      .def("check", &checkMotions, py::arg("starts"), py::arg("ends"), py::arg("query") = "valid",
+           "Checks straight motions.\n\nstarts, ends: shape (n, variables) or (variables,), radians and metres. query: "
+           "\"valid\" ends at the first collision; \"last_valid\" also finds up to which fraction a motion is valid; "
+           "\"samples\" uses the rule \"samples\". Returns MotionVerdicts.\n\nRaises Error for other shapes, for "
+           "another number of ends, and for values that are not finite. Ctrl-C ends a long call.")
+      .def_property_readonly(
+          "states_checked", [](const SharedMotionChecker& self) { return self.motions.statesChecked(); },
+          "Number of states checked so far, with and without margins.");
+}
+}  // namespace gpu_planning_scene::python

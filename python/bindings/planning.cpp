@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <ompl/util/Console.h>
+#include <pybind11/stl.h>
+
+#include "bindings/arguments.h"
+#include "bindings/bindings.h"
+#include "bindings/interrupt.h"
+#include "bindings/motion_checker.h"
+#include "bindings/state_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning/batch_rrt_connect.h"
+#include "gpu_planning_scene/planning/plan_motion.h"
+
+namespace gpu_planning_scene::python
+{
+namespace
+{
+using core::PlanningQuery;
+using core::PlanningResult;
+using core::PlanningStatus;
+
+class BatchRrtConnectFactory : public core::PlannerFactory
+{
+ public:
+  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
+  {
+    return std::make_shared<core::BatchRrtConnect>(information);
+  }
+};
+
+/// Values as OMPL's parameters have them.
+std::map<std::string, std::string> parametersFrom(py::handle parameters)
+{
+  std::map<std::string, std::string> texts;
+  if (parameters.is_none())
+    return texts;
+  if (!py::isinstance<py::dict>(parameters))
+    throwTypeError("parameters: " + expectedButGot("a dict", parameters));
+  for (const auto& [name, value] : py::reinterpret_borrow<py::dict>(parameters))
+    texts[py::str(name)] = py::str(value);
+  return texts;
+}
+
+PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>& group, py::object start,
+                          py::object goals, Arg<double> seconds, bool simplify, const Arg<std::string>& rule,
+                          Arg<double> resolution, Arg<double> translation_resolution, Arg<std::size_t> max_samples,
+                          py::object parameters)
+{
+  const auto scene = checker.value->scene();
+  PlanningQuery query;
+  query.group = group.value;
+  query.start = rowFrom(start, *scene->robot, "start");
+  const Rows rows = rowsFrom(goals, *scene->robot, "goals");
+  const std::size_t width = query.start.size();
+  for (std::size_t i = 0; i < rows.count; ++i)
+    query.goals.emplace_back(rows.data() + i * width, rows.data() + (i + 1) * width);
+  query.seconds = seconds.value;
+  query.simplify = simplify;
+  query.motions = motionOptionsFrom(rule, resolution, translation_resolution, max_samples);
+  query.parameters = parametersFrom(parameters);
+  Interrupt interrupt;
+  PlanningResult result = withoutLock(
+      [&]
+      {
+        return core::planMotion(scene, checker.value->checker(), query, BatchRrtConnectFactory(),
+                                [&] { return interrupt.requested(); });
+      });
+  interrupt.rethrow();
+  return result;
+}
+
+py::array_t<double> waypointsOf(const PlanningResult& result)
+{
+  const std::size_t width = result.waypoints.empty() ? 0 : result.waypoints.front().size();
+  py::array_t<double> rows({result.waypoints.size(), width});
+  double* out = rows.mutable_data();
+  for (const std::vector<double>& waypoint : result.waypoints)
+    out = std::copy(waypoint.begin(), waypoint.end(), out);
+  return rows;
+}
+}  // namespace
+
+void addPlanning(py::module_& module)
+{
+  ompl::msg::setLogLevel(ompl::msg::LOG_WARN);  // its information would stand between the lines of a program
+  const core::MotionCheckerOptions motions;
+  py::enum_<PlanningStatus>(module, "PlanningStatus", "How a planning call ended.")
+      .value("SOLVED", PlanningStatus::Solved)
+      .value("APPROXIMATE", PlanningStatus::Approximate, "The path ends at the reached state nearest to a goal.")
+      .value("NO_SOLUTION", PlanningStatus::NoSolution)
+      .value("START_IN_COLLISION", PlanningStatus::StartInCollision)
+      .value("GOALS_IN_COLLISION", PlanningStatus::GoalsInCollision)
+      .value("OUT_OF_BOUNDS", PlanningStatus::OutOfBounds);
+  py::class_<PlanningResult>(module, "PlanningResult", "The answer of plan_motion.")
+      .def_readonly("status", &PlanningResult::status)
+      .def_readonly("message", &PlanningResult::message, "The fault, in one line; empty if the status is SOLVED.")
+      .def_property_readonly("waypoints", &waypointsOf,
+                             "States, shape (k, variables); none unless the status is SOLVED or APPROXIMATE. The "
+                             "straight motions between them are free by the motion rule.")
+      .def_readonly("planning_seconds", &PlanningResult::planning_seconds)
+      .def_readonly("simplification_seconds", &PlanningResult::simplification_seconds)
+      .def_readonly("checking_seconds", &PlanningResult::checking_seconds, "Part of the two times above.")
+      .def_readonly("states_checked", &PlanningResult::states_checked)
+      .def_readonly("revision", &PlanningResult::revision, "PlanningScene.revision of the checked scene.");
+  module.def("plan_motion", &planMotion, py::arg("checker"), py::arg("group"), py::arg("start"), py::arg("goals"),
+             py::arg("seconds") = PlanningQuery().seconds, py::arg("simplify") = true, py::arg("rule") = "bound",
+             py::arg("resolution") = motions.steps.revolute,
+             py::arg("translation_resolution") = motions.steps.prismatic, py::arg("max_samples") = motions.max_samples,
+             py::arg("parameters") = py::none(),
+             "Plans a motion of a planning group in the scene of a StateChecker, with the planner BatchRrtConnect.\n\n"
+             "start: shape (variables,). goals: shape (n, variables) or (variables,); the motion may end at any of "
+             "them. Variables outside the group keep their values from the start. seconds: for planning; "
+             "simplification and the last check of the path come afterwards. simplify: shortens the path. rule, "
+             "resolution, translation_resolution, max_samples: as in MotionChecker. parameters: of the planner, by "
+             "OMPL's names, for example {\"range\": 0.5}.\n\nReturns a PlanningResult: a motion that is not found is "
+             "not an exception. Raises Error for an unknown group or parameter, for other shapes, and for values that "
+             "are not finite. Ctrl-C ends the call. Threads that plan at once need a checker each.\n\n"
+             "    result = gps.plan_motion(checker, \"arm\", start, goal)\n"
+             "    print(result.status, result.message, result.waypoints)");
+}
+}  // namespace gpu_planning_scene::python

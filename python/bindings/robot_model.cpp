@@ -1,0 +1,261 @@
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/stl.h>
+
+#include "bindings/arguments.h"
+#include "bindings/bindings.h"
+#include "bindings/interrupt.h"
+#include "bindings/shapes.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/robot_model.h"
+
+namespace gpu_planning_scene::python
+{
+namespace
+{
+using core::RobotModel;
+using RobotPtr = std::shared_ptr<RobotModel>;
+
+constexpr std::size_t kStatesBetweenSignals = 4096;
+
+/// `load` gets a list for warnings and returns the robot.
+template <typename Load>
+RobotPtr loaded(const Load& load)
+{
+  std::vector<std::string> warnings;
+  const auto robot = withoutLock([&] { return load(&warnings); });
+  warnOf(warnings);
+  return std::const_pointer_cast<RobotModel>(robot);
+}
+
+core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_translation)
+{
+  core::RobotModelOptions options;
+  options.packages = packagesFrom(packages);
+  options.unbounded_translation = unbounded_translation;
+  return options;
+}
+
+RobotPtr fromFiles(py::object urdf, py::object srdf, py::object packages, Arg<double> unbounded_translation)
+{
+  const core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value);
+  const std::string urdf_path = pathFrom(urdf, "urdf");
+  const std::string srdf_path = pathFrom(srdf, "srdf");
+  return loaded([&](auto* warnings) { return RobotModel::fromFiles(urdf_path, srdf_path, options, warnings); });
+}
+
+RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, py::object packages,
+                 py::object urdf_folder, Arg<double> unbounded_translation)
+{
+  core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value);
+  options.urdf_folder = pathFrom(urdf_folder, "urdf_folder");
+  options.urdf_name = "urdf";
+  options.srdf_name = "srdf";
+  return loaded([&](auto* warnings) { return RobotModel::fromXml(urdf.value, srdf.value, options, warnings); });
+}
+
+/// Calls `work(i)` for all indices below `count`, and ends when a signal handler raises an exception.
+template <typename Work>
+void forEachState(std::size_t count, const Work& work)
+{
+  Interrupt interrupt;
+  withoutLock(
+      [&]
+      {
+        for (std::size_t i = 0; i < count; ++i)
+        {
+          if (i % kStatesBetweenSignals == kStatesBetweenSignals - 1 && interrupt.requested())
+            break;
+          work(i);
+        }
+      });
+  interrupt.rethrow();
+}
+
+py::array_t<double> randomStates(const RobotModel& robot, Arg<std::size_t> count, Arg<std::uint64_t> seed,
+                                 py::object base)
+{
+  const std::size_t width = robot.variables().size();
+  const std::vector<double> start = base.is_none() ? std::vector<double>() : rowFrom(base, robot, "base");
+  py::array_t<double> states({count.value, width});
+  double* rows = states.mutable_data();
+  std::mt19937_64 generator(seed.value);
+  forEachState(count.value,
+               [&](std::size_t i)
+               {
+                 if (start.empty())
+                   robot.randomState(generator, rows + i * width);
+                 else
+                   robot.randomState(generator, start.data(), rows + i * width);
+               });
+  return states;
+}
+
+py::array_t<double> linkPoses(const RobotModel& robot, py::object states)
+{
+  const Rows rows = rowsFrom(states, robot, "states");
+  const std::size_t width = robot.variables().size();
+  const std::size_t links = robot.links().size();
+  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(links), 4, 4};
+  if (!rows.is_single)
+    shape.insert(shape.begin(), static_cast<py::ssize_t>(rows.count));
+  py::array_t<double> poses(shape);
+  double* out = poses.mutable_data();
+  std::vector<Eigen::Isometry3d> link_poses(links);
+  forEachState(rows.count,
+               [&](std::size_t i)
+               {
+                 robot.linkPoses(rows.data() + i * width, link_poses.data());
+                 for (std::size_t link = 0; link < links; ++link)
+                   Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(out + 16 * (i * links + link)) =
+                       link_poses[link].matrix();
+               });
+  return poses;
+}
+
+/// An index of the robot. The library returns -1 for an unknown name, which would be the last element in Python.
+int known(int index, const RobotModel& robot, const char* kind, const std::string& name)
+{
+  if (index < 0)
+    throw core::Error("robot '" + robot.name() + "' has no " + kind + " '" + name + "'");
+  return index;
+}
+
+void addParts(py::module_& module)
+{
+  py::class_<core::Variable>(module, "Variable",
+                             "One number of a robot state: radians, metres, or a component of a "
+                             "quaternion. The names are MoveIt's.")
+      .def_readonly("name", &core::Variable::name)
+      .def_readonly("bounded", &core::Variable::bounded, "True: the URDF gives limits.")
+      .def_readonly("lower", &core::Variable::lower, "The lower limit, or that of random states.")
+      .def_readonly("upper", &core::Variable::upper, "The upper limit, or that of random states.");
+  py::enum_<core::JointType>(module, "JointType", "The type of a joint.")
+      .value("FIXED", core::JointType::Fixed)
+      .value("REVOLUTE", core::JointType::Revolute)
+      .value("CONTINUOUS", core::JointType::Continuous)
+      .value("PRISMATIC", core::JointType::Prismatic)
+      .value("PLANAR", core::JointType::Planar)
+      .value("FLOATING", core::JointType::Floating);
+  py::class_<core::Joint>(module, "Joint", "A joint. Indices count from 0 in RobotModel.links and .variables.")
+      .def_readonly("name", &core::Joint::name)
+      .def_readonly("type", &core::Joint::type)
+      .def_readonly("parent_link", &core::Joint::parent_link, "-1: the parent is the planning frame.")
+      .def_readonly("child_link", &core::Joint::child_link)
+      .def_readonly("first_variable", &core::Joint::first_variable,
+                    "-1 for fixed joints; a mimic joint has the variable of its leader.")
+      .def_readonly("mimic", &core::Joint::mimic)
+      .def_property_readonly(
+          "origin", [](const core::Joint& joint) { return toPython(joint.origin); },
+          "The joint's frame in the frame of the parent link, shape (4, 4).")
+      .def_property_readonly(
+          "axis", [](const core::Joint& joint) { return toPython(joint.axis); }, "Unit length, shape (3,).");
+  py::class_<core::Link>(module, "Link", "A link.")
+      .def_readonly("name", &core::Link::name)
+      .def_readonly("parent_joint", &core::Link::parent_joint, "-1: the root link has no virtual joint.")
+      .def_property_readonly(
+          "shapes", [](const core::Link& link) { return toPython(link.shapes); },
+          "The collision elements: pairs (shape, pose in the frame of the link).");
+  py::class_<core::Group>(module, "Group", "A planning group of the SRDF.")
+      .def_readonly("name", &core::Group::name)
+      .def_readonly("joints", &core::Group::joints, "Indices, with fixed and mimic joints.")
+      .def_readonly("variables", &core::Group::variables, "Indices of the variables of the active joints.")
+      .def_readonly("moved_links", &core::Group::moved_links, "Indices of the links that these variables move.");
+  py::class_<core::NamedState>(module, "NamedState", "A state that the SRDF names for a group.")
+      .def_readonly("name", &core::NamedState::name)
+      .def_readonly("group", &core::NamedState::group)
+      .def_readonly("variables", &core::NamedState::variables, "Indices.")
+      .def_readonly("values", &core::NamedState::values, "One per variable of this state.");
+}
+}  // namespace
+
+void addRobotModel(py::module_& module)
+{
+  addParts(module);
+  py::class_<RobotModel, RobotPtr>(
+      module, "RobotModel",
+      "A robot: the kinematic tree of a URDF with its collision shapes, and the content of its SRDF. It never changes "
+      "and can be used by several threads. A state is a row with one number for each of `variables`, in radians and "
+      "metres.\n\n    robot = gps.RobotModel.from_files(\"robot.urdf\", \"robot.srdf\")")
+      .def_static("from_files", &fromFiles, py::arg("urdf"), py::arg("srdf") = py::none(),
+                  py::arg("packages") = py::none(), py::arg("unbounded_translation") = 1.0,
+                  "Loads a robot.\n\nurdf, srdf: paths; without an SRDF, adjacent links may touch. packages: the "
+                  "folders of ROS packages by name, or a function that returns the folder of a name. With a dict or "
+                  "without packages, other names are looked up on ROS_PACKAGE_PATH. unbounded_translation: metres; "
+                  "random translations of planar and floating joints without limits are in [-value, value].\n\n"
+                  "Harmless faults of the files are Python warnings (UserWarning). Raises Error with file and line "
+                  "for other faults, and for meshes that cannot be read.\n\n"
+                  "    gps.RobotModel.from_files(\"ur5.urdf\", packages={\"ur5\": \"/path/ur5\"})")
+      .def_static("from_xml", &fromXml, py::arg("urdf"), py::arg("srdf") = "", py::arg("packages") = py::none(),
+                  py::arg("urdf_folder") = py::none(), py::arg("unbounded_translation") = 1.0,
+                  "Loads a robot from the texts of its URDF and SRDF.\n\nurdf_folder: the start of relative paths of "
+                  "meshes; without it they are refused. Everything else is as in from_files.\n\n"
+                  "    gps.RobotModel.from_xml(pathlib.Path(\"robot.urdf\").read_text())")
+      .def_property_readonly("name", &RobotModel::name)
+      .def_property_readonly("planning_frame", &RobotModel::planningFrame, "The frame of all poses of links.")
+      .def_property_readonly("links", &RobotModel::links, "Parents before children; [0] is the root link.")
+      .def_property_readonly("joints", &RobotModel::joints, "Parents before children.")
+      .def_property_readonly("variables", &RobotModel::variables, "The columns of a state.")
+      .def_property_readonly("groups", &RobotModel::groups, "The planning groups of the SRDF.")
+      .def_property_readonly("named_states", &RobotModel::namedStates, "The states of the SRDF.")
+      .def_property_readonly(
+          "variable_names",
+          [](const RobotModel& robot)
+          {
+            std::vector<std::string> names;
+            for (const core::Variable& variable : robot.variables())
+              names.push_back(variable.name);
+            return names;
+          },
+          "The names of the variables.")
+      .def(
+          "link_index",
+          [](const RobotModel& robot, const Arg<std::string>& name)
+          { return known(robot.linkIndex(name.value), robot, "link", name.value); },
+          py::arg("name"), "The index of a link. Raises Error for an unknown name.")
+      .def(
+          "joint_index",
+          [](const RobotModel& robot, const Arg<std::string>& name)
+          { return known(robot.jointIndex(name.value), robot, "joint", name.value); },
+          py::arg("name"), "The index of a joint. Raises Error for an unknown name.")
+      .def(
+          "variable_index",
+          [](const RobotModel& robot, const Arg<std::string>& name)
+          { return known(robot.variableIndex(name.value), robot, "variable", name.value); },
+          py::arg("name"), "The column of a variable in a state. Raises Error for an unknown name.")
+      .def(
+          "group", [](const RobotModel& robot, const Arg<std::string>& name) { return robot.group(name.value); },
+          py::arg("name"), "A group. Raises Error that lists the groups if it is unknown.")
+      .def(
+          "named_state",
+          [](const RobotModel& robot, const Arg<std::string>& name) { return robot.namedState(name.value); },
+          py::arg("name"),
+          "The state of the SRDF with this name: NAME or GROUP/NAME. Raises Error that lists the states if there is "
+          "none.")
+      .def(
+          "default_state",
+          [](const RobotModel& robot)
+          {
+            const std::vector<double> state = robot.defaultState();
+            return py::array_t<double>(static_cast<py::ssize_t>(state.size()), state.data());
+          },
+          "A state with all variables 0, or in the middle of their limits if 0 is outside. Shape (variables,).")
+      .def("random_states", &randomStates, py::arg("count"), py::arg("seed"), py::arg("base") = py::none(),
+           "Random states within the joint limits, shape (count, variables).\n\nThe same seed gives the same states "
+           "as the library with std::mt19937_64(seed), and, with base, as the tool check_states. base: a state of "
+           "shape (variables,); planar and floating joints, such as a virtual joint, have its values. Without it, "
+           "the robot's base moves too. Ctrl-C ends a long call.\n\n"
+           "    states = robot.random_states(1000, seed=1, base=robot.default_state())")
+      .def("link_poses", &linkPoses, py::arg("states"),
+           "Forward kinematics: the pose of each link in the planning frame, for each state.\n\nstates: shape "
+           "(n, variables) or (variables,). Returns matrices of shape (n, links, 4, 4) or (links, 4, 4). Raises Error "
+           "for another shape. Ctrl-C ends a long call.\n\n"
+           "    poses = robot.link_poses(states)\n    tool = poses[:, robot.link_index(\"palm\")]")
+      .def("__repr__", [](const RobotModel& robot) { return "<RobotModel '" + robot.name() + "'>"; });
+}
+}  // namespace gpu_planning_scene::python

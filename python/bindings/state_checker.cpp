@@ -1,0 +1,234 @@
+#include "bindings/state_checker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <pybind11/stl.h>
+
+#include "bindings/arguments.h"
+#include "bindings/bindings.h"
+#include "bindings/interrupt.h"
+#include "collision/checkers/open_checker.h"
+#include "gpu_planning_scene/batch_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/device.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::python
+{
+namespace
+{
+using core::BatchCheckerOptions;
+using core::BatchResult;
+using core::Device;
+using core::PlanningScene;
+using core::StateChecker;
+using ScenePtr = std::shared_ptr<PlanningScene>;
+
+constexpr std::size_t kFirstStates = 4096;  // states, before the rate is known
+constexpr std::size_t kLeastPart = 1024;  // smaller parts would take longer for each state
+constexpr double kSecondsOfPart = 0.25;   // so Ctrl-C needs at most about as long
+
+/// `open` makes a checker of a scene. The checker gets a copy, which no later change of the caller's scene changes.
+template <typename Open>
+CheckerPtr opened(const PlanningScene& scene, const Open& open)
+{
+  const auto copy = std::make_shared<const PlanningScene>(scene);
+  return withoutLock([&] { return std::make_shared<SharedChecker>(open(copy), copy); });
+}
+
+BatchCheckerOptions optionsFrom(const Arg<std::string>& device, Arg<double> tolerance, Arg<std::size_t> max_batch,
+                                py::object cpu_below, const Arg<std::string>& traversal)
+{
+  BatchCheckerOptions options;
+  options.device = device.value;
+  options.tolerance = tolerance.value;
+  options.max_batch = max_batch.value;
+  if (!cpu_below.is_none())
+    options.cpu_below = cpu_below.cast<Arg<std::size_t>>().value;
+  options.traversal = core::traversalFromName(traversal.value);
+  return options;
+}
+
+CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& device, Arg<double> tolerance,
+                          Arg<std::size_t> max_batch, py::object cpu_below, const Arg<std::string>& traversal)
+{
+  const BatchCheckerOptions options = optionsFrom(device, tolerance, max_batch, cpu_below, traversal);
+  return opened(*scene.value,
+                [&](const std::shared_ptr<const PlanningScene>& copy) -> std::shared_ptr<StateChecker>
+                { return core::openChecker(copy, options); });
+}
+
+BatchResult checkStates(SharedChecker& checker, py::object states, const Arg<std::string>& group)
+{
+  const Rows rows = rowsFrom(states, *checker.scene()->robot, "states");
+  const double* data = rows.data();
+  Interrupt interrupt;
+  BatchResult result = withoutLock([&] { return checker.check(data, rows.count, group.value, interrupt); });
+  interrupt.rethrow();
+  return result;
+}
+
+void addDevice(py::module_& module)
+{
+  py::class_<Device>(module, "Device", "An EGL device that supports an OpenGL 4.5 context without a window.")
+      .def_readonly("index", &Device::index, "str(index) selects the device.")
+      .def_readonly("renderer", &Device::renderer)
+      .def_readonly("version", &Device::version)
+      .def_readonly("software", &Device::software, "True for llvmpipe and other software renderers.")
+      .def(
+          "__repr__", [](const Device& device)
+          { return "<Device " + std::to_string(device.index) + ": " + device.renderer + ">"; });
+  module.def(
+      "list_devices", [] { return withoutLock([] { return core::listDevices(); }); },
+      "All usable devices. To test a device, the function creates and destroys a context on it. Raises Error if the "
+      "EGL or OpenGL library is missing.\n\n    for device in gps.list_devices():\n        print(device)");
+}
+
+void addBatchResult(py::module_& module)
+{
+  py::class_<BatchResult>(module, "BatchResult", "The answers of StateChecker.check. The arrays show its memory.")
+      .def_property_readonly(
+          "valid",
+          [](py::object self)
+          {
+            const auto& valid = self.cast<const BatchResult&>().valid;
+            static_assert(sizeof(bool) == 1);
+            return viewOf(reinterpret_cast<const bool*>(valid.data()), {static_cast<py::ssize_t>(valid.size())}, {1},
+                          self);
+          },
+          "True: the state is free of collision. Shape (n,), bool.")
+      .def_property_readonly(
+          "colliding",
+          [](py::object self)
+          {
+            const auto& pairs = self.cast<const BatchResult&>().colliding;
+            return viewOf(reinterpret_cast<const std::int32_t*>(pairs.data()),
+                          {static_cast<py::ssize_t>(pairs.size()), 2}, {8, 4}, self);
+          },
+          "The body indices of a colliding pair, ascending; -1, -1 for a free state. Shape (n, 2), int32. Of several "
+          "colliding pairs, any one may be reported.")
+      .def_readonly("revision", &BatchResult::revision, "PlanningScene.revision of the checked scene.")
+      .def_readonly("seconds", &BatchResult::seconds, "Wall time of the check, without the time of Python.")
+      .def_readonly("undecided_states", &BatchResult::undecided_states, "Number of states that the CPU decided.")
+      .def_readonly("undecided_seconds", &BatchResult::undecided_seconds, "Part of `seconds` for deciding them.")
+      .def(
+          "__len__", [](const BatchResult& result) { return result.valid.size(); });
+}
+}  // namespace
+
+SharedChecker::SharedChecker(std::shared_ptr<StateChecker> checker, std::shared_ptr<const PlanningScene> scene)
+  : checker_(std::move(checker)), scene_(std::move(scene))
+{
+}
+
+std::shared_ptr<const PlanningScene> SharedChecker::scene() const
+{
+  const std::lock_guard<std::mutex> lock(scene_mutex_);
+  return scene_;
+}
+
+void SharedChecker::setScene(std::shared_ptr<const PlanningScene> scene)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::size_t width = scene_->robot->variables().size();
+  if (scene->robot->variables().size() != width)
+    throw core::Error("the robot of the new scene has " + std::to_string(scene->robot->variables().size()) +
+                      " variables, and that of this checker has " + std::to_string(width) +
+                      "; create a new checker for another robot");
+  checker_->setScene(scene);
+  seconds_per_state_ = 0.0;
+  const std::lock_guard<std::mutex> scene_lock(scene_mutex_);
+  scene_ = std::move(scene);
+}
+
+core::SceneReport SharedChecker::report(const std::string& group)
+{
+  return checker_->report(group);
+}
+
+std::size_t SharedChecker::statesOfPart() const
+{
+  if (seconds_per_state_ <= 0.0)
+    return kFirstStates;
+  return std::max(kLeastPart, static_cast<std::size_t>(std::min(kSecondsOfPart / seconds_per_state_, 1e15)));
+}
+
+BatchResult SharedChecker::check(const double* states, std::size_t count, const std::string& group,
+                                 Interrupt& interrupt)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::size_t width = scene_->robot->variables().size();
+  BatchResult result;
+  std::size_t done = 0;
+  do
+  {
+    const std::size_t part = std::min(count - done, statesOfPart());
+    BatchResult next = checker_->check(states + done * width, part, group);
+    if (part >= kLeastPart)
+      seconds_per_state_ = next.seconds / static_cast<double>(part);
+    if (done == 0)
+      result = std::move(next);
+    else
+      result.append(next);
+    done += part;
+  } while (done < count && !interrupt.requested());
+  return result;
+}
+
+void addStateChecker(py::module_& module)
+{
+  addDevice(module);
+  addBatchResult(module);
+  const BatchCheckerOptions defaults;
+  py::class_<SharedChecker, CheckerPtr> checker(
+      module, "StateChecker",
+      "Checks many robot states for collision at once, on any device.\n\nscene: the checker takes a copy. device: "
+      "\"cpu\" (no GL device), \"auto\" (the first hardware device, or software if there is none), \"software\", an "
+      "index of list_devices() as a str, or a part of a renderer's name. All devices give the same `valid`. "
+      "tolerance: metres; 0: exact; above 0, bodies within this distance may be reported as colliding. max_batch: the "
+      "largest number of states sent to the GPU at once. cpu_below: the CPU checks batches of fewer states; None: the "
+      "checker measures at which size the GPU becomes faster. traversal: \"work_queue\" or \"breadth_first\".\n\n"
+      "Thread-safe: calls are served one after the other, and other threads of Python run meanwhile. Raises Error if "
+      "the device cannot be used, or if the scene or an option is not valid.\n\n"
+      "    checker = gps.StateChecker(scene, device=\"cpu\")\n"
+      "    result = checker.check(robot.random_states(1000, seed=1))\n"
+      "    print(result.valid.mean())");
+  checker
+      .def(py::init(&openedOnDevice), py::arg("scene"), py::arg("device") = defaults.device,
+           py::arg("tolerance") = defaults.tolerance, py::arg("max_batch") = defaults.max_batch,
+           py::arg("cpu_below") = py::none(), py::arg("traversal") = "work_queue")
+      .def("check", &checkStates, py::arg("states"), py::arg("group") = "",
+           "Checks states.\n\nstates: shape (n, variables) or (variables,), radians and metres. A C-contiguous array "
+           "of float64 is not copied; it must not change during the call. group: only pairs with a link that this "
+           "planning group moves are checked. Returns a BatchResult.\n\nRaises Error for another shape, an unknown "
+           "group, and values that are not finite. Ctrl-C ends a long call.\n\n"
+           "    free = states[checker.check(states).valid]")
+      .def(
+          "set_scene",
+          [](SharedChecker& self, const Arg<ScenePtr>& scene)
+          {
+            auto copy = std::make_shared<const PlanningScene>(*scene.value);
+            withoutLock([&] { self.setScene(std::move(copy)); });
+          },
+          py::arg("scene"),
+          "Replaces the scene by a copy of `scene`. Raises Error and keeps the old scene if the new one is not valid.")
+      .def_property_readonly(
+          "scene", [](const SharedChecker& self) { return std::make_shared<PlanningScene>(*self.scene()); },
+          "A copy of the scene that is checked.")
+      .def(
+          "report",
+          [](SharedChecker& self, const Arg<std::string>& group)
+          { return withoutLock([&] { return self.report(group.value); }); },
+          py::arg("group") = "",
+          "The pairs that are checked and left out: a SceneReport. Raises Error for an unknown "
+          "group.")
+      .def_property_readonly(
+          "device_name", [](const SharedChecker& self) { return self.checker()->deviceName(); },
+          "The name of the device: GL_RENDERER, or \"CPU\".")
+      .def_property_readonly(
+          "device_warning", [](const SharedChecker& self) { return self.checker()->deviceWarning(); },
+          "A line if the device's arithmetic breaks an assumption of the error bounds; else empty. The answers stay "
+          "right, but the CPU computes more.");
+}
+}  // namespace gpu_planning_scene::python

@@ -1,0 +1,21 @@
+"""check_module.py PREFIX URDF: the installed Python module and the messages of the same name are one package, and the
+module uses the installed libraries."""
+import pathlib
+import sys
+
+from gpu_planning_scene.srv import CheckStates, CheckStatesRequest
+
+import gpu_planning_scene as gps
+
+prefix, urdf = sys.argv[1:]
+robot = gps.RobotModel.from_files(urdf)
+result = gps.StateChecker(gps.PlanningScene(robot), device="cpu").check(robot.default_state())
+assert result.valid.tolist() == [True], result.valid
+assert CheckStates._request_class is CheckStatesRequest
+assert pathlib.Path(gps.__file__).resolve().is_relative_to(pathlib.Path(prefix).resolve()), gps.__file__
+libraries = {line.split()[-1] for line in open("/proc/self/maps") if "libgpu_planning_scene" in line}
+assert libraries, "no library is loaded"
+for library in libraries:
+    assert pathlib.Path(library).is_relative_to(pathlib.Path(prefix).resolve()), library
+for name in ("py.typed", "__init__.pyi"):
+    assert pathlib.Path(gps.__file__).with_name(name).exists(), name

@@ -1,0 +1,85 @@
+"""plan_motion: paths, statuses, errors, Ctrl-C."""
+import unittest
+
+import numpy as np
+
+import gpu_planning_scene as gps
+from robots import Case, arm_scene, rail
+from signals import pressed_during_a_call
+
+
+class Planning(Case):
+    def test_a_path_leads_from_the_start_to_the_goal_and_is_free(self):
+        scene = arm_scene()
+        checker = gps.StateChecker(scene, device="cpu")
+        start, goal = np.array([[0.7, 0.6, 0.6, 0, 0.6, 0, 0.03], [2.5, 0.6, 0.6, 0, 0.6, 0, 0.03]])
+        self.assertFalse(gps.MotionChecker(checker, "arm", "samples").check(start, goal).valid[0])
+        for rule in ("bound", "samples"):
+            result = gps.plan_motion(checker, "arm", start, goal, seconds=20.0, rule=rule)
+            self.assertEqual((gps.PlanningStatus.SOLVED, ""), (result.status, result.message))
+            np.testing.assert_array_equal(start, result.waypoints[0])
+            np.testing.assert_allclose(goal, result.waypoints[-1], atol=1e-9)
+            for a, b in zip(result.waypoints[:-1], result.waypoints[1:]):
+                fine = a + np.linspace(0, 1, 300)[:, None] * (b - a)
+                self.assertTrue(rule == "samples" or checker.check(fine).valid.all())
+            self.assertTrue(gps.MotionChecker(checker, "arm", rule).check(result.waypoints[:-1],
+                                                                          result.waypoints[1:]).valid.all())
+            self.assertGreater(result.states_checked, 0)
+            self.assertGreater(result.planning_seconds, 0.0)
+
+    def test_one_of_several_goals_is_enough(self):
+        scene = gps.PlanningScene(rail())
+        scene.add_object("wall", gps.Box([0.1, 1, 1]), [1, 0, 0])
+        checker = gps.StateChecker(scene, device="cpu")
+        result = gps.plan_motion(checker, "all", [0.0], [[1.0], [3.0], [-2.0]])
+        self.assertEqual(([0.0], [-2.0]), (result.waypoints[0].tolist(), result.waypoints[-1].tolist()))
+
+    def test_the_status_says_why_there_is_no_path(self):
+        scene = gps.PlanningScene(rail())
+        scene.add_object("wall", gps.Box([0.1, 1, 1]), [1, 0, 0])
+        checker = gps.StateChecker(scene, device="cpu")
+        status = gps.PlanningStatus
+        for start, goal, expected, message in (
+            (1.0, 0.0, status.START_IN_COLLISION, "wall"),
+            (0.0, 1.0, status.GOALS_IN_COLLISION, "wall"),
+            (0.0, 11.0, status.OUT_OF_BOUNDS, "slide"),
+        ):
+            result = gps.plan_motion(checker, "all", [start], [goal])
+            self.assertEqual(expected, result.status)
+            self.assertIn(message, result.message)
+            self.assertNotIn("\n", result.message)
+            self.assertEqual(0, len(result.waypoints))
+        blocked = gps.plan_motion(checker, "all", [0.0], [2.0], seconds=0.2)
+        self.assertIn(blocked.status, (status.APPROXIMATE, status.NO_SOLUTION))
+
+    def test_wrong_arguments_are_errors(self):
+        checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
+        for error, pattern, arguments, options in (
+            (gps.Error, "'legs'", ("legs", [0.0], [1.0]), {}),
+            (gps.Error, "^start: the shape", ("all", [0.0, 1.0], [1.0]), {}),
+            (gps.Error, "^goals: the shape", ("all", [0.0], [1.0, 2.0]), {}),
+            (gps.Error, "no goal", ("all", [0.0], np.empty((0, 1))), {}),
+            (gps.Error, "finite", ("all", [0.0], [float("nan")]), {}),
+            (gps.Error, "planning time", ("all", [0.0], [1.0]), {"seconds": 0.0}),
+            (gps.Error, "samples or bound", ("all", [0.0], [1.0]), {"rule": "hope"}),
+            (gps.Error, "speed", ("all", [0.0], [1.0]), {"parameters": {"speed": 3}}),
+            (TypeError, "a dict", ("all", [0.0], [1.0]), {"parameters": 3}),
+        ):
+            self.assert_one_line(error, pattern, gps.plan_motion, checker, *arguments, **options)
+        self.assert_one_line(TypeError, "expected a StateChecker", gps.plan_motion, None, "all", [0.0], [1.0])
+
+    def test_parameters_reach_the_planner(self):
+        checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
+        result = gps.plan_motion(checker, "all", [0.0], [1.0], parameters={"range": 0.5, "branches": 8})
+        self.assertEqual(gps.PlanningStatus.SOLVED, result.status)
+
+    def test_ctrl_c_ends_a_call(self):
+        scene = gps.PlanningScene(rail())
+        scene.add_object("wall", gps.Box([0.1, 1, 1]), [1, 0, 0])
+        checker = gps.StateChecker(scene, device="cpu")
+        with self.assertRaises(KeyboardInterrupt), pressed_during_a_call():
+            gps.plan_motion(checker, "all", [0.0], [2.0], seconds=250.0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,167 @@
+"""RobotModel: files and texts, packages, names, forward kinematics, random states."""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import gpu_planning_scene as gps
+from robots import ARM, Case, RAIL, arm, kr5, rail
+
+MESH = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n"
+WITH_MESH = ('<robot name="part"><link name="part"><collision><geometry><mesh filename="{}"/></geometry></collision>'
+             '</link></robot>')
+
+
+def poses_by_numpy(robot, state):
+    """The poses of the links, from the joints' origins and axes, with Rodrigues' formula."""
+    poses = {robot.joints[0].parent_link: np.eye(4)} if robot.joints else {}
+    poses[0] = np.eye(4)
+    for joint in robot.joints:
+        motion = np.eye(4)
+        if joint.type in (gps.JointType.REVOLUTE, gps.JointType.CONTINUOUS):
+            x, y, z = joint.axis
+            cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+            angle = state[joint.first_variable]
+            motion[:3, :3] += np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+        elif joint.type == gps.JointType.PRISMATIC:
+            motion[:3, 3] = joint.axis * state[joint.first_variable]
+        poses[joint.child_link] = poses[joint.parent_link] @ joint.origin @ motion
+    return np.array([poses[i] for i in range(len(robot.links))])
+
+
+class RobotModel(Case):
+    def test_a_robot_from_text_is_the_robot_from_the_file(self):
+        a, b = arm(), gps.RobotModel.from_xml(ARM.read_text(), ARM.with_suffix(".srdf").read_text())
+        self.assertEqual(a.variable_names, b.variable_names)
+        self.assertEqual([link.name for link in a.links], [link.name for link in b.links])
+        self.assertEqual([group.name for group in a.groups], [group.name for group in b.groups])
+        self.assertTrue(a.groups)
+
+    def test_a_robot_needs_no_srdf(self):
+        self.assertEqual([], gps.RobotModel.from_files(str(ARM)).groups)
+        self.assertEqual([], gps.RobotModel.from_files(ARM, None).groups)
+
+    def test_indices_and_names_agree(self):
+        robot = arm()
+        for i, name in enumerate(robot.variable_names):
+            self.assertEqual(i, robot.variable_index(name))
+        for i, link in enumerate(robot.links):
+            self.assertEqual(i, robot.link_index(link.name))
+        for i, joint in enumerate(robot.joints):
+            self.assertEqual(i, robot.joint_index(joint.name))
+
+    def test_an_unknown_name_is_an_error(self):
+        robot = arm()
+        for call in (robot.link_index, robot.joint_index, robot.variable_index, robot.group, robot.named_state):
+            self.assert_one_line(gps.Error, "'nose'", call, "nose")
+            self.assert_one_line(TypeError, r"expected a str, but got 5 \(int\)", call, 5)
+
+    def test_a_named_state_has_its_values(self):
+        robot = arm()
+        ready = robot.named_state("ready")
+        self.assertEqual(len(ready.variables), len(ready.values))
+        self.assertGreater(len(ready.values), 3)
+
+    def test_poses_are_those_of_the_joints_of_the_urdf(self):
+        robot = kr5()
+        states = robot.random_states(50, seed=3)
+        poses = robot.link_poses(states)
+        self.assertEqual((50, len(robot.links), 4, 4), poses.shape)
+        for state, found in zip(states, poses):
+            np.testing.assert_allclose(found, poses_by_numpy(robot, state), atol=1e-12)
+        np.testing.assert_array_equal(poses[7], robot.link_poses(states[7]))
+
+    def test_poses_of_states_in_other_layouts_are_the_same(self):
+        robot = kr5()
+        states = robot.random_states(20, seed=4)
+        poses = robot.link_poses(states)
+        np.testing.assert_array_equal(poses, robot.link_poses(np.asfortranarray(states)))
+        np.testing.assert_array_equal(poses, robot.link_poses(states.tolist()))
+        np.testing.assert_array_equal(poses[::2], robot.link_poses(states[::2]))
+        self.assertEqual((0, len(robot.links), 4, 4), robot.link_poses(np.empty((0, 6))).shape)
+
+    def test_random_states_are_within_the_limits_and_repeat_with_the_seed(self):
+        robot = kr5()
+        states = robot.random_states(2000, seed=5)
+        lower = np.array([variable.lower for variable in robot.variables])
+        upper = np.array([variable.upper for variable in robot.variables])
+        self.assertTrue(np.all(states >= lower) and np.all(states <= upper))
+        self.assertTrue(np.all(np.abs(states.mean(axis=0) - (lower + upper) / 2) < 0.05 * (upper - lower)))
+        np.testing.assert_array_equal(states, robot.random_states(2000, 5))
+        self.assertFalse(np.any(states == robot.random_states(2000, seed=6)))
+
+    def test_the_base_of_random_states_stands_still_where_base_says(self):
+        srdf = ('<robot name="rail"><virtual_joint name="world" type="planar" parent_frame="map" child_link="rail"/>'
+                "</robot>")
+        robot = gps.RobotModel.from_xml(RAIL, srdf)
+        base = robot.default_state()
+        base[:3] = [1.0, 2.0, 0.5]
+        states = robot.random_states(10, seed=1, base=base)
+        np.testing.assert_array_equal(states[:, :3], np.tile(base[:3], (10, 1)))
+        self.assertTrue(np.all(robot.random_states(10, seed=1)[:, 0] != 1.0))
+
+    def test_a_wrong_shape_of_states_names_the_variables(self):
+        robot = rail()
+        for states in (np.zeros((3, 2)), np.zeros(2), np.zeros((1, 1, 1)), 5.0):
+            self.assert_one_line(gps.Error, r"^states: the shape is .*must be \(n, 1\) or \(1,\).*slide",
+                                 robot.link_poses, states)
+        for states in (None, "ready", [["a"]], np.zeros((2, 1), dtype=complex), object()):
+            self.assert_one_line(TypeError, "^states: expected an array of numbers, but got", robot.link_poses, states)
+
+    def test_wrong_files_are_errors_that_name_them(self):
+        self.assert_one_line(gps.Error, "cannot read URDF '/none.urdf'", gps.RobotModel.from_files, "/none.urdf")
+        self.assert_one_line(gps.Error, "urdf", gps.RobotModel.from_xml, "<robot")
+        self.assert_one_line(TypeError, "urdf: expected a str or a path", gps.RobotModel.from_files, 5)
+
+    def test_harmless_faults_are_warnings(self):
+        srdf = '<robot name="rail"><disable_collisions link1="nose" link2="ball"/></robot>'
+        with self.assertWarnsRegex(UserWarning, "nose"):
+            gps.RobotModel.from_xml(RAIL, srdf)
+
+    def test_packages_are_folders_by_name_or_a_function(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "part.obj").write_text(MESH, encoding="utf-8")
+            text = WITH_MESH.format("package://crane/part.obj")
+            asked = []
+
+            def find(name):
+                asked.append(name)
+                return pathlib.Path(folder)
+
+            for packages in ({"crane": folder}, {"crane": pathlib.Path(folder)}, find):
+                robot = gps.RobotModel.from_xml(text, packages=packages)
+                (mesh, pose), = robot.links[0].shapes
+                self.assertEqual((1, 3), mesh.triangles.shape)
+                np.testing.assert_array_equal(np.eye(4), pose)
+            self.assertEqual({"crane"}, set(asked))
+            load = gps.RobotModel.from_xml
+            relative = WITH_MESH.format("part.obj")
+            self.assertEqual(3, len(load(relative, urdf_folder=folder).links[0].shapes[0][0].vertices))
+            self.assert_one_line(gps.Error, "part.obj", load, relative)
+            self.assert_one_line(gps.Error, "crane.*in the argument packages", load, text)
+            self.assert_one_line(gps.Error, "crane.*not known", load, text, packages=lambda name: None)
+            self.assert_one_line(TypeError, "a dict or a function", load, text, packages=[folder])
+            self.assert_one_line(TypeError, "a package: expected a str or a path", load, text, packages={"crane": 5})
+
+    def test_an_exception_of_the_function_for_packages_reaches_the_caller(self):
+        def fail(name):
+            raise LookupError("no " + name)
+
+        with self.assertRaisesRegex(LookupError, "no crane"):
+            gps.RobotModel.from_xml(WITH_MESH.format("package://crane/part.obj"), packages=fail)
+
+    def test_arrays_of_a_mesh_keep_its_memory(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "part.obj")
+            path.write_text(MESH, encoding="utf-8")
+            vertices = gps.Mesh.from_file(path, scale=2.0).vertices
+        np.testing.assert_allclose(vertices[1], [0.2, 0, 0])
+        with self.assertRaises(ValueError):
+            vertices[0, 0] = 1.0
+        self.assertEqual(2, sys.getrefcount(vertices))
+
+
+if __name__ == "__main__":
+    unittest.main()

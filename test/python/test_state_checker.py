@@ -1,0 +1,323 @@
+"""StateChecker: answers, layouts of arrays, devices, reports, errors, threads, memory, Ctrl-C."""
+import contextlib
+import ctypes
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import gpu_planning_scene as gps
+from robots import Case, KR5, KR5_SCENE, SANITIZED, arm_scene, kr5_scene, rail
+from signals import pressed_during_a_call
+
+
+def answers_of_the_tool(count, seed, device):
+    """The rows (valid, body_1, body_2) of the tool check_states."""
+    with tempfile.NamedTemporaryFile(suffix=".csv") as out:
+        subprocess.run(
+            [os.environ["GPS_CHECK_STATES"], "--urdf", KR5, "--package", f"KR5={KR5.parent}", "--scene", KR5_SCENE,
+             "--random", str(count), "--seed", str(seed), "--device", device, "--out", out.name],
+            check=True, capture_output=True, timeout=200)
+        lines = out.read().decode().splitlines()[1:]
+    return [line.split(",") for line in lines]
+
+
+def memory_in_use():
+    """Bytes that malloc has given to this process."""
+    process = ctypes.CDLL(None)
+    if SANITIZED:
+        allocated = getattr(process, "__sanitizer_get_current_allocated_bytes")
+        allocated.restype = ctypes.c_size_t
+        return allocated()
+    has_new = hasattr(process, "mallinfo2")  # since glibc 2.33
+
+    class Information(ctypes.Structure):
+        _fields_ = [(name, ctypes.c_size_t if has_new else ctypes.c_int) for name in
+                    "arena ordblks smblks hblks hblkhd usmblks fsmblks uordblks fordblks keepcost".split()]
+
+    mallinfo = process.mallinfo2 if has_new else process.mallinfo
+    mallinfo.restype = Information
+    information = mallinfo()
+    return information.uordblks + information.hblkhd
+
+
+@contextlib.contextmanager
+def many_states():
+    """States of the rail in a file without content. A copy would need 80 GB."""
+    with tempfile.TemporaryFile() as file:
+        file.truncate(10**10 * 8)
+        yield np.memmap(file, dtype=float, mode="r", shape=(10**10, 1))
+
+
+class StateChecker(Case):
+    def test_answers_are_those_of_the_tool(self):
+        scene = kr5_scene()
+        states = scene.robot.random_states(3000, seed=7, base=scene.robot.default_state())
+        expected = answers_of_the_tool(3000, 7, "cpu")
+        for device in ("cpu", "software"):
+            result = gps.StateChecker(scene, device=device).check(states)
+            self.assertEqual([row[0] == "1" for row in expected], result.valid.tolist())
+            self.assertTrue(500 < result.valid.sum() < 2500)
+            for valid, pair in zip(result.valid, result.colliding):
+                self.assertEqual(valid, pair[0] < 0)
+                self.assertTrue(pair[0] == pair[1] == -1 or pair[0] < pair[1])
+
+    def test_each_colliding_pair_collides_alone(self):
+        scene = kr5_scene()
+        states = scene.robot.random_states(300, seed=8)
+        result = gps.StateChecker(scene, device="cpu").check(states)
+        pairs = {tuple(pair) for pair in result.colliding[~result.valid]}
+        self.assertGreater(len(pairs), 3)
+        for pair in pairs:
+            alone = scene.copy()
+            for first in alone.body_names:
+                for second in alone.body_names:
+                    if first != second:
+                        alone.allowed_collisions.set_entry(first, second, True)
+            alone.allowed_collisions.set_entry(*(scene.body_name(body) for body in pair), False)
+            found = np.all(result.colliding == pair, axis=1)
+            self.assertFalse(gps.StateChecker(alone, device="cpu").check(states[found]).valid.any())
+
+    def test_answers_do_not_depend_on_the_layout_of_the_states(self):
+        scene = arm_scene()
+        checker = gps.StateChecker(scene, device="cpu")
+        states = scene.robot.random_states(500, seed=2).astype(np.float32).astype(float)
+        expected = checker.check(states).valid.tolist()
+        self.assertIn(True, expected)
+        self.assertIn(False, expected)
+        wide = np.zeros((500, 2 * states.shape[1]))
+        wide[:, ::2] = states
+        unaligned = np.frombuffer(b"x" + states.tobytes(), dtype=float, offset=1).reshape(states.shape)
+        for same in (np.asfortranarray(states), wide[:, ::2], states.astype(np.float32), states.tolist(),
+                     states.astype(">f8"), unaligned):
+            self.assertEqual(expected, checker.check(same).valid.tolist())
+        self.assertEqual(expected[::-1], checker.check(states[::-1]).valid.tolist())
+        frozen = states.copy()
+        frozen.setflags(write=False)
+        self.assertEqual(expected, checker.check(frozen).valid.tolist())
+        self.assertEqual(expected, checker.check(states.copy(order="C")).valid.tolist())
+
+    def test_one_state_and_no_state_are_batches(self):
+        checker = gps.StateChecker(arm_scene(), device="cpu")
+        state = checker.scene.current_state
+        self.assertEqual([True], checker.check(state).valid.tolist())
+        self.assertEqual(1, len(checker.check(state)))
+        empty = checker.check(np.empty((0, len(state))))
+        self.assertEqual(((0,), (0, 2), 0), (empty.valid.shape, empty.colliding.shape, len(empty)))
+
+    def test_arrays_outlive_their_result(self):
+        checker = gps.StateChecker(arm_scene(), device="cpu")
+        states = checker.scene.robot.random_states(1000, seed=3)
+        valid, colliding = checker.check(states).valid, checker.check(states).colliding
+        expected = valid.copy()
+        for _ in range(20):
+            checker.check(states[::-1])
+        np.testing.assert_array_equal(expected, valid)
+        np.testing.assert_array_equal(expected, colliding[:, 0] < 0)
+        self.assertEqual((np.dtype(bool), np.dtype(np.int32)), (valid.dtype, colliding.dtype))
+
+    def test_ctrl_c_ends_a_check_of_many_states_which_are_not_copied(self):
+        checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
+        with many_states() as states, self.assertRaises(KeyboardInterrupt), pressed_during_a_call():
+            checker.check(states)
+        self.assertEqual([True], checker.check([0.0]).valid.tolist())
+
+    def test_long_calls_in_parts_give_the_same_answers(self):
+        scene = arm_scene()
+        states = scene.robot.random_states(20000, seed=4)
+        whole = gps.StateChecker(scene, device="cpu").check(states)
+        self.assertEqual(20000, len(whole))
+        checker = gps.StateChecker(scene, device="cpu")
+        parts = [checker.check(part) for part in np.array_split(states, 7)]
+        np.testing.assert_array_equal(np.concatenate([part.valid for part in parts]), whole.valid)
+        self.assertEqual(whole.valid.tolist(), (whole.colliding[:, 0] < 0).tolist())
+        self.assertGreater(whole.seconds, 0.0)
+
+    def test_a_group_checks_only_what_it_moves(self):
+        scene = arm_scene()
+        checker = gps.StateChecker(scene, device="cpu")
+        states = scene.robot.random_states(2000, seed=5)
+        for group in scene.robot.groups:
+            report = checker.report(group.name)
+            result = checker.check(states, group.name)
+            moved = set(group.moved_links)
+            carried = {len(scene.robot.links) + len(scene.objects) + i for i, each in enumerate(scene.attached)
+                       if each.link in moved}
+            self.assertTrue(all(set(pair) & (moved | carried) for pair in result.colliding[~result.valid].tolist()))
+            self.assertGreaterEqual(report.pairs_outside_group, 0)
+        self.assertTrue(any(checker.report(group.name).pairs_outside_group for group in scene.robot.groups))
+
+    def test_the_report_counts_the_pairs(self):
+        scene = gps.PlanningScene(rail())
+        scene.add_object("post", gps.Sphere(0.1), [1, 0, 0])
+        scene.add_object("far", gps.Sphere(0.1), [0, 50, 0])
+        report = gps.StateChecker(scene, device="cpu").report()
+        self.assertEqual((0, 1, 1), (report.self_pairs, report.world_pairs, report.unreachable_world_pairs))
+        self.assertIsNone(report.always_colliding)
+        scene.add_object("around", gps.Box([100, 1, 1]))
+        self.assertIn([1, 4], [list(pair) for pair in
+                               gps.StateChecker(scene, device="cpu").report().colliding_in_samples])
+
+    def test_a_new_scene_is_checked_and_the_old_one_is_a_copy(self):
+        scene = gps.PlanningScene(rail())
+        checker = gps.StateChecker(scene, device="cpu")
+        scene.add_object("post", gps.Sphere(0.1))
+        scene.revision = 5
+        self.assertEqual((True, 0), (checker.check([0.0]).valid[0], checker.check([0.0]).revision))
+        checker.set_scene(scene)
+        self.assertEqual((False, 5), (checker.check([0.0]).valid[0], checker.check([0.0]).revision))
+        scene.remove_object("post")
+        self.assertFalse(checker.check([0.0]).valid[0])
+        self.assertEqual(["post"], [each.id for each in checker.scene.objects])
+
+    def test_a_scene_that_is_not_valid_keeps_the_old_one(self):
+        checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
+        self.assert_one_line(gps.Error, "create a new checker for another robot", checker.set_scene, arm_scene())
+        self.assert_one_line(TypeError, "expected a PlanningScene, but got None", checker.set_scene, None)
+        self.assertEqual("rail", checker.scene.robot.name)
+        self.assertTrue(checker.check([0.0]).valid[0])
+
+    def test_wrong_states_and_groups_are_errors(self):
+        checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
+        for states in (np.zeros((3, 2)), np.zeros((2, 2, 1)), 1.0):
+            self.assert_one_line(gps.Error, "^states: the shape is", checker.check, states)
+        for states in (None, "ready", [["a"]], np.zeros((1, 1), complex), [[1.0], [1.0, 2.0]], np.array([[None]])):
+            self.assert_one_line(TypeError, "^states: expected an array of numbers", checker.check, states)
+        for value in (float("nan"), float("inf"), -float("inf")):
+            self.assert_one_line(gps.Error, "^state 1: the value of variable 'slide'", checker.check, [[0.0], [value]])
+        self.assert_one_line(gps.Error, "'legs'", checker.check, [0.0], "legs")
+        self.assert_one_line(gps.Error, "'legs'", checker.report, "legs")
+        self.assert_one_line(TypeError, r"expected a str, but got 5 \(int\)", checker.check, [0.0], 5)
+        self.assertTrue(checker.check([0.0]).valid[0])
+
+    def test_wrong_options_are_errors(self):
+        scene = gps.PlanningScene(rail())
+        for error, pattern, options in (
+            (gps.Error, "warp drive", {"device": "warp drive"}),
+            (gps.Error, "sideways", {"traversal": "sideways"}),
+            (gps.Error, "tolerance", {"tolerance": -1.0, "device": "cpu"}),
+            (TypeError, "whole number", {"max_batch": -1}),
+            (TypeError, "whole number", {"cpu_below": "all"}),
+            (TypeError, "expected a number", {"tolerance": "fine"}),
+        ):
+            self.assert_one_line(error, pattern, gps.StateChecker, scene, **options)
+        self.assert_one_line(TypeError, "expected a PlanningScene", gps.StateChecker, rail())
+
+    def test_devices_are_listed_and_can_be_chosen(self):
+        devices = gps.list_devices()
+        self.assertTrue(devices)
+        scene = gps.PlanningScene(rail())
+        for device in devices:
+            self.assertEqual(device.renderer, gps.StateChecker(scene, device=str(device.index)).device_name)
+        self.assertEqual("CPU", gps.StateChecker(scene, device="cpu").device_name)
+        self.assertEqual("", gps.StateChecker(scene, device="cpu").device_warning)
+
+    def test_errors_are_runtime_errors(self):
+        self.assertTrue(issubclass(gps.DeviceLost, gps.Error) and issubclass(gps.Error, RuntimeError))
+        self.assertEqual("gpu_planning_scene.Error", f"{gps.Error.__module__}.{gps.Error.__name__}")
+
+    def test_other_threads_of_python_run_during_a_check(self):
+        # The main thread is in one call until the other thread sends the signal. With the interpreter's lock held, the
+        # other thread would never send it.
+        checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
+        entered = threading.Event()
+
+        class Slow:  # its conversion to an array is the last step before the call of the library
+            def __array__(self, dtype=None, copy=None):
+                entered.set()
+                return states
+
+        def interrupt():
+            entered.wait()
+            os.kill(os.getpid(), signal.SIGINT)
+
+        def give_up(_number, _frame):
+            raise AssertionError("the other thread did not run")
+
+        signal.signal(signal.SIGALRM, give_up)
+        interval = sys.getswitchinterval()
+        sys.setswitchinterval(1000)  # Python itself does not let the other thread run before the call
+        self.addCleanup(sys.setswitchinterval, interval)
+        with many_states() as states:
+            thread = threading.Thread(target=interrupt)
+            thread.start()
+            signal.alarm(60)
+            with self.assertRaises(KeyboardInterrupt):
+                checker.check(Slow())
+            signal.alarm(0)
+            thread.join()
+
+    def test_threads_at_once_get_their_own_answers(self):
+        scene = arm_scene()
+        shared = gps.StateChecker(scene, device="cpu")
+        batches = [scene.robot.random_states(400, seed=seed) for seed in range(8)]
+        expected = [shared.check(states).valid.copy() for states in batches]
+        wrong = []
+
+        def work(number):
+            own = gps.StateChecker(scene, device="cpu")
+            for i in range(40):
+                batch = (number + i) % len(batches)
+                checker = (shared, own)[i % 2]
+                if not np.array_equal(checker.check(batches[batch]).valid, expected[batch]):
+                    wrong.append((number, i))
+
+        threads = [threading.Thread(target=work, args=(number,)) for number in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual([], wrong)
+
+    def test_a_call_checks_one_scene_while_another_thread_changes_it(self):
+        free, blocked = gps.PlanningScene(rail()), gps.PlanningScene(rail())
+        blocked.add_object("post", gps.Sphere(0.1))
+        blocked.revision = 1
+        checker = gps.StateChecker(free, device="cpu")
+        states = np.zeros((20000, 1))
+        ended = threading.Event()
+
+        def change():
+            while not ended.is_set():
+                checker.set_scene(blocked)
+                checker.set_scene(free)
+
+        thread = threading.Thread(target=change)
+        thread.start()
+        try:
+            for _ in range(50):
+                result = checker.check(states)
+                self.assertEqual({result.revision == 0}, set(result.valid.tolist()))
+        finally:
+            ended.set()
+            thread.join()
+
+    def test_many_checks_leak_no_memory(self):
+        scene = arm_scene()
+        checker = gps.StateChecker(scene, device="cpu")
+        states = scene.robot.random_states(16, seed=6)
+
+        def check(times):
+            for _ in range(times):
+                result = checker.check(states)
+                result.valid.any()
+                result.colliding.max()
+                try:
+                    checker.check(states[:, :1])
+                except gps.Error:
+                    pass
+
+        check(2000)
+        before = memory_in_use()
+        check(100000)
+        # A leak of one byte for each check would be 100 kB.
+        self.assertLess(memory_in_use() - before, 100000)
+
+
+if __name__ == "__main__":
+    unittest.main()

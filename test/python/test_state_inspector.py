@@ -1,0 +1,83 @@
+"""StateInspector: contacts and clearances whose values are known."""
+import unittest
+
+import numpy as np
+
+import gpu_planning_scene as gps
+from robots import Case, kr5_scene, rail
+from signals import pressed_during_a_call
+
+
+def post_scene():
+    scene = gps.PlanningScene(rail())
+    scene.add_object("post", gps.Sphere(0.1), [1, 0, 0])
+    return scene
+
+
+class StateInspector(Case):
+    def test_clearance_is_the_distance_of_the_spheres(self):
+        inspector = gps.StateInspector(post_scene())
+        positions = np.linspace(-5, 5, 41)
+        answer = inspector.clearances(positions[:, None])
+        expected = np.maximum(np.abs(positions - 1) - 0.2, 0)
+        self.assertTrue(np.all(answer.world <= expected + 1e-12))
+        self.assertTrue(np.all(answer.world >= expected - 1e-6))
+        self.assertTrue(np.all(answer.self == np.inf))  # the rail has no shape
+        self.assertEqual([[1, 2]], np.unique(answer.nearest_world, axis=0).tolist())
+        self.assertEqual([[-1, -1]], np.unique(answer.nearest_self, axis=0).tolist())
+        self.assertEqual(41, len(answer))
+
+    def test_states_are_free_where_their_clearance_is_positive(self):
+        scene = kr5_scene()
+        states = scene.robot.random_states(100, seed=1)
+        answer = gps.StateInspector(scene).clearances(states)
+        valid = gps.StateChecker(scene, device="cpu").check(states).valid
+        np.testing.assert_array_equal(valid, np.minimum(answer.world, answer.self) > 0)
+        one = gps.StateInspector(scene).clearances(states[5])
+        self.assertEqual((1, answer.world[5]), (len(one), one.world[0]))
+
+    def test_contacts_lie_where_the_spheres_overlap(self):
+        inspector = gps.StateInspector(post_scene())
+        contact = inspector.contacts([0.85])[0]
+        self.assertEqual((1, 2), tuple(contact.bodies))
+        self.assertAlmostEqual(0.05, contact.depth, places=3)
+        np.testing.assert_allclose([0.925, 0, 0], contact.point, atol=0.026)
+        np.testing.assert_allclose([1, 0, 0], contact.normal, atol=1e-2)
+        self.assertEqual([], inspector.contacts([0.0]))
+
+    def test_contacts_are_those_of_pairs_that_collide(self):
+        scene = kr5_scene()
+        states = scene.robot.random_states(50, seed=2)
+        result = gps.StateChecker(scene, device="cpu").check(states)
+        inspector = gps.StateInspector(scene)
+        for state, valid, pair in zip(states, result.valid, result.colliding):
+            contacts = inspector.contacts(state, max_contacts=1000)
+            self.assertEqual(valid, not contacts)
+            self.assertTrue(valid or tuple(pair) in {tuple(contact.bodies) for contact in contacts})
+            self.assertLessEqual(len(inspector.contacts(state, max_contacts=2)), 2)
+
+    def test_a_scene_is_copied(self):
+        scene = post_scene()
+        inspector = gps.StateInspector(scene)
+        scene.remove_object("post")
+        self.assertTrue(inspector.contacts([1.0]))
+
+    def test_wrong_arguments_are_errors(self):
+        inspector = gps.StateInspector(post_scene())
+        self.assert_one_line(gps.Error, "^state: the shape", inspector.contacts, [[0.0], [1.0]])
+        self.assert_one_line(gps.Error, "^states: the shape", inspector.clearances, [0.0, 1.0])
+        for call in (inspector.contacts, inspector.clearances):
+            self.assert_one_line(gps.Error, "'legs'", call, [0.0], "legs")
+            self.assert_one_line(gps.Error, "'slide'", call, [float("nan")])
+            self.assert_one_line(TypeError, "array of numbers", call, "ready")
+        self.assert_one_line(TypeError, "expected a PlanningScene", gps.StateInspector, None)
+
+    def test_ctrl_c_ends_a_call(self):
+        scene = kr5_scene()
+        states = np.tile(scene.robot.random_states(1000, seed=3), (2000, 1))
+        with self.assertRaises(KeyboardInterrupt), pressed_during_a_call():
+            gps.StateInspector(scene).clearances(states)
+
+
+if __name__ == "__main__":
+    unittest.main()
