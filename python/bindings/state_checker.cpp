@@ -26,8 +26,8 @@ using core::StateChecker;
 using ScenePtr = std::shared_ptr<PlanningScene>;
 
 constexpr std::size_t kFirstStates = 4096;  // states, before the rate is known
-constexpr std::size_t kLeastPart = 1024;  // smaller parts would take longer for each state
-constexpr double kSecondsOfPart = 0.25;   // so Ctrl-C needs at most about as long
+constexpr std::size_t kLeastPart = 1024;    // smaller parts would take longer for each state
+constexpr double kSecondsOfPart = 0.25;     // so Ctrl-C needs at most about as long
 
 /// `open` makes a checker of a scene. The checker gets a copy, which no later change of the caller's scene changes.
 template <typename Open>
