@@ -45,11 +45,11 @@ struct MotionVerdict
 {
   bool valid = false;
   /// Fraction of the motion, 0 to 1. Under MotionRule::Samples: the last free sample before the first collision. Under
-  /// MotionRule::Bound: the motion is proven free up to this fraction, which is never beyond that sample. 0 if the
-  /// start collides; 1 if the motion is valid.
+  /// MotionRule::Bound: the motion is proven free up to this fraction. It is at most the fraction under
+  /// MotionRule::Samples. 0 if the start collides; 1 if the motion is valid.
   double last_valid = 0.0;
-  /// Fraction of the sample where the valid part ends: the sample collides, or the motion is not proven free around it.
-  /// 1 if the motion is valid.
+  /// The fraction of the first sample that collides, or around which the motion is not proven free; under
+  /// MotionQuery::Valid, of the first such sample that was found. 1 if the motion is valid.
   double first_invalid = 0.0;
   /// The colliding pair at `first_invalid`; kNoPair if the motion is valid, or if no sample collides but the motion is
   /// not proven free.
@@ -63,7 +63,7 @@ enum class MotionQuery
 {
   Valid,      ///< is the motion valid? The check ends at the first collision found; an invalid motion has last_valid 0
   LastValid,  ///< up to which fraction is the motion valid?
-  Samples     ///< is it valid under MotionRule::Samples? A motion with a colliding sample is invalid under both rules
+  Samples     ///< checks the samples only, whatever the rule is
 };
 
 /// Checks straight motions in bulk. The samples of all motions are checked batch by batch: first the ends and middles,

@@ -45,7 +45,7 @@ enum class JointType
 int variableCount(JointType type);
 
 /// The directions of a planar joint's x and y, and its normal, as the columns of a right-handed rotation. For the
-/// normal z they are x, y and z, as in MoveIt, which supports no other normal.
+/// normal z, the columns are the x, y and z axes. MoveIt supports only this normal.
 Eigen::Matrix3d planarDirections(const Eigen::Vector3d& normal);
 
 struct Joint
@@ -164,8 +164,8 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   void linkPoses(const double* state, Eigen::Isometry3d* poses) const;
 
   /// Writes the poses of one link and of the links between it and the root, as linkPoses does. `known`: one entry per
-  /// link; the poses of links with an entry other than 0 are already those of this state. Sets the entries of the links
-  /// that it has written.
+  /// link; the poses of links with an entry other than 0 are already those of this state. Sets `known` to 1 for each
+  /// link whose pose it writes.
   void addLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const;
 
   /// Writes a random state: variables are uniform between lower and upper, rotations of floating joints uniform over

@@ -52,7 +52,7 @@ struct ObjectChange
   std::map<std::string, Eigen::Isometry3d> subframes;  ///< in the object's frame
   ObjectType type;                                     ///< empty: a new object has none, other objects keep theirs
   /// Only for Remove. True: the allowed collision matrix keeps the object's entries. This is for objects that come and
-  /// go, for example a point cloud. Without an id, the colours of all objects stay too. False, as in MoveIt: the
+  /// go, for example a point cloud. If it removes all objects (no id), their colours stay too. False, as in MoveIt: the
   /// entries are removed with the object. The octomap (see kOctomapId) always keeps its entries and its colour.
   bool keeps_allowed_collisions = false;
 };
@@ -78,8 +78,8 @@ struct StateChange
   std::vector<AttachedChange> attached;     ///< in order, after the variables are set
   /// True: links keep the objects that they carry. False: `attached` replaces all attached objects, and must use Add
   /// only. An attached object that `attached` does not name is then removed, together with its entries in the allowed
-  /// collision matrix, and there is a warning. Exception: in a diff without `variables`, `attached` adds to the
-  /// attached objects.
+  /// collision matrix, and there is a warning. Exception: if SceneChange::is_diff is true and `variables` is empty,
+  /// `attached` adds to the attached objects.
   bool is_diff = true;
 };
 
@@ -128,8 +128,8 @@ struct Change
   std::vector<std::string> warnings;
 };
 
-/// Makes a change and returns the new scene, with the old revision. `state`: the robot's state, empty while some values
-/// are unknown. If `scene` is valid (validateScene), the result is valid too. Throws Error that names the object or
+/// Returns the changed scene. Its revision is that of `scene`. `state`: the robot's state, empty while some values are
+/// unknown. If `scene` is valid (validateScene), the result is valid too. Throws Error that names the object or
 /// link and the remedy. Thread-safe.
 Change applyChange(const PlanningScene& scene, const std::vector<double>& state, const SceneChange& change,
                    const SceneDefaults& defaults, const SceneLimits& limits, const ExternalFrames& frames);

@@ -33,9 +33,9 @@ struct Reductions
 
 struct CheckerOptions
 {
-  /// Metres, at least 0; 0: exact. Above 0, the traversal may stop early: it reports a collision as soon as the boxes
-  /// of two nodes prove that the pair is within its required distance plus this value. So a pair may be reported as
-  /// colliding if its distance is at most its required distance plus this value. A collision is never reported as free.
+  /// Metres, at least 0; 0: exact. Above 0, a pair may be reported as colliding if its distance is at most the required
+  /// distance plus this value, because traversal stops early: as soon as the boxes of two nodes prove such a distance.
+  /// A collision is never reported as free.
   double tolerance = 0.0;
   Reductions reductions;
 };
@@ -47,8 +47,8 @@ struct JointTravel
   double angle = 0.0;   ///< radians: rotation (revolute, continuous, planar and floating joints)
 };
 
-/// Neighbourhoods of the states of a batch. A state within the joint limits is in the neighbourhood of a given state if
-/// the value of every joint differs from its value in the given state by at most the travel of the joint.
+/// Neighbourhoods of the states of a batch. The neighbourhood of a state: all states within the joint limits in which
+/// no joint differs by more than its travel.
 struct JointNeighbourhood
 {
   std::vector<JointTravel> travel;  ///< rows of one entry (>= 0) per joint of the robot, mimic joints included
@@ -103,12 +103,12 @@ struct SceneReport
   std::size_t triangles = 0;     ///< in all trees
   std::size_t trees = 0;         ///< one per distinct shape
   std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal shape
-  /// The CPU checks batches of fewer states than this. The largest std::size_t: it checks all batches. No value: there
-  /// was no choice, because the checker has no GPU or every state collides.
+  /// The CPU checks batches of fewer states than this. The largest std::size_t: the CPU checks all batches. No value:
+  /// there was no choice, because the checker has no GPU or every state collides.
   std::optional<std::size_t> cpu_below;
-  /// The states of this group that the CPU has checked since setScene, by the stage that decided them. States with and
-  /// without a neighbourhood count, and so do the states of the measurements that choose between CPU and GPU. States
-  /// that the GPU has left undecided do not count.
+  /// The states of this group that the CPU has checked since setScene, by the stage that decided them. All states
+  /// count: with or without a neighbourhood, and also those of measurements (CPU or GPU). Exception: states that the
+  /// GPU has left undecided do not count.
   std::vector<DecidedStates> decided;
 };
 

@@ -14,8 +14,8 @@ class RrtSearch;
 /// the start states and from the goal states, grow in rounds. All motions of a round are checked in one call.
 ///   - The first round checks the straight motions between start and goal states.
 ///   - Then the trees take turns: one tree grows motions towards many random states. In the next round, the other tree
-///     grows towards each of the new vertices, in segments no longer than the range and as far as they are valid. At
-///     the same time it grows random branches of its own.
+///     grows towards each of the new vertices, in segments no longer than the range and as far as they are valid. The
+///     other tree also grows random branches in the same round.
 /// If the trees meet in several places at once, the shortest path is the solution.
 /// The trees grow by motions whose samples are free. If the validator's rule is MotionRule::Bound, the motions of a
 /// path are proven when the path is found. A motion that is not proven is removed from its tree, with everything that

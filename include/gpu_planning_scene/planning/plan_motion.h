@@ -22,9 +22,9 @@ struct PlanningQuery
   std::string group;
   std::vector<double> start;
   std::vector<std::vector<double>> goals;  ///< rows; the motion may end at any of them
-  /// Seconds for planning, with the check of the start and the goals; planners can take slightly longer. Simplification
-  /// and the last check of the path come afterwards. The time limit of each is the rest of `seconds`, but at least a
-  /// tenth of `seconds` and at least 0.1 s.
+  /// Seconds for planning, including the check of the start and the goals; planners can take slightly longer.
+  /// Simplification and the last check of the path follow. Each may take the remaining time, but at least a tenth of
+  /// `seconds` and at least 0.1 s.
   double seconds = 5.0;
   bool simplify = true;
   MotionCheckerOptions motions;
