@@ -50,7 +50,7 @@ MotionQuery queryFrom(const std::string& name)
 }
 
 MotionVerdicts checkMotions(const SharedMotionChecker& checker, py::object starts, py::object ends,
-                     const Arg<std::string>& query)
+                            const Arg<std::string>& query)
 {
   const MotionQuery question = queryFrom(query.value);
   const Rows from = rowsFrom(starts, *checker.robot, "starts");
