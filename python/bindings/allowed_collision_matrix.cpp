@@ -26,14 +26,14 @@ void addAllowedCollisionMatrix(py::module_& module)
           py::arg("robot"), "The matrix of the SRDF. Without an SRDF, it allows adjacent links to touch.")
       .def(
           "set_entry",
-          [](AllowedCollisionMatrix& matrix, const Name& body_1, const Name& body_2, bool allowed)
-          { matrix.setEntry(body_1.value, body_2.value, allowed); },
+          [](AllowedCollisionMatrix& matrix, const Name& body_1, const Name& body_2, Arg<bool> allowed)
+          { matrix.setEntry(body_1.value, body_2.value, allowed.value); },
           py::arg("body_1"), py::arg("body_2"), py::arg("allowed"),
           "Sets the entry of a pair. The order of the two names does not matter.")
       .def(
           "set_default",
-          [](AllowedCollisionMatrix& matrix, const Name& body, bool allowed)
-          { matrix.setDefault(body.value, allowed); },
+          [](AllowedCollisionMatrix& matrix, const Name& body, Arg<bool> allowed)
+          { matrix.setDefault(body.value, allowed.value); },
           py::arg("body"), py::arg("allowed"), "Sets the default of a body, for pairs without an entry.")
       .def(
           "remove_entry",

@@ -17,7 +17,8 @@ namespace gpu_planning_scene::python
 {
 namespace py = pybind11;
 
-/// An argument that must convert to T: a number, a str, or a shared_ptr to an object of this module, which is not null.
+/// An argument that must convert to T: a number, a bool, a str, a list of str, or a shared_ptr to an object of this
+/// module, which is not null.
 template <typename T>
 struct Arg
 {
@@ -116,6 +117,10 @@ struct type_caster<gpu_planning_scene::python::Arg<T>>
   {
     if constexpr (std::is_same_v<T, std::string>)
       return "a str";
+    else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+      return "a list of str";
+    else if constexpr (std::is_same_v<T, bool>)
+      return "True or False";
     else if constexpr (std::is_integral_v<T>)
       return "a whole number of at least 0";
     else if constexpr (std::is_arithmetic_v<T>)

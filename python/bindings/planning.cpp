@@ -48,7 +48,7 @@ std::map<std::string, std::string> parametersFrom(py::handle parameters)
 }
 
 PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>& group, py::object start,
-                          py::object goals, Arg<double> seconds, bool simplify, const Arg<std::string>& rule,
+                          py::object goals, Arg<double> seconds, Arg<bool> simplify, const Arg<std::string>& rule,
                           Arg<double> resolution, Arg<double> translation_resolution, Arg<std::size_t> max_samples,
                           py::object parameters)
 {
@@ -61,7 +61,7 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
   for (std::size_t i = 0; i < rows.count; ++i)
     query.goals.emplace_back(rows.data() + i * width, rows.data() + (i + 1) * width);
   query.seconds = seconds.value;
-  query.simplify = simplify;
+  query.simplify = simplify.value;
   query.motions = motionOptionsFrom(rule, resolution, translation_resolution, max_samples);
   query.parameters = parametersFrom(parameters);
   Interrupt interrupt;

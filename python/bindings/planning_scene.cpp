@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -129,8 +130,9 @@ std::size_t bodyCount(const PlanningScene& scene)
   return scene.robot->links().size() + scene.objects.size() + scene.attached.size();
 }
 
-std::string bodyName(const PlanningScene& scene, std::int64_t body)
+std::string bodyName(const PlanningScene& scene, Arg<std::int64_t> index)
 {
+  const std::int64_t body = index.value;
   if (body < 0 || body >= static_cast<std::int64_t>(bodyCount(scene)))
     throw Error("there is no body " + std::to_string(body) + "; the scene has " + std::to_string(bodyCount(scene)) +
                 " bodies");
@@ -175,9 +177,9 @@ void addChanges(py::class_<PlanningScene, std::shared_ptr<PlanningScene>>& scene
           py::arg("id"), py::arg("pose"), "Gives an object of the world a new pose, as in add_object.")
       .def(
           "attach",
-          [](PlanningScene& self, const Name& object, const Name& link, const std::vector<std::string>& touch_links,
-             py::object state)
-          { self.attach(object.value, link.value, touch_links, requiredState(self, state).data()); },
+          [](PlanningScene& self, const Name& object, const Name& link,
+             const Arg<std::vector<std::string>>& touch_links, py::object state)
+          { self.attach(object.value, link.value, touch_links.value, requiredState(self, state).data()); },
           py::arg("object"), py::arg("link"), py::arg("touch_links") = std::vector<std::string>(),
           py::arg("state") = py::none(),
           "Attaches an object of the world to a link. The object stays where it is in `state`.\n\ntouch_links: names "

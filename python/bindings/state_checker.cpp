@@ -184,8 +184,10 @@ void addStateChecker(py::module_& module)
   py::class_<SharedChecker, CheckerPtr> checker(
       module, "StateChecker",
       "Checks many robot states for collision at once, on any device.\n\nscene: the checker takes a copy. device: "
-      "\"cpu\" (no GL device), \"auto\" (the first hardware device, or software if there is none), \"software\", an "
-      "index of list_devices() as a str, or a part of a renderer's name. All devices give the same `valid`. "
+      "\"cpu\" is the library's CpuChecker, which needs no OpenGL. All other values are its BatchChecker: \"auto\" "
+      "takes "
+      "the first hardware device, or software if there is none; \"software\"; an index of list_devices() as a str; a "
+      "part of a renderer's name. All devices give the same `valid`. "
       "tolerance: metres; 0: exact; above 0, bodies within this distance may be reported as colliding. max_batch: the "
       "largest number of states sent to the GPU at once. cpu_below: the CPU checks batches of fewer states; None: the "
       "checker measures at which size the GPU becomes faster. traversal: \"work_queue\" or \"breadth_first\".\n\n"

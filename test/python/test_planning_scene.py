@@ -190,6 +190,7 @@ class PlanningScene(Case):
         self.assert_one_line(gps.Error, "'cup'", scene.attach, "cup", "ball")
         self.assert_one_line(gps.Error, "'nose'", scene.attach, "tool", "nose")
         self.assert_one_line(gps.Error, "'nose'", scene.attach, "tool", "ball", ["nose"])
+        self.assert_one_line(TypeError, "expected a list of str", scene.attach, "tool", "ball", "ball")
         self.assert_one_line(gps.Error, "half-space", scene.attach, "floor", "ball")
         self.assert_one_line(gps.Error, "'tool'", scene.detach, "tool")
         self.assert_one_line(gps.Error, "state: the shape", scene.attach, "tool", "ball", state=[0.0, 1.0])
@@ -227,6 +228,9 @@ class PlanningScene(Case):
         self.assertEqual(True, scene.allowed_collisions.default_of("post"))
         self.assertIsNone(scene.allowed_collisions.default_of("ball"))
         self.assertEqual([True], verdicts(scene, [0]))
+        for call, arguments in ((scene.allowed_collisions.set_entry, ("post", "ball", "yes")),
+                                (scene.allowed_collisions.set_default, ("post", None))):
+            self.assert_one_line(TypeError, "expected True or False", call, *arguments)
         scene.allowed_collisions.remove_entry("post")
         self.assertEqual([False], verdicts(scene, [0]))
 
@@ -251,6 +255,7 @@ class PlanningScene(Case):
         self.assertEqual("post", scene.body_name(2))
         for index in (-1, 3, 2**40):
             self.assert_one_line(gps.Error, "the scene has 3 bodies", scene.body_name, index)
+        self.assert_one_line(TypeError, "whole number", scene.body_name, "post")
 
     def test_frames_have_poses(self):
         scene = gps.PlanningScene(rail())
