@@ -16,7 +16,7 @@ namespace gpu_planning_scene::core::literature
 namespace
 {
 constexpr std::size_t kCount = 32;
-constexpr std::size_t kQuickCount = 4;
+constexpr std::size_t kQuickCount = 2;
 constexpr double kDistanceLimit = 1e-8;  // metres: larger distances are only known to be larger
 
 struct Truth

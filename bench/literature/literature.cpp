@@ -18,6 +18,7 @@ namespace
 {
 const std::vector<std::string> kParts = {"experiment", "families"};
 const std::vector<std::string> kProtocols = {"turning", "clearance"};
+const std::string kQuickImages = "_64x3";  // end of the names: 64 x 64 pixels, 3 views
 constexpr std::size_t kMostTriangles = 10000000;
 
 std::vector<std::string> split(const std::string& text)
@@ -55,6 +56,16 @@ std::vector<MethodInfo> allMethods()
   return methods;
 }
 
+/// --quick leaves out methods that render at another resolution, because each image takes milliseconds without a GPU.
+bool leftOut(const MethodInfo& info, const CommandLine& arguments)
+{
+  const bool of_quick_resolution =
+      info.name.size() > kQuickImages.size() &&
+      info.name.compare(info.name.size() - kQuickImages.size(), kQuickImages.size(), kQuickImages) == 0;
+  return arguments.has("--quick") && !arguments.has("--methods") && info.family == "image space" &&
+         !of_quick_resolution;
+}
+
 std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
 {
   std::vector<std::string> names;
@@ -63,7 +74,7 @@ std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
   names = chosen(arguments, "--methods", names);
   std::vector<MethodInfo> methods;
   for (const MethodInfo& method : allMethods())
-    if (std::find(names.begin(), names.end(), method.name) != names.end())
+    if (std::find(names.begin(), names.end(), method.name) != names.end() && !leftOut(method, arguments))
       methods.push_back(method);
   return methods;
 }
