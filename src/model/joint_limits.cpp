@@ -6,6 +6,8 @@
 
 #include "model/math_constants.h"
 
+// A value may exceed its limit by the rounding of a value with six decimals. A large angle is probably in degrees if it
+// would then be within its limits. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -11,6 +11,9 @@
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
 
+// Shadows come from a map of the depths that the lamp sees (L. Williams: Casting curved shadows on curved surfaces.
+// SIGGRAPH 1978). A stencil marks the pixels of the world's objects, so that colliding links behind them can be drawn
+// faintly.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -9,6 +9,8 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/rigid_pose.h"
 
+// Everything is checked in each scene, except meshes that were found valid before. They are known by their addresses; a
+// weak pointer shows whether an address still belongs to the same mesh. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

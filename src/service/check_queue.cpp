@@ -5,6 +5,8 @@
 
 #include "model/seconds_since.h"
 
+// The oldest request and all queued requests that can be merged with it are one batch, and each request gets its part
+// of the answer. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

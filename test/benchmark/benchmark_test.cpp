@@ -91,7 +91,7 @@ ProgramOutput runBenchmark(const std::string& out, std::vector<std::string> argu
 }
 }  // namespace
 
-TEST(Benchmark, TellsRightFromWrongAnswers)
+TEST(Benchmark, CountsRightAndWrongAnswers)
 {
   const TemporaryFolder folder;
   const std::string ours = "exact_cpu,ours_auto,ours_work_queue,ours_breadth_first";

@@ -104,7 +104,7 @@ TEST(FittedBalls, CoverTheSurfaceAndFitCloserWhereThereAreMore)
   EXPECT_LT(last, 0.12);
 }
 
-TEST(GeneratedArm, HasAsManyTrianglesAsAskedFor)
+TEST(GeneratedArm, HasAsManyTrianglesAsRequested)
 {
   for (const std::size_t triangles : {1000, 50000})
   {

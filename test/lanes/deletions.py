@@ -143,7 +143,7 @@ class Runner:
         return None
 
     def without_line(self, path, number, text):
-        """What is found without the deleted words of a shader."""
+        """The same for a shader whose line `number` is replaced by `text`."""
         with tempfile.TemporaryDirectory() as folder:
             shaders = os.path.join(folder, "shaders")
             shutil.copytree(SHADERS, shaders)

@@ -24,7 +24,7 @@ TEST(OneLine, LongNamesAreShortenedInTheMiddle)
   EXPECT_NE(text.find("[... 19999713 bytes ...]"), std::string::npos) << text;
 }
 
-TEST(OneLine, ALongListIsToldByItsBeginningAndEnd)
+TEST(OneLine, ALongListIsShortenedToItsBeginningAndEnd)
 {
   std::string list;
   for (int i = 0; i < 100000; ++i)

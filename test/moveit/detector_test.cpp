@@ -432,7 +432,7 @@ TEST_F(Detector, RefusesAMotionDuringWhichTheRobotPicksSomethingUp)
   EXPECT_TRUE(result.collision);
 }
 
-TEST_F(Detector, GivesAtMostTheContactsOfAPairThatAreAskedFor)
+TEST_F(Detector, GivesAtMostTheRequestedContactsOfAPair)
 {
   for (const double x : {0.15, -0.15})
     add("cube" + std::to_string(x), meshCube(0.2), at(x, 0.05, 0.05));
@@ -615,7 +615,7 @@ RobotModelPtr turningRobot()
 }
 
 /// MoveIt does not reduce the values of a continuous joint, so it turns further than the distance of the two angles.
-TEST(DetectorOfATurningArm, FindsAnObjectOnTheWayOfAJointBeyondATurn)
+TEST(DetectorOfATurningArm, FindsAnObjectOnThePathOfAJointBeyondATurn)
 {
   const RobotModelPtr robot = turningRobot();
   const auto env = CollisionDetectorAllocator().allocateEnv(robot);

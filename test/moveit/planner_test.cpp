@@ -246,7 +246,7 @@ TEST_F(Planner, AvoidsTheOccupiedCellsOfAnOctomap)
   EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
 }
 
-TEST_F(Planner, TellsStartsAndGoalsThatCollide)
+TEST_F(Planner, ReportsStartsAndGoalsThatCollide)
 {
   addBoxInGoal();
   EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));

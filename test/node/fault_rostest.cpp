@@ -18,7 +18,7 @@ class Fault : public RunningNode
 {
 };
 
-TEST_F(Fault, DiagnosticsTellThatTheCpuHasTakenOver)
+TEST_F(Fault, DiagnosticsReportThatTheCpuHasTakenOver)
 {
   // The node loses its device in one of several hundred calls. With device_losses 1 the CPU takes over at the first
   // loss.

@@ -58,7 +58,7 @@ class FreshNode(unittest.TestCase):
         self.assertIsNone(self.node.poll(), "the node has ended")
 
     def output_of(self, document, start):
-        """What the program prints whose text contains `start`."""
+        """Returns the output of the program whose text contains `start`."""
         programs = [block for block in examples(document) if block.startswith("import rospy") and start in block]
         self.assertEqual(1, len(programs), document)
         answer = subprocess.run([sys.executable, "-c", programs[0]], capture_output=True, text=True, timeout=60,

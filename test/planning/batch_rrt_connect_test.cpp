@@ -83,7 +83,7 @@ std::string positionsOf(PathGeometric& path)
   return text;
 }
 
-TEST(BatchRrtConnect, FindsTheStraightWayAtOnce)
+TEST(BatchRrtConnect, FindsTheStraightPathAtOnce)
 {
   Planning planning({}, kLeft, {kRight});
   planning.planner->setRange(0.3);
@@ -92,7 +92,7 @@ TEST(BatchRrtConnect, FindsTheStraightWayAtOnce)
   EXPECT_NEAR(planning.path().length(), 2.0, 1e-12);
 }
 
-TEST(BatchRrtConnect, FindsAWayRoundWallsWithMotionsWithinItsRange)
+TEST(BatchRrtConnect, FindsAPathRoundWallsWithMotionsWithinItsRange)
 {
   for (const unsigned int branches : {1U, 7U, 64U})
     for (const double range : {0.0, 0.2})
@@ -162,7 +162,7 @@ TEST(BatchRrtConnect, EndsBeforeItBeginsIfThereIsNoTime)
   EXPECT_EQ(planning.planner->solve(ob::plannerAlwaysTerminatingCondition()), ob::PlannerStatus::TIMEOUT);
 }
 
-TEST(BatchRrtConnect, TellsInvalidStartsAndGoalsAtOnce)
+TEST(BatchRrtConnect, ReportsInvalidStartsAndGoalsAtOnce)
 {
   const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(Planning(kOpenWall, kInTheWall, {kRight}).solve(), ob::PlannerStatus::INVALID_START);

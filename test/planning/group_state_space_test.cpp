@@ -185,7 +185,7 @@ TEST_F(GroupStateSpaceTest, TranslationsWithoutRoomAreRefused)
   EXPECT_EQ(errorOf([&] { spaceOf("turning"); }), "");
 }
 
-TEST_F(GroupStateSpaceTest, RowsSurviveTheWayThroughStates)
+TEST_F(GroupStateSpaceTest, RowsSurviveTheConversionToStatesAndBack)
 {
   const unsigned seed = 3;
   SCOPED_TRACE("seed " + std::to_string(seed));

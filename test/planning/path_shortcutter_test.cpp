@@ -27,7 +27,7 @@ TEST(PathShortcutter, FindsTheStraightLineInFreeSpace)
   EXPECT_NEAR(path.length(), 2.0, 1e-12);
 }
 
-TEST(PathShortcutter, ComesNearTheShortestWayRoundAWall)
+TEST(PathShortcutter, ComesNearTheShortestPathRoundAWall)
 {
   const PointRobot robot({{-0.1, -3.0, 0.1, 0.95}});
   PathGeometric path =

@@ -153,7 +153,7 @@ TEST(PlanMotion, SaysIfTheFirstChecksTookMostOfTheTime)
   EXPECT_EQ(other.message.find("checking the start"), std::string::npos) << other.message;
 }
 
-TEST(PlanMotion, AnswersAStraightWayByItsEnds)
+TEST(PlanMotion, AnswersAStraightMotionByItsEnds)
 {
   const PlanningResult result = plan<BatchRrtConnect>({}, query({-1.0, -1.5}, {{1.0, 1.5}}));
   EXPECT_EQ(result.status, PlanningStatus::Solved);
@@ -189,7 +189,7 @@ TEST(PlanMotion, SaysWhatIsOutOfBounds)
 }
 
 /// The stop may come during planning, simplification or the final check of the path.
-TEST(PlanMotion, EndsWheneverItIsToldTo)
+TEST(PlanMotion, EndsWheneverStopIsTrue)
 {
   const std::vector<Wall> walls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
   int needed = 0;
@@ -287,7 +287,7 @@ TEST_F(Turning, HasTheMiddleOfHalfATurn)
   EXPECT_EQ(plan(0.3, 0.2 + EIGEN_PI).waypoints.size(), 2U);
 }
 
-TEST_F(Turning, IsRefusedAtAnglesOfMoreTurnsThanDoublesTellApart)
+TEST_F(Turning, IsRefusedAtAnglesOfMoreTurnsThanDoublesDistinguish)
 {
   put(2.0);
   EXPECT_THROW(plan(1e7, 1.0), Error);
@@ -343,7 +343,7 @@ class Moving : public testing::TestWithParam<const char*>
   }
 };
 
-TEST_P(Moving, IsToldWhichTranslationIsOutOfBounds)
+TEST_P(Moving, NamesTheTranslationThatIsOutOfBounds)
 {
   const PlanningResult goal = plan(at(0.0, 0.0), at(1.5, 0.0));  // the default bound of unlimited translations is 1 m
   EXPECT_EQ(goal.status, PlanningStatus::OutOfBounds);

@@ -84,7 +84,7 @@ class LaunchFile(unittest.TestCase):
         values = self.files_of()
         self.assertEqual(("", ""), (values["scene"], values["urdf_folder"]))
 
-    def test_tells_the_node_where_the_text_of_the_robot_comes_from(self):
+    def test_the_node_gets_the_source_of_the_text_of_the_robot(self):
         self.assertEqual("/cell/robot.urdf", self.files_of("urdf:=robot.urdf")["urdf_source"])
         values = self.files_of("urdf_command:=echo 1", "srdf_command:=echo 2")
         self.assertEqual("the output of 'echo 1'", values["urdf_source"])
@@ -105,6 +105,12 @@ class LaunchFile(unittest.TestCase):
         self.assertEqual({"planning_scene_node", "show_scene.py", "joint_sliders.py"}, programs())
         self.assertEqual({"planning_scene_node"}, programs("sliders:=false", "rviz:=false"))
         self.assertIn("joint_state_publisher_gui", programs("joint_state_publisher_gui:=true"))
+
+    def test_the_live_demo_runs_a_command_for_the_urdf_and_the_srdf(self):
+        srdf = "srdf_command:=echo <robot><group/></robot>"
+        for arguments in (["urdf_command:=echo <robot/>", srdf], [srdf]):
+            config = self.load(*arguments, file="live_demo.launch")
+            self.assertEqual(config.params["/robot_description_semantic"].value, "<robot><group/></robot>\n")
 
 
 if __name__ == "__main__":

@@ -161,7 +161,7 @@ TEST_F(ChangeAttached, HasItsLinksScale)
       << "back in the world it has its own size";
 }
 
-TEST_F(ChangeAttached, AnUnusedPoseIsTold)
+TEST_F(ChangeAttached, AnUnusedPoseIsReported)
 {
   change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
   AttachedChange attach = attachedChange(Operation::Add, "a", "pole");

@@ -258,7 +258,7 @@ TEST_F(SceneFile, AnUnknownKeyNamesTheKnownKeyThatIsSimilar)
   EXPECT_FALSE(warned("did you mean"));
 }
 
-TEST_F(SceneFile, AnUnreadableFileAndAnEmptyFileAreToldApart)
+TEST_F(SceneFile, AnUnreadableFileAndAnEmptyFileHaveDifferentMessages)
 {
   const auto error = [this](const std::string& path)
   { return errorOf([&] { loadSceneFile(path, sliderRobot(), packages, &warnings); }); };

@@ -140,7 +140,7 @@ TEST_F(Store, RejectedChangesChangeNothing)
   EXPECT_EQ(before, store.snapshot().scene);
 }
 
-TEST_F(Store, FramesThatTheSceneDoesNotKnowAreAskedFor)
+TEST_F(Store, FramesThatTheSceneDoesNotKnowAreRequested)
 {
   std::vector<std::string> asked;
   const auto lookup = [&asked](const StampedFrame& frame)

@@ -67,7 +67,7 @@ TEST(Stability, NoticesThatContainmentInPrimitivesIsNotTested)
   expectFailure(shaders, "mesh in or near a primitive");
 }
 
-TEST(Stability, TellsOfAFamilyThatIsNotThere)
+TEST(Stability, ReportsAFamilyThatIsNotThere)
 {
   const ProgramOutput output = runStability({"--family", "nothing like this"});
   EXPECT_EQ(output.exit_code, 2);

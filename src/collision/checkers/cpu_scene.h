@@ -78,7 +78,7 @@ class CpuScene
     bool is_sampled = false;  // the report has the pairs of collidingInSamples
     std::shared_ptr<const CollisionProblem> problem;
     std::unique_ptr<const CpuTraversal> within;   // traversal of this problem
-    std::shared_ptr<ProofJob> cached_proofs;      // null: not asked for
+    std::shared_ptr<ProofJob> cached_proofs;      // null: not requested
     std::unique_ptr<LaneChecker> lanes;           // for states for which the problem is valid; null: not used
     std::unique_ptr<const CpuTraversal> outside;  // all pairs, for states for which the problem is not valid
     std::unique_ptr<const DisplacementBounds> displacements;

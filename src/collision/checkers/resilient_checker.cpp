@@ -15,6 +15,8 @@
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 
+// A request whose device is lost is repeated with a new checker on the device. After too many losses in a short time,
+// the CPU answers, and the device is tried again later. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -5,6 +5,9 @@
 
 #include "collision/exact/cpu_tree.h"
 
+// A wide node begins with the two children of a binary node. Its largest inner box is replaced by the two children of
+// that box until the node has eight boxes (H. Dammertz, J. Hanika, A. Keller: Shallow bounding volume hierarchies for
+// fast SIMD ray tracing of incoherent rays. Computer Graphics Forum, 2008).
 namespace gpu_planning_scene::core
 {
 namespace

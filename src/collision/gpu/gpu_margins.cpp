@@ -7,6 +7,8 @@
 
 #include "shader_constants.h"
 
+// One buffer has the number of each self pair, the row of each state, and the rows of margins. A margin is rounded up,
+// so the device never proves a motion free with too small a margin. Own method.
 namespace gpu_planning_scene::core
 {
 float uploadedMargin(double margin)

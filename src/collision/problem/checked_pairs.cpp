@@ -4,6 +4,8 @@
 
 #include "collision/problem/padding.h"
 
+// Each body has a row of the allowed collision matrix. All objects without an entry in the matrix share one look-up for
+// each body. Own method. The rules for attached objects are those of MoveIt.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -9,6 +9,8 @@
 #include "gpu_planning_scene/error.h"
 #include "scene/rigid_pose.h"
 
+// A table of shapes finds equal shapes, which share a tree. The instances are those of all groups; the instance pairs
+// are only those of one group. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -150,7 +150,7 @@ TEST_P(MoveitBehaviours, PaddingMakesANearBoxCollideByItsDistance)
   EXPECT_NEAR(contacts(1)[0].depth, 1e-3, 1e-5);
 }
 
-TEST_P(MoveitBehaviours, ContactsAreAsManyAsAskedForAndWhereTheBoxIs)
+TEST_P(MoveitBehaviours, ContactsAreAtMostAsManyAsRequestedAndLieInTheBox)
 {
   const Vector3d place = atTip();
   add("box", Box{{0.1, 0.1, 0.1}}, place);

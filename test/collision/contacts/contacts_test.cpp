@@ -74,7 +74,7 @@ TEST(Contacts, OfSpheresIsOneBetweenTheirCentres)
   EXPECT_TRUE(held.contacts({1.31, 2.0, 3.0}).empty());
 }
 
-TEST(Contacts, OfABoxInATableAreInTheirOverlapAndAsManyAsAskedFor)
+TEST(Contacts, OfABoxInATableLieInTheirOverlapAndAreAsManyAsRequested)
 {
   const Held held(Box{{0.2, 0.2, 0.2}}, {{Box{{1.0, 1.0, 0.1}}, at(0, 0, 0)}});
   const Vector3d place(0.1, 0.2, 0.14);  // 1 cm deep
@@ -195,7 +195,7 @@ TEST(Contacts, WithAHalfSpaceIsAtTheLowestPoint)
 }
 
 /// A body comes free when it moves along a contact's normal by the depth. This also holds when one box spans the other.
-TEST(Contacts, AreAsDeepAsTheWayThatTakesTheShapesApart)
+TEST(Contacts, AreAsDeepAsTheTranslationThatSeparatesTheShapes)
 {
   const Held held(Sphere{0.3}, {{Box{{1.0, 0.2, 0.2}}, at(0, 0, 0)}});
   for (const Vector3d& place : {Vector3d(0.1, 0.02, 0.0), Vector3d(0.45, 0.02, 0.0)})
@@ -209,7 +209,7 @@ TEST(Contacts, AreAsDeepAsTheWayThatTakesTheShapesApart)
   }
 }
 
-TEST(Contacts, TellTheDeepestOfEachPairFirst)
+TEST(Contacts, BeginWithTheDeepestOfEachPair)
 {
   const Held held(
       Box{{0.2, 0.2, 0.2}},

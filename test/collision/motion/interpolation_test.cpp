@@ -89,7 +89,7 @@ TEST_F(Motions, AContinuousJointWithAnUnevenFollowerDoesNotWrap)
   EXPECT_NEAR(travel[1].angle, 3.0, 1e-12);
 }
 
-TEST_F(Motions, AnglesGoTheShorterWayAndLimitedOnesTheWayWithinTheirLimits)
+TEST_F(Motions, AnglesTurnInTheShorterDirectionAndLimitedOnesWithinTheirLimits)
 {
   std::vector<double> end = start_;
   for (const char* name : {"spin", "drive/theta"})
@@ -106,7 +106,7 @@ TEST_F(Motions, AnglesGoTheShorterWayAndLimitedOnesTheWayWithinTheirLimits)
   EXPECT_NEAR(between(start_, end, 0.75)[at("bend")], -1.0, 1e-12);
 }
 
-TEST_F(Motions, QuaternionsTurnEvenlyTheShorterWayWhateverTheirSignAndLength)
+TEST_F(Motions, QuaternionsTurnEvenlyInTheShorterDirectionWhateverTheirSignAndLength)
 {
   const std::size_t first = at("free/rot_x");
   std::vector<double> end = start_;

@@ -168,7 +168,7 @@ TEST_F(Checks, WrongMotionsAreRefused)
   EXPECT_FALSE(call<CheckMotions>("check_motions", request).success);
 }
 
-TEST_F(Checks, TheReportTellsWhatIsModelledAndWhatWasLeftOut)
+TEST_F(Checks, TheReportListsModelledAndOmittedParts)
 {
   apply(diffWith(boxObject("box", tipPoint(), 0.02)));
   const auto response = call<GetReport>("get_report", GetReport::Request());

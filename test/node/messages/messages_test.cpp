@@ -143,7 +143,7 @@ TEST_F(Messages, APoseOfAllZerosWasNeverSetAndAQuaternionOfZeroIsNoRotation)
   EXPECT_TRUE(this->object("a").shapes[0].pose.isApprox(poseAt(1, 0, 0)));
 }
 
-TEST_F(Messages, FramesAreAskedForAtTheirStamp)
+TEST_F(Messages, FramesAreRequestedAtTheirStamp)
 {
   CollisionObject object = box("a");
   object.header.frame_id = "camera";
@@ -467,7 +467,7 @@ TEST_F(Messages, TheMessageOfASceneMakesItAgain)
   expectSameScene(first, scene_, 1e-14);
 }
 
-TEST_F(Messages, OnlyTheComponentsThatAreAskedForAreThere)
+TEST_F(Messages, OnlyTheRequestedComponentsAreThere)
 {
   using Components = PlanningSceneComponents;
   applyMessage(everything());

@@ -84,7 +84,7 @@ class Planning : public RunningNode
   }
 };
 
-TEST_F(Planning, FindsTheWayThroughASlotByPlannersOfAnyName)
+TEST_F(Planning, FindsThePathThroughASlotByPlannersOfAnyName)
 {
   for (const std::string name : {"", "Batch", "RRTConnectkConfigDefault", "KPIECEkConfigDefault",
                                  "gpu_planning_scene/BatchRrtConnect", "geometric::PRM", "geometric::BITstar"})
@@ -254,7 +254,7 @@ TEST_F(Planning, SaysWhatIsOutOfBounds)
   expectStatus(wanted, Response::OUT_OF_BOUNDS, "the goal is out of bounds: joint 'turn' is 3.5");
 }
 
-TEST_F(Planning, TellsAnApproximateSolutionFromASolution)
+TEST_F(Planning, DistinguishesAnApproximateSolutionFromASolution)
 {
   apply(diffWith(plate("wall", {0.6, 0.0, 0.0}, {0.1, 2.0, 0.15})));
   PlanMotion::Request wanted = request();

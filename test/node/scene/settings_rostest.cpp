@@ -139,7 +139,7 @@ TEST_F(Settings, AMatrixOfARequestHoldsForItAlone)
   EXPECT_FALSE(isFree());
 }
 
-TEST_F(Settings, OnlyTheComponentsThatAreAskedForAreTold)
+TEST_F(Settings, OnlyTheRequestedComponentsAreReported)
 {
   PlanningSceneMessage change = diffWith(boxObject("box", farAway(), 0.02));
   change.name = "kitchen";

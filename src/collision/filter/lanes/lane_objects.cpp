@@ -7,6 +7,8 @@
 #include "collision/exact/cpu_shape_pair.h"
 #include "collision/geometry/median_split.h"
 
+// A mesh of the world becomes its oriented bounding box. A primitive keeps its kind and size; its thickness is the
+// radius of its largest inscribed ball. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -8,6 +8,9 @@
 #include "collision/filter/lanes/lane_objects.h"
 #include "model/math_constants.h"
 
+// Links that are rigidly connected share a frame, which has the balls of their shapes. The rounding errors of the
+// frames add up from the root to the tips. Each threshold includes them (docs/error_bounds.md, "The lane kernel"). Own
+// method.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -12,6 +12,8 @@
 #include <sched.h>
 #include <sys/resource.h>
 
+// One thread of the process takes the jobs of all checkers one after the other, with a low priority, because checks
+// come first. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -7,6 +7,8 @@
 #include "collision/filter/proofs/joint_chain.h"
 #include "collision/parallel_for.h"
 
+// A cover belongs to a shape. A table belongs to two shapes, their links and the joints between them. Proofs that are
+// neither known nor in the cache are made on all cores. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -5,6 +5,8 @@
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
 
+// The parts that both traversals share: the lists in GPU memory, and a program for each kind of task. The methods are
+// in breadth_first.h and work_queue.h.
 namespace gpu_planning_scene::core
 {
 Traversal traversalFromName(const std::string& name)
