@@ -22,17 +22,6 @@ constexpr int kCount = 0x7F;  // bits of the stencil: front faces minus back fac
 Cinder::Cinder(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b, const ImageOptions& options)
   : ImageSpaceMethod(a, b, options)
 {
-  run(
-      [this]
-      {
-        programs_.reset(new Programs{DrawProgram("CInDeR", kMeshVertexShader, ""),
-                                     DrawProgram("CInDeR", kScreenVertexShader, kMarkPixelShader)});
-      });
-}
-
-Cinder::~Cinder()
-{
-  run([this] { programs_.reset(); });
 }
 
 std::vector<std::uint8_t> Cinder::draw(const std::vector<PlacedPair>& pairs)
@@ -48,13 +37,14 @@ std::vector<std::uint8_t> Cinder::draw(const std::vector<PlacedPair>& pairs)
 void Cinder::findEdgesInside(unsigned edges_of, unsigned solid, std::size_t tiles)
 {
   const std::string edge_name = edges_of == 0 ? "edges of a" : "edges of b";
+  const DrawProgram& depth = program(kMeshVertexShader, "");
   atlas().clearDepthAndStencil();
-  programs_->depth.use();
+  depth.use();
   glDepthFunc(GL_LESS);
   glStencilMask(kEdge);
   glStencilFunc(GL_ALWAYS, kEdge, 0xFF);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  programs_->depth.set(kShapeLocation, edges_of);
+  depth.set(kShapeLocation, edges_of);
   shape(edges_of).drawEdges(tiles);
   countPass(tiles * shape(edges_of).edgeCount());
   observe(edge_name);
@@ -63,13 +53,13 @@ void Cinder::findEdgesInside(unsigned edges_of, unsigned solid, std::size_t tile
   glStencilMask(kCount);
   glStencilOpSeparate(GL_FRONT, GL_KEEP, GL_KEEP, GL_INCR_WRAP);
   glStencilOpSeparate(GL_BACK, GL_KEEP, GL_KEEP, GL_DECR_WRAP);
-  programs_->depth.set(kShapeLocation, solid);
+  depth.set(kShapeLocation, solid);
   shape(solid).drawTriangles(tiles);
   countPass(tiles * shape(solid).triangleCount());
   observe(edge_name + " inside the other shape");
 
   // A pixel with an edge and a count that is not 0 has a stencil above kEdge.
-  programs_->mark_pixels.use();
+  program(kScreenVertexShader, kMarkPixelShader).use();
   glDisable(GL_DEPTH_TEST);
   glStencilFunc(GL_LESS, kEdge, 0xFF);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);

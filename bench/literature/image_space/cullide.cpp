@@ -49,7 +49,7 @@ Cullide::Cullide(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<con
                  const ImageOptions& options, const MakePainter& make_painter)
   : ImageSpaceMethod(a, b, options)
 {
-  run([&] { painter_ = make_painter(); });
+  run([&] { painter_ = make_painter(device()); });
 }
 
 Cullide::~Cullide()

@@ -82,7 +82,8 @@ std::vector<std::uint32_t> boxIndices()
 class BoxPainter : public PartPainter
 {
  public:
-  BoxPainter() : PartPainter("boxes of triangles", kBoxShader), indices_(kBoxes * kBoxIndices * sizeof(std::uint32_t))
+  explicit BoxPainter(RenderDevice& device)
+    : PartPainter(device, kBoxShader), indices_(kBoxes * kBoxIndices * sizeof(std::uint32_t))
   {
     indices_.write(boxIndices());
     glVertexArrayElementBuffer(array(), indices_.id());
@@ -106,7 +107,7 @@ class BoxPainter : public PartPainter
 
 FattenedCullide::FattenedCullide(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b,
                                  const ImageOptions& options)
-  : Cullide(a, b, options, [] { return std::make_unique<BoxPainter>(); })
+  : Cullide(a, b, options, [](RenderDevice& device) { return std::make_unique<BoxPainter>(device); })
 {
 }
 }  // namespace gpu_planning_scene::core::literature

@@ -15,23 +15,12 @@ namespace gpu_planning_scene::core::literature
 Recode::Recode(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b, const ImageOptions& options)
   : ImageSpaceMethod(a, b, options)
 {
-  run(
-      [this]
-      {
-        programs_.reset(new Programs{DrawProgram("RECODE", kMeshVertexShader, ""),
-                                     DrawProgram("RECODE", kMeshVertexShader, kMarkShader)});
-      });
 }
 
-Recode::~Recode()
+void Recode::drawShape(const DrawProgram& drawing, unsigned number, std::size_t tiles)
 {
-  run([this] { programs_.reset(); });
-}
-
-void Recode::drawShape(const DrawProgram& program, unsigned number, std::size_t tiles)
-{
-  program.set(kShapeLocation, number);
-  program.use();
+  drawing.set(kShapeLocation, number);
+  drawing.use();
   shape(number).drawTriangles(tiles);
   countPass(tiles * shape(number).triangleCount());
 }
@@ -39,13 +28,15 @@ void Recode::drawShape(const DrawProgram& program, unsigned number, std::size_t 
 std::vector<std::uint8_t> Recode::draw(const std::vector<PlacedPair>& pairs)
 {
   const std::size_t tiles = pairs.size() * views();
+  const DrawProgram& depth = program(kMeshVertexShader, "");
+  const DrawProgram& mark = program(kMeshVertexShader, kMarkShader);
   atlas().clearDepthAndStencil();
   glEnable(GL_CULL_FACE);
 
   glDisable(GL_STENCIL_TEST);
   glDepthFunc(GL_LESS);
   glCullFace(GL_BACK);
-  drawShape(programs_->depth, 0, tiles);
+  drawShape(depth, 0, tiles);
   observe("fronts of a");
 
   glEnable(GL_STENCIL_TEST);
@@ -54,14 +45,14 @@ std::vector<std::uint8_t> Recode::draw(const std::vector<PlacedPair>& pairs)
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_GREATER);
   glCullFace(GL_FRONT);
-  drawShape(programs_->depth, 1, tiles);
+  drawShape(depth, 1, tiles);
   observe("backs of b behind fronts of a");
 
   atlas().clearDepth();
   glDisable(GL_STENCIL_TEST);
   glDepthFunc(GL_LESS);
   glCullFace(GL_BACK);
-  drawShape(programs_->depth, 1, tiles);
+  drawShape(depth, 1, tiles);
   observe("fronts of b");
 
   glEnable(GL_STENCIL_TEST);
@@ -70,7 +61,7 @@ std::vector<std::uint8_t> Recode::draw(const std::vector<PlacedPair>& pairs)
   glDepthMask(GL_FALSE);
   glDepthFunc(GL_GREATER);
   glCullFace(GL_FRONT);
-  drawShape(programs_->mark, 0, tiles);
+  drawShape(mark, 0, tiles);
   observe("backs of a behind fronts of b");
   return everyView(atlas().hits(), views());
 }
