@@ -3,14 +3,17 @@
 #include <epoxy/gl.h>
 
 // D. Knott, D. K. Pai: CInDeR: collision and interference detection in real-time using graphics hardware, 2003.
-// Idea: two solids that collide have an edge of one with a point inside the other. A line of sight that ends at a point
-// inside a solid enters the solid once more than it leaves it. The stencil counts this for the nearest edge of each
-// pixel: front faces in front of the edge add 1, back faces subtract 1. Then the two shapes change their roles.
+//
+// Idea: two solids that collide have an edge of one with a point inside the other. A line of sight that ends at a
+// point inside a solid enters the solid once more than it leaves it. The stencil counts this for the nearest edge of
+// each pixel: front faces in front of the edge add 1, back faces subtract 1. Then the two shapes change their roles.
+//
 // Domain: closed solids, also concave ones. Containment is found.
-// Failures: a pixel keeps only its nearest edge, so the edges behind it are lost. The pixels of a line are up to half a
-// pixel away from the edge, so an edge near a surface is reported as inside, or missed. Where a face is missing, the
-// count is wrong, and all edges behind the hole seem to be inside. Each further view finds edges that are hidden in
-// other views, and adds false hits.
+//
+// Failures: a pixel keeps only its nearest edge, so the edges behind it are lost. The pixels of a line are up to half
+// a pixel away from the edge, so an edge near a surface is reported as inside, or missed. Where a face is missing,
+// the count is wrong, and all edges behind the hole seem to be inside. Each further view finds edges that are hidden
+// in other views, and adds false hits.
 namespace gpu_planning_scene::core::literature
 {
 namespace

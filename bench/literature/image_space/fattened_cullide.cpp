@@ -6,12 +6,15 @@
 #include <epoxy/gl.h>
 
 // N. K. Govindaraju, M. C. Lin, D. Manocha: Fast and reliable collision culling using graphics hardware, 2004.
-// Idea: CULLIDE on fattened triangles. The box of a triangle, grown by half a pixel on all sides, covers the centre of
-// each pixel in which the triangle has a point. Two triangles with a common point then both have fragments at the
-// centre of this point's pixel, and their boxes overlap there in depth. So neither is discarded. Domain: all meshes,
-// also open ones. Only surfaces are compared, so containment is missed. Failures: none for surfaces, within float32:
-// the boxes are grown by more than the rounding error (Tile::fattening). The price is the number of triangles that are
-// left for the exact tests, and twelve triangles drawn for each one.
+//
+// Idea: CULLIDE on fattened triangles. The box of a triangle, grown by half a pixel on all sides, covers the centre
+// of each pixel in which the triangle has a point. Two triangles with a common point then both have fragments at the
+// centre of this point's pixel, and their boxes overlap there in depth. So neither is discarded.
+//
+// Domain: all meshes, also open ones. Only surfaces are compared, so containment is missed.
+//
+// Failures: none for surfaces, within float32: the boxes are grown by more than the rounding error (Tile::fattening).
+// The price is the number of triangles that are left for the exact tests, and twelve triangles drawn for each one.
 namespace gpu_planning_scene::core::literature
 {
 namespace

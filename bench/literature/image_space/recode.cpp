@@ -3,13 +3,17 @@
 #include <epoxy/gl.h>
 
 // G. Baciu, W. S.-K. Wong, H. Sun: RECODE: an image-based collision detection algorithm, 1999.
-// Idea: along the line of sight of a pixel, a convex shape occupies one interval of depths, from its front to its back.
-// The shapes collide if their intervals overlap at some pixel: the back of b lies behind the front of a, and the back
-// of a lies behind the front of b. The first condition is kept in the stencil while the second is tested. Domain:
-// closed convex shapes. Containment is found, because the intervals are those of the solids. Failures: a shape that is
-// not convex occupies several intervals, but the method takes them and the gaps between them as one. So it reports
-// linked tori that are apart. It misses an overlap that is smaller than a pixel. Each further view removes false hits,
-// because all views have to agree, and adds misses.
+//
+// Idea: along the line of sight of a pixel, a convex shape occupies one interval of depths, from its front to its
+// back. The shapes collide if their intervals overlap at some pixel: the back of b lies behind the front of a, and
+// the back of a lies behind the front of b. The first condition is kept in the stencil while the second is tested.
+//
+// Domain: closed convex shapes. Containment is found, because the intervals are those of the solids.
+//
+// Failures: a shape that is not convex occupies several intervals, but the method takes them and the gaps between
+// them as one. So it reports linked tori that are apart, the more often the thicker their tubes are. It misses an
+// overlap that is smaller than a pixel. With three views, all views have to agree. This adds misses, and removes few
+// false hits.
 namespace gpu_planning_scene::core::literature
 {
 Recode::Recode(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b, const ImageOptions& options)
