@@ -7,13 +7,16 @@
 
 // S. A. Ehmann, M. C. Lin: Accurate and fast proximity queries between polyhedra using convex surface decomposition,
 // 2001.
-// Idea: the surface is divided into patches, each of which lies on its own convex hull. Two surfaces collide if two of
-// these hulls collide. A binary tree of hulls over the patches leads to the hulls that may collide. Pairs of hulls are
-// tested by the algorithm of Gilbert, Johnson and Keerthi (1988) as implemented by libccd, in place of the paper's
-// Lin-Canny.
+//
+// Idea: the surface is divided into patches, each of which lies on its own convex hull. Two surfaces collide if two
+// of these hulls collide. A binary tree of hulls over the patches leads to the hulls that may collide. Pairs of hulls
+// are tested by the algorithm of Gilbert, Johnson and Keerthi (1988) as implemented by libccd, in place of the
+// paper's Lin-Canny.
+//
 // Domain: closed 2-manifolds. The hull of a patch is then a part of the solid.
-// Failures: at saddles and at the edges of holes, the patches are single triangles, and the tree has as many leaves as
-// one over triangles. Where a mesh is open, the hull of a patch is no part of a solid, so there are false hits. A shape
+//
+// Failures: at saddles and at the edges of holes, the patches are small, and the tree may have as many leaves as one
+// over triangles. Where a mesh is open, the hull of a patch is no part of a solid, so there are false hits. A shape
 // deep inside another one touches no hull, so containment is missed, unless the outer shape is one patch. The epsilon
 // of libccd, 1e-10, is absolute, so shapes of a micrometre collide too early.
 namespace gpu_planning_scene::core::literature

@@ -10,19 +10,11 @@ class Cinder : public ImageSpaceMethod
 {
  public:
   Cinder(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b, const ImageOptions& options);
-  ~Cinder() override;
 
  protected:
   std::vector<std::uint8_t> draw(const std::vector<PlacedPair>& pairs) override;
 
  private:
-  struct Programs
-  {
-    DrawProgram depth;
-    DrawProgram mark_pixels;
-  };
   void findEdgesInside(unsigned edges_of, unsigned solid, std::size_t tiles);
-
-  std::unique_ptr<Programs> programs_;
 };
 }  // namespace gpu_planning_scene::core::literature

@@ -6,18 +6,24 @@
 #include <epoxy/gl.h>
 
 // N. K. Govindaraju, S. Redon, M. C. Lin, D. Manocha: CULLIDE: interactive collision detection between complex models
-// in large environments using graphics hardware, 2003. Idea: a part of a shape that no point of the other shape hides
-// from the viewer does not collide with it. So it leaves the potentially colliding set. First the other shape is drawn
-// into the depth buffer. Then each part is compared with it: a fragment at the same depth or behind is hidden. Both
-// orders and each view are tried, for whole shapes, then for parts of kPartSize triangles, then for single triangles,
-// until nothing leaves the set. Exact tests decide on the triangles that are left. The paper's first level, boxes of
-// whole shapes, is the test of bounding boxes by which views are cropped. The hidden fragments set words of a buffer in
-// place of occlusion queries, one for each part. Domain: all meshes, also open ones. Only surfaces are compared, so
-// containment is missed. Failures: a part that covers the centre of no pixel has no fragment, so it counts as visible
-// and is discarded. This concerns triangles that are smaller than a pixel, and triangles of any size that are parallel
-// to the view: three views along the axes of a box discard all of its faces. Nor do fragments show the depth between
-// the centres of pixels. So contacts that are smaller than a pixel are missed, and each further view misses more. There
-// are no false hits.
+// in large environments using graphics hardware, 2003.
+//
+// Idea: a part of a shape that no point of the other shape hides from the viewer does not collide with it. So it
+// leaves the potentially colliding set. First the other shape is drawn into the depth buffer. Then each part is
+// compared with it: a fragment at the same depth or behind is hidden. Both orders and each view are tried, for whole
+// shapes, then for parts of kPartSize triangles, then for single triangles, until nothing leaves the set. Exact tests
+// decide on the triangles that are left. The paper's first level, boxes of whole shapes, is the test of bounding
+// boxes by which views are cropped. The hidden fragments set words of a buffer in place of occlusion queries, one for
+// each part.
+//
+// Domain: all meshes, also open ones. Only surfaces are compared, so containment is missed.
+//
+// Failures: a part that covers the centre of no pixel has no fragment, so it counts as visible and is discarded. This
+// concerns triangles that are smaller than a pixel, and triangles of any size that are parallel to the view: three
+// views along the axes of a box discard all of its faces. Nor do fragments show the depth between the centres of
+// pixels. So contacts that are smaller than a pixel are missed, and each further view misses more. Where the
+// triangles are as small as pixels, even deep overlaps are missed: a triangle leaves the set once the triangles that
+// hid it have left it. There are no false hits.
 namespace gpu_planning_scene::core::literature
 {
 namespace
@@ -49,7 +55,7 @@ Cullide::Cullide(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<con
                  const ImageOptions& options, const MakePainter& make_painter)
   : ImageSpaceMethod(a, b, options)
 {
-  run([&] { painter_ = make_painter(); });
+  run([&] { painter_ = make_painter(device()); });
 }
 
 Cullide::~Cullide()

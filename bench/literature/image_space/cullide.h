@@ -18,7 +18,7 @@ class Cullide : public ImageSpaceMethod
   WorkCounts work() const override;
 
  protected:
-  using MakePainter = std::function<std::unique_ptr<PartPainter>()>;
+  using MakePainter = std::function<std::unique_ptr<PartPainter>(RenderDevice& device)>;
   Cullide(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b, const ImageOptions& options,
           const MakePainter& make_painter);
 

@@ -41,7 +41,7 @@ void place(uint tile, vec3 p)
 }
 )";
 
-GLuint compiled(GLenum stage, const std::string& name, const std::string& text)
+GLuint compiled(GLenum stage, const std::string& text)
 {
   const char* source = text.c_str();
   const GLuint shader = glCreateShader(stage);
@@ -54,17 +54,17 @@ GLuint compiled(GLenum stage, const std::string& name, const std::string& text)
     std::array<char, 2048> log{};
     glGetShaderInfoLog(shader, log.size(), nullptr, log.data());
     glDeleteShader(shader);
-    throw Error("a shader of " + name + " does not compile: " + log.data());
+    throw Error(std::string("a shader of the image-space methods does not compile: ") + log.data());
   }
   return shader;
 }
 }  // namespace
 
-DrawProgram::DrawProgram(const std::string& name, const std::string& vertex_text, const std::string& fragment_text)
+DrawProgram::DrawProgram(const std::string& vertex_text, const std::string& fragment_text)
 {
   const std::string head = std::string("#version 450\n") + kTileDeclarations;
-  const GLuint vertex = compiled(GL_VERTEX_SHADER, name, head + kVertexDeclarations + vertex_text);
-  const GLuint fragment = fragment_text.empty() ? 0 : compiled(GL_FRAGMENT_SHADER, name, head + fragment_text);
+  const GLuint vertex = compiled(GL_VERTEX_SHADER, head + kVertexDeclarations + vertex_text);
+  const GLuint fragment = fragment_text.empty() ? 0 : compiled(GL_FRAGMENT_SHADER, head + fragment_text);
   id_ = glCreateProgram();
   glAttachShader(id_, vertex);
   if (fragment)
@@ -79,9 +79,9 @@ DrawProgram::DrawProgram(const std::string& name, const std::string& vertex_text
     std::array<char, 2048> log{};
     glGetProgramInfoLog(id_, log.size(), nullptr, log.data());
     glDeleteProgram(id_);
-    throw Error("the shaders of " + name + " do not link: " + log.data());
+    throw Error(std::string("the shaders of the image-space methods do not link: ") + log.data());
   }
-  checkGl(("compiling the shaders of " + name).c_str());
+  checkGl("compiling the shaders of the image-space methods");
 }
 
 DrawProgram::~DrawProgram()

@@ -24,8 +24,8 @@ constexpr unsigned kPositionAttribute = 0;
 class DrawProgram
 {
  public:
-  /// Throws Error with the compiler's log. `name` is for messages.
-  DrawProgram(const std::string& name, const std::string& vertex_text, const std::string& fragment_text);
+  /// Throws Error with the compiler's log.
+  DrawProgram(const std::string& vertex_text, const std::string& fragment_text);
   ~DrawProgram();
   DrawProgram(DrawProgram&& other) noexcept;
   DrawProgram& operator=(DrawProgram&&) = delete;

@@ -6,12 +6,15 @@
 #include <epoxy/gl.h>
 
 // N. K. Govindaraju, M. C. Lin, D. Manocha: Fast and reliable collision culling using graphics hardware, 2004.
-// Idea: CULLIDE on fattened triangles. The box of a triangle, grown by half a pixel on all sides, covers the centre of
-// each pixel in which the triangle has a point. Two triangles with a common point then both have fragments at the
-// centre of this point's pixel, and their boxes overlap there in depth. So neither is discarded. Domain: all meshes,
-// also open ones. Only surfaces are compared, so containment is missed. Failures: none for surfaces, within float32:
-// the boxes are grown by more than the rounding error (Tile::fattening). The price is the number of triangles that are
-// left for the exact tests, and twelve triangles drawn for each one.
+//
+// Idea: CULLIDE on fattened triangles. The box of a triangle, grown by half a pixel on all sides, covers the centre
+// of each pixel in which the triangle has a point. Two triangles with a common point then both have fragments at the
+// centre of this point's pixel, and their boxes overlap there in depth. So neither is discarded.
+//
+// Domain: all meshes, also open ones. Only surfaces are compared, so containment is missed.
+//
+// Failures: none for surfaces, within float32: the boxes are grown by more than the rounding error (Tile::fattening).
+// The price is the number of triangles that are left for the exact tests, and twelve triangles drawn for each one.
 namespace gpu_planning_scene::core::literature
 {
 namespace
@@ -82,7 +85,8 @@ std::vector<std::uint32_t> boxIndices()
 class BoxPainter : public PartPainter
 {
  public:
-  BoxPainter() : PartPainter("boxes of triangles", kBoxShader), indices_(kBoxes * kBoxIndices * sizeof(std::uint32_t))
+  explicit BoxPainter(RenderDevice& device)
+    : PartPainter(device, kBoxShader), indices_(kBoxes * kBoxIndices * sizeof(std::uint32_t))
   {
     indices_.write(boxIndices());
     glVertexArrayElementBuffer(array(), indices_.id());
@@ -106,7 +110,7 @@ class BoxPainter : public PartPainter
 
 FattenedCullide::FattenedCullide(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b,
                                  const ImageOptions& options)
-  : Cullide(a, b, options, [] { return std::make_unique<BoxPainter>(); })
+  : Cullide(a, b, options, [](RenderDevice& device) { return std::make_unique<BoxPainter>(device); })
 {
 }
 }  // namespace gpu_planning_scene::core::literature

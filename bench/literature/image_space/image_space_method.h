@@ -48,6 +48,12 @@ class ImageSpaceMethod : public Method
   const MeshBuffers& shape(unsigned number) const { return number == 0 ? *a_ : *b_; }
   std::size_t views() const { return static_cast<std::size_t>(options_.views); }
 
+  /// A program that all methods share. Used on the context's thread. See DrawProgram.
+  const DrawProgram& program(const std::string& vertex_text, const std::string& fragment_text) const
+  {
+    return device_->program(vertex_text, fragment_text);
+  }
+  RenderDevice& device() const { return *device_; }
   /// Runs a job on the context's thread.
   void run(const std::function<void()>& job) const { device_->run(job); }
   /// Reports the pixels after a pass, if somebody observes.

@@ -26,7 +26,7 @@ void main()
 class TrianglePainter : public PartPainter
 {
  public:
-  TrianglePainter() : PartPainter("parts", kTriangleShader) {}
+  explicit TrianglePainter(RenderDevice& device) : PartPainter(device, kTriangleShader) {}
 
  protected:
   void drawTriangles(const DrawProgram& /*program*/, std::size_t triangles) override
@@ -69,9 +69,9 @@ void discardVertex()
 }
 )";
 
-PartPainter::PartPainter(const std::string& name, const char* vertex_shader)
-  : depth_(name, std::string(kPartDeclarations) + vertex_shader, ""),
-    mark_(name, std::string(kPartDeclarations) + vertex_shader, kMarkShader)
+PartPainter::PartPainter(RenderDevice& device, const char* vertex_shader)
+  : depth_(device.program(std::string(kPartDeclarations) + vertex_shader, "")),
+    mark_(device.program(std::string(kPartDeclarations) + vertex_shader, kMarkShader))
 {
   glCreateVertexArrays(1, &array_);
 }
@@ -100,8 +100,8 @@ void PartPainter::draw(const MeshBuffers& shape, unsigned number, const PartList
   drawTriangles(program, list.entries.size() * list.part_size);
 }
 
-std::unique_ptr<PartPainter> makeTrianglePainter()
+std::unique_ptr<PartPainter> makeTrianglePainter(RenderDevice& device)
 {
-  return std::make_unique<TrianglePainter>();
+  return std::make_unique<TrianglePainter>(device);
 }
 }  // namespace gpu_planning_scene::core::literature

@@ -10,6 +10,7 @@
 #include "gpu/buffer.h"
 #include "literature/image_space/draw_program.h"
 #include "literature/image_space/mesh_buffers.h"
+#include "literature/image_space/render_device.h"
 
 namespace gpu_planning_scene::core::literature
 {
@@ -20,7 +21,7 @@ struct PartList
   std::vector<std::array<std::uint32_t, 2>> entries = {};  ///< tile and number of a part
 };
 
-/// Draws parts of shapes. Used on the context's thread.
+/// Draws parts of shapes. Used on the context's thread, while the device exists.
 class PartPainter
 {
  public:
@@ -34,14 +35,14 @@ class PartPainter
 
  protected:
   /// `vertex_shader`: reads the entries, the vertices and the triangles from storage buffers.
-  PartPainter(const std::string& name, const char* vertex_shader);
+  PartPainter(RenderDevice& device, const char* vertex_shader);
   /// Draws `triangles` triangles with the given program, which is in use: part_size for each entry.
   virtual void drawTriangles(const DrawProgram& program, std::size_t triangles) = 0;
   unsigned array() const { return array_; }  ///< the bound vertex array, which has no attributes
 
  private:
-  DrawProgram depth_;
-  DrawProgram mark_;
+  const DrawProgram& depth_;
+  const DrawProgram& mark_;
   Buffer entries_;
   unsigned array_ = 0;
 };
@@ -51,5 +52,5 @@ class PartPainter
 extern const char* const kPartDeclarations;
 
 /// Draws triangles as they are.
-std::unique_ptr<PartPainter> makeTrianglePainter();
+std::unique_ptr<PartPainter> makeTrianglePainter(RenderDevice& device);
 }  // namespace gpu_planning_scene::core::literature

@@ -10,19 +10,11 @@ class Recode : public ImageSpaceMethod
 {
  public:
   Recode(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b, const ImageOptions& options);
-  ~Recode() override;
 
  protected:
   std::vector<std::uint8_t> draw(const std::vector<PlacedPair>& pairs) override;
 
  private:
-  struct Programs
-  {
-    DrawProgram depth;
-    DrawProgram mark;
-  };
-  void drawShape(const DrawProgram& program, unsigned number, std::size_t tiles);
-
-  std::unique_ptr<Programs> programs_;
+  void drawShape(const DrawProgram& drawing, unsigned number, std::size_t tiles);
 };
 }  // namespace gpu_planning_scene::core::literature

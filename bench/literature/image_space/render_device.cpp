@@ -23,7 +23,21 @@ RenderDevice::RenderDevice() : thread_("auto")
 
 RenderDevice::~RenderDevice()
 {
-  run([this] { atlas_.reset(); });
+  run(
+      [this]
+      {
+        atlas_.reset();
+        programs_.clear();
+      });
+}
+
+const DrawProgram& RenderDevice::program(const std::string& vertex_text, const std::string& fragment_text)
+{
+  const std::string key = vertex_text + '\0' + fragment_text;
+  const auto kept = programs_.find(key);
+  if (kept != programs_.end())
+    return kept->second;
+  return programs_.emplace(key, DrawProgram(vertex_text, fragment_text)).first->second;
 }
 
 std::shared_ptr<const MeshBuffers> RenderDevice::upload(const std::shared_ptr<const Mesh>& mesh)

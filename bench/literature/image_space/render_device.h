@@ -4,15 +4,18 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 
 #include "gpu/gl_thread.h"
 #include "gpu_planning_scene/shapes.h"
+#include "literature/image_space/draw_program.h"
 #include "literature/image_space/mesh_buffers.h"
 #include "literature/image_space/tile_atlas.h"
 
 namespace gpu_planning_scene::core::literature
 {
-/// The OpenGL context, the atlas and the meshes that all image-space methods of a process share. Thread-safe.
+/// The OpenGL context, the atlas, the programs and the meshes that all image-space methods of a process share.
+/// Thread-safe.
 class RenderDevice : public std::enable_shared_from_this<RenderDevice>
 {
  public:
@@ -31,11 +34,14 @@ class RenderDevice : public std::enable_shared_from_this<RenderDevice>
 
   /// Used on the context's thread.
   TileAtlas& atlas() { return *atlas_; }
+  /// Compiles a program when somebody needs it for the first time. Used on the context's thread. See DrawProgram.
+  const DrawProgram& program(const std::string& vertex_text, const std::string& fragment_text);
 
  private:
   GlThread thread_;
   std::mutex mutex_;
   std::unique_ptr<TileAtlas> atlas_;
+  std::map<std::string, DrawProgram> programs_;  // by their texts
   std::map<const Mesh*, std::weak_ptr<const MeshBuffers>> meshes_;
 };
 }  // namespace gpu_planning_scene::core::literature
