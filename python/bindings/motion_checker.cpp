@@ -49,7 +49,7 @@ MotionQuery queryFrom(const std::string& name)
   throw core::Error("the query is '" + name + "'; it must be valid, last_valid or samples");
 }
 
-MotionVerdicts checkMotions(const SharedMotionChecker& checker, py::object starts, py::object ends,
+MotionVerdicts checkMotions(const SharedMotionChecker& checker, const py::object& starts, const py::object& ends,
                             const Arg<std::string>& query)
 {
   const MotionQuery question = queryFrom(query.value);
@@ -71,7 +71,7 @@ MotionVerdicts checkMotions(const SharedMotionChecker& checker, py::object start
 
 /// An array of one member of all verdicts, whose values are `width` numbers of type T.
 template <typename T, typename Member>
-py::array membersOf(py::object self, Member MotionVerdict::*member, py::ssize_t width = 0)
+py::array membersOf(const py::object& self, Member MotionVerdict::*member, py::ssize_t width = 0)
 {
   const auto& all = self.cast<const MotionVerdicts&>().all;
   std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(all.size())};
@@ -102,21 +102,23 @@ void addMotionChecker(py::module_& module)
   py::class_<MotionVerdicts>(module, "MotionVerdicts",
                              "The answers of MotionChecker.check, one for each motion. The arrays show its memory.")
       .def_property_readonly(
-          "valid", [](py::object self) { return membersOf<bool>(self, &MotionVerdict::valid); },
+          "valid", [](const py::object& self) { return membersOf<bool>(self, &MotionVerdict::valid); },
           "True: the motion is valid. Shape (n,), bool.")
       .def_property_readonly(
-          "last_valid", [](py::object self) { return membersOf<double>(self, &MotionVerdict::last_valid); },
+          "last_valid", [](const py::object& self) { return membersOf<double>(self, &MotionVerdict::last_valid); },
           "The fraction of the motion, 0 to 1, up to which it is valid. With the query \"valid\" it is 0 for each "
           "motion that is not valid. Shape (n,).")
       .def_property_readonly(
-          "first_invalid", [](py::object self) { return membersOf<double>(self, &MotionVerdict::first_invalid); },
+          "first_invalid",
+          [](const py::object& self) { return membersOf<double>(self, &MotionVerdict::first_invalid); },
           "The fraction of the sample that collides, or around which the motion is not proven free; 1 if the motion "
           "is valid. Shape (n,).")
       .def_property_readonly(
-          "colliding", [](py::object self) { return membersOf<std::int32_t>(self, &MotionVerdict::colliding, 2); },
+          "colliding",
+          [](const py::object& self) { return membersOf<std::int32_t>(self, &MotionVerdict::colliding, 2); },
           "The body indices of the colliding pair at first_invalid; -1, -1 if no sample collides. Shape (n, 2), int32.")
       .def_property_readonly(
-          "given_up", [](py::object self) { return membersOf<bool>(self, &MotionVerdict::given_up); },
+          "given_up", [](const py::object& self) { return membersOf<bool>(self, &MotionVerdict::given_up); },
           "True: max_checks ended the checks of this motion too early. Shape (n,), bool.")
       .def(
           "__len__", [](const MotionVerdicts& verdicts) { return verdicts.all.size(); });
@@ -133,7 +135,7 @@ void addMotionChecker(py::module_& module)
       .def(py::init(
                [](const Arg<CheckerPtr>& checker, const Arg<std::string>& group, const Arg<std::string>& rule,
                   Arg<double> resolution, Arg<double> translation_resolution, Arg<std::size_t> max_samples,
-                  py::object max_checks)
+                  const py::object& max_checks)
                {
                  auto options = motionOptionsFrom(rule, resolution, translation_resolution, max_samples);
                  if (!max_checks.is_none())

@@ -47,10 +47,10 @@ std::map<std::string, std::string> parametersFrom(py::handle parameters)
   return texts;
 }
 
-PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>& group, py::object start,
-                          py::object goals, Arg<double> seconds, Arg<bool> simplify, const Arg<std::string>& rule,
-                          Arg<double> resolution, Arg<double> translation_resolution, Arg<std::size_t> max_samples,
-                          py::object parameters)
+PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>& group, const py::object& start,
+                          const py::object& goals, Arg<double> seconds, Arg<bool> simplify,
+                          const Arg<std::string>& rule, Arg<double> resolution, Arg<double> translation_resolution,
+                          Arg<std::size_t> max_samples, const py::object& parameters)
 {
   const auto scene = checker.value->scene();
   PlanningQuery query;

@@ -42,7 +42,8 @@ double validPadding(double padding, const std::string& body)
   return padding;
 }
 
-void addObject(PlanningScene& scene, const Name& id, py::object shapes, py::object pose, Arg<double> padding)
+void addObject(PlanningScene& scene, const Name& id, const py::object& shapes, const py::object& pose,
+               Arg<double> padding)
 {
   const std::string where = "object '" + id.value + "'";
   if (id.value.empty())
@@ -109,15 +110,16 @@ std::shared_ptr<PlanningScene> loadedScene(const Load& load)
   return scene;
 }
 
-std::shared_ptr<PlanningScene> loadSceneFile(py::object path, const Arg<RobotPtr>& robot, py::object packages)
+std::shared_ptr<PlanningScene> loadSceneFile(const py::object& path, const Arg<RobotPtr>& robot,
+                                             const py::object& packages)
 {
   const core::PackageResolver resolver = packagesFrom(packages);
   const std::string file = pathFrom(path, "path");
   return loadedScene([&](auto* warnings) { return core::loadSceneFile(file, robot.value, resolver, warnings); });
 }
 
-std::shared_ptr<PlanningScene> loadSceneText(const Name& text, const Arg<RobotPtr>& robot, py::object packages,
-                                             py::object folder, const Name& name)
+std::shared_ptr<PlanningScene> loadSceneText(const Name& text, const Arg<RobotPtr>& robot, const py::object& packages,
+                                             const py::object& folder, const Name& name)
 {
   const core::PackageResolver resolver = packagesFrom(packages);
   const std::string start = pathFrom(folder, "folder");
@@ -172,13 +174,13 @@ void addChanges(py::class_<PlanningScene, std::shared_ptr<PlanningScene>>& scene
            "unknown object.")
       .def(
           "move_object",
-          [](PlanningScene& self, const Name& id, py::object pose)
+          [](PlanningScene& self, const Name& id, const py::object& pose)
           { objectOf(self, id.value).pose = poseFrom(pose, "object '" + id.value + "'"); },
           py::arg("id"), py::arg("pose"), "Gives an object of the world a new pose, as in add_object.")
       .def(
           "attach",
           [](PlanningScene& self, const Name& object, const Name& link,
-             const Arg<std::vector<std::string>>& touch_links, py::object state)
+             const Arg<std::vector<std::string>>& touch_links, const py::object& state)
           { self.attach(object.value, link.value, touch_links.value, requiredState(self, state).data()); },
           py::arg("object"), py::arg("link"), py::arg("touch_links") = std::vector<std::string>(),
           py::arg("state") = py::none(),
@@ -188,7 +190,7 @@ void addChanges(py::class_<PlanningScene, std::shared_ptr<PlanningScene>>& scene
           "    scene.attach(\"can\", \"palm\", touch_links=[\"finger\"], state=robot.default_state())")
       .def(
           "detach",
-          [](PlanningScene& self, const Name& object, py::object state)
+          [](PlanningScene& self, const Name& object, const py::object& state)
           { self.detach(object.value, requiredState(self, state).data()); },
           py::arg("object"), py::arg("state") = py::none(),
           "Returns an attached object to the world, at its place in `state`. Raises Error if no link carries it, and "
@@ -239,7 +241,7 @@ void addPlanningScene(py::module_& module)
               return py::none();
             return py::array_t<double>(static_cast<py::ssize_t>(self.current_state.size()), self.current_state.data());
           },
-          [](PlanningScene& self, py::object state) {
+          [](PlanningScene& self, const py::object& state) {
             self.current_state = state.is_none() ? std::vector<double>() : rowFrom(state, *self.robot, "current_state");
           },
           "A copy of the state of the robot, shape (variables,), or None.")
@@ -256,7 +258,7 @@ void addPlanningScene(py::module_& module)
           "The names of all bodies, by body index.")
       .def(
           "frame",
-          [](const PlanningScene& self, const Name& name, py::object state)
+          [](const PlanningScene& self, const Name& name, const py::object& state)
           {
             const std::vector<double> row = stateOr(self, state);
             const auto pose = self.frame(name.value, row.empty() ? nullptr : row.data());

@@ -40,9 +40,9 @@ Image picture(const std::shared_ptr<const PlanningScene>& scene, const std::vect
   return core::render(*scene, state.data(), colliding, points, camera, width, height, device);
 }
 
-py::array_t<std::uint8_t> render(const Arg<std::shared_ptr<PlanningScene>>& scene, py::object state,
-                                 Arg<std::size_t> width, Arg<std::size_t> height, py::object eye, py::object target,
-                                 py::object up, const Arg<std::string>& device)
+py::array_t<std::uint8_t> render(const Arg<std::shared_ptr<PlanningScene>>& scene, const py::object& state,
+                                 Arg<std::size_t> width, Arg<std::size_t> height, const py::object& eye,
+                                 const py::object& target, const py::object& up, const Arg<std::string>& device)
 {
   constexpr std::size_t kLargest = 1 << 20;  // the library names a smaller limit of the device
   const auto copy = std::make_shared<const PlanningScene>(*scene.value);

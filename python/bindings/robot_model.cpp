@@ -41,7 +41,8 @@ core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_transl
   return options;
 }
 
-RobotPtr fromFiles(py::object urdf, py::object srdf, py::object packages, Arg<double> unbounded_translation)
+RobotPtr fromFiles(const py::object& urdf, const py::object& srdf, const py::object& packages,
+                   Arg<double> unbounded_translation)
 {
   const core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value);
   const std::string urdf_path = pathFrom(urdf, "urdf");
@@ -49,8 +50,8 @@ RobotPtr fromFiles(py::object urdf, py::object srdf, py::object packages, Arg<do
   return loaded([&](auto* warnings) { return RobotModel::fromFiles(urdf_path, srdf_path, options, warnings); });
 }
 
-RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, py::object packages,
-                 py::object urdf_folder, Arg<double> unbounded_translation)
+RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, const py::object& packages,
+                 const py::object& urdf_folder, Arg<double> unbounded_translation)
 {
   core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value);
   options.urdf_folder = pathFrom(urdf_folder, "urdf_folder");
@@ -78,7 +79,7 @@ void forEachState(std::size_t count, const Work& work)
 }
 
 py::array_t<double> randomStates(const RobotModel& robot, Arg<std::size_t> count, Arg<std::uint64_t> seed,
-                                 py::object base)
+                                 const py::object& base)
 {
   const std::size_t width = robot.variables().size();
   const std::vector<double> start = base.is_none() ? std::vector<double>() : rowFrom(base, robot, "base");
@@ -96,7 +97,7 @@ py::array_t<double> randomStates(const RobotModel& robot, Arg<std::size_t> count
   return states;
 }
 
-py::array_t<double> linkPoses(const RobotModel& robot, py::object states)
+py::array_t<double> linkPoses(const RobotModel& robot, const py::object& states)
 {
   const Rows rows = rowsFrom(states, robot, "states");
   const std::size_t width = robot.variables().size();

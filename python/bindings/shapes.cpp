@@ -150,7 +150,7 @@ void addShapes(py::module_& module)
   py::class_<Box>(module, "Box",
                   "A box, centred at the origin of its frame.\n\nsize: edge lengths along x, y and z in metres.\n\n"
                   "Raises Error unless each length is above 0 and at most 1e6.\n\n    gps.Box([0.4, 0.2, 0.1])")
-      .def(py::init([](py::object size) { return valid(Box{vectorFrom(size, "the size of a box")}, "a box"); }),
+      .def(py::init([](const py::object& size) { return valid(Box{vectorFrom(size, "the size of a box")}, "a box"); }),
            py::arg("size"))
       .def_property_readonly(
           "size", [](const Box& box) { return toPython(box.size); }, "Edge lengths in metres, shape (3,).");
@@ -174,7 +174,7 @@ void addShapes(py::module_& module)
                         "unless the normal has unit length.\n\n    floor = gps.HalfSpace([0, 0, 1], 0.0)")
       .def(
           py::init(
-              [](py::object normal, Arg<double> offset) {
+              [](const py::object& normal, Arg<double> offset) {
                 return valid(HalfSpace{vectorFrom(normal, "the normal of a half-space"), offset.value}, "a half-space");
               }),
           py::arg("normal"), py::arg("offset"))
@@ -188,19 +188,19 @@ void addShapes(py::module_& module)
       "of vertices, shape (t, 3). name: the origin of the mesh, for messages. The arrays are copied.\n\nRaises Error "
       "for other shapes, without a triangle, for a vertex that is not finite, and for an index out of range.\n\n"
       "    gps.Mesh([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0]], [[0, 1, 2]])")
-      .def(py::init([](py::object vertices, py::object triangles, const Arg<std::string>& name)
+      .def(py::init([](const py::object& vertices, const py::object& triangles, const Arg<std::string>& name)
                     { return meshFrom(vertices, triangles, name); }),
            py::arg("vertices"), py::arg("triangles"), py::arg("name") = "a mesh")
       .def_static(
-          "from_file", [](py::object path, py::object scale) { return meshFromFile(path, scale); }, py::arg("path"),
-          py::arg("scale") = 1.0,
+          "from_file", [](const py::object& path, const py::object& scale) { return meshFromFile(path, scale); },
+          py::arg("path"), py::arg("scale") = 1.0,
           "Reads an STL, DAE, OBJ or PLY file. scale: a factor, or three factors for x, y and z; negative factors "
           "mirror the mesh.\n\nRaises Error if the file cannot be read or has no triangles.\n\n"
           "    gps.Mesh.from_file(\"part.stl\", scale=0.001)")
       .def_readonly("name", &Mesh::name, "The origin of the mesh.")
       .def_property_readonly(
           "vertices",
-          [](py::object self)
+          [](const py::object& self)
           {
             const auto& mesh = self.cast<const Mesh&>();
             py::array view = viewOf(mesh.vertices.front().data(), {static_cast<py::ssize_t>(mesh.vertices.size()), 3},
@@ -211,7 +211,7 @@ void addShapes(py::module_& module)
           "Metres, shape (v, 3). A view that cannot be written.")
       .def_property_readonly(
           "triangles",
-          [](py::object self)
+          [](const py::object& self)
           {
             const auto& mesh = self.cast<const Mesh&>();
             py::array view = viewOf(mesh.triangles.front().data(), {static_cast<py::ssize_t>(mesh.triangles.size()), 3},

@@ -38,7 +38,7 @@ CheckerPtr opened(const PlanningScene& scene, const Open& open)
 }
 
 BatchCheckerOptions optionsFrom(const Arg<std::string>& device, Arg<double> tolerance, Arg<std::size_t> max_batch,
-                                py::object cpu_below, const Arg<std::string>& traversal)
+                                const py::object& cpu_below, const Arg<std::string>& traversal)
 {
   BatchCheckerOptions options;
   options.device = device.value;
@@ -51,7 +51,7 @@ BatchCheckerOptions optionsFrom(const Arg<std::string>& device, Arg<double> tole
 }
 
 CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& device, Arg<double> tolerance,
-                          Arg<std::size_t> max_batch, py::object cpu_below, const Arg<std::string>& traversal)
+                          Arg<std::size_t> max_batch, const py::object& cpu_below, const Arg<std::string>& traversal)
 {
   const BatchCheckerOptions options = optionsFrom(device, tolerance, max_batch, cpu_below, traversal);
   return opened(*scene.value,
@@ -59,7 +59,7 @@ CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& de
                 { return core::openChecker(copy, options); });
 }
 
-BatchResult checkStates(SharedChecker& checker, py::object states, const Arg<std::string>& group)
+BatchResult checkStates(SharedChecker& checker, const py::object& states, const Arg<std::string>& group)
 {
   const Rows rows = rowsFrom(states, *checker.scene()->robot, "states");
   const double* data = rows.data();
@@ -90,7 +90,7 @@ void addBatchResult(py::module_& module)
   py::class_<BatchResult>(module, "BatchResult", "The answers of StateChecker.check. The arrays show its memory.")
       .def_property_readonly(
           "valid",
-          [](py::object self)
+          [](const py::object& self)
           {
             const auto& valid = self.cast<const BatchResult&>().valid;
             static_assert(sizeof(bool) == 1);
@@ -100,7 +100,7 @@ void addBatchResult(py::module_& module)
           "True: the state is free of collision. Shape (n,), bool.")
       .def_property_readonly(
           "colliding",
-          [](py::object self)
+          [](const py::object& self)
           {
             const auto& pairs = self.cast<const BatchResult&>().colliding;
             return viewOf(reinterpret_cast<const std::int32_t*>(pairs.data()),

@@ -30,7 +30,7 @@ struct Clearances
   std::vector<Clearance> all;
 };
 
-std::vector<Contact> contacts(const StateInspector& inspector, py::object state, const Arg<std::string>& group,
+std::vector<Contact> contacts(const StateInspector& inspector, const py::object& state, const Arg<std::string>& group,
                               Arg<std::size_t> max_contacts, Arg<std::size_t> max_per_pair)
 {
   const std::vector<double> row = rowFrom(state, *inspector.scene()->robot, "state");
@@ -39,7 +39,7 @@ std::vector<Contact> contacts(const StateInspector& inspector, py::object state,
 }
 
 /// Computes in parts that grow to a quarter of a second, between which Ctrl-C can end the call.
-Clearances clearances(const StateInspector& inspector, py::object states, const Arg<std::string>& group)
+Clearances clearances(const StateInspector& inspector, const py::object& states, const Arg<std::string>& group)
 {
   const core::RobotModel& robot = *inspector.scene()->robot;
   const Rows rows = rowsFrom(states, robot, "states");
@@ -67,7 +67,7 @@ Clearances clearances(const StateInspector& inspector, py::object states, const 
 }
 
 template <typename T, typename Member>
-py::array membersOf(py::object self, Member Clearance::*member, bool is_pair)
+py::array membersOf(const py::object& self, Member Clearance::*member, bool is_pair)
 {
   const auto& all = self.cast<const Clearances&>().all;
   std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(all.size())};
@@ -96,18 +96,19 @@ void addResults(py::module_& module)
                          "The clearances of states, in metres beyond the required distance. The arrays show its "
                          "memory.")
       .def_property_readonly(
-          "world", [](py::object self) { return membersOf<double>(self, &Clearance::world, false); },
+          "world", [](const py::object& self) { return membersOf<double>(self, &Clearance::world, false); },
           "Between the robot with its attached objects and the objects of the world: a lower bound, at most 1e-6 m "
           "below the true value. 0 in collision; inf if no pair is checked. Shape (n,).")
       .def_property_readonly(
-          "self", [](py::object self) { return membersOf<double>(self, &Clearance::self, false); },
+          "self", [](const py::object& self) { return membersOf<double>(self, &Clearance::self, false); },
           "Within the robot and its attached objects, as world. Shape (n,).")
       .def_property_readonly(
           "nearest_world",
-          [](py::object self) { return membersOf<std::int32_t>(self, &Clearance::nearest_world, true); },
+          [](const py::object& self) { return membersOf<std::int32_t>(self, &Clearance::nearest_world, true); },
           "The body indices of the nearest pair, ascending; -1, -1 if no pair is checked. Shape (n, 2), int32.")
       .def_property_readonly(
-          "nearest_self", [](py::object self) { return membersOf<std::int32_t>(self, &Clearance::nearest_self, true); },
+          "nearest_self",
+          [](const py::object& self) { return membersOf<std::int32_t>(self, &Clearance::nearest_self, true); },
           "As nearest_world. Shape (n, 2), int32.")
       .def("__len__", [](const Clearances& result) { return result.all.size(); });
 }
