@@ -1,5 +1,6 @@
 #include "bindings/arguments.h"
 
+#include <cstring>
 #include <map>
 #include <memory>
 
@@ -57,7 +58,10 @@ py::array anyArrayFrom(py::handle object)
 ArrayOf<double> arrayFrom(py::handle object, const char* what)
 {
   const py::array any = anyArrayFrom(object);
-  if (!any || std::string("biuf").find(any.dtype().kind()) == std::string::npos)
+  if (std::strcmp(Py_TYPE(object.ptr())->tp_name, "MaskedArray") == 0)
+    throwTypeError(std::string(what) +
+                   ": expected an array of numbers, but got a masked array, whose mask would be lost");
+  if (!any || std::string("iuf").find(any.dtype().kind()) == std::string::npos)
     throwTypeError(std::string(what) + ": " + expectedButGot("an array of numbers", object));
   return ArrayOf<double>(any);
 }

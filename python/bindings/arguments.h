@@ -88,11 +88,13 @@ auto withoutLock(const Work& work)
   return work();
 }
 
-/// An array that shows values of `owner` without copying them. `strides` are in bytes.
+/// A read-only array that shows values of `owner` without copying them. `strides` are in bytes.
 template <typename T>
 py::array viewOf(const T* values, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, py::handle owner)
 {
-  return py::array(py::dtype::of<T>(), std::move(shape), std::move(strides), values, owner);
+  py::array array(py::dtype::of<T>(), std::move(shape), std::move(strides), values, owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
 }
 }  // namespace gpu_planning_scene::python
 
@@ -105,6 +107,14 @@ struct type_caster<gpu_planning_scene::python::Arg<T>>
 
   bool load(handle source, bool convert)
   {
+    if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+    {
+      // pybind11 would cut off the fraction of numbers such as numpy.float32.
+      const object whole = reinterpret_steal<object>(PyNumber_Index(source.ptr()));
+      PyErr_Clear();
+      if (!whole)
+        gpu_planning_scene::python::throwTypeError(gpu_planning_scene::python::expectedButGot(expected(), source));
+    }
     make_caster<T> caster;
     if (source.is_none() || !caster.load(source, convert))
       gpu_planning_scene::python::throwTypeError(gpu_planning_scene::python::expectedButGot(expected(), source));

@@ -24,16 +24,20 @@ struct MotionVerdicts
   std::vector<MotionVerdict> all;
 };
 
-/// A checker of motions with its robot, which gives the rows their width.
+/// A checker of motions with its robot, which gives the rows their width. The robot never changes, see
+/// SharedChecker::setScene.
 struct SharedMotionChecker
 {
-  SharedMotionChecker(const SharedChecker& checker, const std::string& group, const MotionCheckerOptions& options)
-    : robot(checker.scene()->robot), motions(checker.checker(), robot, group, options)
+  SharedMotionChecker(CheckerPtr shared, const std::string& group, const MotionCheckerOptions& options)
+    : checker(std::move(shared)),
+      robot(checker->scene()->robot),
+      motions(SharedChecker::Call(*checker).checker(), robot, group, options)
   {
     if (!group.empty())
       robot->group(group);  // throws Error for an unknown group
   }
 
+  CheckerPtr checker;
   std::shared_ptr<const core::RobotModel> robot;
   MotionChecker motions;
 };
@@ -62,7 +66,9 @@ MotionVerdicts checkMotions(const SharedMotionChecker& checker, const py::object
   const double* to_data = to.data();
   Interrupt interrupt;
   auto verdicts = withoutLock(
-      [&] {
+      [&]
+      {
+        const SharedChecker::Call call(*checker.checker);  // so that all of the motions are checked in one scene
         return checker.motions.check(from_data, to_data, from.count, question, [&] { return interrupt.requested(); });
       });
   interrupt.rethrow();
@@ -140,7 +146,7 @@ void addMotionChecker(py::module_& module)
                  auto options = motionOptionsFrom(rule, resolution, translation_resolution, max_samples);
                  if (!max_checks.is_none())
                    options.max_checks = max_checks.cast<Arg<std::size_t>>().value;
-                 return std::make_unique<SharedMotionChecker>(*checker.value, group.value, options);
+                 return std::make_unique<SharedMotionChecker>(checker.value, group.value, options);
                }),
            py::arg("checker"), py::arg("group") = "", py::arg("rule") = "bound",
            py::arg("resolution") = defaults.steps.revolute,

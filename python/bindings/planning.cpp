@@ -68,7 +68,8 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
   PlanningResult result = withoutLock(
       [&]
       {
-        return core::planMotion(scene, checker.value->checker(), query, BatchRrtConnectFactory(),
+        const SharedChecker::Call call(*checker.value);  // so that the whole plan is made in one scene
+        return core::planMotion(call.scene(), call.checker(), query, BatchRrtConnectFactory(),
                                 [&] { return interrupt.requested(); });
       });
   interrupt.rethrow();
@@ -120,7 +121,7 @@ void addPlanning(py::module_& module)
              "resolution, translation_resolution, max_samples: as in MotionChecker. parameters: of the planner, by "
              "OMPL's names, for example {\"range\": 0.5}.\n\nReturns a PlanningResult: a motion that is not found is "
              "not an exception. Raises Error for an unknown group or parameter, for other shapes, and for values that "
-             "are not finite. Ctrl-C ends the call. Threads that plan at once need a checker each.\n\n"
+             "are not finite. Ctrl-C ends the call. A checker serves one call after the other.\n\n"
              "    result = gps.plan_motion(checker, \"arm\", start, goal)\n"
              "    print(result.status, result.message, result.waypoints)");
 }

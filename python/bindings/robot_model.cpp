@@ -37,6 +37,9 @@ core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_transl
 {
   core::RobotModelOptions options;
   options.packages = packagesFrom(packages);
+  if (!(unbounded_translation > 0.0 && unbounded_translation <= core::kLargestLength))
+    throw core::Error("unbounded_translation is " + std::to_string(unbounded_translation) +
+                      "; it must be above 0 and at most 1e6 metres");
   options.unbounded_translation = unbounded_translation;
   return options;
 }

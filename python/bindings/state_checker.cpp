@@ -128,14 +128,28 @@ std::shared_ptr<const PlanningScene> SharedChecker::scene() const
   return scene_;
 }
 
+SharedChecker::Call::Call(SharedChecker& checker) : shared_(checker)
+{
+  if (checker.caller_ == std::this_thread::get_id())
+    throw core::Error(
+        "the checker is in use by this thread; a signal handler cannot use the checker of the call that it "
+        "interrupts");
+  lock_ = std::unique_lock<std::mutex>(checker.mutex_);
+  checker.caller_ = std::this_thread::get_id();
+}
+
+SharedChecker::Call::~Call()
+{
+  shared_.caller_ = std::thread::id();
+}
+
 void SharedChecker::setScene(std::shared_ptr<const PlanningScene> scene)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const std::size_t width = scene_->robot->variables().size();
-  if (scene->robot->variables().size() != width)
-    throw core::Error("the robot of the new scene has " + std::to_string(scene->robot->variables().size()) +
-                      " variables, and that of this checker has " + std::to_string(width) +
-                      "; create a new checker for another robot");
+  const Call call(*this);
+  if (scene->robot != scene_->robot)
+    throw core::Error(
+        "the robot of the new scene is not the RobotModel of this checker's scene; make the new scene with "
+        "checker.scene.robot, or create a new checker for another robot");
   checker_->setScene(scene);
   seconds_per_state_ = 0.0;
   const std::lock_guard<std::mutex> scene_lock(scene_mutex_);
@@ -157,7 +171,7 @@ std::size_t SharedChecker::statesOfPart() const
 BatchResult SharedChecker::check(const double* states, std::size_t count, const std::string& group,
                                  Interrupt& interrupt)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Call call(*this);
   const std::size_t width = scene_->robot->variables().size();
   BatchResult result;
   std::size_t done = 0;
@@ -226,10 +240,10 @@ void addStateChecker(py::module_& module)
           "The pairs that are checked and left out: a SceneReport. Raises Error for an unknown "
           "group.")
       .def_property_readonly(
-          "device_name", [](const SharedChecker& self) { return self.checker()->deviceName(); },
+          "device_name", [](const SharedChecker& self) { return self.deviceName(); },
           "The name of the device: GL_RENDERER, or \"CPU\".")
       .def_property_readonly(
-          "device_warning", [](const SharedChecker& self) { return self.checker()->deviceWarning(); },
+          "device_warning", [](const SharedChecker& self) { return self.deviceWarning(); },
           "A line if the device's arithmetic breaks an assumption of the error bounds; else empty. The answers stay "
           "right, but the CPU computes more.");
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 
 #include "gpu_planning_scene/planning_scene.h"
 #include "gpu_planning_scene/state_checker.h"
@@ -23,12 +25,31 @@ class SharedChecker
 
   /// Returns early if the interrupt was requested; the caller then throws its exception.
   core::BatchResult check(const double* states, std::size_t count, const std::string& group, Interrupt& interrupt);
-  /// Throws Error for a robot with another number of variables: other threads may have rows of the old width.
+  /// Throws Error for another robot: other threads may have rows of the old one, and so do checkers of motions.
   void setScene(std::shared_ptr<const core::PlanningScene> scene);
   core::SceneReport report(const std::string& group);
 
-  const std::shared_ptr<core::StateChecker>& checker() const { return checker_; }
   std::shared_ptr<const core::PlanningScene> scene() const;
+  std::string deviceName() const { return checker_->deviceName(); }
+  std::string deviceWarning() const { return checker_->deviceWarning(); }
+
+  /// Holds the checker, so that the whole of a call is in one scene. The constructor waits for other threads. It throws
+  /// Error if this thread holds the checker already: a signal handler has interrupted a call.
+  class Call
+  {
+   public:
+    explicit Call(SharedChecker& checker);
+    ~Call();
+    Call(const Call&) = delete;
+    Call& operator=(const Call&) = delete;
+
+    const std::shared_ptr<core::StateChecker>& checker() const { return shared_.checker_; }
+    const std::shared_ptr<const core::PlanningScene>& scene() const { return shared_.scene_; }
+
+   private:
+    SharedChecker& shared_;
+    std::unique_lock<std::mutex> lock_;
+  };
 
  private:
   std::size_t statesOfPart() const;
@@ -36,7 +57,8 @@ class SharedChecker
   std::shared_ptr<core::StateChecker> checker_;
   mutable std::mutex scene_mutex_;  // held only for a moment
   std::shared_ptr<const core::PlanningScene> scene_;
-  std::mutex mutex_;                // held during a call, so that a call checks one scene
-  double seconds_per_state_ = 0.0;  // of the last part; 0: not measured
+  std::mutex mutex_;                                        // held by a Call
+  std::atomic<std::thread::id> caller_{std::thread::id()};  // the thread that holds it
+  double seconds_per_state_ = 0.0;                          // of the last part; 0: not measured
 };
 }  // namespace gpu_planning_scene::python

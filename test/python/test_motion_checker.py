@@ -1,4 +1,5 @@
 """MotionChecker: both rules, the three queries, errors, Ctrl-C."""
+import threading
 import unittest
 
 import numpy as np
@@ -32,6 +33,33 @@ class MotionChecker(Case):
             self.assertEqual([-1, -1], answer.colliding[0].tolist())
             self.assertFalse(answer.given_up.any())
             self.assertEqual(3, len(answer))
+
+    def test_a_call_checks_one_scene_while_another_thread_changes_it(self):
+        # Each wall forbids the motion. Between the walls' scenes, a motion could pass both.
+        robot = rail()
+        scenes = []
+        for x in (0.75, 4.5):
+            scenes.append(gps.PlanningScene(robot))
+            scenes[-1].add_object("wall", gps.Box([0.1, 1, 1]), [x, 0, 0])
+        checker = gps.StateChecker(scenes[0], device="cpu")
+        motions_checker = gps.MotionChecker(checker, rule="samples", translation_resolution=0.05)
+        ended = threading.Event()
+
+        def change():
+            while not ended.is_set():
+                for scene in scenes:
+                    checker.set_scene(scene)
+
+        thread = threading.Thread(target=change)
+        thread.start()
+        try:
+            for _ in range(20):
+                answer = motions_checker.check(np.zeros((2000, 1)), np.full((2000, 1), 9.0))
+                self.assertFalse(answer.valid.any())
+                self.assertEqual(1, len(set(answer.first_invalid.tolist())))
+        finally:
+            ended.set()
+            thread.join()
 
     def test_the_query_valid_ends_at_the_first_collision(self):
         answer = motions(wall_scene(0.1), rule="samples").check([0.0], [2.0])

@@ -175,9 +175,29 @@ class StateChecker(Case):
         self.assertFalse(checker.check([0.0]).valid[0])
         self.assertEqual(["post"], [each.id for each in checker.scene.objects])
 
+    def test_a_signal_handler_cannot_use_the_checker_of_the_call_that_it_interrupts(self):
+        scene = kr5_scene()
+        checker = gps.StateChecker(scene, device="cpu")
+
+        def handler(_number, _frame):
+            checker.check(scene.robot.random_states(1, seed=1))
+
+        before = signal.signal(signal.SIGALRM, handler)
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        try:
+            with many_states() as states:
+                self.assert_one_line(gps.Error, "a signal handler cannot use the checker", checker.check, states)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        self.assertEqual(1, len(checker.check(scene.robot.random_states(1, seed=1))))
+
     def test_a_scene_that_is_not_valid_keeps_the_old_one(self):
         checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
         self.assert_one_line(gps.Error, "create a new checker for another robot", checker.set_scene, arm_scene())
+        # Another robot, although it has as many variables.
+        self.assert_one_line(gps.Error, "create a new checker for another robot", checker.set_scene,
+                             gps.PlanningScene(rail()))
         self.assert_one_line(TypeError, "expected a PlanningScene, but got None", checker.set_scene, None)
         self.assertEqual("rail", checker.scene.robot.name)
         self.assertTrue(checker.check([0.0]).valid[0])
@@ -186,7 +206,7 @@ class StateChecker(Case):
         checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
         for states in (np.zeros((3, 2)), np.zeros((2, 2, 1)), 1.0):
             self.assert_one_line(gps.Error, "^states: the shape is", checker.check, states)
-        for states in (None, "ready", [["a"]], np.zeros((1, 1), complex), [[1.0], [1.0, 2.0]], np.array([[None]])):
+        for states in (np.ma.array([[1.0]], mask=[[True]]), np.ones((1, 1), bool), None, "ready", [["a"]], np.zeros((1, 1), complex), [[1.0], [1.0, 2.0]], np.array([[None]])):
             self.assert_one_line(TypeError, "^states: expected an array of numbers", checker.check, states)
         for value in (float("nan"), float("inf"), -float("inf")):
             self.assert_one_line(gps.Error, "^state 1: the value of variable 'slide'", checker.check, [[0.0], [value]])
