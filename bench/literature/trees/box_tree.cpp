@@ -7,8 +7,9 @@
 
 // The construction of G. Zachmann, "Minimal Hierarchical Collision Detection" (2002). A node is a side that it moves,
 // one float, and a child. A split minimises the sum of the children's volumes. An empty side is cut off if it is at
-// least 15 % of the box. (Own choice: each child gets at least a quarter of the triangles, because the sum of volumes
-// alone would allow lists.)
+// least 15 % of the box. Own choices: a split is across the longest axis of the box, and each child gets at least a
+// quarter of the triangles. The sum of volumes alone would make lists, and long boxes where the edges of a mesh lie in
+// rows.
 namespace gpu_planning_scene::core::literature
 {
 namespace
@@ -62,6 +63,15 @@ std::optional<Cut> emptySide(const FloatBox& box, const FloatBox& tight)
   return best;
 }
 
+int longestAxis(const FloatBox& box)
+{
+  int longest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (box.upper[axis] - box.lower[axis] > box.upper[longest] - box.lower[longest])
+      longest = axis;
+  return longest;
+}
+
 struct Split
 {
   int axis = 0;
@@ -71,7 +81,7 @@ struct Split
   float cost = kInfinity;  ///< sum of the children's volumes, divided by that of the parent
 };
 
-/// Improves `best` by splits along one axis. Sorts the triangles along it.
+/// Finds the best split along one axis. Sorts the triangles along it.
 void trySplits(int axis, const FloatBox& box, const std::vector<FloatBox>& bounds, std::uint32_t* begin,
                std::uint32_t* end, Split& best)
 {
@@ -132,13 +142,7 @@ void BoxTree::build(std::uint32_t node, FloatBox box, std::uint32_t* begin, std:
   }
   // If all triangles lie in one point, both children have the box of the parent.
   Split best{0, (end - begin) / 2, box.upper[0], box.lower[0], kInfinity};
-  for (int axis = 0; axis < 3; ++axis)
-    trySplits(axis, box, bounds_, begin, end, best);
-  if (best.axis != 2 && best.cost < kInfinity)  // the triangles are sorted along z
-  {
-    Split again;
-    trySplits(best.axis, box, bounds_, begin, end, again);
-  }
+  trySplits(longestAxis(box), box, bounds_, begin, end, best);
   nodes_[node].child = child;
   nodes_[node].children = 2;
   nodes_.resize(nodes_.size() + 2);
