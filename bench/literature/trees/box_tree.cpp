@@ -7,14 +7,15 @@
 
 // The construction of G. Zachmann, "Minimal Hierarchical Collision Detection" (2002). A node is a side that it moves,
 // one float, and a child. A split minimises the sum of the children's volumes. An empty side is cut off if it is at
-// least 15 % of the box. Own choices: a split is across the longest axis of the box, and each child gets at least a
-// quarter of the triangles. The sum of volumes alone would make lists, and long boxes where the edges of a mesh lie in
-// rows.
+// least 15 % of the box. Own choices: a split is across an axis of at least half the longest one's length, and each
+// child gets at least a quarter of the triangles. The sum of volumes alone would make lists, and long boxes where the
+// edges of a mesh lie in rows.
 namespace gpu_planning_scene::core::literature
 {
 namespace
 {
 constexpr float kEmptyShare = 0.15F;
+constexpr float kLeastShare = 0.5F;  // of the longest axis, for a split across another axis
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 FloatBox boundsOf(const Triangle& t)
@@ -63,13 +64,9 @@ std::optional<Cut> emptySide(const FloatBox& box, const FloatBox& tight)
   return best;
 }
 
-int longestAxis(const FloatBox& box)
+float lengthOf(const FloatBox& box, int axis)
 {
-  int longest = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (box.upper[axis] - box.lower[axis] > box.upper[longest] - box.lower[longest])
-      longest = axis;
-  return longest;
+  return box.upper[axis] - box.lower[axis];
 }
 
 struct Split
@@ -142,7 +139,12 @@ void BoxTree::build(std::uint32_t node, FloatBox box, std::uint32_t* begin, std:
   }
   // If all triangles lie in one point, both children have the box of the parent.
   Split best{0, (end - begin) / 2, box.upper[0], box.lower[0], kInfinity};
-  trySplits(longestAxis(box), box, bounds_, begin, end, best);
+  const float longest = std::max({lengthOf(box, 0), lengthOf(box, 1), lengthOf(box, 2)});
+  for (int axis = 0; axis < 3; ++axis)
+    if (lengthOf(box, axis) >= kLeastShare * longest)
+      trySplits(axis, box, bounds_, begin, end, best);
+  if (Split again; best.cost < kInfinity)  // the triangles may be sorted along another axis
+    trySplits(best.axis, box, bounds_, begin, end, again);
   nodes_[node].child = child;
   nodes_[node].children = 2;
   nodes_.resize(nodes_.size() + 2);
