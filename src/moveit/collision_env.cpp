@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "moveit/collision_query.h"
+#include "moveit/continuous_check.h"
 #include "moveit/distance_query.h"
 #include "moveit/log.h"
-#include "moveit/motion_check.h"
 #include "moveit/workspace.h"
 
 // MoveIt's states hold the poses of all links, so a check begins with the bounds of the links' shapes. Pairs whose

@@ -37,7 +37,7 @@ class CollisionEnv : public collision_detection::CollisionEnv
   void checkRobotCollision(const collision_detection::CollisionRequest& request,
                            collision_detection::CollisionResult& result, const moveit::core::RobotState& state,
                            const collision_detection::AllowedCollisionMatrix& matrix) const override;
-  /// Checks the motion between two states: see motion_check.h.
+  /// Checks the motion between two states: see continuous_check.h.
   void checkRobotCollision(const collision_detection::CollisionRequest& request,
                            collision_detection::CollisionResult& result, const moveit::core::RobotState& from,
                            const moveit::core::RobotState& to,

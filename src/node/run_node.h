@@ -1,6 +1,6 @@
 #pragma once
 
-#include "node/checks/checker_maker.h"
+#include "node/checks/watched_checkers.h"
 
 namespace gpu_planning_scene::core
 {

@@ -4,7 +4,7 @@
 
 #include <ros/node_handle.h>
 
-#include "node/checks/checker_maker.h"
+#include "node/checks/watched_checkers.h"
 
 namespace gpu_planning_scene::core
 {

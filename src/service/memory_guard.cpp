@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/text/memory_text.h"
 
 namespace gpu_planning_scene::core
 {
@@ -20,11 +21,6 @@ std::size_t pageSize()
 std::size_t machineMemory()
 {
   return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * pageSize();
-}
-
-std::string megabytes(std::size_t bytes)
-{
-  return std::to_string(bytes >> 20) + " MiB";
 }
 }  // namespace
 

@@ -46,7 +46,7 @@ TEST(Srdf, XacroIsRefusedWithTheCommandToRun)
 {
   const std::string message = error("<group name='arm'/>\n<xacro:include filename='x'/>");
   EXPECT_EQ(
-      message.find("test.srdf:2: <xacro:include> is xacro, which must be expanded first: xacro FILE > robot.srdf, "
+      message.find("test.srdf:2: <xacro:include> is xacro, which must be expanded first: xacro FILE > expanded.srdf, "
                    "or for the launch file srdf_command:=\"xacro FILE\" instead of srdf:=FILE"),
       0u)
       << message;

@@ -40,9 +40,22 @@ TEST(UrdfErrors, MalformedXmlIsNamedWithItsLine)
 TEST(UrdfErrors, XacroIsRefusedWithTheCommandToRun)
 {
   expectError("<link name='a'/>\n<xacro:macro name='arm'/>", "test.urdf:2: <xacro:macro> is xacro",
-              "xacro FILE > robot.urdf, or for the launch file urdf_command:=\"xacro FILE\"");
+              "xacro FILE > expanded.urdf, or for the launch file urdf_command:=\"xacro FILE\"");
   expectError("<link name='a'><collision><geometry>\n<box size='1 1 ${height}'/></geometry></collision></link>",
               "test.urdf:2: size=\"1 1 ${height}\" is xacro", "urdf_command");
+}
+
+TEST(UrdfErrors, TheCommandForXacroNamesTheGivenFile)
+{
+  const TemporaryFolder folder;
+  const std::string robot = "<robot name='r'><link name='a'/><xacro:macro name='arm'/></robot>";
+  const auto message_for = [&](const std::string& name)
+  { return errorOf([&] { RobotModel::fromFiles(folder.write(name, robot), "", {}); }); };
+  const std::string command = "xacro '" + folder.path("my arm.xacro") + "'";
+  const std::string message = message_for("my arm.xacro");
+  EXPECT_NE(message.find(command + " > expanded.urdf"), std::string::npos) << message;
+  EXPECT_NE(message.find("urdf_command:=\"" + command + "\" instead of urdf:=FILE"), std::string::npos) << message;
+  EXPECT_NE(message_for("Sam's arm.xacro").find("urdf_command:=\"xacro FILE\""), std::string::npos);
 }
 
 TEST(UrdfErrors, AMacroCallThatXacroLeftIsAWarning)

@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-bool sameObject(const WorldObject& a, const WorldObject& b)
+bool sameGeometry(const WorldObject& a, const WorldObject& b)
 {
   return a.pose.matrix() == b.pose.matrix() && a.padding == b.padding &&
          std::equal(
@@ -26,10 +26,10 @@ bool sameObject(const WorldObject& a, const WorldObject& b)
              });
 }
 
-bool sameCarried(const AttachedObject& a, const AttachedObject& b)
+bool sameAttachedGeometry(const AttachedObject& a, const AttachedObject& b)
 {
   return a.link == b.link && a.padding == b.padding && a.scaled_shapes == b.scaled_shapes &&
-         sameObject(a.object, b.object);
+         sameGeometry(a.object, b.object);
 }
 
 /// Counts the objects that occur in at least one pair.
@@ -120,7 +120,7 @@ void ReachabilityFilter::keepCarried(const PlanningScene& scene)
   for (std::size_t i = 0; i < scene.attached.size(); ++i)
   {
     const AttachedObject& attached = scene.attached[i];
-    if (i < kept && sameCarried(carried_[i], attached))
+    if (i < kept && sameAttachedGeometry(carried_[i], attached))
       continue;
     swept_[links + i].reset();
     near_movers_.forgetRow(links + i);
@@ -143,7 +143,7 @@ void ReachabilityFilter::keepObjects(const PlanningScene& scene)
   for (std::size_t k = 0; k < scene.objects.size(); ++k)
   {
     const WorldObject& object = scene.objects[k];
-    if (k < kept && sameObject(objects_[k].object, object))
+    if (k < kept && sameGeometry(objects_[k].object, object))
       continue;
     near_objects_.forgetRow(k);
     KnownObject known{object, obstaclesOf(object)};

@@ -1,8 +1,10 @@
 #include "model/description/xml_kind.h"
 
 #include <cstring>
+#include <filesystem>
 #include <initializer_list>
 #include <string>
+#include <system_error>
 
 #include <tinyxml2.h>
 
@@ -38,17 +40,29 @@ const tinyxml2::XMLAttribute* expressionOf(const XMLElement& element)
   return nullptr;
 }
 
+/// The file of a text, as the commands of a message name it: in quotes, because a path may have spaces. FILE if the
+/// text comes from no file of this machine, or if the quotes would not do.
+std::string fileOf(const XmlText& xml)
+{
+  std::error_code failure;
+  const bool is_file = std::filesystem::is_regular_file(xml.name(), failure);
+  return is_file && xml.name().find_first_of("'\"$`\\!") == std::string::npos ? "'" + xml.name() + "'" : "FILE";
+}
+
 /// `kind`: "urdf" or "srdf". `leftovers` receives all other elements of xacro.
 void refuseXacro(const XmlText& xml, const XMLElement& element, const std::string& kind,
                  std::vector<const XMLElement*>& leftovers)
 {
   const auto* expression = expressionOf(element);
   if (expression != nullptr || isDirective(element))
+  {
+    const std::string command = "xacro " + fileOf(xml);
     throw Error(xml.where(element) + ": " +
                 (expression != nullptr ? std::string(expression->Name()) + "=\"" + expression->Value() + "\""
                                        : std::string("<") + element.Name() + ">") +
-                " is xacro, which must be expanded first: xacro FILE > robot." + kind + ", or for the launch file " +
-                kind + "_command:=\"xacro FILE\" instead of " + kind + ":=FILE");
+                " is xacro, which must be expanded first: " + command + " > expanded." + kind +
+                ", or for the launch file " + kind + "_command:=\"" + command + "\" instead of " + kind + ":=FILE");
+  }
   if (isXacro(element))
     leftovers.push_back(&element);
   for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
@@ -84,7 +98,8 @@ void requireSrdf(const XmlText& xml)
   refuseXacro(xml, xml.root(), "srdf", leftovers);
   if (!leftovers.empty())
     throw Error(xml.where(*leftovers[0]) + ": <" + leftovers[0]->Name() +
-                "> was not expanded by xacro; expand the file with all that it includes: xacro FILE > robot.srdf");
+                "> was not expanded by xacro; expand the file with all that it includes: xacro " + fileOf(xml) +
+                " > expanded.srdf");
   if (const XMLElement* of_urdf = firstOf(xml, {"link", "joint"}))
     throw Error(xml.where(*of_urdf) + ": <" + of_urdf->Name() +
                 "> is an element of a URDF, and an SRDF is needed here; give the URDF as urdf:=FILE (launch file), "

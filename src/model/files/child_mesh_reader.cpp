@@ -19,6 +19,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/mesh_reader.h"
 #include "model/files/mesh_pipe.h"
+#include "model/text/memory_text.h"
 #include "model/text/number_text.h"
 #include "model/text/one_line.h"
 
@@ -28,11 +29,6 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMaxErrorBytes = 4096;
-
-std::string megabytes(std::size_t bytes)
-{
-  return std::to_string(bytes >> 20) + " MiB";
-}
 
 class Pipe
 {

@@ -10,7 +10,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
-#include "node/checks/checker_maker.h"
+#include "node/checks/watched_checkers.h"
 #include "scene/slider_robot.h"
 
 namespace gpu_planning_scene::core
@@ -44,11 +44,11 @@ class Device : public CpuChecker
 /// States of a request for the second queue, whose checker is made with its first request.
 constexpr std::size_t kLarge = 2000;
 
-class CheckerMaker : public testing::Test
+class WatchedCheckers : public testing::Test
 {
  protected:
-  CheckerMaker() { resilience_.device_seconds = 0.2; }
-  ~CheckerMaker() override { repaired_.set_value(); }
+  WatchedCheckers() { resilience_.device_seconds = 0.2; }
+  ~WatchedCheckers() override { repaired_.set_value(); }
 
   /// Sets the fault of opening the device from now on: it throws, waits, or does nothing.
   void openWith(void (*fault)(const std::shared_future<void>& repaired)) { fault_ = fault; }
@@ -65,7 +65,7 @@ class CheckerMaker : public testing::Test
           fault_.load()(repaired);
         return std::make_unique<Device>(std::move(scene), losses);
       };
-      server_ = std::make_unique<CheckServer>(store_, checkerMaker(options_, resilience_, open, diagnostics_),
+      server_ = std::make_unique<CheckServer>(store_, makeWatchedCheckers(options_, resilience_, open, diagnostics_),
                                               CheckServerOptions());
     }
     return *server_;
@@ -90,14 +90,14 @@ class CheckerMaker : public testing::Test
   std::unique_ptr<CheckServer> server_;
 };
 
-TEST_F(CheckerMaker, ANamedDeviceThatCannotBeOpenedAtTheStartIsAnError)
+TEST_F(WatchedCheckers, ANamedDeviceThatCannotBeOpenedAtTheStartIsAnError)
 {
   options_.device = "software";
   openWith([](const auto&) { throw Error("no usable device"); });
   EXPECT_EQ(errorOf([&] { server(); }), "no usable device");
 }
 
-TEST_F(CheckerMaker, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
+TEST_F(WatchedCheckers, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
 {
   openWith([](const auto&) { throw Error("no usable device"); });
   for (const std::size_t count : {std::size_t{1}, kLarge})
@@ -108,7 +108,7 @@ TEST_F(CheckerMaker, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
   }
 }
 
-TEST_F(CheckerMaker, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
+TEST_F(WatchedCheckers, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
 {
   EXPECT_EQ(ask(1).result.valid.size(), 1u);
   openWith([](const auto&) { throw DeviceLost("the GPU was reset"); });
@@ -117,7 +117,7 @@ TEST_F(CheckerMaker, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
   EXPECT_EQ(answer.device, "CPU");
 }
 
-TEST_F(CheckerMaker, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
+TEST_F(WatchedCheckers, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
 {
   EXPECT_EQ(ask(1).result.valid.size(), 1u);
   openWith([](const auto& repaired) { repaired.wait(); });
@@ -125,7 +125,7 @@ TEST_F(CheckerMaker, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
   server().stop();
 }
 
-TEST_F(CheckerMaker, DiagnosticsReportCpuFallbackAndMissingDevice)
+TEST_F(WatchedCheckers, DiagnosticsReportCpuFallbackAndMissingDevice)
 {
   using diagnostic_msgs::DiagnosticStatus;
   resilience_.retry_seconds = 0.1;
@@ -154,7 +154,7 @@ TEST_F(CheckerMaker, DiagnosticsReportCpuFallbackAndMissingDevice)
   EXPECT_EQ(level(), DiagnosticStatus::OK);
 }
 
-TEST_F(CheckerMaker, DiagnosticsAreShortWhateverIsInThem)
+TEST_F(WatchedCheckers, DiagnosticsAreShortWhateverIsInThem)
 {
   ask(1);
   openWith([](const auto&) { throw Error("no device '" + std::string(100000, 'x') + "'"); });

@@ -1,11 +1,11 @@
-#include "node/checks/checker_maker.h"
+#include "node/checks/watched_checkers.h"
 
 #include <ros/console.h>
 
 namespace gpu_planning_scene::core
 {
-CheckServer::MakeChecker checkerMaker(const BatchCheckerOptions& options, const ResilientOptions& resilience,
-                                      const OpenDevice& open_device, Diagnostics& diagnostics)
+CheckServer::MakeChecker makeWatchedCheckers(const BatchCheckerOptions& options, const ResilientOptions& resilience,
+                                             const OpenDevice& open_device, Diagnostics& diagnostics)
 {
   const auto make = makeResilientCheckers(options, resilience, open_device,
                                           [](const std::string& warning) { ROS_WARN_STREAM(warning); });

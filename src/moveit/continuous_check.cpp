@@ -1,4 +1,4 @@
-#include "moveit/motion_check.h"
+#include "moveit/continuous_check.h"
 
 #include <algorithm>
 #include <cmath>
