@@ -294,7 +294,8 @@ class StateChecker(Case):
         self.assertEqual([], wrong)
 
     def test_a_call_checks_one_scene_while_another_thread_changes_it(self):
-        free, blocked = gps.PlanningScene(rail()), gps.PlanningScene(rail())
+        robot = rail()
+        free, blocked = gps.PlanningScene(robot), gps.PlanningScene(robot)
         blocked.add_object("post", gps.Sphere(0.1))
         blocked.revision = 1
         checker = gps.StateChecker(free, device="cpu")
