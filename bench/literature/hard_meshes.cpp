@@ -16,11 +16,6 @@ MeshPtr modelMesh(const char* model, std::size_t triangles)
   return madeModel(model, triangles, 1).mesh;
 }
 
-MeshPtr boxMesh(const Vector3d& size)
-{
-  return tessellate(Box{size}).mesh;
-}
-
 MeshPtr moved(const MeshPtr& mesh, const Isometry3d& pose, double scale)
 {
   auto made = std::make_shared<Mesh>(*mesh);

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "gpu_planning_scene/shapes.h"
+#include "literature/solids.h"
 
 /// Meshes of hard cases, of about a metre.
 namespace gpu_planning_scene::core::literature
@@ -14,7 +14,6 @@ using MeshPtr = std::shared_ptr<const Mesh>;
 
 /// See madeModel.
 MeshPtr modelMesh(const char* model, std::size_t triangles = 400);
-MeshPtr boxMesh(const Eigen::Vector3d& size);
 /// The vertices are scaled first.
 MeshPtr moved(const MeshPtr& mesh, const Eigen::Isometry3d& pose, double scale = 1.0);
 MeshPtr scaled(const MeshPtr& mesh, double scale);

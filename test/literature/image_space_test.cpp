@@ -298,6 +298,19 @@ TEST_F(ImageSpace, FattenedCullideFindsOverlapsBelowThePixelThatCullideMisses)
   EXPECT_LT(plain, 10);
 }
 
+/// The boxes around the triangles of the thin plate reach beyond the depths of its tile.
+TEST_F(ImageSpace, FattenedCullideFindsAThinPlateDeepInABox)
+{
+  const MeshPtr cube = boxMesh({kSize, kSize, kSize});
+  const MeshPtr plate = boxMesh({kSize, 0.4 * kSize, 0.1 * kSize});
+  const Isometry3d pose = Isometry3d(Eigen::Translation3d(0.9 * kSize, 0.0, 0.4 * kSize));
+  for (const char* method : {"cullide_fattened_64x1", "cullide_fattened_64x3", "cullide_fattened_128x3"})
+  {
+    EXPECT_TRUE(collides(method, cube, plate, pose)) << method;
+    EXPECT_TRUE(collides(method, plate, cube, pose.inverse())) << method;
+  }
+}
+
 /// Three tetrahedra of `size`, far apart on a diagonal.
 MeshPtr tinyTetrahedra(double size)
 {

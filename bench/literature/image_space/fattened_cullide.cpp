@@ -95,12 +95,15 @@ class BoxPainter : public PartPainter
  protected:
   void drawTriangles(const DrawProgram& program, std::size_t triangles) override
   {
+    // A box may reach beyond the depths of the tile. Without its front, its partner would seem to be fully visible.
+    glEnable(GL_DEPTH_CLAMP);
     for (std::size_t first = 0; first < triangles; first += kBoxes)
     {
       program.set(kFirstTriangleLocation, static_cast<unsigned>(first));
       glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(kBoxIndices * std::min(kBoxes, triangles - first)),
                      GL_UNSIGNED_INT, nullptr);
     }
+    glDisable(GL_DEPTH_CLAMP);
   }
 
  private:
