@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <sstream>
 #include <thread>
 
 #include "benchmark/csv_table.h"
@@ -24,6 +23,7 @@
 #include "model/text/name_list.h"
 #include "peers/vamp/vamp_check.h"
 #include "support/test_scenes.h"
+#include "word_options.h"
 
 using namespace gpu_planning_scene::core;
 using namespace gpu_planning_scene::core::benchmark;
@@ -34,36 +34,11 @@ const std::vector<std::string> kParts = {"build", "latency", "throughput", "stag
 const std::vector<std::string> kQuickScenes = {"kr5_boxes", "ur5_cage", "arm_boxes", "arm_shelf"};
 constexpr std::size_t kQuickSceneCount = 2;
 
-std::vector<std::string> split(const std::string& text)
-{
-  std::vector<std::string> words;
-  std::istringstream stream(text);
-  for (std::string word; std::getline(stream, word, ',');)
-    if (!word.empty())
-      words.push_back(word);
-  return words;
-}
-
-/// The words of an option. Throws UsageError for a word that is not in `known`. Without the option: all known words.
-std::vector<std::string> chosen(const CommandLine& arguments, const std::string& option,
-                                const std::vector<std::string>& known)
-{
-  if (!arguments.has(option))
-    return known;
-  std::vector<std::string> words = split(arguments.required(option));
-  for (const std::string& word : words)
-    if (std::find(known.begin(), known.end(), word) == known.end())
-      throw UsageError(option + ": there is no '" + word + "'; known names: " + nameList(known));
-  if (words.empty())
-    throw UsageError(option + ": the list is empty; known names: " + nameList(known));
-  return words;
-}
-
 std::vector<double> numbers(const CommandLine& arguments, const std::string& option, const std::string& fallback,
                             double min, double max)
 {
   std::vector<double> result;
-  for (const std::string& word : split(arguments.value(option, fallback)))
+  for (const std::string& word : splitAtCommas(arguments.value(option, fallback)))
     result.push_back(CommandLine({{option, "X", ""}}, 3, std::array{"", option.c_str(), word.c_str()}.data())
                          .number(option, 0.0, min, max));
   return result;
@@ -73,7 +48,7 @@ std::vector<double> numbers(const CommandLine& arguments, const std::string& opt
 std::vector<std::string> chosenScenes(const CommandLine& arguments)
 {
   const bool named = arguments.has("--scenes");
-  std::vector<std::string> names = chosen(arguments, "--scenes", benchmarkSceneNames());
+  std::vector<std::string> names = chosenWords(arguments, "--scenes", benchmarkSceneNames());
   if (!named && arguments.has("--quick"))
     names = kQuickScenes;
   std::vector<std::string> there;
@@ -99,7 +74,7 @@ std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
   std::vector<std::string> names;
   if (const std::string reason = whyNoVamp(); !reason.empty())
   {
-    const std::vector<std::string> named = split(arguments.value("--methods", ""));
+    const std::vector<std::string> named = splitAtCommas(arguments.value("--methods", ""));
     if (std::find(named.begin(), named.end(), kVampMethod) != named.end())
       throw Error(std::string("--methods: there is no ") + kVampMethod + " here: " + reason);
     if (named.empty())
@@ -107,7 +82,7 @@ std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
   }
   for (const MethodInfo& method : all)
     names.push_back(method.name);
-  names = chosen(arguments, "--methods", names);
+  names = chosenWords(arguments, "--methods", names);
   std::vector<MethodInfo> methods;
   for (const MethodInfo& method : all)
     if (std::find(names.begin(), names.end(), method.name) != names.end())
@@ -129,7 +104,7 @@ Settings readSettings(const CommandLine& arguments)
   settings.paddings = numbers(arguments, "--padding", settings.quick ? "0" : "0,0.01", 0.0, 1.0);
   for (const double batch : numbers(arguments, "--batches", settings.quick ? "256" : "1024,16384", 1.0, 1e8))
     settings.batches.push_back(static_cast<std::size_t>(batch));
-  settings.kinds = chosen(arguments, "--kinds", stateKinds());
+  settings.kinds = chosenWords(arguments, "--kinds", stateKinds());
   if (settings.quick && !arguments.has("--kinds"))
     settings.kinds = {"random", "near_contact"};
   settings.methods = chosenMethods(arguments);
@@ -171,7 +146,7 @@ void run(const CommandLine& arguments)
       throw Error("--data: there is no folder " + arguments.required("--data"));
     useDataFolder(std::filesystem::absolute(arguments.required("--data")).lexically_normal().string());
   }
-  const std::vector<std::string> parts = chosen(arguments, "--parts", kParts);
+  const std::vector<std::string> parts = chosenWords(arguments, "--parts", kParts);
   const Settings settings = readSettings(arguments);
   makeTableFolder(settings.out);
   writeRun(settings);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <sstream>
 
 #include "benchmark/csv_table.h"
 #include "command_line/command_line.h"
@@ -10,6 +9,7 @@
 #include "literature/families.h"
 #include "literature/models.h"
 #include "model/text/name_list.h"
+#include "word_options.h"
 
 using namespace gpu_planning_scene::core;
 using namespace gpu_planning_scene::core::literature;
@@ -20,29 +20,6 @@ const std::vector<std::string> kParts = {"experiment", "families"};
 const std::vector<std::string> kProtocols = {"turning", "clearance"};
 const std::string kQuickImages = "_64x3";  // end of the names: 64 x 64 pixels, 3 views
 constexpr std::size_t kMostTriangles = 10000000;
-
-std::vector<std::string> split(const std::string& text)
-{
-  std::vector<std::string> words;
-  std::istringstream stream(text);
-  for (std::string word; std::getline(stream, word, ',');)
-    if (!word.empty())
-      words.push_back(word);
-  return words;
-}
-
-/// The words of an option. Throws UsageError for a word that is not in `known`. Without the option: all known words.
-std::vector<std::string> chosen(const CommandLine& arguments, const std::string& option,
-                                const std::vector<std::string>& known)
-{
-  if (!arguments.has(option))
-    return known;
-  std::vector<std::string> words = split(arguments.required(option));
-  for (const std::string& word : words)
-    if (std::find(known.begin(), known.end(), word) == known.end())
-      throw UsageError(option + ": there is no '" + word + "'; known names: " + nameList(known));
-  return words;
-}
 
 std::vector<MethodInfo> allMethods()
 {
@@ -71,7 +48,7 @@ std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
   std::vector<std::string> names;
   for (const MethodInfo& method : allMethods())
     names.push_back(method.name);
-  names = chosen(arguments, "--methods", names);
+  names = chosenWords(arguments, "--methods", names);
   std::vector<MethodInfo> methods;
   for (const MethodInfo& method : allMethods())
     if (std::find(names.begin(), names.end(), method.name) != names.end() && !leftOut(method, arguments))
@@ -83,7 +60,7 @@ std::vector<std::size_t> chosenTriangles(const CommandLine& arguments)
 {
   std::vector<std::size_t> counts;
   const std::string all = arguments.has("--quick") ? "1000" : "1000,10000,100000,1000000";
-  for (const std::string& word : split(arguments.value("--triangles", all)))
+  for (const std::string& word : splitAtCommas(arguments.value("--triangles", all)))
     counts.push_back(CommandLine({{"--triangles", "N", ""}}, 3, std::array{"", "--triangles", word.c_str()}.data())
                          .count("--triangles", 0, 100, kMostTriangles));
   return counts;
@@ -95,16 +72,16 @@ void run(const CommandLine& arguments)
   settings.quick = arguments.has("--quick");
   settings.out = arguments.value("--out", "literature");
   settings.methods = chosenMethods(arguments);
-  settings.models = chosen(arguments, "--models", madeModelNames());
+  settings.models = chosenWords(arguments, "--models", madeModelNames());
   settings.robot_links = !arguments.has("--models");
   settings.triangles = chosenTriangles(arguments);
-  settings.protocols = chosen(arguments, "--protocols", kProtocols);
+  settings.protocols = chosenWords(arguments, "--protocols", kProtocols);
   settings.seconds = arguments.number("--seconds", settings.quick ? 0.02 : 0.5, 0.001, 1e4);
   settings.seed = arguments.count("--seed", 1, 0, 1ULL << 62);
   benchmark::makeTableFolder(settings.out);
   writeMethods(settings);
   std::size_t wrong = 0;
-  for (const std::string& part : chosen(arguments, "--parts", kParts))
+  for (const std::string& part : chosenWords(arguments, "--parts", kParts))
     wrong += part == "experiment" ? measureExperiment(settings) : judgeFamilies(settings);
   std::cout << settings.out << '\n';
   if (wrong > 0)

@@ -29,7 +29,8 @@ using DopAxes = std::array<Eigen::Vector3d, kAxes>;
 
 /// x, y, z and the face diagonals of a cube. All components are -1, 0 or 1.
 const DopAxes<9>& axesOf18Dop();
-/// Those of the 18-DOP and three of the four space diagonals of a cube, as in FCL's 24-DOP; unit length.
+/// The directions of the 18-DOP, and three of the four space diagonals of a cube, as in FCL's 24-DOP. All have
+/// length 1.
 const DopAxes<12>& axesOf24Dop();
 
 /// A tree of k-DOPs over the triangles of a mesh, in the mesh's frame. A leaf has one triangle. The centroids of a
