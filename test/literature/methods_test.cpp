@@ -35,7 +35,7 @@ std::vector<Isometry3d> easyPoses()
   return poses;
 }
 
-/// 1 for each pose at which the surfaces meet, 0 if they are apart. Poses within a hundredth of a millimetre of contact count as -1.
+/// 1 for each pose at which the surfaces meet, 0 if they are apart, -1 within a hundredth of a millimetre of contact.
 std::vector<int> trueAnswers(const Model& a, const Model& b, const std::vector<Isometry3d>& poses)
 {
   constexpr double kEasy = 1e-5;  // metres

@@ -1,5 +1,4 @@
 """plan_motion: paths, statuses, errors, Ctrl-C."""
-import threading
 import unittest
 
 import numpy as np
@@ -34,19 +33,6 @@ class Planning(Case):
         checker = gps.StateChecker(scene, device="cpu")
         result = gps.plan_motion(checker, "all", [0.0], [[1.0], [3.0], [-2.0]])
         self.assertEqual(([0.0], [-2.0]), (result.waypoints[0].tolist(), result.waypoints[-1].tolist()))
-
-    def test_a_plan_is_made_in_one_scene_while_another_thread_changes_it(self):
-        robot = rail()
-        blocked, free = gps.PlanningScene(robot), gps.PlanningScene(robot)
-        blocked.add_object("wall", gps.Box([0.1, 1, 1]), [1, 0, 0])
-        blocked.revision = 1
-        checker = gps.StateChecker(blocked, device="cpu")
-        change = threading.Timer(0.2, checker.set_scene, [free])
-        change.start()
-        result = gps.plan_motion(checker, "all", [0.0], [2.0], seconds=1.0)
-        change.join()
-        self.assertEqual((gps.PlanningStatus.NO_SOLUTION, 1), (result.status, result.revision))
-        self.assertEqual(gps.PlanningStatus.SOLVED, gps.plan_motion(checker, "all", [0.0], [2.0]).status)
 
     def test_the_status_says_why_there_is_no_path(self):
         scene = gps.PlanningScene(rail())
