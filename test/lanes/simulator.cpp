@@ -47,6 +47,7 @@ struct Simulator::Group
   std::uint32_t number = 0;
   int epoch = 0;  // barriers that the group has passed
   std::vector<std::unique_ptr<Fiber>> lanes;
+  std::vector<Fiber*> ready;  // the lanes that have not finished and wait at no barrier, in the order of `lanes`
   std::size_t finished = 0, waiting = 0;
   std::vector<char> shared;
   std::map<std::uint32_t, std::vector<Place>> places;  // by offset of the variable
@@ -403,7 +404,11 @@ bool Simulator::release(Group& group)
     if (group.finished > 0)
       report("some lanes of a group end, others wait at a barrier");
     for (const auto& lane : group.lanes)
+    {
       lane->barrier = 0;
+      if (!lane->finished)
+        group.ready.push_back(lane.get());
+    }
     group.waiting = 0;
     ++group.epoch;
   }
@@ -454,6 +459,7 @@ void Simulator::startGroup(std::uint32_t number, std::uint32_t columns, std::uin
     fiber->accesses = 0;
     fiber->barrier = 0;
     fiber->id = number * kernel.group_size + i;
+    group->ready.push_back(fiber.get());
     group->lanes.push_back(std::move(fiber));
   }
   groups_.push_back(std::move(group));
@@ -482,10 +488,7 @@ void Simulator::dispatch(const Program& program, std::uint32_t columns, std::uin
     }
     const std::size_t which = random_() % groups_.size();
     Group& group = *groups_[which];
-    std::vector<Fiber*> ready;
-    for (const auto& lane : group.lanes)
-      if (!lane->finished && lane->barrier == 0)
-        ready.push_back(lane.get());
+    std::vector<Fiber*>& ready = group.ready;
     const std::size_t chosen = order_ == 0 ? 0 : order_ == 1 ? ready.size() - 1 : random_() % ready.size();
     running_ = ready[chosen];
     run_.lane = &running_->lane;
@@ -498,6 +501,8 @@ void Simulator::dispatch(const Program& program, std::uint32_t columns, std::uin
     }
     if (running_->finished)
       ++group.finished;
+    if (running_->finished || running_->barrier != 0)
+      ready.erase(ready.begin() + static_cast<std::ptrdiff_t>(chosen));
     if (release(group))
     {
       for (auto& lane : group.lanes)
