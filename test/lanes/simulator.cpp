@@ -20,7 +20,7 @@ constexpr std::size_t kResidentGroups = 3;
 constexpr std::uint32_t kMostAccesses = 4'000'000;
 /// A dispatch with more accesses than this after the first fault is given up: a fault may make it as large as the
 /// largest number of work groups.
-constexpr std::uint32_t kMostAccessesAfterFault = 1'000'000;
+constexpr std::uint32_t kMostAccessesAfterFault = 50'000;
 
 std::string text(std::uint64_t number)
 {
