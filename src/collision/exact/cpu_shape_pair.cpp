@@ -29,22 +29,6 @@ constexpr double kSmallBox = 64.0;
 // Testing eight boxes costs about as much as visiting this many nodes of a binary tree.
 constexpr std::uint64_t kStepsOfEightBoxes = 2;
 
-bool leavesMeet(const CpuTree& tree_a, BoxIndex a, const CpuTree& tree_b, BoxIndex b, const Isometry3d& b_in_a,
-                double required)
-{
-  const CpuNode& leaf_a = tree_a.nodes[tree_a.wide.source(a)];
-  const CpuNode& leaf_b = tree_b.nodes[tree_b.wide.source(b)];
-  for (std::uint32_t j = leaf_b.first; j < leaf_b.first + leaf_b.count; ++j)
-  {
-    const Triangle& t = tree_b.triangles[j];
-    const Triangle triangle_b = {b_in_a * t[0], b_in_a * t[1], b_in_a * t[2]};
-    for (std::uint32_t i = leaf_a.first; i < leaf_a.first + leaf_a.count; ++i)
-      if (trianglesWithin(tree_a.triangles[i], triangle_b, required))
-        return true;
-  }
-  return false;
-}
-
 /// Whether a traversal opens the first box of a pair rather than the second. It opens the larger one, unless that one
 /// is a leaf. At most one of the two may be a leaf.
 bool opensFirst(const WideTree& tree_a, BoxIndex a, const WideTree& tree_b, BoxIndex b)
@@ -167,7 +151,7 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
       continue;
     }
     scratch.steps += kStepsOfEightBoxes;
-    for (unsigned hits = overlaps_(tree.below(box), around_in_floats); hits != 0; hits &= hits - 1)
+    for (unsigned hits = tests_.overlap(tree.below(box), around_in_floats); hits != 0; hits &= hits - 1)
     {
       const BoxIndex child = tree.child(box, lowestBit(hits));
       if (tree.radius(child) < small && !overlap(mesh.nodes[tree.source(child)].box, around, margin))
@@ -188,6 +172,24 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
   return false;
 }
 
+/// Only the pairs of triangles that floats cannot separate are tested in double.
+bool CpuShapePair::leavesMeet(const CpuTree& a, BoxIndex leaf_a, const CpuTree& b, BoxIndex leaf_b,
+                              const Isometry3d& b_in_a, const WidePlacement& in_a, double required) const
+{
+  const TriangleBlock& block_a = a.wide.triangles(leaf_a);
+  const TriangleBlock& block_b = b.wide.triangles(leaf_b);
+  for (unsigned near = tests_.near_triangles(block_a, in_a.place(block_b), in_a.distance()); near != 0;
+       near &= near - 1)
+  {
+    const unsigned bit = lowestBit(near);
+    const Triangle& t = b.triangles[block_b.first + bit / kBlockTriangles];
+    if (trianglesWithin(a.triangles[block_a.first + bit % kBlockTriangles],
+                        {b_in_a * t[0], b_in_a * t[1], b_in_a * t[2]}, required))
+      return true;
+  }
+  return false;
+}
+
 /// Simultaneous traversal of two trees. The boxes of each pair overlap; the caller has tested the root boxes. The
 /// larger box of a pair is opened: the boxes below it are tested together.
 ///
@@ -204,8 +206,8 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
 {
   const double near_enough = required + tolerance_ - kToleranceMargin - a.wide.centerError() - b.wide.centerError();
   const double growth = required + kBoxMargin;
-  const BoxPlacement in_a(b.wide, b_in_a, a.wide, growth);
-  const BoxPlacement in_b(a.wide, b_in_a.inverse(), b.wide, growth);
+  const WidePlacement in_a(b.wide, b_in_a, a.wide, growth);
+  const WidePlacement in_b(a.wide, b_in_a.inverse(), b.wide, growth);
   const double small = kSmallBox * in_a.errors();
   scratch.node_pairs.assign(1, {WideTree::kRoot, WideTree::kRoot});
   while (!scratch.node_pairs.empty())
@@ -214,7 +216,7 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
     scratch.node_pairs.pop_back();
     if (a.wide.isLeaf(box_a) && b.wide.isLeaf(box_b))
     {
-      if (leavesMeet(a, box_a, b, box_b, b_in_a, required))
+      if (leavesMeet(a, box_a, b, box_b, b_in_a, in_a, required))
         return true;
       continue;
     }
@@ -223,7 +225,7 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
     const BoxIndex box = open_a ? box_a : box_b;
     const FloatBox other = open_a ? in_a.place(b.wide, box_b) : in_b.place(a.wide, box_a);
     scratch.steps += kStepsOfEightBoxes;
-    for (unsigned hits = overlaps_(opened.below(box), other); hits != 0; hits &= hits - 1)
+    for (unsigned hits = tests_.overlap(opened.below(box), other); hits != 0; hits &= hits - 1)
     {
       const BoxIndex child = opened.child(box, lowestBit(hits));
       const std::array<BoxIndex, 2> pair = {open_a ? child : box_a, open_a ? box_b : child};

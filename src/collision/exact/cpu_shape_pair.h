@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/exact/cpu_forest.h"
+#include "collision/exact/wide_tests.h"
 
 namespace gpu_planning_scene::core
 {
@@ -38,7 +39,7 @@ class CpuShapePair
 
   /// `tolerance`: metres, at least 0.
   explicit CpuShapePair(std::shared_ptr<const CpuForest> forest, double tolerance = 0.0)
-    : forest_(std::move(forest)), tolerance_(tolerance), overlaps_(availableOverlapTests().front().test)
+    : forest_(std::move(forest)), tolerance_(tolerance), tests_(availableWideTests().front())
   {
   }
 
@@ -58,12 +59,14 @@ class CpuShapePair
  private:
   bool surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, const Eigen::Isometry3d& mesh_in_solid,
                          double required, Scratch& scratch) const;
+  bool leavesMeet(const CpuTree& a, BoxIndex leaf_a, const CpuTree& b, BoxIndex leaf_b, const Eigen::Isometry3d& b_in_a,
+                  const WidePlacement& in_a, double required) const;
   bool surfacesMeet(const CpuTree& a, const CpuTree& b, const Eigen::Isometry3d& b_in_a, double required,
                     Scratch& scratch) const;
 
   std::shared_ptr<const CpuForest> forest_;
   double tolerance_;
-  OverlapTest overlaps_;
+  WideTests tests_;
 };
 
 /// An axis-aligned box in the frame of `pose` that contains the shape; it is enlarged by more than the rounding error.

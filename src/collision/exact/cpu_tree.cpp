@@ -150,7 +150,7 @@ std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Mesh& mesh,
   fitBoxes(*tree);
   tree->box = tree->mesh ? tree->nodes[0].box : OrientedBox{Matrix3d::Identity(), tree->center, tree->half};
   if (tree->mesh)
-    tree->wide = WideTree(tree->nodes, tree->center);
+    tree->wide = WideTree(tree->nodes, tree->triangles, tree->center);
   return tree;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 namespace gpu_planning_scene::core
 {
@@ -16,6 +15,7 @@ struct alignas(64) WideNode
   float radius[kWideSlots];          ///< half the diagonal, rounded up
   std::uint32_t below[kWideSlots];   ///< the node with the boxes below this box; 0: a leaf
   std::uint32_t source[kWideSlots];  ///< the node of the binary tree that has the same triangles
+  std::uint32_t block[kWideSlots];   ///< leaves: the block of the leaf's triangles
   std::uint32_t boxes;
 };
 
@@ -31,13 +31,4 @@ struct FloatBox
 /// "OBBTree", 1996). Bit i of the result is 0 only if box i and `box` do not overlap, provided that `box` was grown by
 /// the rounding errors (see BoxPlacement). Thread-safe.
 using OverlapTest = unsigned (*)(const WideNode& node, const FloatBox& box);
-
-struct NamedOverlapTest
-{
-  const char* instructions;
-  OverlapTest test;
-};
-
-/// The tests that this machine can run, the widest instruction set first. All have one source, wide_overlap_body.h.
-const std::vector<NamedOverlapTest>& availableOverlapTests();
 }  // namespace gpu_planning_scene::core

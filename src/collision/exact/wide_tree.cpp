@@ -56,9 +56,26 @@ void setBox(const OrientedBox& box, const Vector3d& origin, unsigned slot, WideN
   }
   node.radius[slot] = roundedUp(box.half.norm());
 }
+
+TriangleBlock blockOf(const CpuNode& leaf, const std::vector<Triangle>& triangles, const Vector3d& origin)
+{
+  static_assert(kLeafTriangles <= kBlockTriangles, "one block for each leaf");
+  TriangleBlock block;
+  block.first = leaf.first;
+  block.count = leaf.count;
+  for (unsigned slot = 0; slot < kBlockTriangles; ++slot)
+  {
+    const Triangle& triangle = triangles[leaf.first + std::min(slot, leaf.count - 1)];
+    for (int corner = 0; corner < 3; ++corner)
+      for (int k = 0; k < 3; ++k)
+        block.corners[corner][k][slot] = static_cast<float>(triangle[corner][k] - origin[k]);
+  }
+  return block;
+}
 }  // namespace
 
-WideTree::WideTree(const std::vector<CpuNode>& nodes, const Vector3d& origin) : origin_(origin)
+WideTree::WideTree(const std::vector<CpuNode>& nodes, const std::vector<Triangle>& triangles, const Vector3d& origin)
+  : origin_(origin)
 {
   for (const CpuNode& node : nodes)
     reach_ = std::max(reach_, (node.box.center - origin).norm() + node.box.half.norm());
@@ -77,7 +94,12 @@ WideTree::WideTree(const std::vector<CpuNode>& nodes, const Vector3d& origin) : 
     {
       setBox(nodes[from].box, origin_, node.boxes, node);
       node.source[node.boxes] = from;
-      if (!nodes[from].isLeaf())
+      if (nodes[from].isLeaf())
+      {
+        node.block[node.boxes] = static_cast<std::uint32_t>(blocks_.size());
+        blocks_.push_back(blockOf(nodes[from], triangles, origin_));
+      }
+      else
         open.push_back({from, kWideSlots * index + node.boxes});
       ++node.boxes;
     }
@@ -100,7 +122,7 @@ Vector3d WideTree::center(BoxIndex box) const
   return origin_ + Vector3d(from.center[0][i], from.center[1][i], from.center[2][i]);
 }
 
-BoxPlacement::BoxPlacement(const WideTree& from, const Isometry3d& from_in_to, const WideTree& to, double growth)
+WidePlacement::WidePlacement(const WideTree& from, const Isometry3d& from_in_to, const WideTree& to, double growth)
 {
   const Vector3d translation = from_in_to * from.origin() - to.origin();
   for (int row = 0; row < 3; ++row)
@@ -113,7 +135,7 @@ BoxPlacement::BoxPlacement(const WideTree& from, const Isometry3d& from_in_to, c
   growth_ = roundedUp(growth + errors_);
 }
 
-FloatBox BoxPlacement::place(const WideTree& from, BoxIndex box) const
+FloatBox WidePlacement::place(const WideTree& from, BoxIndex box) const
 {
   const WideNode& node = from.node(box);
   const unsigned slot = WideTree::slot(box);
@@ -129,6 +151,24 @@ FloatBox BoxPlacement::place(const WideTree& from, BoxIndex box) const
           r[0] * node.axes[axis][0][slot] + r[1] * node.axes[axis][1][slot] + r[2] * node.axes[axis][2][slot];
     placed.center[row] = r[0] * x + r[1] * y + r[2] * z + translation_[row];
     placed.half[row] = node.half[row][slot] + growth_;
+  }
+  return placed;
+}
+
+TriangleBlock WidePlacement::place(const TriangleBlock& block) const
+{
+  TriangleBlock placed;
+  placed.first = block.first;
+  placed.count = block.count;
+  for (int corner = 0; corner < 3; ++corner)
+  {
+    const auto& from = block.corners[corner];
+    for (int row = 0; row < 3; ++row)
+    {
+      const float* r = rotation_[row];
+      for (unsigned i = 0; i < kBlockTriangles; ++i)
+        placed.corners[corner][row][i] = r[0] * from[0][i] + r[1] * from[1][i] + r[2] * from[2][i] + translation_[row];
+    }
   }
   return placed;
 }

@@ -7,7 +7,9 @@
 #include <Eigen/Geometry>
 
 #include "collision/exact/wide_overlap.h"
+#include "collision/exact/wide_triangles.h"
 #include "collision/geometry/oriented_box.h"
+#include "collision/geometry/triangle_pair.h"
 
 namespace gpu_planning_scene::core
 {
@@ -19,13 +21,13 @@ using BoxIndex = std::uint32_t;
 /// A tree of oriented boxes in which a node has up to eight boxes, for a test of all of them at a time (wide bounding
 /// volume hierarchy; Dammertz, Hanika and Keller, "Shallow Bounding Volume Hierarchies", 2008). The numbers of a box
 /// are floats relative to `origin`, so a box contains its triangles only up to rounding. To make up for this,
-/// BoxPlacement grows the other box of each comparison.
+/// WidePlacement grows the other box of each comparison.
 class WideTree
 {
  public:
   WideTree() = default;
-  /// Collapses a binary tree; its node 0 is the root.
-  WideTree(const std::vector<CpuNode>& nodes, const Eigen::Vector3d& origin);
+  /// Collapses a binary tree over `triangles`; its node 0 is the root.
+  WideTree(const std::vector<CpuNode>& nodes, const std::vector<Triangle>& triangles, const Eigen::Vector3d& origin);
 
   /// The box around the whole tree.
   static constexpr BoxIndex kRoot = 0;
@@ -33,6 +35,8 @@ class WideTree
   bool isLeaf(BoxIndex box) const { return node(box).below[slot(box)] == 0; }
   /// The node of the binary tree that has the same triangles.
   std::uint32_t source(BoxIndex box) const { return node(box).source[slot(box)]; }
+  /// The triangles of a leaf, relative to `origin`.
+  const TriangleBlock& triangles(BoxIndex leaf) const { return blocks_[node(leaf).block[slot(leaf)]]; }
   /// The node with the boxes directly below an inner box.
   const WideNode& below(BoxIndex inner) const { return nodes_[node(inner).below[slot(inner)]]; }
   /// Box `slot` of the node below an inner box.
@@ -55,19 +59,23 @@ class WideTree
 
  private:
   std::vector<WideNode> nodes_;  // node 0 has one box, the root
+  std::vector<TriangleBlock> blocks_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double reach_ = 0.0;
 };
 
-/// Places boxes of one wide tree in the frame of another tree, as floats. The boxes are grown by `growth` and by the
-/// rounding errors of both trees and of the overlap test (docs/error_bounds.md, "Wide trees").
-class BoxPlacement
+/// Places boxes and triangles of one wide tree in the frame of another tree, as floats. The boxes are grown by `growth`
+/// and by the rounding errors of both trees and of the tests (docs/error_bounds.md, "Wide trees").
+class WidePlacement
 {
  public:
   /// For boxes of `from`, at the pose `from_in_to`, in the frame of `to`. `growth`: metres, on all sides.
-  BoxPlacement(const WideTree& from, const Eigen::Isometry3d& from_in_to, const WideTree& to, double growth);
+  WidePlacement(const WideTree& from, const Eigen::Isometry3d& from_in_to, const WideTree& to, double growth);
 
   FloatBox place(const WideTree& from, BoxIndex box) const;
+  TriangleBlock place(const TriangleBlock& block) const;
+  /// Triangles that are farther apart in floats are farther apart than `growth`.
+  float distance() const { return growth_; }
   double errors() const { return errors_; }  ///< see floatErrors
 
  private:
@@ -77,10 +85,10 @@ class BoxPlacement
   float growth_;
 };
 
-/// A box in the frame of `tree`'s shape, as floats relative to the tree's origin, grown as by BoxPlacement.
+/// A box in the frame of `tree`'s shape, as floats relative to the tree's origin, grown as by WidePlacement.
 FloatBox floatBox(const OrientedBox& box, const WideTree& tree, double growth);
 
-/// The rounding errors by which BoxPlacement and floatBox grow a box. `distance`: of the origins. `reaches`: the sum of
-/// both reaches.
+/// The rounding errors by which WidePlacement and floatBox grow a box. `distance`: of the origins. `reaches`: the sum
+/// of both reaches.
 double floatErrors(double distance, double reaches, double growth);
 }  // namespace gpu_planning_scene::core

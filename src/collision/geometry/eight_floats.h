@@ -22,6 +22,25 @@ inline Floats load(const float* from)
   return loaded;
 }
 
+/// Four floats in both halves.
+inline Floats loadTwice(const float* from)
+{
+#ifdef __AVX__
+  typedef float Four __attribute__((vector_size(16)));
+  Four loaded;
+  __builtin_memcpy(&loaded, from, sizeof loaded);
+  return __builtin_ia32_vbroadcastf128_ps256(&loaded);
+#else
+  return Floats{from[0], from[1], from[2], from[3], from[0], from[1], from[2], from[3]};
+#endif
+}
+
+/// `a` in the first four elements, `b` in the others.
+inline Floats halves(float a, float b)
+{
+  return Floats{a, a, a, a, b, b, b, b};
+}
+
 inline void store(const Floats& values, float* to)
 {
   __builtin_memcpy(to, &values, sizeof values);
@@ -49,6 +68,26 @@ inline Floats squareRoot(const Floats& x)
   for (int i = 0; i < 8; ++i)
     root[i] = __builtin_sqrtf(x[i]);
   return root;
+#endif
+}
+
+/// Where an element is NaN, the second operand.
+inline Floats smaller(const Floats& a, const Floats& b)
+{
+#ifdef __AVX__
+  return __builtin_ia32_minps256(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+
+/// Where an element is NaN, the second operand.
+inline Floats larger(const Floats& a, const Floats& b)
+{
+#ifdef __AVX__
+  return __builtin_ia32_maxps256(a, b);
+#else
+  return a > b ? a : b;
 #endif
 }
 

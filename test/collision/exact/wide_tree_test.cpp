@@ -8,6 +8,7 @@
 
 #include "collision/exact/cpu_shape_pair.h"
 #include "collision/exact/cpu_tree.h"
+#include "collision/exact/wide_tests.h"
 #include "collision/geometry/cpu_box_pair.h"
 
 namespace gpu_planning_scene::core
@@ -112,7 +113,7 @@ TEST(WideTrees, OfAMeshWithAStrayTriangleFarAwayCostLittle)
   EXPECT_LT(scratch.steps, 200u);
 }
 
-class WideOverlap : public testing::TestWithParam<NamedOverlapTest>
+class WideOverlap : public testing::TestWithParam<WideTests>
 {
  protected:
   double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(generator_); }
@@ -197,12 +198,13 @@ class WideOverlap : public testing::TestWithParam<NamedOverlapTest>
   /// Whether the test keeps the pair if b is grown by `growth`, as a box of another tree and as the box of a primitive.
   static bool keeps(const Pair& pair, double growth)
   {
-    const WideTree tree_a({leaf(pair.a)}, pair.a.center);
-    const WideTree tree_b({leaf(pair.b)}, Vector3d::Zero());
+    const std::vector<Triangle> triangles = {{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}};
+    const WideTree tree_a({leaf(pair.a)}, triangles, pair.a.center);
+    const WideTree tree_b({leaf(pair.b)}, triangles, Vector3d::Zero());
     const WideNode& node = tree_a.node(WideTree::kRoot);
-    const BoxPlacement placement(tree_b, pair.b_in_a, tree_a, growth);
-    return GetParam().test(node, placement.place(tree_b, WideTree::kRoot)) != 0 &&
-           GetParam().test(node, floatBox(placed(pair.b, pair.b_in_a), tree_a, growth)) != 0;
+    const WidePlacement placement(tree_b, pair.b_in_a, tree_a, growth);
+    return GetParam().overlap(node, placement.place(tree_b, WideTree::kRoot)) != 0 &&
+           GetParam().overlap(node, floatBox(placed(pair.b, pair.b_in_a), tree_a, growth)) != 0;
   }
 
   static double lengthsOf(const Pair& pair)
@@ -253,7 +255,7 @@ TEST_P(WideOverlap, SeparatesBoxesThatAreApartByMoreThanTheRoundingErrors)
   EXPECT_GT(separated, 10000u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Instructions, WideOverlap, testing::ValuesIn(availableOverlapTests()),
+INSTANTIATE_TEST_SUITE_P(Instructions, WideOverlap, testing::ValuesIn(availableWideTests()),
                          [](const auto& tested) { return std::string(tested.param.instructions); });
 }  // namespace
 }  // namespace gpu_planning_scene::core

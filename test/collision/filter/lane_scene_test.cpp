@@ -7,6 +7,7 @@
 #include "collision/filter/lanes/lane_buffers.h"
 #include "collision/filter/lanes/lane_kernel.h"
 #include "collision/filter/proven_scene.h"
+#include "support/near_contact.h"
 #include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
@@ -53,7 +54,7 @@ void proveAll(const ProvenScene& proven, const lanes::NamedKernel& kernel, const
   for (std::size_t first = 0; first < count; first += lanes::kLanes)
   {
     const int size = static_cast<int>(std::min<std::size_t>(lanes::kLanes, count - first));
-    std::fill_n(scratch.trials, lanes::kLevels * pairs, lanes::Trial{});  // so that no level of balls is left out
+    std::fill_n(scratch.trials, lanes::kTests * pairs, lanes::Trial{});  // so that no test is left out
     lanes::Block block;
     kernel.kernel(model, states.data() + first * model.width, size, margins, scratch, block);
     for (int lane = 0; lane < size; ++lane)
@@ -146,6 +147,52 @@ TEST_P(ProvenScenes, PairsThatAreProvenApartKeepTheirMarginsIfThereAreAny)
                 << open << " open" << std::endl;
       EXPECT_GT(apart, open);
     }
+  }
+}
+/// A box that moves freely around another one: the boxes of the kernel's test are the shapes themselves. `turns`: the
+/// range of each of the three angles.
+TestScene twoBoxes(double turns)
+{
+  std::string urdf =
+      "<robot name='two_boxes'><link name='fixed'><collision><origin xyz='0.2 -0.1 0.3'/>"
+      "<geometry><box size='0.3 0.2 0.1'/></geometry></collision></link>";
+  std::string parent = "fixed";
+  for (const char* axis : {"1 0 0", "0 1 0", "0 0 1"})
+    for (const char* type : {"prismatic", "revolute"})
+    {
+      const std::string link = std::string(type) + axis;
+      urdf += "<link name='" + link + "'>";
+      if (link == "revolute0 0 1")
+        urdf +=
+            "<collision><origin xyz='0.05 0.1 -0.02'/><geometry><box size='0.25 0.15 0.05'/></geometry></collision>";
+      urdf += "</link><joint name='to " + link + "' type='" + type + "'><parent link='" + parent + "'/><child link='" +
+              link + "'/><axis xyz='" + axis + "'/><limit lower='-3' upper='3' effort='1' velocity='1'/></joint>";
+      parent = link;
+    }
+  urdf += "</robot>";
+  auto scene = std::make_shared<PlanningScene>(RobotModel::fromXml(urdf, "<robot name='two_boxes'/>", {}));
+  TestScene made{"two_boxes", scene, {}, {}};
+  for (const Variable& variable : scene->robot->variables())
+  {
+    const double range = variable.name.find("revolute") != std::string::npos ? turns : 0.5;
+    made.lower.push_back(-range);
+    made.upper.push_back(range);
+  }
+  return made;
+}
+
+TEST(BoxesOfSelfPairs, AreNotSeparatedInContact)
+{
+  constexpr std::size_t kStates = repetitions(1000, 40000);
+  for (const double turns : {0.0, 1e-6, 3.0})
+  {
+    const ProvenScene proven = prove(twoBoxes(turns));
+    const std::vector<double> states = nearContactStates(proven.scene, kStates, kSeed + 3);
+    const std::vector<InstancePairs> colliding = collidingPairs(proven, states);
+    for (const lanes::NamedKernel& kernel : lanes::availableKernels())
+      compare(proven, kernel, states, colliding);
+    const auto collides = [](const InstancePairs& pairs) { return !pairs.empty(); };
+    EXPECT_EQ(std::count_if(colliding.begin(), colliding.end(), collides), kStates / 2) << "angles up to " << turns;
   }
 }
 }  // namespace

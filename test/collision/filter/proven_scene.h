@@ -24,25 +24,27 @@ struct ProvenScene
   std::unique_ptr<const LaneScene> lanes;
 };
 
-/// A scene by its name, with the proofs made once per process.
-inline const ProvenScene& provenScene(const std::string& name)
+/// A scene with proofs that are made now.
+inline ProvenScene prove(const TestScene& scene)
 {
-  static std::map<std::string, ProvenScene> kept;
-  const auto [found, is_new] = kept.try_emplace(name);
-  ProvenScene& made = found->second;
-  if (!is_new)
-    return made;
-  made.scene = testScene(name);
-  made.problem = std::make_shared<const CollisionProblem>(makeProblem(*made.scene.scene, "", nullptr));
+  ProvenScene made;
+  made.scene = scene;
+  made.problem = std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr));
   made.exact = made.forest.traversalOf(made.problem);
   RobotProver prover;
   const auto publish = [&made](RobotProofs proofs)
   { made.proofs = std::make_shared<const RobotProofs>(std::move(proofs)); };
-  prover.prove(*made.scene.scene->robot, *made.problem, made.forest.forest(), ProofCache(), publish,
-               [] { return false; });
-  made.lanes =
-      std::make_unique<const LaneScene>(made.scene.scene->robot, *made.problem, *made.forest.forest(), made.proofs);
+  prover.prove(*scene.scene->robot, *made.problem, made.forest.forest(), ProofCache(), publish, [] { return false; });
+  made.lanes = std::make_unique<const LaneScene>(scene.scene->robot, *made.problem, *made.forest.forest(), made.proofs);
   return made;
+}
+
+/// A scene by its name, with the proofs made once per process.
+inline const ProvenScene& provenScene(const std::string& name)
+{
+  static std::map<std::string, ProvenScene> kept;
+  const auto found = kept.find(name);
+  return found != kept.end() ? found->second : kept.emplace(name, prove(testScene(name))).first->second;
 }
 
 /// Tests of proofs. They are one suite, hence one process: making the proofs takes seconds.

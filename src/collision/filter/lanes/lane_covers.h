@@ -161,14 +161,14 @@ inline Proof proveSelfPair(const Model& model, const SelfPair& pair, float margi
   return bits(near) == 0 ? Proof::Apart : Proof::None;
 }
 
-/// Whether the balls of a level are worth testing: they decide the pair often enough, or too little is known, or it is
-/// time to try again. The test of a level takes about 1 / kWorth of the time of the exact test.
-inline bool isWorthwhile(Trial& trial, int level)
+/// Whether a test is worthwhile: it decides the pair often enough, or too little is known, or it is time to try again.
+/// A test takes about 1 / kWorth of the time of the exact test.
+inline bool isWorthwhile(Trial& trial, int test)
 {
-  constexpr unsigned kWorth[kLevels] = {25, 6};
+  constexpr unsigned kWorth[kTests] = {20, 25, 6};
   constexpr unsigned kFewTrials = 32;
   constexpr unsigned kAgain = 64;
-  return trial.tried < kFewTrials || trial.decided * kWorth[level] >= trial.tried || ++trial.left_out % kAgain == 0;
+  return trial.tried < kFewTrials || trial.decided * kWorth[test] >= trial.tried || ++trial.left_out % kAgain == 0;
 }
 
 inline void record(bool decided, Trial& trial)

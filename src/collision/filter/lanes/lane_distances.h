@@ -13,11 +13,6 @@ inline Floats atLeastZero(const Floats& x)
   return x < 0.0F ? all(0.0F) : x;
 }
 
-inline Floats smaller(const Floats& a, const Floats& b)
-{
-  return a < b ? a : b;
-}
-
 inline Floats squaredDistance(const Points& a, const Points& b)
 {
   const Floats x = a.x - b.x;

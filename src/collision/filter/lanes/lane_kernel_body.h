@@ -7,6 +7,7 @@
 #error "define the kernel's name before this file is included"
 #endif
 
+#include "collision/filter/lanes/lane_boxes.h"
 #include "collision/filter/lanes/lane_covers.h"
 
 namespace gpu_planning_scene::core::lanes
@@ -112,6 +113,13 @@ struct MarginRows
     return all(square(length));
   }
   float of(std::size_t row, int lane) const { return kGiven ? group(rows, row)[lane] : 0.0F; }
+  /// Of all lanes.
+  Floats of(std::size_t row) const
+  {
+    if constexpr (kGiven)
+      return load(group(rows, row));
+    return Floats{};
+  }
 };
 
 template <bool kWithMargins>
@@ -126,7 +134,15 @@ inline void proveSelfPairByEnclosingBalls(const Model& model, const Scratch& scr
   const float inner = a.inner + b.inner + pair.thresholds.inner;
   if (a.inner >= 0.0F && b.inner >= 0.0F && inner > 0.0F)
     lanes.collide(bits(squared < square(inner)), p);
-  lanes.keepOpen(bits(~(squared > apart)), p);
+  int open = bits(~(squared > apart)) & lanes.active;
+  Trial& trial = scratch.trials[std::size_t{kTests} * p + kBoxTest];
+  if (open != 0 && isWorthwhile(trial, kBoxTest))
+  {
+    const int left = nearByBoxes(model, scratch, pair, margins.of(model.instances.count + p), open);
+    record(left != open, trial);
+    open = left;
+  }
+  lanes.keepOpen(open, p);
 }
 
 /// Proves self pairs by enclosing balls, for all lanes at once. Without margins, pairs with tables are left out, and
@@ -201,8 +217,9 @@ inline void proveByCovers(const Model& model, const Scratch& scratch, const Marg
     for (int k = 0; k < lanes.block.open_count[lane]; ++k)
     {
       const std::uint32_t number = open[k];
-      Trial& trial = scratch.trials[std::size_t{kLevels} * number + static_cast<std::size_t>(level)];
-      if (!isWorthwhile(trial, level))
+      const int test = kBoxTest + 1 + level;
+      Trial& trial = scratch.trials[std::size_t{kTests} * number + static_cast<std::size_t>(test)];
+      if (!isWorthwhile(trial, test))
       {
         open[kept++] = number;
         continue;
@@ -237,6 +254,8 @@ inline void proveBlock(const Model& model, const double* states, int count, cons
     return;
   placeFrames(model, states, count, scratch);
   placeCenters(model, scratch);
+  for (std::uint32_t i = 0; i < model.instances.count; ++i)
+    scratch.placed_boxes[i] = 0;
   proveSelfPairsByEnclosingBalls(model, scratch, margins, lanes);
   proveWorldPairsByEnclosingBalls(model, scratch, margins, lanes);
   for (int lane = 0; lane < count; ++lane)

@@ -48,13 +48,23 @@ struct Balls
   float radius[kBalls];
 };
 
-/// An instance that moves with the robot, with the balls of its cover in its frame.
+/// An oriented box around an instance, in its frame.
+struct Box
+{
+  float axes[3][3];  ///< [i][k]: coordinate k of axis i
+  float center[3];
+  float half[3];
+};
+constexpr int kBoxNumbers = 12;  ///< of a placed box: three axes and the centre
+
+/// An instance that moves with the robot, with its box and the balls of its cover in its frame.
 struct Instance
 {
   int frame;
   float center[3];  ///< of the enclosing ball
   float outer;
-  float inner;        ///< of the enclosing ball; negative: its centre is not inside the shape
+  float inner;  ///< of the enclosing ball; negative: its centre is not inside the shape
+  Box box;
   bool same_centers;  ///< the witnesses are the centres of the outer balls
   Balls outer_balls;
   Balls inner_balls;
@@ -85,11 +95,19 @@ struct Thresholds
   float inner;      ///< colliding: the distance is less than the inner radii plus this; may be negative
 };
 
+/// Additions to the test of two boxes, which make up for the rounding errors of the kernel.
+struct BoxThresholds
+{
+  float growth;    ///< metres, to the half lengths of the second box
+  float parallel;  ///< to the absolute values of the relative rotation
+};
+
 struct SelfPair
 {
   std::uint32_t a;
   std::uint32_t b;
   Thresholds thresholds;
+  BoxThresholds boxes;
 };
 
 /// A ball around several instances, for example those of a hand. They stay in the ball in all states for which
@@ -172,13 +190,18 @@ struct Model
   Array<WorldGroup> world_groups;
 };
 
-/// How often the balls of a level have decided a pair. A level that hardly ever decides a pair is left out.
+/// How often a test has decided a pair. A test that hardly ever decides a pair is left out.
 struct Trial
 {
   std::uint16_t tried;
   std::uint16_t decided;
   std::uint16_t left_out;
 };
+
+/// The tests of a pair that may be left out: its boxes, then the levels of its balls. Pairs with the world have no test
+/// of boxes.
+constexpr int kTests = 1 + kLevels;
+constexpr int kBoxTest = 0;
 
 /// Work space of one thread.
 struct Scratch
@@ -187,9 +210,11 @@ struct Scratch
   float* given;          ///< the same, relative to the parent, for frames of kind Given; the caller fills it
   float* centers;        ///< of each instance: the centre of its enclosing ball in all lanes; then of each cluster
   float* balls;          ///< of each instance: the coordinates of its outer and inner balls in one lane
+  float* boxes;          ///< of each instance: its box in all lanes
   std::uint8_t* placed;  ///< of each instance: which of these balls are set
-  std::uint32_t* open;   ///< of each lane: the pairs without a proof; room for all pairs
-  Trial* trials;         ///< of each pair: its levels; all 0 at first, kept between calls
+  std::uint8_t* placed_boxes;  ///< of each instance: 1 if its box is set
+  std::uint32_t* open;         ///< of each lane: the pairs without a proof; room for all pairs
+  Trial* trials;               ///< of each pair: its tests; all 0 at first, kept between calls
 };
 constexpr int kBallNumbers = 6 * kBalls;
 
@@ -197,7 +222,7 @@ constexpr int kBallNumbers = 6 * kBalls;
 enum class Stage : std::uint8_t
 {
   JointTables,
-  EnclosingBalls,
+  EnclosingBalls,  ///< and the boxes of self pairs
   FewBalls,   ///< of the first level of the covers
   ManyBalls,  ///< of the second level
   ExactPairs  ///< the kernel did not decide the state

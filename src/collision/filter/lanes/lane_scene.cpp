@@ -25,6 +25,7 @@ constexpr double kTurnError = 1.5e-6;           // of a vector of length 1 that 
 constexpr double kProductError = 12.0 * kUnit;  // of a vector of length 1, by the product of two rotations
 constexpr double kSumError = 12.0 * kUnit;      // of a transformed point, times its largest coordinates
 constexpr double kDistanceError = 32.0 * kUnit;
+constexpr double kAxisError = 16.0 * kUnit;  // of an axis of a box: a rounded constant, transformed
 
 constexpr double kLargestLaneAngle = 1e4;  // radians: a larger angle modulo 2 pi is not accurate
 constexpr double kLargestGiven = 32.0;     // metres: distance of a planar or floating joint's frame from the origin
@@ -84,7 +85,7 @@ LaneScene::LaneScene(std::shared_ptr<const RobotModel> robot, const CollisionPro
 {
   addFrames();
   for (std::size_t i = 0; i < problem.robot.size(); ++i)
-    addInstance(problem.robot[i], *proofs_->covers[i]);
+    addInstance(problem.robot[i], *proofs_->covers[i], forest.tree(problem.robot[i].tree).box);
   addClusters();
   addSelfPairs(problem);
   addWorld(problem, forest);
@@ -173,7 +174,7 @@ int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry
 
 static_assert(kCoverBalls.size() == lanes::kLevels + 1, "levels of the kernel");
 
-void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cover)
+void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cover, const OrientedBox& box)
 {
   const auto link = static_cast<std::size_t>(instance.link);
   const Isometry3d pose = in_frame_[link] * instance.pose;
@@ -202,10 +203,30 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
     made.center[axis] = static_cast<float>(center[axis]);
   made.outer = above(enclosing.outer);
   made.inner = is_same(enclosing) ? below(enclosing.inner) : -1.0F;
-  far = std::max(far, center.norm());
+  const Matrix3d axes = pose.linear() * box.axes;
+  const Vector3d box_center = pose * box.center;
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+      made.box.axes[axis][k] = static_cast<float>(axes(k, axis));
+    made.box.center[k] = static_cast<float>(box_center[k]);
+    made.box.half[k] = above(box.half[k]);
+  }
+  far = std::max({far, center.norm(), box_center.norm()});
   instances_.push_back(made);
   const FrameError& frame = frame_errors_[static_cast<std::size_t>(made.frame)];
   instance_errors_.push_back({frame.far + far, frame.position + frame.rotation * far + kSumError * (frame.far + far)});
+  box_errors_.push_back({frame.rotation + kAxisError, box.half.norm()});
+}
+
+/// See docs/error_bounds.md, "The lane kernel", "Boxes".
+lanes::BoxThresholds LaneScene::boxThresholds(std::uint32_t a, std::uint32_t b) const
+{
+  const double rotation = box_errors_[a].rotation + box_errors_[b].rotation + 8.0 * kUnit;
+  const double centers = instance_errors_[a].far + instance_errors_[b].far;
+  const double lengths = centers + box_errors_[a].radius + box_errors_[b].radius;
+  const double between = instance_errors_[a].position + instance_errors_[b].position + rotation * centers;
+  return {above(2.0 * between + (2.0 * rotation + 32.0 * kUnit) * lengths), above(4.0 * rotation + 32.0 * kUnit)};
 }
 
 double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
@@ -275,7 +296,7 @@ void LaneScene::addSelfPair(std::size_t p, const CollisionProblem& problem)
   const BallCover& cover_a = *proofs_->covers[a];
   const BallCover& cover_b = *proofs_->covers[b];
   const double layer = std::max(openLayer(cover_a, cover_b), openLayer(cover_b, cover_a));
-  self_pairs_.push_back({a, b, {above(error), above(layer + error), below(-error)}});
+  self_pairs_.push_back({a, b, {above(error), above(layer + error), below(-error)}, boxThresholds(a, b)});
   pairs_.push_back({a, b});
   self_pair_of_.push_back(p);
 }

@@ -59,10 +59,16 @@ class LaneScene
     double far = 0.0;  // largest distance of a centre from the origin of coordinates
     double position = 0.0;
   };
+  /// Error bounds for the test of an instance's box.
+  struct BoxError
+  {
+    double rotation = 0.0;  // of the box's axes
+    double radius = 0.0;    // half the diagonal of the box, in metres
+  };
 
   void addFrames();
   int addFrame(const Joint& joint, int link, int parent, const Eigen::Isometry3d& origin);
-  void addInstance(const ShapeInstance& instance, const BallCover& cover);
+  void addInstance(const ShapeInstance& instance, const BallCover& cover, const OrientedBox& box);
   void addClusters();
   void addSelfPairs(const CollisionProblem& problem);
   void addSelfPair(std::size_t p, const CollisionProblem& problem);
@@ -70,6 +76,7 @@ class LaneScene
   std::uint32_t centerOf(std::uint32_t instance) const;
   void addWorld(const CollisionProblem& problem, const CpuForest& forest);
   double selfError(std::uint32_t a, std::uint32_t b) const;
+  lanes::BoxThresholds boxThresholds(std::uint32_t a, std::uint32_t b) const;
 
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const RobotProofs> proofs_;
@@ -82,6 +89,7 @@ class LaneScene
   std::vector<double> largest_;  // of each variable, see isWithinBounds
   std::vector<FrameError> frame_errors_;
   std::vector<InstanceError> instance_errors_;
+  std::vector<BoxError> box_errors_;
 
   std::vector<lanes::Frame> frames_;
   std::vector<lanes::Instance> instances_;

@@ -1,11 +1,13 @@
-// The overlap test of wide trees for AVX2. The code between the pragmas must not call functions that other files define
+// The tests of wide trees for AVX2. The code between the pragmas must not call functions that other files define
 // inline: the linker may take this file's copy for all of them, and machines without AVX2 would stop there.
-#include "collision/exact/wide_overlap.h"
+#include "collision/exact/wide_tests.h"
 
 #ifdef __x86_64__
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
 #define GPS_OVERLAP_TEST overlapAvx2
+#define GPS_NEAR_TRIANGLES_TEST nearTrianglesAvx2
 #include "collision/exact/wide_overlap_body.h"
+#include "collision/exact/wide_triangles_body.h"
 #pragma GCC pop_options
 #endif
