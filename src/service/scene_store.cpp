@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
-#include "model/base_joints.h"
+#include "model/virtual_joint.h"
 #include "scene/changes/matrix_entries.h"
 
 namespace gpu_planning_scene::core

@@ -95,7 +95,7 @@ std::optional<BodyPair> LaneChecker::decideOpenPairs(const double* state, std::u
     scratch.pairs.push_back({instances, marginOf(open[k], margins)});
     for (const std::uint32_t instance : instances)
       if (instance < problem_->robot.size())
-        robot_->addLinkPose(state, problem_->robot[instance].link, scratch.poses.data(), scratch.known.data());
+        robot_->computeLinkPose(state, problem_->robot[instance].link, scratch.poses.data(), scratch.known.data());
   }
   const auto pair = traversal_.firstCollisionOf(scratch.pairs.data(), scratch.pairs.size(), scratch.poses.data(),
                                                 scratch.exact, scratch.steps);
