@@ -83,7 +83,7 @@ class MotionChecker
   /// states; a batch takes about 0.05 s. After `stop` has returned true, motions without a verdict are reported as
   /// invalid. Throws Error as StateChecker::check does.
   std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
-                                   MotionQuery question = MotionQuery::Valid,
+                                   MotionQuery query = MotionQuery::Valid,
                                    const std::function<bool()>& stop = {}) const;
 
   MotionRule rule() const { return options_.rule; }

@@ -50,11 +50,11 @@ DensePath densePathOf(const RobotModel& robot, const std::vector<std::vector<dou
       break;
     const double* from = waypoints[i].data();
     const double* to = waypoints[i + 1].data();
-    const double parts = std::min(kMaxSteps, segmentCount(robot, from, to, {kStep, kStep}));
-    for (int k = 1; k < static_cast<int>(parts); ++k)
+    const double segments = std::min(kMaxSteps, segmentCount(robot, from, to, {kStep, kStep}));
+    for (int k = 1; k < static_cast<int>(segments); ++k)
     {
       std::vector<double> state = waypoints[i];
-      interpolate(robot, from, to, k / parts, state.data());
+      interpolate(robot, from, to, k / segments, state.data());
       path.states.push_back(std::move(state));
     }
   }
