@@ -33,7 +33,7 @@ std::int32_t bodyOf(const CollisionProblem& problem, std::size_t instance)
                                          : problem.half_spaces[instance - problem.world.size()].body;
 }
 
-BodyPair bodiesOf(const CollisionProblem& problem, const CpuTraversal::InstancePair& pair)
+BodyPair bodiesOf(const CollisionProblem& problem, const InstancePair& pair)
 {
   const std::int32_t first = bodyOf(problem, pair[0]);
   const std::int32_t second = bodyOf(problem, pair[1]);
@@ -252,8 +252,7 @@ std::vector<BodyPair> CpuTraversal::allCollisions(const Isometry3d* link_poses, 
   return found;
 }
 
-std::vector<CpuTraversal::InstancePair> CpuTraversal::collidingInstances(const Isometry3d* link_poses,
-                                                                         Scratch& scratch) const
+std::vector<InstancePair> CpuTraversal::collidingInstances(const Isometry3d* link_poses, Scratch& scratch) const
 {
   std::vector<InstancePair> found;
   startState(scratch);

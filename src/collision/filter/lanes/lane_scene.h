@@ -37,7 +37,7 @@ class LaneScene
   bool fillGiven(const Eigen::Isometry3d* link_poses, int lane, float* given) const;
 
   /// The instances of a pair of the kernel.
-  const CpuTraversal::InstancePair& instancesOf(std::uint32_t pair) const { return pairs_[pair]; }
+  const InstancePair& instancesOf(std::uint32_t pair) const { return pairs_[pair]; }
   std::size_t pairCount() const { return pairs_.size(); }
 
   /// The place of a kernel's self pair in CollisionProblem::self_pairs.
@@ -93,7 +93,7 @@ class LaneScene
   std::vector<lanes::SelfGroup> self_groups_;
   std::vector<lanes::WorldPair> world_pairs_;
   std::vector<lanes::WorldGroup> world_groups_;
-  std::vector<CpuTraversal::InstancePair> pairs_;
+  std::vector<InstancePair> pairs_;
   std::vector<std::size_t> self_pair_of_;
   lanes::Model model_ = {};
 };
