@@ -7,6 +7,7 @@
 
 #include "gpu_planning_scene/interpolation.h"
 #include "node/markers/shape_markers.h"
+#include "node/messages/pose_messages.h"
 #include "render/renderer.h"
 
 namespace gpu_planning_scene::core
@@ -155,7 +156,7 @@ void addLines(const RobotModel& robot, const DensePath& path, const Group& group
     robot.linkPoses(path.states[i].data(), poses[i].data());
   const std::vector<int> links = lastLinks(robot, group);
   const auto point_of = [&](std::size_t state, int link)
-  { return toPoint(poses[state][static_cast<std::size_t>(link)].translation()); };
+  { return pointOf(poses[state][static_cast<std::size_t>(link)].translation()); };
   markers.begin("path", kLineColor);
   for (const int link : links)
     if (path.states.size() > 1)
@@ -223,7 +224,7 @@ void addLabels(const PlanningScene& scene, const DensePath& path, const Group& g
   {
     markers.begin("labels", i == 0 ? kStartText : kGoalText);
     Marker& marker = markers.add(Marker::TEXT_VIEW_FACING, Eigen::Isometry3d::Identity());
-    marker.pose.position = toPoint(places[i]);
+    marker.pose.position = pointOf(places[i]);
     marker.scale.z = height;
     marker.text = i == 0 ? "start" : "goal";
   }
