@@ -155,8 +155,8 @@ int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry
     largest = std::min(largest, std::max(std::abs(variable.lower), std::abs(variable.upper)) + 1e-6);
     step += std::abs(joint.multiplier) * largest + std::abs(joint.offset);
   }
-  FrameError error{step, before.far + step, before.rotation + turn + kProductError,
-                   before.position + before.rotation * step + kSumError * (before.far + step)};
+  FrameError error{step, before.largest_distance + step, before.rotation + turn + kProductError,
+                   before.position + before.rotation * step + kSumError * (before.largest_distance + step)};
   const bool given = joint.type == JointType::Planar || joint.type == JointType::Floating;
   if (given)
   {
@@ -180,7 +180,7 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
   lanes::Instance made{};
   made.frame = frame_of_link_[link];
   made.same_centers = true;
-  double far = 0.0;
+  double largest_distance = 0.0;
   const auto is_same = [](const CoverBall& ball) { return ball.witness == ball.center; };
   for (std::size_t level = 1; level < cover.levels.size(); ++level)
   {
@@ -193,7 +193,7 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
       const CoverBall& ball = balls[std::min<std::size_t>(static_cast<std::size_t>(i), balls.size() - 1)];
       writeBall(pose * ball.center, above(ball.outer), first + i, made.outer_balls);
       writeBall(pose * ball.witness, below(ball.inner), first + i, made.inner_balls);
-      far = std::max({far, (pose * ball.center).norm(), (pose * ball.witness).norm()});
+      largest_distance = std::max({largest_distance, (pose * ball.center).norm(), (pose * ball.witness).norm()});
     }
   }
   const CoverBall& enclosing = cover.levels[0].front();
@@ -202,17 +202,20 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
     made.center[axis] = static_cast<float>(center[axis]);
   made.outer = above(enclosing.outer);
   made.inner = is_same(enclosing) ? below(enclosing.inner) : -1.0F;
-  far = std::max(far, center.norm());
+  largest_distance = std::max(largest_distance, center.norm());
   instances_.push_back(made);
   const FrameError& frame = frame_errors_[static_cast<std::size_t>(made.frame)];
-  instance_errors_.push_back({frame.far + far, frame.position + frame.rotation * far + kSumError * (frame.far + far)});
+  instance_errors_.push_back(
+      {frame.largest_distance + largest_distance,
+       frame.position + frame.rotation * largest_distance + kSumError * (frame.largest_distance + largest_distance)});
 }
 
 double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
 {
   const InstanceError& first = instance_errors_[a];
   const InstanceError& second = instance_errors_[b];
-  const double lengths = first.far + second.far + static_cast<double>(instances_[a].outer + instances_[b].outer);
+  const double lengths =
+      first.largest_distance + second.largest_distance + static_cast<double>(instances_[a].outer + instances_[b].outer);
   return first.position + second.position + kDistanceError * lengths;
 }
 
@@ -331,7 +334,7 @@ void LaneScene::addSelfGroups(std::uint32_t first)
       return Placed{instance_errors_[center], static_cast<double>(instances_[center].outer)};
     const lanes::Cluster& cluster = clusters_[center - instances];
     const FrameError& frame = frame_errors_[static_cast<std::size_t>(cluster.frame)];
-    return Placed{{frame.far, frame.position}, static_cast<double>(cluster.radius)};
+    return Placed{{frame.largest_distance, frame.position}, static_cast<double>(cluster.radius)};
   };
   for (std::uint32_t p = first; p < self_pairs_.size();)
   {
@@ -342,8 +345,8 @@ void LaneScene::addSelfGroups(std::uint32_t first)
       ++end;
     const Placed a = placed(centers.first);
     const Placed b = placed(centers.second);
-    const double error =
-        a.error.position + b.error.position + kDistanceError * (a.error.far + b.error.far + a.radius + b.radius);
+    const double error = a.error.position + b.error.position +
+                         kDistanceError * (a.error.largest_distance + b.error.largest_distance + a.radius + b.radius);
     const bool is_tested = end - p > 1 && centers.first != centers.second;
     self_groups_.push_back({{centers.first, centers.second},
                             is_tested ? above(a.radius + b.radius + error) : std::numeric_limits<float>::infinity(),
@@ -391,9 +394,9 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
         continue;
       const LaneObject& object = objects[o];
       const double required = problem.robot[b].padding + object.padding;
-      const double error =
-          instance_errors_[b].position +
-          kDistanceError * (instance_errors_[b].far + object.far + required + static_cast<double>(instances_[b].outer));
+      const double error = instance_errors_[b].position +
+                           kDistanceError * (instance_errors_[b].largest_distance + object.largest_distance + required +
+                                             static_cast<double>(instances_[b].outer));
       const double layer = object.thickness > cover.layer ? 0.0 : cover.layer;
       const lanes::Thresholds thresholds = {above(required + error), above(required + layer + error),
                                             below(required - error)};

@@ -47,16 +47,16 @@ class LaneScene
   /// Error bounds of the kernel for a frame, in metres.
   struct FrameError
   {
-    double step = 0.0;      // largest distance of the frame's origin from the origin of its parent
-    double far = 0.0;       // largest distance of the frame's origin from the origin of coordinates
-    double rotation = 0.0;  // of a rotated vector of length 1
-    double position = 0.0;  // of the frame's origin
+    double step = 0.0;              // largest distance of the frame's origin from the origin of its parent
+    double largest_distance = 0.0;  // largest distance of the frame's origin from the origin of coordinates
+    double rotation = 0.0;          // of a rotated vector of length 1
+    double position = 0.0;          // of the frame's origin
   };
 
   /// Error bounds for the centres of an instance's balls, in metres.
   struct InstanceError
   {
-    double far = 0.0;  // largest distance of a centre from the origin of coordinates
+    double largest_distance = 0.0;  // largest distance of a centre from the origin of coordinates
     double position = 0.0;
   };
 
