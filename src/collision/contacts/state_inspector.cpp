@@ -15,7 +15,7 @@
 #include "collision/problem/state_validation.h"
 
 // The exact checker finds the colliding pairs of instances. FCL computes their contacts. The deepest contacts of each
-// pair of bodies are kept.
+// pair of bodies are kept. Own method.
 namespace gpu_planning_scene::core
 {
 namespace
