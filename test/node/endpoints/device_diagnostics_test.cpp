@@ -45,11 +45,11 @@ class Device : public CpuChecker
 /// States of a request for the second queue, whose checker is made with its first request.
 constexpr std::size_t kLarge = 2000;
 
-class LostDevice : public testing::Test
+class DeviceDiagnostics : public testing::Test
 {
  protected:
-  LostDevice() { resilience_.device_seconds = 0.2; }
-  ~LostDevice() override { repaired_.set_value(); }
+  DeviceDiagnostics() { resilience_.device_seconds = 0.2; }
+  ~DeviceDiagnostics() override { repaired_.set_value(); }
 
   /// Sets the fault of opening the device from now on: it throws, waits, or does nothing.
   void openWith(void (*fault)(const std::shared_future<void>& repaired)) { fault_ = fault; }
@@ -92,14 +92,14 @@ class LostDevice : public testing::Test
   std::unique_ptr<CheckServer> server_;
 };
 
-TEST_F(LostDevice, ANamedDeviceThatCannotBeOpenedAtTheStartIsAnError)
+TEST_F(DeviceDiagnostics, ANamedDeviceThatCannotBeOpenedAtTheStartIsAnError)
 {
   options_.device = "software";
   openWith([](const auto&) { throw Error("no usable device"); });
   EXPECT_EQ(errorOf([&] { server(); }), "no usable device");
 }
 
-TEST_F(LostDevice, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
+TEST_F(DeviceDiagnostics, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
 {
   openWith([](const auto&) { throw Error("no usable device"); });
   for (const std::size_t count : {std::size_t{1}, kLarge})
@@ -110,7 +110,7 @@ TEST_F(LostDevice, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
   }
 }
 
-TEST_F(LostDevice, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
+TEST_F(DeviceDiagnostics, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
 {
   EXPECT_EQ(ask(1).result.valid.size(), 1u);
   openWith([](const auto&) { throw DeviceLost("the GPU was reset"); });
@@ -119,7 +119,7 @@ TEST_F(LostDevice, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
   EXPECT_EQ(answer.device, "CPU");
 }
 
-TEST_F(LostDevice, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
+TEST_F(DeviceDiagnostics, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
 {
   EXPECT_EQ(ask(1).result.valid.size(), 1u);
   openWith([](const auto& repaired) { repaired.wait(); });
@@ -127,7 +127,7 @@ TEST_F(LostDevice, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
   server().stop();
 }
 
-TEST_F(LostDevice, DiagnosticsReportCpuFallbackAndMissingDevice)
+TEST_F(DeviceDiagnostics, DiagnosticsReportCpuFallbackAndMissingDevice)
 {
   using diagnostic_msgs::DiagnosticStatus;
   resilience_.retry_seconds = 0.1;
@@ -156,7 +156,7 @@ TEST_F(LostDevice, DiagnosticsReportCpuFallbackAndMissingDevice)
   EXPECT_EQ(level(), DiagnosticStatus::OK);
 }
 
-TEST_F(LostDevice, DiagnosticsAreShortWhateverIsInThem)
+TEST_F(DeviceDiagnostics, DiagnosticsAreShortWhateverIsInThem)
 {
   ask(1);
   openWith([](const auto&) { throw Error("no device '" + std::string(100000, 'x') + "'"); });
