@@ -127,10 +127,11 @@ int main(int argc, char** argv)
       "exactness",
       "[--quick] [--states N] [--robot NAME] [--seed S]",
       "Compares the answers of both traversals, at several batch sizes, and of the CPU checker, with and without\n"
-      "proofs, with an oracle in quadruple precision: 100,000 random states of kr5, 10,000 of ur5_robotiq, drchubo and "
-      "wam, 1000 of\n"
-      "ur5_carrying (a box in the gripper, padding, a floor); and 10,000 states per robot (1000 of ur5_carrying)\n"
-      "within about 1e-4 ... 1e-10 m of contact. Bisection finds these states; half of them are free.\n"
+      "proofs (balls and tables of joint values), with an oracle in quadruple precision: 100,000 random states of "
+      "kr5,\n"
+      "10,000 of ur5_robotiq, drchubo and wam, 1000 of ur5_carrying (a box in the gripper, padding, a floor); and\n"
+      "10,000 states per robot (1000 of ur5_carrying) within about 1e-4 ... 1e-10 m of contact. Bisection finds\n"
+      "these states; half of them are free.\n"
       "Prints a Markdown table: wrong answers by the contract, verdicts that differ from the CPU checker's, states\n"
       "for which the contract allows both answers, and the share of undecided states and of the time for them.\n"
       "Exit code: 0 no wrong answer, 1 a wrong answer or another error, 2 bad usage.",

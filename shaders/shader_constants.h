@@ -65,6 +65,7 @@
 
 // --- Sizes of records ----------------------------------------------------------------------------------------------
 // A texel has 16 bytes: one element of a buffer texture, or one vec4 or uvec4 of a storage buffer.
+#define TEXEL_WORDS 4           // words of 32 bits
 #define POSE_TEXELS 3           // three rows of [rotation | translation], see geometry/pose.glsl
 #define POSE_FLOATS 12
 #define NODE_TEXELS 2           // see problem/nodes.glsl
@@ -79,6 +80,7 @@
 #define LINK_SHAPE_TEXELS 7     // of one shape of a link, see problem/kinematics.glsl
 #define CLUSTER_TEXELS 2        // see tree_build/cluster.glsl
 #define PAIR_TEXELS 4           // the two clusters that the tree build has merged
+#define LARGE_NODE_TEXELS 1     // see tree_build/fit_boxes.comp
 #define BOUNDS_WORDS 6          // the bounds of a mesh, see tree_build/bounds.comp
 #define OUTCOME_TEXELS 2        // of one case of self_test/float_arithmetic.comp
 
@@ -150,6 +152,10 @@
 
 // --- Drawing -------------------------------------------------------------------------------------------------------
 #define UNIT_SHADOW_MAP 0  // unit of the shadow map's texture
+// Locations of the attributes of a vertex.
+#define ATTRIBUTE_POSITION 0
+#define ATTRIBUTE_NORMAL 1
+#define ATTRIBUTE_COLOR 2
 
 // --- Checking batches of states ------------------------------------------------------------------------------------
 // Units of the buffer textures.

@@ -50,7 +50,7 @@ void PairwisePeer::disableDefaultPairs(const RobotModel& robot)
     for (std::size_t k = 0; k < self_pairs_.size(); ++k)
       collisions[k] += collidesWithSelf(self_pairs_[k][0], self_pairs_[k][1]) ? 1 : 0;
   }
-  std::vector<std::array<std::uint32_t, 2>> kept;
+  std::vector<InstancePair> kept;
   for (std::size_t k = 0; k < self_pairs_.size(); ++k)
   {
     const std::int32_t a = problem_->robot[self_pairs_[k][0]].body;

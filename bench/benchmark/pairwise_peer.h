@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -32,7 +31,7 @@ class PairwisePeer : public Peer
 
  private:
   std::shared_ptr<const CollisionProblem> problem_;
-  std::vector<std::array<std::uint32_t, 2>> self_pairs_;
+  std::vector<InstancePair> self_pairs_;
 };
 
 std::unique_ptr<PairwisePeer> makeBulletHulls(const std::shared_ptr<const CollisionProblem>& problem);

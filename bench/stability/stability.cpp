@@ -102,7 +102,7 @@ int main(int argc, char** argv)
        {{"--quick", "", "64 cases of each family instead of 2048"},
         {"--seed", "N", "seed of the random cases (default 1)"},
         {"--cases", "N", "number of cases of each family (default 2048)"},
-        {"--proofs", "N", "number of cases of each family that are checked with balls too (default: 1 in 32)"},
+        {"--proofs", "N", "number of cases of each family that are checked with proofs (balls) too (default: 1 in 32)"},
         {"--family", "TEXT", "only families whose name contains TEXT"},
         {"--csv", "FILE", "writes the table for scripts/stability_chart"},
         {"--markdown", "FILE", "writes the table to FILE instead of printing it"},

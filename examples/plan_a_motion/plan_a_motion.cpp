@@ -112,7 +112,7 @@ try
   const auto space = std::make_shared<GroupStateSpace>(robot, words[2]);
   ompl::geometric::SimpleSetup setup(space);
   const auto information = setup.getSpaceInformation();
-  const auto checker = std::make_shared<BatchChecker>(scene, BatchCheckerOptions());
+  const auto checker = std::make_shared<BatchChecker>(scene);
   setup.setStateValidityChecker(std::make_shared<StateValidityChecker>(information, scene, checker));
   information->setMotionValidator(std::make_shared<MotionValidator>(information, scene, checker));
   setup.setPlanner(std::make_shared<BatchRrtConnect>(information));

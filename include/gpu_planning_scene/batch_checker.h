@@ -18,7 +18,7 @@ class BatchChecker : public StateChecker
  public:
   /// Throws Error if no EGL device can be used (the message lists the devices that were tried), if a shader does not
   /// compile (the message has its log), or if the scene or an option is not valid.
-  BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options);
+  explicit BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options = {});
   ~BatchChecker() override;
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;

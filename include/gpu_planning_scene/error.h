@@ -13,8 +13,8 @@ class Error : public std::runtime_error
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 
-/// The device or its context is lost, or it failed in a way that no input causes. The object that threw this error is
-/// no longer usable: create a new one.
+/// The device or its context is lost, or it failed for a reason that is not the input. The object that threw this error
+/// is no longer usable: create a new one.
 class DeviceLost : public Error
 {
  public:

@@ -48,8 +48,9 @@ struct MotionVerdict
   /// MotionRule::Bound: the motion is proven free up to this fraction. It is at most the fraction under
   /// MotionRule::Samples. 0 if the start collides; 1 if the motion is valid.
   double last_valid = 0.0;
-  /// The fraction of the first sample that collides, or around which the motion is not proven free; under
-  /// MotionQuery::Valid, of the first such sample that was found. 1 if the motion is valid.
+  /// The fraction of the first sample that collides or around which the motion is not proven free. Under
+  /// MotionQuery::Valid: the first such sample that the check found, which need not be the first of the motion. 1 if
+  /// the motion is valid.
   double first_invalid = 0.0;
   /// The colliding pair at `first_invalid`; kNoPair if the motion is valid, or if no sample collides but the motion is
   /// not proven free.
@@ -83,7 +84,7 @@ class MotionChecker
   /// states; a batch takes about 0.05 s. After `stop` has returned true, motions without a verdict are reported as
   /// invalid. Throws Error as StateChecker::check does.
   std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
-                                   MotionQuery question = MotionQuery::Valid,
+                                   MotionQuery query = MotionQuery::Valid,
                                    const std::function<bool()>& stop = {}) const;
 
   MotionRule rule() const { return options_.rule; }

@@ -166,7 +166,7 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   /// Writes the poses of one link and of the links between it and the root, as linkPoses does. `known`: one entry per
   /// link; the poses of links with an entry other than 0 are already those of this state. Sets `known` to 1 for each
   /// link whose pose it writes.
-  void addLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const;
+  void computeLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const;
 
   /// Writes a random state: variables are uniform between lower and upper, rotations of floating joints uniform over
   /// SO(3). The base moves too, where a planar or floating joint carries it, such as the virtual joint of an SRDF.

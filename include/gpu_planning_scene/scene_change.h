@@ -52,8 +52,9 @@ struct ObjectChange
   std::map<std::string, Eigen::Isometry3d> subframes;  ///< in the object's frame
   ObjectType type;                                     ///< empty: a new object has none, other objects keep theirs
   /// Only for Remove. True: the allowed collision matrix keeps the object's entries. This is for objects that come and
-  /// go, for example a point cloud. If it removes all objects (no id), their colours stay too. False, as in MoveIt: the
-  /// entries are removed with the object. The octomap (see kOctomapId) always keeps its entries and its colour.
+  /// go, for example a point cloud. A change without an id, which removes all objects, then keeps their colours too.
+  /// False, as in MoveIt: the entries are removed with the object. The octomap (see kOctomapId) always keeps its
+  /// entries and its colour.
   bool keeps_allowed_collisions = false;
 };
 
@@ -120,8 +121,8 @@ using ExternalFrames = std::map<StampedFrame, Eigen::Isometry3d>;
 /// The frames of `change` that neither the scene nor an earlier part of the change knows.
 std::vector<StampedFrame> externalFrames(const PlanningScene& scene, const SceneChange& change);
 
-/// The result of a change.
-struct Change
+/// The scene after a change.
+struct ChangedScene
 {
   PlanningScene scene;        ///< its current_state is `state`
   std::vector<double> state;  ///< one value per variable; empty while some values are unknown
@@ -131,8 +132,8 @@ struct Change
 /// Returns the changed scene. Its revision is that of `scene`. `state`: the robot's state, empty while some values are
 /// unknown. If `scene` is valid (validateScene), the result is valid too. Throws Error that names the object or
 /// link and the remedy. Thread-safe.
-Change applyChange(const PlanningScene& scene, const std::vector<double>& state, const SceneChange& change,
-                   const SceneDefaults& defaults, const SceneLimits& limits, const ExternalFrames& frames);
+ChangedScene applyChange(const PlanningScene& scene, const std::vector<double>& state, const SceneChange& change,
+                         const SceneDefaults& defaults, const SceneLimits& limits, const ExternalFrames& frames);
 
 /// The full scene that turns any other scene of the robot into `scene`.
 SceneChange fullSceneOf(const PlanningScene& scene);

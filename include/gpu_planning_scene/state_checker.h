@@ -23,8 +23,10 @@ struct Reductions
   bool rigid_pairs = true;        ///< pairs that no joint moves relative to each other are decided once per scene
   bool shared_trees = true;       ///< equal meshes and equal primitives share a tree
   bool direct_primitives = true;  ///< the GPU tests primitives as solids, not as triangles
-  /// The CPU decides most states of large batches by proofs about the robot: balls and tables of joint values. Making
-  /// the proofs takes seconds to a minute on all cores, in the background. They are kept on disk.
+  /// The CPU decides most states of large batches by proofs. A proof is data about the robot from which a verdict
+  /// follows without tests of triangles: balls that enclose and fill the shapes of the links, and tables with the
+  /// verdict of a pair of links for ranges of joint values. A background thread makes the proofs once for each robot,
+  /// in seconds to a minute on all cores, and keeps them on disk.
   bool proofs = true;
 
   /// All switched off.

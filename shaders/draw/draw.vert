@@ -7,9 +7,9 @@ layout(location = LOCATION_TO_CLIP_SPACE) uniform mat4 to_clip_space;
 // The eye, and a distance in metres. The depth of each corner is that of a point nearer to the eye by this distance.
 layout(location = LOCATION_PULL) uniform vec4 pull;
 
-layout(location = 0) in vec3 position;  // metres, in the planning frame
-layout(location = 1) in vec3 normal;    // of the corner's triangle, of unit length
-layout(location = 2) in vec4 color;
+layout(location = ATTRIBUTE_POSITION) in vec3 position;  // metres, in the planning frame
+layout(location = ATTRIBUTE_NORMAL) in vec3 normal;      // of the corner's triangle, of unit length
+layout(location = ATTRIBUTE_COLOR) in vec4 color;
 
 out gl_PerVertex
 {

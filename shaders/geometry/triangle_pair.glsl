@@ -1,3 +1,4 @@
+// The test of two triangles that meet or are apart by a gap, with error bounds. Source: see trianglePair.
 #include "geometry/triangle_error_bounds.glsl"
 
 bool onOppositeSides(float first, float second, float error)

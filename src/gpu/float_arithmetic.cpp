@@ -12,6 +12,10 @@
 #include "gpu/program.h"
 #include "shader_constants.h"
 
+// Runs kernels on known numbers and compares their results with those of the CPU in double, in which the sum and the
+// product of two of the floats are exact. Two-sum (D. E. Knuth: The Art of Computer Programming, volume 2, 1969) and
+// two-product (T. J. Dekker: A floating-point technique for extending the available precision. Numerische Mathematik
+// 18, 1971) give the right errors only if the device rounds properly and the compiler keeps the operations as written.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -1,8 +1,8 @@
 #include "model/full_states.h"
 
 #include "gpu_planning_scene/error.h"
-#include "model/base_joints.h"
 #include "model/text/name_list.h"
+#include "model/virtual_joint.h"
 
 namespace gpu_planning_scene::core
 {

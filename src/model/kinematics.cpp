@@ -135,12 +135,12 @@ void Kinematics::linkPoses(const double* state, Eigen::Isometry3d* poses) const
     place(steps_[i], state, poses, poses[i]);
 }
 
-void Kinematics::addLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const
+void Kinematics::computeLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const
 {
   if (link < 0 || known[link] != 0)
     return;
   const Step& step = steps_[static_cast<std::size_t>(link)];
-  addLinkPose(state, step.parent, poses, known);
+  computeLinkPose(state, step.parent, poses, known);
   place(step, state, poses, poses[link]);
   known[link] = 1;
 }

@@ -19,8 +19,8 @@ class Kinematics
   /// Writes the pose of each link in the planning frame: see RobotModel::linkPoses.
   void linkPoses(const double* state, Eigen::Isometry3d* poses) const;
 
-  /// See RobotModel::addLinkPose.
-  void addLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const;
+  /// See RobotModel::computeLinkPose.
+  void computeLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const;
 
  private:
   /// Pose of a link relative to its parent link, as a function of the joint's position q (radians or metres). O is the

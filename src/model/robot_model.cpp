@@ -103,9 +103,9 @@ void RobotModel::linkPoses(const double* state, Eigen::Isometry3d* poses) const
   kinematics_->linkPoses(state, poses);
 }
 
-void RobotModel::addLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const
+void RobotModel::computeLinkPose(const double* state, int link, Eigen::Isometry3d* poses, std::uint8_t* known) const
 {
-  kinematics_->addLinkPose(state, link, poses, known);
+  kinematics_->computeLinkPose(state, link, poses, known);
 }
 
 void RobotModel::randomState(std::mt19937_64& generator, double* state) const

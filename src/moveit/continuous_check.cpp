@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "collision/bounds/displacement_rounding.h"
 #include "moveit/collision_query.h"
 #include "moveit/log.h"
 #include "moveit/motion_bound.h"
@@ -15,6 +16,9 @@
 // Bisection: a part of the robot that keeps a distance from all objects in the middle of an interval, larger than it
 // can move within half of the interval, is free in the interval (Schwarzer, Saha, Latombe 2002, "Exact collision
 // checking of robot paths"). The other parts are checked again in both halves.
+// MotionBatch (collision/motion) cannot serve here: it interpolates as this package does, and a StateChecker tells it
+// only whether a state is free. MoveIt's interpolation differs, for example for planar joints that are not holonomic.
+// MoveIt's matrix can hold functions that decide about contacts. Its result needs the contacts of the first collision.
 namespace gpu_planning_scene::detector
 {
 namespace
@@ -23,8 +27,6 @@ using moveit::core::RobotState;
 
 // An interval in which a part moves by less is not divided further.
 constexpr double kFinest = 1e-4;  // metres
-// Exceeds the rounding of forward kinematics within a kilometre.
-constexpr double kRounding = 1e-8;  // metres
 
 class MotionSearch
 {
@@ -164,7 +166,7 @@ class MotionSearch
   {
     if (travel == 0.0)
       return true;  // the part stays where sampleIsFree has checked it
-    const double margin = travel * (1.0 + 1e-9) + kRounding;
+    const double margin = core::withRounding(travel);
     if (!(margin <= core::kLargestLength) || part.shape->kind() == ShapeKind::Faulty)
       return world_.empty();
     Eigen::AlignedBox3d bounds(part.bounds.min().array() - margin, part.bounds.max().array() + margin);
@@ -186,7 +188,7 @@ class MotionSearch
     result_.collision = true;
     if (request_.verbose)
       ROS_INFO_STREAM_NAMED(kLogName, "The motion of '" << near_.part << "' past '" << near_.object << "' at "
-                                                        << 100.0 * time << " % of the way is not proven free");
+                                                        << 100.0 * time << " % of the motion is not proven free");
     if (!request_.contacts || result_.contact_count >= request_.max_contacts)
       return;
     collision_detection::Contact contact;

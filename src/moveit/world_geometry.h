@@ -98,28 +98,12 @@ bool WorldGeometry::visitNear(const Eigen::AlignedBox3d& bounds, std::vector<std
     if (slot.bounds.intersects(bounds) && visit(slot.part()))
       return true;
   }
-  if (!tree_ || tree_->nodes().empty())
-    return false;
-  const Eigen::Vector3d center = bounds.center();
-  const Eigen::Vector3d half = 0.5 * bounds.sizes();
-  const bool unlimited = !center.allFinite();
-  stack.assign(1, 0u);
-  while (!stack.empty())
-  {
-    const core::Node& node = tree_->nodes()[stack.back()];
-    stack.pop_back();
-    if (!unlimited && ((core::centerOf(node) - center).cwiseAbs().array() > (core::halfOf(node) + half).array()).any())
-      continue;
-    if (node.count == 0)
-    {
-      stack.push_back(node.first);
-      stack.push_back(node.first + 1);
-      continue;
-    }
-    const Slot& slot = slots_[(*tree_slots_)[tree_->order()[node.first]]];
-    if (slot.shape && slot.in_tree && slot.bounds.intersects(bounds) && visit(slot.part()))
-      return true;
-  }
-  return false;
+  // The tree's box of a slot that is in the tree is the slot's bounds.
+  return tree_ && tree_->visitOverlapping(bounds, stack,
+                                          [this, &visit](std::uint32_t object)
+                                          {
+                                            const Slot& slot = slots_[(*tree_slots_)[object]];
+                                            return slot.shape && slot.in_tree && visit(slot.part());
+                                          });
 }
 }  // namespace gpu_planning_scene::detector

@@ -9,7 +9,7 @@
 #include <ros/ros.h>
 
 #include "node/serve.h"
-#include "planners/planner_plugins.h"
+#include "planners/planner_loader.h"
 
 namespace gpu_planning_scene::core
 {
@@ -60,7 +60,7 @@ int runNode(int argc, char** argv, const OpenDevice& open_device)
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   try
   {
-    PlannerPlugins::prepareEnvironment();
+    PlannerLoader::prepareEnvironment();
     // Without roscpp's own signal handler, which drops the requests that are being answered.
     ros::init(argc, argv, "planning_scene_node", ros::init_options::NoSigintHandler);
     return connectAndServe(open_device);

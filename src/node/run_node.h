@@ -1,6 +1,6 @@
 #pragma once
 
-#include "node/checks/watched_checkers.h"
+#include "service/checker_maker.h"
 
 namespace gpu_planning_scene::core
 {

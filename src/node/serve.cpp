@@ -6,7 +6,6 @@
 
 #include "node/checks/check_services.h"
 #include "node/checks/scene_watch.h"
-#include "node/checks/watched_checkers.h"
 #include "node/endpoints/diagnostics.h"
 #include "node/endpoints/endpoints.h"
 #include "node/markers/marker_publisher.h"
@@ -61,8 +60,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   Diagnostics diagnostics;
   SceneStore store(std::move(scene), defaults, limits, [&base](std::int64_t stamp) { return base.at(stamp); });
   known = &store;
-  const CheckServer::MakeChecker make_checker =
-      makeWatchedCheckers(checker_options, resilience, open_device, diagnostics);
+  const CheckServer::MakeChecker make_checker = diagnostics.watched(makeResilientCheckers(
+      checker_options, resilience, open_device, [](const std::string& warning) { ROS_WARN_STREAM(warning); }));
   CheckServer server(store, make_checker, server_options);
   const SceneWatch watch(own, store, server);
 

@@ -4,7 +4,7 @@
 
 #include <ros/node_handle.h>
 
-#include "node/checks/watched_checkers.h"
+#include "service/checker_maker.h"
 
 namespace gpu_planning_scene::core
 {

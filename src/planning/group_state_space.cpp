@@ -16,6 +16,9 @@
 #include "gpu_planning_scene/interpolation.h"
 #include "model/math_constants.h"
 
+// The joints with limits share one space; each other joint has a space of its own. The default projection has the first
+// joints with limits, because joints near the root move the robot the most. Planners with a grid of projections use it
+// (I. A. Sucan, L. E. Kavraki: Kinodynamic motion planning by interior-exterior cell exploration. WAFR 2008).
 namespace gpu_planning_scene::core
 {
 namespace

@@ -17,7 +17,7 @@ MotionValidator::MotionValidator(const ompl::base::SpaceInformationPtr& informat
 }
 
 /// Motions that leave the bounds are not checked.
-std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& motions, MotionQuery question,
+std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& motions, MotionQuery query,
                                                   const Termination& ptc) const
 {
   std::vector<std::size_t> within;
@@ -33,7 +33,7 @@ std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& mot
     within.push_back(i);
   }
   const std::vector<MotionVerdict> checked =
-      motions_.check(starts.data(), ends.data(), within.size(), question, [&ptc] { return ptc(); });
+      motions_.check(starts.data(), ends.data(), within.size(), query, [&ptc] { return ptc(); });
   std::vector<MotionVerdict> verdicts(motions.size());
   for (std::size_t i = 0; i < within.size(); ++i)
     verdicts[within[i]] = checked[i];

@@ -136,9 +136,9 @@ GlPainter::GlPainter(const Drawing& drawing)
   GLuint array = 0;
   glCreateVertexArrays(1, &array);
   glVertexArrayVertexBuffer(array, 0, vertices_.id(), 0, sizeof(DrawnVertex));
-  bindAttribute(array, 0, 3, GL_FLOAT, GL_FALSE, offsetof(DrawnVertex, position));
-  bindAttribute(array, 1, 3, GL_FLOAT, GL_FALSE, offsetof(DrawnVertex, normal));
-  bindAttribute(array, 2, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(DrawnVertex, color));
+  bindAttribute(array, ATTRIBUTE_POSITION, 3, GL_FLOAT, GL_FALSE, offsetof(DrawnVertex, position));
+  bindAttribute(array, ATTRIBUTE_NORMAL, 3, GL_FLOAT, GL_FALSE, offsetof(DrawnVertex, normal));
+  bindAttribute(array, ATTRIBUTE_COLOR, 4, GL_UNSIGNED_BYTE, GL_TRUE, offsetof(DrawnVertex, color));
   glBindVertexArray(array);
   glEnable(GL_DEPTH_TEST);
 }

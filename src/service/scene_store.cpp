@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
-#include "model/base_joints.h"
+#include "model/virtual_joint.h"
 #include "scene/changes/matrix_entries.h"
 
 namespace gpu_planning_scene::core
@@ -159,7 +159,8 @@ SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& l
     // Another change may have removed a frame that the scene had during the lookup.
     if (at.scene != asked && !hasAll(frames, externalFrames(*at.scene, change)))
       continue;
-    Change made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
+    ChangedScene made =
+        applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
     return {replace(std::move(made.scene), change.state.variables), std::move(made.warnings)};
   }
 }
@@ -172,7 +173,8 @@ SceneStore::Preview SceneStore::preview(const std::vector<SceneChange>& changes,
   for (const SceneChange& change : changes)
   {
     findFrames(*at.scene, change, lookup, frames);
-    Change made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
+    ChangedScene made =
+        applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
     at.scene = std::make_shared<const PlanningScene>(std::move(made.scene));
     assign(*at.scene->robot, change.state.variables, at.state, at.known);
     preview.warnings.insert(preview.warnings.end(), made.warnings.begin(), made.warnings.end());

@@ -115,7 +115,7 @@ void expectSamePoses(const std::string& urdf, const RobotModel& robot, int state
     std::vector<std::uint8_t> known(robot.links().size(), 0);
     for (std::size_t link = poses.size(); link-- > 0;)
     {
-      robot.addLinkPose(state.data(), static_cast<int>(link), one_by_one.data(), known.data());
+      robot.computeLinkPose(state.data(), static_cast<int>(link), one_by_one.data(), known.data());
       ASSERT_EQ(one_by_one[link].matrix(), poses[link].matrix()) << robot.links()[link].name;
     }
   }

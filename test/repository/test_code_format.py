@@ -9,6 +9,9 @@ from folders import ROOT
 FOLDERS = ["include", "src", "python", "test", "bench", "examples"]
 # Paths of our own includes begin in one of these folders.
 INCLUDE_FOLDERS = ["include", "src", "shaders", "python", "test", "bench"]
+# The folders of src/collision whose longer files are algorithms.
+ALGORITHMS = ["bounds", "contacts", "exact", "filter", "geometry", "gpu", "motion"]
+LINES_OF_AN_ALGORITHM = 60
 # The order of the includes of a file.
 OWN_HEADER, STANDARD, LIBRARY, PROJECT = range(4)
 
@@ -47,6 +50,11 @@ def comment_is_elsewhere(text):
     head = text.partition("\nnamespace ")[0] + "\n"
     at_the_top = text.startswith("//") and not re.search(r"(?m)^int main\(", text)
     return "\nnamespace " in text and (at_the_top or re.search(r"(?m)^//.*\n\n+\Z", head) is not None)
+
+
+def has_opening_comment(text):
+    """Whether a comment is directly before the namespace. It states the idea of an algorithm and its source."""
+    return re.search(r"(?m)^//.*\nnamespace ", text) is not None
 
 
 def wrong_names(text):
@@ -110,6 +118,17 @@ class CodeFormat(unittest.TestCase):
         self.assertTrue(comment_is_elsewhere("// The idea.\n#include <map>\n\nnamespace a\n{\n}\n"))
         self.assertFalse(comment_is_elsewhere("#include <map>\n\n// The idea.\nnamespace a\n{\n}\n"))
         self.assertFalse(comment_is_elsewhere("// A program.\n\n#include <map>\n\nnamespace a\n{\n}\n\nint main()\n{\n}\n"))
+
+    def test_an_algorithm_has_a_comment_with_its_idea_and_source(self):
+        paths = [path for folder in ALGORITHMS for path in sorted((ROOT / "src" / "collision" / folder).rglob("*.cpp"))]
+        long_files = [path for path in paths if len(path.read_text().splitlines()) > LINES_OF_AN_ALGORITHM]
+        self.assertGreater(len(long_files), 40)
+        wrong = [str(path.relative_to(ROOT)) for path in long_files if not has_opening_comment(path.read_text())]
+        self.assertEqual([], wrong, "state the idea and its source directly before the namespace")
+
+    def test_a_missing_comment_of_an_algorithm_is_found(self):
+        self.assertTrue(has_opening_comment("#include <map>\n\n// The idea.\nnamespace a\n{\n}\n"))
+        self.assertFalse(has_opening_comment("#include <map>\n\nnamespace a\n{\n// Another comment.\n}\n"))
 
     def test_lines_of_shaders_and_scripts_have_at_most_120_characters(self):
         # clang-format limits the lines of C++.

@@ -38,6 +38,11 @@ class Shaders(unittest.TestCase):
                  if re.search(r"binding = \d", line) or re.search(r"location = \d.*\buniform\b", line)]
         self.assertEqual([], wrong)
 
+    def test_begin_with_a_comment(self):
+        wrong = [str(path.relative_to(ROOT)) for path in sorted(SHADERS.rglob("*.*"))
+                 if path.suffix in (".comp", ".glsl", ".vert", ".frag") and not path.read_text().startswith("//")]
+        self.assertEqual([], wrong)
+
     def test_use_each_binding_once_in_a_program(self):
         values = constants()
         programs = sorted(SHADERS.rglob("*.comp"))

@@ -191,7 +191,7 @@ void expectSameScene(const PlanningScene& expected, const PlanningScene& found, 
 
 void SceneChanges::apply(const SceneChange& change)
 {
-  Change result = applyChange(scene_, state_, change, defaults_, limits_, frames_);
+  ChangedScene result = applyChange(scene_, state_, change, defaults_, limits_, frames_);
   scene_ = std::move(result.scene);
   state_ = std::move(result.state);
   warnings_ = std::move(result.warnings);

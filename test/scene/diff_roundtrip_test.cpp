@@ -121,7 +121,7 @@ TEST_F(RandomChanges, TheirDifferenceLeadsFromOneSceneToTheOther)
     const PlanningScene& from = scenes[upTo(scenes.size() - 1)];
     const SceneChange way = diffOf(from, reached);
     differences += way.is_diff ? 1 : 0;
-    const Change walked = applyChange(from, from.current_state, way, defaults_, limits_, {});
+    const ChangedScene walked = applyChange(from, from.current_state, way, defaults_, limits_, {});
     PlanningScene expected = reached;
     expected.matrix_source = walked.scene.matrix_source;  // an equal matrix need not come from the SRDF
     if (reached.current_state.empty())

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/error.h"
-#include "model/base_joints.h"
 #include "model/full_states.h"
+#include "model/virtual_joint.h"
 #include "scene/slider_robot.h"
 #include "service/scene_store.h"
 #include "support/repetitions.h"

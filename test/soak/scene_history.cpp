@@ -13,7 +13,8 @@ constexpr std::size_t kMaxScenes = 20000;
 
 std::shared_ptr<const PlanningScene> changed(const PlanningScene& scene, const PlanningSceneMessage& message)
 {
-  Change change = applyChange(scene, scene.current_state, changeFrom(message, *scene.robot, {}, nullptr), {}, {}, {});
+  ChangedScene change =
+      applyChange(scene, scene.current_state, changeFrom(message, *scene.robot, {}, nullptr), {}, {}, {});
   change.scene.revision = message.scene_revision;
   return std::make_shared<const PlanningScene>(std::move(change.scene));
 }

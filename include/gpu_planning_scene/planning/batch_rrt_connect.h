@@ -22,8 +22,8 @@ class RrtSearch;
 /// grew from it. Not thread-safe.
 ///
 /// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
-/// Many branches at once, there with threads: J. Ichnowski, R. Alterovitz: Parallel sampling-based motion planning with
-/// superlinear speedup. IROS 2012.
+/// Many branches at once (with threads, in the paper): J. Ichnowski, R. Alterovitz: Parallel sampling-based motion
+/// planning with superlinear speedup. IROS 2012.
 class BatchRrtConnect : public ompl::base::Planner
 {
  public:

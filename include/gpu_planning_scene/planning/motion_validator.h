@@ -54,8 +54,7 @@ class MotionValidator : public ompl::base::MotionValidator
 
  private:
   static Termination never() { return ompl::base::plannerNonTerminatingCondition(); }
-  std::vector<MotionVerdict> check(const std::vector<Motion>& motions, MotionQuery question,
-                                   const Termination& ptc) const;
+  std::vector<MotionVerdict> check(const std::vector<Motion>& motions, MotionQuery query, const Termination& ptc) const;
   static std::vector<std::uint8_t> validOf(const std::vector<MotionVerdict>& verdicts);
 
   std::shared_ptr<const GroupStateSpace> space_;

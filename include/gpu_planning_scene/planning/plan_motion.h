@@ -36,7 +36,8 @@ enum class PlanningStatus
 {
   Solved,
   Approximate,  ///< no solution within the time; the path ends at the reached state nearest to a goal
-  NoSolution,   ///< no solution, no path that comes nearer to a goal, or a path that is not valid by the rule
+  /// No solution, and no path that ends nearer to a goal; or the planner's path is not valid by the rule.
+  NoSolution,
   StartInCollision,
   GoalsInCollision,  ///< no goal is valid (free and within bounds), and the first collides
   OutOfBounds        ///< the start is out of bounds; or no goal is valid, and the first is out of bounds

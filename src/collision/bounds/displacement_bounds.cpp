@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "collision/bounds/displacement_rounding.h"
 #include "collision/bounds/reach.h"
 
 // Each robot instance gets one lever for each joint between its link and the root; a self pair gets the levers of the
@@ -11,9 +12,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// Exceeds the rounding of forward kinematics and distances in double within a kilometre.
-constexpr double kDisplacementRounding = 1e-8;  // metres
-
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// The largest distance of a region from the joint's axis. The region is in the frame of the joint's child link.
@@ -143,7 +141,7 @@ void DisplacementBounds::margins(const JointTravel* travel, double* margins) con
       if (joint.angle != 0.0)
         sum += levers_[k].angle * joint.angle;
     }
-    margins[i] = sum == 0.0 ? 0.0 : std::min(kLargestMargin, sum * (1.0 + 1e-9) + kDisplacementRounding);
+    margins[i] = sum == 0.0 ? 0.0 : std::min(kLargestMargin, withRounding(sum));
   }
 }
 }  // namespace gpu_planning_scene::core

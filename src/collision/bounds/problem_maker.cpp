@@ -2,6 +2,8 @@
 
 #include <utility>
 
+// The reductions leave out pairs one after the other: first pairs out of reach, then pairs that no joint moves relative
+// to each other. The other pairs become the problem. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -93,8 +93,8 @@ ProofStage CpuScene::proofStage(Group& group) const
   if (!group.lanes)
     return ProofStage::None;
   // If the worker has loaded the proofs, the lane checker's own request makes none.
-  const bool is_asked = checked_ > kStatesBeforeProofs || (group.cached_proofs && group.cached_proofs->proofs());
-  return is_asked ? group.lanes->prepare() : ProofStage::None;
+  const bool are_requested = checked_ > kStatesBeforeProofs || (group.cached_proofs && group.cached_proofs->proofs());
+  return are_requested ? group.lanes->prepare() : ProofStage::None;
 }
 
 ProofStage CpuScene::proofStage(const std::string& name)

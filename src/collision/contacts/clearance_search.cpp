@@ -28,14 +28,14 @@ struct NearestFound
 {
   double clearance = std::numeric_limits<double>::infinity();
   BodyPair bodies = kNoPair;
-  CpuTraversal::InstancePair instances = {};
+  InstancePair instances = {};
 
   /// Updates the result with a pair whose clearance lies between `lower` and `upper`. `collides` returns whether the
   /// pair collides. `clearance_of(x)` returns the pair's clearance if it is below x, otherwise x. Neither is called if
   /// `lower` is not below the best clearance so far, as for most pairs.
   template <class Collides, class ClearanceOf>
-  void consider(double lower, double upper, const BodyPair& pair, const CpuTraversal::InstancePair& shapes,
-                const Collides& collides, const ClearanceOf& clearance_of)
+  void consider(double lower, double upper, const BodyPair& pair, const InstancePair& shapes, const Collides& collides,
+                const ClearanceOf& clearance_of)
   {
     if (std::max(0.0, lower) >= clearance)
       return;
@@ -86,7 +86,7 @@ class Search
     struct Candidate
     {
       double lower;
-      std::array<std::uint32_t, 2> pair;
+      InstancePair pair;
     };
     std::vector<Candidate> candidates;
     for (const auto& pair : problem_.self_pairs)

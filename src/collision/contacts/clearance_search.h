@@ -18,8 +18,8 @@ namespace gpu_planning_scene::core
 struct NearestInstances
 {
   Clearance clearance;
-  CpuTraversal::InstancePair world = {};
-  CpuTraversal::InstancePair self = {};
+  InstancePair world = {};
+  InstancePair self = {};
 };
 
 /// Finds the clearance of a state with the exact test of pairs. A pair is at most x beyond its required distance v if

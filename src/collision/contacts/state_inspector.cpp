@@ -15,7 +15,7 @@
 #include "collision/problem/state_validation.h"
 
 // The exact checker finds the colliding pairs of instances. FCL computes their contacts. The deepest contacts of each
-// pair of bodies are kept.
+// pair of bodies are kept. Own method.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -130,11 +130,10 @@ struct StateInspector::Impl
 
   const Inspected& inspected(const std::string& group);
   std::vector<Eigen::Isometry3d> linkPoses(const double* state) const;
-  void addContacts(const Inspected& group, const CpuTraversal::InstancePair& pair, const CpuTraversal::Scratch& placed,
+  void addContacts(const Inspected& group, const InstancePair& pair, const CpuTraversal::Scratch& placed,
                    CpuShapePair::Scratch& scratch, std::map<BodyPair, std::vector<Contact>>& contacts);
-  std::array<Eigen::Vector3d, 2> nearestPoints(const Inspected& group, const CpuTraversal::InstancePair& pair,
-                                               const BodyPair& bodies, double clearance,
-                                               const std::vector<Eigen::Isometry3d>& link_poses);
+  std::array<Eigen::Vector3d, 2> nearestPoints(const Inspected& group, const InstancePair& pair, const BodyPair& bodies,
+                                               double clearance, const std::vector<Eigen::Isometry3d>& link_poses);
 
   const std::shared_ptr<const PlanningScene> scene;
   const std::shared_ptr<Models> models;
@@ -163,7 +162,7 @@ std::vector<Eigen::Isometry3d> StateInspector::Impl::linkPoses(const double* sta
   return poses;
 }
 
-void StateInspector::Impl::addContacts(const Inspected& group, const CpuTraversal::InstancePair& pair,
+void StateInspector::Impl::addContacts(const Inspected& group, const InstancePair& pair,
                                        const CpuTraversal::Scratch& placed, CpuShapePair::Scratch& scratch,
                                        std::map<BodyPair, std::vector<Contact>>& contacts)
 {
@@ -203,8 +202,7 @@ void StateInspector::Impl::addContacts(const Inspected& group, const CpuTraversa
 }
 
 /// The points in the order of `bodies`.
-std::array<Eigen::Vector3d, 2> StateInspector::Impl::nearestPoints(const Inspected& group,
-                                                                   const CpuTraversal::InstancePair& pair,
+std::array<Eigen::Vector3d, 2> StateInspector::Impl::nearestPoints(const Inspected& group, const InstancePair& pair,
                                                                    const BodyPair& bodies, double clearance,
                                                                    const std::vector<Eigen::Isometry3d>& link_poses)
 {
@@ -337,8 +335,8 @@ std::vector<NearestPairs> StateInspector::nearestPairs(const double* states, std
                 const double* state = states + i * robot.variables().size();
                 robot.linkPoses(state, poses.data());
                 const NearestInstances nearest = inspected.clearance->find(poses.data());
-                const auto fill = [&](double clearance, const BodyPair& bodies, const CpuTraversal::InstancePair& pair,
-                                      NearestPair& to)
+                const auto fill =
+                    [&](double clearance, const BodyPair& bodies, const InstancePair& pair, NearestPair& to)
                 {
                   to.bodies = bodies;
                   to.distance = clearance;

@@ -14,7 +14,6 @@ namespace
 {
 using Eigen::AlignedBox3d;
 using Eigen::Isometry3d;
-using Eigen::Vector3d;
 
 constexpr std::uint64_t kStatesPerOrder = 512;
 
@@ -34,7 +33,7 @@ std::int32_t bodyOf(const CollisionProblem& problem, std::size_t instance)
                                          : problem.half_spaces[instance - problem.world.size()].body;
 }
 
-BodyPair bodiesOf(const CollisionProblem& problem, const CpuTraversal::InstancePair& pair)
+BodyPair bodiesOf(const CollisionProblem& problem, const InstancePair& pair)
 {
   const std::int32_t first = bodyOf(problem, pair[0]);
   const std::int32_t second = bodyOf(problem, pair[1]);
@@ -68,28 +67,12 @@ CpuTraversal::CpuTraversal(std::shared_ptr<const CollisionProblem> problem, std:
 void CpuTraversal::findNearObjects(const AlignedBox3d& bounds, Scratch& scratch) const
 {
   scratch.near_objects.clear();
-  if (objects_->nodes().empty())
-    return;
-  const Vector3d center = bounds.center();
-  const Vector3d half = 0.5 * bounds.sizes();
-  std::vector<std::uint32_t>& stack = scratch.pair.nodes;
-  stack.assign(1, 0u);
-  while (!stack.empty())
-  {
-    const Node& node = objects_->nodes()[stack.back()];
-    stack.pop_back();
-    if (((centerOf(node) - center).cwiseAbs().array() > (halfOf(node) + half).array()).any())
-      continue;
-    if (node.count == 0)
-    {
-      stack.push_back(node.first);
-      stack.push_back(node.first + 1);
-      continue;
-    }
-    const std::uint32_t object = objects_->order()[node.first];
-    if (objects_->box(object).intersects(bounds))
-      scratch.near_objects.push_back(object);
-  }
+  objects_->visitOverlapping(bounds, scratch.pair.nodes,
+                             [&scratch](std::uint32_t object)
+                             {
+                               scratch.near_objects.push_back(object);
+                               return false;
+                             });
 }
 
 void CpuTraversal::startState(Scratch& scratch) const
@@ -269,8 +252,7 @@ std::vector<BodyPair> CpuTraversal::allCollisions(const Isometry3d* link_poses, 
   return found;
 }
 
-std::vector<CpuTraversal::InstancePair> CpuTraversal::collidingInstances(const Isometry3d* link_poses,
-                                                                         Scratch& scratch) const
+std::vector<InstancePair> CpuTraversal::collidingInstances(const Isometry3d* link_poses, Scratch& scratch) const
 {
   std::vector<InstancePair> found;
   startState(scratch);

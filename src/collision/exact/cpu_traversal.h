@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -21,10 +20,6 @@ namespace gpu_planning_scene::core
 class CpuTraversal
 {
  public:
-  /// The index of a robot instance, and the index of a second instance. The second index counts the robot's instances,
-  /// then the world's, then the half-spaces.
-  using InstancePair = std::array<std::uint32_t, 2>;
-
   /// Work space of one thread, reused from call to call. It records how often each check found a collision and its
   /// cost. Later states begin with the checks that find the most collisions for their cost. The order affects only
   /// which of several colliding pairs is found.
@@ -96,11 +91,11 @@ class CpuTraversal
   std::shared_ptr<const ObjectTree> objects_;
 };
 
-/// The body of an instance; the index counts as in the second index of CpuTraversal::InstancePair.
+/// The body of an instance; the index counts as in the second index of InstancePair.
 std::int32_t bodyOf(const CollisionProblem& problem, std::size_t instance);
 
 /// The bodies of a pair of instances.
-BodyPair bodiesOf(const CollisionProblem& problem, const CpuTraversal::InstancePair& pair);
+BodyPair bodiesOf(const CollisionProblem& problem, const InstancePair& pair);
 
 /// The boxes of the world's instances, grown by their padding. ObjectTree is built over them.
 std::vector<Eigen::AlignedBox3d> worldBounds(const CollisionProblem& problem, const CpuForest& forest);

@@ -65,11 +65,11 @@ void BroadPhaseOrder::setPairs(const CollisionProblem& problem)
   next_order_ = 1;
 }
 
-bool BroadPhaseOrder::hasPairs(const std::vector<std::array<std::uint32_t, 2>>& pairs) const
+bool BroadPhaseOrder::hasPairs(const std::vector<InstancePair>& pairs) const
 {
   return std::equal(
       pairs.begin(), pairs.end(), pairs_.begin(), pairs_.end(),
-      [](const std::array<std::uint32_t, 2>& pair, const Pair& mine)
+      [](const InstancePair& pair, const Pair& mine)
       { return std::min(pair[0], pair[1]) == mine.low && std::max(pair[0], pair[1]) == mine.high; });
 }
 

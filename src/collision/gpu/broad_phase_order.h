@@ -54,7 +54,7 @@ class BroadPhaseOrder
     std::uint32_t high;
     std::uint64_t hits = 0;
   };
-  bool hasPairs(const std::vector<std::array<std::uint32_t, 2>>& pairs) const;
+  bool hasPairs(const std::vector<InstancePair>& pairs) const;
   std::vector<RankedQuery> worldQueries() const;
   std::vector<RankedQuery> selfQueries() const;
 

@@ -12,7 +12,9 @@
 #include "shader_constants.h"
 
 // Runs all GL work on the GL thread of this object. The GPU reports each state as a hit, as free or as undecided; the
-// calling thread then decides the undecided states with the exact checker, on all cores.
+// calling thread then decides the undecided states with the exact checker, on all cores. Inexact arithmetic with error
+// bounds in front of exact arithmetic is the idea of S. Fortune, C. J. Van Wyk: Efficient exact arithmetic for
+// computational geometry. SoCG 1993.
 namespace gpu_planning_scene::core
 {
 GpuChecker::GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees)

@@ -64,7 +64,7 @@ void GpuMargins::write(const Margins& margins, std::size_t begin, std::size_t co
   }
   TexelBuffer& upload = uploads_[next_upload_];
   next_upload_ = 1 - next_upload_;
-  upload.reserve((words.size() + 3) / 4 * TexelBuffer::kTexelBytes);
+  upload.reserve((words.size() + TEXEL_WORDS - 1) / TEXEL_WORDS * TexelBuffer::kTexelBytes);
   upload.buffer().write(words);
   upload.bindTexture(UNIT_MARGINS);
 }

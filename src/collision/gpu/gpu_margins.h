@@ -31,7 +31,7 @@ class GpuMargins
 
  private:
   std::size_t robots_ = 0;
-  std::vector<std::array<std::uint32_t, 2>> self_pairs_;
+  std::vector<InstancePair> self_pairs_;
   std::vector<std::uint32_t> numbers_;  // [robot][robot]: margin number of each self pair; empty until first needed
   // Two buffers, so that margins are uploaded while the GPU works on the previous part.
   std::array<TexelBuffer, 2> uploads_;

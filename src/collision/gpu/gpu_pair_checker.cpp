@@ -9,7 +9,8 @@
 #include "shader_constants.h"
 
 // Queues all dispatches of a part without waiting: kinematics, half-spaces, broad phase, root boxes, traversal and
-// containment. If a list overflows, the device sets a counter, and the part is split and repeated.
+// containment. If a list overflows, the device sets a counter, and the part is split and repeated. The traversal on the
+// device follows Gress and Zachmann (2003); the queue of dispatches and the split are our own method.
 namespace gpu_planning_scene::core
 {
 namespace

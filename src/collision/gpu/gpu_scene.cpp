@@ -80,13 +80,14 @@ void describeSolid(const Shape& shape, InstanceRecord& record)
   }
 }
 
-/// Packs the flags into bits, 32 per word, padded to whole texels.
+/// Packs the flags into the bits of words, padded to whole texels.
 std::vector<std::uint32_t> packedBits(const std::vector<std::uint8_t>& flags)
 {
-  std::vector<std::uint32_t> bits((flags.size() / 128 + 1) * 4, 0);
+  constexpr std::size_t kWordBits = 32;
+  std::vector<std::uint32_t> bits((flags.size() / (TEXEL_WORDS * kWordBits) + 1) * TEXEL_WORDS, 0);
   for (std::size_t i = 0; i < flags.size(); ++i)
     if (flags[i])
-      bits[i / 32] |= 1U << (i % 32);
+      bits[i / kWordBits] |= 1U << (i % kWordBits);
   return bits;
 }
 

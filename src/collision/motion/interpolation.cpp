@@ -15,7 +15,7 @@ namespace
 constexpr double kTurn = 2.0 * EIGEN_PI;
 
 /// The kind of a group of joint variables. It decides how they are interpolated and how their travel is measured.
-enum class Part
+enum class ValueKind
 {
   Length,
   Angle,         // linear, because the limits must not be crossed
@@ -23,29 +23,29 @@ enum class Part
   Rotation       // a quaternion (x, y, z, w)
 };
 
-/// Calls visit(part, first variable, number of variables) for each group of variables of an active joint.
+/// Calls visit(kind, first variable, number of variables) for each group of variables of an active joint.
 template <class Visit>
-void forParts(const RobotModel& robot, const Joint& joint, const Visit& visit)
+void forVariableGroups(const RobotModel& robot, const Joint& joint, const Visit& visit)
 {
   const int first = joint.first_variable;
   switch (joint.type)
   {
     case JointType::Revolute:
-      visit(Part::Angle, first, 1);
+      visit(ValueKind::Angle, first, 1);
       break;
     case JointType::Continuous:
-      visit(isPeriodic(robot, joint) ? Part::WrappedAngle : Part::Angle, first, 1);
+      visit(isPeriodic(robot, joint) ? ValueKind::WrappedAngle : ValueKind::Angle, first, 1);
       break;
     case JointType::Prismatic:
-      visit(Part::Length, first, 1);
+      visit(ValueKind::Length, first, 1);
       break;
     case JointType::Planar:
-      visit(Part::Length, first, 2);
-      visit(Part::WrappedAngle, first + 2, 1);
+      visit(ValueKind::Length, first, 2);
+      visit(ValueKind::WrappedAngle, first + 2, 1);
       break;
     case JointType::Floating:
-      visit(Part::Length, first, 3);
-      visit(Part::Rotation, first + 3, 4);
+      visit(ValueKind::Length, first, 3);
+      visit(ValueKind::Rotation, first + 3, 4);
       break;
     case JointType::Fixed:
       break;
@@ -54,11 +54,11 @@ void forParts(const RobotModel& robot, const Joint& joint, const Visit& visit)
 
 /// The same for all active joints of the robot.
 template <class Visit>
-void forParts(const RobotModel& robot, const Visit& visit)
+void forVariableGroups(const RobotModel& robot, const Visit& visit)
 {
   for (const Joint& joint : robot.joints())
     if (!joint.mimic && joint.first_variable >= 0)
-      forParts(robot, joint, visit);
+      forVariableGroups(robot, joint, visit);
 }
 
 /// The rotation of a state's quaternion, as forward kinematics reads it: the quaternion may have any length above 0,
@@ -72,14 +72,15 @@ Eigen::Quaterniond rotationOf(const double* variables)
   return Eigen::Quaterniond(Eigen::Vector4d(coefficients / largest)).normalized();
 }
 
-/// The travel of a part, in radians or metres: the largest change of its variables, or half of the angle of a rotation.
-double travelOf(Part part, const double* from, const double* to, int count)
+/// The travel of a group of variables, in radians or metres: the largest change of its variables, or half of the
+/// angle of a rotation.
+double travelOf(ValueKind kind, const double* from, const double* to, int count)
 {
-  switch (part)
+  switch (kind)
   {
-    case Part::WrappedAngle:
+    case ValueKind::WrappedAngle:
       return std::abs(shortestAngularDistance(*from, *to));
-    case Part::Rotation:
+    case ValueKind::Rotation:
       return 0.5 * rotationOf(from).angularDistance(rotationOf(to));
     default:
       return (Eigen::Map<const Eigen::VectorXd>(to, count) - Eigen::Map<const Eigen::VectorXd>(from, count))
@@ -134,20 +135,20 @@ std::vector<JointTravel> jointTravel(const RobotModel& robot, const double* from
     const Joint& joint = robot.joints()[i];
     if (joint.mimic || joint.first_variable < 0)
       continue;
-    forParts(robot, joint,
-             [&](Part part, int first, int count)
-             {
-               const double* const start = from + first;
-               const double* const end = to + first;
-               if (part == Part::Rotation)
-                 travel[i].angle = rotationOf(start).angularDistance(rotationOf(end));
-               else if (part == Part::Length)
-                 travel[i].length =
-                     (Eigen::Map<const Eigen::VectorXd>(end, count) - Eigen::Map<const Eigen::VectorXd>(start, count))
-                         .norm();
-               else
-                 travel[i].angle = travelOf(part, start, end, count);
-             });
+    forVariableGroups(robot, joint,
+                      [&](ValueKind kind, int first, int count)
+                      {
+                        const double* const start = from + first;
+                        const double* const end = to + first;
+                        if (kind == ValueKind::Rotation)
+                          travel[i].angle = rotationOf(start).angularDistance(rotationOf(end));
+                        else if (kind == ValueKind::Length)
+                          travel[i].length = (Eigen::Map<const Eigen::VectorXd>(end, count) -
+                                              Eigen::Map<const Eigen::VectorXd>(start, count))
+                                                 .norm();
+                        else
+                          travel[i].angle = travelOf(kind, start, end, count);
+                      });
     follow(joint, joint.type == JointType::Prismatic ? travel[i].length : travel[i].angle);
   }
   return travel;
@@ -156,12 +157,12 @@ std::vector<JointTravel> jointTravel(const RobotModel& robot, const double* from
 double segmentCount(const RobotModel& robot, const double* from, const double* to, const MotionSteps& steps)
 {
   double most = 1.0;
-  forParts(robot,
-           [&](Part part, int first, int count)
-           {
-             const double step = part == Part::Length ? steps.prismatic : steps.revolute;
-             most = std::max(most, std::ceil(travelOf(part, from + first, to + first, count) / step));
-           });
+  forVariableGroups(robot,
+                    [&](ValueKind kind, int first, int count)
+                    {
+                      const double step = kind == ValueKind::Length ? steps.prismatic : steps.revolute;
+                      most = std::max(most, std::ceil(travelOf(kind, from + first, to + first, count) / step));
+                    });
   return most;
 }
 
@@ -172,18 +173,19 @@ void interpolate(const RobotModel& robot, const double* from, const double* to, 
     std::copy_n(fraction == 0.0 ? from : to, robot.variables().size(), state);
     return;
   }
-  forParts(robot,
-           [&](Part part, int first, int count)
-           {
-             if (part == Part::Rotation)
-             {
-               Eigen::Map<Eigen::Vector4d>(state + first) =
-                   rotationOf(from + first).slerp(fraction, rotationOf(to + first)).coeffs();
-               return;
-             }
-             for (int i = first; i < first + count; ++i)
-               state[i] = part == Part::WrappedAngle ? from[i] + fraction * shortestAngularDistance(from[i], to[i])
-                                                     : (1.0 - fraction) * from[i] + fraction * to[i];
-           });
+  forVariableGroups(robot,
+                    [&](ValueKind kind, int first, int count)
+                    {
+                      if (kind == ValueKind::Rotation)
+                      {
+                        Eigen::Map<Eigen::Vector4d>(state + first) =
+                            rotationOf(from + first).slerp(fraction, rotationOf(to + first)).coeffs();
+                        return;
+                      }
+                      for (int i = first; i < first + count; ++i)
+                        state[i] = kind == ValueKind::WrappedAngle
+                                       ? from[i] + fraction * shortestAngularDistance(from[i], to[i])
+                                       : (1.0 - fraction) * from[i] + fraction * to[i];
+                    });
 }
 }  // namespace gpu_planning_scene::core

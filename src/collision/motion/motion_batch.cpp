@@ -25,29 +25,29 @@ constexpr double kLeastTravel = 1e-7;  // radians and metres
 std::vector<std::size_t> bisectionOrder(std::size_t n)
 {
   std::vector<std::size_t> order = {n, 0};
-  std::vector<std::pair<std::size_t, std::size_t>> parts = {{0, n}};
-  for (std::size_t i = 0; i < parts.size(); ++i)
+  std::vector<std::pair<std::size_t, std::size_t>> segments = {{0, n}};
+  for (std::size_t i = 0; i < segments.size(); ++i)
   {
-    const auto [begin, end] = parts[i];
+    const auto [begin, end] = segments[i];
     if (end - begin < 2)
       continue;
     const std::size_t middle = begin + (end - begin) / 2;
     order.push_back(middle);
-    parts.emplace_back(begin, middle);
-    parts.emplace_back(middle, end);
+    segments.emplace_back(begin, middle);
+    segments.emplace_back(middle, end);
   }
   return order;
 }
 }  // namespace
 
 MotionBatch::MotionBatch(StateChecker& checker, const RobotModel& robot, const std::string& group,
-                         const MotionCheckerOptions& options, MotionQuery question, const std::function<bool()>& stop)
+                         const MotionCheckerOptions& options, MotionQuery query, const std::function<bool()>& stop)
   : checker_(checker),
     robot_(robot),
     limits_(limitRanges(robot)),
     group_(group),
     options_(options),
-    last_valid_(question == MotionQuery::LastValid),
+    last_valid_(query == MotionQuery::LastValid),
     stop_(stop),
     batch_size_(kBatch)
 {
@@ -55,12 +55,12 @@ MotionBatch::MotionBatch(StateChecker& checker, const RobotModel& robot, const s
 
 void MotionBatch::add(const double* from, const double* to)
 {
-  const double parts = segmentCount(robot_, from, to, options_.steps);
-  const bool is_too_long = parts >= static_cast<double>(options_.max_samples);
-  Motion motion{from, to, is_too_long ? 1 : static_cast<std::size_t>(parts), {}, {}};
+  const double segments = segmentCount(robot_, from, to, options_.steps);
+  const bool is_too_long = segments >= static_cast<double>(options_.max_samples);
+  Motion motion{from, to, is_too_long ? 1 : static_cast<std::size_t>(segments), {}, {}};
   if (is_too_long)
     motion.reject();
-  motion.order = bisectionOrder(motion.parts);
+  motion.order = bisectionOrder(motion.segments);
   if (options_.rule == MotionRule::Bound)
     motion.travel = jointTravel(robot_, from, to);
   for (const JointTravel& joint : motion.travel)
@@ -133,7 +133,7 @@ void MotionBatch::checkSamples()
     {
       const Motion& motion = motions_[i];
       for (std::size_t k = begin; motion.valid && k < std::min(end, motion.order.size()); ++k)
-        intervals.push_back({i, motion.fraction(motion.order[k]), 1.0 / static_cast<double>(motion.parts)});
+        intervals.push_back({i, motion.fraction(motion.order[k]), 1.0 / static_cast<double>(motion.segments)});
     }
     checkMiddles(intervals, false,
                  [this](const Interval& interval, bool free, const BodyPair& colliding)
@@ -150,9 +150,9 @@ std::vector<MotionBatch::Interval> MotionBatch::firstIntervals() const
   for (std::size_t i = 0; i < motions_.size(); ++i)
   {
     const Motion& motion = motions_[i];
-    for (std::size_t k = 0; k <= motion.parts; ++k)
+    for (std::size_t k = 0; k <= motion.segments; ++k)
     {
-      const Interval interval{i, motion.fraction(k), 0.5 / static_cast<double>(motion.parts)};
+      const Interval interval{i, motion.fraction(k), 0.5 / static_cast<double>(motion.segments)};
       if (isWanted(interval))
         intervals.push_back(interval);
     }

@@ -22,7 +22,7 @@ class MotionBatch
 {
  public:
   MotionBatch(StateChecker& checker, const RobotModel& robot, const std::string& group,
-              const MotionCheckerOptions& options, MotionQuery question, const std::function<bool()>& stop);
+              const MotionCheckerOptions& options, MotionQuery query, const std::function<bool()>& stop);
 
   /// Adds a motion. `from` and `to` are rows of all variables; they must outlive this object.
   void add(const double* from, const double* to);
@@ -50,7 +50,7 @@ class MotionBatch
   {
     const double* from;
     const double* to;
-    std::size_t parts;                // number of segments; the samples are the fractions 0, 1 / parts, ... 1
+    std::size_t segments;             // the samples are the fractions 0, 1 / segments, ... 1
     std::vector<std::size_t> order;   // order of the samples, see bisectionOrder
     std::vector<JointTravel> travel;  // travel of each joint over the whole motion (rule Bound)
     double longest_travel = 0.0;      // largest length or angle in `travel`
@@ -67,7 +67,7 @@ class MotionBatch
       valid = false;
       limit = first_invalid = 0.0;
     }
-    double fraction(std::size_t sample) const { return static_cast<double>(sample) / static_cast<double>(parts); }
+    double fraction(std::size_t sample) const { return static_cast<double>(sample) / static_cast<double>(segments); }
   };
 
   bool isWanted(const Interval& interval) const

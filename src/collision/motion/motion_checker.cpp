@@ -25,15 +25,15 @@ MotionChecker::MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_
 }
 
 std::vector<MotionVerdict> MotionChecker::check(const double* starts, const double* ends, std::size_t count,
-                                                MotionQuery question, const std::function<bool()>& stop) const
+                                                MotionQuery query, const std::function<bool()>& stop) const
 {
   validateStates(*robot_, starts, count);
   validateStates(*robot_, ends, count);
   MotionCheckerOptions options = options_;
-  if (question == MotionQuery::Samples)
+  if (query == MotionQuery::Samples)
     options.rule = MotionRule::Samples;
   const std::size_t width = robot_->variables().size();
-  MotionBatch batch(*checker_, *robot_, group_, options, question, stop);
+  MotionBatch batch(*checker_, *robot_, group_, options, query, stop);
   for (std::size_t i = 0; i < count; ++i)
     batch.add(starts + i * width, ends + i * width);
   batch.checkSamples();

@@ -41,17 +41,21 @@ struct VariableRange
   double upper;
 };
 
+/// The index of a robot instance, and the index of a second instance. The second index counts the robot's instances,
+/// then the world's, then the half-spaces.
+using InstancePair = std::array<std::uint32_t, 2>;
+
 /// The collision problem of a scene: shape instances, their trees, and the pairs of instances that are checked. A
 /// problem contains no joints, names or allowed collision matrix. Two rigid meshes with a relative pose are a problem
 /// too.
 struct CollisionProblem
 {
-  std::vector<Tessellation> tessellations;               ///< distinct shapes; instances share them
-  std::vector<Shape> shapes;                             ///< the exact shape of each tree
-  std::vector<ShapeInstance> robot;                      ///< instances that move with their link
-  std::vector<ShapeInstance> world;                      ///< instances that are fixed in the planning frame
-  std::vector<std::array<std::uint32_t, 2>> self_pairs;  ///< indices into `robot`
-  std::vector<std::uint8_t> world_pairs;  ///< robot.size() x world.size(), row-major; 1: the pair is checked
+  std::vector<Tessellation> tessellations;  ///< distinct shapes; instances share them
+  std::vector<Shape> shapes;                ///< the exact shape of each tree
+  std::vector<ShapeInstance> robot;         ///< instances that move with their link
+  std::vector<ShapeInstance> world;         ///< instances that are fixed in the planning frame
+  std::vector<InstancePair> self_pairs;     ///< pairs of two robot instances
+  std::vector<std::uint8_t> world_pairs;    ///< robot.size() x world.size(), row-major; 1: the pair is checked
   std::vector<WorldHalfSpace> half_spaces;
   std::vector<std::uint8_t> half_space_pairs;  ///< robot.size() x half_spaces.size(), row-major
   /// Metres: see CheckerOptions.

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cstddef>
 
+// The known word with the least optimal string alignment distance: the smallest number of insertions, deletions,
+// replacements and swaps of neighbouring letters that turn one word into the other (F. J. Damerau: A technique for
+// computer detection and correction of spelling errors. Communications of the ACM 7(3), 1964). Own method: at most one
+// error for each three letters.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The optimal string alignment distance (Damerau 1964): the smallest number of insertions, deletions, replacements
-/// and swaps of neighbouring letters that turn one word into the other.
+/// The optimal string alignment distance of two words.
 std::size_t typingErrors(const std::string& a, const std::string& b)
 {
   const std::size_t width = b.size() + 1;

@@ -17,7 +17,7 @@
 #include "moveit/planner/refusal.h"
 #include "moveit/planner/request.h"
 #include "planners/planner_configs.h"
-#include "planners/planner_plugins.h"
+#include "planners/planner_loader.h"
 #include "service/checker_maker.h"
 
 // The planner for MoveIt's plugin loader: see moveit_planner_plugins.xml.

@@ -12,7 +12,7 @@
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "moveit/planner/joint_goals.h"
 #include "moveit/planner/scene_conversion.h"
-#include "planners/planner_plugins.h"
+#include "planners/planner_loader.h"
 #include "service/checker_pool.h"
 
 namespace gpu_planning_scene::pipeline
@@ -25,7 +25,7 @@ struct Workshop
 
   SceneConverter converter;
   core::CheckerPool checkers;
-  core::PlannerPlugins plugins;
+  core::PlannerLoader plugins;
 };
 
 /// How a request is planned.

@@ -9,6 +9,7 @@
 #include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
 #include "node/endpoints/topic_warnings.h"
+#include "node/messages/pose_messages.h"
 #include "node/messages/requested_states.h"
 
 // The service ~check_states, with contacts and clearance.
@@ -33,23 +34,12 @@ std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
   return index < links + scene.objects.size() ? ContactInformation::WORLD_OBJECT : ContactInformation::ROBOT_ATTACHED;
 }
 
-geometry_msgs::Point pointOf(const Eigen::Vector3d& point)
-{
-  geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = point.z();
-  return message;
-}
-
 ContactInformation messageOf(const Contact& contact, const PlanningScene& scene, std::size_t state)
 {
   ContactInformation message;
   message.header.frame_id = scene.robot->planningFrame();
   message.position = pointOf(contact.point);
-  message.normal.x = contact.normal.x();
-  message.normal.y = contact.normal.y();
-  message.normal.z = contact.normal.z();
+  setPosition(message.normal, contact.normal);
   message.depth = contact.depth;
   message.contact_body_1 = scene.bodyName(contact.bodies[0]);
   message.body_type_1 = bodyType(scene, contact.bodies[0]);

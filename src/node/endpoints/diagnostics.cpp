@@ -42,10 +42,15 @@ DeviceHistory sumOf(const std::vector<std::shared_ptr<const StateChecker>>& chec
 }
 }  // namespace
 
-void Diagnostics::watch(const std::shared_ptr<const StateChecker>& checker)
+CheckServer::MakeChecker Diagnostics::watched(const CheckServer::MakeChecker& make)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  checkers_.push_back(checker);
+  return [this, make](const std::shared_ptr<const PlanningScene>& scene)
+  {
+    std::shared_ptr<StateChecker> checker = make(scene);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    checkers_.push_back(checker);
+    return checker;
+  };
 }
 
 void Diagnostics::watchScene(std::function<std::string()> fault)

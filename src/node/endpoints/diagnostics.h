@@ -19,8 +19,9 @@ namespace gpu_planning_scene::core
 class Diagnostics
 {
  public:
-  /// Adds a checker to the status, for as long as the checker exists.
-  void watch(const std::shared_ptr<const StateChecker>& checker);
+  /// Returns a function that makes checkers with `make` and adds each checker to the status, for as long as the checker
+  /// exists. This object must outlive the function.
+  CheckServer::MakeChecker watched(const CheckServer::MakeChecker& make);
   /// Adds the fault of the scene to the status. `fault`: returns the reason why the scene is not known; empty if it is
   /// known. Thread-safe.
   void watchScene(std::function<std::string()> fault);

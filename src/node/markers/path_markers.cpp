@@ -7,6 +7,7 @@
 
 #include "gpu_planning_scene/interpolation.h"
 #include "node/markers/shape_markers.h"
+#include "node/messages/pose_messages.h"
 #include "render/renderer.h"
 
 namespace gpu_planning_scene::core
@@ -50,11 +51,11 @@ DensePath densePathOf(const RobotModel& robot, const std::vector<std::vector<dou
       break;
     const double* from = waypoints[i].data();
     const double* to = waypoints[i + 1].data();
-    const double parts = std::min(kMaxSteps, segmentCount(robot, from, to, {kStep, kStep}));
-    for (int k = 1; k < static_cast<int>(parts); ++k)
+    const double segments = std::min(kMaxSteps, segmentCount(robot, from, to, {kStep, kStep}));
+    for (int k = 1; k < static_cast<int>(segments); ++k)
     {
       std::vector<double> state = waypoints[i];
-      interpolate(robot, from, to, k / parts, state.data());
+      interpolate(robot, from, to, k / segments, state.data());
       path.states.push_back(std::move(state));
     }
   }
@@ -155,7 +156,7 @@ void addLines(const RobotModel& robot, const DensePath& path, const Group& group
     robot.linkPoses(path.states[i].data(), poses[i].data());
   const std::vector<int> links = lastLinks(robot, group);
   const auto point_of = [&](std::size_t state, int link)
-  { return toPoint(poses[state][static_cast<std::size_t>(link)].translation()); };
+  { return pointOf(poses[state][static_cast<std::size_t>(link)].translation()); };
   markers.begin("path", kLineColor);
   for (const int link : links)
     if (path.states.size() > 1)
@@ -223,7 +224,7 @@ void addLabels(const PlanningScene& scene, const DensePath& path, const Group& g
   {
     markers.begin("labels", i == 0 ? kStartText : kGoalText);
     Marker& marker = markers.add(Marker::TEXT_VIEW_FACING, Eigen::Isometry3d::Identity());
-    marker.pose.position = toPoint(places[i]);
+    marker.pose.position = pointOf(places[i]);
     marker.scale.z = height;
     marker.text = i == 0 ? "start" : "goal";
   }

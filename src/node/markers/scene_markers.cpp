@@ -3,6 +3,7 @@
 #include "collision/exact/binned_sah.h"
 #include "gpu_planning_scene/error.h"
 #include "node/markers/shape_markers.h"
+#include "node/messages/pose_messages.h"
 #include "render/renderer.h"
 #include "scene/has_body.h"
 
@@ -69,7 +70,7 @@ class MarkerMaker
     Marker& marker = markers_.add(Marker::SPHERE_LIST, Eigen::Isometry3d::Identity());
     setScale(marker, Eigen::Vector3d::Constant(contactDiameter(scene_, poses_, colliding, near_)));
     for (const Eigen::Vector3d& point : points)
-      marker.points.push_back(toPoint(point));
+      marker.points.push_back(pointOf(point));
   }
 
   void addTreeLevel()
@@ -130,7 +131,7 @@ class MarkerMaker
       for (int axis = 0; axis < 3; ++axis)
         point[axis] =
             static_cast<double>(node.center[axis]) + (((bits >> axis) & 1) != 0 ? 1.0 : -1.0) * node.half[axis];
-      return toPoint(point);
+      return pointOf(point);
     };
     for (int bits = 0; bits < 8; ++bits)
       for (int axis = 0; axis < 3; ++axis)

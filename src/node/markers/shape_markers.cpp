@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <variant>
 
+#include "node/messages/pose_messages.h"
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -18,28 +20,7 @@ std_msgs::ColorRGBA toMessage(const BodyColor& color)
   message.a = static_cast<float>(color[3]) / 255.0F;
   return message;
 }
-
-geometry_msgs::Pose toPose(const Eigen::Isometry3d& pose)
-{
-  const Eigen::Quaterniond rotation(pose.linear());
-  geometry_msgs::Pose message;
-  message.position = toPoint(pose.translation());
-  message.orientation.x = rotation.x();
-  message.orientation.y = rotation.y();
-  message.orientation.z = rotation.z();
-  message.orientation.w = rotation.w();
-  return message;
-}
 }  // namespace
-
-geometry_msgs::Point toPoint(const Eigen::Vector3d& vector)
-{
-  geometry_msgs::Point point;
-  point.x = vector.x();
-  point.y = vector.y();
-  point.z = vector.z();
-  return point;
-}
 
 void setScale(Marker& marker, const Eigen::Vector3d& scale)
 {
@@ -85,7 +66,7 @@ Marker& ShapeMarkers::add(int type, const Eigen::Isometry3d& pose)
   marker.id = next_id_[name_]++;
   marker.type = type;
   marker.action = Marker::ADD;
-  marker.pose = toPose(pose);
+  marker.pose = poseOf(pose);
   setScale(marker, Eigen::Vector3d::Ones());
   marker.color = toMessage(color_);
   array_.markers.push_back(marker);
@@ -118,7 +99,7 @@ void ShapeMarkers::addToList(int type, const Eigen::Vector3d& size, const Eigen:
   const auto [place, is_new] = lists_.emplace(key, array_.markers.size());
   if (is_new)
     setScale(add(type, turned), size);
-  array_.markers[place->second].points.push_back(toPoint(turned.inverse() * pose.translation()));
+  array_.markers[place->second].points.push_back(pointOf(turned.inverse() * pose.translation()));
 }
 
 void ShapeMarkers::addMesh(const Mesh& mesh, const Eigen::Isometry3d& pose)
@@ -142,7 +123,7 @@ void ShapeMarkers::addTriangles(const Mesh& mesh, const Eigen::Isometry3d& pose)
   marker.points.reserve(3 * mesh.triangles.size());
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle)
-      marker.points.push_back(toPoint(mesh.vertices[corner]));
+      marker.points.push_back(pointOf(mesh.vertices[corner]));
 }
 
 /// Draws a half-space as a thin plate below its plane. The plate is as large as the surroundings.

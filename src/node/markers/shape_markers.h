@@ -14,8 +14,6 @@
 
 namespace gpu_planning_scene::core
 {
-geometry_msgs::Point toPoint(const Eigen::Vector3d& vector);
-
 void setScale(visualization_msgs::Marker& marker, const Eigen::Vector3d& scale);
 
 /// The number of triangles that draw a shape; 0 if RViz has a marker for the shape.

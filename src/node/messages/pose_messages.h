@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/Point.h>
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Quaternion.h>
 #include <Eigen/Geometry>
@@ -24,6 +25,13 @@ void setPosition(Position& message, const Eigen::Vector3d& position)
   message.x = position.x();
   message.y = position.y();
   message.z = position.z();
+}
+
+inline geometry_msgs::Point pointOf(const Eigen::Vector3d& point)
+{
+  geometry_msgs::Point message;
+  setPosition(message, point);
+  return message;
 }
 
 inline geometry_msgs::Pose poseOf(const Eigen::Isometry3d& pose)

@@ -199,23 +199,23 @@ SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
   using Components = PlanningSceneComponents;
   const RobotModel& robot = *scene.robot;
   const SceneChange full = fullSceneOf(scene);
-  const auto asked = [&](std::uint32_t component) { return (components & component) != 0; };
+  const auto wanted = [&](std::uint32_t component) { return (components & component) != 0; };
   SceneChange change;
-  if (asked(Components::SCENE_SETTINGS))
+  if (wanted(Components::SCENE_SETTINGS))
   {
     change.name = full.name;
     change.robot_model_name = full.robot_model_name;
   }
   change.state.is_diff = false;
-  if (asked(Components::ROBOT_STATE_ATTACHED_OBJECTS))
+  if (wanted(Components::ROBOT_STATE_ATTACHED_OBJECTS))
     change.state.attached = full.state.attached;
-  if (asked(Components::TRANSFORMS))
+  if (wanted(Components::TRANSFORMS))
     change.fixed_frames = full.fixed_frames;
-  if (asked(Components::ALLOWED_COLLISION_MATRIX))
+  if (wanted(Components::ALLOWED_COLLISION_MATRIX))
     change.matrix = scene.allowed_collisions;
-  if (asked(Components::OBJECT_COLORS))
+  if (wanted(Components::OBJECT_COLORS))
     change.colors = full.colors;
-  if (asked(Components::LINK_PADDING_AND_SCALING))
+  if (wanted(Components::LINK_PADDING_AND_SCALING))
     for (const Link& link : robot.links())
     {
       const double padding = full.link_padding.at(link.name);
@@ -226,9 +226,9 @@ SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
       change.link_scale[link.name] = scale;
     }
   for (const ObjectChange& object : full.objects)
-    if (asked(object.id == kOctomapId ? Components::OCTOMAP : Components::WORLD_OBJECT_GEOMETRY))
+    if (wanted(object.id == kOctomapId ? Components::OCTOMAP : Components::WORLD_OBJECT_GEOMETRY))
       change.objects.push_back(object);
-    else if (object.id != kOctomapId && asked(Components::WORLD_OBJECT_NAMES))
+    else if (object.id != kOctomapId && wanted(Components::WORLD_OBJECT_NAMES))
     {
       change.objects.emplace_back();
       change.objects.back().id = object.id;
@@ -290,9 +290,9 @@ PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robo
 PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
                                const std::vector<bool>& known)
 {
-  const std::uint32_t asked = components == 0 ? ~0U : components;
-  SceneChange change = changeOf(scene, asked);
-  if ((asked & PlanningSceneComponents::ROBOT_STATE) != 0)
+  const std::uint32_t wanted = components == 0 ? ~0U : components;
+  SceneChange change = changeOf(scene, wanted);
+  if ((wanted & PlanningSceneComponents::ROBOT_STATE) != 0)
     for (std::size_t i = 0; i < state.size(); ++i)
       if (known[i])
         change.state.variables[scene.robot->variables()[i].name] = state[i];

@@ -10,7 +10,7 @@
 #include "node/planning/ompl_log.h"
 #include "node/planning/plan_request.h"
 #include "planners/planner_configs.h"
-#include "planners/planner_plugins.h"
+#include "planners/planner_loader.h"
 #include "service/admission.h"
 #include "service/checker_pool.h"
 #include "service/memory_guard.h"
@@ -56,7 +56,7 @@ class PlanService
   const PlanServiceOptions options_;
   const PlannerConfigs configs_;
   const OmplLog log_;
-  PlannerPlugins plugins_;
+  PlannerLoader plugins_;
   Admission admission_;
   std::atomic<bool> stopping_{false};
   CheckerPool checkers_;

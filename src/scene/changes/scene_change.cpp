@@ -24,8 +24,8 @@ bool namesNoOtherFrames(const RobotModel& robot, const SceneChange& change)
 }
 }  // namespace
 
-Change applyChange(const PlanningScene& scene, const std::vector<double>& state, const SceneChange& change,
-                   const SceneDefaults& defaults, const SceneLimits& limits, const ExternalFrames& frames)
+ChangedScene applyChange(const PlanningScene& scene, const std::vector<double>& state, const SceneChange& change,
+                         const SceneDefaults& defaults, const SceneLimits& limits, const ExternalFrames& frames)
 {
   const auto lookup = [&](const StampedFrame& frame)
   {

@@ -41,7 +41,7 @@ SceneChanger::SceneChanger(const PlanningScene& scene, const std::vector<double>
 }
 
 /// The world of a full scene is emptied first, so that the change cannot attach an object of the previous scene.
-Change SceneChanger::make(const SceneChange& change)
+ChangedScene SceneChanger::make(const SceneChange& change)
 {
   has_new_matrix_ = change.matrix.has_value();
   keeps_matrix_ = change.is_diff && !has_new_matrix_;

@@ -27,7 +27,7 @@ class SceneChanger
   SceneChanger(const PlanningScene& scene, const std::vector<double>& state, const SceneDefaults& defaults,
                const SceneLimits& limits, Lookup lookup);
 
-  Change make(const SceneChange& change);
+  ChangedScene make(const SceneChange& change);
 
  private:
   // change_settings.cpp
@@ -95,7 +95,7 @@ class SceneChanger
   bool isPlanningFrame(const std::string& name) const;
   const double* knownState() const { return result_.state.empty() ? nullptr : result_.state.data(); }
 
-  Change result_;
+  ChangedScene result_;
   SceneItems<WorldObject> objects_;
   SceneItems<AttachedObject> attached_;
   SceneCount count_;

@@ -1,9 +1,9 @@
 #include <algorithm>
 
 #include "gpu_planning_scene/error.h"
-#include "model/base_joints.h"
 #include "model/joint_limits.h"
 #include "model/text/name_list.h"
+#include "model/virtual_joint.h"
 #include "scene/files/scene_reader.h"
 #include "scene/message_values.h"
 

@@ -167,7 +167,7 @@ std::set<BodyPair> bodyPairs(const CollisionProblem& problem)
 /// The problem without the pairs of bodies in `pairs`.
 CollisionProblem withoutPairs(CollisionProblem problem, const std::set<BodyPair>& pairs)
 {
-  std::vector<std::array<std::uint32_t, 2>> self_pairs;
+  std::vector<InstancePair> self_pairs;
   for (const auto& [a, b] : problem.self_pairs)
     if (pairs.count({problem.robot[a].body, problem.robot[b].body}) == 0)
       self_pairs.push_back({a, b});

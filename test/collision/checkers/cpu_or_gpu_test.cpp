@@ -106,7 +106,7 @@ TEST(BreakEven, IsMeasuredForASceneAndChangesNoAnswer)
   constexpr std::size_t kStates = 10000;
   for (std::size_t i = 0; i < kStates; ++i)
     states.push_back(-1.0 + 0.0003 * static_cast<double>(i));
-  BatchChecker checker(scene, BatchCheckerOptions());
+  BatchChecker checker(scene);
   ASSERT_TRUE(checker.report().cpu_below);
   const std::vector<std::uint8_t> expected = CpuChecker(scene).check(states.data(), kStates).valid;
   EXPECT_EQ(checker.check(states.data(), kStates).valid, expected);

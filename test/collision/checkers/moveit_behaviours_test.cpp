@@ -224,7 +224,7 @@ TEST_P(MoveitBehaviours, ADifferenceChangesWhatItNamesAndNoMore)
   removal.id = "box";
   removal.operation = Operation::Remove;
   change.objects.push_back(removal);
-  const Change changed = applyChange(*scene_, state_, change, {}, {}, {});
+  const ChangedScene changed = applyChange(*scene_, state_, change, {}, {}, {});
   EXPECT_FALSE(free());
   *scene_ = changed.scene;
   EXPECT_TRUE(free());

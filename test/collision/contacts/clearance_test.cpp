@@ -99,7 +99,7 @@ std::shared_ptr<const CollisionProblem> pairOf(const PlanningScene& scene, const
   const auto isOfPair = [&](std::int32_t a, std::int32_t b) {
     return BodyPair{std::min(a, b), std::max(a, b)} == bodies;
   };
-  std::vector<std::array<std::uint32_t, 2>> self_pairs;
+  std::vector<InstancePair> self_pairs;
   for (const auto& pair : problem.self_pairs)
     if (isOfPair(problem.robot[pair[0]].body, problem.robot[pair[1]].body))
       self_pairs.push_back(pair);

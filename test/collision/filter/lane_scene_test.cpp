@@ -16,7 +16,7 @@ namespace
 {
 constexpr std::uint64_t kSeed = 41;
 
-using InstancePairs = std::vector<CpuTraversal::InstancePair>;
+using InstancePairs = std::vector<InstancePair>;
 
 /// The pairs that collide in each state.
 std::vector<InstancePairs> collidingPairs(const ProvenScene& proven, const std::vector<double>& states)
@@ -120,7 +120,7 @@ TEST_P(ProvenScenes, PairsThatAreProvenApartKeepTheirMarginsIfThereAreAny)
     std::vector<CpuTraversal::OpenPair> pairs;
     for (std::uint32_t p = 0; p < proven_->lanes->pairCount(); ++p)
     {
-      const CpuTraversal::InstancePair& instances = proven_->lanes->instancesOf(p);
+      const InstancePair& instances = proven_->lanes->instancesOf(p);
       pairs.push_back({instances, has_margins ? margins[instances[1] < bodies ? bodies + p : instances[0]] : 0.0});
     }
     for (const lanes::NamedKernel& kernel : lanes::availableKernels())

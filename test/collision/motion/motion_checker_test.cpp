@@ -103,7 +103,7 @@ TEST_F(PointMotions, AreGivenUpWhenTheCallHasNoChecksLeft)
   const std::vector<double> starts = {0.0, 0.0, 0.0, -1.0};
   const std::vector<double> ends = {1.0, 0.0, 1.0, -1.0};
   for (const MotionRule rule : {MotionRule::Bound, MotionRule::Samples})
-    for (const MotionQuery question : {MotionQuery::Valid, MotionQuery::LastValid})
+    for (const MotionQuery query : {MotionQuery::Valid, MotionQuery::LastValid})
     {
       MotionCheckerOptions options;
       options.rule = rule;
@@ -112,7 +112,7 @@ TEST_F(PointMotions, AreGivenUpWhenTheCallHasNoChecksLeft)
       {
         options.max_checks = max_checks;
         const MotionChecker checker(std::make_shared<CpuChecker>(scene_), scene_->robot, "", options);
-        const auto verdicts = checker.check(starts.data(), ends.data(), 2, question);
+        const auto verdicts = checker.check(starts.data(), ends.data(), 2, query);
         EXPECT_LE(checker.statesChecked(), max_checks);
         return std::pair(verdicts, checker.statesChecked());
       };
@@ -221,13 +221,13 @@ TEST_F(PointMotions, AreNotValidWhereTheCallIsStoppedBeforeTheyAreDecided)
   const std::vector<double> starts = {0.0, 0.0, 0.0, 0.6};
   const std::vector<double> ends = {1.0, 0.0, 1.0, 0.6};  // the second motion collides
   const MotionChecker checking = checker(MotionRule::Bound, 0.05);
-  for (const MotionQuery question : {MotionQuery::Valid, MotionQuery::LastValid})
+  for (const MotionQuery query : {MotionQuery::Valid, MotionQuery::LastValid})
   {
     int asked = 0;
     const auto check = [&](int batches)
     {
       asked = 0;
-      return checking.check(starts.data(), ends.data(), 2, question, [&] { return asked++ == batches; });
+      return checking.check(starts.data(), ends.data(), 2, query, [&] { return asked++ == batches; });
     };
     EXPECT_TRUE(check(-1)[0].valid);
     const int needed = asked;

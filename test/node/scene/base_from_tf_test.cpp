@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/error.h"
-#include "model/base_joints.h"
+#include "model/virtual_joint.h"
 #include "node/scene/base_from_tf.h"
 #include "node/scene/scene_services.h"
 #include "scene/change_testing.h"

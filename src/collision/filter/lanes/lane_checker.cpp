@@ -76,7 +76,7 @@ double LaneChecker::marginOf(std::uint32_t pair, const double* margins) const
 {
   if (!margins)
     return 0.0;
-  const CpuTraversal::InstancePair& instances = scene_->instancesOf(pair);
+  const InstancePair& instances = scene_->instancesOf(pair);
   const std::size_t bodies = problem_->robot.size();
   return margins[instances[1] < bodies ? bodies + scene_->selfPairOf(pair) : instances[0]];
 }
@@ -91,11 +91,11 @@ std::optional<BodyPair> LaneChecker::decideOpenPairs(const double* state, std::u
   scratch.known.assign(robot_->links().size(), 0);
   for (std::size_t k = 0; k < open_count; ++k)
   {
-    const CpuTraversal::InstancePair& instances = scene_->instancesOf(open[k]);
+    const InstancePair& instances = scene_->instancesOf(open[k]);
     scratch.pairs.push_back({instances, marginOf(open[k], margins)});
     for (const std::uint32_t instance : instances)
       if (instance < problem_->robot.size())
-        robot_->addLinkPose(state, problem_->robot[instance].link, scratch.poses.data(), scratch.known.data());
+        robot_->computeLinkPose(state, problem_->robot[instance].link, scratch.poses.data(), scratch.known.data());
   }
   const auto pair = traversal_.firstCollisionOf(scratch.pairs.data(), scratch.pairs.size(), scratch.poses.data(),
                                                 scratch.exact, scratch.steps);

@@ -57,7 +57,7 @@ LaneObject placed(const Size& size, const Isometry3d& pose, const Vector3d& orig
     made.object.half[axis] = static_cast<float>(size.half[axis]);
   made.padding = padding;
   made.thickness = size.thickness;
-  made.far = here.translation().norm() + size.half.norm();
+  made.largest_distance = here.translation().norm() + size.half.norm();
   return made;
 }
 
@@ -105,7 +105,7 @@ std::vector<LaneObject> laneObjects(const CollisionProblem& problem, const CpuFo
     made.object.from_planning_frame[3] = static_cast<float>(-offset);
     made.padding = half_space.padding;
     made.thickness = kEndless;
-    made.far = std::abs(offset);
+    made.largest_distance = std::abs(offset);
     made.bounds = AlignedBox3d(Vector3d::Constant(-kEndless), Vector3d::Constant(kEndless));
     objects.push_back(made);
   }

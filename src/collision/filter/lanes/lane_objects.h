@@ -14,7 +14,7 @@ struct LaneObject
   lanes::Object object;
   double padding;              ///< metres
   double thickness;            ///< metres: the object contains a ball of this radius; 0: unknown
-  double far;                  ///< metres: its size, plus the distance of its frame from the origin of coordinates
+  double largest_distance;     ///< metres: its size, plus the distance of its frame from the origin of coordinates
   Eigen::AlignedBox3d bounds;  ///< in the coordinates of the kernel; without limits for half-spaces
 };
 

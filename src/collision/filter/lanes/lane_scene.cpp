@@ -156,8 +156,8 @@ int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry
     largest = std::min(largest, std::max(std::abs(variable.lower), std::abs(variable.upper)) + 1e-6);
     step += std::abs(joint.multiplier) * largest + std::abs(joint.offset);
   }
-  FrameError error{step, before.far + step, before.rotation + turn + kProductError,
-                   before.position + before.rotation * step + kSumError * (before.far + step)};
+  FrameError error{step, before.largest_distance + step, before.rotation + turn + kProductError,
+                   before.position + before.rotation * step + kSumError * (before.largest_distance + step)};
   const bool given = joint.type == JointType::Planar || joint.type == JointType::Floating;
   if (given)
   {
@@ -181,7 +181,7 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
   lanes::Instance made{};
   made.frame = frame_of_link_[link];
   made.same_centers = true;
-  double far = 0.0;
+  double largest_distance = 0.0;
   const auto is_same = [](const CoverBall& ball) { return ball.witness == ball.center; };
   for (std::size_t level = 1; level < cover.levels.size(); ++level)
   {
@@ -194,7 +194,7 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
       const CoverBall& ball = balls[std::min<std::size_t>(static_cast<std::size_t>(i), balls.size() - 1)];
       writeBall(pose * ball.center, above(ball.outer), first + i, made.outer_balls);
       writeBall(pose * ball.witness, below(ball.inner), first + i, made.inner_balls);
-      far = std::max({far, (pose * ball.center).norm(), (pose * ball.witness).norm()});
+      largest_distance = std::max({largest_distance, (pose * ball.center).norm(), (pose * ball.witness).norm()});
     }
   }
   const CoverBall& enclosing = cover.levels[0].front();
@@ -212,10 +212,12 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
     made.box.center[k] = static_cast<float>(box_center[k]);
     made.box.half[k] = above(box.half[k]);
   }
-  far = std::max({far, center.norm(), box_center.norm()});
+  largest_distance = std::max({largest_distance, center.norm(), box_center.norm()});
   instances_.push_back(made);
   const FrameError& frame = frame_errors_[static_cast<std::size_t>(made.frame)];
-  instance_errors_.push_back({frame.far + far, frame.position + frame.rotation * far + kSumError * (frame.far + far)});
+  instance_errors_.push_back(
+      {frame.largest_distance + largest_distance,
+       frame.position + frame.rotation * largest_distance + kSumError * (frame.largest_distance + largest_distance)});
   box_errors_.push_back({frame.rotation + kAxisError, box.half.norm()});
 }
 
@@ -223,7 +225,7 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
 lanes::BoxThresholds LaneScene::boxThresholds(std::uint32_t a, std::uint32_t b) const
 {
   const double rotation = box_errors_[a].rotation + box_errors_[b].rotation + 8.0 * kUnit;
-  const double centers = instance_errors_[a].far + instance_errors_[b].far;
+  const double centers = instance_errors_[a].largest_distance + instance_errors_[b].largest_distance;
   const double lengths = centers + box_errors_[a].radius + box_errors_[b].radius;
   const double between = instance_errors_[a].position + instance_errors_[b].position + rotation * centers;
   return {above(2.0 * between + (2.0 * rotation + 32.0 * kUnit) * lengths), above(4.0 * rotation + 32.0 * kUnit)};
@@ -233,7 +235,8 @@ double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
 {
   const InstanceError& first = instance_errors_[a];
   const InstanceError& second = instance_errors_[b];
-  const double lengths = first.far + second.far + static_cast<double>(instances_[a].outer + instances_[b].outer);
+  const double lengths =
+      first.largest_distance + second.largest_distance + static_cast<double>(instances_[a].outer + instances_[b].outer);
   return first.position + second.position + kDistanceError * lengths;
 }
 
@@ -352,7 +355,7 @@ void LaneScene::addSelfGroups(std::uint32_t first)
       return Placed{instance_errors_[center], static_cast<double>(instances_[center].outer)};
     const lanes::Cluster& cluster = clusters_[center - instances];
     const FrameError& frame = frame_errors_[static_cast<std::size_t>(cluster.frame)];
-    return Placed{{frame.far, frame.position}, static_cast<double>(cluster.radius)};
+    return Placed{{frame.largest_distance, frame.position}, static_cast<double>(cluster.radius)};
   };
   for (std::uint32_t p = first; p < self_pairs_.size();)
   {
@@ -363,8 +366,8 @@ void LaneScene::addSelfGroups(std::uint32_t first)
       ++end;
     const Placed a = placed(centers.first);
     const Placed b = placed(centers.second);
-    const double error =
-        a.error.position + b.error.position + kDistanceError * (a.error.far + b.error.far + a.radius + b.radius);
+    const double error = a.error.position + b.error.position +
+                         kDistanceError * (a.error.largest_distance + b.error.largest_distance + a.radius + b.radius);
     const bool is_tested = end - p > 1 && centers.first != centers.second;
     self_groups_.push_back({{centers.first, centers.second},
                             is_tested ? above(a.radius + b.radius + error) : std::numeric_limits<float>::infinity(),
@@ -412,9 +415,9 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
         continue;
       const LaneObject& object = objects[o];
       const double required = problem.robot[b].padding + object.padding;
-      const double error =
-          instance_errors_[b].position +
-          kDistanceError * (instance_errors_[b].far + object.far + required + static_cast<double>(instances_[b].outer));
+      const double error = instance_errors_[b].position +
+                           kDistanceError * (instance_errors_[b].largest_distance + object.largest_distance + required +
+                                             static_cast<double>(instances_[b].outer));
       const double layer = object.thickness > cover.layer ? 0.0 : cover.layer;
       const lanes::Thresholds thresholds = {above(required + error), above(required + layer + error),
                                             below(required - error)};

@@ -37,7 +37,7 @@ class LaneScene
   bool fillGiven(const Eigen::Isometry3d* link_poses, int lane, float* given) const;
 
   /// The instances of a pair of the kernel.
-  const CpuTraversal::InstancePair& instancesOf(std::uint32_t pair) const { return pairs_[pair]; }
+  const InstancePair& instancesOf(std::uint32_t pair) const { return pairs_[pair]; }
   std::size_t pairCount() const { return pairs_.size(); }
 
   /// The place of a kernel's self pair in CollisionProblem::self_pairs.
@@ -47,16 +47,16 @@ class LaneScene
   /// Error bounds of the kernel for a frame, in metres.
   struct FrameError
   {
-    double step = 0.0;      // largest distance of the frame's origin from the origin of its parent
-    double far = 0.0;       // largest distance of the frame's origin from the origin of coordinates
-    double rotation = 0.0;  // of a rotated vector of length 1
-    double position = 0.0;  // of the frame's origin
+    double step = 0.0;              // largest distance of the frame's origin from the origin of its parent
+    double largest_distance = 0.0;  // largest distance of the frame's origin from the origin of coordinates
+    double rotation = 0.0;          // of a rotated vector of length 1
+    double position = 0.0;          // of the frame's origin
   };
 
   /// Error bounds for the centres of an instance's balls, in metres.
   struct InstanceError
   {
-    double far = 0.0;  // largest distance of a centre from the origin of coordinates
+    double largest_distance = 0.0;  // largest distance of a centre from the origin of coordinates
     double position = 0.0;
   };
   /// Error bounds for the test of an instance's box.
@@ -101,7 +101,7 @@ class LaneScene
   std::vector<lanes::SelfGroup> self_groups_;
   std::vector<lanes::WorldPair> world_pairs_;
   std::vector<lanes::WorldGroup> world_groups_;
-  std::vector<CpuTraversal::InstancePair> pairs_;
+  std::vector<InstancePair> pairs_;
   std::vector<std::size_t> self_pair_of_;
   lanes::Model model_ = {};
 };

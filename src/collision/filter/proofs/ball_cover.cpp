@@ -16,7 +16,7 @@
 // The candidates for centres are points inside the shape. A candidate's ball may have the radius "depth of the centre +
 // gap", so it reaches at most the gap beyond the surface. A greedy set cover finds balls for a gap; bisection finds the
 // least gap for which the allowed number of balls suffices. The samples only choose the balls. Their radii are then
-// computed from the parts of the whole shape, so a ball certainly contains its part.
+// computed from the parts of the whole shape, so a ball certainly contains its part. The header names the sources.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -11,7 +11,8 @@
 
 // The range of the variables is halved until a box of joint values is proven to be apart or colliding, or is a single
 // cell. If the surfaces stay apart in a whole box, containment cannot change within it either, so the middle of the box
-// decides about containment.
+// decides about containment. The halving is that of R. A. Brooks, T. Lozano-Perez: A subdivision algorithm in
+// configuration space for findpath with rotation. IJCAI 1983.
 namespace gpu_planning_scene::core
 {
 namespace

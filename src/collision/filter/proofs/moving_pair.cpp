@@ -7,7 +7,8 @@
 #include "collision/geometry/cpu_box_pair.h"
 
 // A simultaneous traversal of both trees as in CpuShapePair. Two nodes must be apart by the displacement bound of the
-// second body's node. So parts near the axes need less distance than parts far from the axes.
+// second body's node. So parts near the axes need less distance than parts far from the axes. The header names the
+// source of the bound; a bound for each node is our own method.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -6,7 +6,7 @@
 #include <utility>
 
 // A cover is a row of doubles. A table has four cells in a byte. The key determines the variables of a table, so its
-// file holds only the cells.
+// file holds only the cells. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

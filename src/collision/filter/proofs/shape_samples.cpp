@@ -11,8 +11,11 @@
 #include "collision/geometry/triangle_pair.h"
 #include "model/math_constants.h"
 
-// A grid of cubes over the shape's box. Cubes that the surface enters are found with the exact test of triangle and
-// box. The other cubes form connected parts; the winding number of one point tells whether a part is inside.
+// A grid of cubes over the shape's box. triangleWithinSolid finds the cubes that the surface enters. The other cubes
+// form connected parts; the winding number of one point tells whether a part is inside (Jacobson, Kavan and
+// Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers", 2013). The solid angle of a
+// triangle: A. van Oosterom, J. Strackee: The solid angle of a plane triangle. IEEE Transactions on Biomedical
+// Engineering, 1983. The grid is our own method.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -76,7 +79,7 @@ CubeGrid gridAround(const AlignedBox3d& box)
   return grid;
 }
 
-/// The winding number of all triangles around a point (Jacobson et al. 2013). It is near 1 inside a mesh that is closed
+/// The winding number of all triangles around a point. It is near 1 inside a mesh that is closed
 /// except for cracks.
 double windingNumber(const std::vector<Triangle>& triangles, const Vector3d& point)
 {

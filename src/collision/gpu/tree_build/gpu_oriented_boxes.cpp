@@ -27,7 +27,7 @@ void GpuOrientedBoxes::fit(const ForestRegion& region, const TexelBuffer& nodes,
                            TexelBuffer& oriented)
 {
   oriented.reserve((std::size_t{region.first_node} + region.node_count) * sizeof(OrientedNode));
-  large_nodes_.reserve(std::size_t{region.node_count} * 4 * sizeof(std::uint32_t));
+  large_nodes_.reserve(std::size_t{region.node_count} * LARGE_NODE_TEXELS * TexelBuffer::kTexelBytes);
   large_count_.reserve(sizeof(std::uint32_t));
   large_count_.clear();
   nodes.bindTexture(UNIT_NODES);

@@ -8,7 +8,7 @@
 #include "shader_constants.h"
 
 // New trees are appended to the buffers, so existing ones need not be moved. If too much memory is unused, all trees
-// are dropped and the current ones are built again.
+// are dropped and the current ones are built again. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

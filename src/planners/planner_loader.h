@@ -11,11 +11,11 @@
 namespace gpu_planning_scene::core
 {
 /// The planners that any package exports to pluginlib. Thread-safe.
-class PlannerPlugins
+class PlannerLoader
 {
  public:
-  PlannerPlugins();
-  ~PlannerPlugins();
+  PlannerLoader();
+  ~PlannerLoader();
 
   /// Sets AMENT_PREFIX_PATH, unless it is set. Debian's pluginlib finds packages as ROS 1 does, but first looks into
   /// the index of ROS 2, and throws if that variable is not set. Call this before the start of other threads.

@@ -1,4 +1,4 @@
-#include "planners/planner_plugins.h"
+#include "planners/planner_loader.h"
 
 #include <cstdlib>
 #include <stdexcept>
@@ -10,7 +10,7 @@
 
 namespace gpu_planning_scene::core
 {
-struct PlannerPlugins::Impl
+struct PlannerLoader::Impl
 {
   using Loader = pluginlib::ClassLoader<PlannerFactory>;
 
@@ -28,17 +28,17 @@ struct PlannerPlugins::Impl
   std::map<std::string, std::shared_ptr<const PlannerFactory>> loaded;  // destroyed before the loader of its libraries
 };
 
-PlannerPlugins::PlannerPlugins() : impl_(std::make_unique<Impl>()) {}
+PlannerLoader::PlannerLoader() : impl_(std::make_unique<Impl>()) {}
 
-void PlannerPlugins::prepareEnvironment()
+void PlannerLoader::prepareEnvironment()
 {
   setenv("AMENT_PREFIX_PATH", "/usr", 0);
 }
 
-PlannerPlugins::~PlannerPlugins() = default;
+PlannerLoader::~PlannerLoader() = default;
 
-std::shared_ptr<const PlannerFactory> PlannerPlugins::find(const std::string& name,
-                                                           const std::vector<std::string>& configs)
+std::shared_ptr<const PlannerFactory> PlannerLoader::find(const std::string& name,
+                                                          const std::vector<std::string>& configs)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   const auto known = impl_->loaded.find(name);

@@ -10,8 +10,9 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
-#include "node/checks/watched_checkers.h"
+#include "node/endpoints/diagnostics.h"
 #include "scene/slider_robot.h"
+#include "service/checker_maker.h"
 
 namespace gpu_planning_scene::core
 {
@@ -44,11 +45,11 @@ class Device : public CpuChecker
 /// States of a request for the second queue, whose checker is made with its first request.
 constexpr std::size_t kLarge = 2000;
 
-class WatchedCheckers : public testing::Test
+class DeviceDiagnostics : public testing::Test
 {
  protected:
-  WatchedCheckers() { resilience_.device_seconds = 0.2; }
-  ~WatchedCheckers() override { repaired_.set_value(); }
+  DeviceDiagnostics() { resilience_.device_seconds = 0.2; }
+  ~DeviceDiagnostics() override { repaired_.set_value(); }
 
   /// Sets the fault of opening the device from now on: it throws, waits, or does nothing.
   void openWith(void (*fault)(const std::shared_future<void>& repaired)) { fault_ = fault; }
@@ -65,8 +66,9 @@ class WatchedCheckers : public testing::Test
           fault_.load()(repaired);
         return std::make_unique<Device>(std::move(scene), losses);
       };
-      server_ = std::make_unique<CheckServer>(store_, makeWatchedCheckers(options_, resilience_, open, diagnostics_),
-                                              CheckServerOptions());
+      const CheckServer::MakeChecker make =
+          makeResilientCheckers(options_, resilience_, open, [](const std::string&) {});
+      server_ = std::make_unique<CheckServer>(store_, diagnostics_.watched(make), CheckServerOptions());
     }
     return *server_;
   }
@@ -90,14 +92,14 @@ class WatchedCheckers : public testing::Test
   std::unique_ptr<CheckServer> server_;
 };
 
-TEST_F(WatchedCheckers, ANamedDeviceThatCannotBeOpenedAtTheStartIsAnError)
+TEST_F(DeviceDiagnostics, ANamedDeviceThatCannotBeOpenedAtTheStartIsAnError)
 {
   options_.device = "software";
   openWith([](const auto&) { throw Error("no usable device"); });
   EXPECT_EQ(errorOf([&] { server(); }), "no usable device");
 }
 
-TEST_F(WatchedCheckers, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
+TEST_F(DeviceDiagnostics, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
 {
   openWith([](const auto&) { throw Error("no usable device"); });
   for (const std::size_t count : {std::size_t{1}, kLarge})
@@ -108,7 +110,7 @@ TEST_F(WatchedCheckers, WithoutAUsableDeviceAtTheStartTheCpuChecksAllStates)
   }
 }
 
-TEST_F(WatchedCheckers, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
+TEST_F(DeviceDiagnostics, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
 {
   EXPECT_EQ(ask(1).result.valid.size(), 1u);
   openWith([](const auto&) { throw DeviceLost("the GPU was reset"); });
@@ -117,7 +119,7 @@ TEST_F(WatchedCheckers, TheCpuStandsInForADeviceThatCannotBeOpenedOnceMore)
   EXPECT_EQ(answer.device, "CPU");
 }
 
-TEST_F(WatchedCheckers, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
+TEST_F(DeviceDiagnostics, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
 {
   EXPECT_EQ(ask(1).result.valid.size(), 1u);
   openWith([](const auto& repaired) { repaired.wait(); });
@@ -125,7 +127,7 @@ TEST_F(WatchedCheckers, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
   server().stop();
 }
 
-TEST_F(WatchedCheckers, DiagnosticsReportCpuFallbackAndMissingDevice)
+TEST_F(DeviceDiagnostics, DiagnosticsReportCpuFallbackAndMissingDevice)
 {
   using diagnostic_msgs::DiagnosticStatus;
   resilience_.retry_seconds = 0.1;
@@ -154,7 +156,7 @@ TEST_F(WatchedCheckers, DiagnosticsReportCpuFallbackAndMissingDevice)
   EXPECT_EQ(level(), DiagnosticStatus::OK);
 }
 
-TEST_F(WatchedCheckers, DiagnosticsAreShortWhateverIsInThem)
+TEST_F(DeviceDiagnostics, DiagnosticsAreShortWhateverIsInThem)
 {
   ask(1);
   openWith([](const auto&) { throw Error("no device '" + std::string(100000, 'x') + "'"); });

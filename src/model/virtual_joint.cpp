@@ -1,4 +1,4 @@
-#include "model/base_joints.h"
+#include "model/virtual_joint.h"
 
 namespace gpu_planning_scene::core
 {
