@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
+#include <map>
 #include <random>
 
 #include "collision/bounds/problem_maker.h"
@@ -59,7 +60,8 @@ class Comparison
       exact_(scene.scene, withoutProofs()),
       with_proofs_(scene.scene),
       problem_(std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr))),
-      traversal_(ForestCache().traversalOf(problem_))
+      traversal_(ForestCache().traversalOf(problem_)),
+      pairs_(makePairs())
   {
     std::size_t checked = 0;
     while (checked <= kStatesBeforeProofs)
@@ -95,25 +97,54 @@ class Comparison
   SceneReport report() { return with_proofs_.report(); }
 
  private:
-  /// Pairs that both checkers report need no check.
+  /// Counts reported pairs that do not collide. Pairs that both checkers report need no check.
   std::size_t falsePairs(const std::vector<double>& states, const BatchResult& exact, const BatchResult& proven) const
   {
     std::atomic<std::size_t> count{0};
     const RobotModel& robot = *scene_.scene->robot;
-    parallelFor(kBatch, kStatesPerChunk,
-                [&, scratch = CpuTraversal::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot.links().size())](
-                    std::size_t begin, std::size_t end) mutable
-                {
-                  for (std::size_t i = begin; i < end; ++i)
-                  {
-                    if (proven.valid[i] || proven.colliding[i] == exact.colliding[i])
-                      continue;
-                    robot.linkPoses(&states[i * width_], poses.data());
-                    const std::vector<BodyPair> all = traversal_->allCollisions(poses.data(), scratch);
-                    count += std::count(all.begin(), all.end(), proven.colliding[i]) == 1 ? 0 : 1;
-                  }
-                });
+    parallelFor(
+        kBatch, kStatesPerChunk,
+        [&, scratch = CpuTraversal::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot.links().size()),
+         steps = std::vector<std::uint64_t>()](std::size_t begin, std::size_t end) mutable
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            if (proven.valid[i] || proven.colliding[i] == exact.colliding[i])
+              continue;
+            robot.linkPoses(&states[i * width_], poses.data());
+            const auto pairs = pairs_.find(proven.colliding[i]);
+            if (pairs == pairs_.end() ||
+                !traversal_->firstCollisionOf(pairs->second.data(), pairs->second.size(), poses.data(), scratch, steps))
+              ++count;
+          }
+        });
     return count;
+  }
+
+  /// The pairs of instances of each pair of bodies.
+  std::map<BodyPair, std::vector<CpuTraversal::OpenPair>> makePairs() const
+  {
+    std::map<BodyPair, std::vector<CpuTraversal::OpenPair>> pairs;
+    const auto add = [&](std::uint32_t a, std::size_t b)
+    {
+      const InstancePair instances = {a, static_cast<std::uint32_t>(b)};
+      pairs[bodiesOf(*problem_, instances)].push_back({instances, 0.0});
+    };
+    const std::size_t robot = problem_->robot.size();
+    const std::size_t world = problem_->world.size();
+    const std::size_t half_spaces = problem_->half_spaces.size();
+    for (const InstancePair& pair : problem_->self_pairs)
+      add(pair[0], pair[1]);
+    for (std::uint32_t i = 0; i < robot; ++i)
+    {
+      for (std::size_t k = 0; k < world; ++k)
+        if (problem_->world_pairs[i * world + k] != 0)
+          add(i, robot + k);
+      for (std::size_t k = 0; k < half_spaces; ++k)
+        if (problem_->half_space_pairs[i * half_spaces + k] != 0)
+          add(i, robot + world + k);
+    }
+    return pairs;
   }
 
   const TestScene& scene_;
@@ -123,6 +154,7 @@ class Comparison
   CpuChecker with_proofs_;
   std::shared_ptr<const CollisionProblem> problem_;
   std::unique_ptr<const CpuTraversal> traversal_;
+  std::map<BodyPair, std::vector<CpuTraversal::OpenPair>> pairs_;
 };
 
 void add(const Counts& part, Counts& all)
