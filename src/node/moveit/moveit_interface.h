@@ -4,7 +4,7 @@
 #include <string>
 
 #include "node/checks/check_services.h"
-#include "node/endpoints/diagnostics.h"
+#include "node/endpoints/endpoints.h"
 #include "node/parameters/node_parameters.h"
 #include "node/scene/frame_lookup.h"
 #include "node/scene/scene_services.h"
@@ -27,6 +27,7 @@ class MoveItInterface
     CheckServices& checks;
     const FrameLookup& lookup;
     Diagnostics& diagnostics;
+    Endpoints::Refusal scene_fault;  ///< of the node without this interface
     const ServiceOptions& options;
   };
 
