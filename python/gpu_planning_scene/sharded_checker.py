@@ -8,7 +8,7 @@ import time
 
 __all__ = ["ShardedChecker"]
 
-LEAST_STATES = 4096  # a request of at most this many states is not split
+UNSPLIT_STATES = 4096  # of a request for one node: fewer are not worth the threads
 LEAST_PART = 2048  # states
 PARTS_PER_NODE = 2  # or more, so that a slow node does not hold up the others
 PAUSE = 0.02  # seconds, before a busy node is asked again
@@ -216,14 +216,14 @@ class ShardedChecker:
         whole.scene_revision = request.scene_revision or scene.scene_revision
         width = len(request.joint_names)
         count, rest = divmod(len(request.positions), width) if width else (0, 0)
-        if request.named_state or count <= LEAST_STATES or rest or request.scene_diff != self._no_change:
+        if request.named_state or count == 0 or rest or request.scene_diff != self._no_change:
             return [whole]
         joints = scene.robot_state.joint_state
         missing = {name: value for name, value in zip(joints.name, joints.position) if name not in request.joint_names}
         if len(set(request.joint_names)) + len(missing) != self._variable_count():
             return [whole]
         even = max(LEAST_PART, -(-count // (PARTS_PER_NODE * len(self._nodes))))
-        rows = min(even, self._part_states)
+        rows = count if count <= UNSPLIT_STATES else min(even, self._part_states)
         parts = []
         for first in range(0, count, rows):
             part = copy.copy(whole)

@@ -9,8 +9,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kLeastStates = 4096;  // fewer are not worth the threads
-
 template <class Items>
 void append(Items& items, Items& added)
 {
@@ -28,13 +26,12 @@ CommonState commonStateOf(const gpu_planning_scene::PlanningScene& scene)
   return common;
 }
 
-std::size_t splittableStates(const CheckStates::Request& request)
+std::size_t plainStates(const CheckStates::Request& request)
 {
   const std::size_t width = request.joint_names.size();
   const bool is_plain = request.named_state.empty() && width != 0 && request.positions.size() % width == 0 &&
                         request.scene_diff == gpu_planning_scene::PlanningScene();
-  const std::size_t count = is_plain ? request.positions.size() / width : 0;
-  return count > kLeastStates ? count : 0;
+  return is_plain ? request.positions.size() / width : 0;
 }
 
 std::vector<CheckStates::Request> partsOf(const CheckStates::Request& request, const CommonState& common,

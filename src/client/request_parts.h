@@ -21,8 +21,8 @@ struct CommonState
 /// The common state in a scene of ~get_planning_scene.
 CommonState commonStateOf(const gpu_planning_scene::PlanningScene& scene);
 
-/// The number of states of a request that may be split; 0 if it must not be.
-std::size_t splittableStates(const CheckStates::Request& request);
+/// The number of states of a request whose states all parts can have; 0 if it must go to one node as it is.
+std::size_t plainStates(const CheckStates::Request& request);
 
 /// Splits a request into parts of `part_states` states. Joints that it does not name get their values of `common`, as
 /// further columns. Returns an empty list if the rows then lack one of the `variables` variables of the robot.

@@ -26,6 +26,7 @@ using Request = ShardedChecker::Request;
 using Response = ShardedChecker::Response;
 
 constexpr std::size_t kPartsPerNode = 2;         // or more, so that a slow node does not hold up the others
+constexpr std::size_t kUnsplitStates = 4096;     // of a request for one node: fewer are not worth the threads
 constexpr std::size_t kLeastPart = 2048;         // states
 constexpr std::chrono::milliseconds kPause{20};  // before a busy node is asked again
 constexpr std::chrono::milliseconds kRetry{50};  // between two rounds with all nodes
@@ -141,11 +142,12 @@ struct ShardedChecker::Impl
   std::vector<Request> split(const Request& request, const CommonState& common)
   {
     std::vector<Request> parts;
-    if (const std::size_t states = splittableStates(request); states != 0)
+    if (const std::size_t states = plainStates(request); states != 0)
     {
       const std::size_t wanted = kPartsPerNode * nodes.size();
       const std::size_t even = std::max(kLeastPart, (states + wanted - 1) / wanted);
-      parts = partsOf(request, common, variableCount(), std::min(even, options.part_states));
+      parts = partsOf(request, common, variableCount(),
+                      states <= kUnsplitStates ? states : std::min(even, options.part_states));
     }
     if (parts.empty())
     {

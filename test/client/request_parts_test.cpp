@@ -49,17 +49,17 @@ TEST(RequestParts, ARequestWithoutAValueForAVariableIsNotSplit)
   EXPECT_TRUE(partsOf(requestOf(10), commonState(), 4, 4).empty());
 }
 
-TEST(RequestParts, OnlyLargePlainRequestsMayBeSplit)
+TEST(RequestParts, OnlyPlainRequestsMayBeSplit)
 {
-  EXPECT_EQ(5000u, splittableStates(requestOf(5000)));
-  EXPECT_EQ(0u, splittableStates(requestOf(10)));
-  EXPECT_EQ(0u, splittableStates(CheckStates::Request()));
+  EXPECT_EQ(5000u, plainStates(requestOf(5000)));
+  EXPECT_EQ(10u, plainStates(requestOf(10)));
+  EXPECT_EQ(0u, plainStates(CheckStates::Request()));
   CheckStates::Request request = requestOf(5000);
   request.scene_diff.is_diff = 1;
-  EXPECT_EQ(0u, splittableStates(request));
+  EXPECT_EQ(0u, plainStates(request));
   request = requestOf(5000);
   request.positions.pop_back();
-  EXPECT_EQ(0u, splittableStates(request));
+  EXPECT_EQ(0u, plainStates(request));
 }
 
 TEST(RequestParts, AnswersAreJoinedInTheOrderOfTheStates)

@@ -110,7 +110,8 @@ class Handlers
       clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
   {
     store_.setListener(
-        this, [this](const auto& before, const auto& after)
+        this,
+        [this](const auto& before, const auto& after)
         {
           const SceneChange change = diffOf(*before, *after);
           PlanningSceneMessage message = messageOf(change, *after->robot);

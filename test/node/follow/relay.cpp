@@ -9,9 +9,9 @@ Relay::Relay(const std::string& name, const std::string& leader)
   : leader_(leader),
     publisher_(node_.advertise<PlanningSceneMessage>(name + "/monitored_planning_scene_diffs", 100)),
     service_(node_.advertiseService(name + "/get_planning_scene", &Relay::answer, this)),
-    subscriber_(node_.subscribe<PlanningSceneMessage>(
-        leader + "/monitored_planning_scene_diffs", 100,
-        [this](const PlanningSceneMessage::ConstPtr& message) { pass(*message); }))
+    subscriber_(node_.subscribe<PlanningSceneMessage>(leader + "/monitored_planning_scene_diffs", 100,
+                                                      [this](const PlanningSceneMessage::ConstPtr& message)
+                                                      { pass(*message); }))
 {
 }
 
