@@ -291,8 +291,8 @@ PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robo
   return message;
 }
 
-SceneChange changeOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
-                     const std::vector<bool>& known)
+SceneChange componentsOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
+                         const std::vector<bool>& known)
 {
   const std::uint32_t asked = components == 0 ? ~0U : components;
   SceneChange change = changeOf(scene, asked);
@@ -306,7 +306,7 @@ SceneChange changeOf(const PlanningScene& scene, std::uint32_t components, const
 PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
                                const std::vector<bool>& known)
 {
-  PlanningSceneMessage message = messageOf(changeOf(scene, components, state, known), *scene.robot);
+  PlanningSceneMessage message = messageOf(componentsOf(scene, components, state, known), *scene.robot);
   message.scene_revision = scene.revision;
   return message;
 }

@@ -14,8 +14,8 @@ PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t compone
                                const std::vector<bool>& known);
 
 /// The change that this message stands for.
-SceneChange changeOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
-                     const std::vector<bool>& known);
+SceneChange componentsOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
+                         const std::vector<bool>& known);
 
 /// The message that changeFrom() converts to `change`.
 PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robot);

@@ -27,8 +27,8 @@ class MoveItInterface
     CheckServices& checks;
     const FrameLookup& lookup;
     Diagnostics& diagnostics;
-    Endpoints::Refusal scene_fault;  ///< of the node without this interface
     const ServiceOptions& options;
+    Endpoints::Refusal scene_fault;  ///< of the node without this interface
   };
 
   /// Throws Error for parameters that are wrong or that this build does not support.

@@ -94,7 +94,7 @@ GetPlanningScene::Response SceneServices::get(const GetPlanningScene::Request& r
 {
   GetPlanningScene::Response response;
   const Snapshot now = store_.snapshot();
-  const SceneChange change = changeOf(*now.scene, request.components.components, now.state, now.known);
+  const SceneChange change = componentsOf(*now.scene, request.components.components, now.state, now.known);
   response.scene = messageOf(change, *now.scene->robot);
   response.scene.scene_revision = now.scene->revision;
   if ((request.components.components & kForFollowers) != 0)

@@ -56,7 +56,7 @@ class ExactScenes : public RandomChanges
 
   SceneChange whole() const
   {
-    return changeOf(scene_, 0, scene_.current_state, std::vector<bool>(scene_.current_state.size(), true));
+    return componentsOf(scene_, 0, scene_.current_state, std::vector<bool>(scene_.current_state.size(), true));
   }
 
   void expectExactly(const PlanningScene& found) const
