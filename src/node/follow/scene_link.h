@@ -278,6 +278,12 @@ class SceneLink
     const bool was_answered = client.isValid() && client.call(asked, response, ros::service_traits::md5sum<GetScene>());
     const std::lock_guard<std::mutex> lock(mutex_);
     is_calling_ = false;
+    // roscpp counts a connection as valid if it ends while it is being made.
+    if (!was_answered)
+    {
+      client_.shutdown();
+      client_ = ros::ServiceClient();
+    }
     return was_answered;
   }
 

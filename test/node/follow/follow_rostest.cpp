@@ -152,6 +152,7 @@ TEST_F(Replicas, AnswerForTheRevisionThatARequestNames)
 
 TEST_F(Replicas, RefuseChangesAndNameTheLeader)
 {
+  ASSERT_TRUE(reaches(*replica, scene().scene_revision));
   const PlanningSceneMessage before = wholeScene(*replica);
   const std::string reason = "the node follows the scene of /planning_scene (~follow); change the scene there";
   ApplyPlanningScene change;
