@@ -17,6 +17,8 @@ install(DIRECTORY shaders config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTI
 install(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene:: DESTINATION ${export_folder})
 
 if(GPU_PLANNING_SCENE_ROS)
+  install(TARGETS gpu_planning_scene_client EXPORT gpu_planning_scene-targets
+    LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
   install(TARGETS gpu_planning_scene_planners LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
   install(FILES planner_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
   if(TARGET gpu_planning_scene_moveit)

@@ -2,15 +2,19 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <optional>
 
 #include "node/checks/check_services.h"
 #include "node/checks/scene_watch.h"
 #include "node/endpoints/diagnostics.h"
 #include "node/endpoints/endpoints.h"
+#include "node/follow/follow_options.h"
+#include "node/follow/leader_scene.h"
 #include "node/markers/marker_publisher.h"
 #include "node/moveit/moveit_interface.h"
 #include "node/parameters/node_parameters.h"
+#include "node/parameters/setup.h"
 #include "node/planning/plan_service.h"
 #include "node/scene/base_from_tf.h"
 #include "node/scene/cloud_topic.h"
@@ -25,7 +29,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kLongestEnd = 8.0;  // seconds; roslaunch kills the process after 15 s
+constexpr double kLongestEnd = 8.0;               // seconds; roslaunch kills the process after 15 s
+constexpr std::chrono::seconds kKeptReplaced{3};  // how long replaced scenes are kept for requests
 
 void warn(const std::vector<std::string>& warnings)
 {
@@ -44,12 +49,14 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const ResilientOptions resilience = resilienceFromParameters(own);
   const SceneLimits limits = sceneLimitsFromParameters(own);
   const PlanServiceOptions plan_options = planOptionsFromParameters(own);
+  const LinkOptions follow_options = followOptionsFromParameters(node, own);
   setMessageLimit(options.message_size);
 
   std::vector<std::string> warnings;
   SceneDefaults defaults;
   PlanningScene scene = sceneFromParameters(node, own, defaults, &warnings);
   warn(warnings);
+  const std::uint64_t setup = setupFromParameters(node, own, *scene.robot, defaults);
 
   std::atomic<bool> stopping{false};
   const SceneStore* known = nullptr;  // the store below, which needs the lookup for the base
@@ -69,18 +76,29 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const SceneStore::Lookup look_up = [&lookup](const StampedFrame& frame) { return lookup(frame, lookup.deadline()); };
   CheckServices checks(store, server, memory,
                        {server_options.max_states, options.max_motion_checks, options.max_inspected_states,
-                        options.max_contacts, server_options.max_waiting_requests, plan_options.motions.rule},
+                        options.max_contacts, server_options.max_waiting_requests, plan_options.motions.rule,
+                        std::chrono::seconds(1), server_options.max_waiting_requests},
                        look_up);
   PathPublisher paths(own, options.marker_rate, options.marker_triangles);
   PlanService plans(own, store, look_up, make_checker, memory, paths, plan_options);
-  SceneServices changes(store, look_up, memory);
+  SceneServices changes(store, look_up, memory, setup);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
-  const ScenePublisher publisher(own, store, options.full_scene_period);
+  const ScenePublisher publisher(own, store, options.full_scene_period, setup);
+  const ros::WallTimer forget =
+      own.createWallTimer(ros::WallDuration(1.0), [&store](const ros::WallTimerEvent&)
+                          { store.forgetReplaced(std::chrono::steady_clock::now() - kKeptReplaced); });
 
-  MoveItInterface moveit({node, own, store, changes, checks, lookup, diagnostics, options});
-  const Endpoints::Refusal scene_fault = [&moveit] { return moveit.sceneFault(); };
-  const Endpoints::Refusal change_fault = [&moveit] { return moveit.changeFault(); };
+  std::optional<LeaderScene> leader;
+  if (!follow_options.node.empty())
+  {
+    leader.emplace(node, own, follow_options, setup, store, changes);
+    diagnostics.watchScene([&leader] { return leader->fault(); });
+  }
+  const Endpoints::Refusal leader_fault = [&leader] { return leader ? leader->fault() : ""; };
+  MoveItInterface moveit({node, own, store, changes, checks, lookup, diagnostics, options, leader_fault});
+  const Endpoints::Refusal scene_fault = [&] { return leader ? leader_fault() : moveit.sceneFault(); };
+  const Endpoints::Refusal change_fault = [&] { return leader ? leader->changeFault() : moveit.changeFault(); };
 
   Endpoints change_requests(node, own, 3, diagnostics, change_fault);
   change_requests.advertise<ApplyPlanningScene>(
@@ -107,9 +125,9 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
 
   // Each waiting request occupies a thread, and a thread must be free to answer "busy" immediately. Up to
   // max_waiting_requests requests each can be in the running batch of small requests, in the queue of small requests,
-  // in the queue of large requests, and in the queue for contacts. check_states is advertised last: when it is there,
-  // all other services are.
-  Endpoints check_requests(node, own, 4 * server_options.max_waiting_requests + 8, diagnostics, scene_fault);
+  // in the queue of large requests, in the queue for contacts, and waiting for a revision. check_states is advertised
+  // last: when it is there, all other services are.
+  Endpoints check_requests(node, own, 5 * server_options.max_waiting_requests + 8, diagnostics, scene_fault);
   check_requests.advertise<CheckMotions>(
       "check_motions", [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
   check_requests.advertise<CheckTrajectory>(
@@ -142,6 +160,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   server.stop();
   scene_topics.stop();
   moveit.stop();
+  if (leader)
+    leader->stop();
   for (Endpoints* some : endpoints)
     some->stop();
   timers.stop();

@@ -17,6 +17,19 @@ using Clock = std::chrono::steady_clock;
 
 // Longer than between two messages of a running robot's joints. A joint whose messages end takes values from others.
 constexpr std::chrono::seconds kMeasuredFor{1};
+// Earlier scenes are kept for requests that many nodes answer together. These bounds keep them below some 100 MB.
+constexpr std::size_t kReplacedScenes = 64;
+constexpr std::size_t kReplacedShapes = 200000;
+
+std::size_t shapesOf(const PlanningScene& scene)
+{
+  std::size_t count = 0;
+  for (const WorldObject& object : scene.objects)
+    count += object.shapes.size();
+  for (const AttachedObject& attached : scene.attached)
+    count += attached.object.shapes.size();
+  return count;
+}
 
 /// Looks up the frames that the change needs and that neither the scene nor `frames` has. Adds them to `frames`.
 void findFrames(const PlanningScene& scene, const SceneChange& change, const SceneStore::Lookup& lookup,
@@ -100,6 +113,17 @@ void dropUnknown(const Snapshot& now, SceneChange& change)
   }
 }
 
+void dropMeasured(const Snapshot& now, SceneChange& change)
+{
+  std::map<std::string, double>& variables = change.state.variables;
+  for (auto variable = variables.begin(); variable != variables.end();)
+  {
+    const int index = now.scene->robot->variableIndex(variable->first);
+    const bool is_measured = index >= 0 && now.measured[static_cast<std::size_t>(index)];
+    variable = is_measured ? variables.erase(variable) : std::next(variable);
+  }
+}
+
 SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits, BaseSource base_source)
   : defaults_(std::move(defaults)),
     limits_(limits),
@@ -161,13 +185,22 @@ SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& l
       continue;
     ChangedScene made =
         applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
-    return {replace(std::move(made.scene), change.state.variables), std::move(made.warnings)};
+    return {replace(std::move(made.scene), change.state.variables, at.scene->revision + 1), std::move(made.warnings)};
   }
 }
 
-SceneStore::Preview SceneStore::preview(const std::vector<SceneChange>& changes, const Lookup& lookup) const
+void SceneStore::follow(const SceneChange& change, std::uint64_t revision)
 {
-  Preview preview{snapshot(), {}};
+  const std::lock_guard<std::mutex> changing(changes_);
+  const Snapshot at = snapshot();
+  Change made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, {});
+  replace(std::move(made.scene), change.state.variables, revision);
+}
+
+SceneStore::Preview SceneStore::preview(const std::vector<SceneChange>& changes, const Lookup& lookup,
+                                        const std::optional<Snapshot>& from) const
+{
+  Preview preview{from ? *from : snapshot(), {}};
   Snapshot& at = preview.snapshot;
   ExternalFrames frames;
   for (const SceneChange& change : changes)
@@ -201,14 +234,16 @@ SceneStore::Applied SceneStore::clear()
   scene.objects.clear();
   scene.attached.clear();
   scene.colors.clear();
-  return {replace(std::move(scene), {}), std::move(warnings)};
+  const std::uint64_t revision = scene.revision + 1;
+  return {replace(std::move(scene), {}, revision), std::move(warnings)};
 }
 
 /// Sets the scene and the given variables in one step. The variables are finite.
-std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::string, double>& variables)
+std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::string, double>& variables,
+                                  std::uint64_t revision)
 {
   const std::shared_ptr<const PlanningScene> before = snapshot().scene;
-  scene.revision = before->revision + 1;
+  scene.revision = revision;
   const auto after = std::make_shared<const PlanningScene>(std::move(scene));
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -217,10 +252,62 @@ std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::strin
     for (const auto& [name, value] : variables)
       if (const int variable = scene_->robot->variableIndex(name); variable >= 0)
         stamps_[static_cast<std::size_t>(variable)] = 0;
+    keep(before);
   }
+  arrived_.notify_all();
   for (const auto& [owner, listener] : listeners_)
     listener(before, after);
   return after->revision;
+}
+
+/// Called with mutex_ held.
+void SceneStore::keep(const std::shared_ptr<const PlanningScene>& replaced)
+{
+  replaced_.push_back({Clock::now(), replaced, shapesOf(*replaced)});
+  replaced_shapes_ += replaced_.back().shapes;
+  while (replaced_.size() > kReplacedScenes || (!replaced_.empty() && replaced_shapes_ > kReplacedShapes))
+  {
+    replaced_shapes_ -= replaced_.front().shapes;
+    replaced_.pop_front();
+  }
+}
+
+Snapshot SceneStore::at(std::uint64_t revision, Clock::time_point until) const
+{
+  std::shared_ptr<const PlanningScene> scene;
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    arrived_.wait_until(lock, until, [&] { return scene_->revision >= revision; });
+    if (scene_->revision == revision)
+      scene = scene_;
+    const auto replaced = std::find_if(replaced_.begin(), replaced_.end(),
+                                       [&](const Replaced& one) { return one.scene->revision == revision; });
+    if (!scene && replaced != replaced_.end())
+    {
+      scene = replaced->scene;
+      replaced->time = Clock::now();
+      std::rotate(replaced, std::next(replaced), replaced_.end());
+    }
+    if (!scene)
+      throw Error("revision " + std::to_string(revision) +
+                  (revision > scene_->revision ? " of the scene has not arrived" : " of the scene is not kept") +
+                  "; the newest is " + std::to_string(scene_->revision));
+  }
+  Snapshot then = snapshot();
+  then.scene = std::move(scene);
+  return then;
+}
+
+void SceneStore::forgetReplaced(Clock::time_point time)
+{
+  std::deque<Replaced> dropped;  // destroyed without the lock
+  const std::lock_guard<std::mutex> lock(mutex_);
+  while (!replaced_.empty() && replaced_.front().time < time)
+  {
+    replaced_shapes_ -= replaced_.front().shapes;
+    dropped.push_back(std::move(replaced_.front()));
+    replaced_.pop_front();
+  }
 }
 
 std::string SceneStore::updateState(const std::map<std::string, double>& variables, std::int64_t stamp)

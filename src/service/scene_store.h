@@ -1,11 +1,14 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +47,8 @@ struct Snapshot
 
 /// Takes out the values of variables that are not known, for example of a base that only the BaseSource knows.
 void dropUnknown(const Snapshot& now, SceneChange& change);
+/// Takes out the values of variables that are measured (Snapshot::measured). A followed node may know older values.
+void dropMeasured(const Snapshot& now, SceneChange& change);
 
 /// The scene of a running service. A change is made completely or not at all. Thread-safe; readers never wait for a
 /// change.
@@ -80,8 +85,20 @@ class SceneStore
     std::vector<std::string> warnings;
   };
   /// The scene and the state that apply() would leave after all these changes. The store stays as it is. Throws the
-  /// errors of apply().
-  Preview preview(const std::vector<SceneChange>& changes, const Lookup& lookup) const;
+  /// errors of apply(). `from`: where the changes begin; no value: the store's newest scene.
+  Preview preview(const std::vector<SceneChange>& changes, const Lookup& lookup,
+                  const std::optional<Snapshot>& from = {}) const;
+
+  /// Makes a change that another store has made. The scene gets the revision that it has there. The change must bring
+  /// all its frames. If it throws, nothing has changed.
+  void follow(const SceneChange& change, std::uint64_t revision);
+
+  /// The scene of this revision, with the newest state of the robot. Waits until `until` for a revision that is above
+  /// the newest one. Throws Error that begins with "revision " if the scene does not come, or is no longer kept.
+  Snapshot at(std::uint64_t revision, std::chrono::steady_clock::time_point until) const;
+  /// Drops the earlier scenes that were replaced and used last before `time`. At most 64 are kept, with at most 200,000
+  /// shapes. Those that at() has returned lately are kept longest.
+  void forgetReplaced(std::chrono::steady_clock::time_point time);
 
   /// Removes all objects and attached objects with their entries in the allowed collision matrix, and all colours.
   /// Warns of each body that an entry forbade to touch an object, if the default of the body allows it to touch a new
@@ -106,17 +123,29 @@ class SceneStore
   void setListener(const void* owner, Listener listener);
 
  private:
-  std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables);
+  /// An earlier scene, for at().
+  struct Replaced
+  {
+    std::chrono::steady_clock::time_point time;  // of the replacement or of the last use
+    std::shared_ptr<const PlanningScene> scene;
+    std::size_t shapes;
+  };
+
+  std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables, std::uint64_t revision);
+  void keep(const std::shared_ptr<const PlanningScene>& replaced);
   AssumedBase assumeBase(std::int64_t stamp, const std::vector<bool>& known, std::vector<double>& state) const;
 
   std::mutex changes_;        // held during a change
-  mutable std::mutex mutex_;  // guards the next six members
+  mutable std::mutex mutex_;  // guards the next eight members
   std::shared_ptr<const PlanningScene> scene_;
   std::vector<double> state_;
   std::vector<bool> known_;
   std::vector<std::int64_t> stamps_;                                // of the values; 0: unknown
   std::vector<std::chrono::steady_clock::time_point> measured_at_;  // when updateState set it last; initially min()
   StateHistory history_;
+  mutable std::deque<Replaced> replaced_;  // in the order of their times
+  std::size_t replaced_shapes_ = 0;
+  mutable std::condition_variable arrived_;
   const SceneDefaults defaults_;
   const SceneLimits limits_;
   const BaseSource base_source_;

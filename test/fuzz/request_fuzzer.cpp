@@ -3,6 +3,7 @@
 // its kind, two for its length, and its content.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,6 +16,7 @@
 #include "node/endpoints/bounded_message.h"
 #include "node/endpoints/respond.h"
 #include "node/markers/scene_markers.h"
+#include "node/messages/exact_numbers.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/to_messages.h"
 #include "node/planning/plan_request.h"
@@ -62,6 +64,16 @@ PlanServiceOptions fewGoals()
   return options;
 }
 
+CheckServicesOptions fewChecks()
+{
+  CheckServicesOptions options;
+  options.max_states = kMaxStates;
+  options.max_motion_checks = 100 * kMaxStates;
+  options.max_inspected_states = 10;
+  options.revision_wait = std::chrono::milliseconds(0);
+  return options;
+}
+
 /// As a planners.yaml with settings for one group.
 GroupPlanners plannersOf(const std::string& group)
 {
@@ -93,19 +105,25 @@ class Handlers
           store_,
           [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
           fewStates()),
-      checks_(store_, server_, memory_, {kMaxStates, 100 * kMaxStates, 10}, frameOfTf),
+      checks_(store_, server_, memory_, fewChecks(), frameOfTf),
       scenes_(store_, frameOfTf, memory_),
       clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
   {
     store_.setListener(
-        this, [this](const auto& before, const auto& after)
-        { requireReadable(messageOf(diffOf(*before, *after), *after->robot)); });
+        this,
+        [this](const auto& before, const auto& after)
+        {
+          const SceneChange change = diffOf(*before, *after);
+          PlanningSceneMessage message = messageOf(change, *after->robot);
+          keepExactNumbers(change, *after->robot, message);
+          requireReadable(message);
+        });
   }
 
   void take(unsigned kind, const std::uint8_t* data, std::uint32_t size)
   {
     const auto make = [this](const auto& message) { scenes_.make(scenes_.changeOf(message), frameOfTf); };
-    switch (kind % 14)
+    switch (kind % 15)
     {
       case 0:
         return answer<ApplyPlanningScene>(data, size, [&](const auto& request) { return scenes_.apply(request); });
@@ -133,6 +151,8 @@ class Handlers
         return read<ShowTreeLevel::Request>(data, size, [&](const auto& request) { draw(request); });
       case 12:
         return read<PlanMotion::Request>(data, size, [&](const auto& request) { plan(request); });
+      case 13:
+        return read<PlanningSceneMessage>(data, size, [&](const auto& message) { follow(message); });
       default:
         return answer<CheckTrajectory>(data, size,
                                        [&](const auto& request) { return checks_.checkTrajectory(request); });
@@ -173,14 +193,25 @@ class Handlers
     return response;
   }
 
+  /// Makes a change of a followed node.
+  void follow(const PlanningSceneMessage& message)
+  {
+    SceneChange change = changeFrom(message, *store_.snapshot().scene->robot, store_.limits(), nullptr);
+    takeExactNumbers(message, change);
+    scenes_.follow(change, message.scene_revision);
+  }
+
   void get(const GetPlanningScene::Request& request) { requireReadable(scenes_.get(request).scene); }
 
   /// Ends the program unless a node can read a message that the node publishes or answers.
   void requireReadable(const PlanningSceneMessage& message) const
   {
-    if (const std::string fault =
-            errorOf([&] { changeFrom(message, *store_.snapshot().scene->robot, store_.limits(), nullptr); });
-        !fault.empty())
+    const auto read_it = [&]
+    {
+      SceneChange change = changeFrom(message, *store_.snapshot().scene->robot, store_.limits(), nullptr);
+      takeExactNumbers(message, change);
+    };
+    if (const std::string fault = errorOf(read_it); !fault.empty())
     {
       std::fprintf(stderr, "a scene that the node sent is refused: %s\n", fault.c_str());
       std::abort();

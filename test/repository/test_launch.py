@@ -112,6 +112,22 @@ class LaunchFile(unittest.TestCase):
             config = self.load(*arguments, file="live_demo.launch")
             self.assertEqual(config.params["/robot_description_semantic"].value, "<robot><group/></robot>\n")
 
+    def test_replicas_follow_the_leader_with_its_robot_and_settings(self):
+        def followed(*arguments):
+            config = self.load("urdf:=/robot/a.urdf", *arguments, file="replicas.launch")
+            self.assertIn("/robot_description", config.params)
+            return {node.name: config.params[f"/{node.name}/follow"].value for node in config.nodes}, config.params
+
+        with unittest.mock.patch("roslaunch.loader.open", unittest.mock.mock_open(read_data="<robot/>"), create=True):
+            for count in (0, 1, 12):
+                expected = {"cell": "", **{f"cell_{i + 1}": "cell" for i in range(count)}}
+                self.assertEqual(expected, followed(f"replicas:={count}", "name:=cell")[0])
+            _, params = followed("scene:=/a.yaml", "tolerance:=0.5", "device:=cpu", "packages:={a: /b}")
+            for name, same in (("tolerance", 0.5), ("device", "cpu"), ("packages/a", "/b"), ("urdf_folder", "/robot")):
+                for node in ("planning_scene", "planning_scene_3"):
+                    self.assertEqual(same, params[f"/{node}/{name}"].value, f"{node}: {name}")
+            self.assertEqual("", params["/planning_scene_3/scene"].value, "the scene comes from the leader")
+
 
 if __name__ == "__main__":
     unittest.main()

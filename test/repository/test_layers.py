@@ -36,11 +36,13 @@ LAYERS = {
     "node/endpoints": ["service"],
     "node/parameters": ["service"],
     "node/scene": ["node/messages", "node/endpoints"],
+    "node/follow": ["node/scene", "node/parameters"],
     "node/checks": ["node/messages", "node/endpoints"],
-    "node/moveit": ["node/scene", "node/checks", "node/parameters"],
+    "node/moveit": ["node/follow", "node/checks"],
     "node/markers": ["node/messages", "node/endpoints", "render"],
     "node/planning": ["node/markers", "node/parameters", "planners"],
-    "node": ["node/scene", "node/checks", "node/moveit", "node/planning", "command_line"],
+    "node": ["node/scene", "node/checks", "node/follow", "node/moveit", "node/planning", "command_line"],
+    "client": [],
     "moveit": ["collision/contacts"],
     "moveit/planner": ["moveit", "planners", "service", "model/description"],
 }
@@ -81,12 +83,13 @@ class Layers(unittest.TestCase):
         self.assertLessEqual(folders, set(LAYERS))
         self.assertNotIn("", folders)
 
-    def test_only_the_node_the_planners_and_the_plugins_for_moveit_know_ros(self):
+    def test_only_the_node_its_client_the_planners_and_the_plugins_for_moveit_know_ros(self):
         wrong = []
         for path in sorted([*(ROOT / "src").rglob("*.h"), *(ROOT / "src").rglob("*.cpp"),
                             *(ROOT / "include").rglob("*.h")]):
             place = str(path.relative_to(ROOT))
-            if place.startswith(("src/node/", "src/plugins/", "src/planners/", "src/moveit/", "include/gpu_planning_scene/moveit/")):
+            if place.startswith(("src/node/", "src/client/", "src/plugins/", "src/planners/", "src/moveit/",
+                                 "include/gpu_planning_scene/client/", "include/gpu_planning_scene/moveit/")):
                 continue
             for include in re.findall(r"#include ([<\"](?:ros/|tf2|\w+_msgs/|pluginlib/)|<moveit/)", path.read_text()):
                 wrong.append(f"{place} includes {include}")

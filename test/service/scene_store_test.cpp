@@ -53,6 +53,62 @@ TEST_F(Store, AChangeMakesANewRevisionAndLeavesOldScenesAlone)
   EXPECT_TRUE(store.snapshot().scene->objects.empty());
 }
 
+TEST_F(Store, AFollowedChangeHasItsRevision)
+{
+  store.follow(boxIn(""), 70);
+  EXPECT_EQ(70u, store.snapshot().scene->revision);
+  EXPECT_EQ(1u, store.snapshot().scene->objects.size());
+  store.follow(boxIn("", "other"), 60);  // the other store was made anew
+  EXPECT_EQ(60u, store.snapshot().scene->revision);
+  EXPECT_THROW(store.follow(boxIn("no such frame"), 80), Error);
+  EXPECT_EQ(60u, store.snapshot().scene->revision);
+}
+
+TEST_F(Store, KeepsReplacedScenesForAWhile)
+{
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  store.follow(boxIn("", "first"), 10);
+  store.follow(boxIn("", "second"), 20);
+  EXPECT_EQ(1u, store.at(10, now()).scene->objects.size());
+  EXPECT_EQ(2u, store.at(20, now()).scene->objects.size());
+  for (const std::uint64_t missing : {5, 15, 25})
+    EXPECT_THROW(store.at(missing, now()), Error) << missing;
+
+  for (std::uint64_t revision = 21; revision < 150; ++revision)
+  {
+    store.follow(boxIn("", "second"), revision);
+    store.at(10, now());
+  }
+  EXPECT_EQ(10u, store.at(10, now()).scene->revision) << "it was used all the time";
+  EXPECT_THROW(store.at(20, now()), Error) << "64 scenes are kept";
+  store.forgetReplaced(now());
+  EXPECT_THROW(store.at(10, now()), Error);
+  EXPECT_EQ(149u, store.at(149, now()).scene->revision);
+}
+
+TEST_F(Store, LargeReplacedScenesAreFew)
+{
+  SceneChange change = boxIn("");
+  change.objects[0].shapes.resize(60000, change.objects[0].shapes[0]);
+  for (std::uint64_t revision = 1; revision <= 6; ++revision)
+    store.follow(change, revision);
+  const auto now = std::chrono::steady_clock::now();
+  EXPECT_THROW(store.at(2, now), Error) << "four scenes would have 240,000 shapes";
+  EXPECT_EQ(3u, store.at(3, now).scene->revision);
+}
+
+TEST_F(Store, WaitsForARevisionThatIsOnItsWay)
+{
+  std::thread leader(
+      [this]
+      {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        store.follow(boxIn(""), 30);
+      });
+  EXPECT_EQ(1u, store.at(30, std::chrono::steady_clock::now() + std::chrono::seconds(30)).scene->objects.size());
+  leader.join();
+}
+
 TEST_F(Store, OnlyVariablesOfUpdatesAreMeasuredAndOnlyForASecond)
 {
   SceneChange change;

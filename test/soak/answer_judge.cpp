@@ -74,6 +74,12 @@ void AnswerJudge::add(const CheckStates& answered, std::uint64_t least_revision)
   changed_.notify_one();
 }
 
+std::size_t AnswerJudge::waiting() const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return waiting_.size();
+}
+
 void AnswerJudge::finish()
 {
   if (!thread_.joinable())

@@ -22,6 +22,8 @@ class AnswerJudge
 
   /// `least_revision`: revision of the newest change that was acknowledged before the request was sent.
   void add(const CheckStates& answered, std::uint64_t least_revision);
+  /// The number of answers that are not checked yet.
+  std::size_t waiting() const;
   /// Waits until all answers are checked, then asks the oracle.
   void finish();
 
@@ -55,7 +57,7 @@ class AnswerJudge
   std::unique_ptr<class CpuChecker> checker_;
   std::shared_ptr<const PlanningScene> checked_;
   std::vector<Sample> samples_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Answer> waiting_;
   bool finishing_ = false;

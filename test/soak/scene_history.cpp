@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "gpu_planning_scene/error.h"
+#include "node/messages/exact_numbers.h"
 #include "node/messages/from_messages.h"
 
 namespace gpu_planning_scene::core
@@ -13,8 +14,9 @@ constexpr std::size_t kMaxScenes = 20000;
 
 std::shared_ptr<const PlanningScene> changed(const PlanningScene& scene, const PlanningSceneMessage& message)
 {
-  ChangedScene change =
-      applyChange(scene, scene.current_state, changeFrom(message, *scene.robot, {}, nullptr), {}, {}, {});
+  SceneChange sent = changeFrom(message, *scene.robot, {}, nullptr);
+  takeExactNumbers(message, sent);
+  ChangedScene change = applyChange(scene, scene.current_state, sent, {}, {}, {});
   change.scene.revision = message.scene_revision;
   return std::make_shared<const PlanningScene>(std::move(change.scene));
 }

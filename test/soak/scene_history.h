@@ -18,7 +18,8 @@ class SceneHistory
  public:
   explicit SceneHistory(std::shared_ptr<const RobotModel> robot);
 
-  /// Starts the history with `scene`, the node's current scene. Call it once, after listens() is true.
+  /// Starts the history with `scene`, the node's current scene with the fields for followers. Call it once, after
+  /// listens() is true.
   void start(const PlanningSceneMessage& scene);
   bool listens() const { return subscriber_.getNumPublishers() != 0; }
   /// Waits up to 10 s for the scene; null if the revision is unknown. Old scenes are removed.

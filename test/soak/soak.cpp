@@ -13,6 +13,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include "node/messages/exact_numbers.h"
 #include "node/node_client.h"
 #include "node/persistent_call.h"
 #include "soak/answer_judge.h"
@@ -230,7 +231,7 @@ TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
   for (int i = 0; i < 100 && !history.listens(); ++i)
     ros::WallDuration(0.1).sleep();
   ros::WallDuration(0.5).sleep();
-  history.start(scene());
+  history.start(scene(2 * kForFollowers - 1));
   judge = std::make_unique<AnswerJudge>(history, static_cast<std::size_t>(ros::param::param("~oracle_samples", 100)));
   ros::NodeHandle node;
   const ros::Subscriber diagnostics =

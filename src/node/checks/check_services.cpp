@@ -20,7 +20,8 @@ CheckServices::CheckServices(const SceneStore& store, CheckServer& server, const
     memory_(memory),
     options_(options),
     lookup_(std::move(lookup)),
-    inspections_(kInspections, options.max_waiting_inspections)
+    inspections_(kInspections, options.max_waiting_inspections),
+    revision_waits_(options.max_revision_waits, 0)
 {
 }
 
@@ -28,11 +29,23 @@ void CheckServices::stop()
 {
   stopping_ = true;
   inspections_.stop();
+  revision_waits_.stop();
 }
 
 Error CheckServices::shuttingDown()
 {
   return Error("shutting down: the request was not answered");
+}
+
+/// The scene that a request names by its revision; no value: the request names none (0).
+std::optional<Snapshot> CheckServices::wantedScene(std::uint64_t revision)
+{
+  if (revision == 0)
+    return std::nullopt;
+  std::optional<Admission::Pass> pass;
+  if (revision > store_.snapshot().scene->revision)
+    pass.emplace(revision_waits_);
+  return store_.at(revision, std::chrono::steady_clock::now() + options_.revision_wait);
 }
 
 /// Waits for the answer. After the start of the shutdown, the wait is bounded, because the checker may hang.

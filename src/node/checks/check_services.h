@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -16,12 +17,14 @@ namespace gpu_planning_scene::core
 {
 struct CheckServicesOptions
 {
-  std::size_t max_states = 1000000;            ///< samples of all motions of one request
-  std::size_t max_motion_checks = 10000000;    ///< state checks for all motions of one request
-  std::size_t max_inspected_states = 10000;    ///< states of one request with contacts or clearance
-  std::size_t max_contacts = 100000;           ///< in one response
-  std::size_t max_waiting_inspections = 64;    ///< queued requests for contacts or clearance
-  MotionRule motion_rule = MotionRule::Bound;  ///< rule of requests that name none: ~planning/motion_rule
+  std::size_t max_states = 1000000;               ///< samples of all motions of one request
+  std::size_t max_motion_checks = 10000000;       ///< state checks for all motions of one request
+  std::size_t max_inspected_states = 10000;       ///< states of one request with contacts or clearance
+  std::size_t max_contacts = 100000;              ///< in one response
+  std::size_t max_waiting_inspections = 64;       ///< queued requests for contacts or clearance
+  MotionRule motion_rule = MotionRule::Bound;     ///< rule of requests that name none: ~planning/motion_rule
+  std::chrono::milliseconds revision_wait{1000};  ///< longest wait for the revision that a request names
+  std::size_t max_revision_waits = 64;            ///< requests that wait for their revision
 };
 
 /// Answers check_states, check_motions, check_trajectory and get_report, each in a file of its own. Throws nothing: the
@@ -46,6 +49,7 @@ class CheckServices
  private:
   static Error shuttingDown();
   CheckAnswer answerOf(CheckJob job) const;
+  std::optional<Snapshot> wantedScene(std::uint64_t revision);
   void inspect(const CheckStates::Request& request, const CheckAnswer& answer, CheckStates::Response& response);
   std::shared_ptr<const StateInspector> inspectorOf(const std::shared_ptr<const PlanningScene>& scene);
 
@@ -55,6 +59,7 @@ class CheckServices
   const CheckServicesOptions options_;
   const SceneStore::Lookup lookup_;
   Admission inspections_;
+  Admission revision_waits_;
   std::atomic<bool> stopping_{false};
   std::mutex mutex_;                                 // guards the two members below
   std::shared_ptr<const PlanningScene> inspected_;   // the newest scene of a request for contacts or clearance

@@ -72,8 +72,9 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
       {
         memory_.require();
         CheckJob job;
+        const std::optional<Snapshot> wanted = wantedScene(request.scene_revision);
         const RequestedScene scene =
-            requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix);
+            requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix, {}, wanted);
         const Snapshot& now = scene.now;
         const RobotModel& robot = *now.scene->robot;
         NamedRow rows{request.joint_names, request.positions};
@@ -107,7 +108,7 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         addWarnings(scene.warnings, response.message);
         addWarning(now.assumedBase(scene.is_changed ? std::vector<int>() : set_by_request), response.message);
         job.matrix = scene.matrix;
-        if (scene.is_changed || is_of_current_state)
+        if (scene.is_changed || is_of_current_state || wanted)
           job.scene = scene.now;
         job.keep_states = request.max_contacts != 0 || request.clearance || request.nearest;
         const bool inspects = job.keep_states;

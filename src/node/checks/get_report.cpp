@@ -39,6 +39,7 @@ void fillReport(const CheckAnswer& answer, GetReport::Response& response)
   add("shared_trees", report.shared_trees);
   add("objects", answer.scene->objects.size());
   add("attached_objects", answer.scene->attached.size());
+  add("variables", answer.scene->robot->variables().size());
   response.scene_revision = answer.result.revision;
 }
 }  // namespace

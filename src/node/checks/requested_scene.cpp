@@ -9,7 +9,7 @@ namespace gpu_planning_scene::core
 {
 RequestedScene requestedScene(const SceneStore& store, const SceneStore::Lookup& lookup,
                               const PlanningSceneMessage& scene_diff, const AllowedCollisionMatrixMessage& matrix,
-                              const RobotState& state)
+                              const RobotState& state, const std::optional<Snapshot>& from)
 {
   RequestedScene requested;
   if (!isEmpty(matrix) && !isEmpty(scene_diff.allowed_collision_matrix))
@@ -17,7 +17,7 @@ RequestedScene requestedScene(const SceneStore& store, const SceneStore::Lookup&
   const std::vector<SceneChange> changes =
       requestedChanges(*store.snapshot().scene->robot, store.limits(), scene_diff, state, requested.warnings);
   requested.is_changed = !changes.empty();
-  SceneStore::Preview preview = store.preview(changes, lookup);
+  SceneStore::Preview preview = store.preview(changes, lookup, from);
   requested.now = std::move(preview.snapshot);
   requested.warnings.insert(requested.warnings.end(), preview.warnings.begin(), preview.warnings.end());
   if (isEmpty(matrix))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,8 @@ struct RequestedScene
 
 /// The store's scene, with the changes of a request (see requestedChanges). The store stays as it is. `lookup`: finds
 /// frames that the scene does not have. Throws Error if the changes cannot be made, or if `scene_diff` and `matrix`
-/// both have a matrix.
+/// both have a matrix. `from`: the scene that the request names by its revision; no value: the newest scene.
 RequestedScene requestedScene(const SceneStore& store, const SceneStore::Lookup& lookup,
                               const PlanningSceneMessage& scene_diff, const AllowedCollisionMatrixMessage& matrix,
-                              const RobotState& state = {});
+                              const RobotState& state = {}, const std::optional<Snapshot>& from = {});
 }  // namespace gpu_planning_scene::core

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gpu_planning_scene/octomap.h"
+#include "node/messages/exact_numbers.h"
 #include "node/messages/octomap_messages.h"
 #include "node/messages/pose_messages.h"
 #include "scene/message_values.h"
@@ -193,20 +194,23 @@ AllowedCollisionMatrixMessage messageOf(const AllowedCollisionMatrix& matrix, co
   return message;
 }
 
-/// The change that makes the requested components of the scene.
+/// The change that makes the requested components of the scene, without the values of variables.
 SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
 {
   using Components = PlanningSceneComponents;
   const RobotModel& robot = *scene.robot;
-  const SceneChange full = fullSceneOf(scene);
   const auto wanted = [&](std::uint32_t component) { return (components & component) != 0; };
   SceneChange change;
+  change.state.is_diff = false;
   if (wanted(Components::SCENE_SETTINGS))
   {
-    change.name = full.name;
-    change.robot_model_name = full.robot_model_name;
+    change.name = scene.name;
+    change.robot_model_name = robot.name();
   }
-  change.state.is_diff = false;
+  constexpr std::uint32_t kWithoutBodies = Components::SCENE_SETTINGS | Components::ROBOT_STATE | kForFollowers;
+  if ((components & ~kWithoutBodies) == 0)
+    return change;  // without a copy of the objects: clients ask often for the revision and the robot's state
+  const SceneChange full = fullSceneOf(scene);
   if (wanted(Components::ROBOT_STATE_ATTACHED_OBJECTS))
     change.state.attached = full.state.attached;
   if (wanted(Components::TRANSFORMS))
@@ -287,8 +291,8 @@ PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robo
   return message;
 }
 
-PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
-                               const std::vector<bool>& known)
+SceneChange componentsOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
+                         const std::vector<bool>& known)
 {
   const std::uint32_t wanted = components == 0 ? ~0U : components;
   SceneChange change = changeOf(scene, wanted);
@@ -296,7 +300,13 @@ PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t compone
     for (std::size_t i = 0; i < state.size(); ++i)
       if (known[i])
         change.state.variables[scene.robot->variables()[i].name] = state[i];
-  PlanningSceneMessage message = messageOf(change, *scene.robot);
+  return change;
+}
+
+PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
+                               const std::vector<bool>& known)
+{
+  PlanningSceneMessage message = messageOf(componentsOf(scene, components, state, known), *scene.robot);
   message.scene_revision = scene.revision;
   return message;
 }

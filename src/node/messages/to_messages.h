@@ -13,6 +13,10 @@ namespace gpu_planning_scene::core
 PlanningSceneMessage messageOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
                                const std::vector<bool>& known);
 
+/// The change that this message stands for.
+SceneChange componentsOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
+                         const std::vector<bool>& known);
+
 /// The message that changeFrom() converts to `change`.
 PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robot);
 }  // namespace gpu_planning_scene::core

@@ -137,14 +137,14 @@ void requireEqualLayouts(const LayoutPair& pair)
 
 std::vector<LayoutPair> moveItLayouts()
 {
-  constexpr std::size_t kRevisions = 2;
-  return {pairOf<PlanningSceneMessage, moveit_msgs::PlanningScene>(kRevisions),
+  constexpr std::size_t kOnlyOurs = 5;  // of a planning scene: from scene_revision on
+  return {pairOf<PlanningSceneMessage, moveit_msgs::PlanningScene>(kOnlyOurs),
           pairOf<CollisionObject, moveit_msgs::CollisionObject>(),
           pairOf<AttachedCollisionObject, moveit_msgs::AttachedCollisionObject>(),
           pairOf<PlanningSceneWorld, moveit_msgs::PlanningSceneWorld>(),
           pairOf<GetPlanningScene::Request, moveit_msgs::GetPlanningScene::Request>(),
-          pairOf<GetPlanningScene::Response, moveit_msgs::GetPlanningScene::Response>(kRevisions),
-          pairOf<ApplyPlanningScene::Request, moveit_msgs::ApplyPlanningScene::Request>(kRevisions),
+          pairOf<GetPlanningScene::Response, moveit_msgs::GetPlanningScene::Response>(kOnlyOurs),
+          pairOf<ApplyPlanningScene::Request, moveit_msgs::ApplyPlanningScene::Request>(kOnlyOurs),
           {ros::message_traits::DataType<moveit_msgs::GetStateValidity::Request>::value(), stateValidityDefinition(),
            definitionOf<moveit_msgs::GetStateValidity::Request>(), 0}};
 }

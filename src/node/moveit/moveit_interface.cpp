@@ -21,9 +21,10 @@ struct MoveItInterface::Impl
     : options((requireMoveItLayouts(), moveItOptionsFromParameters(node.node, node.own))),
       look_up([&lookup = node.lookup](const StampedFrame& frame) { return lookup(frame, lookup.deadline()); }),
       validity(node.store, node.changes, node.checks, node.options.max_contacts),
-      requests(node.node, node.own, kValidityThreads, node.diagnostics, [this] { return sceneFault(); })
+      requests(node.node, node.own, kValidityThreads, node.diagnostics,
+               [this, node_fault = node.scene_fault] { return node_fault().empty() ? sceneFault() : node_fault(); })
   {
-    if (!options.monitor.monitor.empty())
+    if (!options.monitor.node.empty())
     {
       followed.emplace(node.node, node.own, options.monitor, node.store, node.changes, look_up);
       node.diagnostics.watchScene([this] { return sceneFault(); });
@@ -56,7 +57,7 @@ std::string MoveItInterface::sceneFault() const
 
 std::string MoveItInterface::changeFault() const
 {
-  const std::string& monitor = impl_->options.monitor.monitor;
+  const std::string& monitor = impl_->options.monitor.node;
   return monitor.empty() ? "" : "the node follows the scene of " + monitor + " (~monitor); change the scene there";
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "node/checks/check_services.h"
-#include "node/endpoints/diagnostics.h"
+#include "node/endpoints/endpoints.h"
 #include "node/parameters/node_parameters.h"
 #include "node/scene/frame_lookup.h"
 #include "node/scene/scene_services.h"
@@ -28,6 +28,7 @@ class MoveItInterface
     const FrameLookup& lookup;
     Diagnostics& diagnostics;
     const ServiceOptions& options;
+    Endpoints::Refusal scene_fault;  ///< of the node without this interface
   };
 
   /// Throws Error for parameters that are wrong or that this build does not support.

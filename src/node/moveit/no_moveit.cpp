@@ -12,7 +12,7 @@ struct MoveItInterface::Impl
 MoveItInterface::MoveItInterface(const Node& node)
 {
   const MoveItOptions options = moveItOptionsFromParameters(node.node, node.own);
-  if (options.names || !options.monitor.monitor.empty())
+  if (options.names || !options.monitor.node.empty())
     throw Error("parameter " + std::string(options.names ? "~moveit_names" : "~monitor") +
                 " is set, but this build does not have MoveIt's messages: build the package where CMake finds "
                 "moveit_msgs, or unset the parameter");

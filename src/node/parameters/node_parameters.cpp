@@ -1,5 +1,7 @@
 #include "node/parameters/node_parameters.h"
 
+#include <chrono>
+
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "node/parameters/collision_operations.h"
@@ -133,7 +135,11 @@ PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHa
   if (XmlRpcValue operations; node.getParam(urdf_parameter + "_planning/default_collision_operations", operations))
     applyCollisionOperations(operations, node.resolveName(urdf_parameter + "_planning/default_collision_operations"),
                              scene, warnings);
-  scene.revision = 1;
+  // So a later run of the node has larger revisions, and those of two runs are never equal: a node makes fewer changes
+  // than microseconds pass.
+  scene.revision = static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count());
   return scene;
 }
 

@@ -2,13 +2,15 @@
 
 #include <ros/single_subscriber_publisher.h>
 
+#include "node/messages/exact_numbers.h"
 #include "node/messages/messages.h"
 #include "node/messages/to_messages.h"
 
 namespace gpu_planning_scene::core
 {
-ScenePublisher::ScenePublisher(ros::NodeHandle& own, SceneStore& store, double full_scene_period)
+ScenePublisher::ScenePublisher(ros::NodeHandle& own, SceneStore& store, double full_scene_period, std::uint64_t setup)
   : store_(store),
+    setup_(setup),
     diffs_(own.advertise<PlanningSceneMessage>("monitored_planning_scene_diffs", 100)),
     full_revision_(store_.snapshot().scene->revision)
 {
@@ -33,15 +35,22 @@ void ScenePublisher::changed(const std::shared_ptr<const PlanningScene>& before,
 {
   try
   {
+    const Snapshot now = store_.snapshot();
     SceneChange change = diffOf(*before, *after);
-    dropUnknown(store_.snapshot(), change);
     if (!change.is_diff)
-      publishFull(store_.snapshot());
+      publishFull(now);
     if (diffs_.getNumSubscribers() == 0)
       return;
+    if (change.is_diff)
+      change.state.variables =
+          componentsOf(*after, PlanningSceneComponents::ROBOT_STATE, now.state, now.known).state.variables;
+    else  // diffOf() leaves out the robot's own matrix
+      change = componentsOf(*after, 0, now.state, now.known);
     PlanningSceneMessage message = messageOf(change, *after->robot);
     message.scene_revision = after->revision;
     message.previous_revision = before->revision;
+    message.setup = setup_;
+    keepExactNumbers(change, *after->robot, message);
     diffs_.publish(message);
   }
   catch (const std::exception& error)

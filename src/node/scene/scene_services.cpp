@@ -8,6 +8,7 @@
 #include "model/joint_limits.h"
 #include "model/text/one_line.h"
 #include "node/endpoints/respond.h"
+#include "node/messages/exact_numbers.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/to_messages.h"
 
@@ -46,8 +47,9 @@ std::string joined(const std::vector<std::string>& warnings)
 }
 }  // namespace
 
-SceneServices::SceneServices(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory)
-  : store_(store), lookup_(std::move(lookup)), memory_(memory)
+SceneServices::SceneServices(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory,
+                             std::uint64_t setup)
+  : store_(store), lookup_(std::move(lookup)), memory_(memory), setup_(setup)
 {
 }
 
@@ -92,7 +94,14 @@ GetPlanningScene::Response SceneServices::get(const GetPlanningScene::Request& r
 {
   GetPlanningScene::Response response;
   const Snapshot now = store_.snapshot();
-  response.scene = messageOf(*now.scene, request.components.components, now.state, now.known);
+  const SceneChange change = componentsOf(*now.scene, request.components.components, now.state, now.known);
+  response.scene = messageOf(change, *now.scene->robot);
+  response.scene.scene_revision = now.scene->revision;
+  if ((request.components.components & kForFollowers) != 0)
+  {
+    response.scene.setup = setup_;
+    keepExactNumbers(change, *now.scene->robot, response.scene);
+  }
   if (!response.scene.robot_state.joint_state.name.empty())
     response.scene.robot_state.joint_state.header.stamp.fromNSec(static_cast<std::uint64_t>(now.stamp));
   return response;
@@ -141,6 +150,13 @@ SceneChange SceneServices::changeOf(const PlanningSceneWorld& message) const
 void SceneServices::make(const SceneChange& change, const SceneStore::Lookup& lookup)
 {
   warnOfMessage(apply(change, lookup).warnings);
+}
+
+void SceneServices::follow(const SceneChange& change, std::uint64_t revision)
+{
+  if (takesMemory(change))
+    memory_.require();
+  store_.follow(change, revision);
 }
 
 void SceneServices::take(const sensor_msgs::JointState& message)

@@ -14,7 +14,8 @@ namespace gpu_planning_scene::core
 class SceneServices
 {
  public:
-  SceneServices(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory);
+  /// `setup`: for messages to followers, see setupFromParameters.
+  SceneServices(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory, std::uint64_t setup = 0);
 
   /// These three throw nothing: the response has the error.
   ApplyPlanningScene::Response apply(const ApplyPlanningScene::Request& request);
@@ -30,6 +31,8 @@ class SceneServices
   SceneChange changeOf(const PlanningSceneWorld& message) const;
   /// Makes the change. If it throws Error, nothing has changed. Warnings are logged.
   void make(const SceneChange& change, const SceneStore::Lookup& lookup);
+  /// Makes a change of a followed node, which has warned already. If it throws Error, nothing has changed.
+  void follow(const SceneChange& change, std::uint64_t revision);
 
   /// Sets the robot's state. If it throws Error, nothing has changed. Names that are no variable of the robot are
   /// ignored.
@@ -41,6 +44,7 @@ class SceneServices
   SceneStore& store_;
   const SceneStore::Lookup lookup_;
   const MemoryGuard& memory_;
+  const std::uint64_t setup_;
   OccasionalWarning joint_warning_;
   OccasionalWarning time_warning_;
 };

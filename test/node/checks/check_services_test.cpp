@@ -69,6 +69,25 @@ TEST_F(Service, AnswersEachStateInOrder)
   EXPECT_EQ(5u, response.scene_revision);
 }
 
+TEST_F(Service, ARequestCanNameARevision)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, {0.5, 1.0});
+  EXPECT_EQ(6u, store.clear().revision);
+  for (const std::uint64_t revision : {5, 6})
+  {
+    asked.scene_revision = revision;
+    const CheckStates::Response response = answer(asked);
+    EXPECT_EQ(revision, response.scene_revision) << response.message;
+    EXPECT_EQ(std::vector<std::uint8_t>{revision == 5 ? std::uint8_t{0} : std::uint8_t{1}}, response.valid);
+  }
+  asked.scene_revision = 4;
+  expectRefusal(asked, "revision 4 of the scene is not kept; the newest is 6");
+  asked.scene_revision = 7;
+  expectRefusal(asked, "revision 7 of the scene has not arrived; the newest is 6");
+  asked.scene_revision = 0;
+  EXPECT_EQ(6u, answer(asked).scene_revision);
+}
+
 TEST_F(Service, OtherVariablesTakeTheCurrentState)
 {
   expectRefusal(request({"turn"}, {0.0}),

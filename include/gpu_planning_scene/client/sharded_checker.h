@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gpu_planning_scene/CheckStates.h>
+
+namespace gpu_planning_scene::core
+{
+struct ShardedCheckerOptions
+{
+  std::size_t part_states = 16384;  ///< most states of a part
+  double timeout = 30.0;            ///< seconds: a node that has not answered a call by then counts as failed
+  double patience = 10.0;           ///< seconds to try on while no node answers
+};
+
+/// A client of several planning_scene_nodes with the same scene: a leader and nodes that follow it (~follow). It sends
+/// the states of a large request in parts to all nodes. All parts of an answer belong to one revision of the scene, and
+/// to the same values of the joints that the request does not name. A part that a node does not answer (it was killed,
+/// is busy, shuts down, or does not have the revision) is sent to another node. Thread-safe.
+class ShardedChecker
+{
+ public:
+  using Request = gpu_planning_scene::CheckStates::Request;
+  using Response = gpu_planning_scene::CheckStates::Response;
+
+  /// `nodes`: the full names of the nodes, the leader first, for example "/planning_scene". ros::init must have been
+  /// called. Throws Error for an empty list.
+  explicit ShardedChecker(std::vector<std::string> nodes, const ShardedCheckerOptions& options = {});
+  ~ShardedChecker();
+  ShardedChecker(const ShardedChecker&) = delete;
+  ShardedChecker& operator=(const ShardedChecker&) = delete;
+
+  /// The answer of ~check_states. If the request names no revision, it is the newest one of the first node that
+  /// answers: that of the leader, while it runs. `success` is false if all nodes refuse the request, or if no node has
+  /// answered for `patience` seconds. `seconds` is the sum of the parts. Not split are requests of at most 4096 states,
+  /// requests with a scene_diff, and requests for whose joints no node gives values, as of a base that tf moves.
+  Response check(const Request& request);
+
+ private:
+  struct Impl;
+  const std::unique_ptr<Impl> impl_;
+};
+}  // namespace gpu_planning_scene::core
