@@ -89,6 +89,15 @@ TEST_F(AllowedRootsTest, RelativePathsStayInTheFolderOfTheFileThatNamesThem)
   EXPECT_EQ(resolved("../../free/link.stl"), real("free/link.stl"));
 }
 
+TEST_F(AllowedRootsTest, AFunctionOfTheCallerFindsFilesBeforeTheRules)
+{
+  MeshAccess access;
+  access.roots = allowed_;
+  access.find = [](const std::string& uri) { return uri == "package://none/a.stl" ? "/there/a.stl" : ""; };
+  EXPECT_EQ(access.resolve("package://none/a.stl", "", PackageResolver()), "/there/a.stl");
+  EXPECT_THROW(access.resolve("/x/a.stl", "", PackageResolver()), Error);
+}
+
 TEST_F(AllowedRootsTest, WithoutRootsAnyFileMayBeNamed)
 {
   EXPECT_EQ(MeshAccess().resolve("/x/a.stl", "", PackageResolver()), "/x/a.stl");

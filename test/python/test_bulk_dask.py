@@ -4,6 +4,8 @@ import os
 import pathlib
 import shutil
 import signal
+import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -22,7 +24,8 @@ import gpu_planning_scene as gps
 import gpu_planning_scene.dask as gps_dask
 from bulk_runs import ARM_OPTIONS, bulk, content, shards, started_bulk, wait_for_shards
 from gpu_planning_scene.bulk import RobotBundle, SceneBundle
-from robots import ARM, ARM_SCENE, Case, arm, arm_scene
+from robots import ARM, ARM_SCENE, ROOT, Case, arm, arm_scene
+from test_document import programs
 
 CONFIGURATION = {"distributed.worker.daemon": True, "distributed.logging.distributed": "critical",
                  "distributed.logging.bokeh": "critical", "distributed.admin.tick.limit": "60s"}
@@ -246,6 +249,14 @@ class Cluster(Case):
         np.testing.assert_array_equal(
             group, gps_dask.check_states(states, robot, scene, "gripper", "cpu").compute(scheduler="threads"))
 
+    def test_the_program_of_the_document_prints_what_its_comment_says(self):
+        program, = programs(ROOT / "docs" / "bulk.md")
+        answer = subprocess.run([sys.executable, "-B", "-c", program], cwd=ROOT, capture_output=True, text=True,
+                                timeout=200, check=False)
+        self.assertEqual((0, ""), (answer.returncode, answer.stderr))
+        self.assertEqual([line.partition("# prints: ")[2] for line in program.splitlines() if "# prints: " in line],
+                         answer.stdout.splitlines())
+
     def test_wrong_arrays_are_one_line(self):
         robot = RobotBundle.from_files(ARM, ARM.with_suffix(".srdf"))
         scene = SceneBundle.from_file(ARM_SCENE, robot.load())
@@ -255,9 +266,10 @@ class Cluster(Case):
         self.assertEqual((0, 7), gps_dask.random_states(robot, scene, 0, seed=1).shape)
 
     def test_a_missing_scheduler_is_one_line(self):
-        answer = bulk(*ARM_OPTIONS, "--out", self.out, "--random", 3, "--scheduler", "nowhere")
+        answer = bulk(*ARM_OPTIONS, "--out", self.out, "--random", 3, "--scheduler", "tcp://127.0.0.1:9",
+                      "--timeout", 1)
         self.assertEqual((1, 1), (answer.returncode, len(answer.stderr.splitlines())), answer.stderr)
-        self.assertIn("nowhere: no scheduler answers", answer.stderr)
+        self.assertIn("tcp://127.0.0.1:9: no scheduler answers", answer.stderr)
 
 
 if __name__ == "__main__":

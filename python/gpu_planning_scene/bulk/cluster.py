@@ -26,8 +26,10 @@ class DaskRunner(Runner):
 
     slots = 2  # a shard that waits on the worker while another one is computed
 
-    def __init__(self, address: str, robot: RobotBundle, device: str, shard_of: Callable[[int], Shard]):
+    def __init__(self, address: str, robot: RobotBundle, device: str, shard_of: Callable[[int], Shard],
+                 connect_seconds: float = CONNECT_SECONDS):
         self._address = address
+        self._connect_seconds = connect_seconds
         self._robot = robot
         self._device = device
         self._shard_of = shard_of
@@ -37,7 +39,8 @@ class DaskRunner(Runner):
         # Bundles go through the scheduler only once, whatever their size.
         warnings.filterwarnings("ignore", message="Large object|Sending large graph")
         try:
-            self._client = await distributed.Client(self._address, asynchronous=True, timeout=CONNECT_SECONDS)
+            self._client = await distributed.Client(self._address, asynchronous=True,
+                                                     timeout=self._connect_seconds)
         except (OSError, ValueError, asyncio.TimeoutError) as error:
             raise gps.Error(f"{self._address}: no scheduler answers ({first_line(error)})") from None
 

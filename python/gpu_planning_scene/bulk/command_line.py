@@ -179,10 +179,11 @@ def runner_of(arguments: argparse.Namespace, job: Job) -> Runner:
     if not arguments.scheduler:
         return LocalRunner(job.robot, arguments.device or devices_of_this_machine(), job.shard)
     try:
-        from gpu_planning_scene.bulk.cluster import DaskRunner  # pylint: disable=import-outside-toplevel
+        from gpu_planning_scene.bulk.cluster import CONNECT_SECONDS, DaskRunner  # pylint: disable=import-outside-toplevel
     except ImportError as error:
         raise gps.Error(f"--scheduler needs Dask ({first_line(error)}); install python3-distributed") from None
-    return DaskRunner(arguments.scheduler, job.robot, (arguments.device or ["auto"])[0], job.shard)
+    return DaskRunner(arguments.scheduler, job.robot, (arguments.device or ["auto"])[0], job.shard,
+                      min(CONNECT_SECONDS, arguments.timeout))
 
 
 def main(words: Optional[Sequence[str]] = None) -> NoReturn:

@@ -1,0 +1,253 @@
+#!/usr/bin/python3
+"""bulk.py URDF SCENE [--package NAME=DIR] [--states N] [--shard N] [--kill-seconds S] [--only NAME]: what bulk checking on
+a Dask cluster costs, and whether it survives.
+
+    scheduler   the rate on 1, 2 and 4 worker processes, against the same shards in one process without Dask; and the
+                efficiency of 64 workers, by a model from measured times
+    kills       one worker process is killed every few seconds; the output is compared byte by byte
+    liar        a worker lies about one of 10^6 states; it must be named
+    resume      the whole run is killed and started again
+
+The time of the scheduler is compared in interleaved runs, because the load of the machine changes the rates."""
+import argparse
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+import dask
+import distributed
+import numpy as np
+
+from gpu_planning_scene.bulk import work
+from gpu_planning_scene.bulk.bundle import RobotBundle, SceneBundle
+from gpu_planning_scene.bulk.states import RandomSlice
+
+SEED = 1
+
+
+class Bench:
+    def __init__(self, arguments, folder):
+        self.arguments = arguments
+        self.folder = folder
+        packages = dict(each.split("=", 1) for each in arguments.package)
+        self.robot = RobotBundle.from_files(arguments.urdf, packages=packages)
+        self.scene = SceneBundle.from_file(arguments.scene, self.robot.load(), packages)
+        self.command = [sys.executable, "-m", "gpu_planning_scene.bulk", "--urdf", arguments.urdf, "--scene",
+                        arguments.scene, "--device", "cpu", "--shard", str(arguments.shard), "--seed", str(SEED)]
+        for package in arguments.package:
+            self.command += ["--package", package]
+
+    def cluster(self, workers):
+        return distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
+
+    def options(self, cluster, states, out, *more):
+        shutil.rmtree(self.folder / out, ignore_errors=True)
+        return [*self.command, "--random", str(states), "--out", str(self.folder / out), "--scheduler",
+                cluster.scheduler_address, *more]
+
+    def run(self, *words):
+        """The last line of a run, and its seconds."""
+        begin = time.perf_counter()
+        answer = subprocess.run(words, check=True, capture_output=True, text=True)
+        return answer.stdout.strip(), time.perf_counter() - begin
+
+    def content(self, out):
+        return {path.name: path.read_bytes() for path in sorted((self.folder / out).rglob("*")) if path.is_file()}
+
+    def task(self, number):
+        first = number * self.arguments.shard
+        return work.CheckTask(RandomSlice(SEED, first, self.arguments.shard, False), "")
+
+    def direct(self, count):
+        """Seconds for shards in this process, without Dask and without files."""
+        work.perform(self.robot, self.scene, self.task(0), "cpu")
+        begin = time.perf_counter()
+        for number in range(count):
+            work.perform(self.robot, self.scene, self.task(number), "cpu")
+        return time.perf_counter() - begin
+
+    def scheduler(self):
+        states, shard = self.arguments.states, self.arguments.shard
+        count = states // shard
+        rates = {}
+        print("workers  seconds  states/s  share of the rate without Dask")
+        clusters = {workers: self.cluster(workers) for workers in (1, 2, 4)}
+        for repeat in range(self.arguments.repeats):
+            rates.setdefault(0, []).append(count * shard / self.direct(count))
+            for workers, cluster in clusters.items():
+                line, _ = self.run(*self.options(cluster, count * shard, f"scheduler {workers}", "--check-twice", "0"))
+                if repeat >= 0:
+                    rates.setdefault(workers, []).append(float(line.split(" states/s")[0].split(", ")[-1].replace(",", "")))
+        base = statistics.median(rates[0])
+        print(f"no Dask  {count * shard / base:7.1f}  {base:8.0f}  1")
+        for workers in clusters:
+            ratios = [one / other for one, other in zip(rates[workers], rates[0])]
+            rate = statistics.median(rates[workers])
+            print(f"{workers:7}  {count * shard / rate:7.1f}  {rate:8.0f}  {statistics.median(ratios):.3f} "
+                  f"({min(ratios):.3f} to {max(ratios):.3f})")
+        for cluster in clusters.values():
+            cluster.close()
+        contents = [self.content(f"scheduler {workers}") for workers in clusters]
+        print("the outputs have the same bytes:", contents[0] == contents[1] == contents[2])
+        self.model(base)
+
+    def model(self, rate):
+        """Shards without work, on two workers: what the program and the scheduler do for each shard. This work is done
+        by one process each, so it limits the number of shards a second, whatever the number of workers."""
+        small, count = 64, 2000
+        with self.cluster(2) as cluster:
+            pids = [os.getpid()]  # the scheduler of a LocalCluster is in this process
+            before = time.process_time()
+            out = self.folder / "model"
+            shutil.rmtree(out, ignore_errors=True)
+            words = [*self.command, "--random", str(small * count), "--out", str(out), "--scheduler",
+                     cluster.scheduler_address, "--check-twice", "0"]
+            words[words.index("--shard") + 1] = str(small)
+            usage = os.times()
+            _, seconds = self.run(*words)
+            scheduler = time.process_time() - before
+            program = sum(os.times()[2:4]) - sum(usage[2:4])
+        del pids
+        start = self.start_seconds()
+        program = max(program - start, 0.0) / count
+        scheduler /= count
+        print(f"a shard costs the program {1e3 * program:.2f} ms and the scheduler {1e3 * scheduler:.2f} ms of processor time "
+              f"({1e3 * seconds / count:.2f} ms in all on this machine)")
+        for shard in (131072, 1048576):
+            work_seconds = shard / rate
+            busiest = max(program, scheduler)
+            # 64 workers ask for 64 / work_seconds shards a second; the busiest process can serve 1 / busiest. Its queue
+            # (M/D/1, Pollaczek-Khinchine) delays an answer, but a worker has a second shard waiting meanwhile.
+            load = 64 * busiest / work_seconds
+            wait = busiest * (1 + load / (2 * (1 - load))) if load < 1 else float("inf")
+            lost = max(0.0, wait - work_seconds)
+            efficiency = work_seconds / (work_seconds + lost) if load < 1 else 1 / load
+            print(f"64 workers at {rate:.0f} states/s, shards of {shard}: {work_seconds:.3f} s of work for each shard, load of "
+                  f"the busiest process {load:.0%}, efficiency {efficiency:.3f}")
+
+    def start_seconds(self):
+        """Processor time of the program for a run of one small shard on this machine alone."""
+        out = self.folder / "start"
+        shutil.rmtree(out, ignore_errors=True)
+        before = sum(os.times()[2:4])
+        self.run(*self.command, "--random", "64", "--out", str(out))
+        return sum(os.times()[2:4]) - before
+
+    def kills(self):
+        seconds, states = self.arguments.kill_seconds, self.arguments.kill_states or self.arguments.states
+        self.run(*self.options_here(states, "whole"))
+        chance = random.Random(SEED)
+        with self.cluster(3) as cluster, distributed.Client(cluster) as client:
+            process = subprocess.Popen(self.options(cluster, states, "kills"), stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE, text=True)
+            begin, killed, after = time.monotonic(), 0, chance.uniform(1, 4)
+            while process.poll() is None:
+                time.sleep(0.1)
+                passed = time.monotonic() - begin
+                if after < passed < seconds:
+                    pids = client.run(os.getpid, on_error="ignore")
+                    os.kill(chance.choice(sorted(pids.values())), signal.SIGKILL)
+                    killed += 1
+                    after = time.monotonic() - begin + chance.uniform(1, 4)
+            out, _ = process.communicate()
+        print(f"{killed} workers killed within {min(seconds, passed):.0f} s of {passed:.0f} s; exit status "
+              f"{process.returncode}; {out.strip()}")
+        print("the output has the same bytes:", self.content("whole") == self.content("kills"))
+
+    def options_here(self, states, out):
+        shutil.rmtree(self.folder / out, ignore_errors=True)
+        return [*self.command, "--random", str(states), "--out", str(self.folder / out)]
+
+    def liar(self):
+        states = self.arguments.states
+        with self.cluster(2) as cluster, distributed.Client(cluster) as client:
+            for share, runs in (("1", 1), ("0.01", self.arguments.liar_runs)):
+                found = 0
+                for run in range(runs):
+                    worker = sorted(client.nthreads())[0]
+                    client.run(lie, self.arguments.shard, run, workers=[worker])
+                    answer = subprocess.run(self.options(cluster, states, "liar", "--check-twice", share), check=False,
+                                            capture_output=True, text=True)
+                    named = f"wrong answers of worker {worker} " in answer.stderr
+                    found += named and answer.returncode == 1
+                    if run == 0:
+                        print(answer.stderr.strip() or answer.stdout.strip())
+                wrong = states / 2 / 1e6
+                print(f"--check-twice {share}: the liar was named in {found} of {runs} runs of {states} states; about "
+                      f"{wrong:.1f} lies in a run, expected share {1 - (1 - float(share)) ** wrong:.2f}")
+
+    def resume(self):
+        states = self.arguments.states
+        whole, _ = self.run(*self.options_here(states, "whole"))
+        with self.cluster(2) as cluster:
+            words = self.options(cluster, states, "resume")
+            for part in (0.2, 0.6):
+                process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                wanted = part * states / self.arguments.shard
+                while process.poll() is None and len(self.shards("resume")) < wanted:
+                    time.sleep(0.02)
+                process.send_signal(signal.SIGKILL)
+                process.wait()
+                print(f"killed with {len(self.shards('resume'))} shards")
+            finished = {path: path.stat().st_ino for path in self.shards("resume")}
+            line, _ = self.run(*words)
+        kept = all(path.stat().st_ino == inode for path, inode in finished.items())
+        print(f"{whole}\n{line}\nthe finished shards were not written again: {kept}")
+        print("the output has the same bytes:", self.content("whole") == self.content("resume"))
+
+    def shards(self, out):
+        return sorted((self.folder / out).glob("*/*.npy"))
+
+
+def lie(shard, seed):
+    """Makes this worker process lie about one of 10^6 states."""
+    import gpu_planning_scene.bulk.work as module  # pylint: disable=import-outside-toplevel
+    right = getattr(module, "right", module.perform)
+    module.right = right
+    chance = np.random.default_rng(seed)
+
+    def perform(*arguments):
+        answer = right(*arguments)
+        lies = np.flatnonzero(chance.random(shard) < 1e-6)
+        data = bytearray(answer.data)
+        for state in lies:
+            if state // 8 < len(data):
+                data[state // 8] ^= 128 >> state % 8
+        return module.Answer(bytes(data), answer.hardware)
+
+    module.perform = perform
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("urdf")
+    parser.add_argument("scene")
+    parser.add_argument("--package", action="append", default=[])
+    parser.add_argument("--states", type=int, default=10**7)
+    parser.add_argument("--shard", type=int, default=131072)
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--kill-seconds", type=float, default=60.0)
+    parser.add_argument("--kill-states", type=int, help="so many that the run takes longer than --kill-seconds")
+    parser.add_argument("--liar-runs", type=int, default=3)
+    parser.add_argument("--only", choices=("scheduler", "kills", "liar", "resume"))
+    arguments = parser.parse_args()
+    dask.config.set({"distributed.worker.daemon": True, "distributed.logging.distributed": "critical"})
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(arguments, pathlib.Path(folder))
+        print(json.dumps({"dask": dask.__version__, "cores": os.cpu_count(), "shard": arguments.shard}))
+        for name in ("scheduler", "kills", "liar", "resume"):
+            if arguments.only in (None, name):
+                print(f"== {name}")
+                getattr(bench, name)()
+
+
+if __name__ == "__main__":
+    main()
