@@ -123,22 +123,23 @@ void addPlanning(py::module_& module)
       .def_readonly("checking_seconds", &PlanningResult::checking_seconds, "Part of the two times above.")
       .def_readonly("states_checked", &PlanningResult::states_checked)
       .def_readonly("revision", &PlanningResult::revision, "PlanningScene.revision of the checked scene.");
-  module.def("plan_motion", &planMotion, py::arg("checker"), py::arg("group"), py::arg("start"), py::arg("goals"),
-             py::arg("seconds") = PlanningQuery().seconds, py::arg("simplify") = true, py::arg("rule") = "bound",
-             py::arg("resolution") = motions.steps.revolute,
-             py::arg("translation_resolution") = motions.steps.prismatic, py::arg("max_samples") = motions.max_samples,
-             py::arg("parameters") = py::none(), py::arg("seed") = py::none(),
-             "Plans a motion of a planning group in the scene of a StateChecker, with the planner BatchRrtConnect.\n\n"
-             "start: shape (variables,). goals: shape (n, variables) or (variables,); the motion may end at any of "
-             "them. Variables outside the group keep their values from the start. seconds: for planning; "
-             "simplification and the last check of the path come afterwards. simplify: shortens the path. rule, "
-             "resolution, translation_resolution, max_samples: as in MotionChecker. parameters: of the planner, by "
-             "OMPL's names, for example {\"range\": 0.5}. seed: from 1 to 4294967295; the call repeats its path, unless "
-             "`seconds` are too short for it. With the parameter max_rounds instead of a short time, a search that "
-             "fails is repeated too. Calls with a seed wait for each other.\n\nReturns a PlanningResult: a motion that "
-             "is not found is not an exception. Raises Error for an unknown group or parameter, for other shapes, and for values that "
-             "are not finite. Ctrl-C ends the call. A checker serves one call after the other.\n\n"
-             "    result = gps.plan_motion(checker, \"arm\", start, goal)\n"
-             "    print(result.status, result.message, result.waypoints)");
+  module.def(
+      "plan_motion", &planMotion, py::arg("checker"), py::arg("group"), py::arg("start"), py::arg("goals"),
+      py::arg("seconds") = PlanningQuery().seconds, py::arg("simplify") = true, py::arg("rule") = "bound",
+      py::arg("resolution") = motions.steps.revolute, py::arg("translation_resolution") = motions.steps.prismatic,
+      py::arg("max_samples") = motions.max_samples, py::arg("parameters") = py::none(), py::arg("seed") = py::none(),
+      "Plans a motion of a planning group in the scene of a StateChecker, with the planner BatchRrtConnect.\n\n"
+      "start: shape (variables,). goals: shape (n, variables) or (variables,); the motion may end at any of "
+      "them. Variables outside the group keep their values from the start. seconds: for planning; "
+      "simplification and the last check of the path come afterwards. simplify: shortens the path. rule, "
+      "resolution, translation_resolution, max_samples: as in MotionChecker. parameters: of the planner, by "
+      "OMPL's names, for example {\"range\": 0.5}. seed: from 1 to 4294967295; the call repeats its path, unless "
+      "`seconds` are too short for it. With the parameter max_rounds instead of a short time, a search that "
+      "fails is repeated too. Calls with a seed wait for each other.\n\nReturns a PlanningResult: a motion that "
+      "is not found is not an exception. Raises Error for an unknown group or parameter, for other shapes, and for "
+      "values that "
+      "are not finite. Ctrl-C ends the call. A checker serves one call after the other.\n\n"
+      "    result = gps.plan_motion(checker, \"arm\", start, goal)\n"
+      "    print(result.status, result.message, result.waypoints)");
 }
 }  // namespace gpu_planning_scene::python

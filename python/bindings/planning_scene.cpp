@@ -126,11 +126,9 @@ std::shared_ptr<PlanningScene> loadSceneText(const Name& text, const Arg<RobotPt
   const core::PackageResolver resolver = packagesFrom(packages);
   const core::MeshAccess meshes = meshesFrom(files);
   const std::string start = pathFrom(folder, "folder");
-  return loadedScene([&](auto* warnings)
-                     {
-                       return core::loadSceneText(text.value, name.value, start, robot.value, resolver, warnings,
-                                                  meshes);
-                     });
+  return loadedScene(
+      [&](auto* warnings)
+      { return core::loadSceneText(text.value, name.value, start, robot.value, resolver, warnings, meshes); });
 }
 
 std::string resolveUri(const Name& uri, const py::object& folder, const py::object& packages)
@@ -293,11 +291,12 @@ void addPlanningScene(py::module_& module)
                     " objects, " + std::to_string(self.attached.size()) + " attached>";
            });
   addChanges(scene);
-  module.def("load_scene_file", &loadSceneFile, py::arg("path"), py::arg("robot"), py::arg("packages") = py::none(),
-             py::arg("files") = py::none(),
-             "Loads a scene file (docs/scene_files.md).\n\npackages, files: as in RobotModel.from_files. Entries that are not "
-             "used are Python warnings. Raises Error with file and line.\n\n"
-             "    scene = gps.load_scene_file(\"scene.yaml\", robot)");
+  module.def(
+      "load_scene_file", &loadSceneFile, py::arg("path"), py::arg("robot"), py::arg("packages") = py::none(),
+      py::arg("files") = py::none(),
+      "Loads a scene file (docs/scene_files.md).\n\npackages, files: as in RobotModel.from_files. Entries that are not "
+      "used are Python warnings. Raises Error with file and line.\n\n"
+      "    scene = gps.load_scene_file(\"scene.yaml\", robot)");
   module.def("load_scene_text", &loadSceneText, py::arg("text"), py::arg("robot"), py::arg("packages") = py::none(),
              py::arg("folder") = ".", py::arg("name") = "the text of the scene", py::arg("files") = py::none(),
              "Loads the text of a scene file.\n\nname: takes the place of the path in messages; a name that ends in "

@@ -186,9 +186,9 @@ class Resume(Folder):
         line = self.succeed(*options, "--out", self.out)
         self.assertIn(f"; {60 - len(finished)} of 60 shards computed now", line)
         self.assertEqual(finished, {each: (each.stat().st_ino, each.stat().st_mtime_ns) for each in finished})
-        self.assertEqual(content(self.folder / "whole"), content(self.out))
+        self.assertTrue(content(self.folder / "whole") == content(self.out))
         self.assertIn("; 0 of 60 shards computed now", self.succeed(*options, "--out", self.out))
-        self.assertEqual(content(self.folder / "whole"), content(self.out))
+        self.assertTrue(content(self.folder / "whole") == content(self.out))
 
     def test_a_shard_that_was_cut_off_is_computed_again(self):
         self.arm_run("--random", 300, "--shard", 100)
@@ -247,28 +247,28 @@ class Resume(Folder):
 
 class Plans(Folder):
     def problems(self, count):
-        """Free pairs, and one start that collides."""
-        scene = arm_scene()
-        states = scene.robot.random_states(40 * count, seed=9)
-        free = states[gps.StateChecker(scene, device="cpu").check(states).valid][:2 * count].reshape(2, count, 7)
-        free[1, :, 6] = free[0, :, 6]  # not in the group
-        free[0, 1] = states[~gps.StateChecker(scene, device="cpu").check(states).valid][0]
-        np.savez(self.folder / "problems.npz", start=free[0], goal=free[1])
-        return free
+        """Pairs on both sides of the post, and one start that collides with the floor."""
+        starts = np.tile([0.7, 0.6, 0.6, 0, 0.6, 0, 0.03], (count, 1)) + 0.03 * np.arange(count)[:, None]
+        goals = np.tile([2.5, 0.6, 0.6, 0, 0.6, 0, 0.03], (count, 1)) - 0.02 * np.arange(count)[:, None]
+        starts[:, 6] = goals[:, 6] = 0.03  # not in the group
+        starts[1, 1] = 2.0
+        np.savez(self.folder / "problems.npz", start=starts, goal=goals)
+        return starts, goals
 
     def plan(self, out, *options):
         return self.succeed(*ARM_OPTIONS, "--plans", self.folder / "problems.npz", "--group", "arm", "--shard", 3,
                             "--out", self.folder / out, "--seed", 4, *options)
 
     def test_plans_solve_their_problems_and_are_repeated(self):
-        starts, goals = self.problems(7)
+        starts, goals = self.problems(5)
         self.plan("a")
         files = [np.load(each) for each in shards(self.folder / "a")]
         status = np.concatenate([each["status"] for each in files])
         paths = [path for each in files for path in np.split(each["waypoints"], each["ends"][:-1])]
-        self.assertEqual(7, len(paths))
+        self.assertEqual(5, len(paths))
         self.assertEqual(gps.PlanningStatus.START_IN_COLLISION.value, status[1])
-        self.assertGreaterEqual((status == gps.PlanningStatus.SOLVED.value).sum(), 4)
+        self.assertEqual(4, (status == gps.PlanningStatus.SOLVED.value).sum())
+        self.assertTrue(all(len(path) > 2 for path, each in zip(paths, status) if each == 0))
         motions = gps.MotionChecker(gps.StateChecker(arm_scene(), device="cpu"), "arm", "bound")
         for i, path in enumerate(paths):
             if status[i] != gps.PlanningStatus.SOLVED.value:
@@ -278,9 +278,9 @@ class Plans(Folder):
             np.testing.assert_allclose(goals[i], path[-1], atol=1e-9)
             self.assertTrue(motions.check(path[:-1], path[1:]).valid.all())
         self.plan("b")
-        self.assertEqual(content(self.folder / "a"), content(self.folder / "b"))
+        self.assertTrue(content(self.folder / "a") == content(self.folder / "b"))
         self.plan("c", "--seed", 5)
-        self.assertNotEqual(shards(self.folder / "a")[0].read_bytes(), shards(self.folder / "c")[0].read_bytes())
+        self.assertTrue(shards(self.folder / "a")[0].read_bytes() != shards(self.folder / "c")[0].read_bytes())
 
     def test_a_search_ends_after_its_rounds(self):
         self.problems(2)

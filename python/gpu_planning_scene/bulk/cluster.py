@@ -7,7 +7,7 @@ import os
 import uuid
 import warnings
 from concurrent.futures import CancelledError
-from typing import Callable, Dict, Set, Union
+from typing import Callable, Dict, Optional, Set, Union
 
 import distributed
 
@@ -33,6 +33,7 @@ class DaskRunner(Runner):
         self._robot = robot
         self._device = device
         self._shard_of = shard_of
+        self._client: Optional[distributed.Client] = None
         self._bundles: Dict[str, distributed.Future] = {}
 
     async def open(self) -> None:
@@ -46,7 +47,8 @@ class DaskRunner(Runner):
 
     async def close(self) -> None:
         self._bundles.clear()
-        await self._client.close(timeout=5)
+        if self._client is not None:
+            await self._client.close(timeout=5)
 
     async def workers(self) -> Set[str]:
         return set(await self._client.nthreads())
