@@ -1,9 +1,12 @@
 """Runs of the program gpu_planning_scene.bulk in tests."""
+import contextlib
+import io
 import pathlib
 import subprocess
 import sys
 import time
 
+from gpu_planning_scene.bulk import command_line
 from robots import ARM, ARM_SCENE
 
 PROGRAM = [sys.executable, "-B", "-m", "gpu_planning_scene.bulk"]
@@ -11,11 +14,14 @@ ARM_OPTIONS = ["--urdf", ARM, "--srdf", ARM.with_suffix(".srdf"), "--scene", ARM
 
 
 def bulk(*options):
-    """A run to its end."""
-    return subprocess.run([*PROGRAM, *map(str, options)], capture_output=True, text=True, timeout=200, check=False)
+    """A run to its end, in this process. Returns the exit status, the last line, and the warnings."""
+    with contextlib.redirect_stderr(io.StringIO()) as warnings:
+        status, line = command_line.execute(list(map(str, options)))
+    return status, line, warnings.getvalue()
 
 
 def started_bulk(*options):
+    """A run in a process of its own."""
     return subprocess.Popen([*PROGRAM, *map(str, options)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 

@@ -7,7 +7,7 @@ import os
 import pathlib
 import sys
 import warnings
-from typing import Dict, List, NoReturn, Optional, Sequence
+from typing import Dict, List, NoReturn, Optional, Sequence, Tuple
 
 import gpu_planning_scene as gps
 from gpu_planning_scene.bulk.bundle import RobotBundle, SceneBundle
@@ -186,24 +186,27 @@ def runner_of(arguments: argparse.Namespace, job: Job) -> Runner:
                       min(CONNECT_SECONDS, arguments.timeout))
 
 
-def main(words: Optional[Sequence[str]] = None) -> NoReturn:
-    """Runs the program and ends the process. Exit status: 0 success, 2 wrong options, 130 Ctrl-C, 1 another error."""
-    warnings.showwarning = lambda message, *_, **__: print(f"warning: {message}", file=sys.stderr)
-    status, line = 0, ""
+def execute(words: Optional[Sequence[str]] = None) -> Tuple[int, str]:
+    """Runs the program in this process. Returns the exit status of `main`, and a line: the summary, or the error."""
     try:
         arguments = parser().parse_args(words)
         check_usage(arguments)
         job = job_of(arguments)
         options = DispatchOptions(arguments.timeout, arguments.check_twice)
-        print(asyncio.run(run(job, arguments.out, runner_of(arguments, job), options, arguments.progress)))
+        return 0, asyncio.run(run(job, arguments.out, runner_of(arguments, job), options, arguments.progress))
     except UsageError as error:
-        status, line = 2, first_line(error)
+        return 2, first_line(error)
     except (gps.Error, OSError) as error:
-        status, line = 1, first_line(error)
+        return 1, first_line(error)
     except KeyboardInterrupt:
-        status, line = 130, "interrupted; start the same command again to go on"
-    if line:
-        print(f"{PROGRAM}: {line}", file=sys.stderr)
+        return 130, "interrupted; start the same command again to go on"
+
+
+def main() -> NoReturn:
+    """Runs the program and ends the process. Exit status: 0 success, 2 wrong options, 130 Ctrl-C, 1 another error."""
+    warnings.showwarning = lambda message, *_, **__: print(f"warning: {message}", file=sys.stderr)
+    status, line = execute()
+    print(line if status == 0 else f"{PROGRAM}: {line}", file=sys.stdout if status == 0 else sys.stderr)
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(status)  # a thread may still hang in a device

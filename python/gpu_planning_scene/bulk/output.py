@@ -5,6 +5,7 @@ defines the run; a run that goes on must have the same definition. The file `jou
 shard, until all shards are there: then index.json gets the list of all shards, and the journal is deleted."""
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import hashlib
 import json
@@ -18,8 +19,9 @@ FORMAT = "gpu_planning_scene.bulk 1"
 
 
 class OutputFolder:
-    """files: the paths of the shards in the folder, by number. summary_of: describes the content of a shard file, and
-    raises ValueError if it is not complete. Raises Error if the folder holds another run, or is in use."""
+    """A context manager. files: the paths of the shards in the folder, by number. summary_of: describes the content of a
+    shard file, and raises ValueError if it is not complete. Raises Error if the folder holds another run, or is in
+    use."""
 
     def __init__(self, folder: gps.Path, definition: Dict[str, Any], files: Sequence[str],
                  summary_of: Callable[[int, bytes], Dict[str, Any]]):
@@ -28,24 +30,34 @@ class OutputFolder:
         self._summary_of = summary_of
         self._definition = {"format": FORMAT, **definition}
         self._records: Dict[int, Dict[str, Any]] = {}
-        self._folder.mkdir(parents=True, exist_ok=True)
-        self._lock = open(self._folder / ".lock", "ab")
-        try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            raise gps.Error(f"{folder}: another process writes into this folder; choose another --out") from None
-        self._check_definition()
-        for path in {self._folder, *((self._folder / name).parent for name in files)}:
-            path.mkdir(exist_ok=True)
-            for rest in path.glob("*.part"):
-                rest.unlink()
-        self._read_shards()
-        self._journal = open(self._folder / "journal", "a", encoding="utf-8")
+        self._files_in_use = contextlib.ExitStack()
+
+    def __enter__(self) -> OutputFolder:
+        with self._files_in_use as stack:
+            self._folder.mkdir(parents=True, exist_ok=True)
+            lock = stack.enter_context(open(self._folder / ".lock", "ab"))
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                raise gps.Error(f"{self._folder}: another process writes into this folder; choose another --out") from None
+            self._check_definition()
+            for path in {self._folder, *((self._folder / name).parent for name in self._files)}:
+                path.mkdir(exist_ok=True)
+                for rest in path.glob("*.part"):
+                    rest.unlink()
+            self._read_shards()
+            self._journal = stack.enter_context(open(self._folder / "journal", "a", encoding="utf-8"))
+            self._files_in_use = stack.pop_all()
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self._files_in_use.close()
 
     def _check_definition(self) -> None:
         path = self._folder / "index.json"
         if not path.exists():
-            unknown = sorted(each.name for each in self._folder.iterdir() if each.name != ".lock" and each.suffix != ".part")
+            unknown = sorted(each.name for each in self._folder.iterdir()
+                             if each.name != ".lock" and each.suffix != ".part")
             if unknown:
                 raise gps.Error(f"{self._folder}: the folder has no index.json, but other files ({unknown[0]}); choose "
                                 "an empty folder")
@@ -106,7 +118,6 @@ class OutputFolder:
     def finish(self) -> None:
         """Writes the list of all shards into the index."""
         self._write(self._folder / "index.json", _json({**self._definition, "shards": self.records}))
-        self._journal.close()
         (self._folder / "journal").unlink()
 
     def _write(self, path: pathlib.Path, content: bytes) -> None:

@@ -136,7 +136,12 @@ class PlanJob(Job):
 async def run(job: Job, folder: gps.Path, runner: Runner, options: DispatchOptions,
               progress_shown: Optional[bool] = None) -> str:
     """Computes the shards that are not in the folder. Returns a summary, a line. Raises Error."""
-    output = OutputFolder(folder, job.definition(), job.names(), job.summary)
+    with OutputFolder(folder, job.definition(), job.names(), job.summary) as output:
+        return await _run(job, output, runner, options, progress_shown)
+
+
+async def _run(job: Job, output: OutputFolder, runner: Runner, options: DispatchOptions,
+               progress_shown: Optional[bool]) -> str:
     missing = output.missing
     total = len(job.scenes) * job.source.count
     progress = Progress(job.unit, total, total - sum(map(job.size, missing)), progress_shown)
