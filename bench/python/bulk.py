@@ -46,7 +46,7 @@ class Bench:
             self.command += ["--package", package]
 
     def cluster(self, workers):
-        return distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
+        return distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address="127.0.0.1:0")
 
     def options(self, cluster, states, out, *more):
         shutil.rmtree(self.folder / out, ignore_errors=True)

@@ -77,7 +77,7 @@ class Cluster(Case):
     @classmethod
     def setUpClass(cls):
         dask.config.set(CONFIGURATION)
-        cls.cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+        cls.cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address="127.0.0.1:0")
         cls.addClassCleanup(cls.cluster.close)
         cls.client = distributed.Client(cls.cluster)
         cls.addClassCleanup(cls.client.close)
@@ -123,7 +123,7 @@ class Cluster(Case):
         self.assertIn("16 shards computed twice", self.succeed(*run, "--check-twice", 1))
         self.assertTrue(expected == content(self.out))
         # One worker is enough. It is a thread of this process.
-        with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as one:
+        with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address="127.0.0.1:0") as one:
             status, line, _ = bulk(*ARM_OPTIONS, "--scheduler", one.scheduler_address, *run, "--out", self.folder / "one")
         self.assertEqual(0, status, line)
         self.assertTrue(expected == content(self.folder / "one"))
@@ -162,7 +162,7 @@ class Cluster(Case):
         self.wait_for_workers(2)
 
     def test_a_worker_that_hangs_is_named_and_loses_no_state(self):
-        run = ["--random", 20000, "--shard", 1000, "--timeout", 5]
+        run = ["--random", 20000, "--shard", 1000, "--timeout", 5, "--check-twice", 0]
         hung = self.workers()[0]
         self.patch(hang, hung)
         status, line, warnings = bulk(*self.options(*run, "--out", self.out))

@@ -44,6 +44,11 @@ async def honest(number, _before):
     return right_answer(number)
 
 
+async def slow(number, _before):
+    await asyncio.sleep(0.05)
+    return right_answer(number)
+
+
 async def hanging(_number, _before):
     await asyncio.sleep(1000)
 
@@ -111,12 +116,11 @@ class Dispatch(Case):
     def test_a_worker_that_comes_later_gets_shards(self):
         cluster = Workers()
 
-        async def slow(number, _before):
+        async def calling(number, before):
             cluster.behaviours.setdefault("b", honest)
-            await asyncio.sleep(0.05)
-            return right_answer(number)
+            return await slow(number, before)
 
-        cluster.behaviours["a"] = slow
+        cluster.behaviours["a"] = calling
         self.run_shards(cluster)
         self.assert_each_once()
         self.assertIn("b", {name for name, _ in cluster.given})
@@ -145,14 +149,10 @@ class Dispatch(Case):
 
     def test_a_late_answer_of_a_worker_that_was_left_out_is_not_used(self):
         async def late(number, _before):
-            await asyncio.sleep(0.3)
+            await asyncio.sleep(0.5)
             return right_answer(number)
 
-        async def slow(number, _before):
-            await asyncio.sleep(0.03)
-            return right_answer(number)
-
-        self.run_shards(Workers(a=slow, b=late), timeout=0.1)
+        self.run_shards(Workers(a=slow, b=late), timeout=0.2)
         self.assert_each_once()
         self.assertEqual(1, len(self.lines))
 
@@ -187,8 +187,8 @@ class Dispatch(Case):
                                  Workers(**dict.fromkeys(names, with_bad_shard)))
 
     def test_a_worker_without_the_package_is_left_out(self):
-        self.run_shards(Workers(a=honest, b=raising(ModuleNotFoundError("No module named 'x'\nmore"))))
-        self.assert_each_once()
+        self.run_shards(Workers(a=slow, b=raising(ModuleNotFoundError("No module named 'x'\nmore"))), count=8)
+        self.assert_each_once(8)
         self.assertEqual(["worker b is left out: ModuleNotFoundError: No module named 'x'"], self.lines)
 
     def test_sampled_shards_are_computed_by_two_workers(self):

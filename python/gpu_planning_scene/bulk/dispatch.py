@@ -19,7 +19,7 @@ from gpu_planning_scene.bulk.work import Answer
 MAX_LOSSES = 10  # of workers, while they have the same shard
 MAX_ERRORS = 3  # of the same shard, or of a worker, in a row
 POLL_SECONDS = 1.0  # between looks at the workers
-PATIENCE_SECONDS = 30.0  # at the end, for a second worker that compares answers
+PATIENCE_SECONDS = 10.0  # at the end, for a second worker that compares answers
 
 
 @dataclasses.dataclass(frozen=True)
