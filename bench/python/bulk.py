@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""bulk.py URDF SCENE [--package NAME=DIR] [--states N] [--shard N] [--kill-seconds S] [--only NAME]: what bulk checking on
-a Dask cluster costs, and whether it survives.
+"""bulk.py URDF SCENE [--package NAME=DIR] [--states N] [--shard N] [--kill-seconds S] [--only NAME]: what bulk checking
+on a Dask cluster costs, and whether it survives.
 
     scheduler   the rate on 1, 2 and 4 worker processes, against the same shards in one process without Dask; and the
                 efficiency of 64 workers, by a model from measured times
@@ -8,12 +8,14 @@ a Dask cluster costs, and whether it survives.
     liar        a worker lies about one of 10^6 states; it must be named
     resume      the whole run is killed and started again
 
-The time of the scheduler is compared in interleaved runs, because the load of the machine changes the rates."""
+The load of the machine changes the rates, so the runs are interleaved, and the processor time of all processes of a run
+is compared with that of the same shards without Dask."""
 import argparse
 import json
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import statistics
@@ -67,79 +69,71 @@ class Bench:
         return work.CheckTask(RandomSlice(SEED, first, self.arguments.shard, False), "")
 
     def direct(self, count):
-        """Seconds for shards in this process, without Dask and without files."""
+        """Shards in this process, without Dask and without files: seconds, and seconds of processor time."""
         work.perform(self.robot, self.scene, self.task(0), "cpu")
-        begin = time.perf_counter()
+        begin = time.perf_counter(), time.process_time()
         for number in range(count):
             work.perform(self.robot, self.scene, self.task(number), "cpu")
-        return time.perf_counter() - begin
+        return time.perf_counter() - begin[0], time.process_time() - begin[1]
+
+    def on_cluster(self, cluster, client, states, out):
+        """The same for a run: the time in which it had workers, and the processor time of all its processes."""
+        before = processor_seconds(client)
+        line, _ = self.run(*self.options(cluster, states, out, "--check-twice", "0"))
+        rate = float(re.search("([0-9,]+) states/s", line)[1].replace(",", ""))
+        return states / rate, processor_seconds(client) - before
 
     def scheduler(self):
-        states, shard = self.arguments.states, self.arguments.shard
-        count = states // shard
-        rates = {}
-        print("workers  seconds  states/s  share of the rate without Dask")
+        count = self.arguments.states // self.arguments.shard
+        states = count * self.arguments.shard
         clusters = {workers: self.cluster(workers) for workers in (1, 2, 4)}
-        for repeat in range(self.arguments.repeats):
-            rates.setdefault(0, []).append(count * shard / self.direct(count))
+        clients = {workers: distributed.Client(cluster) for workers, cluster in clusters.items()}
+        start = {}
+        for workers, cluster in clusters.items():
+            # The first shard of each worker prepares the scene. The second run shows what the program needs to start.
+            self.on_cluster(cluster, clients[workers], 8 * self.arguments.shard, "start")
+            start[workers] = self.on_cluster(cluster, clients[workers], 64, "start")[1]
+        found = {workers: [] for workers in (0, 1, 2, 4)}  # 0: without Dask
+        for _ in range(self.arguments.repeats):
+            found[0].append(self.direct(count))
             for workers, cluster in clusters.items():
-                line, _ = self.run(*self.options(cluster, count * shard, f"scheduler {workers}", "--check-twice", "0"))
-                if repeat >= 0:
-                    rates.setdefault(workers, []).append(float(line.split(" states/s")[0].split(", ")[-1].replace(",", "")))
-        base = statistics.median(rates[0])
-        print(f"no Dask  {count * shard / base:7.1f}  {base:8.0f}  1")
-        for workers in clusters:
-            ratios = [one / other for one, other in zip(rates[workers], rates[0])]
-            rate = statistics.median(rates[workers])
-            print(f"{workers:7}  {count * shard / rate:7.1f}  {rate:8.0f}  {statistics.median(ratios):.3f} "
-                  f"({min(ratios):.3f} to {max(ratios):.3f})")
-        for cluster in clusters.values():
+                found[workers].append(self.on_cluster(cluster, clients[workers], states, f"scheduler {workers}"))
+        print("workers  seconds  states/s  processor seconds  cost in processor time, with start and without")
+        for workers, pairs in found.items():
+            seconds, used = (statistics.median(each) for each in zip(*pairs))
+            base = statistics.median(pair[1] for pair in found[0])
+            print(f"{workers or 'no Dask':>7}  {seconds:7.1f}  {states / seconds:8.0f}  {used:17.1f}  "
+                  f"{used / base - 1:.1%}  {(used - start.get(workers, 0)) / base - 1:.1%}")
+        for client, cluster in zip(clients.values(), clusters.values()):
+            client.close()
             cluster.close()
         contents = [self.content(f"scheduler {workers}") for workers in clusters]
         print("the outputs have the same bytes:", contents[0] == contents[1] == contents[2])
-        self.model(base)
+        self.model(states / statistics.median(pair[1] for pair in found[0]) * os.cpu_count())
 
     def model(self, rate):
-        """Shards without work, on two workers: what the program and the scheduler do for each shard. This work is done
-        by one process each, so it limits the number of shards a second, whatever the number of workers."""
-        small, count = 64, 2000
-        with self.cluster(2) as cluster:
-            pids = [os.getpid()]  # the scheduler of a LocalCluster is in this process
-            before = time.process_time()
-            out = self.folder / "model"
-            shutil.rmtree(out, ignore_errors=True)
-            words = [*self.command, "--random", str(small * count), "--out", str(out), "--scheduler",
-                     cluster.scheduler_address, "--check-twice", "0"]
-            words[words.index("--shard") + 1] = str(small)
-            usage = os.times()
-            _, seconds = self.run(*words)
-            scheduler = time.process_time() - before
-            program = sum(os.times()[2:4]) - sum(usage[2:4])
-        del pids
-        start = self.start_seconds()
-        program = max(program - start, 0.0) / count
-        scheduler /= count
-        print(f"a shard costs the program {1e3 * program:.2f} ms and the scheduler {1e3 * scheduler:.2f} ms of processor time "
-              f"({1e3 * seconds / count:.2f} ms in all on this machine)")
-        for shard in (131072, 1048576):
-            work_seconds = shard / rate
-            busiest = max(program, scheduler)
-            # 64 workers ask for 64 / work_seconds shards a second; the busiest process can serve 1 / busiest. Its queue
-            # (M/D/1, Pollaczek-Khinchine) delays an answer, but a worker has a second shard waiting meanwhile.
-            load = 64 * busiest / work_seconds
-            wait = busiest * (1 + load / (2 * (1 - load))) if load < 1 else float("inf")
-            lost = max(0.0, wait - work_seconds)
-            efficiency = work_seconds / (work_seconds + lost) if load < 1 else 1 / load
-            print(f"64 workers at {rate:.0f} states/s, shards of {shard}: {work_seconds:.3f} s of work for each shard, load of "
-                  f"the busiest process {load:.0%}, efficiency {efficiency:.3f}")
-
-    def start_seconds(self):
-        """Processor time of the program for a run of one small shard on this machine alone."""
-        out = self.folder / "start"
-        shutil.rmtree(out, ignore_errors=True)
-        before = sum(os.times()[2:4])
-        self.run(*self.command, "--random", "64", "--out", str(out))
-        return sum(os.times()[2:4]) - before
+        """What the program and the scheduler do for each shard: the processor time of runs with shards of 64 states.
+        Each is one process, so it limits the number of shards a second, whatever the number of workers."""
+        used = []
+        with self.cluster(2) as cluster:  # its scheduler is in this process
+            for count in (200, 2200):
+                words = self.options(cluster, 64 * count, "model", "--check-twice", "0", "--shard", "64")
+                before = time.process_time(), sum(os.times()[2:4])
+                self.run(*words)
+                used.append((time.process_time() - before[0], sum(os.times()[2:4]) - before[1]))
+        scheduler, program = ((many - few) / 2000 for few, many in zip(*used))
+        print(f"processor time for each shard: program {1e3 * program:.2f} ms, scheduler {1e3 * scheduler:.2f} ms")
+        busiest = max(program, scheduler)
+        for shard in (self.arguments.shard, 8 * self.arguments.shard):
+            for workers in (4, 64, 256):
+                # n workers want n shards in each time of one shard; the busiest process serves 1 / busiest shards a
+                # second. It delays an answer by the mean wait of a queue M/D/1. A worker has a second shard meanwhile.
+                seconds = shard / rate
+                load = workers * busiest / seconds
+                wait = busiest * (1 + load / (2 * (1 - load))) if load < 1 else float("inf")
+                efficiency = min(1.0, 1 / load, seconds / wait if wait < float("inf") else 1.0)
+                print(f"model: {workers} workers at {rate:.0f} states/s, shards of {shard} ({seconds:.3f} s): load "
+                      f"{load:.1%}, wait {1e3 * wait:.1f} ms, efficiency {efficiency:.3f}")
 
     def kills(self):
         seconds, states = self.arguments.kill_seconds, self.arguments.kill_states or self.arguments.states
@@ -205,6 +199,11 @@ class Bench:
 
     def shards(self, out):
         return sorted((self.folder / out).glob("*/*.npy"))
+
+
+def processor_seconds(client):
+    """Of the workers, of the scheduler, which is in this process, and of all programs that have ended."""
+    return sum(client.run(time.process_time).values()) + time.process_time() + sum(os.times()[2:4])
 
 
 def lie(shard, seed):

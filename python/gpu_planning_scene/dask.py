@@ -71,4 +71,5 @@ def _random_block(robot: RobotBundle, part: RandomSlice, base: Optional[np.ndarr
 
 
 def _check_block(states: np.ndarray, robot: RobotBundle, scene: SceneBundle, group: str, device: str) -> np.ndarray:
-    return work.prepared_scene(robot, device).run(scene, lambda checker, _: checker.check(states, group).valid.copy())[0]
+    prepared = work.prepared_scene(robot, device)
+    return prepared.run(scene, lambda checker, _: checker.check(states, group).valid.copy())[0]

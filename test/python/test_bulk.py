@@ -341,16 +341,17 @@ class Errors(Folder):
         np.save(self.folder / "wide.npy", np.zeros((2, 8)))
         for name, pattern in (
             ("absent.npy", "No such file.*absent.npy"), ("text.npy", "text.npy: not an .npy file"),
-            ("wide.npy", r"wide.npy: the array has shape \(2, 8\)"), ("short.csv", "short.csv:2: 2 values for 7 variables"),
+            ("wide.npy", r"wide.npy: the array has shape \(2, 8\)"),
+            ("short.csv", "short.csv:2: 2 values for 7 variables"),
             ("word.csv", "word.csv:5: 'x' is not a number"), ("name.csv", "name.csv:1: column 2: 'legs'"),
             ("empty.csv", "empty.csv:1: "), ("none.csv", "none.csv: the file has no states"),
             ("infinite.csv", "states 20 to 20: state 0: the value of variable 'elbow'"),
         ):
-            self.assert_error(pattern, *ARM_OPTIONS, "--out", self.folder / f"out {name}", "--states", self.folder / name,
-                              "--shard", 10)
+            self.assert_error(pattern, *ARM_OPTIONS, "--out", self.folder / f"out {name}", "--shard", 10, "--states",
+                              self.folder / name)
         (self.folder / "empty").mkdir()
-        self.assert_error("the folder has no scene file", *ARM_OPTIONS, "--scene", self.folder / "empty", "--out", self.out,
-                          "--random", 3)
+        self.assert_error("the folder has no scene file", *ARM_OPTIONS, "--scene", self.folder / "empty", "--out",
+                          self.out, "--random", 3)
         self.assert_error("warp drive", *ARM_OPTIONS[:-1], "warp drive", "--out", self.out, "--random", 3)
 
 
@@ -362,15 +363,19 @@ class Bundles(Folder):
         for name in ("base.ply", "tool.ply", "near.ply", "far.ply"):
             (meshes / name).write_text(TETRAHEDRON)
         urdf = self.folder / "parts" / "robot.urdf"
-        urdf.write_text(RAIL.replace("</link>", '<collision><origin xyz="0 1 0"/><geometry><mesh filename="package://parts/'
-                                     'meshes/base.ply"/></geometry></collision></link>', 1).replace(
-            '<link name="rail"/>', '<link name="rail"><collision><geometry><mesh filename="meshes/tool.ply"/></geometry>'
-            '</collision></link>'))
+        urdf.write_text(RAIL.replace(
+            '<link name="rail"/>',
+            '<link name="rail"><collision><geometry><mesh filename="meshes/tool.ply"/></geometry></collision></link>'
+        ).replace("</collision></link>\n  <joint", """</collision>
+            <collision><origin xyz="0 1 0"/><geometry><mesh filename="package://parts/meshes/base.ply"/></geometry>
+            </collision></link><joint"""))
         scene = self.folder / "parts" / "scene.yaml"
         scene.write_text(f"""world:
   collision_objects:
     - {{id: near, meshes: [{{resource: meshes/near.ply}}], mesh_poses: [{{position: [2, 0, 0]}}]}}
-    - {{id: far, meshes: [{{resource: "file://{meshes}/far.ply", scale: [3, 3, 3]}}], mesh_poses: [{{position: [-4, 0, 0]}}]}}
+    - id: far
+      meshes: [{{resource: "file://{meshes}/far.ply", scale: [3, 3, 3]}}]
+      mesh_poses: [{{position: [-4, 0, 0]}}]
 """)
         return urdf, scene, {"parts": self.folder / "parts"}
 

@@ -138,7 +138,8 @@ class Dispatch(Case):
 
     def test_a_shard_that_ends_each_worker_ends_the_run(self):
         cluster = Workers(a=raising(WorkerLost("killed")), b=raising(WorkerLost("killed")))
-        self.assert_one_line(gps.Error, "^shard [0-9]+: 10 workers were lost while they had it", self.run_shards, cluster)
+        self.assert_one_line(gps.Error, "^shard [0-9]+: 10 workers were lost while they had it", self.run_shards,
+                             cluster)
 
     def test_a_worker_that_hangs_is_left_out(self):
         cluster = Workers(a=honest, b=hanging)
@@ -157,7 +158,8 @@ class Dispatch(Case):
         self.assertEqual(1, len(self.lines))
 
     def test_a_run_without_workers_ends(self):
-        self.assert_one_line(gps.Error, "^no worker is left; none came for 0.1 s", self.run_shards, Workers(), timeout=0.1)
+        self.assert_one_line(gps.Error, "^no worker is left; none came for 0.1 s", self.run_shards, Workers(),
+                             timeout=0.1)
         self.assert_one_line(gps.Error, "^no worker is left; all of them", self.run_shards, Workers(a=hanging),
                              timeout=0.1)
 
@@ -187,9 +189,12 @@ class Dispatch(Case):
                                  Workers(**dict.fromkeys(names, with_bad_shard)))
 
     def test_a_worker_without_the_package_is_left_out(self):
-        self.run_shards(Workers(a=slow, b=raising(ModuleNotFoundError("No module named 'x'\nmore"))), count=8)
-        self.assert_each_once(8)
-        self.assertEqual(["worker b is left out: ModuleNotFoundError: No module named 'x'"], self.lines)
+        for slots in (1, 2):
+            cluster = Workers(a=slow, b=raising(ModuleNotFoundError("No module named 'x'\nmore")))
+            cluster.slots = slots
+            self.run_shards(cluster, count=8)
+            self.assert_each_once(8)
+            self.assertEqual(["worker b is left out: ModuleNotFoundError: No module named 'x'"], self.lines)
 
     def test_sampled_shards_are_computed_by_two_workers(self):
         for share, least in ((1.0, 40), (0.25, 10), (0.01, 3)):  # at least the first shard of each worker
@@ -214,7 +219,8 @@ class Dispatch(Case):
                 cluster = Workers(**{name: lying(always) if name == liar else honest for name in "abc"})
                 with self.assertRaises(dispatch.WorkerIsWrong) as raised:
                     self.run_shards(cluster, check_twice=share, may_be_wrong=True)
-                self.assertRegex(str(raised.exception), rf"^wrong answers of worker {liar} \(hardware of {liar}\): shard ")
+                self.assertRegex(str(raised.exception),
+                                 rf"^wrong answers of worker {liar} \(hardware of {liar}\): shard ")
                 self.assertNotIn("\n", str(raised.exception))
                 self.assertEqual([f"hardware of {liar}"], raised.exception.hardware)
 

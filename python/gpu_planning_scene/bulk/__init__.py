@@ -10,6 +10,8 @@ The modules, from the lowest layer up:
     dispatch      gives shards to workers, and again if a worker is lost; compares workers
     output        shard files and the index, which a later run resumes
     progress      the progress bar
+    run           a run, from the inputs to the files
+    options       the options of the program
     command_line  the program
 """
 from gpu_planning_scene.bulk.bundle import RobotBundle, SceneBundle

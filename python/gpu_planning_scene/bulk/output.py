@@ -19,9 +19,9 @@ FORMAT = "gpu_planning_scene.bulk 1"
 
 
 class OutputFolder:
-    """A context manager. files: the paths of the shards in the folder, by number. summary_of: describes the content of a
-    shard file, and raises ValueError if it is not complete. Raises Error if the folder holds another run, or is in
-    use."""
+    """A context manager, which raises Error if the folder holds another run, or is in use. files: the paths of the
+    shards in the folder, by number. summary_of: describes the content of a shard file, and raises ValueError if it is
+    not complete."""
 
     def __init__(self, folder: gps.Path, definition: Dict[str, Any], files: Sequence[str],
                  summary_of: Callable[[int, bytes], Dict[str, Any]]):
@@ -39,7 +39,8 @@ class OutputFolder:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
-                raise gps.Error(f"{self._folder}: another process writes into this folder; choose another --out") from None
+                raise gps.Error(f"{self._folder}: another process writes into this folder; choose another "
+                                "--out") from None
             self._check_definition()
             for path in {self._folder, *((self._folder / name).parent for name in self._files)}:
                 path.mkdir(exist_ok=True)

@@ -59,8 +59,8 @@ class PreparedScene:
         self._scene: Optional[gps.PlanningScene] = None
         self._checker: Optional[gps.StateChecker] = None
 
-    def run(self, scene: SceneBundle, task: Callable[[gps.StateChecker, gps.PlanningScene], bytes]) -> Tuple[bytes, str]:
-        """The answer and the name of the device."""
+    def run(self, scene: SceneBundle, task: Callable[[gps.StateChecker, gps.PlanningScene], Any]) -> Tuple[Any, str]:
+        """What the task returns for a checker and its scene, and the name of the device."""
         with self._lock:
             if self._digest != scene.digest:
                 self._open(scene.load(self._robot))
