@@ -86,30 +86,25 @@ class Bench:
     def scheduler(self):
         count = self.arguments.states // self.arguments.shard
         states = count * self.arguments.shard
-        clusters = {workers: self.cluster(workers) for workers in (1, 2, 4)}
-        clients = {workers: distributed.Client(cluster) for workers, cluster in clusters.items()}
-        start = {}
-        for workers, cluster in clusters.items():
-            # The first shard of each worker prepares the scene. The second run shows what the program needs to start.
-            self.on_cluster(cluster, clients[workers], 8 * self.arguments.shard, "start")
-            start[workers] = self.on_cluster(cluster, clients[workers], 64, "start")[1]
-        found = {workers: [] for workers in (0, 1, 2, 4)}  # 0: without Dask
-        for _ in range(self.arguments.repeats):
-            found[0].append(self.direct(count))
-            for workers, cluster in clusters.items():
-                found[workers].append(self.on_cluster(cluster, clients[workers], states, f"scheduler {workers}"))
-        print("workers  seconds  states/s  processor seconds  cost in processor time, with start and without")
-        for workers, pairs in found.items():
-            seconds, used = (statistics.median(each) for each in zip(*pairs))
-            base = statistics.median(pair[1] for pair in found[0])
-            print(f"{workers or 'no Dask':>7}  {seconds:7.1f}  {states / seconds:8.0f}  {used:17.1f}  "
-                  f"{used / base - 1:.1%}  {(used - start.get(workers, 0)) / base - 1:.1%}")
-        for client, cluster in zip(clients.values(), clusters.values()):
-            client.close()
-            cluster.close()
-        contents = [self.content(f"scheduler {workers}") for workers in clusters]
+        print("workers  without Dask: seconds, processor seconds  with Dask: the same  share of the rate  cost in "
+              "processor time")
+        used = []
+        for workers in (1, 2, 4):
+            with self.cluster(workers) as cluster, distributed.Client(cluster) as client:
+                # First, each worker prepares the scene. The second run shows what the program needs to start.
+                self.on_cluster(cluster, client, 2 * workers * self.arguments.shard, "start")
+                start = self.on_cluster(cluster, client, 64, "start")[1]
+                pairs = []
+                for _ in range(self.arguments.repeats):
+                    direct = self.direct(count)
+                    pairs.append((*direct, *self.on_cluster(cluster, client, states, f"scheduler {workers}")))
+            wall, base, wall_dask, base_dask = (statistics.median(each) for each in zip(*pairs))
+            used.append(base)
+            print(f"{workers:7}  {wall:.1f} {base:.1f}  {wall_dask:.1f} {base_dask:.1f}  {wall / wall_dask:.3f}  "
+                  f"{(base_dask - start) / base - 1:.1%}")
+        contents = [self.content(f"scheduler {workers}") for workers in (1, 2, 4)]
         print("the outputs have the same bytes:", contents[0] == contents[1] == contents[2])
-        self.model(states / statistics.median(pair[1] for pair in found[0]) * os.cpu_count())
+        self.model(states / min(used) * os.cpu_count())
 
     def model(self, rate):
         """What the program and the scheduler do for each shard: the processor time of runs with shards of 64 states.
@@ -142,7 +137,7 @@ class Bench:
         with self.cluster(3) as cluster, distributed.Client(cluster) as client:
             process = subprocess.Popen(self.options(cluster, states, "kills"), stdout=subprocess.PIPE,
                                        stderr=subprocess.PIPE, text=True)
-            begin, killed, after = time.monotonic(), 0, chance.uniform(1, 4)
+            begin, killed, after = time.monotonic(), 0, chance.uniform(2, 6)
             while process.poll() is None:
                 time.sleep(0.1)
                 passed = time.monotonic() - begin
@@ -150,7 +145,7 @@ class Bench:
                     pids = client.run(os.getpid, on_error="ignore")
                     os.kill(chance.choice(sorted(pids.values())), signal.SIGKILL)
                     killed += 1
-                    after = time.monotonic() - begin + chance.uniform(1, 4)
+                    after = time.monotonic() - begin + chance.uniform(2, 6)
             out, _ = process.communicate()
         print(f"{killed} workers killed within {min(seconds, passed):.0f} s of {passed:.0f} s; exit status "
               f"{process.returncode}; {out.strip()}")
@@ -231,7 +226,7 @@ def main():
     parser.add_argument("scene")
     parser.add_argument("--package", action="append", default=[])
     parser.add_argument("--states", type=int, default=10**7)
-    parser.add_argument("--shard", type=int, default=131072)
+    parser.add_argument("--shard", type=int, default=524288)
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--kill-seconds", type=float, default=60.0)
     parser.add_argument("--kill-states", type=int, help="so many that the run takes longer than --kill-seconds")

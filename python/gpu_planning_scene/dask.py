@@ -23,7 +23,7 @@ import gpu_planning_scene as gps
 from gpu_planning_scene.bulk import RobotBundle, SceneBundle, work
 from gpu_planning_scene.bulk.states import RandomSlice
 
-CHUNK = 131072  # states
+CHUNK = 524288  # states
 
 __all__ = ["check_states", "random_states"]
 

@@ -9,7 +9,7 @@ from gpu_planning_scene.bulk.dispatch import DispatchOptions
 from gpu_planning_scene.bulk.plans import PlanOptions
 
 PROGRAM = "gpu_planning_scene.bulk"
-STATES_PER_SHARD = 131072
+STATES_PER_SHARD = 524288
 PROBLEMS_PER_SHARD = 16
 
 
