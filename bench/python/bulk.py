@@ -8,8 +8,9 @@ on a Dask cluster costs, and whether it survives.
     liar        a worker lies about one of 10^6 states; it must be named
     resume      the whole run is killed and started again
 
-The load of the machine changes the rates, so the runs are interleaved, and the processor time of all processes of a run
-is compared with that of the same shards without Dask."""
+The load of the machine changes the rates, so the processor time of all processes of a run is compared with that of the
+same shards without Dask. Idle processes of Dask take processor time too; it counts apart, as a share of the machine,
+because it grows with the time that the run takes on a busy machine."""
 import argparse
 import json
 import os
@@ -83,17 +84,24 @@ class Bench:
         rate = float(re.search("([0-9,]+) states/s", line)[1].replace(",", ""))
         return states / rate, processor_seconds(client) - before
 
+    def idle(self, client, seconds=10):
+        """Processor time that the cluster uses in a second while it does nothing."""
+        before = processor_seconds(client), time.perf_counter()
+        time.sleep(seconds)
+        return (processor_seconds(client) - before[0]) / (time.perf_counter() - before[1])
+
     def scheduler(self):
         count = self.arguments.states // self.arguments.shard
         states = count * self.arguments.shard
         print("workers  without Dask: seconds, processor seconds  with Dask: the same  share of the rate  cost in "
-              "processor time")
+              "processor time: of the work, of Dask's idle processes")
         used = []
         for workers in (1, 2, 4):
             with self.cluster(workers) as cluster, distributed.Client(cluster) as client:
                 # First, each worker prepares the scene. The second run shows what the program needs to start.
                 self.on_cluster(cluster, client, 2 * workers * self.arguments.shard, "start")
                 start = self.on_cluster(cluster, client, 64, "start")[1]
+                idle = self.idle(client)
                 pairs = []
                 for _ in range(self.arguments.repeats):
                     direct = self.direct(count)
@@ -101,7 +109,7 @@ class Bench:
             wall, base, wall_dask, base_dask = (statistics.median(each) for each in zip(*pairs))
             used.append(base)
             print(f"{workers:7}  {wall:.1f} {base:.1f}  {wall_dask:.1f} {base_dask:.1f}  {wall / wall_dask:.3f}  "
-                  f"{(base_dask - start) / base - 1:.1%}")
+                  f"{(base_dask - start - idle * wall_dask) / base - 1:.1%}  {idle / os.cpu_count():.1%}")
         contents = [self.content(f"scheduler {workers}") for workers in (1, 2, 4)]
         print("the outputs have the same bytes:", contents[0] == contents[1] == contents[2])
         self.model(states / min(used) * os.cpu_count())
@@ -143,8 +151,9 @@ class Bench:
                 passed = time.monotonic() - begin
                 if after < passed < seconds:
                     pids = client.run(os.getpid, on_error="ignore")
-                    os.kill(chance.choice(sorted(pids.values())), signal.SIGKILL)
-                    killed += 1
+                    if pids:  # otherwise all of them are just starting again
+                        os.kill(chance.choice(sorted(pids.values())), signal.SIGKILL)
+                        killed += 1
                     after = time.monotonic() - begin + chance.uniform(2, 6)
             out, _ = process.communicate()
         print(f"{killed} workers killed within {min(seconds, passed):.0f} s of {passed:.0f} s; exit status "

@@ -229,7 +229,7 @@ class Resume(Folder):
         self.assert_error("no index.json, but other files .thesis.txt", *ARM_OPTIONS, "--out", self.out, "--random", 3)
 
     def test_two_runs_do_not_share_a_folder(self):
-        options = [*ARM_OPTIONS, "--random", 10**9, "--out", self.out]
+        options = [*ARM_OPTIONS, "--random", 10**8, "--shard", 5000, "--out", self.out]
         run = started_bulk(*options)
         try:
             wait_for_shards(self.out, 1, run)
@@ -239,7 +239,7 @@ class Resume(Folder):
             run.communicate()
 
     def test_ctrl_c_ends_a_run_with_one_line(self):
-        run = started_bulk(*ARM_OPTIONS, "--random", 10**9, "--out", self.out, "--progress")
+        run = started_bulk(*ARM_OPTIONS, "--random", 10**8, "--shard", 5000, "--out", self.out, "--progress")
         wait_for_shards(self.out, 1, run)
         run.send_signal(signal.SIGINT)
         out, err = run.communicate(timeout=60)
