@@ -138,26 +138,36 @@ class Bench:
                 print(f"model: {workers} workers at {rate:.0f} states/s, shards of {shard} ({seconds:.3f} s): load "
                       f"{load:.1%}, wait {1e3 * wait:.1f} ms, efficiency {efficiency:.3f}")
 
+    def worker(self, cluster):
+        """A worker process without a nanny, which may not survive kills while its worker starts."""
+        return subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_worker", cluster.scheduler_address,
+                                 "--host", "127.0.0.1", "--nthreads", "1", "--no-nanny", "--no-dashboard",
+                                 "--local-directory", str(self.folder)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
     def kills(self):
         seconds, states = self.arguments.kill_seconds, self.arguments.kill_states or self.arguments.states
         self.run(*self.options_here(states, "whole"))
         chance = random.Random(SEED)
-        with self.cluster(3) as cluster, distributed.Client(cluster) as client:
+        with self.cluster(0) as cluster, distributed.Client(cluster) as client:
+            workers = [self.worker(cluster) for _ in range(3)]
             process = subprocess.Popen(self.options(cluster, states, "kills"), stdout=subprocess.PIPE,
                                        stderr=subprocess.PIPE, text=True)
-            begin, killed, after = time.monotonic(), 0, chance.uniform(2, 6)
+            begin, killed, after = time.monotonic(), 0, 0.0
             while process.poll() is None:
                 time.sleep(0.1)
                 passed = time.monotonic() - begin
-                if after < passed < seconds:
-                    pids = client.run(os.getpid, on_error="ignore")
-                    if pids:  # otherwise all of them are just starting again
-                        os.kill(chance.choice(sorted(pids.values())), signal.SIGKILL)
-                        killed += 1
-                    after = time.monotonic() - begin + chance.uniform(2, 6)
-            out, _ = process.communicate()
+                pids = client.run(os.getpid, on_error="ignore").values() if after < passed < seconds else ()
+                if pids:
+                    os.kill(chance.choice(sorted(pids)), signal.SIGKILL)
+                    killed += 1
+                    after = passed + chance.uniform(2, 6)
+                workers = [self.worker(cluster) if each.poll() is not None else each for each in workers]
+            out, err = process.communicate()
+            for each in workers:
+                each.kill()
+                each.wait()
         print(f"{killed} workers killed within {min(seconds, passed):.0f} s of {passed:.0f} s; exit status "
-              f"{process.returncode}; {out.strip()}")
+              f"{process.returncode}; {out.strip() or err.strip()}")
         print("the output has the same bytes:", self.content("whole") == self.content("kills"))
 
     def options_here(self, states, out):

@@ -97,7 +97,7 @@ class Cluster(Case):
         self.addCleanup(restart)
 
     def wait_for_workers(self, count, without=None):
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 200
         while len(set(self.workers()) - {without}) < count:
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.05)
@@ -153,8 +153,9 @@ class Cluster(Case):
         while process.poll() is None:
             time.sleep(0.05)
             if kills < 2 and len(shards(self.out)) > 5 + 20 * kills:
-                os.kill(self.client.run(os.getpid).popitem()[1], signal.SIGKILL)
-                kills += 1
+                for pid in list(self.client.run(os.getpid, on_error="ignore").values())[:1]:
+                    os.kill(pid, signal.SIGKILL)
+                    kills += 1
         out, err = process.communicate()
         self.assertEqual(0, process.returncode, err)
         self.assertGreater(kills, 0)
@@ -164,12 +165,12 @@ class Cluster(Case):
         self.wait_for_workers(2)
 
     def test_a_worker_that_hangs_is_named_and_loses_no_state(self):
-        run = ["--random", 20000, "--shard", 1000, "--timeout", 5, "--check-twice", 0]
+        run = ["--random", 20000, "--shard", 1000, "--timeout", 10, "--check-twice", 0]
         hung = self.workers()[0]
         self.patch(hang, hung)
         status, line, warnings = bulk(*self.options(*run, "--out", self.out))
         self.assertEqual(0, status, line)
-        self.assertEqual(f"warning: worker {hung} is left out: it did not answer for 5 s\n", warnings)
+        self.assertEqual(f"warning: worker {hung} is left out: it did not answer for 10 s\n", warnings)
         self.assertTrue(self.whole(*run) == content(self.out))
 
     def test_a_worker_that_lies_is_named_and_its_shards_are_deleted(self):
