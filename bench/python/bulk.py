@@ -142,7 +142,8 @@ class Bench:
         """A worker process without a nanny, which may not survive kills while its worker starts."""
         return subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_worker", cluster.scheduler_address,
                                  "--host", "127.0.0.1", "--nthreads", "1", "--no-nanny", "--no-dashboard",
-                                 "--local-directory", str(self.folder)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                                 "--local-directory", str(self.folder)], stdout=subprocess.DEVNULL,
+                                stderr=subprocess.DEVNULL)
 
     def kills(self):
         seconds, states = self.arguments.kill_seconds, self.arguments.kill_states or self.arguments.states

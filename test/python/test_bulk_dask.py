@@ -159,8 +159,10 @@ class Cluster(Case):
         out, err = process.communicate()
         self.assertEqual(0, process.returncode, err)
         self.assertGreater(kills, 0)
-        self.assertIn(f"{kills} workers lost", out)
-        self.assertEqual(kills, len([line for line in err.splitlines() if " is lost" in line]))
+        # A worker that was killed before the program knew it is not lost.
+        lost = len([line for line in err.splitlines() if " is lost" in line])
+        self.assertTrue(1 <= lost <= kills, err)
+        self.assertIn(f"{lost} workers lost", out)
         self.assertTrue(expected == content(self.out))
         self.wait_for_workers(2)
 
