@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/mesh_reader.h"
 #include "model/model_testing.h"
 
