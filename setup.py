@@ -36,11 +36,12 @@ setup(
     description="Checks thousands of robot states for collision at once",
     license="BSD-3-Clause",
     package_dir={"": "python"},
-    packages=["gpu_planning_scene"],
+    packages=["gpu_planning_scene", "gpu_planning_scene.bulk"],
     package_data={"gpu_planning_scene": ["py.typed", "__init__.pyi"]},
     ext_modules=[Extension("gpu_planning_scene._core", sources=[])],
     cmdclass={"build_ext": CMakeBuild},
     install_requires=["numpy"],
+    extras_require={"dask": ["dask", "distributed"], "parquet": ["pyarrow"]},
     python_requires=">=3.8",
     zip_safe=False,
 )

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,13 +40,18 @@ struct AllowedRoots
 std::string resolveAllowed(const std::string& uri, const std::string& base_folder, const PackageResolver& packages,
                            const AllowedRoots& allowed);
 
+/// Gets the URI of a mesh or octomap file, and returns the path of the file. An empty path means that the usual rules
+/// apply.
+using FindFile = std::function<std::string(const std::string& uri)>;
+
 /// How mesh files are read, and from which folders. The default reads any file, in this process.
 struct MeshAccess
 {
   ReadMesh read;                      ///< empty: this process reads the file
   std::optional<AllowedRoots> roots;  ///< no value: any file
+  FindFile find = {};                 ///< comes before all other rules; may be empty
 
-  /// Calls resolveAllowed if there are roots, else resolveUri.
+  /// Calls `find`, then resolveAllowed if there are roots, else resolveUri.
   std::string resolve(const std::string& uri, const std::string& base_folder, const PackageResolver& packages) const;
 };
 }  // namespace gpu_planning_scene::core

@@ -1,6 +1,7 @@
 #include "bindings/arguments.h"
 
 #include <cstring>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -28,8 +29,9 @@ std::string variablesText(const core::RobotModel& robot)
   return std::to_string(robot.variables().size()) + " variables (" + names + ")";
 }
 
-/// A Python function as a resolver. The resolver may be called, copied and destroyed without the interpreter's lock.
-core::PackageResolver resolverOf(py::function function)
+/// A Python function from a str to a path or None. The result may be called, copied and destroyed without the
+/// interpreter's lock. `what`: the path, for a message.
+std::function<std::string(const std::string&)> pathFunctionOf(py::function function, const char* what)
 {
   const std::shared_ptr<py::function> shared(new py::function(std::move(function)),
                                              [](py::function* owned)
@@ -37,10 +39,10 @@ core::PackageResolver resolverOf(py::function function)
                                                const py::gil_scoped_acquire lock;
                                                delete owned;
                                              });
-  return [shared](const std::string& package)
+  return [shared, what](const std::string& name)
   {
     const py::gil_scoped_acquire lock;
-    return pathFrom((*shared)(package), "the folder of a package");
+    return pathFrom((*shared)(name), what);
   };
 }
 }  // namespace
@@ -203,7 +205,18 @@ core::PackageResolver packagesFrom(py::handle object)
   }
   if (PyCallable_Check(object.ptr()) == 0)
     throwTypeError("packages: " + expectedButGot("a dict or a function", object));
-  return resolverOf(py::reinterpret_borrow<py::function>(object));
+  return pathFunctionOf(py::reinterpret_borrow<py::function>(object), "the folder of a package");
+}
+
+core::MeshAccess meshesFrom(py::handle files)
+{
+  core::MeshAccess meshes;
+  if (files.is_none())
+    return meshes;
+  if (PyCallable_Check(files.ptr()) == 0)
+    throwTypeError("files: " + expectedButGot("a function", files));
+  meshes.find = pathFunctionOf(py::reinterpret_borrow<py::function>(files), "the path of a file");
+  return meshes;
 }
 
 void warnOf(const std::vector<std::string>& warnings)

@@ -8,6 +8,7 @@
 #include <pybind11/pybind11.h>
 #include <Eigen/Geometry>
 
+#include "gpu_planning_scene/mesh_reader.h"
 #include "gpu_planning_scene/resources.h"
 #include "gpu_planning_scene/robot_model.h"
 
@@ -76,6 +77,9 @@ std::string pathFrom(py::handle object, const char* what);
 
 /// None, a dict of folders by name, or a function from a name to a folder or None.
 core::PackageResolver packagesFrom(py::handle object);
+
+/// None, or a function from the URI of a mesh or octomap file to its path or None.
+core::MeshAccess meshesFrom(py::handle files);
 
 /// Python's warnings, as UserWarning.
 void warnOf(const std::vector<std::string>& warnings);

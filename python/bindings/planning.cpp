@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -47,10 +49,21 @@ std::map<std::string, std::string> parametersFrom(py::handle parameters)
   return texts;
 }
 
+/// 0 for None.
+std::uint32_t seedFrom(const py::object& seed)
+{
+  if (seed.is_none())
+    return 0;
+  const std::uint64_t value = seed.cast<Arg<std::uint64_t>>().value;
+  if (value == 0 || value > std::numeric_limits<std::uint32_t>::max())
+    throw core::Error("the seed is " + std::to_string(value) + "; it must be from 1 to 4294967295");
+  return static_cast<std::uint32_t>(value);
+}
+
 PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>& group, const py::object& start,
                           const py::object& goals, Arg<double> seconds, Arg<bool> simplify,
                           const Arg<std::string>& rule, Arg<double> resolution, Arg<double> translation_resolution,
-                          Arg<std::size_t> max_samples, const py::object& parameters)
+                          Arg<std::size_t> max_samples, const py::object& parameters, const py::object& seed)
 {
   const auto scene = checker.value->scene();
   PlanningQuery query;
@@ -64,6 +77,7 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
   query.simplify = simplify.value;
   query.motions = motionOptionsFrom(rule, resolution, translation_resolution, max_samples);
   query.parameters = parametersFrom(parameters);
+  query.seed = seedFrom(seed);
   Interrupt interrupt;
   PlanningResult result = withoutLock(
       [&]
@@ -109,20 +123,23 @@ void addPlanning(py::module_& module)
       .def_readonly("checking_seconds", &PlanningResult::checking_seconds, "Part of the two times above.")
       .def_readonly("states_checked", &PlanningResult::states_checked)
       .def_readonly("revision", &PlanningResult::revision, "PlanningScene.revision of the checked scene.");
-  module.def("plan_motion", &planMotion, py::arg("checker"), py::arg("group"), py::arg("start"), py::arg("goals"),
-             py::arg("seconds") = PlanningQuery().seconds, py::arg("simplify") = true, py::arg("rule") = "bound",
-             py::arg("resolution") = motions.steps.revolute,
-             py::arg("translation_resolution") = motions.steps.prismatic, py::arg("max_samples") = motions.max_samples,
-             py::arg("parameters") = py::none(),
-             "Plans a motion of a planning group in the scene of a StateChecker, with the planner BatchRrtConnect.\n\n"
-             "start: shape (variables,). goals: shape (n, variables) or (variables,); the motion may end at any of "
-             "them. Variables outside the group keep their values from the start. seconds: for planning; "
-             "simplification and the last check of the path come afterwards. simplify: shortens the path. rule, "
-             "resolution, translation_resolution, max_samples: as in MotionChecker. parameters: of the planner, by "
-             "OMPL's names, for example {\"range\": 0.5}.\n\nReturns a PlanningResult: a motion that is not found is "
-             "not an exception. Raises Error for an unknown group or parameter, for other shapes, and for values that "
-             "are not finite. Ctrl-C ends the call. A checker serves one call after the other.\n\n"
-             "    result = gps.plan_motion(checker, \"arm\", start, goal)\n"
-             "    print(result.status, result.message, result.waypoints)");
+  module.def(
+      "plan_motion", &planMotion, py::arg("checker"), py::arg("group"), py::arg("start"), py::arg("goals"),
+      py::arg("seconds") = PlanningQuery().seconds, py::arg("simplify") = true, py::arg("rule") = "bound",
+      py::arg("resolution") = motions.steps.revolute, py::arg("translation_resolution") = motions.steps.prismatic,
+      py::arg("max_samples") = motions.max_samples, py::arg("parameters") = py::none(), py::arg("seed") = py::none(),
+      "Plans a motion of a planning group in the scene of a StateChecker, with the planner BatchRrtConnect.\n\n"
+      "start: shape (variables,). goals: shape (n, variables) or (variables,); the motion may end at any of "
+      "them. Variables outside the group keep their values from the start. seconds: for planning; "
+      "simplification and the last check of the path come afterwards. simplify: shortens the path. rule, "
+      "resolution, translation_resolution, max_samples: as in MotionChecker. parameters: of the planner, by "
+      "OMPL's names, for example {\"range\": 0.5}. seed: from 1 to 4294967295; the call repeats its path, unless "
+      "`seconds` are too short for it. With the parameter max_rounds instead of a short time, a search that "
+      "fails is repeated too. Calls with a seed wait for each other.\n\nReturns a PlanningResult: a motion that "
+      "is not found is not an exception. Raises Error for an unknown group or parameter, for other shapes, and for "
+      "values that "
+      "are not finite. Ctrl-C ends the call. A checker serves one call after the other.\n\n"
+      "    result = gps.plan_motion(checker, \"arm\", start, goal)\n"
+      "    print(result.status, result.message, result.waypoints)");
 }
 }  // namespace gpu_planning_scene::python

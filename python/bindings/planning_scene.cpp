@@ -111,20 +111,31 @@ std::shared_ptr<PlanningScene> loadedScene(const Load& load)
 }
 
 std::shared_ptr<PlanningScene> loadSceneFile(const py::object& path, const Arg<RobotPtr>& robot,
-                                             const py::object& packages)
+                                             const py::object& packages, const py::object& files)
 {
   const core::PackageResolver resolver = packagesFrom(packages);
+  const core::MeshAccess meshes = meshesFrom(files);
   const std::string file = pathFrom(path, "path");
-  return loadedScene([&](auto* warnings) { return core::loadSceneFile(file, robot.value, resolver, warnings); });
+  return loadedScene([&](auto* warnings)
+                     { return core::loadSceneFile(file, robot.value, resolver, warnings, meshes); });
 }
 
 std::shared_ptr<PlanningScene> loadSceneText(const Name& text, const Arg<RobotPtr>& robot, const py::object& packages,
-                                             const py::object& folder, const Name& name)
+                                             const py::object& folder, const Name& name, const py::object& files)
+{
+  const core::PackageResolver resolver = packagesFrom(packages);
+  const core::MeshAccess meshes = meshesFrom(files);
+  const std::string start = pathFrom(folder, "folder");
+  return loadedScene(
+      [&](auto* warnings)
+      { return core::loadSceneText(text.value, name.value, start, robot.value, resolver, warnings, meshes); });
+}
+
+std::string resolveUri(const Name& uri, const py::object& folder, const py::object& packages)
 {
   const core::PackageResolver resolver = packagesFrom(packages);
   const std::string start = pathFrom(folder, "folder");
-  return loadedScene([&](auto* warnings)
-                     { return core::loadSceneText(text.value, name.value, start, robot.value, resolver, warnings); });
+  return withoutLock([&] { return core::resolveUri(uri.value, start, resolver); });
 }
 
 std::size_t bodyCount(const PlanningScene& scene)
@@ -280,15 +291,23 @@ void addPlanningScene(py::module_& module)
                     " objects, " + std::to_string(self.attached.size()) + " attached>";
            });
   addChanges(scene);
-  module.def("load_scene_file", &loadSceneFile, py::arg("path"), py::arg("robot"), py::arg("packages") = py::none(),
-             "Loads a scene file (docs/scene_files.md).\n\npackages: as in RobotModel.from_files. Entries that are not "
-             "used are Python warnings. Raises Error with file and line.\n\n"
-             "    scene = gps.load_scene_file(\"scene.yaml\", robot)");
+  module.def(
+      "load_scene_file", &loadSceneFile, py::arg("path"), py::arg("robot"), py::arg("packages") = py::none(),
+      py::arg("files") = py::none(),
+      "Loads a scene file (docs/scene_files.md).\n\npackages, files: as in RobotModel.from_files. Entries that are not "
+      "used are Python warnings. Raises Error with file and line.\n\n"
+      "    scene = gps.load_scene_file(\"scene.yaml\", robot)");
   module.def("load_scene_text", &loadSceneText, py::arg("text"), py::arg("robot"), py::arg("packages") = py::none(),
-             py::arg("folder") = ".", py::arg("name") = "the text of the scene",
+             py::arg("folder") = ".", py::arg("name") = "the text of the scene", py::arg("files") = py::none(),
              "Loads the text of a scene file.\n\nname: takes the place of the path in messages; a name that ends in "
              ".scene means the text format of RViz. folder: the start of relative paths of meshes. Everything else is "
              "as in load_scene_file.\n\n"
              "    scene = gps.load_scene_text(\"world: {collision_objects: []}\", robot)");
+  module.def("resolve_uri", &resolveUri, py::arg("uri"), py::arg("folder") = py::none(),
+             py::arg("packages") = py::none(),
+             "The path of a mesh or octomap file.\n\nuri: package://NAME/PATH, file:///PATH, an absolute path, or a "
+             "path relative to `folder`. packages: as in RobotModel.from_files. The file need not exist. Raises Error "
+             "for another URI and for an unknown package.\n\n"
+             "    gps.resolve_uri(\"package://ur5/meshes/base.stl\", packages={\"ur5\": \"/path/ur5\"})");
 }
 }  // namespace gpu_planning_scene::python

@@ -33,10 +33,11 @@ RobotPtr loaded(const Load& load)
   return std::const_pointer_cast<RobotModel>(robot);
 }
 
-core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_translation)
+core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_translation, py::handle files)
 {
   core::RobotModelOptions options;
   options.packages = packagesFrom(packages);
+  options.meshes = meshesFrom(files);
   if (!(unbounded_translation > 0.0 && unbounded_translation <= core::kLargestLength))
     throw core::Error("unbounded_translation is " + std::to_string(unbounded_translation) +
                       "; it must be above 0 and at most 1e6 metres");
@@ -45,18 +46,18 @@ core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_transl
 }
 
 RobotPtr fromFiles(const py::object& urdf, const py::object& srdf, const py::object& packages,
-                   Arg<double> unbounded_translation)
+                   Arg<double> unbounded_translation, const py::object& files)
 {
-  const core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value);
+  const core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value, files);
   const std::string urdf_path = pathFrom(urdf, "urdf");
   const std::string srdf_path = pathFrom(srdf, "srdf");
   return loaded([&](auto* warnings) { return RobotModel::fromFiles(urdf_path, srdf_path, options, warnings); });
 }
 
 RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, const py::object& packages,
-                 const py::object& urdf_folder, Arg<double> unbounded_translation)
+                 const py::object& urdf_folder, Arg<double> unbounded_translation, const py::object& files)
 {
-  core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value);
+  core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value, files);
   options.urdf_folder = pathFrom(urdf_folder, "urdf_folder");
   options.urdf_name = "urdf";
   options.srdf_name = "srdf";
@@ -188,15 +189,19 @@ void addRobotModel(py::module_& module)
       "metres.\n\n    robot = gps.RobotModel.from_files(\"robot.urdf\", \"robot.srdf\")")
       .def_static("from_files", &fromFiles, py::arg("urdf"), py::arg("srdf") = py::none(),
                   py::arg("packages") = py::none(), py::arg("unbounded_translation") = 1.0,
+                  py::arg("files") = py::none(),
                   "Loads a robot.\n\nurdf, srdf: paths; without an SRDF, adjacent links may touch. packages: the "
                   "folders of ROS packages by name, or a function that returns the folder of a name. With a dict or "
                   "without packages, other names are looked up on ROS_PACKAGE_PATH. unbounded_translation: metres; "
-                  "random translations of planar and floating joints without limits are in [-value, value].\n\n"
+                  "random translations of planar and floating joints without limits are in [-value, value]. "
+                  "files: a function that gets the URI of each mesh file and returns the path of the file; None means "
+                  "that the usual rules apply.\n\n"
                   "Harmless faults of the files are Python warnings (UserWarning). Raises Error with file and line "
                   "for other faults, and for meshes that cannot be read.\n\n"
                   "    gps.RobotModel.from_files(\"ur5.urdf\", packages={\"ur5\": \"/path/ur5\"})")
       .def_static("from_xml", &fromXml, py::arg("urdf"), py::arg("srdf") = "", py::arg("packages") = py::none(),
                   py::arg("urdf_folder") = py::none(), py::arg("unbounded_translation") = 1.0,
+                  py::arg("files") = py::none(),
                   "Loads a robot from the texts of its URDF and SRDF.\n\nurdf_folder: the start of relative paths of "
                   "meshes; without it they are refused. Everything else is as in from_files.\n\n"
                   "    gps.RobotModel.from_xml(pathlib.Path(\"robot.urdf\").read_text())")

@@ -42,6 +42,7 @@ __all__ = [
     "load_scene_text",
     "plan_motion",
     "render",
+    "resolve_uri",
 ]
 
 

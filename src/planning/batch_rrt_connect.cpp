@@ -39,6 +39,8 @@ BatchRrtConnect::BatchRrtConnect(const ob::SpaceInformationPtr& information)
   declareParam<double>("range", this, &BatchRrtConnect::setRange, &BatchRrtConnect::getRange, "0.:1.:10000.");
   declareParam<unsigned int>("branches", this, &BatchRrtConnect::setBranches, &BatchRrtConnect::getBranches,
                              "1:1:1024");
+  declareParam<unsigned int>("max_rounds", this, &BatchRrtConnect::setMaxRounds, &BatchRrtConnect::getMaxRounds,
+                             "0:1:1000000");
 }
 
 BatchRrtConnect::~BatchRrtConnect() = default;
@@ -131,7 +133,7 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
   const MotionValidator& validator = bulkValidatorOf(*si_, getName().c_str());
   const ompl::time::point start = ompl::time::now();
   RrtSearch::Path path;
-  while (!path && !ptc)
+  for (unsigned int round = 0; !path && !ptc && (max_rounds_ == 0 || round < max_rounds_); ++round)
   {
     takeMoreGoals();
     path = search_->runRound(validator, *goal, branches_, range_, ptc);

@@ -5,11 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <mutex>
 #include <string>
 #include <utility>
 
 #include <ompl/base/goals/GoalStates.h>
 #include <ompl/geometric/PathGeometric.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
@@ -74,6 +77,21 @@ std::string seconds(double value)
   std::array<char, 32> text;
   std::snprintf(text.data(), text.size(), "%.3g s", value);
   return text.data();
+}
+
+/// Seeds the generator from which all of OMPL's random generators get their seeds. It belongs to the process, so the
+/// returned lock is held for as long as the plan creates generators.
+std::unique_lock<std::mutex> seeded(std::uint32_t seed)
+{
+  static std::mutex mutex;
+  if (seed == 0)
+    return {};
+  std::unique_lock<std::mutex> lock(mutex);
+  const auto level = ompl::msg::getLogLevel();
+  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);  // OMPL warns about every seed after the first one
+  ompl::RNG::setSeed(seed);
+  ompl::msg::setLogLevel(level);
+  return lock;
 }
 
 /// The work on one query.
@@ -238,6 +256,7 @@ PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const PlannerFactory& factory, const std::function<bool()>& stop)
 {
   validateQuery(*scene, query);
+  const std::unique_lock<std::mutex> lock = seeded(query.seed);
   return Plan(scene, checker, query, stop).run(factory);
 }
 }  // namespace gpu_planning_scene::core

@@ -193,7 +193,7 @@ void SceneStore::follow(const SceneChange& change, std::uint64_t revision)
 {
   const std::lock_guard<std::mutex> changing(changes_);
   const Snapshot at = snapshot();
-  Change made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, {});
+  ChangedScene made = applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, {});
   replace(std::move(made.scene), change.state.variables, revision);
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/mesh_reader.h"
 #include "model/model_testing.h"
 
@@ -87,6 +88,15 @@ TEST_F(AllowedRootsTest, RelativePathsStayInTheFolderOfTheFileThatNamesThem)
   EXPECT_NE(errorFor("../../secret.stl"), "");
   allowed_.roots = {folder_.path("free")};
   EXPECT_EQ(resolved("../../free/link.stl"), real("free/link.stl"));
+}
+
+TEST_F(AllowedRootsTest, AFunctionOfTheCallerFindsFilesBeforeTheRules)
+{
+  MeshAccess access;
+  access.roots = allowed_;
+  access.find = [](const std::string& uri) { return uri == "package://none/a.stl" ? "/there/a.stl" : ""; };
+  EXPECT_EQ(access.resolve("package://none/a.stl", "", PackageResolver()), "/there/a.stl");
+  EXPECT_THROW(access.resolve("/x/a.stl", "", PackageResolver()), Error);
 }
 
 TEST_F(AllowedRootsTest, WithoutRootsAnyFileMayBeNamed)

@@ -143,6 +143,13 @@ TEST(BatchRrtConnect, ApproachesAGoalThatIsOutOfReach)
   EXPECT_NEAR(planning.problem->getSolutionDifference(), std::hypot(1.0 - end.first, end.second), 1e-9);
 }
 
+TEST(BatchRrtConnect, EndsAfterItsRounds)
+{
+  Planning planning(kClosedWall, kLeft, {kRight});
+  planning.planner->params().setParam("max_rounds", "20");
+  EXPECT_EQ(planning.solve(1e6), ob::PlannerStatus::APPROXIMATE_SOLUTION);
+}
+
 TEST(BatchRrtConnect, TimesOutWithoutASolutionInAClosedChamber)
 {
   // A chamber with a millimetre of free space. No random branch stays within it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
@@ -158,6 +159,24 @@ TEST(PlanMotion, AnswersAStraightMotionByItsEnds)
   const PlanningResult result = plan<BatchRrtConnect>({}, query({-1.0, -1.5}, {{1.0, 1.5}}));
   EXPECT_EQ(result.status, PlanningStatus::Solved);
   EXPECT_EQ(result.waypoints, (std::vector<std::vector<double>>{{-1.0, -1.5}, {1.0, 1.5}}));
+}
+
+TEST(PlanMotion, RepeatsAPathForASeed)
+{
+  const std::vector<Wall> walls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
+  PlanningQuery wanted = query({-1.0, 0.0}, {{1.0, 0.0}});
+  const auto pathOf = [&](std::uint32_t seed)
+  {
+    wanted.seed = seed;
+    const PlanningResult result = plan<BatchRrtConnect>(walls, wanted);
+    EXPECT_EQ(result.status, PlanningStatus::Solved);
+    return result.waypoints;
+  };
+  const auto path = pathOf(7);
+  EXPECT_NE(pathOf(8), path);
+  EXPECT_EQ(pathOf(7), path);
+  pathOf(0);
+  EXPECT_EQ(pathOf(7), path);
 }
 
 TEST(PlanMotion, CountsTheLookAtStartAndGoals)

@@ -1,5 +1,6 @@
 """test_document.py [--pictures]: runs the programs of docs/python.md and compares their output with the comments
-`# prints:`. With --pictures, it writes the picture of the document into docs/pictures."""
+`# prints:`. With --pictures, it writes the picture of the document into docs/pictures. test_bulk_dask.py runs the program
+of docs/bulk.md."""
 import os
 import pathlib
 import re
@@ -15,9 +16,9 @@ PICTURE = ROOT / "docs" / "pictures" / "python_arm.png"
 PICTURES = "--pictures" in sys.argv
 
 
-def programs():
+def programs(document=DOCUMENT):
     """The indented blocks that import the module."""
-    blocks = re.findall(r"(?:^(?:    .*)?\n)+", DOCUMENT.read_text(encoding="utf-8"), flags=re.MULTILINE)
+    blocks = re.findall(r"(?:^(?:    .*)?\n)+", document.read_text(encoding="utf-8"), flags=re.MULTILINE)
     texts = [re.sub("^    ", "", block, flags=re.MULTILINE).strip() + "\n" for block in blocks]
     return [text for text in texts if "import gpu_planning_scene" in text]
 

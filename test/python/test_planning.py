@@ -27,6 +27,27 @@ class Planning(Case):
             self.assertGreater(result.states_checked, 0)
             self.assertGreater(result.planning_seconds, 0.0)
 
+    def test_a_seed_repeats_a_path(self):
+        checker = gps.StateChecker(arm_scene(), device="cpu")
+        start, goal = np.array([[0.7, 0.6, 0.6, 0, 0.6, 0, 0.03], [2.5, 0.6, 0.6, 0, 0.6, 0, 0.03]])
+
+        def path(seed):
+            result = gps.plan_motion(checker, "arm", start, goal, seconds=60.0, seed=seed)
+            self.assertEqual(gps.PlanningStatus.SOLVED, result.status)
+            return result.waypoints.tolist()
+
+        expected = path(3)
+        self.assertNotEqual(expected, path(4))
+        path(None)
+        self.assertEqual(expected, path(3))
+
+    def test_a_search_ends_after_its_rounds(self):
+        scene = gps.PlanningScene(rail())
+        scene.add_object("wall", gps.Box([0.1, 1, 1]), [1, 0, 0])
+        blocked = gps.plan_motion(gps.StateChecker(scene, device="cpu"), "all", [0.0], [2.0], seconds=1e6,
+                                  parameters={"max_rounds": 10})
+        self.assertNotEqual(gps.PlanningStatus.SOLVED, blocked.status)
+
     def test_one_of_several_goals_is_enough(self):
         scene = gps.PlanningScene(rail())
         scene.add_object("wall", gps.Box([0.1, 1, 1]), [1, 0, 0])
@@ -64,6 +85,9 @@ class Planning(Case):
             (gps.Error, "samples or bound", ("all", [0.0], [1.0]), {"rule": "hope"}),
             (gps.Error, "speed", ("all", [0.0], [1.0]), {"parameters": {"speed": 3}}),
             (TypeError, "a dict", ("all", [0.0], [1.0]), {"parameters": 3}),
+            (gps.Error, "the seed is 0; it must be from 1 to 4294967295", ("all", [0.0], [1.0]), {"seed": 0}),
+            (gps.Error, "the seed is 4294967296", ("all", [0.0], [1.0]), {"seed": 2**32}),
+            (TypeError, "whole number", ("all", [0.0], [1.0]), {"seed": -1}),
         ):
             self.assert_one_line(error, pattern, gps.plan_motion, checker, *arguments, **options)
         self.assert_one_line(TypeError, "expected a StateChecker", gps.plan_motion, None, "all", [0.0], [1.0])

@@ -145,6 +145,40 @@ class RobotModel(Case):
             self.assert_one_line(TypeError, "a dict or a function", load, text, packages=[folder])
             self.assert_one_line(TypeError, "a package: expected a str or a path", load, text, packages={"crane": 5})
 
+    def test_a_function_finds_files_before_the_rules(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh, other = pathlib.Path(folder, "part.obj"), pathlib.Path(folder, "other.obj")
+            mesh.write_text(MESH)
+            other.write_text(MESH.replace("0.1", "0.7"))
+            text = WITH_MESH.format("package://crane/part.obj")
+            asked = []
+            robot = gps.RobotModel.from_xml(text, files=lambda uri: asked.append(uri) or mesh)
+            self.assertEqual((["package://crane/part.obj"], 1), (asked, len(robot.links[0].shapes)))
+            self.assert_one_line(gps.Error, "crane", gps.RobotModel.from_xml, text, files=lambda uri: None)
+            urdf = pathlib.Path(folder, "robot.urdf")
+            urdf.write_text(WITH_MESH.format("part.obj"))
+            for files, size in ((None, 0.1), (lambda uri: None, 0.1), (lambda uri: other, 0.7)):
+                shape, _ = gps.RobotModel.from_files(urdf, files=files).links[0].shapes[0]
+                self.assertAlmostEqual(size, shape.vertices.max(), places=6)
+            text = "world: {collision_objects: [{id: x, meshes: [{resource: x.obj}]}]}"
+            scene = gps.load_scene_text(text, robot, files=lambda uri: other)
+            self.assertAlmostEqual(0.7, scene.objects[0].shapes[0][0].vertices.max(), places=6)
+            path = pathlib.Path(folder, "scene.yaml")
+            path.write_text(text)
+            scene = gps.load_scene_file(path, robot, files=lambda uri: other)
+            self.assertAlmostEqual(0.7, scene.objects[0].shapes[0][0].vertices.max(), places=6)
+        self.assert_one_line(TypeError, "^files: expected a function", gps.RobotModel.from_xml, text, files={})
+        self.assert_one_line(TypeError, "the path of a file: expected a str or a path", gps.load_scene_text, text, robot,
+                             files=lambda uri: 5)
+
+    def test_uris_are_resolved_as_the_loaders_do(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for uri, expected in (("package://crane/a%20b.obj", f"{folder}/a b.obj"), ("a.obj", f"{folder}/a.obj"),
+                                  ("file:///x/a.obj", "/x/a.obj"), ("/x/a.obj", "/x/a.obj")):
+                self.assertEqual(expected, gps.resolve_uri(uri, folder, {"crane": folder}))
+        self.assert_one_line(gps.Error, "crane.*in the argument packages", gps.resolve_uri, "package://crane/a.obj")
+        self.assert_one_line(gps.Error, "is relative", gps.resolve_uri, "a.obj")
+
     def test_an_exception_of_the_function_for_packages_reaches_the_caller(self):
         def fail(name):
             raise LookupError("no " + name)

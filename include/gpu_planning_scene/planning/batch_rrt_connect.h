@@ -39,6 +39,11 @@ class BatchRrtConnect : public ompl::base::Planner
   void setBranches(unsigned int branches);
   unsigned int getBranches() const { return branches_; }
 
+  /// solve() gives up after this many rounds, whatever time they take; 0: only the time limits the search. Without a
+  /// limit of time, a search that fails can also be repeated.
+  void setMaxRounds(unsigned int rounds) { max_rounds_ = rounds; }
+  unsigned int getMaxRounds() const { return max_rounds_; }
+
   /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator.
   void setup() override;
   void clear() override;
@@ -58,6 +63,7 @@ class BatchRrtConnect : public ompl::base::Planner
 
   double range_ = 0.0;
   unsigned int branches_ = 64;
+  unsigned int max_rounds_ = 0;
   std::unique_ptr<RrtSearch> search_;  // everything that clear() deletes
 };
 }  // namespace gpu_planning_scene::core

@@ -30,6 +30,9 @@ struct PlanningQuery
   MotionCheckerOptions motions;
   std::map<std::string, std::string> parameters = {};  ///< of the planner, by OMPL's names
   std::vector<std::string> projection = {};            ///< joints of the planner's projection; empty: the default
+  /// Above 0: OMPL's random numbers come from this seed. The call repeats its path if no time ended a search or a
+  /// proof, and if no other thread of the process creates generators of OMPL meanwhile. Such calls wait for each other.
+  std::uint32_t seed = 0;
 };
 
 enum class PlanningStatus

@@ -75,6 +75,9 @@ std::string resolveAllowed(const std::string& uri, const std::string& base_folde
 std::string MeshAccess::resolve(const std::string& uri, const std::string& base_folder,
                                 const PackageResolver& packages) const
 {
+  if (find)
+    if (std::string path = find(uri); !path.empty())
+      return path;
   return roots ? resolveAllowed(uri, base_folder, packages, *roots) : resolveUri(uri, base_folder, packages);
 }
 }  // namespace gpu_planning_scene::core
