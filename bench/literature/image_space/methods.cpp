@@ -9,10 +9,10 @@ namespace
 {
 template <class Drawn>
 void append(std::vector<MethodInfo>& methods, const std::string& name, const std::string& title,
-            const std::string& source, const Domain& domain)
+            const std::string& source, const Domain& domain, const std::vector<int>& view_counts = {1, 3})
 {
   for (const int resolution : {64, 128, 256, 512})
-    for (const int views : {1, 3})
+    for (const int views : view_counts)
     {
       ImageOptions options;
       options.resolution = resolution;
@@ -39,7 +39,7 @@ std::vector<MethodInfo> imageSpaceMethods()
   std::vector<MethodInfo> methods;
   append<Recode>(methods, "recode", "RECODE", "Baciu, Wong, Sun 1999", convex_solids);
   append<Cinder>(methods, "cinder", "CInDeR", "Knott, Pai 2003", solids);
-  append<Cullide>(methods, "cullide", "CULLIDE", "Govindaraju, Redon, Lin, Manocha 2003", {});
+  append<Cullide>(methods, "cullide", "CULLIDE", "Govindaraju, Redon, Lin, Manocha 2003", {}, {1, 2, 3});
   append<FattenedCullide>(methods, "cullide_fattened", "CULLIDE, fattened", "Govindaraju, Lin, Manocha 2004", {});
   return methods;
 }
