@@ -4,7 +4,7 @@
 // of the three axes of the box. Marks: 0 apart, 1 the boxes overlap, 2 the triangles overlap.
 namespace gpu_planning_scene::core::literature
 {
-const char* const kTraversalDeclarations = R"(#version 450
+const char* const kTraversalDeclarations = R"(
 layout(local_size_x = 64) in;
 #include "common/invocation.glsl"
 layout(location = 0) uniform uint count;
