@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <random>
 
@@ -14,7 +15,8 @@ namespace
 {
 constexpr std::size_t kContacts = 16;  // of each family; each is a case at all levels
 
-using Cases = std::map<std::string, std::vector<Case>>;  // by family
+using CasePtr = std::shared_ptr<const Case>;
+using Cases = std::map<std::string, std::vector<CasePtr>>;  // by family
 
 Cases made(std::uint64_t seed)
 {
@@ -26,7 +28,7 @@ Cases made(std::uint64_t seed)
       one.a = pair.a;
       one.b = pair.b;
       one.pose_b = pose.b_in_a;
-      cases[pose.family].push_back(one);
+      cases[pose.family].push_back(std::make_shared<const Case>(one));
     }
   // The first cases of a family are of all levels and pairs.
   std::mt19937_64 generator(seed);
@@ -36,7 +38,7 @@ Cases made(std::uint64_t seed)
 }
 
 /// The cases are made together, when somebody needs the first of them.
-const std::vector<Case>& casesOf(const std::string& family, std::uint64_t seed)
+const std::vector<CasePtr>& casesOf(const std::string& family, std::uint64_t seed)
 {
   static std::mutex mutex;
   static std::map<std::uint64_t, Cases> kept;
@@ -51,7 +53,7 @@ Family familyOf(const std::string& name, std::size_t cases, bool convex = false)
 {
   Family family;
   family.name = name;
-  family.make = [name](std::uint64_t seed, std::size_t index) { return casesOf(name, seed).at(index); };
+  family.make = [name](std::uint64_t seed, std::size_t index) { return *casesOf(name, seed).at(index); };
   family.convex = convex;
   family.most = kContacts * cases;
   return family;

@@ -54,6 +54,8 @@ class Results:
         self.on_cpu = renders_on_cpu(read(folder, "run"))
         self.time_column = "cpu_us_a_query" if self.on_cpu else "us_a_query"
         self.made = [row for row in self.experiment if row["model"] in ("torus", "sphere", "lump", "car", "pipes")]
+        self.samples = 0  # of the overview
+        self.times = self.overview_times()
 
     def time(self, row):
         return float(row[self.time_column])
@@ -62,16 +64,26 @@ class Results:
         """The nominal number of triangles of a made model: a power of ten."""
         return 10 ** round(math.log10(float(row["triangles"])))
 
-    def overview_time(self, method):
-        """Microseconds a query: the geometric mean over all models and distances of one size; None without all."""
+    def overview_times(self):
+        """Microseconds a query of each method: the geometric mean over the models and distances of one size that all
+        methods were measured with. A method with fewer than half of the samples is left out."""
         sizes = {self.size(row) for row in self.made}
         if not sizes:
-            return None
+            return {}
         chosen = min(sizes, key=lambda size: abs(math.log(size / SIZE)))
-        rows = [row for row in self.made if self.size(row) == chosen]
-        there = {(row["model"], row["protocol"], row["distance"]) for row in rows}
-        mine = [self.time(row) for row in rows if row["method"] == method]
-        return geometric_mean(mine) if len(mine) == len(there) else None
+        of_method = {}
+        for row in self.made:
+            if self.size(row) == chosen:
+                key = (row["model"], row["protocol"], row["distance"])
+                of_method.setdefault(row["method"], {})[key] = self.time(row)
+        most = max(len(times) for times in of_method.values())
+        of_method = {method: times for method, times in of_method.items() if 2 * len(times) >= most}
+        common = set.intersection(*(set(times) for times in of_method.values()))
+        self.samples = len(common)
+        return {method: geometric_mean([times[key] for key in common]) for method, times in of_method.items()}
+
+    def overview_time(self, method):
+        return self.times.get(method)
 
     def growth(self, method):
         """The exponent of the time in the number of triangles, between the smallest and the largest size that the
@@ -143,7 +155,8 @@ def overview(results, out):
     axes.minorticks_off()
     axes.grid(color="#e8e8e8", lw=0.5)
     kind = "CPU" if results.on_cpu else "wall"
-    axes.set_xlabel(f"{kind} time a query, microseconds (left is better): two copies of a model of about 10,000 triangles")
+    axes.set_xlabel(f"{kind} time a query, microseconds (left is better): two copies of a model of about 10,000 "
+                    f"triangles,\ngeometric mean over {results.samples} distances")
     axes.set_ylabel("wrong answers in the hard cases\nfilled: in the method's domain; empty: in all cases")
     for family, colour in COLOURS.items():
         axes.scatter([], [], color=colour, s=26, label=family)
@@ -158,7 +171,8 @@ def line_chart(axes, results, rows, x, title, x_label):
         points = {}
         for row in rows:
             if row["method"] == method:
-                points.setdefault(results.size(row) if x == "triangles" else float(row[x]), []).append(results.time(row))
+                place = results.size(row) if x == "triangles" else float(row[x])
+                points.setdefault(place, []).append(results.time(row))
         line = sorted((place, geometric_mean(times)) for place, times in points.items())
         info = results.methods[method]
         colour = COLOURS[info["family"]]

@@ -19,8 +19,9 @@ void append(std::vector<MethodInfo>& methods, const std::string& name, const std
       options.views = views;
       const std::string side = std::to_string(resolution);
       methods.push_back({name + "_" + side + "x" + std::to_string(views),
-                         title + ", " + side + " x " + side + " pixels, " + (views == 1 ? "1 view" : "3 views"), source,
-                         "image space", domain,
+                         title + ", " + side + " x " + side + " pixels, " +
+                             (views == 1 ? "1 view" : std::to_string(views) + " views"),
+                         source, "image space", domain,
                          [options](const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b)
                          { return std::make_unique<Drawn>(a, b, options); }});
     }
