@@ -36,14 +36,13 @@ std::vector<MethodInfo> allMethods()
 }
 
 /// --quick leaves out methods that render at another resolution, because each image takes milliseconds without a GPU.
-/// It leaves out HACD, whose decomposition of a sphere of 1000 triangles takes two minutes.
 bool leftOut(const MethodInfo& info, const CommandLine& arguments)
 {
   const bool of_quick_resolution =
       info.name.size() > kQuickImages.size() &&
       info.name.compare(info.name.size() - kQuickImages.size(), kQuickImages.size(), kQuickImages) == 0;
-  return arguments.has("--quick") && !arguments.has("--methods") &&
-         (info.name == "hacd_hulls" || (info.family == "image space" && !of_quick_resolution));
+  return arguments.has("--quick") && !arguments.has("--methods") && info.family == "image space" &&
+         !of_quick_resolution;
 }
 
 std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)

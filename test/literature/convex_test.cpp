@@ -146,27 +146,6 @@ TEST(ConvexSurfaces, LeaveABallInANotchFree)
   EXPECT_FALSE(collides(torus, torus, placed(0.4, 0.0, 0.0) * Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitX())));
 }
 
-// The meshes are small, because HACD's time grows fast with the triangles of a piece.
-TEST(HullsOfHacd, AgreeWithTheOracleForAnLAndLeaveItsNotchFree)
-{
-  const std::vector<MethodInfo> methods = convexMethods();
-  if (methods.size() < 2)
-    GTEST_SKIP() << "HACD was not found when this was built";
-  const MeshPtr box = boxMesh({0.3, 0.2, 0.25});
-  const auto method = methods[1].make(ell(), box);
-  int hits = 0;
-  for (int i = 0; i < 20; ++i)
-  {
-    const Isometry3d pose = placed(0.1 * i - 0.5, 0.2, 0.5, 0.7 * i);
-    const bool expected = oracleCollides(ell(), box, pose);
-    hits += expected ? 1 : 0;
-    EXPECT_EQ(method->collide({pose})[0] != 0, expected) << i;
-  }
-  EXPECT_GT(hits, 5);
-  EXPECT_LT(hits, 20);
-  EXPECT_EQ(method->collide({placed(0.75, 0.75, 0.5)})[0], 0) << "in the notch";
-}
-
 TEST(ConvexSurfaces, FindContainmentInAConvexShapeAndMissItInADentedBall)
 {
   const MeshPtr ball = sphereMesh(0.02);

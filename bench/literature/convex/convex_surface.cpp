@@ -2,9 +2,6 @@
 #include "literature/convex/hull_method.h"
 #include "literature/convex/surface_patches.h"
 #include "literature/shared_tree.h"
-#ifdef GPS_LITERATURE_HACD
-#include "literature/convex/hacd.h"
-#endif
 
 // S. A. Ehmann, M. C. Lin: Accurate and fast proximity queries between polyhedra using convex surface decomposition,
 // 2001.
@@ -53,12 +50,8 @@ std::vector<MethodInfo> convexMethods()
 {
   Domain closed;
   closed.open = false;
-  std::vector<MethodInfo> methods = {{"convex_patches", "convex patches, GJK", "Ehmann, Lin 2001", "convex", closed,
-                                      [](const MeshPtr& a, const MeshPtr& b)
-                                      { return makeHullMethod(sharedTree<PatchTree>(a), sharedTree<PatchTree>(b)); }}};
-#ifdef GPS_LITERATURE_HACD
-  methods.push_back(hacdMethod());
-#endif
-  return methods;
+  return {{"convex_patches", "convex patches, GJK", "Ehmann, Lin 2001", "convex", closed,
+           [](const MeshPtr& a, const MeshPtr& b)
+           { return makeHullMethod(sharedTree<PatchTree>(a), sharedTree<PatchTree>(b)); }}};
 }
 }  // namespace gpu_planning_scene::core::literature
