@@ -9,16 +9,14 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
-#include <thread>
 
 #include "benchmark/csv_table.h"
+#include "benchmark/machine.h"
 #include "benchmark/settings.h"
 #include "benchmark/state_kinds.h"
 #include "benchmark/statistics.h"
 #include "command_line/command_line.h"
-#include "gpu/egl_context.h"
 #include "model/real_robots.h"
 #include "model/text/name_list.h"
 #include "peers/vamp/vamp_check.h"
@@ -85,7 +83,8 @@ std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
   names = chosenWords(arguments, "--methods", names);
   std::vector<MethodInfo> methods;
   for (const MethodInfo& method : all)
-    if (std::find(names.begin(), names.end(), method.name) != names.end())
+    if (std::find(names.begin(), names.end(), method.name) != names.end() &&
+        (method.in_quick_run || arguments.has("--methods") || !arguments.has("--quick")))
       methods.push_back(method);
   return methods;
 }
@@ -112,30 +111,17 @@ Settings readSettings(const CommandLine& arguments)
   return settings;
 }
 
-std::string processorName()
-{
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.rfind("model name", 0) == 0)
-      return line.substr(line.find(':') + 2);
-  return "unknown";
-}
-
 /// Writes the conditions of the run: device, processor, and settings.
 void writeRun(const Settings& settings)
 {
   CsvTable table(settings.out, "run.csv", {"what", "value"});
-  const Device device = EglContext(settings.method.device).device();
-  table.add({"device", device.renderer});
-  table.add({"opengl", device.version});
-  table.add({"processor", processorName()});
-  table.add({"cores", static_cast<std::size_t>(std::thread::hardware_concurrency())});
+  const Machine machine(settings.method.device);
+  machine.write(table);
   table.add({"states", settings.states});
   table.add({"repeats", settings.repeats});
   table.add({"seed", static_cast<std::size_t>(settings.seed)});
   table.add({"quick", settings.quick ? "yes" : "no"});
-  std::cerr << "device: " << device.renderer << "; " << std::thread::hardware_concurrency() << " cores, "
-            << processorName() << "\nscenes: " << nameList(settings.scenes) << std::endl;
+  std::cerr << machine.line() << "\nscenes: " << nameList(settings.scenes) << std::endl;
 }
 
 void run(const CommandLine& arguments)
@@ -186,13 +172,13 @@ int main(int argc, char** argv)
       {"benchmark",
        "[--quick] [--out DIR] [--data DIR] [--scenes A,B] [--methods A,B] ...",
        "Measures states per second, wrong answers and their size, latency, build and update times, memory, work\n"
-       "and growth, of this project's methods and of FCL, Bullet, fitted spheres and VAMP, and writes them as CSV "
-       "tables.\n"
+       "and growth, of this project's methods, of FCL, Bullet, fitted spheres and VAMP, and of the methods of\n"
+       "bench/literature, and writes them as CSV tables.\n"
        "Work is counted outside the timing, and only if counting costs nothing: on the CPU the visited nodes per\n"
        "state, on the GPU the candidates and root pairs per state. The GPU's traversal and the peers have no counts.\n"
        "scripts/charts draws the tables. Exit status 1 if a method that claims to be exact gives a wrong answer.\n"
        "Without the robots of Debian's dart-doc (see --data), their scenes are left out.",
-       {{"--quick", "", "all methods, two scenes, few states: under a minute"},
+       {{"--quick", "", "two scenes, few states, no methods of bench/literature: under a minute"},
         {"--out", "DIR", "folder for the tables (default benchmark)"},
         {"--data", "DIR", "folder with urdf/KR5, urdf/drchubo, urdf/wam, robots/ur5_robotiq, problems/ur5"},
         {"--parts", "A,B", "of " + nameList(kParts) + " (default all)"},

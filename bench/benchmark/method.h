@@ -47,13 +47,14 @@ struct MethodOptions
 
 struct MethodInfo
 {
-  std::string name;         ///< on the command line and in tables
-  std::string title;        ///< in charts
-  std::string family;       ///< methods of a family have one colour in charts
-  bool exact = false;       ///< a wrong answer is an error
-  bool batched = false;     ///< its speed depends on the batch size
-  bool paddable = true;     ///< it can check padded scenes
-  bool responsive = false;  ///< it is also measured for single states, updates and growth
+  std::string name;          ///< on the command line and in tables
+  std::string title;         ///< in charts
+  std::string family;        ///< methods of a family have one colour in charts
+  bool exact = false;        ///< a wrong answer is an error
+  bool batched = false;      ///< its speed depends on the batch size
+  bool paddable = true;      ///< it can check padded scenes
+  bool responsive = false;   ///< it is also measured for single states, updates and growth
+  bool in_quick_run = true;  ///< --quick measures it, also if nobody names it
   /// The reason why the method cannot check a scene; empty: it can. Without the function it can check every scene.
   std::function<std::string(const PlanningScene&)> refuses;
   std::function<std::unique_ptr<Method>(const std::shared_ptr<const PlanningScene>&, const MethodOptions&)> make;
@@ -63,6 +64,8 @@ struct MethodInfo
 std::vector<MethodInfo> ourMethods();
 /// Methods of other libraries.
 std::vector<MethodInfo> peerMethods();
+/// Methods of bench/literature that check the pairs of shapes one by one.
+std::vector<MethodInfo> literatureMethods();
 /// VAMP's check, if it can be used here: see whyNoVamp().
 std::vector<MethodInfo> vampMethods();
 /// All of them. The first is the exact checker. FCL with OBBRSS, the reference for speed, is among them.

@@ -150,7 +150,7 @@ std::vector<MethodInfo> peerMethods()
 std::vector<MethodInfo> allMethods()
 {
   std::vector<MethodInfo> methods = ourMethods();
-  for (const auto& others : {peerMethods(), vampMethods()})
+  for (const auto& others : {peerMethods(), literatureMethods(), vampMethods()})
     methods.insert(methods.end(), others.begin(), others.end());
   return methods;
 }

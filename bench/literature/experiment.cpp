@@ -7,10 +7,8 @@
 #include "benchmark/csv_table.h"
 #include "benchmark/statistics.h"
 #include "gpu_planning_scene/error.h"
-#include "literature/exact_pair.h"
 #include "literature/models.h"
-#include "literature/pair_truth.h"
-#include "literature/poses.h"
+#include "literature/samples.h"
 #include "tools/progress_bar.h"
 
 namespace gpu_planning_scene::core::literature
@@ -24,72 +22,7 @@ using Answers = std::vector<std::uint8_t>;
 
 constexpr std::size_t kFewPoses = 4;  // of the trial that finds how slow a method is
 constexpr std::size_t kMostRepeats = 5;
-constexpr std::size_t kClearancePoses = 60;
 constexpr std::size_t kMostQuickTriangles = 5000;  // of a robot's link that --quick measures
-
-/// Poses of one protocol at one distance, with the true answers.
-struct Sample
-{
-  std::string protocol;
-  double distance;  ///< of the centres ("turning") or of the surfaces ("clearance"), divided by the model's size
-  std::vector<Eigen::Isometry3d> poses;
-  Answers truth;  ///< of the exact checker
-};
-
-/// The contract allows both answers for distances of up to 1e-9 m, and the exact checker reports a collision for some
-/// of them. If a method gives another answer, the oracle decides whether the pose is such a case. Its trees are made
-/// for the first such pose of a model.
-class Referee
-{
- public:
-  explicit Referee(std::shared_ptr<const Mesh> mesh) : mesh_(std::move(mesh)) {}
-
-  bool eitherAnswerIsRight(const Eigen::Isometry3d& pose)
-  {
-    if (!truth_)
-      truth_ = std::make_unique<PairTruth>(mesh_, mesh_);
-    const double distance = truth_->solids(pose, 2.0 * oracle::kTolerance);
-    return distance > 0.0 && distance <= oracle::kTolerance;
-  }
-
- private:
-  std::shared_ptr<const Mesh> mesh_;
-  std::unique_ptr<PairTruth> truth_;
-};
-
-/// Distances of the centres, from just apart to deep overlap.
-std::vector<double> turningDistances(bool quick)
-{
-  return quick ? std::vector<double>{0.99, 0.7}
-               : std::vector<double>{1.1, 1.05, 1.01, 0.99, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6, 0.5};
-}
-
-std::vector<double> clearances(bool quick)
-{
-  return quick ? std::vector<double>{0.01} : std::vector<double>{1e-4, 1e-3, 0.01, 0.03, 0.1, 0.2, 0.4};
-}
-
-std::vector<Sample> samplesOf(const Model& model, const Settings& settings)
-{
-  std::vector<Sample> samples;
-  for (const std::string& protocol : settings.protocols)
-  {
-    if (protocol == "turning")
-      for (const double distance : turningDistances(settings.quick))
-        samples.push_back({protocol, distance, turningPoses(distance * model.size, settings.seed), {}});
-    else
-      for (const double clearance : clearances(settings.quick))
-        samples.push_back({protocol,
-                           clearance,
-                           posesWithClearance(*model.mesh, *model.mesh, model.size, clearance * model.size,
-                                              kClearancePoses, settings.seed),
-                           {}});
-  }
-  const ExactPair exact(pairProblem(model.mesh, model.mesh));
-  for (Sample& sample : samples)
-    sample.truth = exact.collide(sample.poses);
-  return samples;
-}
 
 struct Measurement
 {
@@ -110,18 +43,20 @@ WorkCounts difference(const WorkCounts& before, const WorkCounts& after, double 
 }
 
 /// Counts wrong answers to the first poses of the sample. Of several calls, the most wrong one stays in the result.
-void countWrong(const Answers& answers, const Sample& sample, Referee& referee, Measurement& result)
+void countWrong(const Answers& answers, const Sample& sample, Measurement& result)
 {
   std::size_t missed = 0;
   std::size_t invented = 0;
   for (std::size_t i = 0; i < answers.size(); ++i)
-    if ((answers[i] != 0) != (sample.truth[i] != 0) && !referee.eitherAnswerIsRight(sample.poses[i]))
-      ++(answers[i] != 0 ? invented : missed);
+  {
+    missed += sample.truth[i] == oracle::Verdict::Collides && answers[i] == 0 ? 1 : 0;
+    invented += sample.truth[i] == oracle::Verdict::Free && answers[i] != 0 ? 1 : 0;
+  }
   result.missed = std::max(result.missed, missed);
   result.invented = std::max(result.invented, invented);
 }
 
-Measurement measure(Method& method, const Sample& sample, double seconds, Referee& referee)
+Measurement measure(Method& method, const Sample& sample, double seconds)
 {
   const std::size_t few_count = std::min(kFewPoses, sample.poses.size());
   const std::vector<Eigen::Isometry3d> few(sample.poses.begin(),
@@ -141,16 +76,19 @@ Measurement measure(Method& method, const Sample& sample, double seconds, Refere
   const WorkCounts before = method.work();
   for (std::size_t repeat = 0; repeat < kMostRepeats && (repeat == 0 || spent < seconds); ++repeat)
   {
+    const double others = method.otherCpuSeconds();
     const Stopwatch watch;
     const Answers answers = method.collide(asked);
     wall.push_back(1e6 * watch.seconds() / queries);
-    cpu.push_back(1e6 * watch.cpuSeconds() / queries);
+    cpu.push_back(1e6 * (watch.cpuSeconds() + method.otherCpuSeconds() - others) / queries);
     spent += watch.seconds();
-    countWrong(answers, sample, referee, result);
+    countWrong(answers, sample, result);
   }
   result.us_a_query = median(wall);
   result.cpu_us_a_query = median(cpu);
   result.work = difference(before, method.work(), queries * static_cast<double>(wall.size()));
+  for (const auto& [part, microseconds] : method.timesOfParts(asked))
+    result.work.emplace_back(part, microseconds / queries);
   return result;
 }
 
@@ -176,13 +114,13 @@ struct Tables
 
 double collidingShare(const Sample& sample)
 {
-  return static_cast<double>(std::count(sample.truth.begin(), sample.truth.end(), 1)) /
+  return static_cast<double>(std::count(sample.truth.begin(), sample.truth.end(), oracle::Verdict::Collides)) /
          static_cast<double>(sample.truth.size());
 }
 
 /// Returns the number of wrong answers.
 std::size_t measureMethod(const MethodInfo& info, const Model& model, const std::vector<Sample>& samples,
-                          double seconds, Referee& referee, Tables& tables)
+                          double seconds, Tables& tables)
 {
   const std::size_t triangles = model.mesh->triangles.size();
   const Stopwatch building;
@@ -197,12 +135,14 @@ std::size_t measureMethod(const MethodInfo& info, const Model& model, const std:
     return 0;
   }
   tables.builds.add({model.name, triangles, info.name, building.seconds(), ""});
+  for (const auto& [what, count] : method->built())
+    tables.work.add({"build", model.name, triangles, 0.0, info.name, what, count});
   std::size_t wrong = 0;
   for (const Sample& sample : samples)
   {
     if (sample.poses.empty())
       continue;
-    const Measurement m = measure(*method, sample, seconds, referee);
+    const Measurement m = measure(*method, sample, seconds);
     tables.times.add({sample.protocol, model.name, triangles, model.size, sample.distance, collidingShare(sample),
                       info.name, info.title, info.family, inDomain(info, model) ? "yes" : "no", m.poses, m.us_a_query,
                       m.cpu_us_a_query, m.missed, m.invented});
@@ -231,11 +171,10 @@ std::size_t measureExperiment(const Settings& settings)
   for (const Model& model : models)
   {
     const std::vector<Sample> samples = samplesOf(model, settings);
-    Referee referee(model.mesh);
     for (const MethodInfo& info : settings.methods)
     {
       progress.update(done++);
-      const std::size_t of_method = measureMethod(info, model, samples, settings.seconds, referee, tables);
+      const std::size_t of_method = measureMethod(info, model, samples, settings.seconds, tables);
       if (info.family == "ours" && of_method > 0)
         std::cerr << model.name << ", " << model.mesh->triangles.size() << " triangles: " << info.title << " gives "
                   << of_method << " wrong answers\n";

@@ -18,7 +18,8 @@ struct Settings
   std::vector<std::size_t> triangles;  ///< of each made model
   std::vector<std::string> protocols;  ///< "turning" and "clearance"
   bool robot_links = true;
-  double seconds = 0.5;  ///< limit of a measurement; a slower method gets fewer poses
+  std::size_t contacts = 32;  ///< of each family of hard cases
+  double seconds = 0.5;       ///< limit of a measurement; a slower method gets fewer poses
   std::uint64_t seed = 1;
   bool quick = false;
 };

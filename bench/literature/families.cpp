@@ -15,8 +15,6 @@ namespace gpu_planning_scene::core::literature
 {
 namespace
 {
-constexpr std::size_t kCount = 32;
-constexpr std::size_t kQuickCount = 2;
 constexpr double kDistanceLimit = 1e-8;  // metres: larger distances are only known to be larger
 
 struct Truth
@@ -106,7 +104,7 @@ std::size_t judgeFamilies(const Settings& settings)
       {"hard_case", "level", "method", "title", "family", "in_domain", "poses", "surfaces_collide", "solids_collide",
        "missed_surfaces", "false_surfaces", "missed_solids", "false_solids", "within_contract"});
   benchmark::CsvTable refusals(settings.out, "refusals.csv", {"hard_case", "method", "reason"});
-  const std::vector<HardPair> pairs = hardPairs(settings.quick ? kQuickCount : kCount, settings.seed);
+  const std::vector<HardPair> pairs = hardPairs(settings.contacts, settings.seed);
   ProgressBar progress("hard cases", pairs.size() * settings.methods.size());
   std::size_t done = 0;
   Rows rows;

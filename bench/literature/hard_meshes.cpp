@@ -44,16 +44,38 @@ MeshPtr damaged(const MeshPtr& mesh, Damage damage, std::uint64_t seed)
   return made;
 }
 
-MeshPtr needles(std::uint64_t seed)
+const Vector3d kNeedleAxis = Vector3d(1.0, 0.8, 1.2).normalized();
+
+MeshPtr needle()
+{
+  const Isometry3d turn(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), kNeedleAxis));
+  return moved(boxMesh({1.0, 1e-4, 1e-4}), turn);
+}
+
+const Vector3d kPlateAxis = Vector3d(0.8, 0.6, 0.0);
+
+MeshPtr plate()
+{
+  return moved(boxMesh({1.0, 1e-4, 0.1}),
+               Isometry3d(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), kPlateAxis)));
+}
+
+MeshPtr grains(std::uint64_t seed, const Eigen::Matrix3d& turn)
 {
   auto made = std::make_shared<Mesh>();
-  made->name = "needles";
-  for (const Isometry3d& pose : posesAt(0.0, 100, seed))
+  made->name = "grains";
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> place(-0.5, 0.5);
+  for (int i = 0; i < 60; ++i)
   {
+    const double x = place(generator);
+    const double y = place(generator);
+    const Vector3d at(x, y, place(generator));
     const auto first = static_cast<std::uint32_t>(made->vertices.size());
-    for (const Vector3d& corner : {Vector3d(0.05, 0, 0), Vector3d(0.5, 0, 0), Vector3d(0.3, 5e-5, 0)})
-      made->vertices.push_back(pose * corner);
-    made->triangles.push_back({first, first + 1, first + 2});
+    for (const Vector3d& corner : {Vector3d(1, 1, 1), Vector3d(1, -1, -1), Vector3d(-1, 1, -1), Vector3d(-1, -1, 1)})
+      made->vertices.push_back(at + turn * (0.35 * kGrainSize * corner));
+    for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}})
+      made->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
   }
   return made;
 }

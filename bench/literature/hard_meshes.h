@@ -5,12 +5,12 @@
 
 #include <Eigen/Geometry>
 
+#include "literature/shared_tree.h"
 #include "literature/solids.h"
 
 /// Meshes of hard cases, of about a metre.
 namespace gpu_planning_scene::core::literature
 {
-using MeshPtr = std::shared_ptr<const Mesh>;
 
 /// See madeModel.
 MeshPtr modelMesh(const char* model, std::size_t triangles = 400);
@@ -27,8 +27,19 @@ enum class Damage
 /// Every tenth triangle, chosen at random, is damaged.
 MeshPtr damaged(const MeshPtr& mesh, Damage damage, std::uint64_t seed);
 
-/// Triangles that point away from a common centre, half a metre long and a twentieth of a millimetre wide.
-MeshPtr needles(std::uint64_t seed);
+/// A needle of a metre with a thickness of a tenth of a millimetre. It lies along kNeedleAxis, at an angle to all axes,
+/// so that its bounding box is thousands of times as wide.
+MeshPtr needle();
+extern const Eigen::Vector3d kNeedleAxis;
+
+/// An upright plate: a metre along kPlateAxis, a tenth of a metre along z, a tenth of a millimetre thick.
+MeshPtr plate();
+extern const Eigen::Vector3d kPlateAxis;
+
+/// Tetrahedra with edges of kGrainSize, scattered in a cube of a metre. `turn`: of each grain about its centre. The
+/// same seed gives the same places.
+MeshPtr grains(std::uint64_t seed, const Eigen::Matrix3d& turn = Eigen::Matrix3d::Identity());
+constexpr double kGrainSize = 1e-4;  // metres
 
 /// Boxes of a tenth of a metre, as one mesh.
 MeshPtr pile(std::uint64_t seed);

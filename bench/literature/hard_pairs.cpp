@@ -3,8 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "literature/exact_pair.h"
-#include "literature/hard_meshes.h"
+#include "literature/contacts.h"
 #include "literature/poses.h"
 
 namespace gpu_planning_scene::core::literature
@@ -15,61 +14,12 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Levels = std::vector<double>;
 
-constexpr std::size_t kManyTriangles = 20000;
 constexpr double kRemote = 5e5;  // metres; kLargestLength is twice as much
 
 const Levels kFineLevels = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, -1e-6, -1e-5, -1e-4, -1e-3, -1e-2};
 const Levels kCoarseLevels = {1e-2, 1e-3, 1e-5, -1e-5, -1e-3, -1e-2};
-
-/// A pose in which b just does not touch a, and the direction from a to b.
-struct Contact
-{
-  Isometry3d apart;
-  Vector3d direction;
-};
-
-Contact contactFrom(const ExactPair& exact, const Isometry3d& start)
-{
-  CpuTraversal::Scratch scratch;
-  const Vector3d direction = start.translation().normalized();
-  const auto at = [&](double distance)
-  {
-    Isometry3d pose = start;
-    pose.translation() = distance * direction;
-    return pose;
-  };
-  double apart = start.translation().norm();
-  double touching = 0.0;
-  while (touching + 1e-14 * apart < apart)
-  {
-    const double middle = 0.5 * (touching + apart);
-    if (middle == touching || middle == apart)
-      break;
-    (exact.collides(at(middle), scratch) ? touching : apart) = middle;
-  }
-  return {at(apart), direction};
-}
-
-/// Contacts from random directions with random rotations, or from the six directions of the axes without a rotation.
-std::vector<Contact> contacts(const MeshPtr& a, const MeshPtr& b, double reach, bool turned, std::size_t count,
-                              std::uint64_t seed)
-{
-  const ExactPair exact(pairProblem(a, b));
-  std::vector<Isometry3d> starts = posesAt(reach, count, seed);
-  if (!turned)
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      // A small shift across the direction, so that not all edges meet edges.
-      const int axis = static_cast<int>(i % 3);
-      Vector3d place = 0.01 * static_cast<double>(i) / static_cast<double>(count) * Vector3d(0.7, 0.4, 0.55);
-      place[axis] = i % 2 == 0 ? reach : -reach;
-      starts[i] = Eigen::Translation3d(place);
-    }
-  std::vector<Contact> found;
-  for (const Isometry3d& start : starts)
-    found.push_back(contactFrom(exact, start));
-  return found;
-}
+const Levels kThinLevels = {1e-2, 1e-3, 1e-5, -1e-5, -5e-5};  // a needle is 1e-4 thick
+const Levels kGrainLevels = {0.3, 0.1, 0.01, -0.01, -0.1, -0.3};
 
 void addLevels(const std::string& family, const std::vector<Contact>& contacts, const Levels& levels, double size,
                HardPair& pair)
@@ -89,7 +39,7 @@ HardPair nearContact(const std::string& family, const MeshPtr& a, const MeshPtr&
   HardPair pair;
   pair.a = a;
   pair.b = b;
-  addLevels(family, contacts(a, b, 3.0, true, count, seed), levels, size, pair);
+  addLevels(family, contacts(a, b, true, count, seed), levels, size, pair);
   return pair;
 }
 
@@ -117,8 +67,8 @@ void addClearances(std::size_t count, std::uint64_t seed, std::vector<HardPair>&
     pair.b = pair.a;
     pair.convex = name == std::string("box") || name == std::string("sphere");
     const std::string kind = pair.convex ? "convex" : "concave";
-    addLevels(kind + ", along the axes", contacts(pair.a, pair.b, 3.0, false, count, seed), kFineLevels, 1.0, pair);
-    addLevels(kind + ", turned", contacts(pair.a, pair.b, 3.0, true, count, seed), kFineLevels, 1.0, pair);
+    addLevels(kind + ", along the axes", contacts(pair.a, pair.b, false, count, seed), kFineLevels, 1.0, pair);
+    addLevels(kind + ", turned", contacts(pair.a, pair.b, true, count, seed), kFineLevels, 1.0, pair);
     pairs.push_back(pair);
   }
 }
@@ -128,7 +78,7 @@ void addCoordinates(std::size_t count, std::uint64_t seed, std::vector<HardPair>
   const MeshPtr torus = modelMesh("torus");
   HardPair aligned;
   aligned.a = aligned.b = torus;
-  addLevels("", contacts(torus, torus, 3.0, false, count, seed), kCoarseLevels, 1.0, aligned);
+  addLevels("", contacts(torus, torus, false, count, seed), kCoarseLevels, 1.0, aligned);
   for (const double degrees : {1.0, 45.0})
   {
     const Isometry3d turn(Eigen::AngleAxisd(degrees * M_PI / 180.0, Vector3d(1.0, 0.7, 0.4).normalized()));
@@ -137,9 +87,9 @@ void addCoordinates(std::size_t count, std::uint64_t seed, std::vector<HardPair>
   }
   const HardPair turned = nearContact("", torus, torus, kCoarseLevels, 1.0, count, seed);
   pairs.push_back(inOtherCoordinates("units of 1e-6", turned, Isometry3d::Identity(), 1e-6));
-  pairs.push_back(inOtherCoordinates("units of 1e6", turned, Isometry3d::Identity(), kRemote));
+  pairs.push_back(inOtherCoordinates("units of 5e5", turned, Isometry3d::Identity(), kRemote));
   pairs.back().remote = true;
-  pairs.push_back(inOtherCoordinates("far from the origin", turned,
+  pairs.push_back(inOtherCoordinates("5e5 m from the origin", turned,
                                      Isometry3d(Eigen::Translation3d(kRemote * Vector3d(1.0, -0.8, 0.6))), 1.0));
   pairs.back().remote = true;
 }
@@ -156,13 +106,64 @@ void addSurfaces(std::size_t count, std::uint64_t seed, std::vector<HardPair>& p
   add("a tenth of the faces removed", Damage::Removed, true);
   add("a tenth of the faces flipped", Damage::Flipped, true);
   add("a tenth of the faces doubled", Damage::Doubled, true);
-  const MeshPtr dense = modelMesh("lump", kManyTriangles);
-  pairs.push_back(nearContact("triangles below a pixel", dense, dense, kCoarseLevels, 1.0, count, seed));
-  const MeshPtr star = needles(seed);
-  pairs.push_back(nearContact("needles", star, star, kCoarseLevels, 1.0, count, seed));
-  pairs.back().open = true;
   pairs.push_back(
       nearContact("sizes 1 : 1000", lump, scaled(modelMesh("sphere"), 1e-3), kCoarseLevels, 1e-3, count, seed));
+}
+
+/// Cases that lie between the pixels. The boxes around the shapes are hundreds of times as wide as the parts that meet,
+/// so a view of the whole box gives these parts less than a pixel.
+void addThinShapes(std::size_t count, std::uint64_t seed, std::vector<HardPair>& pairs)
+{
+  std::mt19937_64 generator(seed);
+  const auto uniform = [&](double lower, double upper)
+  { return std::uniform_real_distribution<double>(lower, upper)(generator); };
+
+  // Two needles cross each other. Level: as a share of their length.
+  HardPair needles;
+  needles.a = needles.b = needle();
+  needles.convex = true;
+  std::vector<Path> paths;
+  while (paths.size() < count)
+  {
+    const Vector3d across =
+        Vector3d(uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0)).cross(kNeedleAxis).normalized();
+    Isometry3d start(Eigen::AngleAxisd(uniform(0.4, M_PI - 0.4), across));
+    const Vector3d axis = start.linear() * kNeedleAxis;
+    if (axis.cwiseAbs().minCoeff() < 0.2)  // along a face of its bounding box
+      continue;
+    start.translation() = uniform(-0.3, 0.3) * kNeedleAxis - uniform(-0.3, 0.3) * axis;
+    paths.push_back({start, across, 0.1});
+  }
+  addLevels("needles", contactsOn(paths, needles.a, needles.b), kThinLevels, 1.0, needles);
+  pairs.push_back(needles);
+
+  // An upright edge of a plate meets the face of another plate. A view from above, along the shortest side of their
+  // boxes, shows both plates from the edge. None of them lies along a side of its box.
+  HardPair plates;
+  plates.a = plates.b = plate();
+  plates.convex = true;
+  paths.clear();
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    Isometry3d start(Eigen::AngleAxisd(uniform(1.3, 2.1), Vector3d::UnitZ()));
+    start.translation().z() = uniform(-0.02, 0.02);
+    const double side = i % 2 == 0 ? 1.0 : -1.0;
+    const double along = uniform(0.2, 0.3);
+    start.translation() += side * along * (start.linear() * kPlateAxis) + uniform(-0.2, 0.2) * kPlateAxis;
+    paths.push_back({start, side * (start.linear() * kPlateAxis), 1.0});
+  }
+  addLevels("plates from the edge", contactsOn(paths, plates.a, plates.b), kFineLevels, 1.0, plates);
+  pairs.push_back(plates);
+
+  // Level: as a share of the size of a grain.
+  HardPair tiny;
+  tiny.a = grains(seed);
+  tiny.b = grains(seed, Eigen::AngleAxisd(1.0, Vector3d(0.3, -0.5, 0.8).normalized()).toRotationMatrix());
+  paths.clear();
+  for (const Isometry3d& pose : posesAt(1.0, count, seed))
+    paths.push_back({Isometry3d::Identity(), pose.translation().normalized(), 10.0 * kGrainSize});
+  addLevels("triangles below a pixel", contactsOn(paths, tiny.a, tiny.b), kGrainLevels, kGrainSize, tiny);
+  pairs.push_back(tiny);
 }
 
 void addPlaces(std::size_t count, std::uint64_t seed, std::vector<HardPair>& pairs)
@@ -194,18 +195,6 @@ void addPlaces(std::size_t count, std::uint64_t seed, std::vector<HardPair>& pai
       linked.poses.push_back({"linked tori", level, pose});
     }
   pairs.push_back(linked);
-  // Two plates, one over the other. Level: their gap, or their overlap below 0, in metres.
-  HardPair plates;
-  plates.a = plates.b = boxMesh({1.0, 1.0, 1e-3});
-  plates.convex = true;
-  for (const double level : kFineLevels)
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      Isometry3d pose(Eigen::Translation3d(uniform(-0.5, 0.5), uniform(-0.5, 0.5), 1e-3 + std::max(level, -1e-3)));
-      pose.rotate(Eigen::AngleAxisd(uniform(-M_PI, M_PI), Vector3d::UnitZ()));
-      plates.poses.push_back({"plates from the edge", level, pose});
-    }
-  pairs.push_back(plates);
   // Level 0: exact contact, if the coordinates of the poses have no rounding.
   HardPair touching;
   touching.a = touching.b = boxMesh({1.0, 0.5, 0.25});
@@ -235,6 +224,7 @@ std::vector<HardPair> hardPairs(std::size_t count, std::uint64_t seed)
   addClearances(count, seed, pairs);
   addCoordinates(count, seed, pairs);
   addSurfaces(count, seed, pairs);
+  addThinShapes(count, seed, pairs);
   addPlaces(count, seed, pairs);
   return pairs;
 }

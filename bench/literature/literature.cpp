@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "benchmark/csv_table.h"
+#include "benchmark/machine.h"
 #include "command_line/command_line.h"
 #include "literature/experiment.h"
 #include "literature/families.h"
@@ -26,6 +27,7 @@ std::vector<MethodInfo> allMethods()
   std::vector<MethodInfo> methods = ourMethods();
   const auto add = [&](const std::vector<MethodInfo>& others)
   { methods.insert(methods.end(), others.begin(), others.end()); };
+  add(deviceMethods());
   add(treeMethods());
   add(imageSpaceMethods());
   add(convexMethods());
@@ -66,6 +68,17 @@ std::vector<std::size_t> chosenTriangles(const CommandLine& arguments)
   return counts;
 }
 
+/// Writes the conditions of the run.
+void writeRun(const Settings& settings)
+{
+  benchmark::CsvTable table(settings.out, "run.csv", {"what", "value"});
+  const benchmark::Machine machine("auto");
+  machine.write(table);
+  table.add({"seed", static_cast<std::size_t>(settings.seed)});
+  table.add({"quick", settings.quick ? "yes" : "no"});
+  std::cerr << machine.line() << std::endl;
+}
+
 void run(const CommandLine& arguments)
 {
   Settings settings;
@@ -77,8 +90,10 @@ void run(const CommandLine& arguments)
   settings.triangles = chosenTriangles(arguments);
   settings.protocols = chosenWords(arguments, "--protocols", kProtocols);
   settings.seconds = arguments.number("--seconds", settings.quick ? 0.02 : 0.5, 0.001, 1e4);
+  settings.contacts = arguments.count("--contacts", settings.quick ? 2 : 32, 1, 10000);
   settings.seed = arguments.count("--seed", 1, 0, 1ULL << 62);
   benchmark::makeTableFolder(settings.out);
+  writeRun(settings);
   writeMethods(settings);
   std::size_t wrong = 0;
   for (const std::string& part : chosenWords(arguments, "--parts", kParts))
@@ -96,8 +111,9 @@ int main(int argc, char** argv)
        "[--quick] [--out DIR] [--methods A,B] [--models A,B] [--triangles N,M] ...",
        "Measures collision tests of two rigid meshes from the literature, this package among them: time a query\n"
        "and wrong answers for two copies of a model at many distances (part experiment), and wrong answers in hard\n"
-       "cases (part families). The truth is the exact checker in the first part, and true distances in the second.\n"
-       "Writes methods.csv, builds.csv, experiment.csv, work.csv, families.csv and refusals.csv. Exit status 1 if\n"
+       "cases (part families). The truth is the oracle of the tests, in quadruple precision.\n"
+       "Writes run.csv, methods.csv, builds.csv, experiment.csv, work.csv, families.csv and refusals.csv. Exit status "
+       "1 if\n"
        "this package gives a wrong answer.",
        {{"--quick", "", "small models and few poses: under two minutes"},
         {"--out", "DIR", "folder for the tables (default literature)"},
@@ -108,6 +124,7 @@ int main(int argc, char** argv)
         {"--protocols", "A,B", "of " + nameList(kProtocols) + " (default: both)"},
         {"--seconds", "S",
          "a method that takes longer at a distance gets fewer poses (default 0.5; with --quick 0.02)"},
+        {"--contacts", "N", "of each family of hard cases (default 32; with --quick 2)"},
         {"--seed", "N", "seed of models and poses (default 1)"}},
        run},
       argc, argv);

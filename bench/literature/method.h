@@ -25,6 +25,29 @@ class Method
   /// One byte for each pose of `b` in the frame of `a`: 1 if the method reports a collision, else 0.
   virtual std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) = 0;
   virtual WorkCounts work() const { return {}; }
+  /// The sizes of what the constructor made, for example "pieces of a".
+  virtual WorkCounts built() const { return {}; }
+  /// Checks the poses again, and returns the microseconds that parts of this work take. Clocks within a query cost
+  /// time, so a timed call of `collide` reads none.
+  virtual WorkCounts timesOfParts(const std::vector<Eigen::Isometry3d>& /*b_in_a*/) { return {}; }
+  /// The CPU time so far of other processes that work for this method, in seconds.
+  virtual double otherCpuSeconds() const { return 0.0; }
+};
+
+/// A method that checks one pose after the other.
+class PosewiseMethod : public Method
+{
+ public:
+  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) final
+  {
+    std::vector<std::uint8_t> answers;
+    for (const Eigen::Isometry3d& pose : b_in_a)
+      answers.push_back(collides(pose) ? 1 : 0);
+    return answers;
+  }
+
+ protected:
+  virtual bool collides(const Eigen::Isometry3d& b_in_a) = 0;
 };
 
 /// The cases for which the authors of a method claim correct answers.
@@ -40,7 +63,9 @@ struct MethodInfo
   std::string name;    ///< on the command line and in tables
   std::string title;   ///< in charts
   std::string source;  ///< authors and year, or the library and its version
-  std::string family;  ///< methods of a family have one colour in charts: "trees", "image space", "convex", "library"
+  /// "ours", "paper" (the founding paper's), "trees", "image space", "convex" or "library". Methods of a family have
+  /// one colour in charts.
+  std::string family;
   Domain domain;
   /// Prepares the method for two meshes. Throws Error if it cannot check them.
   std::function<std::unique_ptr<Method>(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b)>
@@ -49,12 +74,14 @@ struct MethodInfo
 
 /// Trees of bounding volumes on the CPU, after their papers.
 std::vector<MethodInfo> treeMethods();
+/// The traversal of the founding paper on the device.
+std::vector<MethodInfo> deviceMethods();
 /// Methods that render the shapes and compare pixels.
 std::vector<MethodInfo> imageSpaceMethods();
 /// Convex pieces of surfaces.
 std::vector<MethodInfo> convexMethods();
 /// Other libraries, used as their users use them.
 std::vector<MethodInfo> libraryMethods();
-/// This package, and the exact checker as the truth.
+/// This package.
 std::vector<MethodInfo> ourMethods();
 }  // namespace gpu_planning_scene::core::literature

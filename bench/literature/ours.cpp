@@ -7,22 +7,15 @@ namespace gpu_planning_scene::core::literature
 {
 namespace
 {
-/// The exact checker on one core, as the other methods on the CPU are measured. The experiments use ExactPair itself as
-/// the truth.
-class ExactCpu : public Method
+/// The exact checker on one core, as the other methods on the CPU are measured.
+class ExactCpu : public PosewiseMethod
 {
  public:
   ExactCpu(const Shape& a, const Shape& b) : pair_(pairProblem(a, b)) {}
 
-  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
-  {
-    std::vector<std::uint8_t> answers;
-    for (const Eigen::Isometry3d& pose : b_in_a)
-      answers.push_back(pair_.collides(pose, scratch_) ? 1 : 0);
-    return answers;
-  }
-
  private:
+  bool collides(const Eigen::Isometry3d& b_in_a) override { return pair_.collides(b_in_a, scratch_); }
+
   ExactPair pair_;
   CpuTraversal::Scratch scratch_;
 };

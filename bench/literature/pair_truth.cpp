@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "literature/descent.h"
+
 namespace gpu_planning_scene::core::literature
 {
 namespace
@@ -41,7 +43,8 @@ double PairTruth::surfaces(const Eigen::Isometry3d& b_in_a, double limit) const
       const oracle::Triangle moved({motion * corners[0], motion * corners[1], motion * corners[2]});
       best = std::min(best, oracle::distance(surface_a_.triangles()[node_a.triangle], moved, best));
     }
-    else if (node_b.child == 0 || (node_a.child != 0 && node_a.box.half.squaredNorm() > node_b.box.half.squaredNorm()))
+    else if (opensFirst(node_a.child == 0, node_b.child == 0, node_a.box.half.squaredNorm(),
+                        node_b.box.half.squaredNorm()))
     {
       open.push_back({node_a.child, b});
       open.push_back({node_a.child + 1, b});

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,8 @@ struct Family
   bool convex = false;
   /// All cases with the same value of i / copies are copies of one pair with other orders of vertices and arguments.
   std::size_t copies = 1;
+  /// There are no more cases than this.
+  std::size_t most = std::numeric_limits<std::size_t>::max();
   /// A point near the robot, in the planning frame; see CollisionProblem::origin.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 };
@@ -57,4 +60,5 @@ std::vector<Family> contactFamilies();
 std::vector<Family> containmentFamilies();
 std::vector<Family> primitiveFamilies();
 std::vector<Family> paddingFamilies();
+std::vector<Family> literatureFamilies();
 }  // namespace gpu_planning_scene::core::stability

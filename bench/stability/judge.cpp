@@ -22,6 +22,7 @@ struct Judged
   oracle::Verdict truth = oracle::Verdict::Either;
   std::array<bool, MethodCount> applies{};
   std::array<bool, MethodCount> collides{};
+  std::array<bool, MethodCount> outside{};  ///< the case is outside the method's domain; only for wrong answers
 };
 
 struct Places
@@ -64,7 +65,25 @@ void askPeers(const Family& family, Judged& judged)
     answer(BulletHulls, bulletCollides(judged.made));
 }
 
-Judged judgeOne(const Family& family, std::uint64_t seed, std::size_t index)
+/// `renders`: whether methods that render check this case.
+void askLiterature(const Family& family, const LiteratureMethods& literature, bool renders, Judged& judged)
+{
+  for (std::size_t m = 0; family.triangles && m < MethodCount; ++m)
+  {
+    const auto method = static_cast<Method>(m);
+    if (!literature.has(method) || (literature.renders(method) && !renders))
+      continue;
+    const std::optional<bool> collides = literature.collides(method, judged.made);
+    judged.applies[m] = collides.has_value();
+    judged.collides[m] = collides.value_or(false);
+    const oracle::Verdict wrong = judged.collides[m] ? oracle::Verdict::Free : oracle::Verdict::Collides;
+    judged.outside[m] =
+        judged.applies[m] && judged.truth == wrong && !literature.inDomain(method, judged.made, judged.truth);
+  }
+}
+
+Judged judgeOne(const Family& family, std::uint64_t seed, std::size_t index, const LiteratureMethods& literature,
+                bool renders)
 {
   Judged judged;
   judged.made = family.make(seed, index);
@@ -72,6 +91,7 @@ Judged judgeOne(const Family& family, std::uint64_t seed, std::size_t index)
   checkConstruction(judged.made, places);
   judged.truth = oracle::verdict(places.a, places.pose_a, places.b, places.pose_b, requiredDistance(judged.made));
   askPeers(family, judged);
+  askLiterature(family, literature, renders, judged);
   return judged;
 }
 
@@ -87,12 +107,13 @@ std::string describe(const Judged& judged, Method method)
 }
 }  // namespace
 
-Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& ours,
+Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& ours, const LiteratureMethods& literature,
           const std::function<void(const Failure&)>& report)
 {
   std::vector<Judged> all(count);
   std::exception_ptr error;
   std::mutex mutex;
+  const std::size_t pictures = (count + LiteratureMethods::kCasesPerPicture - 1) / LiteratureMethods::kCasesPerPicture;
   parallelFor(count, 4,
               [&](std::size_t begin, std::size_t end)
               {
@@ -100,7 +121,7 @@ Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& our
                 {
                   try
                   {
-                    all[i] = judgeOne(family, seed, i);
+                    all[i] = judgeOne(family, seed, i, literature, i < pictures);
                   }
                   catch (...)
                   {
@@ -145,6 +166,7 @@ Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& our
       Cell& cell = row.cells[m];
       const std::size_t wrong_before = cell.wrong();
       stability::count(cell, judged.truth, judged.collides[m]);
+      cell.outside += judged.outside[m] ? 1 : 0;
       if (own && judged.truth == oracle::Verdict::Either && judged.collides[m] != exact_of_first)
         ++cell.inconsistent;
       if (own && cell.wrong() > wrong_before)

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "stability/literature_methods.h"
 #include "stability/ours.h"
 #include "stability/table.h"
 
@@ -19,6 +20,6 @@ struct Failure
 
 /// Runs every method on cases 0 .. count - 1 of a family and compares the answers with the oracle. Calls `report` for
 /// every wrong answer of the project's own methods. Throws Error if the oracle contradicts the construction of a case.
-Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& ours,
+Row judge(const Family& family, std::uint64_t seed, std::size_t count, Ours& ours, const LiteratureMethods& literature,
           const std::function<void(const Failure&)>& report);
 }  // namespace gpu_planning_scene::core::stability

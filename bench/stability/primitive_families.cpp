@@ -291,8 +291,8 @@ std::vector<Family> paddingFamilies()
 std::vector<Family> allFamilies()
 {
   std::vector<Family> all;
-  for (const auto& part :
-       {triangleFamilies(), contactFamilies(), containmentFamilies(), primitiveFamilies(), paddingFamilies()})
+  for (const auto& part : {triangleFamilies(), contactFamilies(), containmentFamilies(), primitiveFamilies(),
+                           paddingFamilies(), literatureFamilies()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -60,6 +60,7 @@ void runStability(const CommandLine& arguments)
   std::cerr << "device: " << ours.deviceName() << ", seed " << seed << ", " << cases << " cases of each of "
             << families.size() << " families\n";
 
+  const LiteratureMethods literature;
   std::vector<Row> rows;
   std::size_t wrong = 0;
   for (const Family& family : families)
@@ -74,8 +75,9 @@ void runStability(const CommandLine& arguments)
                   << failure.what;
     };
     // A set of copies tests more than a single case, but less than the same number of different cases.
-    const std::size_t count = family.copies == 1 ? cases : std::max(cases / 8, kLeastSets) * family.copies;
-    rows.push_back(judge(family, seed, count, ours, report));
+    const std::size_t count =
+        std::min(family.most, family.copies == 1 ? cases : std::max(cases / 8, kLeastSets) * family.copies);
+    rows.push_back(judge(family, seed, count, ours, literature, report));
     wrong += failures;
     if (failures > kReported)
       std::cerr << "\n  and " << failures - kReported << " more wrong answers";

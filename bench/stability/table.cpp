@@ -11,6 +11,15 @@ const std::array<MethodName, MethodCount>& methodNames()
       {"FCL, its own GJK", "fcl_own", false},
       {"float32, no filter", "float32", false},
       {"Bullet, hulls", "bullet", false},
+      {"oriented boxes (RAPID)", "rapid", false},
+      {"18-DOPs", "dop18", false},
+      {"24-DOPs", "dop24", false},
+      {"box trees", "box_tree", false},
+      {"convex patches", "convex_patches", false},
+      {"RECODE", "recode", false},
+      {"CInDeR", "cinder", false},
+      {"CULLIDE", "cullide", false},
+      {"CULLIDE, fattened", "cullide_fattened", false},
       {"ours, work queues", "work_queue", true},
       {"ours, breadth-first", "breadth_first", true},
       {"ours, exact checker", "exact", true},
@@ -38,7 +47,9 @@ void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& ro
          "cases.\n\n"
       << cases << " cases, " << run.cases << " of most families, seed " << run.seed << ", on " << run.device << ".\n\n"
       << "A cell is *wrong answers: false \"free\" + false \"collision\"*; 0: no wrong answer; -: the method does not "
-         "support\nthese cases.\n\n"
+         "support\nthese cases. "
+         "[n]: of the wrong answers, n are in cases outside the domain of the method. Of n: the method checked only n "
+         "cases.\n\n"
       << "| cases | colliding / free / either |";
   for (const MethodName& method : methodNames())
     out << ' ' << method.name << " |";
@@ -60,6 +71,10 @@ void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& ro
         out << " **" << cell.wrong() << "**: " << cell.false_free << " + " << cell.false_collision;
         if (cell.inconsistent > 0)
           out << ", " << cell.inconsistent << " inconsistent";
+        if (cell.outside > 0)
+          out << " [" << cell.outside << ']';
+        if (cell.cases < row.colliding + row.free + row.either)
+          out << " of " << cell.cases;
         out << " |";
       }
     }
@@ -69,7 +84,8 @@ void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& ro
 
 void writeCsv(std::ostream& out, const std::vector<Row>& rows)
 {
-  out << "family,colliding,free,either,undecided,method,title,ours,cases,false_free,false_collision,inconsistent\n";
+  out << "family,colliding,free,either,undecided,method,title,ours,cases,false_free,false_collision,inconsistent,"
+         "outside\n";
   for (const Row& row : rows)
   {
     for (std::size_t i = 0; i < MethodCount; ++i)
@@ -78,7 +94,7 @@ void writeCsv(std::ostream& out, const std::vector<Row>& rows)
       const MethodName& method = methodNames()[i];
       out << '"' << row.family << "\"," << row.colliding << ',' << row.free << ',' << row.either << ',' << row.undecided
           << ',' << method.short_name << ",\"" << method.name << "\"," << method.ours << ',' << cell.cases << ','
-          << cell.false_free << ',' << cell.false_collision << ',' << cell.inconsistent << '\n';
+          << cell.false_free << ',' << cell.false_collision << ',' << cell.inconsistent << ',' << cell.outside << '\n';
     }
   }
 }

@@ -16,6 +16,15 @@ enum Method : std::size_t
   FclOwn,
   PlainFloat,
   BulletHulls,
+  Rapid,
+  Dop18,
+  Dop24,
+  BoxTree,
+  ConvexPatches,
+  Recode,
+  Cinder,
+  Cullide,
+  FattenedCullide,
   WorkQueues,
   BreadthFirst,
   ExactChecker,
@@ -39,6 +48,7 @@ struct Cell
   std::size_t false_free = 0;
   std::size_t false_collision = 0;
   std::size_t inconsistent = 0;
+  std::size_t outside = 0;  ///< of the wrong answers: in cases for which the authors of the method claim nothing
   std::size_t wrong() const { return false_free + false_collision + inconsistent; }
 };
 

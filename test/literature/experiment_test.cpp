@@ -39,6 +39,7 @@ TEST(LiteratureProgram, MeasuresEachMethodAtEachDistance)
   EXPECT_EQ(linesInFile(folder + "/builds.csv").size(), 5U);
   EXPECT_EQ(linesInFile(folder + "/experiment.csv").size(), 1U + 2U * 2U * 3U);
   EXPECT_EQ(linesInFile(folder + "/work.csv").size(), 1U + 2U * 3U * 2U);
+  EXPECT_GE(linesInFile(folder + "/run.csv").size(), 5U);
 }
 
 TEST(LiteratureProgram, CountsMissedAndFalseCollisionsInHardCases)

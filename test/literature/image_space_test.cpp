@@ -234,6 +234,30 @@ TEST_F(ImageSpace, CullideMissesContainment)
     EXPECT_FALSE(reportsContainment(method)) << method;
 }
 
+// The views of a method with fewer views are among those of a method with more views.
+TEST_F(ImageSpace, EachFurtherViewOfCullideAddsMisses)
+{
+  std::mt19937 generator(5);
+  const MeshPtr ball = sphereMesh(0.5 * kSize);
+  std::array<int, 3> hits{};
+  for (int i = 0; i < 20; ++i)
+  {
+    const Pair pair = touching(ball, sphereMesh(0.4 * kSize), Isometry3d(randomTurn(generator)),
+                               randomTurn(generator) * Vector3d::UnitX());
+    bool last = true;
+    for (std::size_t views = 0; views < hits.size(); ++views)
+    {
+      const bool found =
+          collides("cullide_64x" + std::to_string(views + 1), pair.a, pair.b, moved(pair, -2e-3 * kSize));
+      EXPECT_LE(found, last) << "pair " << i << ", " << views + 1 << " views";
+      last = found;
+      hits[views] += found ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hits[0], 15);
+  EXPECT_LT(hits[2], hits[0]);
+}
+
 double distanceOf(const FailureCase& failure)
 {
   return oracle::distance(oracle::PreparedShape(Shape(failure.a)), oracle::Motion(),

@@ -20,7 +20,7 @@ constexpr std::size_t kPoses = 40;  // at each distance
 std::vector<MethodInfo> allMethods()
 {
   std::vector<MethodInfo> methods = ourMethods();
-  for (const auto& others : {treeMethods(), libraryMethods()})
+  for (const auto& others : {deviceMethods(), treeMethods(), libraryMethods()})
     methods.insert(methods.end(), others.begin(), others.end());
   return methods;
 }

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <csignal>
+#include <ctime>
+#include <filesystem>
 
 #include <spawn.h>
 #include <sys/wait.h>
@@ -16,6 +18,12 @@ namespace gpu_planning_scene::core::literature
 {
 namespace
 {
+/// The program lies beside the one that runs.
+std::string programPath()
+{
+  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "cgal_collide").string();
+}
+
 class Cgal : public Method
 {
  public:
@@ -52,6 +60,15 @@ class Cgal : public Method
     return receive(b_in_a.size());
   }
 
+  double otherCpuSeconds() const override
+  {
+    clockid_t clock{};
+    timespec time{};
+    if (clock_getcpuclockid(process_, &clock) != 0 || clock_gettime(clock, &time) != 0)
+      throw Error("the CPU time of cgal_collide cannot be read");
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
  private:
   void start()
   {
@@ -68,7 +85,7 @@ class Cgal : public Method
     posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
     for (const int file : {in[0], in[1], out[0], out[1]})
       posix_spawn_file_actions_addclose(&actions, file);
-    std::string program = GPS_CGAL_COLLIDE;
+    std::string program = programPath();
     std::array<char*, 2> arguments = {program.data(), nullptr};
     const int failed = posix_spawn(&process_, program.c_str(), &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -133,6 +150,8 @@ class Cgal : public Method
 
 std::vector<MethodInfo> cgalMethods()
 {
+  if (access(programPath().c_str(), X_OK) != 0)
+    return {};
   return {{"cgal",
            "CGAL",
            "CGAL: Rigid_triangle_mesh_collision_detection",

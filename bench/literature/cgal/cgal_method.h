@@ -6,6 +6,7 @@
 
 namespace gpu_planning_scene::core::literature
 {
-/// CGAL's collision detection, in the process cgal_collide. Its CPU time is not part of that of the calling process.
+/// CGAL's collision detection, in the process cgal_collide, whose CPU time otherCpuSeconds reports. No method if
+/// this program is missing, as in the bundle for other machines.
 std::vector<MethodInfo> cgalMethods();
 }  // namespace gpu_planning_scene::core::literature

@@ -4,14 +4,13 @@
 
 #include "collision/geometry/median_split.h"
 #include "literature/convex/convex_hull.h"
-#include "literature/convex/surface_patches.h"
 
 namespace gpu_planning_scene::core::literature
 {
 namespace
 {
-// As a share of the size of the mesh: points so near to the hull of the others are left out. It is far below the errors
-// of GJK.
+// As a share of the size of the shape: points so near to the hull of the others are left out. It is far below the
+// errors of GJK.
 constexpr double kHullTolerance = 1e-13;
 
 HullTree::Node nodeOf(const std::vector<Eigen::Vector3d>& points, double tolerance)
@@ -28,21 +27,16 @@ HullTree::Node nodeOf(const std::vector<Eigen::Vector3d>& points, double toleran
 }
 }  // namespace
 
-HullTree::HullTree(const Mesh& mesh)
+HullTree::HullTree(const std::vector<Piece>& pieces)
 {
   Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3d& vertex : mesh.vertices)
-    bounds.extend(vertex);
+  for (const Piece& piece : pieces)
+    for (const Eigen::Vector3d& point : piece)
+      bounds.extend(point);
   tolerance_ = kHullTolerance * bounds.diagonal().norm();
   std::vector<Node> leaves;
-  for (const SurfacePatch& patch : convexPatches(mesh))
-  {
-    std::vector<Eigen::Vector3d> points;
-    for (const std::uint32_t triangle : patch)
-      for (const std::uint32_t vertex : mesh.triangles[triangle])
-        points.push_back(mesh.vertices[vertex]);
-    leaves.push_back(nodeOf(points, tolerance_));
-  }
+  for (const Piece& piece : pieces)
+    leaves.push_back(nodeOf(piece, tolerance_));
   nodes_.reserve(2 * leaves.size());
   nodes_.emplace_back();
   build(0, leaves, 0, leaves.size());

@@ -5,16 +5,17 @@
 
 #include <Eigen/Geometry>
 
-#include "gpu_planning_scene/shapes.h"
-
 namespace gpu_planning_scene::core::literature
 {
-/// A binary tree of convex hulls over the convex patches of a mesh. A leaf has the hull of a patch, an inner node the
-/// hull of its children.
+/// The points of a part of a shape.
+using Piece = std::vector<Eigen::Vector3d>;
+
+/// A binary tree of convex hulls over the pieces of a shape. A leaf has the hull of a piece, an inner node the hull of
+/// its children.
 class HullTree
 {
  public:
-  explicit HullTree(const Mesh& mesh);
+  explicit HullTree(const std::vector<Piece>& pieces);
 
   /// The root is node 0. The children of an inner node are `child` and `child + 1`.
   struct Node
@@ -25,7 +26,7 @@ class HullTree
     std::uint32_t child = 0;  ///< 0: a leaf
   };
   const std::vector<Node>& nodes() const { return nodes_; }
-  std::size_t patchCount() const { return (nodes_.size() + 1) / 2; }
+  std::size_t pieceCount() const { return (nodes_.size() + 1) / 2; }
 
  private:
   void build(std::uint32_t node, std::vector<Node>& leaves, std::size_t begin, std::size_t end);

@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core::literature
 struct ImageOptions
 {
   int resolution = 256;  ///< pixels along each side of a view: 64 to 512
-  int views = 1;         ///< 1, or 3 for the three axes
+  int views = 1;         ///< 1, 2 or 3: see viewAxes
   /// The views are along the axes of a frame that has this orientation in the frame of shape a.
   Eigen::Quaterniond view_frame = Eigen::Quaterniond::Identity();
   /// Called with the name of each pass and the pixels of the first tile after it. Used for pictures.

@@ -9,18 +9,19 @@ namespace
 {
 template <class Drawn>
 void append(std::vector<MethodInfo>& methods, const std::string& name, const std::string& title,
-            const std::string& source, const Domain& domain)
+            const std::string& source, const Domain& domain, const std::vector<int>& view_counts = {1, 3})
 {
   for (const int resolution : {64, 128, 256, 512})
-    for (const int views : {1, 3})
+    for (const int views : view_counts)
     {
       ImageOptions options;
       options.resolution = resolution;
       options.views = views;
       const std::string side = std::to_string(resolution);
       methods.push_back({name + "_" + side + "x" + std::to_string(views),
-                         title + ", " + side + " x " + side + " pixels, " + (views == 1 ? "1 view" : "3 views"), source,
-                         "image space", domain,
+                         title + ", " + side + " x " + side + " pixels, " +
+                             (views == 1 ? "1 view" : std::to_string(views) + " views"),
+                         source, "image space", domain,
                          [options](const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b)
                          { return std::make_unique<Drawn>(a, b, options); }});
     }
@@ -39,7 +40,7 @@ std::vector<MethodInfo> imageSpaceMethods()
   std::vector<MethodInfo> methods;
   append<Recode>(methods, "recode", "RECODE", "Baciu, Wong, Sun 1999", convex_solids);
   append<Cinder>(methods, "cinder", "CInDeR", "Knott, Pai 2003", solids);
-  append<Cullide>(methods, "cullide", "CULLIDE", "Govindaraju, Redon, Lin, Manocha 2003", {});
+  append<Cullide>(methods, "cullide", "CULLIDE", "Govindaraju, Redon, Lin, Manocha 2003", {}, {1, 2, 3});
   append<FattenedCullide>(methods, "cullide_fattened", "CULLIDE, fattened", "Govindaraju, Lin, Manocha 2004", {});
   return methods;
 }

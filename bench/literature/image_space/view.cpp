@@ -21,11 +21,12 @@ std::optional<ViewVolume> viewVolume(const Eigen::AlignedBox3d& a, const Eigen::
 
 std::vector<int> viewAxes(const ViewVolume& volume, int views)
 {
-  if (views == 3)
-    return {0, 1, 2};
-  int shortest = 0;
-  volume.common.sizes().minCoeff(&shortest);
-  return {shortest};
+  std::vector<int> axes = {0, 1, 2};
+  if (views < 3)
+    std::stable_sort(axes.begin(), axes.end(),
+                     [&](int i, int k) { return volume.common.sizes()[i] < volume.common.sizes()[k]; });
+  axes.resize(static_cast<std::size_t>(views));
+  return axes;
 }
 
 Projection projectionAlong(int axis, const ViewVolume& volume, int resolution)

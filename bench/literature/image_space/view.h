@@ -19,8 +19,8 @@ struct ViewVolume
 /// No value if the boxes have no common point: the shapes cannot collide.
 std::optional<ViewVolume> viewVolume(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b);
 
-/// The axes of the views: for one view, the axis along which `common` is shortest, so that the picture shows its
-/// largest side; for three views, all axes.
+/// The axes of one to three views: first the axis along which `common` is shortest, so that the picture shows its
+/// largest side. Three views have the order x, y, z.
 std::vector<int> viewAxes(const ViewVolume& volume, int views);
 
 /// A linear map and a translation: [rotation and scale | translation].

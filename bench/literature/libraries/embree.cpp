@@ -107,7 +107,7 @@ struct Release
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
 };
 
-class Embree : public Method
+class Embree : public PosewiseMethod
 {
  public:
   /// One thread, as for the other methods on the CPU.
@@ -121,25 +121,20 @@ class Embree : public Method
       throw Error("Embree cannot build its trees");
   }
 
-  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
-  {
-    std::vector<std::uint8_t> answers;
-    for (const Eigen::Isometry3d& pose : b_in_a)
-    {
-      for (std::size_t i = 0; i < still_.size(); ++i)
-        b_.triangles[i] = moved(still_[i], pose.linear(), pose.translation());
-      b_.trianglesHaveMoved();
-      Query query{a_.triangles, b_.triangles};
-      rtcCollide(a_.scene(), b_.scene(), testTriangles, &query);
-      triangle_tests_ += static_cast<double>(query.triangle_tests);
-      answers.push_back(query.hit ? 1 : 0);
-    }
-    return answers;
-  }
-
   WorkCounts work() const override { return {{"triangle tests", triangle_tests_}}; }
 
  private:
+  bool collides(const Eigen::Isometry3d& b_in_a) override
+  {
+    for (std::size_t i = 0; i < still_.size(); ++i)
+      b_.triangles[i] = moved(still_[i], b_in_a.linear(), b_in_a.translation());
+    b_.trianglesHaveMoved();
+    Query query{a_.triangles, b_.triangles};
+    rtcCollide(a_.scene(), b_.scene(), testTriangles, &query);
+    triangle_tests_ += static_cast<double>(query.triangle_tests);
+    return query.hit;
+  }
+
   std::unique_ptr<std::remove_pointer_t<RTCDevice>, Release> device_;
   std::vector<Triangle> still_;  // b in its own frame
   Scene a_;

@@ -6,6 +6,7 @@
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 
 #include "literature/libraries/fcl_tree.h"
+#include "literature/shared_tree.h"
 
 // FCL (Pan, Chitta, Manocha, "FCL: A General Purpose Library for Collision and Proximity Queries", 2012), whose OBB
 // tree is that of RAPID. Domain: any mesh; only surfaces are compared, so containment is not found. The use is that of
@@ -19,7 +20,7 @@ namespace
 using Result = fcl::CollisionResult<double>;
 
 template <class Volume>
-bool collides(const fcl::BVHModel<Volume>& a, const fcl::BVHModel<Volume>& b, const Eigen::Isometry3d& pose)
+bool fclCollides(const fcl::BVHModel<Volume>& a, const fcl::BVHModel<Volume>& b, const Eigen::Isometry3d& pose)
 {
   Result result;
   return fcl::collide(&a, Eigen::Isometry3d(Eigen::Isometry3d::Identity()), &b, pose, fcl::CollisionRequest<double>(),
@@ -27,8 +28,8 @@ bool collides(const fcl::BVHModel<Volume>& a, const fcl::BVHModel<Volume>& b, co
 }
 
 template <>
-bool collides(const fcl::BVHModel<fcl::RSS<double>>& a, const fcl::BVHModel<fcl::RSS<double>>& b,
-              const Eigen::Isometry3d& pose)
+bool fclCollides(const fcl::BVHModel<fcl::RSS<double>>& a, const fcl::BVHModel<fcl::RSS<double>>& b,
+                 const Eigen::Isometry3d& pose)
 {
   Result result;
   fcl::detail::MeshCollisionTraversalNodeRSS<double> node;
@@ -40,29 +41,30 @@ bool collides(const fcl::BVHModel<fcl::RSS<double>>& a, const fcl::BVHModel<fcl:
 }
 
 template <class Volume>
-class Fcl : public Method
+struct Tree
+{
+  explicit Tree(const Mesh& mesh) : model(fclTree<Volume>(mesh)) {}
+  std::shared_ptr<const fcl::BVHModel<Volume>> model;
+};
+
+template <class Volume>
+class Fcl : public PosewiseMethod
 {
  public:
-  Fcl(const Mesh& a, const Mesh& b) : a_(fclTree<Volume>(a)), b_(fclTree<Volume>(b)) {}
-
-  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
-  {
-    std::vector<std::uint8_t> answers;
-    for (const Eigen::Isometry3d& pose : b_in_a)
-      answers.push_back(collides(*a_, *b_, pose) ? 1 : 0);
-    return answers;
-  }
+  Fcl(const MeshPtr& a, const MeshPtr& b) : a_(sharedTree<Tree<Volume>>(a)), b_(sharedTree<Tree<Volume>>(b)) {}
 
  private:
-  std::shared_ptr<const fcl::BVHModel<Volume>> a_;
-  std::shared_ptr<const fcl::BVHModel<Volume>> b_;
+  bool collides(const Eigen::Isometry3d& b_in_a) override { return fclCollides(*a_->model, *b_->model, b_in_a); }
+
+  std::shared_ptr<const Tree<Volume>> a_;
+  std::shared_ptr<const Tree<Volume>> b_;
 };
 
 template <class Volume>
 MethodInfo info(const char* name, const char* title)
 {
   return {name,      title, "FCL " FCL_VERSION,
-          "library", {},    [](const auto& a, const auto& b) { return std::make_unique<Fcl<Volume>>(*a, *b); }};
+          "library", {},    [](const auto& a, const auto& b) { return std::make_unique<Fcl<Volume>>(a, b); }};
 }
 }  // namespace
 

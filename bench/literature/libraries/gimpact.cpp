@@ -57,7 +57,7 @@ struct AnyContact : btManifoldResult
   bool found = false;
 };
 
-class Gimpact : public Method
+class Gimpact : public PosewiseMethod
 {
  public:
   Gimpact(const Mesh& a, const Mesh& b) : dispatcher_(&configuration_), a_(a), b_(b)
@@ -65,25 +65,20 @@ class Gimpact : public Method
     btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
   }
 
-  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
+ private:
+  bool collides(const Eigen::Isometry3d& b_in_a) override
   {
-    std::vector<std::uint8_t> answers;
-    for (const Eigen::Isometry3d& pose : b_in_a)
-    {
-      b_.object().setWorldTransform(bulletPose(pose));
-      const btCollisionObjectWrapper a = a_.wrapped();
-      const btCollisionObjectWrapper b = b_.wrapped();
-      btCollisionAlgorithm* algorithm = dispatcher_.findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
-      AnyContact result(&a, &b);
-      algorithm->processCollision(&a, &b, btDispatcherInfo(), &result);
-      algorithm->~btCollisionAlgorithm();
-      dispatcher_.freeCollisionAlgorithm(algorithm);
-      answers.push_back(result.found ? 1 : 0);
-    }
-    return answers;
+    b_.object().setWorldTransform(bulletPose(b_in_a));
+    const btCollisionObjectWrapper a = a_.wrapped();
+    const btCollisionObjectWrapper b = b_.wrapped();
+    btCollisionAlgorithm* algorithm = dispatcher_.findAlgorithm(&a, &b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
+    AnyContact result(&a, &b);
+    algorithm->processCollision(&a, &b, btDispatcherInfo(), &result);
+    algorithm->~btCollisionAlgorithm();
+    dispatcher_.freeCollisionAlgorithm(algorithm);
+    return result.found;
   }
 
- private:
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   GimpactMesh a_;

@@ -11,10 +11,11 @@ namespace gpu_planning_scene::core::literature
 {
 namespace
 {
-/// Initialises ODE once in a process, as ode/odeinit.h asks.
+/// Initialises ODE once in a process and once in each thread, as ode/odeinit.h asks.
 void initialiseOde()
 {
-  static const bool done = dInitODE2(0) != 0 && dAllocateODEDataForThread(dAllocateFlagCollisionData) != 0;
+  static const bool process = dInitODE2(0) != 0;
+  thread_local const bool done = process && dAllocateODEDataForThread(dAllocateFlagCollisionData) != 0;
   if (!done)
     throw Error("the Open Dynamics Engine cannot be initialised");
   if (dCheckConfiguration("ODE_EXT_opcode") == 0)
@@ -63,25 +64,20 @@ class OdeMesh
   dGeomID geometry_;
 };
 
-class Opcode : public Method
+class Opcode : public PosewiseMethod
 {
  public:
   Opcode(const Mesh& a, const Mesh& b) : a_(a), b_(b) { a_.place(Eigen::Isometry3d::Identity()); }
 
-  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
+ private:
+  bool collides(const Eigen::Isometry3d& b_in_a) override
   {
-    std::vector<std::uint8_t> answers;
-    for (const Eigen::Isometry3d& pose : b_in_a)
-    {
-      b_.place(pose);
-      dContactGeom contact;
-      const int flags = static_cast<int>(CONTACTS_UNIMPORTANT | 1U);
-      answers.push_back(dCollide(a_.geometry(), b_.geometry(), flags, &contact, sizeof contact) > 0 ? 1 : 0);
-    }
-    return answers;
+    b_.place(b_in_a);
+    dContactGeom contact;
+    const int flags = static_cast<int>(CONTACTS_UNIMPORTANT | 1U);
+    return dCollide(a_.geometry(), b_.geometry(), flags, &contact, sizeof contact) > 0;
   }
 
- private:
   OdeMesh a_;
   OdeMesh b_;
 };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "literature/method.h"
+#include "literature/shared_tree.h"
 #include "literature/trees/float_box.h"
 #include "literature/trees/triangle_overlap.h"
 
@@ -39,5 +40,5 @@ class BoxTree
   FloatBox root_box_;
 };
 
-std::unique_ptr<Method> makeBoxTree(const Mesh& a, const Mesh& b);
+std::unique_ptr<Method> makeBoxTree(const MeshPtr& a, const MeshPtr& b);
 }  // namespace gpu_planning_scene::core::literature

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "literature/trees/box_tree.h"
+#include "literature/trees/tree_method.h"
 
 // The traversal of G. Zachmann, "Minimal Hierarchical Collision Detection" (2002). On the way down, each box is known
 // in both frames. A cut changes three values in the other frame, and these are compared. So six axes are tested: those
@@ -23,6 +24,7 @@ bool apartAlong(int axis, const FloatBox& box, const FloatBox& other)
   return other.lower[axis] > box.upper[axis] || other.upper[axis] < box.lower[axis];
 }
 
+using BoxTreePtr = std::shared_ptr<const BoxTree>;
 using Rotation = std::array<std::array<float, 3>, 3>;  // [axis of the other frame][axis of the own frame]
 
 /// Moves a side of `own`, updates `own_in_other`, and returns whether the boxes are apart.
@@ -66,56 +68,47 @@ FloatBox rotated(const FloatBox& box, const Eigen::Isometry3d& pose)
   return result;
 }
 
-class Boxes : public Method
+class Boxes : public TreeMethod
 {
  public:
-  Boxes(const Mesh& a, const Mesh& b) : a_(a), b_(b) {}
-
-  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
+  Boxes(BoxTreePtr a, BoxTreePtr b)
+    : TreeMethod(a->triangles(), b->triangles(), Search::First), a_(std::move(a)), b_(std::move(b))
   {
-    std::vector<std::uint8_t> answers;
-    for (const Eigen::Isometry3d& pose : b_in_a)
-    {
-      pose_ = pose;
-      for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k)
-        {
-          b_to_a_[i][k] = static_cast<float>(pose.linear()(i, k));
-          a_to_b_[k][i] = static_cast<float>(pose.linear()(i, k));
-        }
-      const PairOfBoxes roots = {a_.rootBox(), b_.rootBox(), rotated(a_.rootBox(), pose.inverse()),
-                                 rotated(b_.rootBox(), pose)};
-      bool apart = false;
-      for (int axis = 0; axis < 3; ++axis)
-        apart = apart || apartAlong(axis, roots.a, roots.b_in_a) || apartAlong(axis, roots.b, roots.a_in_b);
-      ++volume_tests_;
-      answers.push_back(!apart && collides(a_.nodes().front(), b_.nodes().front(), roots) ? 1 : 0);
-    }
-    return answers;
   }
 
-  WorkCounts work() const override { return {{"volume tests", volume_tests_}, {"triangle tests", triangle_tests_}}; }
-
  private:
+  bool traverse() override
+  {
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k)
+      {
+        b_to_a_[i][k] = static_cast<float>(pose().linear()(i, k));
+        a_to_b_[k][i] = static_cast<float>(pose().linear()(i, k));
+      }
+    const PairOfBoxes roots = {a_->rootBox(), b_->rootBox(), rotated(a_->rootBox(), pose().inverse()),
+                               rotated(b_->rootBox(), pose())};
+    bool apart = false;
+    for (int axis = 0; axis < 3; ++axis)
+      apart = apart || apartAlong(axis, roots.a, roots.b_in_a) || apartAlong(axis, roots.b, roots.a_in_b);
+    countVolumeTest();
+    return !apart && traverse(a_->nodes().front(), b_->nodes().front(), roots);
+  }
+
   /// For two nodes whose boxes overlap.
-  bool collides(const BoxTree::Node& a, const BoxTree::Node& b, const PairOfBoxes& boxes)
+  bool traverse(const BoxTree::Node& a, const BoxTree::Node& b, const PairOfBoxes& boxes)
   {
     if (a.children == 0 && b.children == 0)
-    {
-      ++triangle_tests_;
-      return trianglesOverlap(a_.triangles()[a.child],
-                              moved(b_.triangles()[b.child], pose_.linear(), pose_.translation()));
-    }
+      return testLeaves(a.child, b.child);
     if (a.children == 0)
       return openB(a, b, boxes);
     for (std::uint32_t i = 0; i < a.children; ++i)
     {
-      const BoxTree::Node& child = a_.nodes()[a.child + i];
+      const BoxTree::Node& child = a_->nodes()[a.child + i];
       PairOfBoxes smaller = boxes;
-      ++volume_tests_;
+      countVolumeTest();
       if (cutAndCompare(child, a_to_b_, smaller.a, smaller.a_in_b, smaller.b, smaller.b_in_a))
         continue;
-      if (b.children == 0 ? collides(child, b, smaller) : openB(child, b, smaller))
+      if (b.children == 0 ? traverse(child, b, smaller) : openB(child, b, smaller))
         return true;
     }
     return false;
@@ -125,29 +118,25 @@ class Boxes : public Method
   {
     for (std::uint32_t i = 0; i < b.children; ++i)
     {
-      const BoxTree::Node& child = b_.nodes()[b.child + i];
+      const BoxTree::Node& child = b_->nodes()[b.child + i];
       PairOfBoxes smaller = boxes;
-      ++volume_tests_;
+      countVolumeTest();
       if (!cutAndCompare(child, b_to_a_, smaller.b, smaller.b_in_a, smaller.a, smaller.a_in_b) &&
-          collides(a, child, smaller))
+          traverse(a, child, smaller))
         return true;
     }
     return false;
   }
 
-  BoxTree a_;
-  BoxTree b_;
-  Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
+  BoxTreePtr a_;
+  BoxTreePtr b_;
   Rotation b_to_a_{};
   Rotation a_to_b_{};
-  double volume_tests_ = 0.0;
-  double triangle_tests_ = 0.0;
 };
-
 }  // namespace
 
-std::unique_ptr<Method> makeBoxTree(const Mesh& a, const Mesh& b)
+std::unique_ptr<Method> makeBoxTree(const MeshPtr& a, const MeshPtr& b)
 {
-  return std::make_unique<Boxes>(a, b);
+  return std::make_unique<Boxes>(sharedTree<BoxTree>(a), sharedTree<BoxTree>(b));
 }
 }  // namespace gpu_planning_scene::core::literature

@@ -4,6 +4,9 @@
 
 #include <Eigen/LU>
 
+#include "literature/descent.h"
+#include "literature/trees/tree_method.h"
+
 // J. T. Klosowski, M. Held, J. S. B. Mitchell, H. Sowizral, K. Zikan, "Efficient Collision Detection Using Bounding
 // Volume Hierarchies of k-DOPs" (1998), with k = 18, their best. Both trees are built once. The corners of each 18-DOP
 // of the moving mesh are found once, too. A query turns the corners of each visited node and takes their extents as the
@@ -15,7 +18,6 @@ namespace
 {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Tree = DopTree<9>;
 
 constexpr double kOutside = 1e-9;  // of the size of a DOP
 
@@ -63,13 +65,13 @@ double sizeOf(const Slabs<9>& slabs)
   return std::max({slabs.upper[0] - slabs.lower[0], slabs.upper[1] - slabs.lower[1], slabs.upper[2] - slabs.lower[2]});
 }
 
-class Dop18 : public Method
+/// The tree of a mesh that moves: each node has the corners of its DOP, or of its triangle.
+class MovingTree : public DopTree<9>
 {
  public:
-  Dop18(const Mesh& a, const Mesh& b, DopDescent descent)
-    : a_(a, axesOf18Dop()), b_(b, axesOf18Dop()), descent_(descent)
+  explicit MovingTree(const Mesh& mesh) : DopTree<9>(mesh, axesOf18Dop())
   {
-    for (const Tree::Node& node : b_.nodes())
+    for (const Node& node : nodes())
     {
       first_corner_.push_back(corners_.size());
       if (node.child != 0)
@@ -78,63 +80,67 @@ class Dop18 : public Method
         corners_.insert(corners_.end(), corners.begin(), corners.end());
       }
       else
-        corners_.insert(corners_.end(), b_.triangles()[node.triangle].begin(), b_.triangles()[node.triangle].end());
+        corners_.insert(corners_.end(), triangles()[node.triangle].begin(), triangles()[node.triangle].end());
     }
     first_corner_.push_back(corners_.size());
   }
 
-  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
+  Slabs<9> placed(std::uint32_t node, const Eigen::Isometry3d& pose) const
   {
-    std::vector<std::uint8_t> answers;
-    for (const Eigen::Isometry3d& pose : b_in_a)
-    {
-      pose_ = pose;
-      answers.push_back(collides(0, 0, refitted(0)) ? 1 : 0);
-    }
-    return answers;
+    return turned(&corners_[first_corner_[node]], first_corner_[node + 1] - first_corner_[node], pose);
+  }
+
+ private:
+  std::vector<Vector3d> corners_;
+  std::vector<std::size_t> first_corner_;  // of each node
+};
+
+using MovingTreePtr = std::shared_ptr<const MovingTree>;
+
+class Dop18 : public TreeMethod
+{
+ public:
+  Dop18(MovingTreePtr a, MovingTreePtr b, DopDescent descent)
+    : TreeMethod(a->triangles(), b->triangles(), Search::First), a_(std::move(a)), b_(std::move(b)), descent_(descent)
+  {
   }
 
   WorkCounts work() const override
   {
-    return {{"volume tests", volume_tests_}, {"triangle tests", triangle_tests_}, {"refitted volumes", refitted_}};
+    WorkCounts counts = TreeMethod::work();
+    counts.emplace_back("refitted volumes", refitted_);
+    return counts;
   }
 
  private:
+  bool traverse() override { return traverse(0, 0, refitted(0)); }
+
   Slabs<9> refitted(std::uint32_t b)
   {
     ++refitted_;
-    return turned(&corners_[first_corner_[b]], first_corner_[b + 1] - first_corner_[b], pose_);
+    return b_->placed(b, pose());
   }
 
   /// `slabs`: of node b, aligned with a.
-  bool collides(std::uint32_t a, std::uint32_t b, const Slabs<9>& slabs)
+  bool traverse(std::uint32_t a, std::uint32_t b, const Slabs<9>& slabs)
   {
-    const Tree::Node& node_a = a_.nodes()[a];
-    const Tree::Node& node_b = b_.nodes()[b];
-    ++volume_tests_;
+    const MovingTree::Node& node_a = a_->nodes()[a];
+    const MovingTree::Node& node_b = b_->nodes()[b];
+    countVolumeTest();
     if (!node_a.slabs.overlaps(slabs))
       return false;
     if (node_a.child == 0 && node_b.child == 0)
-    {
-      ++triangle_tests_;
-      return trianglesOverlap(a_.triangles()[node_a.triangle],
-                              moved(b_.triangles()[node_b.triangle], pose_.linear(), pose_.translation()));
-    }
-    if (node_b.child == 0 ||
-        (node_a.child != 0 && (descent_ == DopDescent::FixedFirst || sizeOf(node_a.slabs) > sizeOf(node_b.slabs))))
-      return collides(node_a.child, b, slabs) || collides(node_a.child + 1, b, slabs);
-    return collides(a, node_b.child, refitted(node_b.child)) ||
-           collides(a, node_b.child + 1, refitted(node_b.child + 1));
+      return testLeaves(node_a.triangle, node_b.triangle);
+    const double size_b = descent_ == DopDescent::FixedFirst ? 0.0 : sizeOf(node_b.slabs);
+    if (opensFirst(node_a.child == 0, node_b.child == 0, sizeOf(node_a.slabs), size_b))
+      return traverse(node_a.child, b, slabs) || traverse(node_a.child + 1, b, slabs);
+    return traverse(a, node_b.child, refitted(node_b.child)) ||
+           traverse(a, node_b.child + 1, refitted(node_b.child + 1));
   }
 
-  Tree a_;
-  Tree b_;
+  MovingTreePtr a_;
+  MovingTreePtr b_;
   DopDescent descent_;
-  std::vector<Vector3d> corners_;
-  std::vector<std::size_t> first_corner_;  // of each node of b
-  Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
-  double volume_tests_ = 0.0;
-  double triangle_tests_ = 0.0;
   double refitted_ = 0.0;
 };
 }  // namespace
@@ -163,8 +169,8 @@ std::vector<Vector3d> cornersOf(const Slabs<9>& slabs)
   return corners;
 }
 
-std::unique_ptr<Method> makeDop18(const Mesh& a, const Mesh& b, DopDescent descent)
+std::unique_ptr<Method> makeDop18(const MeshPtr& a, const MeshPtr& b, DopDescent descent)
 {
-  return std::make_unique<Dop18>(a, b, descent);
+  return std::make_unique<Dop18>(sharedTree<MovingTree>(a), sharedTree<MovingTree>(b), descent);
 }
 }  // namespace gpu_planning_scene::core::literature

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "literature/method.h"
+#include "literature/shared_tree.h"
 #include "literature/trees/dop_tree.h"
 
 namespace gpu_planning_scene::core::literature
@@ -14,7 +15,7 @@ enum class DopDescent
   Larger       ///< the larger one
 };
 
-std::unique_ptr<Method> makeDop18(const Mesh& a, const Mesh& b, DopDescent descent);
+std::unique_ptr<Method> makeDop18(const MeshPtr& a, const MeshPtr& b, DopDescent descent);
 
 /// The corners of an 18-DOP. It contains points that lie outside by at most a billionth of its size.
 std::vector<Eigen::Vector3d> cornersOf(const Slabs<9>& slabs);

@@ -4,6 +4,9 @@
 
 #include <Eigen/LU>
 
+#include "literature/descent.h"
+#include "literature/trees/tree_method.h"
+
 // G. Zachmann, "Rapid Collision Detection by Dynamically Aligned DOP-Trees" (1998), with k = 24, the best in the paper.
 // A DOP of the moving mesh is enclosed in a DOP that is aligned with the fixed mesh. Each new plane is a combination of
 // three old ones: d'_i = c_i . (d_a, d_b, d_c) + o_i. The planes a, b and c are those whose normals enclose direction
@@ -17,7 +20,6 @@ namespace
 {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Tree = DopTree<12>;
 
 Vector3d normalOf(std::size_t plane)
 {
@@ -54,62 +56,61 @@ std::vector<Cone> allCones()
   return cones;
 }
 
-class Dop24 : public Method
+class Tree : public DopTree<12>
 {
  public:
-  Dop24(const Mesh& a, const Mesh& b) : a_(a, axesOf24Dop()), b_(b, axesOf24Dop()) {}
+  explicit Tree(const Mesh& mesh) : DopTree<12>(mesh, axesOf24Dop()) {}
+};
 
-  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
+using TreePtr = std::shared_ptr<const Tree>;
+
+class Dop24 : public TreeMethod
+{
+ public:
+  Dop24(TreePtr a, TreePtr b)
+    : TreeMethod(a->triangles(), b->triangles(), Search::First), a_(std::move(a)), b_(std::move(b))
   {
-    std::vector<std::uint8_t> answers;
-    for (const Eigen::Isometry3d& pose : b_in_a)
-    {
-      pose_ = pose;
-      const Realignment aligned(pose);
-      answers.push_back(collides(0, 0, aligned(b_.nodes().front().slabs), aligned) ? 1 : 0);
-    }
-    return answers;
   }
 
   WorkCounts work() const override
   {
-    return {{"volume tests", volume_tests_}, {"triangle tests", triangle_tests_}, {"refitted volumes", realigned_}};
+    WorkCounts counts = TreeMethod::work();
+    counts.emplace_back("refitted volumes", realigned_);
+    return counts;
   }
 
  private:
-  /// `slabs`: of node b, aligned with a.
-  bool collides(std::uint32_t a, std::uint32_t b, const Slabs<12>& slabs, const Realignment& aligned)
+  bool traverse() override
   {
-    const Tree::Node& node_a = a_.nodes()[a];
-    const Tree::Node& node_b = b_.nodes()[b];
-    ++volume_tests_;
+    const Realignment aligned(pose());
+    return traverse(0, 0, aligned(b_->nodes().front().slabs), aligned);
+  }
+
+  /// `slabs`: of node b, aligned with a.
+  bool traverse(std::uint32_t a, std::uint32_t b, const Slabs<12>& slabs, const Realignment& aligned)
+  {
+    const Tree::Node& node_a = a_->nodes()[a];
+    const Tree::Node& node_b = b_->nodes()[b];
+    countVolumeTest();
     if (!node_a.slabs.overlaps(slabs))
       return false;
     if (node_a.child == 0 && node_b.child == 0)
+      return testLeaves(node_a.triangle, node_b.triangle);
+    const Children of_a = childrenOrSelf(a_->nodes(), a);
+    const Children of_b = childrenOrSelf(b_->nodes(), b);
+    for (std::uint32_t i = 0; i < of_b.count; ++i)
     {
-      ++triangle_tests_;
-      return trianglesOverlap(a_.triangles()[node_a.triangle],
-                              moved(b_.triangles()[node_b.triangle], pose_.linear(), pose_.translation()));
-    }
-    if (node_b.child == 0)
-      return collides(node_a.child, b, slabs, aligned) || collides(node_a.child + 1, b, slabs, aligned);
-    for (std::uint32_t child = node_b.child; child < node_b.child + 2; ++child)
-    {
-      ++realigned_;
-      const Slabs<12> child_slabs = aligned(b_.nodes()[child].slabs);
-      if (node_a.child == 0 ? collides(a, child, child_slabs, aligned)
-                            : collides(node_a.child, child, child_slabs, aligned) ||
-                                  collides(node_a.child + 1, child, child_slabs, aligned))
-        return true;
+      realigned_ += node_b.child == 0 ? 0 : 1;
+      const Slabs<12> smaller = node_b.child == 0 ? slabs : aligned(b_->nodes()[of_b.first + i].slabs);
+      for (std::uint32_t k = 0; k < of_a.count; ++k)
+        if (traverse(of_a.first + k, of_b.first + i, smaller, aligned))
+          return true;
     }
     return false;
   }
 
-  Tree a_;
-  Tree b_;
-  Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
-  double volume_tests_ = 0.0;
-  double triangle_tests_ = 0.0;
+  TreePtr a_;
+  TreePtr b_;
   double realigned_ = 0.0;
 };
 }  // namespace
@@ -156,8 +157,8 @@ Slabs<12> Realignment::operator()(const Slabs<12>& slabs) const
   return aligned;
 }
 
-std::unique_ptr<Method> makeDop24(const Mesh& a, const Mesh& b)
+std::unique_ptr<Method> makeDop24(const MeshPtr& a, const MeshPtr& b)
 {
-  return std::make_unique<Dop24>(a, b);
+  return std::make_unique<Dop24>(sharedTree<Tree>(a), sharedTree<Tree>(b));
 }
 }  // namespace gpu_planning_scene::core::literature

@@ -3,11 +3,12 @@
 #include <memory>
 
 #include "literature/method.h"
+#include "literature/shared_tree.h"
 #include "literature/trees/dop_tree.h"
 
 namespace gpu_planning_scene::core::literature
 {
-std::unique_ptr<Method> makeDop24(const Mesh& a, const Mesh& b);
+std::unique_ptr<Method> makeDop24(const MeshPtr& a, const MeshPtr& b);
 
 /// Bounds the extent of a 24-DOP along other axes by the extents along its own ones. See dop24.cpp.
 class Realignment

@@ -5,6 +5,9 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "literature/descent.h"
+#include "literature/shared_tree.h"
+
 // S. Gottschalk, M. C. Lin, D. Manocha, "OBBTree: A Hierarchical Structure for Rapid Interference Detection" (1996),
 // with the constants of their program RAPID. A box has the axes of the covariance of its triangles' area. (The paper
 // takes the area of their convex hull; the area of the triangles themselves costs less, and it is what RAPID takes.)
@@ -52,48 +55,37 @@ Matrix3d axesOf(const Matrix3d& covariance)
   return axes;
 }
 
-class OrientedBoxes : public Method
+class OrientedBoxes : public TreeMethod
 {
  public:
-  OrientedBoxes(const Mesh& a, const Mesh& b, double epsilon) : a_(a), b_(b), epsilon_(epsilon) {}
-
-  std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) override
+  OrientedBoxes(OrientedBoxTreePtr a, OrientedBoxTreePtr b, double epsilon, Search search)
+    : TreeMethod(a->triangles(), b->triangles(), search), a_(std::move(a)), b_(std::move(b)), epsilon_(epsilon)
   {
-    std::vector<std::uint8_t> answers;
-    for (const Eigen::Isometry3d& pose : b_in_a)
-    {
-      pose_ = pose;
-      const Node& a = a_.nodes().front();
-      const Node& b = b_.nodes().front();
-      const Matrix3d rotation = a.rotation.transpose() * pose.linear() * b.rotation;
-      const Vector3d translation = a.rotation.transpose() * (pose * b.center - a.center);
-      answers.push_back(collides(a, b, rotation, translation) ? 1 : 0);
-    }
-    return answers;
   }
 
-  WorkCounts work() const override { return {{"volume tests", volume_tests_}, {"triangle tests", triangle_tests_}}; }
-
  private:
-  /// `rotation`, `translation`: the frame of b's box in the frame of a's box.
-  bool collides(const Node& a, const Node& b, const Matrix3d& rotation, const Vector3d& translation)
+  bool traverse() override
   {
-    ++volume_tests_;
+    const Node& a = a_->nodes().front();
+    const Node& b = b_->nodes().front();
+    const Matrix3d rotation = a.rotation.transpose() * pose().linear() * b.rotation;
+    return traverse(a, b, rotation, a.rotation.transpose() * (pose() * b.center - a.center));
+  }
+
+  /// `rotation`, `translation`: the frame of b's box in the frame of a's box.
+  bool traverse(const Node& a, const Node& b, const Matrix3d& rotation, const Vector3d& translation)
+  {
+    countVolumeTest();
     if (boxesApart(rotation, translation, a.half, b.half, epsilon_))
       return false;
     if (a.child == 0 && b.child == 0)
-    {
-      ++triangle_tests_;
-      return trianglesOverlap(a_.triangles()[a.triangle],
-                              moved(b_.triangles()[b.triangle], pose_.linear(), pose_.translation()));
-    }
-    // The larger box is opened.
-    if (b.child == 0 || (a.child != 0 && a.half.maxCoeff() > b.half.maxCoeff()))
+      return testLeaves(a.triangle, b.triangle);
+    if (opensFirst(a.child == 0, b.child == 0, a.half.maxCoeff(), b.half.maxCoeff()))
     {
       for (std::uint32_t i = 0; i < 2; ++i)
       {
-        const Node& child = a_.nodes()[a.child + i];
-        if (collides(child, b, child.rotation.transpose() * rotation,
+        const Node& child = a_->nodes()[a.child + i];
+        if (traverse(child, b, child.rotation.transpose() * rotation,
                      child.rotation.transpose() * (translation - child.center)))
           return true;
       }
@@ -101,19 +93,16 @@ class OrientedBoxes : public Method
     }
     for (std::uint32_t i = 0; i < 2; ++i)
     {
-      const Node& child = b_.nodes()[b.child + i];
-      if (collides(a, child, rotation * child.rotation, rotation * child.center + translation))
+      const Node& child = b_->nodes()[b.child + i];
+      if (traverse(a, child, rotation * child.rotation, rotation * child.center + translation))
         return true;
     }
     return false;
   }
 
-  OrientedBoxTree a_;
-  OrientedBoxTree b_;
+  OrientedBoxTreePtr a_;
+  OrientedBoxTreePtr b_;
   double epsilon_;
-  Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
-  double volume_tests_ = 0.0;
-  double triangle_tests_ = 0.0;
 };
 }  // namespace
 
@@ -194,8 +183,13 @@ bool boxesApart(const Matrix3d& rotation, const Vector3d& translation, const Vec
   return false;
 }
 
-std::unique_ptr<Method> makeOrientedBoxes(const Mesh& a, const Mesh& b, double epsilon)
+OrientedBoxTreePtr orientedBoxTree(const MeshPtr& mesh)
 {
-  return std::make_unique<OrientedBoxes>(a, b, epsilon);
+  return sharedTree<OrientedBoxTree>(mesh);
+}
+
+std::unique_ptr<Method> makeOrientedBoxes(const MeshPtr& a, const MeshPtr& b, double epsilon, Search search)
+{
+  return std::make_unique<OrientedBoxes>(orientedBoxTree(a), orientedBoxTree(b), epsilon, search);
 }
 }  // namespace gpu_planning_scene::core::literature

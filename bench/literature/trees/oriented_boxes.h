@@ -4,8 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "literature/method.h"
-#include "literature/trees/triangle_overlap.h"
+#include "literature/trees/tree_method.h"
 
 namespace gpu_planning_scene::core::literature
 {
@@ -46,6 +45,10 @@ bool boxesApart(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translat
 
 constexpr double kRapidEpsilon = 1e-6;
 
+using OrientedBoxTreePtr = std::shared_ptr<const OrientedBoxTree>;
+/// See sharedTree.
+OrientedBoxTreePtr orientedBoxTree(const MeshPtr& mesh);
+
 /// `epsilon`: see boxesApart.
-std::unique_ptr<Method> makeOrientedBoxes(const Mesh& a, const Mesh& b, double epsilon);
+std::unique_ptr<Method> makeOrientedBoxes(const MeshPtr& a, const MeshPtr& b, double epsilon, Search search);
 }  // namespace gpu_planning_scene::core::literature
