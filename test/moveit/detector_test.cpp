@@ -10,6 +10,7 @@
 #include <octomap/OcTree.h>
 
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
+#include "moveit/collision_shape.h"
 #include "moveit/moveit_resources.h"
 
 // The behaviour of the detector for MoveIt, where MoveIt's own suites do not look.
@@ -306,6 +307,12 @@ TEST_F(Detector, CountsAShapeThatCannotBeCheckedAsColliding)
   EXPECT_FALSE(collides(&matrix));
 }
 
+TEST_F(Detector, ConvertsAShapeThatCannotBeCheckedOnce)
+{
+  const auto ball = std::make_shared<const shapes::Sphere>(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(collisionShapeOf(ball, 1.0, "ball"), collisionShapeOf(ball, 1.0, "ball"));
+}
+
 TEST_F(Detector, CountsAStateThatIsNotFiniteAsColliding)
 {
   add("box", box(0.1), at(5, 0, 0));
@@ -430,6 +437,29 @@ TEST_F(Detector, RefusesAMotionDuringWhichTheRobotPicksSomethingUp)
   to.update();
   env_->checkRobotCollision(CollisionRequest(), result, state_, to);
   EXPECT_TRUE(result.collision);
+}
+
+TEST_F(Detector, ChecksTheObjectsOfBothStatesAlongAMotion)
+{
+  add("box", box(0.2), at(0.5, 0.5, 0));
+  const auto carrying = [this](double x, double y)
+  {
+    RobotState state = stateAt(x);
+    state.attachBody("tool", at(0, y, 0), std::vector<shapes::ShapeConstPtr>{box(0.1)},
+                     EigenSTL::vector_Isometry3d{Isometry3d::Identity()}, std::vector<std::string>{"cart"}, "cart");
+    state.update();
+    return state;
+  };
+  const auto motion_collides = [this](const RobotState& from, const RobotState& to)
+  {
+    CollisionResult result;
+    env_->checkRobotCollision(CollisionRequest(), result, from, to);
+    return result.collision;
+  };
+  EXPECT_FALSE(motion_collides(carrying(0.0, -0.3), carrying(1.0, -0.3)));
+  // The tool passes the box at the place that it has in one of the states.
+  EXPECT_TRUE(motion_collides(carrying(0.0, 0.5), carrying(1.0, -0.3)));
+  EXPECT_TRUE(motion_collides(carrying(0.0, -0.3), carrying(1.0, 0.5)));
 }
 
 TEST_F(Detector, GivesAtMostTheRequestedContactsOfAPair)
