@@ -219,6 +219,29 @@ TEST_F(Detector, ReadsAnOctreeWhoseResolutionChangesInPlace)
   EXPECT_TRUE(collides());
 }
 
+TEST_F(Detector, ChecksALeafOfAnOctreeAtItsSizeAndPlace)
+{
+  const auto octree = std::make_shared<octomap::OcTree>(0.1);
+  for (const float x : {0.05F, 0.15F})
+    for (const float y : {0.05F, 0.15F})
+      for (const float z : {0.05F, 0.15F})
+        octree->updateNode(octomap::point3d(x, y, z), true);
+  octree->prune();
+  ASSERT_EQ(octree->getNumLeafNodes(), 1U);  // the cube from 0 to 0.2
+  add("<octomap>", std::make_shared<shapes::OcTree>(octree), at(-0.299, 0, 0));
+  EXPECT_TRUE(collides());
+  // After half a turn about z, the cube reaches from -0.2 to 0 along x.
+  Isometry3d turned = at(0.3 - 0.001, 0, 0);
+  turned.rotate(Eigen::AngleAxisd(M_PI, Vector3d::UnitZ()));
+  env_->getWorld()->setObjectPose("<octomap>", turned);
+  EXPECT_TRUE(collides());
+  turned.translation().x() = 0.3 + 0.001;
+  env_->getWorld()->setObjectPose("<octomap>", turned);
+  EXPECT_FALSE(collides());
+  env_->getWorld()->setObjectPose("<octomap>", at(-0.301, 0, 0));
+  EXPECT_FALSE(collides());
+}
+
 TEST_F(Detector, GivesNoDistanceToAnOctreeWithoutOccupiedLeaves)
 {
   add("<octomap>", std::make_shared<shapes::OcTree>(std::make_shared<octomap::OcTree>(0.05)), Isometry3d::Identity());
@@ -279,6 +302,23 @@ TEST_F(Detector, AsksTheDeciderOfAPair)
   EXPECT_GT(asked, 0);
   answer = false;
   EXPECT_TRUE(collides(&matrix));
+}
+
+TEST_F(Detector, AsksTheDeciderOfEachContactOfAPair)
+{
+  add("cube", meshCube(0.2), at(0.15, 0.05, 0.05));
+  int asked = 0;
+  int refused = 0;
+  AllowedCollisionMatrix matrix;
+  matrix.setEntry("cube", "cart", [&](Contact&) { return ++asked != refused; });
+  EXPECT_FALSE(collides(&matrix));
+  const int contacts = asked;
+  ASSERT_GT(contacts, 1);
+  for (refused = 1; refused <= contacts; ++refused)
+  {
+    asked = 0;
+    EXPECT_TRUE(collides(&matrix)) << "contact " << refused << " is refused";
+  }
 }
 
 TEST_F(Detector, FollowsDefaultEntriesOfTheMatrix)
@@ -353,6 +393,22 @@ TEST_F(Detector, ChecksAttachedObjectsAgainstTheirOwnLink)
   EXPECT_FALSE(result.collision);
   add("box", box(0.2), at(0.28, 0, 0));  // meets the tool, not the cart
   EXPECT_TRUE(collides());
+}
+
+TEST_F(Detector, PadsAndScalesWhatALinkCarries)
+{
+  state_.attachBody("tool", at(0, 0.5, 0), std::vector<shapes::ShapeConstPtr>{box(0.2)},
+                    EigenSTL::vector_Isometry3d{Isometry3d::Identity()}, std::vector<std::string>{"cart"}, "cart");
+  state_.update();
+  add("box", box(0.2), at(0.25, 0.5, 0));  // 0.05 m from the tool
+  EXPECT_FALSE(collides());
+  env_->setLinkPadding("cart", 0.051);
+  EXPECT_TRUE(collides());
+  env_->setLinkPadding("cart", 0.0);
+  env_->setLinkScale("cart", 1.51);
+  EXPECT_TRUE(collides());
+  env_->setLinkScale("cart", 1.49);
+  EXPECT_FALSE(collides());
 }
 
 TEST_F(Detector, DoesNotCheckObjectsOnOneLinkAgainstEachOther)
