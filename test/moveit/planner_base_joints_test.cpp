@@ -1,7 +1,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <thread>
 
 #include <moveit/kinematic_constraints/kinematic_constraint.h>
