@@ -107,7 +107,7 @@ class MotionSearch
   {
     state_ = carrying;
     place(0.0);
-    bounds_ = displacementBounds(state_, to_, work_->parts);
+    bounds_ = displacementBounds(from_, to_, state_, work_->parts);
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < work_->parts.size(); ++i)
       all.push_back(i);

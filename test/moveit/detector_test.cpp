@@ -700,6 +700,27 @@ RobotModelPtr turningRobot()
   return builder.build();
 }
 
+/// Expects that the motion is a collision, and that one of its samples collides.
+void expectMotionThroughAnObject(const collision_detection::CollisionEnv& env, RobotState& from, RobotState& to)
+{
+  from.update();
+  to.update();
+  RobotState between(from);
+  bool is_hit = false;
+  for (int i = 0; i <= 2000; ++i)
+  {
+    from.interpolate(to, i / 2000.0, between);
+    between.update();
+    CollisionResult sample;
+    env.checkRobotCollision(CollisionRequest(), sample, between);
+    is_hit = is_hit || sample.collision;
+  }
+  CollisionResult result;
+  env.checkRobotCollision(CollisionRequest(), result, from, to);
+  EXPECT_TRUE(is_hit);
+  EXPECT_TRUE(result.collision);
+}
+
 /// MoveIt does not reduce the values of a continuous joint, so it turns further than the distance of the two angles.
 TEST(DetectorOfATurningArm, FindsAnObjectOnThePathOfAJointBeyondATurn)
 {
@@ -708,29 +729,35 @@ TEST(DetectorOfATurningArm, FindsAnObjectOnThePathOfAJointBeyondATurn)
   for (const double angle : {0.5, 1.2, 2.0, 2.9, 3.7, 4.5, 5.5})
     env->getWorld()->addToObject("post" + std::to_string(angle), at(0.8 * std::cos(angle), 0.8 * std::sin(angle), 0),
                                  box(0.05), Isometry3d::Identity());
-  for (const double to : {4.0 * M_PI + 0.1, 3.4 * M_PI, -4.0 * M_PI - 0.1})
+  for (const auto& [from, to] :
+       {std::pair(0.0, 4.0 * M_PI + 0.1), std::pair(0.0, 3.4 * M_PI), std::pair(0.0, -4.0 * M_PI - 0.1),
+        std::pair(4.0 * M_PI + 0.1, 0.0), std::pair(-4.0 * M_PI - 0.1, 0.1)})
   {
     RobotState from_state(robot);
-    from_state.setToDefaultValues();
-    RobotState to_state(from_state);
+    RobotState to_state(robot);
+    from_state.setVariablePosition(0, from);
     to_state.setVariablePosition(0, to);
-    from_state.update();
-    to_state.update();
-    RobotState between(from_state);
-    bool is_hit = false;
-    for (int i = 0; i <= 2000; ++i)
-    {
-      from_state.interpolate(to_state, i / 2000.0, between);
-      between.update();
-      CollisionResult sample;
-      env->checkRobotCollision(CollisionRequest(), sample, between);
-      is_hit = is_hit || sample.collision;
-    }
-    CollisionResult result;
-    env->checkRobotCollision(CollisionRequest(), result, from_state, to_state);
-    EXPECT_TRUE(is_hit) << to;
-    EXPECT_TRUE(result.collision) << to;
+    expectMotionThroughAnObject(*env, from_state, to_state);
   }
+}
+
+/// MoveIt turns a floating joint the longer way if the product of the two quaternions is negative.
+TEST(DetectorOfATurningArm, FindsAnObjectOnTheLongerWayOfAFloatingBase)
+{
+  moveit::core::RobotModelBuilder builder("bar", "bar");
+  geometry_msgs::Pose pose;
+  pose.orientation.w = 1.0;
+  pose.position.x = 0.5;
+  builder.addCollisionBox("bar", {1.0, 0.05, 0.05}, pose);
+  builder.addVirtualJoint("world", "bar", "floating", "root");
+  const RobotModelPtr robot = builder.build();
+  const auto env = CollisionDetectorAllocator().allocateEnv(robot);
+  env->getWorld()->addToObject("post", at(-0.8, 0, 0), box(0.05), Isometry3d::Identity());
+  RobotState from(robot);
+  from.setToDefaultValues();
+  RobotState to(robot);
+  to.setVariablePositions(std::vector<double>{0, 0, 0, 0, 0, -std::sin(0.1), -std::cos(0.1)});
+  expectMotionThroughAnObject(*env, from, to);
 }
 
 TEST(DetectorScene, ProvesOnlyMotionsWithoutACollidingSample)

@@ -33,7 +33,7 @@ class Detour : public ompl::base::Planner
     const auto path = std::make_shared<ompl::geometric::PathGeometric>(si_, pdef_->getStartState(0));
     for (const double x : {1.0, 3.0})
     {
-      const ompl::base::ScopedState<> state(si_);
+      ompl::base::ScopedState<> state(si_);
       const double row[] = {x, y_, 0.0};
       space.copyFromRow(row, state.get());
       path->append(state.get());
