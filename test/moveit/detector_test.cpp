@@ -240,6 +240,11 @@ TEST_F(Detector, ChecksALeafOfAnOctreeAtItsSizeAndPlace)
   EXPECT_FALSE(collides());
   env_->getWorld()->setObjectPose("<octomap>", at(-0.301, 0, 0));
   EXPECT_FALSE(collides());
+  state_ = stateAt(2.0);
+  EXPECT_FALSE(collides());
+  turned.translation().x() = 2.3 - 0.001;
+  env_->getWorld()->setObjectPose("<octomap>", turned);
+  EXPECT_TRUE(collides());
 }
 
 TEST_F(Detector, GivesNoDistanceToAnOctreeWithoutOccupiedLeaves)
@@ -408,6 +413,18 @@ TEST_F(Detector, PadsAndScalesWhatALinkCarries)
   env_->setLinkScale("cart", 1.51);
   EXPECT_TRUE(collides());
   env_->setLinkScale("cart", 1.49);
+  EXPECT_FALSE(collides());
+}
+
+TEST_F(Detector, ChecksAllShapesOfWhatALinkCarries)
+{
+  state_.attachBody("tool", at(0, 0.5, 0), std::vector<shapes::ShapeConstPtr>{box(0.1), box(0.1)},
+                    EigenSTL::vector_Isometry3d{Isometry3d::Identity(), at(0, 1.0, 0)},
+                    std::vector<std::string>{"cart"}, "cart");
+  state_.update();
+  add("box", box(0.1), at(0, 1.5, 0));
+  EXPECT_TRUE(collides());
+  env_->getWorld()->setObjectPose("box", at(0, 1.0, 0));  // between the two
   EXPECT_FALSE(collides());
 }
 
