@@ -8,6 +8,8 @@
 #include <moveit/planning_scene/planning_scene.h>
 #include <moveit/utils/robot_model_test_utils.h>
 #include <octomap/OcTree.h>
+#include <srdfdom/model.h>
+#include <urdf_parser/urdf_parser.h>
 
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
 #include "moveit/collision_shape.h"
@@ -300,7 +302,12 @@ TEST_F(Detector, AsksTheDeciderOfAPair)
                     EXPECT_NEAR(contact.depth, 0.01, 1e-6);
                     EXPECT_EQ(contact.body_name_1, "box");
                     EXPECT_EQ(contact.body_name_2, "cart");
+                    EXPECT_EQ(contact.body_type_1, collision_detection::BodyTypes::WORLD_OBJECT);
+                    EXPECT_EQ(contact.body_type_2, collision_detection::BodyTypes::ROBOT_LINK);
                     EXPECT_NEAR(contact.normal.x(), -1.0, 1e-6);  // from the box to the cart
+                    // The deepest points of both bodies: that of the box is inside the cart.
+                    EXPECT_NEAR(contact.nearest_points[0].x(), 0.09, 1e-6);
+                    EXPECT_NEAR(contact.nearest_points[1].x(), 0.1, 1e-6);
                     return answer;
                   });
   EXPECT_FALSE(collides(&matrix));
@@ -569,6 +576,86 @@ TEST_F(Detector, KeepsTheSmallestDistanceOfSeveralChecks)
   EXPECT_NEAR(result.distance, 0.3, 2e-6);
 }
 
+TEST_F(Detector, GivesTheDetailsOfADistanceOnRequest)
+{
+  add("box", box(0.2), at(0.5, 0, 0));
+  CollisionRequest request;
+  request.distance = request.detailed_distance = true;
+  CollisionResult result;
+  env_->checkRobotCollision(request, result, state_);
+  EXPECT_EQ(result.distance_result.minimum_distance.link_names[1], "box");
+  EXPECT_NEAR(result.distance_result.minimum_distance.distance, 0.3, 2e-6);
+}
+
+TEST_F(Detector, GivesNoDistanceOfAllowedPairs)
+{
+  add("near", box(0.2), at(0.5, 0, 0));
+  add("far", box(0.2), at(-1.0, 0, 0));
+  AllowedCollisionMatrix matrix;
+  matrix.setEntry("near", "cart", true);
+  DistanceRequest request;
+  request.acm = &matrix;
+  DistanceResult result;
+  env_->distanceRobot(request, result, state_);
+  EXPECT_NEAR(result.minimum_distance.distance, 0.8, 2e-6);
+}
+
+TEST_F(Detector, GivesNearestPointsOnThePaddedSurface)
+{
+  add("box", box(0.2), at(0.5, 0, 0));
+  env_->setLinkPadding("cart", 0.05);
+  DistanceRequest request;
+  request.enable_nearest_points = true;
+  DistanceResult result;
+  env_->distanceRobot(request, result, state_);
+  EXPECT_NEAR(result.minimum_distance.distance, 0.25, 2e-6);
+  EXPECT_NEAR(result.minimum_distance.nearest_points[0].x(), 0.15, 1e-4);
+  EXPECT_NEAR(result.minimum_distance.nearest_points[1].x(), 0.4, 1e-4);
+}
+
+TEST_F(Detector, GivesTheDepthOfTheDeepestLeafOfAnOctree)
+{
+  const auto octree = std::make_shared<octomap::OcTree>(0.1);
+  octree->updateNode(octomap::point3d(0.15F, 0.05F, 0.05F), true);   // from 0.1 along x
+  octree->updateNode(octomap::point3d(-0.15F, 0.05F, 0.05F), true);  // to -0.1
+  add("<octomap>", std::make_shared<shapes::OcTree>(octree), at(-0.01, 0, 0));
+  DistanceRequest request;
+  request.enable_signed_distance = true;
+  env_->setLinkPadding("cart", 0.05);
+  for (const double x : {0.0, -0.03})
+  {
+    DistanceResult result;
+    env_->distanceRobot(request, result, stateAt(x));
+    // One leaf begins at 0.09, the other one ends at -0.11. The padded cart reaches from x - 0.15 to x + 0.15.
+    EXPECT_NEAR(result.minimum_distance.distance, -std::max(x + 0.06, 0.04 - x), 1e-6) << x;
+  }
+}
+
+TEST_F(Detector, GivesTheNormalOfACarriedOctree)
+{
+  const auto octree = std::make_shared<octomap::OcTree>(0.1);
+  octree->updateNode(octomap::point3d(0.05F, 0.05F, 0.05F), true);
+  state_.attachBody("octree", at(1.0, 0, 0),
+                    std::vector<shapes::ShapeConstPtr>{std::make_shared<shapes::OcTree>(octree)},
+                    EigenSTL::vector_Isometry3d{Isometry3d::Identity()}, std::vector<std::string>{"cart"}, "cart");
+  state_.update();
+  add("box", box(0.1), at(1.14, 0.05, 0.05));  // behind the leaf, which ends at 1.1
+  CollisionRequest request;
+  request.contacts = true;
+  CollisionResult result;
+  env_->checkRobotCollision(request, result, state_);
+  ASSERT_EQ(result.contacts.count({"box", "octree"}), 1U);
+  EXPECT_NEAR((result.contacts.at({"box", "octree"}).front().normal.x()), -1.0, 1e-6);
+}
+
+TEST_F(Detector, TakesTheWorldThatItIsMadeWith)
+{
+  const auto world = std::make_shared<collision_detection::World>();
+  world->addToObject("box", Isometry3d::Identity(), box(0.2), Isometry3d::Identity());
+  env_ = CollisionDetectorAllocator().allocateEnv(world, robot_);
+  EXPECT_TRUE(collides());
+}
+
 TEST_F(Detector, GivesDistancesPerPairAndNearestPoints)
 {
   add("near", box(0.2), at(0.5, 0, 0));
@@ -656,6 +743,23 @@ TEST_F(Detector, FindsAMotionThroughAnObject)
   EXPECT_FALSE(motionCollides(0.0, 0.39, result));
 }
 
+TEST_F(Detector, FindsAMotionThroughAThinObjectAtEachPlace)
+{
+  for (int i = 1; i < 40; ++i)
+  {
+    const double x = 0.025 * i;
+    add("wall", std::make_shared<shapes::Box>(1e-3, 1.0, 1.0), at(x, 0, 0));
+    CollisionResult result;
+    EXPECT_TRUE(motionCollides(0.0, 1.0, result)) << x;
+    AllowedCollisionMatrix matrix;
+    matrix.setEntry("wall", "cart", true);
+    result.clear();
+    env_->checkRobotCollision(CollisionRequest(), result, stateAt(0.0), stateAt(1.0), matrix);
+    EXPECT_FALSE(result.collision) << "allowed, at " << x;
+    env_->getWorld()->removeObject("wall");
+  }
+}
+
 TEST_F(Detector, ProvesAMotionAlongAnObjectButNotOneThatPassesWithinMicrometres)
 {
   add("wall", box(1.0), at(0.5, 0.6 + 1e-3, 0));
@@ -701,6 +805,42 @@ TEST_F(Detector, AnswersSeveralThreadsAtOnce)
     thread.join();
   for (const int count : hits)
     EXPECT_EQ(count, 250);
+}
+
+/// MoveIt interpolates only the leader, so a follower has its given value at the ends of a motion alone.
+TEST(DetectorOfAGripper, ChecksTheEndsOfAMotionWithTheGivenValuesOfFollowers)
+{
+  const auto joint = [](const std::string& name, const std::string& child, const std::string& rest)
+  {
+    return "<joint name='" + name + "' type='prismatic'><parent link='palm'/><child link='" + child +
+           "'/><axis xyz='1 0 0'/><limit lower='-1' upper='1' effort='1' velocity='1'/>" + rest + "</joint>";
+  };
+  const urdf::ModelInterfaceSharedPtr urdf = urdf::parseURDF(
+      "<robot name='gripper'><link name='palm'/><link name='left_finger'/><link name='right_finger'><collision>"
+      "<geometry><box size='0.1 0.1 0.1'/></geometry></collision></link>" +
+      joint("left", "left_finger", "") + joint("right", "right_finger", "<mimic joint='left'/>") + "</robot>");
+  const auto srdf = std::make_shared<srdf::Model>();
+  ASSERT_TRUE(urdf && srdf->initString(*urdf, "<robot name='gripper'/>"));
+  const auto robot = std::make_shared<moveit::core::RobotModel>(urdf, srdf);
+  const auto env = CollisionDetectorAllocator().allocateEnv(robot);
+  env->getWorld()->addToObject("box", at(0.5, 0, 0), box(0.1), Isometry3d::Identity());
+  RobotState with(robot);
+  with.setToDefaultValues();
+  with.update();
+  RobotState away = with;
+  std::vector<double> values(2, 0.0);
+  values[static_cast<std::size_t>(robot->getVariableIndex("right"))] = 0.5;
+  away.setVariablePositions(values);
+  away.update();
+  const auto motion_collides = [&](const RobotState& from, const RobotState& to)
+  {
+    CollisionResult result;
+    env->checkRobotCollision(CollisionRequest(), result, from, to);
+    return result.collision;
+  };
+  EXPECT_FALSE(motion_collides(with, with));
+  EXPECT_TRUE(motion_collides(with, away));
+  EXPECT_TRUE(motion_collides(away, with));
 }
 
 /// An arm of 1 m that a continuous joint turns.
