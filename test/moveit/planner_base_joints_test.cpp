@@ -139,17 +139,21 @@ TEST_F(Cart, FulfilsSeveralConstraintsOfAJointUnlessTheyContradictEachOther)
   std::vector<moveit_msgs::JointConstraint>& joints = request_.goal_constraints[0].joint_constraints;
   joints.resize(2);
   joints[0].joint_name = joints[1].joint_name = "drive/x";
-  joints[0].position = 3.0;
-  joints[0].tolerance_below = joints[0].tolerance_above = 0.5;  // 2.5 to 3.5
-  joints[1].position = 3.9;
-  joints[1].tolerance_below = joints[1].tolerance_above = 0.5;  // 3.4 to 4.4
-  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan());
-  const double x = response_.trajectory_->getLastWayPoint().getVariablePosition("drive/x");
-  EXPECT_GE(x, 3.4 - 1e-9);
-  EXPECT_LE(x, 3.5 + 1e-9);
+  for (moveit_msgs::JointConstraint& joint : joints)
+    joint.tolerance_below = joint.tolerance_above = 0.5;
+  for (const std::size_t first : {0U, 1U})
+  {
+    joints[first].position = 3.0;      // 2.5 to 3.5
+    joints[1 - first].position = 3.9;  // 3.4 to 4.4
+    ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan());
+    const double x = response_.trajectory_->getLastWayPoint().getVariablePosition("drive/x");
+    EXPECT_GE(x, 3.4 - 1e-9);
+    EXPECT_LE(x, 3.5 + 1e-9);
+  }
   joints[1].position = 4.5;
   EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), plan());
   joints[0].joint_name = joints[1].joint_name = "drive/theta";
+  joints[0].position = joints[1].position = 0.5;
   EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), plan()) << "an angle has one constraint";
 }
 
