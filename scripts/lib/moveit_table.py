@@ -4,6 +4,7 @@ import pathlib
 import sys
 
 OURS = "gpu_planning_scene"
+OUTCOMES = ["passed", "skipped", "failed"]  # a test that runs with several parameters has the last one that occurs
 DETECTORS = ["FCL", "Bullet", OURS]
 
 
@@ -19,11 +20,11 @@ def read(folder):
     table, broken = {}, []
     for log in sorted(folder.glob("*.log")):
         path = log.with_suffix(".json")
-        if not path.exists():
+        suites = json.loads(path.read_text())["testsuites"] if path.exists() else []
+        if not suites:
             broken.append(log.name[:-len(".log")])
-            continue
         detector = path.name.split(".")[0]
-        for suite in json.loads(path.read_text())["testsuites"]:
+        for suite in suites:
             if suite["name"] == "GoogleTestVerification":
                 continue
             parts = suite["name"].split("/")
@@ -31,7 +32,9 @@ def read(folder):
             for test in suite["testsuite"]:
                 key = (name, test["name"].split("/")[0])
                 column = test.get("value_param", "").strip('"') or detector
-                table.setdefault(key, {})[column if column in DETECTORS else detector] = outcome(test)
+                row = table.setdefault(key, {})
+                column = column if column in DETECTORS else detector
+                row[column] = max(row.get(column, "passed"), outcome(test), key=OUTCOMES.index)
     return table, broken
 
 

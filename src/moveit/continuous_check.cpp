@@ -18,7 +18,7 @@
 // checking of robot paths"). The other parts are checked again in both halves.
 // MotionBatch (collision/motion) cannot serve here: it interpolates as this package does, and a StateChecker tells it
 // only whether a state is free. MoveIt's interpolation differs, for example for planar joints that are not holonomic.
-// MoveIt's matrix can hold functions that decide about contacts. Its result needs the contacts of the first collision.
+// Each call has a matrix and deciders of its own, and needs the contacts of the first collision.
 namespace gpu_planning_scene::detector
 {
 namespace
@@ -27,6 +27,30 @@ using moveit::core::RobotState;
 
 // An interval in which a part moves by less is not divided further.
 constexpr double kFinest = 1e-4;  // metres
+
+bool samePoses(const EigenSTL::vector_Isometry3d& a, const EigenSTL::vector_Isometry3d& b)
+{
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(),
+      [](const Eigen::Isometry3d& x, const Eigen::Isometry3d& y) { return x.matrix() == y.matrix(); });
+}
+
+/// Whether each object has the same link, shapes and poses in both states, which carry objects of the same names. A
+/// copied shape counts as another one.
+bool carryTheSame(const RobotState& a, const RobotState& b)
+{
+  std::vector<const moveit::core::AttachedBody*> bodies;
+  a.getAttachedBodies(bodies);
+  return std::all_of(bodies.begin(), bodies.end(),
+                     [&b](const moveit::core::AttachedBody* body)
+                     {
+                       const moveit::core::AttachedBody& other = *b.getAttachedBody(body->getName());
+                       return body->getAttachedLinkName() == other.getAttachedLinkName() &&
+                              body->getShapes() == other.getShapes() &&
+                              body->getPose().matrix() == other.getPose().matrix() &&
+                              samePoses(body->getShapePoses(), other.getShapePoses());
+                     });
+}
 
 class MotionSearch
 {
@@ -57,13 +81,8 @@ class MotionSearch
       result_.collision = true;
       return;
     }
-    place(0.0);
-    bounds_ = displacementBounds(state_, to_, work_->parts);
-    std::vector<std::size_t> all;
-    for (std::size_t i = 0; i < work_->parts.size(); ++i)
-      all.push_back(i);
-    if (sampleIsFree(0.0) && sampleIsFree(1.0))
-      prove(0.0, 1.0, all);
+    if (proveCarrying(from_) && !carryTheSame(from_, to_))
+      proveCarrying(to_);
   }
 
  private:
@@ -79,6 +98,19 @@ class MotionSearch
     work_->parts.clear();
     work_->attached.clear();
     robot_.place(state, active_, work_->parts, work_->attached);
+  }
+
+  /// Proves the motion of the robot with the objects that a state carries, or sets the result to a collision and
+  /// returns false.
+  bool proveCarrying(const RobotState& carrying)
+  {
+    state_ = carrying;
+    place(0.0);
+    bounds_ = displacementBounds(from_, to_, state_, work_->parts);
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < work_->parts.size(); ++i)
+      all.push_back(i);
+    return sampleIsFree(0.0) && sampleIsFree(1.0) && prove(0.0, 1.0, all);
   }
 
   static std::set<std::string> attachedNames(const RobotState& state)

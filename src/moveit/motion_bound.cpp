@@ -64,8 +64,10 @@ Travel floatingTravel(const double* a, const double* b)
   Travel travel;
   travel.length = (position_b - position_a).norm();
   travel.offset = std::max(position_a.norm(), position_b.norm());
-  travel.angle = 2.0 * std::acos(std::min(1.0, std::abs(rotation_a.dot(rotation_b))));
-  if (!(std::abs(rotation_a.norm() - 1.0) <= kTolerance && std::abs(rotation_b.norm() - 1.0) <= kTolerance))
+  const double product = rotation_a.dot(rotation_b);
+  travel.angle = 2.0 * std::acos(std::min(1.0, std::abs(product)));
+  if (product < 0.0 ||
+      !(std::abs(rotation_a.norm() - 1.0) <= kTolerance && std::abs(rotation_b.norm() - 1.0) <= kTolerance))
     travel.angle = kUnbounded;
   else
     travel.angle += 4.0 * kTolerance;
@@ -133,7 +135,8 @@ double radiusOf(const Part& part, const RobotState& state)
 }
 }  // namespace
 
-std::vector<double> displacementBounds(const RobotState& from, const RobotState& to, const std::vector<Part>& parts)
+std::vector<double> displacementBounds(const RobotState& from, const RobotState& to, const RobotState& placed,
+                                       const std::vector<Part>& parts)
 {
   std::map<const JointModel*, Travel> travels;
   for (const JointModel* joint : from.getRobotModel()->getJointModels())
@@ -141,7 +144,7 @@ std::vector<double> displacementBounds(const RobotState& from, const RobotState&
   std::vector<double> bounds;
   for (const Part& part : parts)
   {
-    double reach = radiusOf(part, from);
+    double reach = radiusOf(part, placed);
     double bound = 0.0;
     for (const LinkModel* link = part.body.link; link; link = link->getParentLinkModel())
     {

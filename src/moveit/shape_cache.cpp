@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <mutex>
 #include <shared_mutex>
@@ -16,6 +18,13 @@ namespace
 {
 /// Numbers that change when MoveIt scales or pads a shape in place, which it does with the shapes of attached bodies.
 using Fingerprint = std::array<double, 8>;
+
+/// NaN equals NaN, so that a shape with such a number is converted once too.
+bool equal(const Fingerprint& a, const Fingerprint& b)
+{
+  return std::equal(
+      a.begin(), a.end(), b.begin(), [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
 
 Fingerprint fingerprintOf(const shapes::Shape& shape)
 {
@@ -60,7 +69,7 @@ class ShapeCache
   {
     const std::shared_lock<std::shared_mutex> lock(mutex_);
     const auto found = shapes_.find(shape);
-    if (found == shapes_.end() || found->second.fingerprint != fingerprintOf(*shape))
+    if (found == shapes_.end() || !equal(found->second.fingerprint, fingerprintOf(*shape)))
       return nullptr;
     for (const auto& [its_scale, converted] : found->second.scaled)
       if (its_scale == scale)
@@ -75,7 +84,7 @@ class ShapeCache
     forgetUnused();
     Entry& known = shapes_[shape];
     const Fingerprint fingerprint = fingerprintOf(*shape);
-    if (known.fingerprint != fingerprint)
+    if (!equal(known.fingerprint, fingerprint))
       known = {fingerprint, {}};
     for (const auto& [its_scale, earlier] : known.scaled)
       if (its_scale == scale)

@@ -1,33 +1,23 @@
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <set>
-#include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <geometric_shapes/mesh_operations.h>
-#include <geometric_shapes/shapes.h>
-#include <gtest/gtest.h>
 #include <moveit/kinematic_constraints/kinematic_constraint.h>
-#include <moveit/kinematic_constraints/utils.h>
-#include <moveit/planning_interface/planning_interface.h>
-#include <moveit/planning_scene/planning_scene.h>
 #include <moveit/robot_state/conversions.h>
-#include <moveit/utils/robot_model_test_utils.h>
 #include <octomap/OcTree.h>
 #include <srdfdom/model.h>
 #include <urdf_parser/urdf_parser.h>
-#include <pluginlib/class_loader.hpp>
 
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
 #include "moveit/moveit_resources.h"
 #include "moveit/planner/scene_conversion.h"
+#include "moveit/planner_fixtures.h"
 
 // The planner for MoveIt, loaded as MoveIt loads it. Paths are checked with MoveIt's FCL detector.
 namespace gpu_planning_scene::pipeline
@@ -46,26 +36,6 @@ using planning_interface::MotionPlanResponse;
 const bool kReady = (useMoveItResources(), useBuiltPlugins(), true);
 
 constexpr char kArm[] = "panda_arm";
-
-planning_interface::PlannerManagerPtr loadManager(const moveit::core::RobotModelConstPtr& robot)
-{
-  static pluginlib::ClassLoader<planning_interface::PlannerManager> loader("moveit_core",
-                                                                           "planning_interface::PlannerManager");
-  planning_interface::PlannerManagerPtr manager = loader.createUniqueInstance("gpu_planning_scene/PlannerManager");
-  if (!manager->initialize(robot, "planner_test"))
-    throw std::runtime_error("the planner manager cannot be initialised");
-  return manager;
-}
-
-Isometry3d at(double x, double y, double z)
-{
-  return Isometry3d(Eigen::Translation3d(x, y, z));
-}
-
-shapes::ShapeConstPtr box(double x, double y, double z)
-{
-  return std::make_shared<shapes::Box>(x, y, z);
-}
 
 class Planner : public testing::Test
 {
@@ -205,6 +175,7 @@ TEST_F(Planner, CarriesAttachedObjectsAroundObstacles)
   attachBox(kHandLinks, {0.05, 0.05, 0.3}, at(0.0, 0.0, 0.25));
   MotionPlanResponse response;
   ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_), response));
+  EXPECT_TRUE(response.trajectory_->getFirstWayPoint().hasAttachedBody("tool"));
   EXPECT_EQ(0, collidingStates(*response.trajectory_));
 }
 
@@ -219,6 +190,12 @@ TEST_F(Planner, TakesAttachedObjectsOfTheStartState)
   with_tool.update();
   moveit::core::robotStateToRobotStateMsg(with_tool, carrying.start_state);
   EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(carrying));
+  scene_->getWorldNonConst()->clearObjects();
+  MotionPlanResponse response;
+  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(carrying, response));
+  EXPECT_TRUE(response.trajectory_->getLastWayPoint().hasAttachedBody("tool"));
+  ASSERT_EQ(1U, response.start_state_.attached_collision_objects.size());
+  EXPECT_EQ("tool", response.start_state_.attached_collision_objects[0].object.id);
 }
 
 TEST_F(Planner, ChecksAnAttachedObjectAgainstItsOwnLinkAsMoveItDoes)
@@ -268,6 +245,16 @@ TEST_F(Planner, FollowsTheAllowedCollisionMatrix)
   collision_detection::DecideContactFn always = [](collision_detection::Contact&) { return true; };
   matrix.setEntry("box", "panda_hand", always);
   EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
+}
+
+TEST_F(Planner, TellsAnObjectFromALinkOfTheSameName)
+{
+  addObject("panda_hand", box(0.1, 0.1, 0.1), goal_.getGlobalLinkTransform("panda_hand"));
+  ASSERT_TRUE(collides(goal_));
+  EXPECT_EQ(int(MoveItErrorCodes::GOAL_IN_COLLISION), plan(request(goal_)));
+  scene_->getAllowedCollisionMatrixNonConst().setEntry("panda_hand", "panda_hand", true);
+  scene_->getWorldNonConst()->setObjectPose("panda_hand", at(2.0, 0.0, 0.0));
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
 }
 
 TEST_F(Planner, KeepsThePaddingOfTheScene)
@@ -496,6 +483,14 @@ TEST_F(Planner, RefusesScenesThatItCannotCheckExactly)
   EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_)));
   scene_->setStateFeasibilityPredicate([](const RobotState&, bool) { return true; });
   EXPECT_EQ(int(MoveItErrorCodes::COLLISION_CHECKING_UNAVAILABLE), plan(request(goal_)));
+  scene_->setStateFeasibilityPredicate({});
+  scene_->setMotionFeasibilityPredicate([](const RobotState&, const RobotState&, bool) { return true; });
+  EXPECT_EQ(int(MoveItErrorCodes::COLLISION_CHECKING_UNAVAILABLE), plan(request(goal_)));
+  scene_->setMotionFeasibilityPredicate({});
+  scene_->getCurrentStateNonConst().attachBody("plane", Isometry3d::Identity(),
+                                               {std::make_shared<shapes::Plane>(0.0, 0.0, 1.0, 0.0)},
+                                               {Isometry3d::Identity()}, kHandLinks, "panda_hand");
+  EXPECT_EQ(int(MoveItErrorCodes::COLLISION_CHECKING_UNAVAILABLE), plan(request(goal_)));
 }
 
 TEST_F(Planner, PlansWithTheNamedPlanner)
@@ -518,6 +513,14 @@ TEST_F(Planner, PlansWithTheNamedPlanner)
     asked.planner_id = id;
     EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked, response));
     EXPECT_EQ("geometric::SBL", response.planner_id_);
+  }
+  changed["panda_arm[Wrong]"] = {kArm, "panda_arm[Wrong]", {{"type", "geometric::SBL"}, {"no_such_parameter", "1"}}};
+  changed["hand[Other]"] = {"hand", "hand[Other]", {{"type", "geometric::SBL"}}};
+  manager().setPlannerConfigurations(changed);
+  for (const char* id : {"Wrong", "hand[Other]"})
+  {
+    asked.planner_id = id;
+    EXPECT_EQ(int(MoveItErrorCodes::PLANNING_FAILED), plan(asked)) << id;
   }
   std::vector<std::string> names;
   manager().getPlanningAlgorithms(names);
@@ -566,141 +569,6 @@ TEST_F(Planner, KeepsTheMeasuredValueOfAMimicJoint)
   scene_->getCurrentStateNonConst().setVariablePositions(values);
   ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(hand, response));
   EXPECT_EQ(0.0, response.trajectory_->getLastWayPoint().getVariablePosition(follower));
-}
-
-/// A cart that drives on a floor, from the origin to a goal behind a wall.
-class Cart : public testing::Test
-{
- protected:
-  Cart() : robot_(makeRobot()), scene_(std::make_shared<planning_scene::PlanningScene>(robot_))
-  {
-    scene_->getCurrentStateNonConst().setToDefaultValues();
-    scene_->getCurrentStateNonConst().update();
-    RobotState goal = scene_->getCurrentState();
-    goal.setVariablePosition("drive/x", 4.0);
-    goal.update();
-    request_.group_name = "cart";
-    request_.allowed_planning_time = 20.0;
-    request_.goal_constraints.push_back(
-        kinematic_constraints::constructGoalConstraints(goal, robot_->getJointModelGroup("cart"), 1e-3));
-    setWorkspace(5.0);
-    manager_ = loadManager(robot_);
-  }
-
-  static moveit::core::RobotModelPtr makeRobot()
-  {
-    moveit::core::RobotModelBuilder builder("cart", "base");
-    geometry_msgs::Pose pose;
-    pose.orientation.w = 1.0;
-    builder.addCollisionBox("base", {0.4, 0.4, 0.4}, pose);
-    builder.addVirtualJoint("world", "base", "planar", "drive");
-    builder.addGroup({}, {"drive"}, "cart");
-    return builder.build();
-  }
-
-  void setWorkspace(double reach)
-  {
-    request_.workspace_parameters.min_corner.x = request_.workspace_parameters.min_corner.y = -reach;
-    request_.workspace_parameters.max_corner.x = request_.workspace_parameters.max_corner.y = reach;
-  }
-
-  void addWall(double length)
-  {
-    scene_->getWorldNonConst()->addToObject("wall", at(2.0, 0.0, 0.0), box(0.2, length, 1.0), Isometry3d::Identity());
-  }
-
-  int plan()
-  {
-    moveit_msgs::MoveItErrorCodes code;
-    const planning_interface::PlanningContextPtr context = manager_->getPlanningContext(scene_, request_, code);
-    if (!context)
-      return code.val;
-    context->solve(response_);
-    return response_.error_code_.val;
-  }
-
-  moveit::core::RobotModelPtr robot_;
-  planning_scene::PlanningScenePtr scene_;
-  planning_interface::PlannerManagerPtr manager_;
-  MotionPlanRequest request_;
-  MotionPlanResponse response_;
-};
-
-TEST_F(Cart, StaysInTheWorkspace)
-{
-  addWall(4.0);
-  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan());
-  for (std::size_t i = 0; i < response_.trajectory_->getWayPointCount(); ++i)
-  {
-    const RobotState& waypoint = response_.trajectory_->getWayPoint(i);
-    EXPECT_FALSE(scene_->isStateColliding(waypoint, "cart"));
-    EXPECT_LE(std::abs(waypoint.getVariablePosition("drive/x")), 5.0);
-    EXPECT_LE(std::abs(waypoint.getVariablePosition("drive/y")), 5.0);
-  }
-  setWorkspace(3.0);
-  EXPECT_EQ(int(MoveItErrorCodes::GOAL_STATE_INVALID), plan());
-}
-
-TEST_F(Cart, NeedsAWorkspaceInAKnownFrame)
-{
-  setWorkspace(0.0);
-  EXPECT_EQ(int(MoveItErrorCodes::PLANNING_FAILED), plan());
-  setWorkspace(5.0);
-  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan());
-  request_.workspace_parameters.header.frame_id = "nowhere";
-  EXPECT_EQ(int(MoveItErrorCodes::FRAME_TRANSFORM_FAILURE), plan());
-}
-
-TEST_F(Cart, TakesTheWorkspaceInAFrameOfTheScene)
-{
-  scene_->getTransformsNonConst().setTransform(at(3.0, 0.0, 0.0), "hall");
-  request_.workspace_parameters.header.frame_id = "hall";
-  request_.workspace_parameters.max_corner.x = 2.0;
-  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), plan());
-  request_.workspace_parameters.max_corner.x = 0.5;
-  EXPECT_EQ(int(MoveItErrorCodes::GOAL_STATE_INVALID), plan());
-}
-
-TEST_F(Cart, StartsWhereTheJointsOfTheRequestAre)
-{
-  sensor_msgs::MultiDOFJointState& joints = request_.start_state.multi_dof_joint_state;
-  request_.start_state.is_diff = true;
-  joints.header.frame_id = robot_->getModelFrame();
-  joints.joint_names = {"drive"};
-  joints.transforms.resize(1);
-  joints.transforms[0].translation.x = 1.0;
-  joints.transforms[0].rotation.w = 1.0;
-  ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan());
-  EXPECT_EQ(1.0, response_.trajectory_->getFirstWayPoint().getVariablePosition("drive/x"));
-  joints.header.frame_id = "nowhere";
-  EXPECT_EQ(int(MoveItErrorCodes::FRAME_TRANSFORM_FAILURE), plan());
-  joints.header.frame_id = robot_->getModelFrame();
-  joints.transforms[0].rotation.z = NAN;
-  EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan());
-  joints.transforms[0].rotation.z = 0.0;
-  joints.joint_names = {"wheel"};
-  EXPECT_EQ(int(MoveItErrorCodes::INVALID_ROBOT_STATE), plan());
-}
-
-TEST_F(Cart, EndsWithTheTimeOrWhenItIsTerminated)
-{
-  addWall(20.0);  // across the workspace
-  request_.allowed_planning_time = 0.3;
-  EXPECT_EQ(int(MoveItErrorCodes::TIMED_OUT), plan());
-  request_.allowed_planning_time = 100.0;
-  std::atomic<bool> done{false};
-  std::thread terminating(
-      [&]
-      {
-        while (!done)
-        {
-          std::this_thread::sleep_for(std::chrono::milliseconds(50));
-          manager_->terminate();
-        }
-      });
-  EXPECT_EQ(int(MoveItErrorCodes::PREEMPTED), plan());
-  done = true;
-  terminating.join();
 }
 
 /// Fills a scene with shapes of all kinds, an octomap, padding, attached objects and a random matrix.

@@ -150,12 +150,15 @@ PlanningContext::Outcome PlanningContext::planOrThrow()
   core::CheckerPool::Lease lease(workshop_->checkers, converted.scene);
   query.goals = goalStates(regions, *lease.checker(), getGroupName());
   query.seconds = request_.allowed_planning_time - core::secondsSince(begin);
-  if (!(query.seconds >= kLeastSeconds))
+  const bool has_time = query.seconds >= kLeastSeconds;
+  core::PlanningResult result;
+  if (has_time)
+    result = planShortest(converted, lease.checker(), query);
+  lease.giveBack();  // also without time: the next request uses what this one has prepared
+  if (!has_time)
     throw Refusal(MoveItErrorCodes::TIMED_OUT,
                   "allowed_planning_time is " + std::to_string(request_.allowed_planning_time) +
                       " s; the conversion of the scene and the check of the goals took all of it");
-  const core::PlanningResult result = planShortest(converted, lease.checker(), query);
-  lease.giveBack();
 
   Outcome outcome;
   const bool in_time = core::secondsSince(begin) < request_.allowed_planning_time;

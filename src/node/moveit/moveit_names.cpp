@@ -1,7 +1,6 @@
 #include "node/moveit/moveit_names.h"
 
 #include "gpu_planning_scene/error.h"
-#include "node/endpoints/topic_warnings.h"
 #include "node/messages/to_messages.h"
 #include "node/moveit/mimic_joints.h"
 
@@ -106,10 +105,16 @@ MoveItNames::MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices
     checks_(node, node, kCheckThreads, diagnostics),
     topics_(node, node, changes, lookup, diagnostics, max_changes, max_bytes)
 {
-  const std::shared_ptr<const RobotModel> robot = store.snapshot().scene->robot;
+  const auto without_mimic_joints = [this, &store](const PlanningSceneMessage& scene)
+  {
+    const Snapshot now = store.snapshot();
+    if (const std::string fault = mimicFault(scene, *now.scene->robot, now.state); !fault.empty())
+      mimic_warning_.log("the planning scene: " + fault);
+    return withoutMimicJoints(scene, *now.scene->robot);
+  };
   topics_.subscribe<MoveItScene>(
-      "planning_scene",
-      [&changes, robot](const MoveItScene& m) { return changes.changeOf(withoutMimicJoints(m.ours, *robot)); });
+      "planning_scene", [&changes, without_mimic_joints](const MoveItScene& m)
+      { return changes.changeOf(without_mimic_joints(m.ours)); });
   topics_.subscribe<MoveItWorld>(
       "planning_scene_world", [&changes](const MoveItWorld& m) { return changes.changeOf(m.ours); });
   topics_.subscribe<MoveItObject>(
@@ -121,10 +126,10 @@ MoveItNames::MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices
   scenes_.advertise<MoveItGetScene>(kGetScene, [&changes](const MoveItGetScene::Request& r)
                                     { return MoveItGetScene::Response{changes.get(r.ours).scene}; });
   scenes_.advertise<MoveItApplyScene>(kApplyScene,
-                                      [&changes, robot](const MoveItApplyScene::Request& r)
+                                      [&changes, without_mimic_joints](const MoveItApplyScene::Request& r)
                                       {
                                         ApplyPlanningScene::Request request;
-                                        request.scene = withoutMimicJoints(r.ours, *robot);
+                                        request.scene = without_mimic_joints(r.ours);
                                         const ApplyPlanningScene::Response applied = changes.apply(request);
                                         if (!applied.success)
                                           throw Error(applied.message);

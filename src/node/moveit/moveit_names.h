@@ -3,6 +3,7 @@
 #include <mutex>
 #include <vector>
 
+#include "node/endpoints/topic_warnings.h"
 #include "node/moveit/moveit_messages.h"
 #include "node/moveit/state_validity.h"
 #include "node/scene/scene_topics.h"
@@ -44,6 +45,7 @@ class MoveItNames
 
  private:
   MoveItScenePublisher publisher_;
+  OccasionalWarning mimic_warning_;
   Endpoints scenes_;
   Endpoints checks_;
   SceneTopics topics_;

@@ -475,6 +475,57 @@ TEST_F(Following, AWholeSceneThatCannotBeTakenOverIsRefusedUntilItCan)
   EXPECT_TRUE(check(randomStates(1)).success);
 }
 
+TEST_F(Following, AnAnswerThatIsNoWholeSceneIsRefused)
+{
+  startNode();
+  ASSERT_EQ("", remainingDifference());
+  group_.alterAnswers([](moveit_msgs::PlanningScene& scene) { scene.is_diff = true; });
+  std::string why = refusal();
+  EXPECT_NE(std::string::npos, why.find("is not a whole scene")) << why;
+  group_.alterAnswers([](moveit_msgs::PlanningScene& scene) { scene = moveit_msgs::PlanningScene(); });
+  for (const auto end = Clock::now() + std::chrono::duration<double>(kLongest);
+       why.find("names no robot") == std::string::npos && Clock::now() < end;)
+    why = refusal();
+  EXPECT_NE(std::string::npos, why.find("names no robot")) << why;
+  group_.alterAnswers({});
+  EXPECT_EQ("", remainingDifference());
+  EXPECT_TRUE(check(randomStates(1)).success);
+}
+
+TEST_F(Following, WhileTwoNodesPublishTheSceneRequestsAreRefused)
+{
+  startNode();
+  ASSERT_EQ("", remainingDifference());
+  {
+    ChildNode other("other", {"_device:=cpu", "_moveit_names:=true",
+                              "move_group/monitored_planning_scene:=/arm/move_group/monitored_planning_scene"});
+    const std::string why = refusal();
+    EXPECT_NE(std::string::npos, why.find("several nodes publish")) << why;
+    other.askToShutDown();
+    other.wait(kLongest);
+  }
+  EXPECT_EQ("", remainingDifference());
+  EXPECT_TRUE(check(randomStates(1)).success);
+}
+
+TEST_F(Following, AJointAwayFromTheJointThatItFollowsIsReported)
+{
+  startNode();
+  ASSERT_EQ("", remainingDifference());
+  group_.change(
+      [](planning_scene::PlanningScene& scene)
+      {
+        moveit::core::RobotState& state = scene.getCurrentStateNonConst();
+        std::vector<double> values(state.getVariablePositions(),
+                                   state.getVariablePositions() + state.getVariableCount());
+        values[static_cast<std::size_t>(model->getVariableIndex("panda_finger_joint2"))] += 0.02;
+        state.setVariablePositions(values);
+      });
+  group_.publish();
+  EXPECT_TRUE(waitForWarning("'panda_finger_joint2' follows 'panda_finger_joint1'"));
+  EXPECT_TRUE(check(randomStates(1)).success);
+}
+
 TEST_F(Following, ChangesThroughTheNodeAreRefused)
 {
   startNode();
@@ -494,11 +545,17 @@ TEST_F(Following, TheTopicOfJointStatesStillSetsTheJoints)
 {
   startNode();
   ASSERT_EQ("", remainingDifference());
-  ros::Publisher joints = ros::NodeHandle().advertise<sensor_msgs::JointState>("joint_states", 1, true);
-  sensor_msgs::JointState state;
-  state.name = {"panda_joint1"};
-  state.position = {1.25};
-  joints.publish(state);
+  ros::Publisher joints = ros::NodeHandle().advertise<sensor_msgs::JointState>("joint_states", 1);
+  std::atomic<bool> done{false};
+  std::thread robot(
+      [&]
+      {
+        sensor_msgs::JointState state;
+        state.name = {"panda_joint1"};
+        state.position = {1.25};
+        for (; !done; ros::WallDuration(0.05).sleep())
+          joints.publish(state);
+      });
   const auto joint1 = [this]
   {
     const std::optional<moveit_msgs::PlanningScene> scene = nodeScene();
@@ -506,16 +563,25 @@ TEST_F(Following, TheTopicOfJointStatesStillSetsTheJoints)
     return values.position.at(static_cast<std::size_t>(
         std::find(values.name.begin(), values.name.end(), "panda_joint1") - values.name.begin()));
   };
-  for (const auto end = Clock::now() + std::chrono::duration<double>(kLongest); joint1() != 1.25 && Clock::now() < end;)
-    ros::WallDuration(0.05).sleep();
-  EXPECT_EQ(1.25, joint1());
+  const auto wait_for = [&joint1](double value)
+  {
+    for (const auto end = Clock::now() + std::chrono::duration<double>(kLongest);
+         joint1() != value && Clock::now() < end;)
+      ros::WallDuration(0.05).sleep();
+    return joint1();
+  };
+  EXPECT_EQ(1.25, wait_for(1.25));
   // The move_group has other values. They do not replace those of the topic.
   group_.change([](planning_scene::PlanningScene& scene)
                 { scene.getCurrentStateNonConst().setVariablePosition("panda_joint1", -1.0); });
   changeObject("box");
   group_.publish();
-  ASSERT_EQ("", remainingDifference());
+  EXPECT_EQ("", remainingDifference());
+  ros::WallDuration(1.0).sleep();  // several fetches
   EXPECT_EQ(1.25, joint1());
+  done = true;
+  robot.join();
+  EXPECT_EQ(-1.0, wait_for(-1.0)) << "the topic has ended";
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

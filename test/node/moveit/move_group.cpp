@@ -230,7 +230,15 @@ bool MoveGroup::answer(moveit_msgs::GetPlanningScene::Request& request,
   const std::lock_guard<std::mutex> hanging(hanging_);
   const std::lock_guard<std::mutex> lock(mutex_);
   scene_->getPlanningSceneMsg(response.scene, request.components);
+  if (alter_)
+    alter_(response.scene);
   return true;
+}
+
+void MoveGroup::alterAnswers(const std::function<void(moveit_msgs::PlanningScene&)>& alter)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  alter_ = alter;
 }
 
 void MoveGroup::change(const std::function<void(PlanningScene&)>& make)

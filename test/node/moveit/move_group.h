@@ -36,16 +36,19 @@ class MoveGroup
   void start();
   /// While true, the service does not answer.
   void hang(bool hangs);
+  /// Changes each answer of the service. Empty: the answers stay as they are.
+  void alterAnswers(const std::function<void(moveit_msgs::PlanningScene&)>& alter);
 
  private:
   bool answer(moveit_msgs::GetPlanningScene::Request& request, moveit_msgs::GetPlanningScene::Response& response);
 
   const std::string name_;
   ros::NodeHandle node_;
-  std::mutex mutex_;    // guards the two scenes
+  std::mutex mutex_;    // guards the two scenes and alter_
   std::mutex hanging_;  // held while the service does not answer
   planning_scene::PlanningScenePtr parent_;
   planning_scene::PlanningScenePtr scene_;  // the difference to parent_ is not published yet
+  std::function<void(moveit_msgs::PlanningScene&)> alter_;
   ros::Publisher publisher_;
   ros::ServiceServer service_;
 };

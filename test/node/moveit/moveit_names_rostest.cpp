@@ -8,6 +8,7 @@
 #include <moveit_msgs/GetPlanningScene.h>
 #include <moveit_msgs/GetStateValidity.h>
 #include <moveit_msgs/PlanningSceneWorld.h>
+#include <rosgraph_msgs/Log.h>
 
 #include "node/child_node.h"
 #include "node/moveit/move_group.h"
@@ -249,6 +250,33 @@ TEST_F(MoveItNames, AWrongSceneChangesNothing)
   scene.world.collision_objects = {moveItBox("good", 1.0, 0.1), moveItBox("bad", 1.0, -0.1)};
   EXPECT_FALSE(apply(scene));
   EXPECT_TRUE(objects().empty());
+}
+
+TEST_F(MoveItNames, AJointAwayFromTheJointThatItFollowsIsReported)
+{
+  std::mutex mutex;
+  std::string warnings;
+  const ros::Subscriber log = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
+      "/rosout", 1000,
+      boost::function<void(const rosgraph_msgs::LogConstPtr&)>(
+          [&](const rosgraph_msgs::LogConstPtr& message)
+          {
+            const std::lock_guard<std::mutex> lock(mutex);
+            if (message->level == rosgraph_msgs::Log::WARN && message->name == "/named")
+              warnings += message->msg;
+          }));
+  ASSERT_TRUE(waitFor([&log] { return log.getNumPublishers() > 1; }));
+  ros::WallDuration(0.5).sleep();  // the node sends its log to this program now
+  moveit_msgs::PlanningScene scene = diff();
+  scene.robot_state.joint_state.name = {"panda_finger_joint1", "panda_finger_joint2"};
+  scene.robot_state.joint_state.position = {0.01, 0.04};
+  ASSERT_TRUE(apply(scene));
+  const auto is_reported = [&]
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return warnings.find("'panda_finger_joint2' follows 'panda_finger_joint1'") != std::string::npos;
+  };
+  EXPECT_TRUE(waitFor(is_reported));
 }
 
 TEST_F(MoveItNames, ChangesComeByMoveItsTopics)

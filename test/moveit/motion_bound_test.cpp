@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <moveit/utils/robot_model_test_utils.h>
+
+#include "moveit/motion_bound.h"
+#include "moveit/robot_geometry.h"
+#include "moveit/workspace.h"
+
+// The bound of a motion between two states, against the motion that MoveIt interpolates.
+namespace gpu_planning_scene::detector
+{
+namespace
+{
+using Eigen::Vector3d;
+using moveit::core::JointModel;
+using moveit::core::RobotModelPtr;
+using moveit::core::RobotState;
+
+/// Random values of all joints. Continuous joints are up to two turns away, bases up to 2 m.
+void randomize(RobotState& state, random_numbers::RandomNumberGenerator& random)
+{
+  state.setToRandomPositions(random);
+  for (const JointModel* joint : state.getRobotModel()->getActiveJointModels())
+  {
+    const std::vector<std::string>& names = joint->getVariableNames();
+    const bool is_base = joint->getType() == JointModel::PLANAR || joint->getType() == JointModel::FLOATING;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (is_base && i < (joint->getType() == JointModel::PLANAR ? 2 : 3))
+        state.setVariablePosition(names[i], random.uniformReal(-2.0, 2.0));
+      else if (!joint->getVariableBounds()[i].position_bounded_ && joint->getType() != JointModel::FLOATING)
+        state.setVariablePosition(names[i], random.uniformReal(-4.0 * M_PI, 4.0 * M_PI));
+  }
+  state.update();
+}
+
+/// The corners of the parts' boxes in the world.
+std::vector<std::vector<Vector3d>> cornersOf(const std::vector<Part>& parts)
+{
+  std::vector<std::vector<Vector3d>> all;
+  for (const Part& part : parts)
+  {
+    const core::CpuTree& tree = part.shape->tree();
+    std::vector<Vector3d> corners;
+    for (unsigned k = 0; k < 8; ++k)
+      corners.push_back(*part.pose * (tree.center + Vector3d((k & 1u) != 0 ? tree.half.x() : -tree.half.x(),
+                                                             (k & 2u) != 0 ? tree.half.y() : -tree.half.y(),
+                                                             (k & 4u) != 0 ? tree.half.z() : -tree.half.z())));
+    all.push_back(std::move(corners));
+  }
+  return all;
+}
+
+/// Whether a floating joint has quaternions with a negative product. MoveIt then turns it the longer way.
+bool turnsTheLongerWay(const RobotState& from, const RobotState& to)
+{
+  const auto& joints = from.getRobotModel()->getActiveJointModels();
+  return std::any_of(joints.begin(), joints.end(),
+                     [&](const JointModel* joint)
+                     {
+                       if (joint->getType() != JointModel::FLOATING)
+                         return false;
+                       return Eigen::Map<const Eigen::Vector4d>(from.getJointPositions(joint) + 3)
+                                  .dot(Eigen::Map<const Eigen::Vector4d>(to.getJointPositions(joint) + 3)) < 0.0;
+                     });
+}
+
+/// Checks random motions. Returns the largest displacement of a point as a part of its bound.
+double expectBoundsToHold(const RobotModelPtr& robot, int motions)
+{
+  constexpr int kSamples = 40;
+  const RobotGeometry geometry(*robot, {}, {});
+  random_numbers::RandomNumberGenerator random(5);
+  RobotState from(robot);
+  RobotState to(robot);
+  double largest = 0.0;
+  for (int motion = 0; motion < motions; ++motion)
+  {
+    randomize(from, random);
+    randomize(to, random);
+    RobotState state = from;
+    std::vector<double> bounds;
+    std::vector<std::vector<Vector3d>> before;
+    for (int sample = 0; sample <= kSamples; ++sample)
+    {
+      from.interpolate(to, sample / double(kSamples), state);
+      state.update();
+      Workspace work;
+      geometry.place(state, nullptr, work->parts, work->attached);
+      if (sample == 0)
+        bounds = displacementBounds(from, to, state, work->parts);
+      const std::vector<std::vector<Vector3d>> corners = cornersOf(work->parts);
+      for (std::size_t part = 0; sample > 0 && part < corners.size(); ++part)
+      {
+        if (!std::isfinite(bounds[part]))
+        {
+          EXPECT_TRUE(turnsTheLongerWay(from, to)) << *work->parts[part].body.name << " in motion " << motion;
+          continue;
+        }
+        double moved = 0.0;
+        for (std::size_t k = 0; k < corners[part].size(); ++k)
+          moved = std::max(moved, (corners[part][k] - before[part][k]).norm());
+        const double allowed = bounds[part] / kSamples;
+        EXPECT_LE(moved, allowed + 1e-9) << *work->parts[part].body.name << " in motion " << motion;
+        if (allowed > 1e-6)
+          largest = std::max(largest, moved / allowed);
+      }
+      before = corners;
+    }
+  }
+  return largest;
+}
+
+TEST(MotionBound, HoldsForPandaWithFingersThatFollow)
+{
+  EXPECT_GT(expectBoundsToHold(moveit::core::loadTestingRobotModel("panda"), 100), 0.5);
+}
+
+TEST(MotionBound, HoldsForPr2OnItsBase)
+{
+  EXPECT_GT(expectBoundsToHold(moveit::core::loadTestingRobotModel("pr2"), 30), 0.5);
+}
+
+TEST(MotionBound, HoldsForAChainOfAllKindsOfJoints)
+{
+  geometry_msgs::Pose pose;
+  pose.orientation.w = 1.0;
+  pose.position.x = 0.3;
+  for (const char* base : {"planar", "floating"})
+  {
+    moveit::core::RobotModelBuilder builder("chain", "base");
+    builder.addCollisionBox("base", {0.4, 0.3, 0.2}, pose);
+    std::string last = "base";
+    int number = 0;
+    for (const char* type : {"prismatic", "continuous", "prismatic", "revolute", "floating", "revolute"})
+    {
+      const std::string link = "link" + std::to_string(number++);
+      builder.addChain(last + "->" + link, type, {pose},
+                       urdf::Vector3(number % 3 == 0, number % 3 == 1, number % 3 == 2));
+      builder.addCollisionBox(link, {0.2, 0.1, 0.1}, pose);
+      last = link;
+    }
+    builder.addVirtualJoint("world", "base", base, "root");
+    builder.addGroupChain("base", last, "all");
+    EXPECT_GT(expectBoundsToHold(builder.build(), 200), 0.2);
+  }
+}
+}  // namespace
+}  // namespace gpu_planning_scene::detector

@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <ompl/base/goals/GoalStates.h>
+#include <ompl/geometric/PathGeometric.h>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/planning/group_state_space.h"
+#include "moveit/planner/planning_context.h"
+#include "moveit/planner_fixtures.h"
+
+// A planning context with a planner and a checker of the test.
+namespace gpu_planning_scene::pipeline
+{
+namespace
+{
+using moveit_msgs::MoveItErrorCodes;
+
+/// Drives from the start to the first goal, and on its way along a given y.
+class Detour : public ompl::base::Planner
+{
+ public:
+  Detour(const ompl::base::SpaceInformationPtr& information, double y) : Planner(information, "Detour"), y_(y) {}
+
+  ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition&) override
+  {
+    const auto& space = *si_->getStateSpace()->as<core::GroupStateSpace>();
+    const auto path = std::make_shared<ompl::geometric::PathGeometric>(si_, pdef_->getStartState(0));
+    for (const double x : {1.0, 3.0})
+    {
+      ompl::base::ScopedState<> state(si_);
+      const double row[] = {x, y_, 0.0};
+      space.copyFromRow(row, state.get());
+      path->append(state.get());
+    }
+    path->append(pdef_->getGoal()->as<ompl::base::GoalStates>()->getState(0));
+    pdef_->addSolutionPath(path);
+    return ompl::base::PlannerStatus::EXACT_SOLUTION;
+  }
+
+ private:
+  const double y_;
+};
+
+/// Its planners take one detour after the other.
+struct Detours : core::PlannerFactory
+{
+  explicit Detours(std::vector<double> all) : detours(std::move(all)) {}
+
+  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
+  {
+    return std::make_shared<Detour>(information, detours.at(created++));
+  }
+
+  const std::vector<double> detours;
+  mutable std::size_t created = 0;
+};
+
+/// A checker that needs a time of preparation in its first check, as a device needs it for its shaders.
+class SlowAtFirst : public core::CpuChecker
+{
+ public:
+  SlowAtFirst(std::shared_ptr<const core::PlanningScene> scene, std::chrono::milliseconds preparation)
+    : CpuChecker(std::move(scene)), preparation_(preparation)
+  {
+  }
+
+  core::BatchResult check(const double* states, std::size_t count, const std::string& group,
+                          const core::JointNeighbourhood* around) override
+  {
+    std::this_thread::sleep_for(std::exchange(preparation_, std::chrono::milliseconds(0)));
+    return CpuChecker::check(states, count, group, around);
+  }
+
+ private:
+  std::chrono::milliseconds preparation_;
+};
+
+class Context : public Cart
+{
+ protected:
+  int planWith(const std::shared_ptr<const core::PlannerFactory>& factory, const std::shared_ptr<Workshop>& workshop)
+  {
+    PlanningContext context("cart", {"detours", factory, {}, {}, std::nullopt, 0.0}, workshop);
+    context.setPlanningScene(scene_);
+    context.setMotionPlanRequest(request_);
+    context.solve(response_);
+    return response_.error_code_.val;
+  }
+};
+
+TEST_F(Context, ReturnsTheShortestPathOfSeveralAttempts)
+{
+  // The way around the wall is shorter where y is negative.
+  scene_->getWorldNonConst()->addToObject("wall", at(2.0, 1.0, 0.0), box(0.2, 4.0, 1.0), Eigen::Isometry3d::Identity());
+  const auto workshop = std::make_shared<Workshop>([](const std::shared_ptr<const core::PlanningScene>& scene)
+                                                   { return std::make_shared<core::CpuChecker>(scene); });
+  request_.num_planning_attempts = 3;
+  for (const std::vector<double>& detours :
+       {std::vector<double>{4.0, -2.0, 4.0}, std::vector<double>{-2.0, 4.0, 4.0}, std::vector<double>{4.0, 4.0, -2.0}})
+  {
+    const auto factory = std::make_shared<const Detours>(detours);
+    ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), planWith(factory, workshop));
+    EXPECT_EQ(3U, factory->created);
+    for (std::size_t i = 0; i < response_.trajectory_->getWayPointCount(); ++i)
+      EXPECT_LE(response_.trajectory_->getWayPoint(i).getVariablePosition("drive/y"), 0.1);
+  }
+}
+
+TEST_F(Context, ARequestWithoutTimeKeepsThePreparedCheckerForTheNextOne)
+{
+  std::atomic<int> made{0};
+  const auto workshop = std::make_shared<Workshop>(
+      [&made](const std::shared_ptr<const core::PlanningScene>& scene)
+      {
+        ++made;
+        return std::make_shared<SlowAtFirst>(scene, std::chrono::milliseconds(400));
+      });
+  request_.allowed_planning_time = 0.2;
+  EXPECT_EQ(int(MoveItErrorCodes::TIMED_OUT), planWith(std::make_shared<Detours>(std::vector<double>{0.0}), workshop));
+  request_.allowed_planning_time = 20.0;
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), planWith(std::make_shared<Detours>(std::vector<double>{0.0}), workshop));
+  EXPECT_EQ(1, made);
+}
+}  // namespace
+}  // namespace gpu_planning_scene::pipeline
