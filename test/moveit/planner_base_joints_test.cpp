@@ -150,6 +150,7 @@ TEST_F(Cart, FulfilsSeveralConstraintsOfAJointUnlessTheyContradictEachOther)
     EXPECT_GE(x, 3.4 - 1e-9);
     EXPECT_LE(x, 3.5 + 1e-9);
   }
+  joints[0].position = 3.0;
   joints[1].position = 4.5;
   EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), plan());
   joints[0].joint_name = joints[1].joint_name = "drive/theta";
