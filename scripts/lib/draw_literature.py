@@ -235,7 +235,8 @@ def write_table(results, out):
     """One row a method: a pair "in its domain / outside" for missed and for false collisions in the hard cases."""
     kind = "CPU" if results.on_cpu else "wall"
     lines = ["# All methods in the hard cases", "",
-             "For people who want the numbers behind [literature.md](../literature.md), which explains the columns.", "",
+             "For people who want the numbers behind [literature.md](../literature.md), which explains the columns.",
+             "",
              f"| method | source | domain | missed | false | {kind} us | growth |",
              "| --- | --- | --- | --- | --- | --- | --- |"]
     for method, info in results.methods.items():

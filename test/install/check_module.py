@@ -18,4 +18,4 @@ assert libraries, "no library is loaded"
 for library in libraries:
     assert pathlib.Path(library).is_relative_to(pathlib.Path(prefix).resolve()), library
 for name in ("py.typed", "__init__.pyi", "dask.py", "bulk/__main__.py", "bulk/work.py"):
-    assert pathlib.Path(gps.__file__).with_name(name).exists(), name
+    assert (pathlib.Path(gps.__file__).parent / name).exists(), name

@@ -29,6 +29,6 @@ struct FloatBox
 
 /// Tests the boxes of a node against one box by their 15 possible separating axes (Gottschalk, Lin and Manocha,
 /// "OBBTree", 1996). Bit i of the result is 0 only if box i and `box` do not overlap, provided that `box` was grown by
-/// the rounding errors (see BoxPlacement). Thread-safe.
+/// the rounding errors (see WidePlacement). Thread-safe.
 using OverlapTest = unsigned (*)(const WideNode& node, const FloatBox& box);
 }  // namespace gpu_planning_scene::core

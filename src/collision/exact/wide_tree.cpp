@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "collision/exact/cpu_tree.h"
+#include "gpu_planning_scene/error.h"
 
 // A wide node begins with the two children of a binary node. Its largest inner box is replaced by the two children of
 // that box until the node has eight boxes (H. Dammertz, J. Hanika, A. Keller: Shallow bounding volume hierarchies for
@@ -60,6 +61,9 @@ void setBox(const OrientedBox& box, const Vector3d& origin, unsigned slot, WideN
 TriangleBlock blockOf(const CpuNode& leaf, const std::vector<Triangle>& triangles, const Vector3d& origin)
 {
   static_assert(kLeafTriangles <= kBlockTriangles, "one block for each leaf");
+  if (leaf.count < 1 || leaf.count > kBlockTriangles)
+    throw Error("a leaf of a tree has " + std::to_string(leaf.count) + " triangles, not 1 to " +
+                std::to_string(kBlockTriangles));
   TriangleBlock block;
   block.first = leaf.first;
   block.count = leaf.count;

@@ -74,7 +74,7 @@ class WidePlacement
 
   FloatBox place(const WideTree& from, BoxIndex box) const;
   TriangleBlock place(const TriangleBlock& block) const;
-  /// Triangles that are farther apart in floats are farther apart than `growth`.
+  /// `growth` plus the rounding errors.
   float distance() const { return growth_; }
   double errors() const { return errors_; }  ///< see floatErrors
 

@@ -6,7 +6,7 @@ namespace gpu_planning_scene::core
 {
 constexpr unsigned kBlockTriangles = 4;
 
-/// The triangles of a leaf as floats, as a structure of arrays. Slots beyond `count` repeat a triangle.
+/// The triangles of a leaf as floats, as a structure of arrays. Slots beyond `count` repeat the last triangle.
 struct alignas(16) TriangleBlock
 {
   float corners[3][3][kBlockTriangles];  ///< [i][k]: coordinate k of corner i
@@ -16,8 +16,8 @@ struct alignas(16) TriangleBlock
 
 /// Tests each triangle of `a` against each triangle of `b`, in the same frame, by possible separating axes: the line
 /// of their centres, both normals, and the products of their edges (e.g. Ericson, "Real-Time Collision Detection",
-/// 2005, section 5.2). Bit kBlockTriangles * j + i of the result is 0 only if triangle i of `a` and triangle j of `b`
-/// are farther apart than `distance`, provided that `distance` includes the rounding errors of
-/// docs/error_bounds.md, "Triangles of wide trees". Thread-safe.
+/// 2005, section 5.2). `distance`: the required distance plus the rounding errors, see WidePlacement::distance. If bit
+/// kBlockTriangles * j + i of the result is 0, then triangle i of `a` and triangle j of `b` are farther apart than the
+/// required distance, or one of them does not exist. Thread-safe.
 using NearTrianglesTest = unsigned (*)(const TriangleBlock& a, const TriangleBlock& b, float distance);
 }  // namespace gpu_planning_scene::core

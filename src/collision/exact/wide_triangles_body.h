@@ -55,7 +55,8 @@ struct TrianglePairs
   Vectors p1, p2;      ///< the first triangle has the corners 0, p1 and p2
   Vectors q0, q1, q2;  ///< q1 and q2 are relative to q0
 
-  /// Whether the projections on an axis are certainly farther apart than `distance`.
+  /// Whether the projections on an axis are certainly farther apart than `distance`. `smaller` and `larger` may drop a
+  /// NaN, but there is none: corners and distances are finite (Mesh, Variable::largest).
   Ints apartAlong(const Vectors& axis, float distance) const
   {
     // Shorter axes may lose digits to underflow.

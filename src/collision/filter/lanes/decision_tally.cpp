@@ -11,8 +11,9 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::uint64_t kTimedBlocks = 64;  // one block of this many is timed, because reading the clock takes time
-constexpr std::array<const char*, lanes::kStages> kNames = {"joint tables", "enclosing balls and boxes", "8 balls per shape",
-                                                            "32 balls per shape", "exact tests of the other pairs"};
+constexpr std::array<const char*, lanes::kStages> kNames = {"joint tables", "enclosing balls and boxes",
+                                                            "8 balls per shape", "32 balls per shape",
+                                                            "exact tests of the other pairs"};
 }  // namespace
 
 std::uint64_t steadyNanoseconds()

@@ -7,7 +7,7 @@ namespace gpu_planning_scene::core::lanes
 {
 namespace
 {
-/// Sums of three products, for all lanes.
+/// The scalar product, in all lanes.
 inline Floats sumOfProducts(const Floats* a, const Floats* b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -37,7 +37,8 @@ inline const float* placedBox(const Model& model, const Scratch& scratch, std::u
 }
 
 /// Tests the boxes of a pair by their 15 possible separating axes (Gottschalk, Lin and Manocha, "OBBTree", 1996).
-/// `margin`: an additional distance. Returns the lanes of `wanted` in which the instances may be near each other.
+/// `margin`: the required distance, because two links have no padding. Returns the lanes of `wanted` in which the
+/// instances may be near each other.
 inline int nearByBoxes(const Model& model, const Scratch& scratch, const SelfPair& pair, const Floats& margin,
                        int wanted)
 {

@@ -1,8 +1,8 @@
 // The source of the lane kernel, included once for each instruction set, see lane_kernel.h.
 //
 // Eight states are checked side by side (as in Thomason, Kingston and Kavraki, "Motions in microseconds via vectorized
-// sampling-based planning", 2024), first by joint tables and enclosing balls. The few pairs that remain are checked one
-// state at a time, with eight balls side by side.
+// sampling-based planning", 2024), first by joint tables, enclosing balls and boxes. The few pairs that remain are
+// checked one state at a time, with eight balls side by side.
 #ifndef GPS_LANE_KERNEL
 #error "define the kernel's name before this file is included"
 #endif
@@ -123,8 +123,8 @@ struct MarginRows
 };
 
 template <bool kWithMargins>
-inline void proveSelfPairByEnclosingBalls(const Model& model, const Scratch& scratch, std::uint32_t p,
-                                          const MarginRows<kWithMargins>& margins, Lanes& lanes)
+inline void proveSelfPairInAllLanes(const Model& model, const Scratch& scratch, std::uint32_t p,
+                                    const MarginRows<kWithMargins>& margins, Lanes& lanes)
 {
   const SelfPair& pair = model.self_pairs[p];
   const Instance& a = model.instances[pair.a];
@@ -145,14 +145,14 @@ inline void proveSelfPairByEnclosingBalls(const Model& model, const Scratch& scr
   lanes.keepOpen(open, p);
 }
 
-/// Proves self pairs by enclosing balls, for all lanes at once. Without margins, pairs with tables are left out, and
-/// balls around clusters of instances leave out most other pairs.
+/// Proves self pairs by enclosing balls and boxes, for all lanes at once. Without margins, pairs with tables are left
+/// out, and balls around clusters of instances leave out most other pairs.
 template <bool kWithMargins>
-inline void proveSelfPairsByEnclosingBalls(const Model& model, const Scratch& scratch,
-                                           const MarginRows<kWithMargins>& margins, Lanes& lanes)
+inline void proveSelfPairsInAllLanes(const Model& model, const Scratch& scratch,
+                                     const MarginRows<kWithMargins>& margins, Lanes& lanes)
 {
   for (std::uint32_t p = 0; kWithMargins && p < model.tables.count && lanes.active != 0; ++p)
-    proveSelfPairByEnclosingBalls(model, scratch, p, margins, lanes);
+    proveSelfPairInAllLanes(model, scratch, p, margins, lanes);
   for (std::uint32_t g = 0; g < model.self_groups.count && lanes.active != 0; ++g)
   {
     const SelfGroup& group = model.self_groups[g];
@@ -161,14 +161,14 @@ inline void proveSelfPairsByEnclosingBalls(const Model& model, const Scratch& sc
                           lanes.active) == 0)
       continue;
     for (std::uint32_t p = group.first; p < group.end && lanes.active != 0; ++p)
-      proveSelfPairByEnclosingBalls(model, scratch, p, margins, lanes);
+      proveSelfPairInAllLanes(model, scratch, p, margins, lanes);
   }
 }
 
-/// The same for pairs with the world.
+/// Proves pairs with the world by enclosing balls, for all lanes at once.
 template <bool kWithMargins>
-inline void proveWorldPairsByEnclosingBalls(const Model& model, const Scratch& scratch,
-                                            const MarginRows<kWithMargins>& margins, Lanes& lanes)
+inline void proveWorldPairsInAllLanes(const Model& model, const Scratch& scratch,
+                                      const MarginRows<kWithMargins>& margins, Lanes& lanes)
 {
   for (std::uint32_t g = 0; g < model.world_groups.count && lanes.active != 0; ++g)
   {
@@ -256,8 +256,8 @@ inline void proveBlock(const Model& model, const double* states, int count, cons
   placeCenters(model, scratch);
   for (std::uint32_t i = 0; i < model.instances.count; ++i)
     scratch.placed_boxes[i] = 0;
-  proveSelfPairsByEnclosingBalls(model, scratch, margins, lanes);
-  proveWorldPairsByEnclosingBalls(model, scratch, margins, lanes);
+  proveSelfPairsInAllLanes(model, scratch, margins, lanes);
+  proveWorldPairsInAllLanes(model, scratch, margins, lanes);
   for (int lane = 0; lane < count; ++lane)
   {
     if ((lanes.active & (1 << lane)) == 0 || block.open_count[lane] == 0)

@@ -223,9 +223,9 @@ enum class Stage : std::uint8_t
 {
   JointTables,
   EnclosingBalls,  ///< and the boxes of self pairs
-  FewBalls,   ///< of the first level of the covers
-  ManyBalls,  ///< of the second level
-  ExactPairs  ///< the kernel did not decide the state
+  FewBalls,        ///< of the first level of the covers
+  ManyBalls,       ///< of the second level
+  ExactPairs       ///< the kernel did not decide the state
 };
 constexpr std::size_t kStages = 5;
 

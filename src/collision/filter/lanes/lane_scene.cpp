@@ -33,12 +33,12 @@ constexpr std::size_t kGroup = 8;          // world pairs of a group
 
 float above(double x)
 {
-  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::max());
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
 }
 
 float below(double x)
 {
-  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::lowest());
+  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
 }
 
 Matrix3d crossProductMatrix(const Vector3d& a)
