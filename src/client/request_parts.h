@@ -10,8 +10,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// What all parts of a request have in common: the revision of the scene, and the values of joints, by name of the
-/// variable.
+/// The revision of the scene, and the values of joints by the name of their variable. They are the same for all parts
+/// of a request.
 struct CommonState
 {
   std::uint64_t revision = 0;

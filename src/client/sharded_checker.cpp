@@ -67,7 +67,7 @@ Response failed(const std::string& message)
   return response;
 }
 
-/// What the nodes answered in a round that left parts unanswered.
+/// The errors of the nodes in a round after which parts of the request have no answer.
 class Failures
 {
  public:

@@ -2,12 +2,11 @@
 
 #include "collision/exact/wide_tree.h"
 
-#include <random>
-
 #include <gtest/gtest.h>
 
 #include "collision/exact/cpu_shape_pair.h"
 #include "collision/exact/cpu_tree.h"
+#include "collision/exact/random_geometry.h"
 #include "collision/exact/wide_tests.h"
 #include "collision/geometry/cpu_box_pair.h"
 
@@ -113,22 +112,15 @@ TEST(WideTrees, OfAMeshWithAStrayTriangleFarAwayCostLittle)
   EXPECT_LT(scratch.steps, 200u);
 }
 
-class WideOverlap : public testing::TestWithParam<WideTests>
+class WideOverlap : public testing::TestWithParam<WideTests>, protected RandomGeometry
 {
  protected:
-  double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(generator_); }
-  double size(double least, double most) { return std::exp(uniform(std::log(least), std::log(most))); }
-
-  Vector3d direction()
-  {
-    std::normal_distribution<double> normal;
-    return Vector3d(normal(generator_), normal(generator_), normal(generator_)).normalized();
-  }
+  WideOverlap() : RandomGeometry(kSeed) {}
 
   /// A random rotation, none, or one by a tiny angle.
   Matrix3d rotation()
   {
-    switch (generator_() % 3)
+    switch (number() % 3)
     {
       case 0:
         return AngleAxisd(uniform(0.0, 3.0), direction()).toRotationMatrix();
@@ -142,8 +134,8 @@ class WideOverlap : public testing::TestWithParam<WideTests>
   OrientedBox box()
   {
     const double length = size(1e-3, 10.0);
-    const auto side = [&] { return generator_() % 4 == 0 ? 0.0 : length * size(1e-3, 1.0); };
-    return {rotation(), generator_() % 2 == 0 ? Vector3d::Zero() : Vector3d(length * direction()),
+    const auto side = [&] { return number() % 4 == 0 ? 0.0 : length * size(1e-3, 1.0); };
+    return {rotation(), number() % 2 == 0 ? Vector3d::Zero() : Vector3d(length * direction()),
             Vector3d(side(), side(), length)};
   }
 
@@ -160,7 +152,7 @@ class WideOverlap : public testing::TestWithParam<WideTests>
     pair.a = box();
     pair.b = box();
     pair.b_in_a.linear() = rotation();
-    if (generator_() % 2 == 0)
+    if (number() % 2 == 0)
       pair.b.axes = pair.b_in_a.linear().transpose() * pair.a.axes;
     return pair;
   }
@@ -169,8 +161,8 @@ class WideOverlap : public testing::TestWithParam<WideTests>
   Vector3d contactNormal(const OrientedBox& a, const Matrix3d& axes_of_b)
   {
     Vector3d normal = direction();
-    const auto axis = [&](const Matrix3d& axes) { return Vector3d(axes.col(static_cast<int>(generator_() % 3))); };
-    switch (generator_() % 4)
+    const auto axis = [&](const Matrix3d& axes) { return Vector3d(axes.col(static_cast<int>(number() % 3))); };
+    switch (number() % 4)
     {
       case 0:
         normal = axis(a.axes);
@@ -212,8 +204,6 @@ class WideOverlap : public testing::TestWithParam<WideTests>
     return (pair.b_in_a.translation() - pair.a.center).norm() + pair.a.half.norm() + pair.b.half.norm() +
            pair.b.center.norm();
   }
-
-  std::mt19937_64 generator_{kSeed};
 
  private:
   static CpuNode leaf(const OrientedBox& box)

@@ -2,11 +2,10 @@
 
 #include "collision/exact/wide_triangles.h"
 
-#include <random>
-
 #include <gtest/gtest.h>
 
 #include "collision/exact/cpu_tree.h"
+#include "collision/exact/random_geometry.h"
 #include "collision/exact/wide_tests.h"
 
 namespace gpu_planning_scene::core
@@ -19,31 +18,24 @@ using Eigen::Vector3d;
 
 constexpr std::uint64_t kSeed = 53;
 
-class WideTriangles : public testing::TestWithParam<WideTests>
+class WideTriangles : public testing::TestWithParam<WideTests>, protected RandomGeometry
 {
  protected:
-  double uniform(double from, double to) { return std::uniform_real_distribution<double>(from, to)(generator_); }
-  double size(double least, double most) { return std::exp(uniform(std::log(least), std::log(most))); }
-
-  Vector3d direction()
-  {
-    std::normal_distribution<double> normal;
-    return Vector3d(normal(generator_), normal(generator_), normal(generator_)).normalized();
-  }
+  WideTriangles() : RandomGeometry(kSeed) {}
 
   /// Triangles of one leaf. Half of them are slivers; some are segments or points.
   std::vector<Triangle> triangles()
   {
     const double length = size(1e-3, 10.0);
-    const Vector3d center = generator_() % 2 == 0 ? Vector3d::Zero() : Vector3d(length * direction());
-    std::vector<Triangle> made(1 + generator_() % kBlockTriangles);
+    const Vector3d center = number() % 2 == 0 ? Vector3d::Zero() : Vector3d(length * direction());
+    std::vector<Triangle> made(1 + number() % kBlockTriangles);
     for (Triangle& triangle : made)
     {
       for (Vector3d& corner : triangle)
         corner = center + length * uniform(0.1, 1.0) * direction();
-      if (generator_() % 2 == 0)
+      if (number() % 2 == 0)
         triangle[2] = triangle[0] + uniform(-0.5, 1.5) * (triangle[1] - triangle[0]) + size(1e-9, 1e-2) * direction();
-      if (generator_() % 8 == 0)
+      if (number() % 8 == 0)
         triangle[1] = triangle[0];
     }
     return made;
@@ -76,7 +68,7 @@ class WideTriangles : public testing::TestWithParam<WideTests>
   Vector3d contactNormal(const Triangle& a, const Triangle& b)
   {
     Vector3d normal = Vector3d::Zero();
-    switch (generator_() % 4)
+    switch (number() % 4)
     {
       case 0:
         normal = edge(a, 0).cross(edge(a, 1));
@@ -85,14 +77,14 @@ class WideTriangles : public testing::TestWithParam<WideTests>
         normal = edge(b, 0).cross(edge(b, 1));
         break;
       case 2:
-        normal = edge(a, generator_()).cross(edge(b, generator_()));
+        normal = edge(a, number()).cross(edge(b, number()));
         break;
       default:
         break;
     }
     if (normal.norm() < 1e-12)
       return direction();
-    return normal.normalized() * (generator_() % 2 == 0 ? 1.0 : -1.0);
+    return normal.normalized() * (number() % 2 == 0 ? 1.0 : -1.0);
   }
 
   /// Bit kBlockTriangles * j + i: the test keeps triangle i of `a` and triangle j of `b`.
@@ -107,8 +99,6 @@ class WideTriangles : public testing::TestWithParam<WideTests>
   }
 
   static Triangle moved(const Triangle& t, const Isometry3d& pose) { return {pose * t[0], pose * t[1], pose * t[2]}; }
-
-  std::mt19937_64 generator_{kSeed};
 };
 
 TEST_P(WideTriangles, AreKeptAtTheRequiredDistance)
@@ -117,8 +107,8 @@ TEST_P(WideTriangles, AreKeptAtTheRequiredDistance)
   {
     const std::vector<Triangle> a = triangles();
     const std::vector<Triangle> b = triangles();
-    const std::size_t i = generator_() % a.size();
-    const std::size_t j = generator_() % b.size();
+    const std::size_t i = number() % a.size();
+    const std::size_t j = number() % b.size();
     const double required = trial % 2 == 0 ? 0.0 : size(1e-3, 10.0);
     Isometry3d b_in_a(AngleAxisd(trial % 3 == 0 ? 0.0 : uniform(0.0, 3.0), direction()));
     const Triangle turned = moved(b[j], b_in_a);
