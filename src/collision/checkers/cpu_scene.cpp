@@ -25,6 +25,11 @@ constexpr std::size_t kFewStates = 128;
 // number, or after more checked states than the second number.
 constexpr std::size_t kBatchBeforeCachedProofs = 64;
 constexpr std::size_t kStatesBeforeCachedProofs = 1000;
+
+// The form of a scene that the lane checker needs takes as long to make as the exact checks of a dozen states. It is
+// made only when more states than this have been checked in the scene. A scene that changes with every check does not
+// pay for it.
+constexpr std::size_t kStatesBeforeLanes = 16;
 }  // namespace
 
 CpuScene::CpuScene(const CheckerOptions& options) : options_(options), maker_(options) {}
@@ -200,7 +205,7 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
     const std::size_t size = std::min(kStatesPerSlice, count - begin);
     checked_ += size;
     group.checked += size;
-    const bool by_lanes = proofStage(group) != ProofStage::None;
+    const bool by_lanes = group.checked > kStatesBeforeLanes && proofStage(group) != ProofStage::None;
     if (size <= kFewStates)
       check_range(begin, begin + size, by_lanes, group.scratch);
     else

@@ -2,11 +2,15 @@
 
 namespace gpu_planning_scene::core
 {
-CpuForest::CpuForest(const CollisionProblem& problem)
+CpuForest::CpuForest(const CollisionProblem& problem, const CpuForest& previous)
 {
   trees_.reserve(problem.shapes.size());
   for (std::size_t i = 0; i < problem.shapes.size(); ++i)
-    trees_.push_back(cpuTreeOf(problem.shapes[i], problem.tessellations[i]));
+  {
+    const Shape& shape = problem.shapes[i];
+    const bool is_kept = i < previous.trees_.size() && sameShape(previous.trees_[i]->shape, shape);
+    trees_.push_back(is_kept ? previous.trees_[i] : cpuTreeOf(shape, problem.tessellations[i]));
+  }
 }
 
 CpuForest::CpuForest(const CollisionProblem& problem, const Forest& forest)

@@ -14,6 +14,9 @@ class LaneBuffers
   /// The kernel's work space for a scene. It is valid until the next call. The trials are kept from call to call.
   lanes::Scratch of(const LaneScene& scene);
 
+  /// For a scene whose pairs have other numbers.
+  void forgetTrials() { trials_.clear(); }
+
  private:
   std::vector<float> floats_;
   std::vector<std::uint8_t> placed_;

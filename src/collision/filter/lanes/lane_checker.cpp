@@ -35,10 +35,20 @@ ProofStage LaneChecker::prepare()
   const std::shared_ptr<const RobotProofs> proofs = job_->proofs();
   if (proofs != proofs_)
   {
-    scene_ = std::make_unique<const LaneScene>(robot_, *problem_, *forest_, proofs);
+    scene_ = std::make_shared<const LaneScene>(robot_, *problem_, *forest_, proofs);
     proofs_ = proofs;
   }
   return !proofs_ ? ProofStage::None : proofs_->has_all_tables ? ProofStage::All : ProofStage::Covers;
+}
+
+/// Forgets what was learned on other proofs: with new tables, the pairs have other numbers.
+void LaneChecker::useScene(Scratch& scratch) const
+{
+  if (scratch.scene == scene_)
+    return;
+  scratch.scene = scene_;
+  scratch.buffers.forgetTrials();
+  scratch.records.assign(scene_->pairCount(), PairRecord{});
 }
 
 /// Sets the poses that the kernel does not compute. Returns false if the kernel must not be called.
@@ -110,8 +120,8 @@ void LaneChecker::check(const double* states, std::size_t count, std::size_t row
                         Scratch& scratch, BatchResult& result) const
 {
   const std::size_t width = robot_->variables().size();
+  useScene(scratch);
   const lanes::Scratch kernel_scratch = scratch.buffers.of(*scene_);
-  scratch.records.resize(scene_->pairCount());
   scratch.poses.resize(robot_->links().size());
   const bool is_kernel_used = fillGiven(states, count, scratch, kernel_scratch.given);
   lanes::Block block;

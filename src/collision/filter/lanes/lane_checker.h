@@ -33,6 +33,7 @@ class LaneChecker
   /// Work space of one thread.
   struct Scratch
   {
+    std::shared_ptr<const LaneScene> scene;  // numbers the pairs of the trials in `buffers` and of `records`
     LaneBuffers buffers;
     std::vector<float> margins;
     std::vector<Eigen::Isometry3d> poses;  // of links
@@ -67,6 +68,7 @@ class LaneChecker
              BatchResult& result) const;
 
  private:
+  void useScene(Scratch& scratch) const;
   bool fillGiven(const double* states, std::size_t count, Scratch& scratch, float* given) const;
   const float* kernelMargins(const double* const* margins, std::size_t count, Scratch& scratch) const;
   double marginOf(std::uint32_t pair, const double* margins) const;
@@ -79,7 +81,7 @@ class LaneChecker
   const CpuTraversal& traversal_;
   std::shared_ptr<ProofJob> job_;  // null before the first call of prepare
   std::shared_ptr<const RobotProofs> proofs_;
-  std::unique_ptr<const LaneScene> scene_;  // made with proofs_; null until there are proofs
+  std::shared_ptr<const LaneScene> scene_;  // made with proofs_; null until there are proofs
   lanes::Kernel kernel_;
 };
 }  // namespace gpu_planning_scene::core
