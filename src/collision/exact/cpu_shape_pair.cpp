@@ -26,15 +26,6 @@ constexpr std::uint64_t kStepsOfSolids = 20;
 // Boxes whose radius is below this multiple of the float errors are also tested in double: in a mesh with a large
 // reach, the errors exceed the size of many boxes, and the float test would separate hardly any of these boxes.
 constexpr double kSmallBox = 64.0;
-// Testing eight boxes costs about as much as visiting this many nodes of a binary tree.
-constexpr std::uint64_t kStepsOfEightBoxes = 2;
-
-/// Whether a traversal opens the first box of a pair rather than the second. It opens the larger one, unless that one
-/// is a leaf. At most one of the two may be a leaf.
-bool opensFirst(const WideTree& tree_a, BoxIndex a, const WideTree& tree_b, BoxIndex b)
-{
-  return tree_b.isLeaf(b) || (!tree_a.isLeaf(a) && tree_a.radius(a) >= tree_b.radius(b));
-}
 
 bool leafMeetsSolid(const CpuTree& mesh, BoxIndex leaf, const Shape& shape, const Isometry3d& mesh_in_solid,
                     double required)
@@ -52,11 +43,6 @@ bool leafMeetsSolid(const CpuTree& mesh, BoxIndex leaf, const Shape& shape, cons
 double distanceAtMost(const WideTree& tree_a, BoxIndex a, const WideTree& tree_b, BoxIndex b, const Isometry3d& b_in_a)
 {
   return (b_in_a * tree_b.center(b) - tree_a.center(a)).norm() + tree_a.radius(a) + tree_b.radius(b);
-}
-
-unsigned lowestBit(unsigned bits)
-{
-  return static_cast<unsigned>(__builtin_ctz(bits));
 }
 
 /// Whether a component of one mesh lies inside the solid of the other. The surfaces must not meet. Then all points of a
@@ -150,7 +136,7 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
         return true;
       continue;
     }
-    scratch.steps += kStepsOfEightBoxes;
+    scratch.steps += Scratch::kStepsOfEightBoxes;
     for (unsigned hits = tests_.overlap(tree.below(box), around_in_floats); hits != 0; hits &= hits - 1)
     {
       const BoxIndex child = tree.child(box, lowestBit(hits));
@@ -224,7 +210,7 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
     const WideTree& opened = open_a ? a.wide : b.wide;
     const BoxIndex box = open_a ? box_a : box_b;
     const FloatBox other = open_a ? in_a.place(b.wide, box_b) : in_b.place(a.wide, box_a);
-    scratch.steps += kStepsOfEightBoxes;
+    scratch.steps += Scratch::kStepsOfEightBoxes;
     for (unsigned hits = tests_.overlap(opened.below(box), other); hits != 0; hits &= hits - 1)
     {
       const BoxIndex child = opened.child(box, lowestBit(hits));

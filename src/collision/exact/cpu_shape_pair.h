@@ -29,12 +29,24 @@ struct PlacedHalfSpace
 class CpuShapePair
 {
  public:
+  /// Boxes of wide trees and a lower bound of their distance, for searches for a clearance.
+  struct NearBoxes
+  {
+    double least;
+    BoxIndex a;
+    BoxIndex b;
+  };
+
   /// Work space of one thread.
   struct Scratch
   {
     std::vector<std::array<std::uint32_t, 2>> node_pairs;
+    std::vector<NearBoxes> near_boxes;
     std::vector<std::uint32_t> nodes;
     std::uint64_t steps = 0;  // the cost of the pairs so far, in visits of nodes of a binary tree
+
+    // Testing eight boxes costs about as much as visiting this many nodes of a binary tree.
+    static constexpr std::uint64_t kStepsOfEightBoxes = 2;
   };
 
   /// `tolerance`: metres, at least 0.

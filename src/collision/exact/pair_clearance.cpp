@@ -22,7 +22,8 @@ using Eigen::Vector3d;
 // Distance bounds are widened by this margin, which exceeds their rounding error and kSlack.
 constexpr double kMargin = 1e-9;  // metres
 
-/// The clearance found so far. within(v) of update() tells whether two leaves are within the distance v.
+/// The clearance found so far. For two leaves, within(v) of update() tells whether they are within the distance v, and
+/// distance() is an estimate of their distance.
 class Best
 {
  public:
@@ -32,12 +33,15 @@ class Best
   /// Nodes that are farther from each other than this cannot improve the clearance.
   double reach() const { return required_ + clearance_ + kMargin; }
 
-  template <class Within>
-  void update(const Within& within)
+  /// Returns whether the leaves are nearer than the best so far.
+  template <class Within, class Distance>
+  bool update(const Within& within, const Distance& distance)
   {
     const auto meets = [&](double x) { return within(required_ + x); };
-    if (meets(clearance_))
-      clearance_ = bisectLeast(0.0, clearance_, meets);
+    if (!meets(clearance_))
+      return false;
+    clearance_ = bisectLeast(0.0, clearance_, meets, distance() - required_);
+    return true;
   }
 
  private:
@@ -45,86 +49,158 @@ class Best
   double clearance_;
 };
 
-/// Lower bound of the distance of the contents of two boxes.
-double leastDistance(const OrientedBox& a, const OrientedBox& b)
+/// A stack of box pairs. The boxes below a node are pushed together, and the nearest of them is popped first.
+class NearestFirst
 {
-  return (a.center - b.center).norm() - a.half.norm() - b.half.norm();
-}
-
-/// Both poses in the frame of the first mesh.
-void surfacesApart(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, Best& best,
-                   CpuShapePair::Scratch& scratch)
-{
-  const Isometry3d a_in_b = b_in_a.inverse();
-  scratch.node_pairs.assign(1, {0, 0});
-  while (!scratch.node_pairs.empty())
+ public:
+  explicit NearestFirst(std::vector<CpuShapePair::NearBoxes>& stack) : stack_(stack)
   {
-    const auto [index_a, index_b] = scratch.node_pairs.back();
-    scratch.node_pairs.pop_back();
-    const CpuNode& node_a = a.nodes[index_a];
-    const CpuNode& node_b = b.nodes[index_b];
-    ++scratch.steps;
-    if (!overlap(node_a.box, placed(node_b.box, b_in_a), best.reach()))
-      continue;
-    if (node_a.isLeaf() && node_b.isLeaf())
-    {
-      for (std::uint32_t j = node_b.first; j < node_b.first + node_b.count; ++j)
-      {
-        const Triangle& t = b.triangles[j];
-        const Triangle triangle_b = {b_in_a * t[0], b_in_a * t[1], b_in_a * t[2]};
-        for (std::uint32_t i = node_a.first; i < node_a.first + node_a.count; ++i)
-          best.update([&](double distance) { return trianglesWithin(a.triangles[i], triangle_b, distance); });
-      }
-      continue;
-    }
-    const bool open_a = opensFirst(node_a, node_b);
-    const OrientedBox other = open_a ? placed(node_b.box, b_in_a) : placed(node_a.box, a_in_b);
-    const CpuTree& opened = open_a ? a : b;
-    std::uint32_t near = open_a ? node_a.first : node_b.first;
-    std::uint32_t far = near + 1;
-    double near_distance = leastDistance(opened.nodes[near].box, other);
-    double far_distance = leastDistance(opened.nodes[far].box, other);
-    if (far_distance < near_distance)
-    {
-      std::swap(near, far);
-      std::swap(near_distance, far_distance);
-    }
-    for (const auto& [child, distance] : {std::pair(far, far_distance), std::pair(near, near_distance)})
-      if (distance <= best.reach())
-        scratch.node_pairs.push_back({open_a ? child : index_a, open_a ? index_b : child});
+    stack_.assign(1, {0.0, WideTree::kRoot, WideTree::kRoot});
   }
-}
 
-void surfaceApartFromSolid(const CpuTree& mesh, const Shape& solid, const Isometry3d& mesh_in_solid, Best& best,
+  bool empty() const { return stack_.empty(); }
+  CpuShapePair::NearBoxes pop()
+  {
+    const CpuShapePair::NearBoxes top = stack_.back();
+    stack_.pop_back();
+    return top;
+  }
+  void beginNode() { first_ = stack_.size(); }
+  void push(const CpuShapePair::NearBoxes& boxes)
+  {
+    stack_.push_back(boxes);
+    for (std::size_t i = stack_.size() - 1; i > first_ && stack_[i - 1].least < boxes.least; --i)
+      std::swap(stack_[i - 1], stack_[i]);
+  }
+
+ private:
+  std::vector<CpuShapePair::NearBoxes>& stack_;
+  std::size_t first_ = 0;  // of the boxes of the current node
+};
+
+/// The search in two meshes.
+class SurfaceSearch
+{
+ public:
+  /// Both poses in the frame of `a`.
+  SurfaceSearch(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, Best& best)
+    : a_(a),
+      b_(b),
+      b_in_a_(b_in_a),
+      a_in_b_(b_in_a.inverse()),
+      best_(best),
+      tests_(availableWideTests().front()),
+      in_a_(b.wide, b_in_a_, a.wide, best.reach()),
+      in_b_(a.wide, a_in_b_, b.wide, best.reach())
+  {
+  }
+
+  void run(CpuShapePair::Scratch& scratch)
+  {
+    NearestFirst stack(scratch.near_boxes);
+    while (!stack.empty())
+    {
+      const CpuShapePair::NearBoxes boxes = stack.pop();
+      if (boxes.least > best_.reach())
+        continue;
+      if (a_.wide.isLeaf(boxes.a) && b_.wide.isLeaf(boxes.b))
+        compareLeaves(boxes.a, boxes.b);
+      else
+        open(boxes, stack, scratch.steps);
+    }
+  }
+
+ private:
+  void open(const CpuShapePair::NearBoxes& boxes, NearestFirst& stack, std::uint64_t& steps) const
+  {
+    const bool open_a = opensFirst(a_.wide, boxes.a, b_.wide, boxes.b);
+    const WideTree& opened = open_a ? a_.wide : b_.wide;
+    const BoxIndex box = open_a ? boxes.a : boxes.b;
+    const FloatBox other = open_a ? in_a_.place(b_.wide, boxes.b) : in_b_.place(a_.wide, boxes.a);
+    steps += CpuShapePair::Scratch::kStepsOfEightBoxes;
+    stack.beginNode();
+    for (unsigned hits = tests_.overlap(opened.below(box), other); hits != 0; hits &= hits - 1)
+    {
+      const BoxIndex child = opened.child(box, lowestBit(hits));
+      const BoxIndex in_a = open_a ? child : boxes.a;
+      const BoxIndex in_b = open_a ? boxes.b : child;
+      stack.push({leastDistance(in_a, in_b), in_a, in_b});
+    }
+  }
+
+  /// Lower bound of the distance of the triangles in two boxes.
+  double leastDistance(BoxIndex in_a, BoxIndex in_b) const
+  {
+    return (a_.wide.center(in_a) - b_in_a_ * b_.wide.center(in_b)).norm() - a_.wide.radius(in_a) -
+           b_.wide.radius(in_b) - a_.wide.centerError() - b_.wide.centerError();
+  }
+
+  void compareLeaves(BoxIndex leaf_a, BoxIndex leaf_b)
+  {
+    const TriangleBlock& block_a = a_.wide.triangles(leaf_a);
+    const TriangleBlock& block_b = b_.wide.triangles(leaf_b);
+    bool is_nearer = false;
+    for (unsigned near = tests_.near_triangles(block_a, in_a_.place(block_b), in_a_.distance()); near != 0;
+         near &= near - 1)
+    {
+      const unsigned bit = lowestBit(near);
+      const Triangle& of_a = a_.triangles[block_a.first + bit % kBlockTriangles];
+      const Triangle& t = b_.triangles[block_b.first + bit / kBlockTriangles];
+      const Triangle of_b = {b_in_a_ * t[0], b_in_a_ * t[1], b_in_a_ * t[2]};
+      is_nearer |= best_.update([&](double distance) { return trianglesWithin(of_a, of_b, distance); },
+                                [&] { return outlineDistance(of_a, of_b); });
+    }
+    if (!is_nearer)
+      return;
+    in_a_ = WidePlacement(b_.wide, b_in_a_, a_.wide, best_.reach());
+    in_b_ = WidePlacement(a_.wide, a_in_b_, b_.wide, best_.reach());
+  }
+
+  const CpuTree& a_;
+  const CpuTree& b_;
+  Isometry3d b_in_a_;
+  Isometry3d a_in_b_;
+  Best& best_;
+  WideTests tests_;
+  WidePlacement in_a_;  // places boxes of b in the frame of a, grown by the best clearance so far
+  WidePlacement in_b_;
+};
+
+void surfaceApartFromSolid(const CpuTree& mesh, const CpuTree& solid, const Isometry3d& mesh_in_solid, Best& best,
                            CpuShapePair::Scratch& scratch)
 {
-  const auto least = [&](std::uint32_t node)
+  const WideTree& tree = mesh.wide;
+  const OrientedBox around = placed(solid.box, mesh_in_solid.inverse());
+  const OverlapTest overlap_of_eight = availableWideTests().front().overlap;
+  NearestFirst stack(scratch.near_boxes);
+  while (!stack.empty())
   {
-    const OrientedBox& box = mesh.nodes[node].box;
-    return distanceToSolid(solid, mesh_in_solid * box.center) - box.half.norm();
-  };
-  scratch.nodes.assign(1, 0);
-  while (!scratch.nodes.empty())
-  {
-    const std::uint32_t index = scratch.nodes.back();
-    const CpuNode& node = mesh.nodes[index];
-    scratch.nodes.pop_back();
-    ++scratch.steps;
-    if (least(index) > best.reach())
+    const CpuShapePair::NearBoxes boxes = stack.pop();
+    if (boxes.least > best.reach())
       continue;
-    if (node.isLeaf())
+    if (tree.isLeaf(boxes.a))
     {
+      const CpuNode& node = mesh.nodes[tree.source(boxes.a)];
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
       {
         const Triangle& t = mesh.triangles[i];
         const Triangle triangle = {mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]};
-        best.update([&](double distance) { return triangleWithinSolid(triangle, solid, distance); });
+        best.update([&](double distance) { return triangleWithinSolid(triangle, solid.shape, distance); },
+                    [&] { return distanceToSolid(solid.shape, triangle); });
       }
       continue;
     }
-    const bool first_is_nearer = least(node.first) <= least(node.first + 1);
-    scratch.nodes.push_back(first_is_nearer ? node.first + 1 : node.first);
-    scratch.nodes.push_back(first_is_nearer ? node.first : node.first + 1);
+    scratch.steps += CpuShapePair::Scratch::kStepsOfEightBoxes;
+    stack.beginNode();
+    const FloatBox around_in_floats = floatBox(around, tree, best.reach());
+    for (unsigned hits = overlap_of_eight(tree.below(boxes.a), around_in_floats); hits != 0; hits &= hits - 1)
+    {
+      const BoxIndex child = tree.child(boxes.a, lowestBit(hits));
+      const double least =
+          distanceToSolid(solid.shape, mesh_in_solid * tree.center(child)) - tree.radius(child) - tree.centerError();
+      if (least <= best.reach())
+        stack.push({least, child, WideTree::kRoot});
+    }
   }
 }
 }  // namespace
@@ -135,13 +211,14 @@ double pairClearance(const CpuTree& a, const Isometry3d& pose_a, const CpuTree& 
   Best best(required, most);
   const Isometry3d b_in_a = relativePose(pose_a, pose_b);
   if (a.mesh && b.mesh)
-    surfacesApart(a, b, b_in_a, best, scratch);
+    SurfaceSearch(a, b, b_in_a, best).run(scratch);
   else if (a.mesh)
-    surfaceApartFromSolid(a, b.shape, b_in_a.inverse(), best, scratch);
+    surfaceApartFromSolid(a, b, b_in_a.inverse(), best, scratch);
   else if (b.mesh)
-    surfaceApartFromSolid(b, a.shape, b_in_a, best, scratch);
+    surfaceApartFromSolid(b, a, b_in_a, best, scratch);
   else
-    best.update([&](double distance) { return solidsWithin(a.shape, b.shape, b_in_a, distance); });
+    best.update([&](double distance) { return solidsWithin(a.shape, b.shape, b_in_a, distance); },
+                [&] { return distanceOfSolids(a.shape, b.shape, b_in_a); });
   return best.clearance();
 }
 }  // namespace gpu_planning_scene::core

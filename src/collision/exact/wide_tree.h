@@ -64,6 +64,19 @@ class WideTree
   double reach_ = 0.0;
 };
 
+/// Whether a traversal opens the first box of a pair rather than the second. It opens the larger one, unless that one
+/// is a leaf. At most one of the two may be a leaf.
+inline bool opensFirst(const WideTree& tree_a, BoxIndex a, const WideTree& tree_b, BoxIndex b)
+{
+  return tree_b.isLeaf(b) || (!tree_a.isLeaf(a) && tree_a.radius(a) >= tree_b.radius(b));
+}
+
+/// The lowest bit that is set. `bits`: not 0.
+inline unsigned lowestBit(unsigned bits)
+{
+  return static_cast<unsigned>(__builtin_ctz(bits));
+}
+
 /// Places boxes and triangles of one wide tree in the frame of another tree, as floats. The boxes are grown by `growth`
 /// and by the rounding errors of both trees and of the tests (docs/error_bounds.md, "Wide trees").
 class WidePlacement

@@ -181,6 +181,26 @@ bool isSeparable(const MinkowskiDifference& difference, double distance, const V
 }
 }  // namespace
 
+double convexDistance(const Convex& a, const Convex& b, const Vector3d& from_b)
+{
+  constexpr double kAccuracy = 1e-7;  // metres
+  const MinkowskiDifference difference(a, b);
+  Simplex simplex(difference.nearestAlong(from_b));
+  double length = 0.0;
+  for (int i = 0; i < kMaxIterations; ++i)
+  {
+    const Vector3d nearest = simplex.nearest();
+    length = nearest.norm();
+    if (simplex.full() || length <= difference.rounding())
+      return 0.0;
+    const Vector3d point = difference.nearestAlong(nearest);
+    if (length * length - nearest.dot(point) <= kAccuracy * length)
+      break;
+    simplex.add(point);
+  }
+  return length;
+}
+
 bool convexWithin(const Convex& a, const Convex& b, double distance, const Vector3d& from_b)
 {
   const MinkowskiDifference difference(a, b);

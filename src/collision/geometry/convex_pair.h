@@ -23,4 +23,8 @@ class Convex
 /// the sizes of the sets, or by less than 1e-12 m. `from_b` is a guess of the direction from b to a. It may have any
 /// length except 0. A good guess saves time.
 bool convexWithin(const Convex& a, const Convex& b, double distance, const Eigen::Vector3d& from_b);
+
+/// The distance between two convex sets, at most 1e-7 m above the true distance for nearly all pairs; 0 if the sets
+/// intersect. `from_b`: see convexWithin().
+double convexDistance(const Convex& a, const Convex& b, const Eigen::Vector3d& from_b);
 }  // namespace gpu_planning_scene::core

@@ -173,6 +173,23 @@ double distanceToSolid(const Shape& solid, const Vector3d& point)
   return fromSolid(solid, point).norm();
 }
 
+double distanceToSolid(const Shape& solid, const Triangle& triangle)
+{
+  if (const Sphere* sphere = std::get_if<Sphere>(&solid))
+    return std::max(0.0, nearestPoint(triangle, Vector3d::Zero()).norm() - sphere->radius);
+  const ConvexTriangle convex(triangle);
+  return convexDistance(convex, ConvexSolid(solid), convex.center());
+}
+
+double distanceOfSolids(const Shape& a, const Shape& b, const Eigen::Isometry3d& b_in_a)
+{
+  if (const Sphere* sphere = std::get_if<Sphere>(&b))
+    return std::max(0.0, distanceToSolid(a, b_in_a.translation()) - sphere->radius);
+  if (const Sphere* sphere = std::get_if<Sphere>(&a))
+    return std::max(0.0, distanceToSolid(b, b_in_a.inverse().translation()) - sphere->radius);
+  return convexDistance(ConvexSolid(a), PlacedConvexSolid(b, b_in_a), -b_in_a.translation());
+}
+
 Vector3d farthestOfSolid(const Shape& solid, const Vector3d& direction)
 {
   return std::visit(

@@ -19,6 +19,11 @@ Eigen::Vector3d halfExtents(const Shape& solid);
 /// The distance of a point from the solid, in the solid's frame; 0 inside.
 double distanceToSolid(const Shape& solid, const Eigen::Vector3d& point);
 
+/// Distances as convexDistance() computes them: of a closed triangle in the solid's frame from the solid, and of two
+/// solids, where `b_in_a` is the pose of `b` in the frame of `a`; 0 if they intersect.
+double distanceToSolid(const Shape& solid, const Triangle& triangle);
+double distanceOfSolids(const Shape& a, const Shape& b, const Eigen::Isometry3d& b_in_a);
+
 /// A point of the solid that is farthest along a direction, in the solid's frame.
 Eigen::Vector3d farthestOfSolid(const Shape& solid, const Eigen::Vector3d& direction);
 

@@ -325,6 +325,11 @@ bool precedes(const Triangle& a, const Triangle& b)
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), lexicographicallyLess);
 }
 
+double outlineDistance(const Triangle& a, const Triangle& b)
+{
+  return std::sqrt(nearestOfOutlines(a, b).squared_distance);
+}
+
 bool trianglesWithin(const Triangle& a, const Triangle& b, double required)
 {
   // All decisions before the last line are proven, so they cannot depend on the order of the vertices and of the

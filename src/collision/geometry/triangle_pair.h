@@ -19,6 +19,10 @@ constexpr double kSlack = 0.5e-9;  // metres
 /// order of the vertices and of the triangles.
 bool trianglesWithin(const Triangle& a, const Triangle& b, double required);
 
+/// The distance of two closed triangles in double arithmetic, if no edge of one passes through the inside of the other.
+/// It is usually accurate to 1e-12 m; for slivers there is no bound.
+double outlineDistance(const Triangle& a, const Triangle& b);
+
 /// The point of a closed triangle that is nearest to `point`; the triangle may be degenerate. The error is about 1e-16
 /// times the squared size of the triangle, divided by the distance. The point lies in the triangle up to the rounding
 /// of its coordinates.
