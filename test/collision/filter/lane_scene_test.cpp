@@ -149,54 +149,127 @@ TEST_P(ProvenScenes, PairsThatAreProvenApartKeepTheirMarginsIfThereAreAny)
     }
   }
 }
-/// A box that moves freely around another one: the boxes of the kernel's test are the shapes themselves. `turns`: the
-/// range of each of the three angles.
-TestScene twoBoxes(double turns)
+const char* const kJointLimit = "<limit lower='-3' upper='3' effort='1' velocity='1'/>";
+
+/// A link and the joint that moves it.
+std::string movedLink(const std::string& name, const std::string& parent, const std::string& joint,
+                      const std::string& collision = "")
 {
+  return "<link name='" + name + "'>" + collision + "</link><joint name='to " + name + "' " + joint + "<parent link='" +
+         parent + "'/><child link='" + name + "'/></joint>";
+}
+
+/// A chain of turning joints that are metres apart, from the link "fixed" to the link "tip". Its other joints undo what
+/// its first joints do, so the tip does not move. The kernel has the rounding errors of all of them.
+std::string chainThatReturns()
+{
+  constexpr int kFolds = 2;
+  std::string urdf;
+  std::string parent = "fixed";
+  const auto add = [&](const std::string& name, const std::string& joint)
+  {
+    urdf += movedLink(name, parent, joint);
+    parent = name;
+  };
+  for (int fold = 0; fold < kFolds; ++fold)
+  {
+    const std::string number = std::to_string(fold);
+    const std::string turn = "type='revolute'><axis xyz='0.6 0 0.8'/>" + std::string(kJointLimit);
+    const auto mimic = [&](const char* multiplier)
+    { return turn + "<mimic joint='to turn" + number + "' multiplier='" + multiplier + "'/>"; };
+    add("turn" + number, turn);
+    add("out" + number, "type='fixed'><origin xyz='2 -1 1'/>");
+    add("turned back" + number, mimic("-1"));
+    add("turned again" + number, mimic("1"));
+    add("in" + number, "type='fixed'><origin xyz='-2 1 -1'/>");
+    add("straight" + number, mimic("-1"));
+  }
+  return urdf + movedLink("tip", parent, "type='fixed'>");
+}
+
+struct TwoBoxes
+{
+  const char* name;
+  double turns;             // the range of each of the three angles of the moving box
+  bool has_chain;           // between the boxes, see chainThatReturns
+  double mesh_from_origin;  // metres: the moving box is a mesh this far from the origin of its frame; 0: a box
+};
+
+/// A box that moves freely around another one: the boxes of the kernel's test are the shapes themselves.
+TestScene twoBoxes(const TwoBoxes& kind)
+{
+  const Eigen::Vector3d size(0.25, 0.15, 0.05);
   std::string urdf =
       "<robot name='two_boxes'><link name='fixed'><collision><origin xyz='0.2 -0.1 0.3'/>"
       "<geometry><box size='0.3 0.2 0.1'/></geometry></collision></link>";
   std::string parent = "fixed";
+  if (kind.has_chain)
+  {
+    urdf += chainThatReturns();
+    parent = "tip";
+  }
   for (const char* axis : {"1 0 0", "0 1 0", "0 0 1"})
     for (const char* type : {"prismatic", "revolute"})
     {
       const std::string link = std::string(type) + axis;
       // The kernel's bounds grow with the travel of prismatic joints, so it is short here.
       const std::string limit = std::string(type) == "prismatic" ? "0.5" : "3";
-      urdf += "<link name='" + link + "'>";
-      if (link == "revolute0 0 1")
-        urdf +=
-            "<collision><origin xyz='0.05 0.1 -0.02'/><geometry><box size='0.25 0.15 0.05'/></geometry></collision>";
-      urdf += "</link><joint name='to " + link + "' type='" + type + "'><parent link='" + parent + "'/><child link='" +
-              link + "'/><axis xyz='" + axis + "'/><limit lower='-" + limit + "' upper='" + limit +
-              "' effort='1' velocity='1'/></joint>";
+      const bool is_box = link == "revolute0 0 1" && kind.mesh_from_origin == 0.0;
+      urdf += movedLink(
+          link, parent,
+          "type='" + std::string(type) + "'><axis xyz='" + axis + "'/><limit lower='-" + limit + "' upper='" + limit +
+              "' effort='1' velocity='1'/>",
+          is_box
+              ? "<collision><origin xyz='0.05 0.1 -0.02'/><geometry><box size='0.25 0.15 0.05'/></geometry></collision>"
+              : "");
       parent = link;
     }
   urdf += "</robot>";
   auto scene = std::make_shared<PlanningScene>(RobotModel::fromXml(urdf, "<robot name='two_boxes'/>", {}));
-  TestScene made{"two_boxes", scene, {}, {}};
+  if (kind.mesh_from_origin != 0.0)
+  {
+    const Eigen::Vector3d shift(kind.mesh_from_origin, -kind.mesh_from_origin, 0.0);
+    auto mesh = std::make_shared<Mesh>(*tessellate(Box{size}).mesh);
+    for (Eigen::Vector3d& vertex : mesh->vertices)
+      vertex += shift;
+    const Eigen::Isometry3d pose(Eigen::Translation3d(Eigen::Vector3d(0.05, 0.1, -0.02) - shift));
+    scene->attached.push_back(
+        {{"mesh", pose, {{mesh, Eigen::Isometry3d::Identity()}}, 0.0}, scene->robot->linkIndex(parent)});
+  }
+  TestScene made{kind.name, scene, {}, {}};
   for (const Variable& variable : scene->robot->variables())
   {
-    const double range = variable.name.find("revolute") != std::string::npos ? turns : 0.5;
+    const bool is_of_chain = variable.name.find("turn") != std::string::npos;
+    const bool is_angle = variable.name.find("revolute") != std::string::npos;
+    const double range = is_of_chain ? 3.0 : is_angle ? kind.turns : 0.5;
     made.lower.push_back(-range);
     made.upper.push_back(range);
   }
   return made;
 }
 
-TEST(BoxesOfSelfPairs, AreNotSeparatedInContact)
+class BoxesOfSelfPairs : public testing::TestWithParam<TwoBoxes>
+{
+};
+
+TEST_P(BoxesOfSelfPairs, AreNotSeparatedInContact)
 {
   constexpr std::size_t kStates = repetitions(1000, 40000);
-  for (const double turns : {0.0, 1e-6, 3.0})
-  {
-    const ProvenScene proven = prove(twoBoxes(turns));
-    const std::vector<double> states = nearContactStates(proven.scene, kStates, kSeed + 3);
-    const std::vector<InstancePairs> colliding = collidingPairs(proven, states);
-    for (const lanes::NamedKernel& kernel : lanes::availableKernels())
-      compare(proven, kernel, states, colliding);
-    const auto collides = [](const InstancePairs& pairs) { return !pairs.empty(); };
-    EXPECT_EQ(std::count_if(colliding.begin(), colliding.end(), collides), kStates / 2) << "angles up to " << turns;
-  }
+  const ProvenScene proven = prove(twoBoxes(GetParam()));
+  const std::vector<double> states = nearContactStates(proven.scene, kStates, kSeed + 3);
+  const std::vector<InstancePairs> colliding = collidingPairs(proven, states);
+  for (const lanes::NamedKernel& kernel : lanes::availableKernels())
+    compare(proven, kernel, states, colliding);
+  const auto collides = [](const InstancePairs& pairs) { return !pairs.empty(); };
+  EXPECT_EQ(std::count_if(colliding.begin(), colliding.end(), collides), kStates / 2);
 }
+
+INSTANTIATE_TEST_SUITE_P(Robots, BoxesOfSelfPairs,
+                         testing::Values(TwoBoxes{"parallel", 0.0, false, 0.0},
+                                         TwoBoxes{"nearly_parallel", 1e-6, false, 0.0},
+                                         TwoBoxes{"turned", 3.0, false, 0.0},
+                                         TwoBoxes{"after_a_long_chain", 3.0, true, 0.0},
+                                         TwoBoxes{"mesh_far_from_its_origin", 3.0, false, 30.0}),
+                         [](const auto& tested) { return tested.param.name; });
 }  // namespace
 }  // namespace gpu_planning_scene::core
