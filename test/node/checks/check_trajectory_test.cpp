@@ -457,8 +457,10 @@ TEST_F(RandomTrajectories, HaveNoCollisionThatFclFindsInDenseSamplesOfAFreePart)
   const std::size_t width = names.size();
   std::vector<double> samples;
   BatchResult expected;
-  for (int i = 0; i < repetitions(10, 200); ++i)
+  std::size_t collisions = 0;
+  for (int i = 0; i < repetitions(10, 200) || collisions < 10; ++i)
   {
+    ASSERT_LT(i, 1000) << "hardly any part collides";
     CheckTrajectory::Request request = randomTrajectory(generator);
     const std::vector<double> states = statesOf(request);
     request.start_state.joint_state.name = names;
@@ -472,6 +474,7 @@ TEST_F(RandomTrajectories, HaveNoCollisionThatFclFindsInDenseSamplesOfAFreePart)
                   &samples[samples.size() - width]);
       expected.valid.push_back(pair == kNoPair ? 1 : 0);
       expected.colliding.push_back(pair);
+      collisions += pair == kNoPair ? 0 : 1;
     };
     for (std::size_t part = 1; part < found.part_valid.size(); ++part)
       if (found.part_valid[part] != 0)
@@ -484,7 +487,6 @@ TEST_F(RandomTrajectories, HaveNoCollisionThatFclFindsInDenseSamplesOfAFreePart)
   const FclAgreement agreement = compareWithFcl(*test.scene, samples, expected);
   EXPECT_TRUE(agreement.failures.empty()) << agreement.failures.size() << ": " << agreement.failures.front();
   EXPECT_GT(agreement.states, 1000u);
-  EXPECT_GT(agreement.states - agreement.free, 10u);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
