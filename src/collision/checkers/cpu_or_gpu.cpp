@@ -16,8 +16,11 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 // After a measurement of t seconds, new scenes keep the threshold for this many times t. So frequent scene changes do
-// not cause frequent measurements.
+// not cause frequent measurements. A scene is similar if its number of pairs is within this factor. It is measured anew
+// too, because other programs may have disturbed the last measurement, but more rarely.
 constexpr double kMeasuringPause = 50.0;
+constexpr double kPauseInSimilarScenes = 2000.0;
+constexpr std::size_t kSimilar = 2;
 
 // Fewer states of the caller are not representative.
 constexpr std::size_t kEnough = 256;
@@ -105,7 +108,19 @@ std::vector<double> sampleOf(const RobotModel& robot, const CollisionProblem& pr
   }
   return sample;
 }
+std::size_t pairsOf(const CollisionProblem& problem)
+{
+  return problem.self_pairs.size() + problem.robot.size() * (problem.world.size() + problem.half_spaces.size());
+}
 }  // namespace
+
+bool CpuOrGpu::Threshold::holdsFor(const std::shared_ptr<const PlanningScene>& other, std::size_t other_pairs) const
+{
+  if (scene.lock() == other)
+    return true;
+  const bool is_similar = other_pairs <= kSimilar * pairs && pairs <= kSimilar * other_pairs;
+  return secondsSince(measured) < (is_similar ? kPauseInSimilarScenes : kMeasuringPause) * seconds;
+}
 
 std::size_t CpuOrGpu::threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
                                 const CollisionProblem& problem, const double* states, std::size_t count,
@@ -114,11 +129,11 @@ std::size_t CpuOrGpu::threshold(const std::string& group, const std::shared_ptr<
   if (fixed_)
     return *fixed_;
   const auto known = thresholds_.find(group);
-  const Clock::time_point start = Clock::now();
   const bool enough = count >= kEnough;
   if (known != thresholds_.end() && proofs <= known->second.proofs && (known->second.by_own_states || !enough) &&
-      (known->second.scene.lock() == scene || start < known->second.keep_until))
+      known->second.holdsFor(scene, pairsOf(problem)))
     return known->second.states;
+  const Clock::time_point start = Clock::now();
   const std::vector<double> sample = sampleOf(*scene->robot, problem, states, count);
   const auto timed = [&sample](const Check& check)
   {
@@ -130,8 +145,8 @@ std::size_t CpuOrGpu::threshold(const std::string& group, const std::shared_ptr<
     };
   };
   const std::size_t measured = breakEven(timed(checks.cpu), timed(checks.gpu));
-  const auto pause = std::chrono::duration_cast<Clock::duration>(kMeasuringPause * (Clock::now() - start));
-  thresholds_.insert_or_assign(group, Threshold{measured, scene, Clock::now() + pause, proofs, enough});
+  thresholds_.insert_or_assign(
+      group, Threshold{measured, scene, pairsOf(problem), Clock::now(), secondsSince(start), proofs, enough});
   return measured;
 }
 

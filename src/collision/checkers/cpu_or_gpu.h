@@ -50,9 +50,13 @@ class CpuOrGpu
   {
     std::size_t states;
     std::weak_ptr<const PlanningScene> scene;  // scene for which it was measured
-    std::chrono::steady_clock::time_point keep_until;
+    std::size_t pairs;                         // instance pairs of this scene
+    std::chrono::steady_clock::time_point measured;
+    double seconds;  // the duration of the measurement
     ProofStage proofs;
     bool by_own_states;  // measured with the caller's states instead of random ones
+
+    bool holdsFor(const std::shared_ptr<const PlanningScene>& other, std::size_t other_pairs) const;
   };
 
   std::optional<std::size_t> fixed_;

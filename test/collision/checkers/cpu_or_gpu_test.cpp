@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -128,12 +129,16 @@ class Choice : public testing::Test
         continue;
     };
     const CpuOrGpu::Checks checks{[&](const double*, std::size_t count) { wait(cpu_seconds_ * double(count)); },
-                                  [&](const double*, std::size_t) { wait(2e-4); }};
-    return choice_.threshold("", scene_, CollisionProblem(), nullptr, 0, proofs, checks);
+                                  [&](const double*, std::size_t) { wait(gpu_seconds_); }};
+    CollisionProblem problem;
+    problem.self_pairs.resize(pairs_);
+    return choice_.threshold("", scene_, problem, nullptr, 0, proofs, checks);
   }
 
   CpuOrGpu choice_{std::nullopt};
   double cpu_seconds_ = 1e-5;
+  double gpu_seconds_ = 2e-4;
+  std::size_t pairs_ = 10;
   int runs_ = 0;
   std::shared_ptr<const PlanningScene> scene_ = std::make_shared<PlanningScene>(robotOf(boxLink("a")));
 };
@@ -151,6 +156,30 @@ TEST_F(Choice, IsMeasuredAnewOnceThereAreMoreProofs)
   EXPECT_EQ(threshold(ProofStage::None), after);  // a new scene has no proofs at first: not measured again
   EXPECT_EQ(runs_, runs);
   threshold(ProofStage::All);
+  EXPECT_GT(runs_, runs);
+}
+
+TEST_F(Choice, IsSoonMeasuredAnewInASceneOfAnotherSizeButNotInASimilarOne)
+{
+  cpu_seconds_ = 1e-8;
+  gpu_seconds_ = 1e-6;
+  const auto start = std::chrono::steady_clock::now();
+  threshold(ProofStage::None);
+  const auto pause = 100 * (std::chrono::steady_clock::now() - start);
+  const int runs = runs_;
+  const auto change_scene = [&](std::size_t pairs)
+  {
+    scene_ = std::make_shared<PlanningScene>(*scene_);
+    pairs_ = pairs;
+    threshold(ProofStage::None);
+  };
+  change_scene(1000);
+  EXPECT_EQ(runs_, runs) << "right after a measurement";
+  std::this_thread::sleep_for(pause);
+  for (const std::size_t pairs : {10, 18, 6})
+    change_scene(pairs);
+  EXPECT_EQ(runs_, runs) << "similar scenes";
+  change_scene(21);
   EXPECT_GT(runs_, runs);
 }
 }  // namespace
