@@ -31,7 +31,10 @@ CheckJob job(std::size_t states, double first = 1.0)
 {
   CheckJob job;
   for (std::size_t i = 0; i < states; ++i)
-    job.states.insert(job.states.end(), {first, 0.0});
+  {
+    job.states.push_back(first);
+    job.states.push_back(0.0);
+  }
   return job;
 }
 
