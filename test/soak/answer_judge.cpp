@@ -1,6 +1,9 @@
 #include "soak/answer_judge.h"
 
 #include <algorithm>
+#include <cstdio>
+
+#include <gtest/gtest.h>
 
 #include "collision/bounds/problem_maker.h"
 #include "collision/problem/collision_problem.h"
@@ -155,5 +158,15 @@ void AnswerJudge::checkWithOracle(const Sample& sample)
   ++oracle_samples;
   if (verdict == (sample.valid ? oracle::Verdict::Collides : oracle::Verdict::Free))
     ++oracle_wrong;
+}
+
+void AnswerJudge::expectNoWrongAnswer() const
+{
+  std::printf("%zu answers with %zu states checked again, %zu by the oracle\n", answers, states, oracle_samples);
+  EXPECT_EQ(0u, wrong);
+  EXPECT_EQ(0u, malformed);
+  EXPECT_EQ(0u, too_old);
+  EXPECT_EQ(0u, unknown_scenes);
+  EXPECT_EQ(0u, oracle_wrong);
 }
 }  // namespace gpu_planning_scene::core

@@ -17,6 +17,8 @@
 #include "node/node_client.h"
 #include "node/persistent_call.h"
 #include "soak/answer_judge.h"
+#include "soak/latencies.h"
+#include "soak/random_requests.h"
 
 extern char** environ;
 
@@ -29,15 +31,6 @@ using Clock = std::chrono::steady_clock;
 class Soak : public RunningNode
 {
  public:
-  std::vector<double> randomStates(std::size_t count, std::mt19937_64& generator) const
-  {
-    const std::size_t width = robot->variables().size();
-    std::vector<double> states(count * width);
-    for (std::size_t i = 0; i < count; ++i)
-      robot->randomState(generator, states.data() + i * width);
-    return states;
-  }
-
   template <class Service>
   bool ask(const std::string& service, Service& request)
   {
@@ -55,7 +48,7 @@ class Soak : public RunningNode
     while (!done)
     {
       CheckStates check;
-      check.request = stateRequest(randomStates(1 + generator() % max_states, generator));
+      check.request = stateRequest(randomStates(*robot, 1 + generator() % max_states, generator));
       if (generator() % 4 == 0)
         leaveOutFirstJoint(check.request);
       if (check.request.positions.size() < 200 && generator() % 8 == 0)
@@ -72,22 +65,10 @@ class Soak : public RunningNode
         ++(check.response.message.rfind("busy", 0) == 0 ? busy : failed);
         continue;
       }
-      addLatency(std::chrono::duration<double>(Clock::now() - start).count());
+      latencies.add(std::chrono::duration<double>(Clock::now() - start).count());
       judge->add(check, acknowledged);
       ros::WallDuration(0.005).sleep();
     }
-  }
-
-  /// The first joint then has its value in the scene's current state.
-  static void leaveOutFirstJoint(CheckStates::Request& request)
-  {
-    const std::size_t width = request.joint_names.size();
-    std::vector<double> positions;
-    for (std::size_t i = 0; i < request.positions.size(); ++i)
-      if (i % width != 0)
-        positions.push_back(request.positions[i]);
-    request.joint_names.erase(request.joint_names.begin());
-    request.positions = std::move(positions);
   }
 
   void changeScene(std::uint64_t seed)
@@ -148,7 +129,7 @@ class Soak : public RunningNode
     while (!done)
     {
       CheckStates wrong;
-      wrong.request = stateRequest(randomStates(2, generator));
+      wrong.request = stateRequest(randomStates(*robot, 2, generator));
       switch (generator() % 4)
       {
         case 0:
@@ -191,20 +172,6 @@ class Soak : public RunningNode
     }
   }
 
-  void addLatency(double seconds)
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    latencies.push_back(seconds);
-  }
-
-  double latency(double fraction)
-  {
-    std::sort(latencies.begin(), latencies.end());
-    return latencies.empty()
-               ? 0.0
-               : latencies[static_cast<std::size_t>(fraction * static_cast<double>(latencies.size() - 1))];
-  }
-
   /// The least memory in bytes that the diagnostics reported in a part of the run; `from` and `to` are fractions of the
   /// run. While no device is open, the node uses least: an open device on llvmpipe needs some 300 MB more.
   double leastMemory(double from, double to)
@@ -219,7 +186,7 @@ class Soak : public RunningNode
   std::atomic<std::uint64_t> newest_change{0};  ///< revision of the newest acknowledged change
   std::unique_ptr<AnswerJudge> judge;
   std::mutex mutex;
-  std::vector<double> latencies;
+  Latencies latencies;
   std::vector<double> memories;
   double losses = 0.0;
 };
@@ -265,19 +232,12 @@ TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
   const std::lock_guard<std::mutex> lock(mutex);
   std::printf("%g s: %d requests, %d changes, %d refused, %d busy, %d clients killed, %g devices lost\n", seconds,
               requests.load(), changes.load(), refused.load(), busy.load(), killed.load(), losses);
-  std::printf("%zu answers with %zu states checked again, %zu by the oracle\n", judge->answers, judge->states,
-              judge->oracle_samples);
-  std::printf("latency: p50 %.1f ms, p99 %.1f ms, max %.1f ms\n", 1e3 * latency(0.5), 1e3 * latency(0.99),
-              1e3 * latency(1.0));
+  latencies.print();
   const double early = leastMemory(0.25, 0.5);
   const double late = leastMemory(0.75, 1.0);
   std::printf("least memory: %.1f MiB in the second quarter, %.1f MiB in the last\n", early / 1048576.0,
               late / 1048576.0);
-  EXPECT_EQ(0u, judge->wrong);
-  EXPECT_EQ(0u, judge->malformed);
-  EXPECT_EQ(0u, judge->too_old);
-  EXPECT_EQ(0u, judge->unknown_scenes);
-  EXPECT_EQ(0u, judge->oracle_wrong);
+  judge->expectNoWrongAnswer();
   EXPECT_EQ(0, history.gaps());
   EXPECT_EQ(0, lost) << "requests without a reply";
   EXPECT_EQ(0, failed) << "right requests that were refused, and not for want of time";
@@ -298,10 +258,7 @@ int runVictim()
 {
   RunningNode::SetUpTestSuite();
   std::mt19937_64 generator(1);
-  const std::size_t width = RunningNode::robot->variables().size();
-  std::vector<double> states(20000 * width);
-  for (std::size_t i = 0; i < states.size(); i += width)
-    RunningNode::robot->randomState(generator, states.data() + i);
+  const std::vector<double> states = randomStates(*RunningNode::robot, 20000, generator);
   for (;;)
   {
     CheckStates check;
