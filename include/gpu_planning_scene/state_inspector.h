@@ -55,7 +55,7 @@ struct NearestPairs
   NearestPair self;
 };
 
-/// Computes contacts and clearances of states of one scene. A clearance takes some fifty times as long as a check.
+/// Computes contacts and clearances of states of one scene. A clearance takes about a hundred times as long as a check.
 /// Thread-safe.
 class StateInspector
 {

@@ -26,7 +26,8 @@ class AnswerJudge
   std::size_t waiting() const;
   /// Waits until all answers are checked, then asks the oracle.
   void finish();
-  /// Prints the counts after finish(). A wrong, malformed, too old or unknown answer is a failure of the test.
+  /// Prints the counts after finish(). An answer that is wrong, malformed, too old or for an unknown scene is a failure
+  /// of the test.
   void expectNoWrongAnswer() const;
 
   std::size_t answers = 0;  ///< valid after finish(), like the following counts

@@ -7,7 +7,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// The times of answers. Thread-safe.
+/// The latencies of answers. Thread-safe.
 class Latencies
 {
  public:

@@ -15,11 +15,14 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-// After a measurement of t seconds, new scenes keep the threshold for this many times t. So frequent scene changes do
-// not cause frequent measurements. A scene is similar if its number of pairs is within this factor. It is measured anew
-// too, because other programs may have disturbed the last measurement, but more rarely.
+// After a measurement of t seconds, a new scene keeps the threshold for this many times t. So frequent scene changes do
+// not cause frequent measurements.
 constexpr double kMeasuringPause = 50.0;
+// A new scene of similar size keeps it longer. It is measured again in the end, because other programs may have
+// disturbed the last measurement.
 constexpr double kPauseInSimilarScenes = 2000.0;
+constexpr double kLongestPause = 300.0;  // seconds
+// Two scenes are similar if neither has more than this many times the pairs of the other.
 constexpr std::size_t kSimilar = 2;
 
 // Fewer states of the caller are not representative.
@@ -108,10 +111,6 @@ std::vector<double> sampleOf(const RobotModel& robot, const CollisionProblem& pr
   }
   return sample;
 }
-std::size_t pairsOf(const CollisionProblem& problem)
-{
-  return problem.self_pairs.size() + problem.robot.size() * (problem.world.size() + problem.half_spaces.size());
-}
 }  // namespace
 
 bool CpuOrGpu::Threshold::holdsFor(const std::shared_ptr<const PlanningScene>& other, std::size_t other_pairs) const
@@ -119,7 +118,8 @@ bool CpuOrGpu::Threshold::holdsFor(const std::shared_ptr<const PlanningScene>& o
   if (scene.lock() == other)
     return true;
   const bool is_similar = other_pairs <= kSimilar * pairs && pairs <= kSimilar * other_pairs;
-  return secondsSince(measured) < (is_similar ? kPauseInSimilarScenes : kMeasuringPause) * seconds;
+  const double pause = (is_similar ? kPauseInSimilarScenes : kMeasuringPause) * seconds;
+  return secondsSince(measured_at) < std::min(pause, kLongestPause);
 }
 
 std::size_t CpuOrGpu::threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
@@ -131,7 +131,7 @@ std::size_t CpuOrGpu::threshold(const std::string& group, const std::shared_ptr<
   const auto known = thresholds_.find(group);
   const bool enough = count >= kEnough;
   if (known != thresholds_.end() && proofs <= known->second.proofs && (known->second.by_own_states || !enough) &&
-      known->second.holdsFor(scene, pairsOf(problem)))
+      known->second.holdsFor(scene, instancePairs(problem)))
     return known->second.states;
   const Clock::time_point start = Clock::now();
   const std::vector<double> sample = sampleOf(*scene->robot, problem, states, count);
@@ -146,7 +146,7 @@ std::size_t CpuOrGpu::threshold(const std::string& group, const std::shared_ptr<
   };
   const std::size_t measured = breakEven(timed(checks.cpu), timed(checks.gpu));
   thresholds_.insert_or_assign(
-      group, Threshold{measured, scene, pairsOf(problem), Clock::now(), secondsSince(start), proofs, enough});
+      group, Threshold{measured, scene, instancePairs(problem), Clock::now(), secondsSince(start), proofs, enough});
   return measured;
 }
 

@@ -51,7 +51,7 @@ class CpuOrGpu
     std::size_t states;
     std::weak_ptr<const PlanningScene> scene;  // scene for which it was measured
     std::size_t pairs;                         // instance pairs of this scene
-    std::chrono::steady_clock::time_point measured;
+    std::chrono::steady_clock::time_point measured_at;
     double seconds;  // the duration of the measurement
     ProofStage proofs;
     bool by_own_states;  // measured with the caller's states instead of random ones

@@ -99,7 +99,7 @@ ProofStage CpuScene::proofStage(Group& group) const
     return ProofStage::None;
   // If the worker has loaded the proofs, the lane checker's own request makes none.
   const bool are_requested = checked_ > kStatesBeforeProofs || (group.cached_proofs && group.cached_proofs->proofs());
-  return are_requested ? group.lanes->prepare() : ProofStage::None;
+  return are_requested ? group.lanes->requestProofs() : ProofStage::None;
 }
 
 ProofStage CpuScene::proofStage(const std::string& name)
@@ -205,7 +205,10 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
     const std::size_t size = std::min(kStatesPerSlice, count - begin);
     checked_ += size;
     group.checked += size;
-    const bool by_lanes = group.checked > kStatesBeforeLanes && proofStage(group) != ProofStage::None;
+    // A single state does not go to the lanes.
+    const bool by_lanes = size > 1 && group.checked > kStatesBeforeLanes && proofStage(group) != ProofStage::None;
+    if (by_lanes)
+      group.lanes->useProofs();
     if (size <= kFewStates)
       check_range(begin, begin + size, by_lanes, group.scratch);
     else

@@ -2,14 +2,14 @@
 
 namespace gpu_planning_scene::core
 {
-CpuForest::CpuForest(const CollisionProblem& problem, const CpuForest& previous)
+CpuForest::CpuForest(const CollisionProblem& problem, const CpuForest* previous)
 {
   trees_.reserve(problem.shapes.size());
   for (std::size_t i = 0; i < problem.shapes.size(); ++i)
   {
     const Shape& shape = problem.shapes[i];
-    const bool is_kept = i < previous.trees_.size() && sameShape(previous.trees_[i]->shape, shape);
-    trees_.push_back(is_kept ? previous.trees_[i] : cpuTreeOf(shape, problem.tessellations[i]));
+    const bool is_kept = previous && i < previous->trees_.size() && sameShape(previous->trees_[i]->shape, shape);
+    trees_.push_back(is_kept ? previous->trees_[i] : cpuTreeOf(shape, problem.tessellations[i]));
   }
 }
 

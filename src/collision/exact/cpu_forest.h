@@ -16,9 +16,9 @@ class CpuForest
  public:
   CpuForest() = default;
   explicit CpuForest(std::vector<std::shared_ptr<const CpuTree>> trees) : trees_(std::move(trees)) {}
-  /// Builds only the trees that are not in use in this process. `previous`: the forest of an earlier scene. A shape
-  /// that has kept its number then keeps its tree without a search for it.
-  explicit CpuForest(const CollisionProblem& problem, const CpuForest& previous = {});
+  /// Builds only the trees that are not in use in this process. `previous`: the forest of an earlier scene, or null. A
+  /// shape that has kept its number then keeps its tree without a search for it.
+  explicit CpuForest(const CollisionProblem& problem, const CpuForest* previous = nullptr);
   /// `forest` must hold a valid tree for each of the problem's trees.
   CpuForest(const CollisionProblem& problem, const Forest& forest);
 

@@ -6,7 +6,7 @@ namespace gpu_planning_scene::core
 {
 std::unique_ptr<const CpuTraversal> ForestCache::traversalOf(std::shared_ptr<const CollisionProblem> problem)
 {
-  forest_ = std::make_shared<const CpuForest>(*problem, forest_ ? *forest_ : CpuForest());
+  forest_ = std::make_shared<const CpuForest>(*problem, forest_.get());
   objects_ = std::make_shared<const ObjectTree>(worldBounds(*problem, *forest_), objects_ ? *objects_ : ObjectTree());
   return std::make_unique<const CpuTraversal>(std::move(problem), forest_, objects_);
 }

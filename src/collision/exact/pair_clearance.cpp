@@ -198,8 +198,7 @@ void surfaceApartFromSolid(const CpuTree& mesh, const CpuTree& solid, const Isom
       const BoxIndex child = tree.child(boxes.a, lowestBit(hits));
       const double least =
           distanceToSolid(solid.shape, mesh_in_solid * tree.center(child)) - tree.radius(child) - tree.centerError();
-      if (least <= best.reach())
-        stack.push({least, child, WideTree::kRoot});
+      stack.push({least, child, WideTree::kRoot});
     }
   }
 }

@@ -9,8 +9,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Bisection for the least x in [low, high] with holds(x). `holds` must be true for `high` and for all values above the
-/// least one. The result is at most 1e-6 m below the least x, and never above it.
+/// Bisection for the least x in [low, high] with holds(x). `high` must be finite. `holds` must be true for `high` and
+/// for all values above the least one. The result is at most 1e-6 m below the least x, and never above it.
 ///
 /// `estimate`: of the least x. If it is right to 0.4e-6 m, two calls of `holds` are enough. Any value is allowed.
 template <class Predicate>

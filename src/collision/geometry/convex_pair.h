@@ -25,6 +25,6 @@ class Convex
 bool convexWithin(const Convex& a, const Convex& b, double distance, const Eigen::Vector3d& from_b);
 
 /// The distance between two convex sets, at most 1e-7 m above the true distance for nearly all pairs; 0 if the sets
-/// intersect. `from_b`: see convexWithin().
+/// intersect. `from_b`: see convexWithin(); it may also be 0.
 double convexDistance(const Convex& a, const Convex& b, const Eigen::Vector3d& from_b);
 }  // namespace gpu_planning_scene::core

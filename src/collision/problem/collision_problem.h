@@ -80,6 +80,13 @@ HalfSpace moved(const HalfSpace& half_space, const Eigen::Isometry3d& pose);
 /// Whether two shapes can share a tree: the same mesh, or primitives of the same kind and dimensions.
 bool sameShape(const Shape& a, const Shape& b);
 
+/// The number of pairs of instances: those of two robot instances that are checked, and all of a robot instance with an
+/// instance or a half-space of the world.
+inline std::size_t instancePairs(const CollisionProblem& problem)
+{
+  return problem.self_pairs.size() + problem.robot.size() * (problem.world.size() + problem.half_spaces.size());
+}
+
 bool withinRanges(const std::vector<VariableRange>& ranges, const double* state);
 
 /// Whether the problem contains every pair that can collide in this state, see CollisionProblem::ranges.

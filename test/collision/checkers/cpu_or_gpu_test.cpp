@@ -161,11 +161,11 @@ TEST_F(Choice, IsMeasuredAnewOnceThereAreMoreProofs)
 
 TEST_F(Choice, IsSoonMeasuredAnewInASceneOfAnotherSizeButNotInASimilarOne)
 {
-  cpu_seconds_ = 1e-8;
-  gpu_seconds_ = 1e-6;
+  cpu_seconds_ = 1e-6;
+  gpu_seconds_ = 1e-4;
   const auto start = std::chrono::steady_clock::now();
   threshold(ProofStage::None);
-  const auto pause = 100 * (std::chrono::steady_clock::now() - start);
+  const auto pause = 60 * (std::chrono::steady_clock::now() - start);
   const int runs = runs_;
   const auto change_scene = [&](std::size_t pairs)
   {

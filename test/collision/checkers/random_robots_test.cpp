@@ -495,9 +495,10 @@ TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
   ForestCache trees;
   const auto exact = trees.traversalOf(problem);
   LaneChecker checker(scene->robot, problem, trees.forest(), *exact);
-  EXPECT_EQ(checker.prepare(), ProofStage::None);
+  EXPECT_EQ(checker.requestProofs(), ProofStage::None);
   waitForProofs();
-  ASSERT_EQ(checker.prepare(), ProofStage::All);
+  ASSERT_EQ(checker.requestProofs(), ProofStage::All);
+  checker.useProofs();
   const std::vector<double> states = randomStates(robot);
   LaneChecker::Scratch scratch;
   CpuTraversal::Scratch exact_scratch;

@@ -149,6 +149,7 @@ TEST_P(ProvenScenes, PairsThatAreProvenApartKeepTheirMarginsIfThereAreAny)
     }
   }
 }
+
 const char* const kJointLimit = "<limit lower='-3' upper='3' effort='1' velocity='1'/>";
 
 /// A link and the joint that moves it.
@@ -192,7 +193,7 @@ struct TwoBoxes
   const char* name;
   double turns;             // the range of each of the three angles of the moving box
   bool has_chain;           // between the boxes, see chainThatReturns
-  double mesh_from_origin;  // metres: the moving box is a mesh this far from the origin of its frame; 0: a box
+  double mesh_from_origin;  // metres: the moving box is a mesh this far from the origin of its frame; 0: a primitive
 };
 
 /// A box that moves freely around another one: the boxes of the kernel's test are the shapes themselves.
@@ -228,7 +229,7 @@ TestScene twoBoxes(const TwoBoxes& kind)
   auto scene = std::make_shared<PlanningScene>(RobotModel::fromXml(urdf, "<robot name='two_boxes'/>", {}));
   if (kind.mesh_from_origin != 0.0)
   {
-    const Eigen::Vector3d shift(kind.mesh_from_origin, -kind.mesh_from_origin, 0.0);
+    const Eigen::Vector3d shift(kind.mesh_from_origin, 0.0, 0.0);
     auto mesh = std::make_shared<Mesh>(*tessellate(Box{size}).mesh);
     for (Eigen::Vector3d& vertex : mesh->vertices)
       vertex += shift;
@@ -258,8 +259,14 @@ TEST_P(BoxesOfSelfPairs, AreNotSeparatedInContact)
   const ProvenScene proven = prove(twoBoxes(GetParam()));
   const std::vector<double> states = nearContactStates(proven.scene, kStates, kSeed + 3);
   const std::vector<InstancePairs> colliding = collidingPairs(proven, states);
+  const std::vector<double> random = proven.scene.randomStates(kStates, kSeed + 4);
+  const std::vector<InstancePairs> colliding_random = collidingPairs(proven, random);
   for (const lanes::NamedKernel& kernel : lanes::availableKernels())
+  {
     compare(proven, kernel, states, colliding);
+    EXPECT_GT(compare(proven, kernel, random, colliding_random), kStates / 3)
+        << "the bounds are too large to be of use";
+  }
   const auto collides = [](const InstancePairs& pairs) { return !pairs.empty(); };
   EXPECT_EQ(std::count_if(colliding.begin(), colliding.end(), collides), kStates / 2);
 }

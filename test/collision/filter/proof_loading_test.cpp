@@ -152,5 +152,37 @@ TEST(ProofLoading, BeginsWithTheFirstLargeBatchAndMakesNoProofs)
   check(fresh, 6000);
   EXPECT_EQ(cache.files().size(), files);
 }
+
+TEST(ProofLoading, ProofsAreUsedOnceASceneHasMoreThanSixteenStates)
+{
+  const CacheOfATest cache;
+  FreshChecker fresh;
+  std::mt19937_64 generator(kSeed);
+  std::vector<double> states(kManyStates * fresh.robot->variables().size());
+  for (std::size_t i = 0; i < states.size(); i += 2)
+    fresh.robot->randomState(generator, states.data() + i);
+  fresh.checker.check(states.data(), kManyStates);
+  waitForProofs();
+  const auto stages = [&fresh]
+  {
+    std::vector<std::string> names;
+    for (const DecidedStates& decided : fresh.checker.report().decided)
+      if (decided.states != 0)
+        names.push_back(decided.by);
+    return names;
+  };
+  fresh.checker.setScene(proofScene(fresh.robot));
+  const auto check_eight = [&]
+  {
+    fresh.checker.check(states.data(), 8);
+    waitForProofs();
+  };
+  check_eight();
+  check_eight();
+  EXPECT_EQ(stages(), std::vector<std::string>{"the exact checker alone"}) << "16 states request no proofs";
+  check_eight();
+  check_eight();
+  EXPECT_GT(stages().size(), 1U);
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -24,21 +24,24 @@ LaneChecker::LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_pt
 
 bool LaneChecker::suits(const CollisionProblem& problem)
 {
-  const std::size_t objects = problem.world.size() + problem.half_spaces.size();
-  return !problem.always_colliding && problem.robot.size() * objects + problem.self_pairs.size() <= kMostPairs;
+  return !problem.always_colliding && instancePairs(problem) <= kMostPairs;
 }
 
-ProofStage LaneChecker::prepare()
+ProofStage LaneChecker::requestProofs()
 {
   if (!job_)
     job_ = proveInBackground(robot_, problem_, forest_);
   const std::shared_ptr<const RobotProofs> proofs = job_->proofs();
-  if (proofs != proofs_)
-  {
-    scene_ = std::make_shared<const LaneScene>(robot_, *problem_, *forest_, proofs);
-    proofs_ = proofs;
-  }
-  return !proofs_ ? ProofStage::None : proofs_->has_all_tables ? ProofStage::All : ProofStage::Covers;
+  return !proofs ? ProofStage::None : proofs->has_all_tables ? ProofStage::All : ProofStage::Covers;
+}
+
+void LaneChecker::useProofs()
+{
+  const std::shared_ptr<const RobotProofs> proofs = job_->proofs();
+  if (proofs == proofs_)
+    return;
+  scene_ = std::make_shared<const LaneScene>(robot_, *problem_, *forest_, proofs);
+  proofs_ = proofs;
 }
 
 /// Forgets what was learned on other proofs: with new tables, the pairs have other numbers.

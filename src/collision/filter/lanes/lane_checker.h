@@ -53,9 +53,12 @@ class LaneChecker
   LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_ptr<const CollisionProblem> problem,
               std::shared_ptr<const CpuForest> forest, const CpuTraversal& traversal);
 
-  /// Whether there are proofs, so that `check` may be called. The first call starts to make them in the background. A
-  /// later call takes over the proofs that have been made since. One caller at a time.
-  ProofStage prepare();
+  /// The proofs that there are. The first call starts to make them in the background. One caller at a time.
+  ProofStage requestProofs();
+
+  /// Takes over the proofs that there are. `requestProofs` must have returned another stage than None. Must be called
+  /// before `check`. One caller at a time.
+  void useProofs();
 
   /// Whether `check` may be called for a state.
   bool takes(const double* state) const { return scene_->isWithinBounds(state); }
@@ -79,9 +82,9 @@ class LaneChecker
   std::shared_ptr<const CollisionProblem> problem_;
   std::shared_ptr<const CpuForest> forest_;
   const CpuTraversal& traversal_;
-  std::shared_ptr<ProofJob> job_;  // null before the first call of prepare
+  std::shared_ptr<ProofJob> job_;  // null before the first call of requestProofs
   std::shared_ptr<const RobotProofs> proofs_;
-  std::shared_ptr<const LaneScene> scene_;  // made with proofs_; null until there are proofs
+  std::shared_ptr<const LaneScene> scene_;  // made with proofs_; null before the first call of useProofs
   lanes::Kernel kernel_;
 };
 }  // namespace gpu_planning_scene::core
