@@ -51,6 +51,7 @@ std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::v
   RobotModelOptions options;
   options.packages = packagesFrom(arguments);
   options.unbounded_translation = arguments.number("--unbounded-translation", options.unbounded_translation, 0.0, 1e6);
+  options.info = [](const std::string& line) { std::cerr << line << "\n"; };
   return RobotModel::fromFiles(arguments.required("--urdf"), arguments.value("--srdf", ""), options, warnings);
 }
 
