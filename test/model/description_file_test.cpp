@@ -18,10 +18,12 @@ namespace
 const char* const kRobot = R"(<robot name='r'>
 <xacro:property name='height' value='2'/>
 <link name='a'><collision><geometry><box size='1 1 ${height}'/></geometry></collision></link>
+<link name='b'/>
+<joint name='j' type='continuous'><parent link='a'/><child link='b'/></joint>
 </robot>)";
 const char* const kSrdf = R"(<robot name='r'>
 <xacro:include filename='x'/>
-<group name='all'><link name='a'/></group>
+<group name='all'><joint name='j'/></group>
 </robot>)";
 
 class XacroFile : public testing::Test
@@ -65,7 +67,7 @@ TEST_F(XacroFile, AFailureOfXacroIsAnErrorWithItsMessage)
   const XacroStandIn xacro(
       "echo 'error: no argument side'; echo 'error: no argument side' >&2; echo 'in macro arm' >&2; exit 1");
   EXPECT_EQ("URDF '" + path_ + "' is a xacro file: " + xacro.program() +
-                " failed with exit code 1: error: no argument side in macro arm ; if the file needs arguments, expand "
+                " failed with exit code 1: error: no argument side in macro arm; if the file needs arguments, expand "
                 "it with them: xacro FILE NAME:=VALUE > expanded.urdf",
             errorOf([&] { read(); }));
   EXPECT_TRUE(info_.empty());

@@ -57,7 +57,7 @@ std::string programOnPath(const std::string& name)
   for (std::string folder; std::getline(folders, folder, ':');)
   {
     std::error_code failure;
-    const std::string program = folder + "/" + name;
+    const std::string program = (std::filesystem::path(folder) / name).string();
     if (!folder.empty() && folder.front() == '/' && std::filesystem::is_regular_file(program, failure) &&
         access(program.c_str(), X_OK) == 0)
       return program;
@@ -81,7 +81,8 @@ std::string expanded(const std::string& program, const std::string& path, const 
   if (answer.too_long)
     throw Error(start + program + " printed more than " + std::to_string(kMaxDescriptionBytes) +
                 " bytes, or messages of more than " + std::to_string(kMaxXacroMessageBytes) + " bytes");
-  const std::string messages = answer.err.empty() ? "it printed no message" : shortLine(answer.err);
+  const std::string said = answer.err.substr(0, answer.err.find_last_not_of(" \t\r\n") + 1);
+  const std::string messages = said.empty() ? "it printed no message" : shortLine(said);
   if (WIFSIGNALED(answer.status))
     throw Error(start + program + " crashed (signal " + std::to_string(WTERMSIG(answer.status)) + "): " + messages);
   if (WEXITSTATUS(answer.status) != 0)
@@ -91,7 +92,7 @@ std::string expanded(const std::string& program, const std::string& path, const 
   if (answer.out.empty())
     throw Error(start + program + " printed nothing: " + messages);
   if (info)
-    info(start + "it was expanded by " + program + (answer.err.empty() ? "" : ", which says: " + messages));
+    info(start + "it was expanded by " + program + (said.empty() ? "" : ", which says: " + messages));
   return answer.out;
 }
 }  // namespace
