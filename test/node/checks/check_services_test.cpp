@@ -506,6 +506,10 @@ TEST_F(Service, ANamedEndCountsForAllMotions)
   const CheckMotions::Response to = services.checkMotions(asked);
   ASSERT_TRUE(to.success) << to.message;
   EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 1}), to.valid);
+  asked.joint_names = {"turn"};
+  asked.starts = {0.0, 0.5};
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), services.checkMotions(asked).valid)
+      << "the cart is where the end has it";
 }
 
 TEST_F(Service, ANameAndValuesOfOneEndOfAMotionAreRefused)
