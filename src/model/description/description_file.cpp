@@ -57,7 +57,7 @@ std::string programOnPath(const std::string& name)
   for (std::string folder; std::getline(folders, folder, ':');)
   {
     std::error_code failure;
-    const std::string program = (std::filesystem::path(folder) / name).string();
+    std::string program = (std::filesystem::path(folder) / name).string();
     if (!folder.empty() && folder.front() == '/' && std::filesystem::is_regular_file(program, failure) &&
         access(program.c_str(), X_OK) == 0)
       return program;
