@@ -12,7 +12,7 @@ Option packageOption()
 
 std::vector<Option> robotOptions()
 {
-  return {{"--urdf", "FILE", "the robot"},
+  return {{"--urdf", "FILE", "the robot: a URDF, or a xacro file if xacro is installed"},
           {"--srdf", "FILE",
            "groups, and pairs of links that are not checked;\nwithout it, adjacent links are not checked"},
           packageOption(),
