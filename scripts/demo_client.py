@@ -67,7 +67,10 @@ def random_states(variables, count, seed, around=None, spread=0.0):
 def state_of_scene(path):
     """The joint values in the robot_state of a scene file."""
     with open(path) as file:
-        joint_state = yaml.safe_load(file)["robot_state"]["joint_state"]
+        robot_state = yaml.safe_load(file)["robot_state"]
+    if "joint_state" not in robot_state:
+        sys.exit(f"demo_client: {path}: --around needs joint values, and robot_state has no joint_state")
+    joint_state = robot_state["joint_state"]
     return dict(zip(joint_state["name"], joint_state["position"]))
 
 

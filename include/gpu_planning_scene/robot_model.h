@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <random>
@@ -116,6 +117,7 @@ struct RobotModelOptions
   /// translations of planar and floating joints in [-unbounded_translation, +unbounded_translation] (metres).
   /// Quaternions are uniform over the rotations.
   double unbounded_translation = 1.0;
+  std::function<void(const std::string& line)> info;  ///< receives a line for each program that was run; may be empty
 };
 
 class Kinematics;
@@ -131,7 +133,8 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   static std::shared_ptr<const RobotModel> fromXml(const std::string& urdf, const std::string& srdf,
                                                    const RobotModelOptions& options,
                                                    std::vector<std::string>* warnings = nullptr);
-  /// Reads the two files and calls fromXml; `srdf_path` may be empty. Sets urdf_folder, urdf_name and srdf_name.
+  /// Reads the two files and calls fromXml; `srdf_path` may be empty. Sets urdf_folder, urdf_name and srdf_name. A
+  /// xacro file is expanded if the program xacro is on PATH: the program is run without arguments, for at most 60 s.
   static std::shared_ptr<const RobotModel> fromFiles(const std::string& urdf_path, const std::string& srdf_path,
                                                      RobotModelOptions options,
                                                      std::vector<std::string>* warnings = nullptr);

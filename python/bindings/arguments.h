@@ -53,12 +53,16 @@ py::array anyArrayFrom(py::handle object);
 /// but not complex numbers or text. Throws TypeError.
 ArrayOf<double> arrayFrom(py::handle object, const char* what);
 
-/// States of the robot: an array of shape (n, variables) or (variables,). Throws TypeError unless it has numbers, and
-/// Error for another shape. `what`: "states", for the message.
-Rows rowsFrom(py::handle object, const core::RobotModel& robot, const char* what);
+/// States of the robot: an array of shape (n, variables) or (variables,), or states that the SRDF names: a str or a
+/// list of str. Variables that a named state does not set have the values of `current`, which is the current state of a
+/// scene (empty: it has none), or null if the call has no scene. Throws TypeError unless the array has numbers, and
+/// Error for another shape, an unknown name, and variables without a value. `what`: "states", for the message.
+Rows rowsFrom(py::handle object, const core::RobotModel& robot, const char* what,
+              const std::vector<double>* current = nullptr);
 
-/// A state of the robot: an array of shape (variables,).
-std::vector<double> rowFrom(py::handle object, const core::RobotModel& robot, const char* what);
+/// A state of the robot: an array of shape (variables,), or a state that the SRDF names.
+std::vector<double> rowFrom(py::handle object, const core::RobotModel& robot, const char* what,
+                            const std::vector<double>* current = nullptr);
 
 /// `count` numbers. `what`: for the message.
 std::vector<double> numbersFrom(py::handle object, std::size_t count, const char* what);

@@ -57,8 +57,9 @@ MotionVerdicts checkMotions(const SharedMotionChecker& checker, const py::object
                             const Arg<std::string>& query)
 {
   const MotionQuery question = queryFrom(query.value);
-  const Rows from = rowsFrom(starts, *checker.robot, "starts");
-  const Rows to = rowsFrom(ends, *checker.robot, "ends");
+  const auto scene = checker.checker->scene();
+  const Rows from = rowsFrom(starts, *checker.robot, "starts", &scene->current_state);
+  const Rows to = rowsFrom(ends, *checker.robot, "ends", &scene->current_state);
   if (from.count != to.count)
     throw core::Error("there are " + std::to_string(from.count) + " starts and " + std::to_string(to.count) +
                       " ends; give one end for each start");
@@ -153,7 +154,9 @@ void addMotionChecker(py::module_& module)
            py::arg("translation_resolution") = defaults.steps.prismatic, py::arg("max_samples") = defaults.max_samples,
            py::arg("max_checks") = py::none())
       .def("check", &checkMotions, py::arg("starts"), py::arg("ends"), py::arg("query") = "valid",
-           "Checks straight motions.\n\nstarts, ends: shape (n, variables) or (variables,), radians and metres. query: "
+           "Checks straight motions.\n\nstarts, ends: shape (n, variables) or (variables,), radians and metres, or "
+           "names of "
+           "states as in StateChecker.check. query: "
            "\"valid\" ends at the first collision; \"last_valid\" also finds up to which fraction a motion is valid; "
            "\"samples\" uses the rule \"samples\". Returns MotionVerdicts.\n\nRaises Error for other shapes, for "
            "another number of ends, and for values that are not finite. Ctrl-C ends a long call.")

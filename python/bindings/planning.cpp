@@ -68,8 +68,8 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
   const auto scene = checker.value->scene();
   PlanningQuery query;
   query.group = group.value;
-  query.start = rowFrom(start, *scene->robot, "start");
-  const Rows rows = rowsFrom(goals, *scene->robot, "goals");
+  query.start = rowFrom(start, *scene->robot, "start", &scene->current_state);
+  const Rows rows = rowsFrom(goals, *scene->robot, "goals", &query.start);
   const std::size_t width = query.start.size();
   for (std::size_t i = 0; i < rows.count; ++i)
     query.goals.emplace_back(rows.data() + i * width, rows.data() + (i + 1) * width);
@@ -130,7 +130,9 @@ void addPlanning(py::module_& module)
       py::arg("max_samples") = motions.max_samples, py::arg("parameters") = py::none(), py::arg("seed") = py::none(),
       "Plans a motion of a planning group in the scene of a StateChecker, with the planner BatchRrtConnect.\n\n"
       "start: shape (variables,). goals: shape (n, variables) or (variables,); the motion may end at any of "
-      "them. Variables outside the group keep their values from the start. seconds: for planning; "
+      "them. Both can be names of states of the SRDF: variables that the start does not set have their values from the "
+      "scene's current_state, and variables that a goal does not set have theirs from the start. Variables outside the "
+      "group keep their values from the start. seconds: for planning; "
       "simplification and the last check of the path come afterwards. simplify: shortens the path. rule, "
       "resolution, translation_resolution, max_samples: as in MotionChecker. parameters: of the planner, by "
       "OMPL's names, for example {\"range\": 0.5}. seed: from 1 to 4294967295; the call repeats its path, unless "

@@ -91,7 +91,7 @@ double* paddingOf(PlanningScene& scene, const std::string& body)
 /// The values of an argument `state`, or, if it is None, of the scene's current state.
 std::vector<double> stateOr(const PlanningScene& scene, py::handle state)
 {
-  return state.is_none() ? scene.current_state : rowFrom(state, *scene.robot, "state");
+  return state.is_none() ? scene.current_state : rowFrom(state, *scene.robot, "state", &scene.current_state);
 }
 
 std::vector<double> requiredState(const PlanningScene& scene, py::handle state)
@@ -196,7 +196,8 @@ void addChanges(py::class_<PlanningScene, std::shared_ptr<PlanningScene>>& scene
           py::arg("object"), py::arg("link"), py::arg("touch_links") = std::vector<std::string>(),
           py::arg("state") = py::none(),
           "Attaches an object of the world to a link. The object stays where it is in `state`.\n\ntouch_links: names "
-          "of other links that may touch it. state: shape (variables,); None: the current state. Raises Error for an "
+          "of other links that may touch it. state: shape (variables,), or the name of a state; None: the current "
+          "state. Raises Error for an "
           "unknown object or link, for a half-space, and without a state.\n\n"
           "    scene.attach(\"can\", \"palm\", touch_links=[\"finger\"], state=robot.default_state())")
       .def(
@@ -252,10 +253,13 @@ void addPlanningScene(py::module_& module)
               return py::none();
             return py::array_t<double>(static_cast<py::ssize_t>(self.current_state.size()), self.current_state.data());
           },
-          [](PlanningScene& self, const py::object& state) {
-            self.current_state = state.is_none() ? std::vector<double>() : rowFrom(state, *self.robot, "current_state");
+          [](PlanningScene& self, const py::object& state)
+          {
+            self.current_state = state.is_none() ? std::vector<double>()
+                                                 : rowFrom(state, *self.robot, "current_state", &self.current_state);
           },
-          "A copy of the state of the robot, shape (variables,), or None.")
+          "A copy of the state of the robot, shape (variables,), or None. It can be set to the name of a state of the "
+          "SRDF: variables that this state does not set keep their values.")
       .def("body_name", &bodyName, py::arg("body"), "The name of the body with this index.")
       .def_property_readonly(
           "body_names",

@@ -48,7 +48,7 @@ py::array_t<std::uint8_t> render(const Arg<std::shared_ptr<PlanningScene>>& scen
   const auto copy = std::make_shared<const PlanningScene>(*scene.value);
   std::vector<double> row = copy->current_state;
   if (!state.is_none())
-    row = rowFrom(state, *copy->robot, "state");
+    row = rowFrom(state, *copy->robot, "state", &copy->current_state);
   if (row.empty())
     row = copy->robot->defaultState();
   const Eigen::Vector3d upward = vectorFrom(up, "up");
@@ -73,7 +73,8 @@ void addRender(py::module_& module)
              py::arg("height") = 720, py::arg("eye") = py::none(), py::arg("target") = py::none(),
              py::arg("up") = py::make_tuple(0.0, 0.0, 1.0), py::arg("device") = "auto",
              "Draws the collision shapes of a scene with OpenGL, without a window: links grey, objects in colours, "
-             "bodies that collide red, contact points yellow.\n\nstate: shape (variables,); None: the current state of "
+             "bodies that collide red, contact points yellow.\n\nstate: shape (variables,), or the name of a state; "
+             "None: the current state of "
              "the scene, or the default state of the robot. width, height: pixels. eye, target: of the camera, in the "
              "planning frame; without an eye, the view shows most of the robot and of its contacts. up: the upward "
              "direction. device: as in StateChecker, but not \"cpu\".\n\nReturns an array of shape (height, width, 3), "

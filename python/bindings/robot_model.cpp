@@ -13,6 +13,7 @@
 #include "bindings/shapes.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/robot_model.h"
+#include "model/description/description_file.h"
 
 namespace gpu_planning_scene::python
 {
@@ -38,6 +39,11 @@ core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_transl
   core::RobotModelOptions options;
   options.packages = packagesFrom(packages);
   options.meshes = meshesFrom(files);
+  options.info = [](const std::string& line)
+  {
+    const py::gil_scoped_acquire lock;
+    py::print(line, py::arg("file") = py::module_::import("sys").attr("stderr"));
+  };
   if (!(unbounded_translation > 0.0 && unbounded_translation <= core::kLargestLength))
     throw core::Error("unbounded_translation is " + std::to_string(unbounded_translation) +
                       "; it must be above 0 and at most 1e6 metres");
@@ -62,6 +68,20 @@ RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, con
   options.urdf_name = "urdf";
   options.srdf_name = "srdf";
   return loaded([&](auto* warnings) { return RobotModel::fromXml(urdf.value, srdf.value, options, warnings); });
+}
+
+/// The text of a URDF or SRDF file. xacro expands it as in fromFiles, which has already said so.
+py::str descriptionFrom(const py::object& path, const Arg<std::string>& kind)
+{
+  const std::string file = pathFrom(path, "path");
+  const std::string text = withoutLock([&] { return core::readDescription(file, kind.value, {}).text; });
+  PyObject* decoded = PyUnicode_Decode(text.data(), static_cast<Py_ssize_t>(text.size()), "utf-8-sig", "strict");
+  if (decoded == nullptr)
+  {
+    PyErr_Clear();
+    throw core::Error(file + ": the file is not UTF-8; save it in this encoding");
+  }
+  return py::reinterpret_steal<py::str>(decoded);
 }
 
 /// Calls `work(i)` for all indices below `count`, and ends when a signal handler raises an exception.
@@ -182,23 +202,26 @@ void addParts(py::module_& module)
 void addRobotModel(py::module_& module)
 {
   addParts(module);
+  module.def("_read_description", &descriptionFrom, py::arg("path"), py::arg("kind"),
+             "The text of a URDF or SRDF file, expanded if it is a xacro file. For the robots of bulk runs.");
   py::class_<RobotModel, RobotPtr>(
       module, "RobotModel",
       "A robot: the kinematic tree of a URDF with its collision shapes, and the content of its SRDF. It never changes "
       "and can be used by several threads. A state is a row with one number for each of `variables`, in radians and "
       "metres.\n\n    robot = gps.RobotModel.from_files(\"robot.urdf\", \"robot.srdf\")")
-      .def_static("from_files", &fromFiles, py::arg("urdf"), py::arg("srdf") = py::none(),
-                  py::arg("packages") = py::none(), py::arg("unbounded_translation") = 1.0,
-                  py::arg("files") = py::none(),
-                  "Loads a robot.\n\nurdf, srdf: paths; without an SRDF, adjacent links may touch. packages: the "
-                  "folders of ROS packages by name, or a function that returns the folder of a name. With a dict or "
-                  "without packages, other names are looked up on ROS_PACKAGE_PATH. unbounded_translation: metres; "
-                  "random translations of planar and floating joints without limits are in [-value, value]. "
-                  "files: a function that gets the URI of each mesh file and returns the path of the file; None means "
-                  "that the usual rules apply.\n\n"
-                  "Harmless faults of the files are Python warnings (UserWarning). Raises Error with file and line "
-                  "for other faults, and for meshes that cannot be read.\n\n"
-                  "    gps.RobotModel.from_files(\"ur5.urdf\", packages={\"ur5\": \"/path/ur5\"})")
+      .def_static(
+          "from_files", &fromFiles, py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("packages") = py::none(),
+          py::arg("unbounded_translation") = 1.0, py::arg("files") = py::none(),
+          "Loads a robot.\n\nurdf, srdf: paths; without an SRDF, adjacent links may touch. A xacro file is expanded if "
+          "the program xacro is on PATH; a line on sys.stderr says so. packages: the "
+          "folders of ROS packages by name, or a function that returns the folder of a name. With a dict or "
+          "without packages, other names are looked up on ROS_PACKAGE_PATH. unbounded_translation: metres; "
+          "random translations of planar and floating joints without limits are in [-value, value]. "
+          "files: a function that gets the URI of each mesh file and returns the path of the file; None means "
+          "that the usual rules apply.\n\n"
+          "Harmless faults of the files are Python warnings (UserWarning). Raises Error with file and line "
+          "for other faults, and for meshes that cannot be read.\n\n"
+          "    gps.RobotModel.from_files(\"ur5.urdf\", packages={\"ur5\": \"/path/ur5\"})")
       .def_static("from_xml", &fromXml, py::arg("urdf"), py::arg("srdf") = "", py::arg("packages") = py::none(),
                   py::arg("urdf_folder") = py::none(), py::arg("unbounded_translation") = 1.0,
                   py::arg("files") = py::none(),
@@ -262,7 +285,8 @@ void addRobotModel(py::module_& module)
            "    states = robot.random_states(1000, seed=1, base=robot.default_state())")
       .def("link_poses", &linkPoses, py::arg("states"),
            "Forward kinematics: the pose of each link in the planning frame, for each state.\n\nstates: shape "
-           "(n, variables) or (variables,). Returns matrices of shape (n, links, 4, 4) or (links, 4, 4). Raises Error "
+           "(n, variables) or (variables,), or names of states of the SRDF that set all variables. Returns matrices of "
+           "shape (n, links, 4, 4) or (links, 4, 4). Raises Error "
            "for another shape. Ctrl-C ends a long call.\n\n"
            "    poses = robot.link_poses(states)\n    tool = poses[:, robot.link_index(\"palm\")]")
       .def("__repr__", [](const RobotModel& robot) { return "<RobotModel '" + robot.name() + "'>"; });

@@ -61,7 +61,8 @@ CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& de
 
 BatchResult checkStates(SharedChecker& checker, const py::object& states, const Arg<std::string>& group)
 {
-  const Rows rows = rowsFrom(states, *checker.scene()->robot, "states");
+  const auto scene = checker.scene();
+  const Rows rows = rowsFrom(states, *scene->robot, "states", &scene->current_state);
   const double* data = rows.data();
   Interrupt interrupt;
   BatchResult result = withoutLock([&] { return checker.check(data, rows.count, group.value, interrupt); });
@@ -215,7 +216,10 @@ void addStateChecker(py::module_& module)
            py::arg("tolerance") = defaults.tolerance, py::arg("max_batch") = defaults.max_batch,
            py::arg("cpu_below") = py::none(), py::arg("traversal") = "work_queue")
       .def("check", &checkStates, py::arg("states"), py::arg("group") = "",
-           "Checks states.\n\nstates: shape (n, variables) or (variables,), radians and metres. A C-contiguous array "
+           "Checks states.\n\nstates: shape (n, variables) or (variables,), radians and metres; or a str or a list of "
+           "str: "
+           "names of states of the SRDF. Variables that a named state does not set have their values from the scene's "
+           "current_state. A C-contiguous array "
            "of float64 is not copied; it must not change during the call. group: only pairs with a link that this "
            "planning group moves are checked. Returns a BatchResult.\n\nRaises Error for another shape, an unknown "
            "group, and values that are not finite. Ctrl-C ends a long call.\n\n"

@@ -33,7 +33,7 @@ struct Clearances
 std::vector<Contact> contacts(const StateInspector& inspector, const py::object& state, const Arg<std::string>& group,
                               Arg<std::size_t> max_contacts, Arg<std::size_t> max_per_pair)
 {
-  const std::vector<double> row = rowFrom(state, *inspector.scene()->robot, "state");
+  const std::vector<double> row = rowFrom(state, *inspector.scene()->robot, "state", &inspector.scene()->current_state);
   return withoutLock([&]
                      { return inspector.contacts(row.data(), group.value, max_contacts.value, max_per_pair.value); });
 }
@@ -42,7 +42,7 @@ std::vector<Contact> contacts(const StateInspector& inspector, const py::object&
 Clearances clearances(const StateInspector& inspector, const py::object& states, const Arg<std::string>& group)
 {
   const core::RobotModel& robot = *inspector.scene()->robot;
-  const Rows rows = rowsFrom(states, robot, "states");
+  const Rows rows = rowsFrom(states, robot, "states", &inspector.scene()->current_state);
   const double* data = rows.data();
   const std::size_t width = robot.variables().size();
   Clearances result;
@@ -131,12 +131,13 @@ void addStateInspector(py::module_& module)
            py::arg("scene"))
       .def("contacts", &contacts, py::arg("state"), py::arg("group") = "", py::arg("max_contacts") = 100,
            py::arg("max_per_pair") = 0,
-           "The contacts of the pairs that collide in a state: a list of Contact.\n\nstate: shape (variables,). group: "
+           "The contacts of the pairs that collide in a state: a list of Contact.\n\nstate: shape (variables,), or the "
+           "name of a state. group: "
            "as in StateChecker.check. max_per_pair: for each pair; 0: no limit. The deepest contact of each pair comes "
            "first. Raises Error for another shape, an unknown group, and values that are not finite.\n\n"
            "    for contact in inspector.contacts(state):\n        print(contact.point, contact.depth)")
       .def("clearances", &clearances, py::arg("states"), py::arg("group") = "",
-           "The clearances of states, computed on all cores.\n\nstates: shape (n, variables) or (variables,). group: "
+           "The clearances of states, computed on all cores.\n\nstates: as in StateChecker.check. group: "
            "as in StateChecker.check. Returns Clearances. Raises Error as contacts does. Ctrl-C ends a long call.");
 }
 }  // namespace gpu_planning_scene::python

@@ -7,6 +7,8 @@ import numpy as np
 import numpy.typing as npt
 
 Floats = npt.NDArray[np.float64]
+# A parameter for states of the robot also takes names of states of the SRDF: npt.ArrayLike includes str and lists of
+# str.
 Path = Union[str, os.PathLike[str]]
 Packages = Union[Mapping[str, Path], Callable[[str], Optional[Path]], None]
 Files = Optional[Callable[[str], Optional[Path]]]

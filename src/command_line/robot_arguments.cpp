@@ -12,7 +12,7 @@ Option packageOption()
 
 std::vector<Option> robotOptions()
 {
-  return {{"--urdf", "FILE", "the robot"},
+  return {{"--urdf", "FILE", "the robot: a URDF, or a xacro file if xacro is installed"},
           {"--srdf", "FILE",
            "groups, and pairs of links that are not checked;\nwithout it, adjacent links are not checked"},
           packageOption(),
@@ -51,6 +51,7 @@ std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::v
   RobotModelOptions options;
   options.packages = packagesFrom(arguments);
   options.unbounded_translation = arguments.number("--unbounded-translation", options.unbounded_translation, 0.0, 1e6);
+  options.info = [](const std::string& line) { std::cerr << line << "\n"; };
   return RobotModel::fromFiles(arguments.required("--urdf"), arguments.value("--srdf", ""), options, warnings);
 }
 

@@ -9,6 +9,7 @@
 
 #include "collision/checkers/scene_text.h"
 #include "command_line/robot_arguments.h"
+#include "model/description/description_file.h"
 #include "model/text/name_list.h"
 #include "tools/acm_generator.h"
 #include "tools/srdf_writer.h"
@@ -41,6 +42,17 @@ std::string readFile(const std::string& path)
   return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
+/// The text of the SRDF `path`; empty if `path` is empty. robotFrom has already said that it ran xacro.
+std::string baseOf(const std::string& path, const std::string& out_path)
+{
+  if (path.empty())
+    return "";
+  const DescriptionText srdf = readDescription(path, "SRDF", {});
+  if (srdf.name != path && path == out_path)
+    throw Error(path + ": this is a xacro file, and the expanded SRDF would replace it; give another file as --out");
+  return srdf.text;
+}
+
 /// `groups`: the names of the planning groups in the SRDF.
 void printSummary(const GeneratedMatrix& matrix, const SamplingOptions& sampling,
                   const std::vector<std::string>& groups)
@@ -70,7 +82,7 @@ void run(const CommandLine& arguments)
   const GeneratedMatrix matrix = generateMatrix(robot, sampling);
   const std::string out_path = arguments.value("--out", "");
   const bool goes_on = !arguments.has("--srdf") && !out_path.empty() && std::filesystem::exists(out_path);
-  const std::string base = readFile(goes_on ? out_path : arguments.value("--srdf", ""));
+  const std::string base = baseOf(goes_on ? out_path : arguments.value("--srdf", ""), out_path);
   if (goes_on && robotNameOf(base) != robot->name())
     throw Error(out_path + ": the file exists and is not an SRDF of robot '" + robot->name() +
                 "'; choose another name");

@@ -2,6 +2,7 @@
 
 #include "model/mesh_files.h"
 #include "model/model_testing.h"
+#include "support/xacro_stand_in.h"
 
 namespace gpu_planning_scene::core
 {
@@ -48,6 +49,7 @@ TEST(UrdfErrors, XacroIsRefusedWithTheCommandToRun)
 TEST(UrdfErrors, TheCommandForXacroNamesTheGivenFile)
 {
   const TemporaryFolder folder;
+  const PathVariable without_xacro(folder.path(""));
   const std::string robot = "<robot name='r'><link name='a'/><xacro:macro name='arm'/></robot>";
   const auto message_for = [&](const std::string& name)
   { return errorOf([&] { RobotModel::fromFiles(folder.write(name, robot), "", {}); }); };

@@ -1,6 +1,8 @@
 """The robots and scenes of the tests."""
+import contextlib
 import os
 import pathlib
+import tempfile
 import unittest
 
 import gpu_planning_scene as gps
@@ -19,6 +21,8 @@ RAIL = """<robot name="rail">
     <parent link="rail"/><child link="ball"/><axis xyz="1 0 0"/><limit lower="-10" upper="10" effort="1" velocity="1"/>
   </joint>
 </robot>"""
+RAIL_XACRO = RAIL.replace('radius="0.1"', 'radius="${radius}"')  # EXPAND makes RAIL of it
+EXPAND = "sed 's/${radius}/0.1/' \"$1\""
 RAIL_SRDF = '<robot name="rail"><group name="all"><joint name="slide"/></group></robot>'
 
 
@@ -43,6 +47,21 @@ def arm_scene():
 
 def rail():
     return gps.RobotModel.from_xml(RAIL, RAIL_SRDF)
+
+
+@contextlib.contextmanager
+def xacro(script):
+    """A script with the name xacro comes first on PATH. Yields its path."""
+    before = os.environ["PATH"]
+    with tempfile.TemporaryDirectory() as folder:
+        program = pathlib.Path(folder, "xacro")
+        program.write_text(f"#!/bin/sh\n{script}\n", encoding="utf-8")
+        program.chmod(0o700)
+        os.environ["PATH"] = f"{folder}:{before}"
+        try:
+            yield program
+        finally:
+            os.environ["PATH"] = before
 
 
 class Case(unittest.TestCase):

@@ -1,4 +1,5 @@
 """Bulk runs on this machine: verdicts, inputs, files, a killed run, plans, errors, and bundles without their files."""
+import contextlib
 import io
 import json
 import os
@@ -15,7 +16,8 @@ import gpu_planning_scene as gps
 from bulk_runs import ARM_OPTIONS, bulk, content, shards, started_bulk, wait_for_shards
 from gpu_planning_scene.bulk import RobotBundle, SceneBundle
 from gpu_planning_scene.bulk.states import BLOCK, RandomSlice
-from robots import ARM, ARM_SCENE, KR5, KR5_SCENE, RAIL, RAIL_SRDF, Case, arm, arm_scene, kr5, kr5_scene
+from robots import (ARM, ARM_SCENE, EXPAND, KR5, KR5_SCENE, RAIL, RAIL_SRDF, RAIL_XACRO, Case, arm, arm_scene, kr5,
+                    kr5_scene, xacro)
 
 TETRAHEDRON = """ply
 format ascii 1.0
@@ -391,6 +393,15 @@ class Bundles(Folder):
         shutil.rmtree(self.folder / "parts")
         scene = scene_bundle.load(robot_bundle.load())
         np.testing.assert_array_equal(expected, gps.StateChecker(scene, device="cpu").check(states).valid)
+
+    def test_a_bundle_has_the_expanded_text_of_a_xacro_file(self):
+        urdf = self.folder / "rail.urdf.xacro"
+        urdf.write_text(RAIL_XACRO, encoding="utf-8")
+        with xacro(EXPAND), contextlib.redirect_stderr(io.StringIO()) as printed:
+            bundle = RobotBundle.from_files(urdf)
+        self.assertEqual(1, len(printed.getvalue().splitlines()))
+        self.assertEqual(RAIL, bundle.urdf)
+        self.assertEqual("rail", bundle.load().name)
 
     def test_the_digest_is_that_of_the_content(self):
         urdf, path, packages = self.scene_with_files()

@@ -61,6 +61,18 @@ class MotionChecker(Case):
             ended.set()
             thread.join()
 
+    def test_ends_can_be_states_of_the_srdf(self):
+        scene = arm_scene()
+        start, end = np.tile(scene.current_state, (2, 1))
+        for row, name in ((start, "ready"), (end, "extended")):
+            row[scene.robot.named_state(name).variables] = scene.robot.named_state(name).values
+        checker = motions(scene, rule="samples")
+        expected = checker.check([start, end], [end, start], query="last_valid")
+        answer = checker.check(["ready", "extended"], ["extended", "ready"], query="last_valid")
+        np.testing.assert_array_equal(expected.last_valid, answer.last_valid)
+        np.testing.assert_array_equal(expected.valid, answer.valid)
+        self.assert_one_line(gps.Error, "^ends: the SRDF has no state 'nose'", checker.check, "ready", "nose")
+
     def test_the_query_valid_ends_at_the_first_collision(self):
         answer = motions(wall_scene(0.1), rule="samples").check([0.0], [2.0])
         self.assertEqual((False, 0.0), (answer.valid[0], answer.last_valid[0]))

@@ -27,6 +27,18 @@ class Planning(Case):
             self.assertGreater(result.states_checked, 0)
             self.assertGreater(result.planning_seconds, 0.0)
 
+    def test_the_start_and_the_goals_can_be_states_of_the_srdf(self):
+        scene = arm_scene()
+        scene.current_state = [1, 1, 1, 1, 1, 1, 0.02]
+        checker = gps.StateChecker(scene, device="cpu")
+        for goals in ("extended", ["extended"]):
+            result = gps.plan_motion(checker, "arm", "ready", goals, seconds=20.0)
+            self.assertEqual((gps.PlanningStatus.SOLVED, ""), (result.status, result.message))
+            np.testing.assert_array_equal([0, -0.4, 1.6, 0, 1.2, 0, 0.02], result.waypoints[0])
+            np.testing.assert_allclose([-0.6, 0.2, 0.3, 0, 0.3, 0, 0.02], result.waypoints[-1], atol=1e-9)
+        self.assert_one_line(gps.Error, "^goals: the SRDF has no state 'nose'; its states: arm/ready, arm/extended",
+                             gps.plan_motion, checker, "arm", "ready", ["extended", "nose"])
+
     def test_a_seed_repeats_a_path(self):
         checker = gps.StateChecker(arm_scene(), device="cpu")
         start, goal = np.array([[0.7, 0.6, 0.6, 0, 0.6, 0, 0.03], [2.5, 0.6, 0.6, 0, 0.6, 0, 0.03]])

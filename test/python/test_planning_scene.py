@@ -274,6 +274,18 @@ class PlanningScene(Case):
         scene.current_state = None
         self.assertIsNone(scene.current_state)
 
+    def test_the_current_state_can_be_a_state_of_the_srdf(self):
+        scene = arm_scene()
+        scene.current_state = [1, 1, 1, 1, 1, 1, 0.02]
+        scene.current_state = "extended"
+        np.testing.assert_array_equal([-0.6, 0.2, 0.3, 0, 0.3, 0, 0.02], scene.current_state)
+        palm = scene.frame("palm")
+        np.testing.assert_array_equal(palm, scene.frame("palm", "arm/extended"))
+        self.assertFalse(np.array_equal(palm, scene.frame("palm", "ready")))
+        scene.current_state = None
+        self.assert_one_line(gps.Error, "^current_state: the state 'ready' of the SRDF has no value for grip; set "
+                             "current_state of the scene, or give numbers", setattr, scene, "current_state", "ready")
+        self.assertIsNone(scene.current_state)
 
 
 if __name__ == "__main__":

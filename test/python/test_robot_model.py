@@ -1,4 +1,6 @@
 """RobotModel: files and texts, packages, names, forward kinematics, random states."""
+import contextlib
+import io
 import pathlib
 import sys
 import tempfile
@@ -7,7 +9,7 @@ import unittest
 import numpy as np
 
 import gpu_planning_scene as gps
-from robots import ARM, Case, RAIL, arm, kr5, rail
+from robots import ARM, EXPAND, RAIL, RAIL_SRDF, RAIL_XACRO, Case, arm, kr5, rail, xacro
 
 MESH = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n"
 WITH_MESH = ('<robot name="part"><link name="part"><collision><geometry><mesh filename="{}"/></geometry></collision>'
@@ -107,13 +109,38 @@ class RobotModel(Case):
         for states in (np.zeros((3, 2)), np.zeros(2), np.zeros((1, 1, 1)), 5.0):
             self.assert_one_line(gps.Error, r"^states: the shape is .*must be \(n, 1\) or \(1,\).*slide",
                                  robot.link_poses, states)
-        for states in (None, "ready", [["a"]], np.zeros((2, 1), dtype=complex), object()):
+        for states in (None, [["a"]], np.zeros((2, 1), dtype=complex), object()):
             self.assert_one_line(TypeError, "^states: expected an array of numbers, but got", robot.link_poses, states)
 
     def test_wrong_files_are_errors_that_name_them(self):
         self.assert_one_line(gps.Error, "cannot read URDF '/none.urdf'", gps.RobotModel.from_files, "/none.urdf")
         self.assert_one_line(gps.Error, "urdf", gps.RobotModel.from_xml, "<robot")
         self.assert_one_line(TypeError, "urdf: expected a str or a path", gps.RobotModel.from_files, 5)
+
+    def test_a_xacro_file_is_expanded_where_xacro_is_installed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            urdf = pathlib.Path(folder, "rail.urdf.xacro")
+            urdf.write_text(RAIL_XACRO, encoding="utf-8")
+            with xacro(EXPAND) as program, contextlib.redirect_stderr(io.StringIO()) as printed:
+                robot = gps.RobotModel.from_files(urdf)
+            self.assertEqual(0.1, robot.links[1].shapes[0][0].radius)
+            self.assertEqual(f"URDF '{urdf}' is a xacro file: it was expanded by {program}\n", printed.getvalue())
+            with xacro("echo no such property >&2; exit 2"):
+                self.assert_one_line(gps.Error, "failed with exit code 2: no such property", gps.RobotModel.from_files,
+                                     urdf)
+            with xacro(EXPAND):
+                self.assert_one_line(gps.Error, "is xacro, which must be expanded first", gps.RobotModel.from_xml,
+                                     RAIL_XACRO)
+
+    def test_a_named_state_has_poses_if_it_sets_all_variables(self):
+        robot = arm()
+        self.assert_one_line(gps.Error, "^states: the state 'ready' of the SRDF has no value for grip; give numbers",
+                             robot.link_poses, "ready")
+        srdf = RAIL_SRDF.replace("</robot>", '<group_state name="far" group="all"><joint name="slide" value="2"/>'
+                                 "</group_state></robot>")
+        robot = gps.RobotModel.from_xml(RAIL, srdf)
+        np.testing.assert_array_equal(robot.link_poses([2.0]), robot.link_poses("far"))
+        np.testing.assert_array_equal(robot.link_poses([[2.0], [2.0]]), robot.link_poses(("far", "all/far")))
 
     def test_harmless_faults_are_warnings(self):
         srdf = '<robot name="rail"><disable_collisions link1="nose" link2="ball"/></robot>'

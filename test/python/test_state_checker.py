@@ -201,11 +201,30 @@ class StateChecker(Case):
         self.assertEqual("rail", checker.scene.robot.name)
         self.assertTrue(checker.check([0.0]).valid[0])
 
+    def test_states_of_the_srdf_can_be_named(self):
+        scene = arm_scene()
+        checker = gps.StateChecker(scene, device="cpu")
+        expected = np.tile(scene.current_state, (2, 1))
+        for row, name in zip(expected, ("ready", "arm/extended")):
+            named = scene.robot.named_state(name)
+            row[named.variables] = named.values
+        self.assertEqual(2, len(np.unique(expected, axis=0)))
+        by_name = checker.check(["ready", "arm/extended"])
+        by_value = checker.check(expected)
+        np.testing.assert_array_equal(by_value.valid, by_name.valid)
+        np.testing.assert_array_equal(by_value.colliding, by_name.colliding)
+        self.assertEqual(1, len(checker.check("ready")))
+
+    def test_an_unknown_state_is_an_error_that_lists_the_states(self):
+        checker = gps.StateChecker(arm_scene(), device="cpu")
+        self.assert_one_line(gps.Error, "^states: the SRDF has no state 'nose'; its states: .*arm/ready",
+                             checker.check, ["ready", "nose"])
+
     def test_wrong_states_and_groups_are_errors(self):
         checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
         for states in (np.zeros((3, 2)), np.zeros((2, 2, 1)), 1.0):
             self.assert_one_line(gps.Error, "^states: the shape is", checker.check, states)
-        for states in (np.ma.array([[1.0]], mask=[[True]]), np.ones((1, 1), bool), None, "ready", [["a"]], np.zeros((1, 1), complex), [[1.0], [1.0, 2.0]], np.array([[None]])):
+        for states in (np.ma.array([[1.0]], mask=[[True]]), np.ones((1, 1), bool), None, [["a"]], [0.0, "a"], np.zeros((1, 1), complex), [[1.0], [1.0, 2.0]], np.array([[None]])):
             self.assert_one_line(TypeError, "^states: expected an array of numbers", checker.check, states)
         for value in (float("nan"), float("inf"), -float("inf")):
             self.assert_one_line(gps.Error, "^state 1: the value of variable 'slide'", checker.check, [[0.0], [value]])

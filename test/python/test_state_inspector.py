@@ -69,7 +69,8 @@ class StateInspector(Case):
         for call in (inspector.contacts, inspector.clearances):
             self.assert_one_line(gps.Error, "'legs'", call, [0.0], "legs")
             self.assert_one_line(gps.Error, "'slide'", call, [float("nan")])
-            self.assert_one_line(TypeError, "array of numbers", call, "ready")
+            self.assert_one_line(TypeError, "array of numbers", call, [["ready"]])
+            self.assert_one_line(gps.Error, "^states?: the SRDF has no state 'ready'; it names no states", call, "ready")
         self.assert_one_line(TypeError, "expected a PlanningScene", gps.StateInspector, None)
 
     def test_ctrl_c_ends_a_call(self):

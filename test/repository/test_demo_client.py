@@ -3,6 +3,8 @@ import collections
 import contextlib
 import importlib.util
 import io
+import pathlib
+import tempfile
 import unittest
 from unittest import mock
 
@@ -107,6 +109,13 @@ class DemoScenes(unittest.TestCase):
         state = demo_client.state_of_scene(ROOT / "config" / "demo" / "hubo_scene.yaml")
         self.assertEqual(len(state), 51)
         self.assertEqual(state["LEP"], -1.4)
+
+    def test_a_scene_with_a_named_state_is_refused_with_the_reason(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "scene.yaml")
+            scene.write_text("robot_state: {named_state: ready}\n", encoding="utf-8")
+            with self.assertRaisesRegex(SystemExit, "scene.yaml: --around needs joint values"):
+                demo_client.state_of_scene(scene)
 
 
 if __name__ == "__main__":

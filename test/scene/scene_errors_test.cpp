@@ -158,6 +158,13 @@ const std::vector<WrongScene>& wrongScenes()
       {"JointTwice", "robot_state:\n  joint_state:\n    name: [slide, slide]\n    position: [1, 2]\n", 3,
        "given twice"},
       {"NanJoint", "robot_state:\n  joint_state:\n    name: [slide]\n    position: [.NaN]\n", 4, "not a finite number"},
+      {"UnknownNamedState", "robot_state:\n  named_state: home\n", 2,
+       "named_state: the SRDF has no state 'home'; its states: drive/left, drive/right"},
+      {"NamedStateAndJoints", "robot_state:\n  joint_state: {name: [slide], position: [1]}\n  named_state: left\n", 3,
+       "named_state is 'left', but the robot state has joint values too; give one of the two"},
+      {"NamedStateAndUnusedJoints", "robot_state:\n  joint_state: {name: [flag], position: [1]}\n  named_state: left\n",
+       3, "has joint values too; give one of the two"},
+      {"NamedStateIsAList", "robot_state:\n  named_state: [left]\n", 2, "expected a single value"},
       {"RevoluteAsMultiDof", "robot_state:\n  multi_dof_joint_state:\n    joint_names: [turn]\n    transforms: [{}]\n",
        3, "neither planar nor floating"},
 

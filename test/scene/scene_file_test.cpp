@@ -390,6 +390,33 @@ TEST_F(SceneFile, AMissingVirtualJointGivesNoWarning)
   EXPECT_FALSE(warned("floor"));
 }
 
+TEST_F(SceneFile, AStateOfTheSrdfCanBeNamed)
+{
+  EXPECT_EQ((std::vector<double>{-1.0, 0.8}), load("robot_state: {named_state: left}").current_state);
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+  EXPECT_EQ((std::vector<double>{1.0, 0.8}), load("robot_state: {named_state: drive/right}").current_state);
+  EXPECT_EQ((std::vector<double>{1.0, 0.8}),
+            load("robot_state: {named_state: right, joint_state: {name: [], position: []}}").current_state);
+}
+
+TEST_F(SceneFile, ANamedStateSetsTheVariablesOfItsGroupAlone)
+{
+  std::string srdf = sliderSrdf();
+  srdf.insert(srdf.find("</robot>"),
+              "<group_state name=\"turned\" group=\"mast\"><joint name=\"turn\" value=\"0.5\"/></group_state>");
+  const auto robot = RobotModel::fromXml(sliderUrdf(), srdf, {});
+  EXPECT_EQ((std::vector<double>{0.0, 0.5}), load("robot_state: {named_state: turned}", robot).current_state);
+  EXPECT_TRUE(warned(":1: robot_state: joints without a value get their default: slide"));
+}
+
+TEST_F(SceneFile, ANamedStateIsThePlaceOfObjectsOnLinks)
+{
+  const PlanningScene scene = load(
+      "robot_state: {named_state: right}\n"
+      "world: {collision_objects: [{id: a, header: {frame_id: cart}, primitives: [{type: sphere, dimensions: [1]}]}]}");
+  EXPECT_EQ(1.0, shapePose(scene).translation().x());
+}
+
 TEST_F(SceneFile, JointValuesOutsideTheLimitsGiveAWarningWithTheLine)
 {
   load("world: {}\nrobot_state: {joint_state: {name: [slide, turn], position: [0, 90]}}");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -13,6 +14,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"
 #include "scene/slider_robot.h"
+#include "support/xacro_stand_in.h"
 #include "tools/run_program.h"
 
 namespace gpu_planning_scene::core
@@ -152,6 +154,27 @@ TEST_F(CheckStates, TheLastLineOfTheSummaryIsAsPromised)
   for (const char* part : {"device: CPU", "robot: slider", "triangles: ", "checked pairs of bodies: ", "left out: ",
                            share.c_str(), "states in collision, by the pair that was found first:"})
     EXPECT_NE(std::string::npos, output.err.find(part)) << output.err;
+}
+
+TEST_F(CheckStates, AXacroFileIsExpandedWhereXacroIsInstalled)
+{
+  const std::string raw = folder.write("slider.urdf.xacro", std::regex_replace(sliderUrdf(), std::regex("<robot[^>]*>"),
+                                                                               "$&<xacro:include filename='x'/>"));
+  const std::vector<std::string> arguments = {"--urdf", raw, "--srdf", srdf, "--state", "left", "--device", "cpu"};
+  {
+    const XacroStandIn xacro(kExpandingXacro);
+    const ProgramOutput output = run(arguments);
+    EXPECT_EQ(0, output.exit_code) << output.err;
+    EXPECT_NE(std::string::npos,
+              output.err.find("URDF '" + raw + "' is a xacro file: it was expanded by " + xacro.program() + "\n"))
+        << output.err;
+  }
+  {
+    const XacroStandIn xacro("echo 'cannot find x' >&2; exit 1");
+    expectError(run(arguments), 1, "failed with exit code 1: cannot find x");
+  }
+  const PathVariable without_xacro(folder.path(""));
+  expectError(run(arguments), 1, "is xacro, which must be expanded first: xacro '" + raw + "' > expanded.urdf");
 }
 
 TEST_F(CheckStates, TheCountsOfPairsSumUpToTheStatesInCollision)

@@ -9,6 +9,7 @@
 
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"
+#include "support/xacro_stand_in.h"
 #include "tools/run_program.h"
 
 namespace gpu_planning_scene::core
@@ -109,6 +110,25 @@ TEST_F(GenerateAcm, TheSameSeedWritesTheSameFile)
   ASSERT_EQ(0, generate({"--samples", "500", "--seed", "5"}).exit_code);
   EXPECT_EQ(first, contentOf(out));
   EXPECT_EQ(first, runProgram(GPS_GENERATE_ACM, {"--urdf", urdf, "--samples", "500", "--seed", "5"}).out);
+}
+
+TEST_F(GenerateAcm, StartsFromTheExpandedTextOfAXacroFileAndDoesNotReplaceTheFile)
+{
+  const std::string text =
+      "<robot name=\"line--up\"><xacro:include filename='x'/><group name=\"all\"><joint "
+      "name=\"slide\"/></group></robot>";
+  const std::string srdf = folder.write("users.srdf.xacro", text);
+  const XacroStandIn xacro(kExpandingXacro);
+  const ProgramOutput output = generate({"--samples", "100", "--srdf", srdf});
+  ASSERT_EQ(0, output.exit_code) << output.err;
+  EXPECT_NE(std::string::npos, output.err.find("SRDF '" + srdf + "' is a xacro file: it was expanded by "));
+  EXPECT_EQ(std::string::npos, contentOf(out).find("xacro:"));
+  EXPECT_EQ(1u, RobotModel::fromFiles(urdf, out, {})->groups().size());
+  const ProgramOutput refused =
+      runProgram(GPS_GENERATE_ACM, {"--urdf", urdf, "--samples", "100", "--srdf", srdf, "--out", srdf});
+  EXPECT_EQ(1, refused.exit_code);
+  EXPECT_NE(std::string::npos, refused.err.find("the expanded SRDF would replace it; give another file as --out"));
+  EXPECT_EQ(text, contentOf(srdf));
 }
 
 TEST_F(GenerateAcm, KeepsWhatTheUserWroteInAnSrdf)

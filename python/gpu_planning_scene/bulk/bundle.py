@@ -4,6 +4,7 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import hashlib
+import importlib
 import os
 import pathlib
 import tempfile
@@ -35,7 +36,8 @@ class RobotBundle:
         """Reads a robot. The arguments are those of gpu_planning_scene.RobotModel.from_files. Raises its errors."""
         found = _FoundFiles(os.path.dirname(os.path.abspath(urdf)), packages)
         gps.RobotModel.from_files(urdf, srdf, packages=packages, files=found)
-        texts = (_text(urdf), "" if srdf is None else _text(srdf))
+        read = importlib.import_module("gpu_planning_scene._core")._read_description
+        texts = (read(urdf, "URDF"), "" if srdf is None else read(srdf, "SRDF"))
         files = found.read()
         return RobotBundle(*texts, files, _digest(*texts, *_parts(files)))
 

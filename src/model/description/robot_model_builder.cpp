@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <utility>
 
 #include <urdf_model/model.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/description/description_file.h"
 #include "model/description/groups.h"
 #include "model/description/named_states.h"
 #include "model/description/robot_parts.h"
@@ -152,21 +151,6 @@ class RobotModelBuilder
   std::set<std::string> ignored_joints_;
 };
 
-namespace
-{
-std::string readFile(const std::string& path, const char* what)
-{
-  std::error_code unreadable;
-  std::ifstream file(path, std::ios::binary);
-  if (!file.is_open() || std::filesystem::is_directory(path, unreadable))
-    throw Error(std::string("cannot read ") + what + " '" + path + "'");
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (text.empty())
-    throw Error(std::string(what) + " '" + path + "' is empty");
-  return text;
-}
-}  // namespace
-
 std::shared_ptr<const RobotModel> makeRobot(RobotParts parts)
 {
   return RobotModelBuilder({}).build(std::move(parts));
@@ -196,9 +180,10 @@ std::shared_ptr<const RobotModel> RobotModel::fromFiles(const std::string& urdf_
 {
   const std::filesystem::path folder = std::filesystem::path(urdf_path).parent_path();
   options.urdf_folder = folder.empty() ? "." : folder.string();
-  options.urdf_name = urdf_path;
-  options.srdf_name = srdf_path;
-  const std::string srdf = srdf_path.empty() ? std::string() : readFile(srdf_path, "SRDF");
-  return fromXml(readFile(urdf_path, "URDF"), srdf, options, warnings);
+  const DescriptionText srdf = srdf_path.empty() ? DescriptionText() : readDescription(srdf_path, "SRDF", options.info);
+  const DescriptionText urdf = readDescription(urdf_path, "URDF", options.info);
+  options.urdf_name = urdf.name;
+  options.srdf_name = srdf.name;
+  return fromXml(urdf.text, srdf.text, options, warnings);
 }
 }  // namespace gpu_planning_scene::core

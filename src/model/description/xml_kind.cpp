@@ -49,24 +49,39 @@ std::string fileOf(const XmlText& xml)
   return is_file && xml.name().find_first_of("'\"$`\\!") == std::string::npos ? "'" + xml.name() + "'" : "FILE";
 }
 
-/// `kind`: "urdf" or "srdf". `leftovers` receives all other elements of xacro.
-void refuseXacro(const XmlText& xml, const XMLElement& element, const std::string& kind,
-                 std::vector<const XMLElement*>& leftovers)
+/// The first element that xacro must expand; null if there is none.
+const XMLElement* firstXacro(const XMLElement& element)
 {
-  const auto* expression = expressionOf(element);
-  if (expression != nullptr || isDirective(element))
-  {
-    const std::string command = "xacro " + fileOf(xml);
-    throw Error(xml.where(element) + ": " +
-                (expression != nullptr ? std::string(expression->Name()) + "=\"" + expression->Value() + "\""
-                                       : std::string("<") + element.Name() + ">") +
-                " is xacro, which must be expanded first: " + command + " > expanded." + kind +
-                ", or for the launch file " + kind + "_command:=\"" + command + "\" instead of " + kind + ":=FILE");
-  }
+  if (expressionOf(element) != nullptr || isDirective(element))
+    return &element;
+  for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+    if (const XMLElement* found = firstXacro(*child))
+      return found;
+  return nullptr;
+}
+
+void findLeftovers(const XMLElement& element, std::vector<const XMLElement*>& leftovers)
+{
   if (isXacro(element))
     leftovers.push_back(&element);
   for (const auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
-    refuseXacro(xml, *child, kind, leftovers);
+    findLeftovers(*child, leftovers);
+}
+
+/// `kind`: "urdf" or "srdf". `leftovers` receives all other elements of xacro.
+void refuseXacro(const XmlText& xml, const std::string& kind, std::vector<const XMLElement*>& leftovers)
+{
+  if (const XMLElement* element = firstXacro(xml.root()))
+  {
+    const auto* expression = expressionOf(*element);
+    const std::string command = "xacro " + fileOf(xml);
+    throw Error(xml.where(*element) + ": " +
+                (expression != nullptr ? std::string(expression->Name()) + "=\"" + expression->Value() + "\""
+                                       : std::string("<") + element->Name() + ">") +
+                " is xacro, which must be expanded first: " + command + " > expanded." + kind +
+                ", or for the launch file " + kind + "_command:=\"" + command + "\" instead of " + kind + ":=FILE");
+  }
+  findLeftovers(xml.root(), leftovers);
 }
 
 const XMLElement* firstOf(const XmlText& xml, std::initializer_list<const char*> tags)
@@ -78,10 +93,15 @@ const XMLElement* firstOf(const XmlText& xml, std::initializer_list<const char*>
 }
 }  // namespace
 
+bool needsXacro(const XmlText& xml)
+{
+  return firstXacro(xml.root()) != nullptr;
+}
+
 void requireUrdf(const XmlText& xml, std::vector<std::string>& warnings)
 {
   std::vector<const XMLElement*> leftovers;
-  refuseXacro(xml, xml.root(), "urdf", leftovers);
+  refuseXacro(xml, "urdf", leftovers);
   for (const XMLElement* element : leftovers)
     warnings.push_back(xml.where(*element) + ": <" + element->Name() + "> was not expanded by xacro; it is not used");
   const XMLElement* of_srdf =
@@ -95,7 +115,7 @@ void requireUrdf(const XmlText& xml, std::vector<std::string>& warnings)
 void requireSrdf(const XmlText& xml)
 {
   std::vector<const XMLElement*> leftovers;
-  refuseXacro(xml, xml.root(), "srdf", leftovers);
+  refuseXacro(xml, "srdf", leftovers);
   if (!leftovers.empty())
     throw Error(xml.where(*leftovers[0]) + ": <" + leftovers[0]->Name() +
                 "> was not expanded by xacro; expand the file with all that it includes: xacro " + fileOf(xml) +

@@ -1,12 +1,13 @@
 #include <tuple>
+#include <utility>
 
 #include "collision/problem/state_validation.h"
-#include "gpu_planning_scene/error.h"
+#include "model/full_states.h"
 #include "node/checks/check_services.h"
 #include "node/checks/requested_motions.h"
 #include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
-#include "node/messages/requested_states.h"
+#include "node/messages/requested_ends.h"
 
 // The service ~check_motions.
 namespace gpu_planning_scene::core
@@ -17,23 +18,18 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
       [&](CheckMotions::Response& response)
       {
         memory_.require();
-        if (request.starts.size() != request.ends.size())
-          throw Error(std::to_string(request.starts.size()) + " values in starts and " +
-                      std::to_string(request.ends.size()) + " in ends; give one row of each per motion");
         const RequestedScene scene =
             requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix);
         const Snapshot& now = scene.now;
         const RobotModel& robot = *now.scene->robot;
-        const auto require_count = [this](std::size_t count) { server_.requireStateCount(count); };
+        RequestedEnds given = requestedEnds(
+            robot, request, [this](std::size_t count) { server_.requireStateCount(count); });
         CheckJob job;
-        job.columns =
-            requestedColumns(robot, {"joint_names", request.joint_names}, {"starts", request.starts}, require_count);
-        requestedColumns(robot, {"joint_names", request.joint_names}, {"ends", request.ends}, require_count);
-        requireWholeRotations(robot, job.columns);
+        job.columns = given.columns;
         const PartialState current = now.partialState();
-        const std::size_t count = request.starts.size() / job.columns.size();
-        const std::vector<double> starts = fullStates(robot, job.columns, request.starts.data(), count, current);
-        const std::vector<double> ends = fullStates(robot, job.columns, request.ends.data(), count, current);
+        const std::size_t count = given.count;
+        const std::vector<double> starts = fullStates(robot, job.columns, given.starts.data(), count, current);
+        const std::vector<double> ends = fullStates(robot, job.columns, given.ends.data(), count, current);
         validateStates(robot, starts.data(), count, "motion");
         validateStates(robot, ends.data(), count, "motion");
         std::tie(job.motions, job.samples) =
@@ -42,14 +38,14 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         const MotionRule motion_rule = job.motions->rule;
         const std::string assumed_base = now.assumedBase(scene.is_changed ? std::vector<int>() : job.columns);
         const auto name_of = [](std::size_t row) { return "motion " + std::to_string(row); };
-        for (const auto& [full, given] : {std::tie(starts, request.starts), std::tie(ends, request.ends)})
+        for (const auto& [full, rows] : {std::tie(starts, given.starts), std::tie(ends, given.ends)})
           if (response.message.empty())
             response.message = motion_rule == MotionRule::Bound ? beyondLimits(robot, full.data(), count, name_of)
-                                                                : outsideLimits(robot, job.columns, given, name_of);
+                                                                : outsideLimits(robot, job.columns, rows, name_of);
         // The full states above serve to count the samples. For the check, the variables that the request does not name
         // come from the checked snapshot, which may be newer than `now`.
-        job.states = request.starts;
-        job.states.insert(job.states.end(), request.ends.begin(), request.ends.end());
+        job.states = std::move(given.starts);
+        job.states.insert(job.states.end(), given.ends.begin(), given.ends.end());
         job.group = request.group;
         job.matrix = scene.matrix;
         if (scene.is_changed)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
@@ -87,6 +88,21 @@ void fill(const CheckAnswer& answer, CheckTrajectory::Response& response)
   response.scene_revision = states.revision;
   response.seconds = states.seconds;
 }
+
+/// The start state of the request. The joint values of a named start are in joint_state.
+RobotState startOf(const RobotModel& robot, const CheckTrajectory::Request& request)
+{
+  RobotState start = request.start_state;
+  if (request.named_start.empty())
+    return start;
+  NamedRow named = requestedNamedState(robot, {"named_start", request.named_start},
+                                       start.joint_state.name.empty() && start.joint_state.position.empty() &&
+                                           start.multi_dof_joint_state.joint_names.empty() &&
+                                           start.multi_dof_joint_state.transforms.empty());
+  start.joint_state.name = std::move(named.names);
+  start.joint_state.position = std::move(named.values);
+  return start;
+}
 }  // namespace
 
 CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::Request& request)
@@ -97,8 +113,8 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
         memory_.require();
         server_.requireStateCount(
             std::max(request.joint_trajectory.points.size(), request.multi_dof_joint_trajectory.points.size()));
-        RequestedScene scene =
-            requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix, request.start_state);
+        RequestedScene scene = requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix,
+                                              startOf(*store_.snapshot().scene->robot, request));
         const RobotModel& robot = *scene.now.scene->robot;
         const RequestedTrajectory trajectory = requestedTrajectory(robot, request);
         requireWholeRotations(robot, trajectory.columns);

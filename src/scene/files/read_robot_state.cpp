@@ -25,6 +25,12 @@ struct GivenState
     values[variable] = value;
     given[variable] = true;
   }
+  /// Whether the file names a joint, also one that is not used.
+  bool hasJoints() const
+  {
+    return std::find(given.begin(), given.end(), true) != given.end() || !unknown_joints.empty() ||
+           !fixed_joints.empty() || !mimic_joints.empty();
+  }
 };
 
 void readJointState(const YamlValue& value, const SceneReader& reader, GivenState& state)
@@ -107,12 +113,30 @@ void readMultiDofState(const YamlValue& value, const SceneReader& reader, GivenS
       setTransform(transforms->items()[i], *joint, pose, state);
   }
 }
+
+/// The state that the SRDF names. The rule is that of CheckStates.srv: a name, or joint values, but not both.
+void readNamedState(const YamlValue& value, const SceneReader& reader, GivenState& state)
+{
+  if (state.hasJoints())
+    value.fail("named_state is '" + value.text() + "', but the robot state has joint values too; give one of the two");
+  try
+  {
+    const NamedState named = reader.robot.namedState(value.text());
+    for (std::size_t i = 0; i < named.variables.size(); ++i)
+      state.set(named.variables[i], named.values[i]);
+  }
+  catch (const Error& error)
+  {
+    value.fail(std::string("named_state: ") + error.what());
+  }
+}
 }  // namespace
 
 std::vector<double> readRobotState(const YamlValue& value, const SceneReader& reader)
 {
-  value.warnOfUnknownKeys({"joint_state", "multi_dof_joint_state", "attached_collision_objects", "is_diff"},
-                          reader.warnings);
+  value.warnOfUnknownKeys(
+      {"joint_state", "multi_dof_joint_state", "named_state", "attached_collision_objects", "is_diff"},
+      reader.warnings);
   GivenState state;
   state.values = reader.robot.defaultState();
   state.given.assign(state.values.size(), false);
@@ -120,6 +144,8 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
     readJointState(*joints, reader, state);
   if (const YamlValue* joints = value.find("multi_dof_joint_state"))
     readMultiDofState(*joints, reader, state);
+  if (const YamlValue* name = value.find("named_state"))
+    readNamedState(*name, reader, state);
 
   const std::string start = value.where() + ": robot_state: ";
   if (!state.unknown_joints.empty())

@@ -468,6 +468,70 @@ TEST_F(Service, ANamedStateOfFixedJointsIsRefused)
       error);
 }
 
+TEST_F(Service, AMotionGoesFromOneNamedStateToAnother)
+{
+  CheckMotions::Request asked;
+  asked.named_start = "left";
+  asked.named_end = "drive/right";
+  asked.resolution = asked.translation_resolution = 0.1;
+  const CheckMotions::Response named = services.checkMotions(asked);
+  ASSERT_TRUE(named.success) << named.message;
+  asked.named_start = asked.named_end = "";
+  asked.joint_names = {"turn", "slide"};
+  asked.starts = {0.8, -1.0};
+  asked.ends = {0.8, 1.0};
+  const CheckMotions::Response with_values = services.checkMotions(asked);
+  EXPECT_EQ(with_values.valid, named.valid);
+  EXPECT_EQ(with_values.last_valid_fraction, named.last_valid_fraction);
+  EXPECT_EQ("cart", named.body_1.at(0));
+  EXPECT_EQ("wall", named.body_2.at(0));
+}
+
+TEST_F(Service, ANamedEndCountsForAllMotions)
+{
+  store.updateState({{"slide", 1.0}, {"turn", 0.0}});  // in the wall: a value of the current state would collide
+  CheckMotions::Request asked;
+  asked.named_start = "left";
+  asked.joint_names = {"turn"};
+  asked.ends = {0.0, 0.5, 0.8};
+  asked.resolution = asked.translation_resolution = 0.1;
+  const CheckMotions::Response from = services.checkMotions(asked);
+  ASSERT_TRUE(from.success) << from.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 1, 1}), from.valid) << "the cart stays where the start has it";
+  asked = CheckMotions::Request();
+  asked.named_end = "left";
+  asked.joint_names = {"slide", "turn"};
+  asked.starts = {-1.0, 0.0, 1.0, 0.0, 0.0, 0.5};
+  asked.resolution = asked.translation_resolution = 0.1;
+  const CheckMotions::Response to = services.checkMotions(asked);
+  ASSERT_TRUE(to.success) << to.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 1}), to.valid);
+  asked.joint_names = {"turn"};
+  asked.starts = {0.0, 0.5};
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), services.checkMotions(asked).valid)
+      << "the cart is where the end has it";
+}
+
+TEST_F(Service, ANameAndValuesOfOneEndOfAMotionAreRefused)
+{
+  CheckMotions::Request asked;
+  asked.resolution = asked.translation_resolution = 0.1;
+  asked.named_start = "home";
+  asked.named_end = "left";
+  EXPECT_EQ("the SRDF has no state 'home'; its states: drive/left, drive/right", services.checkMotions(asked).message);
+  asked.named_start = "left";
+  asked.joint_names = {"turn"};
+  EXPECT_EQ("named_start is 'left', but the request has joint names or positions too; give one of the two",
+            services.checkMotions(asked).message);
+  asked.named_start = "";
+  asked.starts = asked.ends = {0.5};
+  EXPECT_EQ("named_end is 'left', but the request has joint names or positions too; give one of the two",
+            services.checkMotions(asked).message);
+  asked = CheckMotions::Request();
+  asked.named_start = "left";
+  EXPECT_EQ("joint_names is empty; name at least one variable", services.checkMotions(asked).message);
+}
+
 TEST_F(Service, MotionsThatNeedTooManyChecksAreNotFreeAndMarked)
 {
   CheckServices few{store, server, memory, {1000, 8, 10}, nullptr};

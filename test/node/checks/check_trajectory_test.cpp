@@ -163,6 +163,24 @@ TEST_F(SliderTrajectory, JointsThatItDoesNotNameKeepTheStartsValues)
   EXPECT_EQ(1.0, slider.store.snapshot().state.at(0)) << "the start is that of the request alone";
 }
 
+TEST_F(SliderTrajectory, TheStartCanBeAStateOfTheSrdf)
+{
+  CheckTrajectory::Request request = trajectoryOf({"turn"}, {{0.5}, {0.0}});
+  request.named_start = "right";
+  EXPECT_FALSE(answer(request).start_valid) << "the cart is in the wall";
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), answer(request).waypoint_valid);
+  request.named_start = "drive/left";
+  const auto response = answer(request);
+  EXPECT_TRUE(response.valid) << response.message;
+  request.named_start = "home";
+  expectRefusal(request, "the SRDF has no state 'home'; its states: drive/left, drive/right");
+  request.named_start = "left";
+  request.start_state.joint_state.name = {"slide"};
+  request.start_state.joint_state.position = {0.0};
+  expectRefusal(request,
+                "named_start is 'left', but the request has joint names or positions too; give one of the two");
+}
+
 TEST_F(SliderTrajectory, AStartInCollisionIsAnAnswer)
 {
   slider.store.updateState({{"slide", 1.0}, {"turn", 0.0}});

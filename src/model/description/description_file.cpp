@@ -1,0 +1,111 @@
+#include "model/description/description_file.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <system_error>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "gpu_planning_scene/error.h"
+#include "model/description/xml.h"
+#include "model/description/xml_kind.h"
+#include "model/files/child_process.h"
+#include "model/text/one_line.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::size_t kMaxDescriptionBytes = std::size_t(256) << 20;
+constexpr std::size_t kMaxXacroMessageBytes = std::size_t(1) << 20;
+
+std::string readFile(const std::string& path, const std::string& kind)
+{
+  std::error_code unreadable;
+  std::ifstream file(path, std::ios::binary);
+  if (!file.is_open() || std::filesystem::is_directory(path, unreadable))
+    throw Error("cannot read " + kind + " '" + path + "'");
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (text.empty())
+    throw Error(kind + " '" + path + "' is empty");
+  return text;
+}
+
+/// Whether xacro must expand a text. A malformed text is no xacro: RobotModel reports its fault.
+bool isXacroText(const std::string& text, const std::string& name)
+{
+  try
+  {
+    return needsXacro(XmlText(text, name, "robot"));
+  }
+  catch (const Error&)
+  {
+    return false;
+  }
+}
+
+/// The path of a program in PATH; empty if there is none. Relative folders of PATH are passed over: a file in the
+/// current folder must not be run by accident.
+std::string programOnPath(const std::string& name)
+{
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+  {
+    std::error_code failure;
+    std::string program = (std::filesystem::path(folder) / name).string();
+    if (!folder.empty() && folder.front() == '/' && std::filesystem::is_regular_file(program, failure) &&
+        access(program.c_str(), X_OK) == 0)
+      return program;
+  }
+  return "";
+}
+
+std::string expanded(const std::string& program, const std::string& path, const std::string& kind,
+                     const std::function<void(const std::string& line)>& info, double seconds)
+{
+  const std::string start = kind + " '" + path + "' is a xacro file: ";
+  // A path that begins with a hyphen would be an option.
+  const ChildAnswer answer = runChild("xacro", {program, path.front() == '-' ? "./" + path : path},
+                                      {seconds, kMaxDescriptionBytes, kMaxXacroMessageBytes});
+  if (answer.late)
+  {
+    std::ostringstream limit;
+    limit << seconds;
+    throw Error(start + program + " takes longer than " + limit.str() + " s");
+  }
+  if (answer.too_long)
+    throw Error(start + program + " printed more than " + std::to_string(kMaxDescriptionBytes) +
+                " bytes, or messages of more than " + std::to_string(kMaxXacroMessageBytes) + " bytes");
+  const std::string said = answer.err.substr(0, answer.err.find_last_not_of(" \t\r\n") + 1);
+  const std::string messages = said.empty() ? "it printed no message" : shortLine(said);
+  if (WIFSIGNALED(answer.status))
+    throw Error(start + program + " crashed (signal " + std::to_string(WTERMSIG(answer.status)) + "): " + messages);
+  if (WEXITSTATUS(answer.status) != 0)
+    throw Error(start + program + " failed with exit code " + std::to_string(WEXITSTATUS(answer.status)) + ": " +
+                messages + "; if the file needs arguments, expand it with them: xacro FILE NAME:=VALUE > expanded." +
+                (kind == "SRDF" ? "srdf" : "urdf"));
+  if (answer.out.empty())
+    throw Error(start + program + " printed nothing: " + messages);
+  if (info)
+    info(start + "it was expanded by " + program + (said.empty() ? "" : ", which says: " + messages));
+  return answer.out;
+}
+}  // namespace
+
+DescriptionText readDescription(const std::string& path, const std::string& kind,
+                                const std::function<void(const std::string& line)>& info, double xacro_seconds)
+{
+  DescriptionText description{path, readFile(path, kind)};
+  if (!isXacroText(description.text, path))
+    return description;
+  const std::string program = programOnPath("xacro");
+  if (program.empty())
+    return description;
+  return {"xacro " + path, expanded(program, path, kind, info, xacro_seconds)};
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace gpu_planning_scene::core
+{
+/// The text of a URDF or SRDF file.
+struct DescriptionText
+{
+  std::string name;  ///< for messages: the path, or "xacro PATH" if xacro expanded the file
+  std::string text;
+};
+
+/// Reads a URDF or SRDF file. If it is a xacro file, and the program xacro is in an absolute folder of the environment
+/// variable PATH, this program expands it. Without the program, the text is that of the file, which RobotModel refuses.
+/// `kind`: "URDF" or "SRDF". `info` (may be empty) receives a line if xacro was run. Throws Error if the file cannot
+/// be read, and if xacro fails, prints nothing, or takes longer than `xacro_seconds`. Thread-safe.
+DescriptionText readDescription(const std::string& path, const std::string& kind,
+                                const std::function<void(const std::string& line)>& info, double xacro_seconds = 60.0);
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace gpu_planning_scene::core
+{
+struct ChildLimits
+{
+  double seconds;   ///< above 0 and below 1e6
+  std::size_t out;  ///< bytes of the standard output
+  std::size_t err;  ///< bytes of the standard error
+};
+
+/// What a child process wrote, and how it ended.
+struct ChildAnswer
+{
+  std::string out;
+  std::string err;
+  bool late = false;      ///< it was killed, because the time was over
+  bool too_long = false;  ///< it was killed, because it wrote more than allowed
+  int status = 0;         ///< the status of waitpid
+};
+
+/// Runs a program without a shell, with /dev/null as its standard input, and waits for its end. `what`: the program's
+/// name in messages. `command`: the path of the program, then its arguments. The program inherits files that are open
+/// without O_CLOEXEC. Throws Error if the program cannot be started. Thread-safe.
+ChildAnswer runChild(const std::string& what, const std::vector<std::string>& command, const ChildLimits& limits);
+}  // namespace gpu_planning_scene::core
