@@ -77,31 +77,31 @@ Travel floatingTravel(const double* a, const double* b)
 Travel travelOf(const JointModel& joint, const RobotState& from, const RobotState& to)
 {
   Travel travel;
+  if (joint.getType() == JointModel::FIXED)
+    return travel;
   if (const JointModel* leader = joint.getMimic())
   {
     const Travel of_leader = travelOf(*leader, from, to);
     // A leader that passes half a turn jumps by a whole one, and its followers jump with it.
     const bool jumps =
         isContinuous(*leader) && !(std::abs(*to.getJointPositions(leader) - *from.getJointPositions(leader)) <= M_PI);
-    if (jumps)
+    const double motion = jumps ? kUnbounded : std::abs(joint.getMimicFactor()) * (of_leader.angle + of_leader.length);
+    switch (joint.getType())
     {
-      travel.angle = travel.length = kUnbounded;
-      return travel;
+      case JointModel::REVOLUTE:
+        travel.angle = motion;
+        return travel;
+      case JointModel::PRISMATIC:
+        travel.length = motion;
+        travel.offset = std::abs(joint.getMimicFactor()) * std::max(std::abs(*from.getJointPositions(leader)),
+                                                                    std::abs(*to.getJointPositions(leader))) +
+                        std::abs(joint.getMimicOffset());
+        return travel;
+      default:  // of several variables, MoveIt sets only the first one
+        travel.angle = travel.length = kUnbounded;
+        return travel;
     }
-    const double motion = std::abs(joint.getMimicFactor()) * (of_leader.angle + of_leader.length);
-    if (joint.getType() == JointModel::PRISMATIC)
-    {
-      travel.length = motion;
-      travel.offset = std::abs(joint.getMimicFactor()) *
-                          std::max(std::abs(*from.getJointPositions(leader)), std::abs(*to.getJointPositions(leader))) +
-                      std::abs(joint.getMimicOffset());
-    }
-    else
-      travel.angle = motion;
-    return travel;
   }
-  if (joint.getType() == JointModel::FIXED)
-    return travel;
   const double* a = from.getJointPositions(&joint);
   const double* b = to.getJointPositions(&joint);
   switch (joint.getType())

@@ -4,8 +4,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <moveit/robot_model/planar_joint_model.h>
 #include <moveit/utils/robot_model_test_utils.h>
 
+#include "moveit/follower_robot.h"
 #include "moveit/motion_bound.h"
 #include "moveit/robot_geometry.h"
 #include "moveit/workspace.h"
@@ -97,7 +99,8 @@ double expectBoundsToHold(const RobotModelPtr& robot, int motions)
       {
         if (!std::isfinite(bounds[part]))
         {
-          EXPECT_TRUE(turnsTheLongerWay(from, to)) << *work->parts[part].body.name << " in motion " << motion;
+          EXPECT_TRUE(turnsTheLongerWay(from, to) || followersJump(from, to))
+              << *work->parts[part].body.name << " in motion " << motion;
           continue;
         }
         double moved = 0.0;
@@ -124,6 +127,55 @@ TEST(MotionBound, HoldsForPr2OnItsBase)
   EXPECT_GT(expectBoundsToHold(moveit::core::loadTestingRobotModel("pr2"), 30), 0.5);
 }
 
+TEST(MotionBound, HoldsForFollowersOfAllKinds)
+{
+  EXPECT_GT(expectBoundsToHold(followerRobot(), 300), 0.99);
+}
+
+/// A bound of each part of a robot, for a small motion of all its joints.
+std::vector<double> boundsOf(const RobotModelPtr& robot)
+{
+  RobotState from(robot);
+  from.setToDefaultValues();
+  RobotState to = from;
+  for (const std::string& variable : robot->getVariableNames())
+    if (variable.find("rot_") == std::string::npos)
+      to.setVariablePosition(variable, 0.1);
+  from.update();
+  to.update();
+  Workspace work;
+  RobotGeometry(*robot, {}, {}).place(from, nullptr, work->parts, work->attached);
+  return displacementBounds(from, to, from, work->parts);
+}
+
+TEST(MotionBound, IsInfiniteForABaseThatTurnsBeforeItDrives)
+{
+  const RobotModelPtr robot = moveit::core::loadTestingRobotModel("pr2");
+  auto* base = dynamic_cast<moveit::core::PlanarJointModel*>(robot->getJointModel("world_joint"));
+  ASSERT_NE(base, nullptr);
+  for (const double bound : boundsOf(robot))
+    EXPECT_TRUE(std::isfinite(bound));
+  base->setMotionModel(moveit::core::PlanarJointModel::DIFF_DRIVE);
+  for (const double bound : boundsOf(robot))
+    EXPECT_FALSE(std::isfinite(bound));
+}
+
+/// MoveIt lets a planar or floating follower have the first variable of its leader, and keeps its other variables.
+TEST(MotionBound, IsInfiniteForFollowersWithSeveralVariables)
+{
+  for (const char* type : {"planar", "floating"})
+  {
+    const RobotModelPtr robot =
+        robotFromUrdf("<link name='base'/>" + jointWithLink("lead", type, "base", "leader", "0 0 0", "0 0 1", "") +
+                          jointWithLink("follow", type, "base", "follower", "0 0 0", "0 0 1", "<mimic joint='lead'/>"),
+                      "");
+    const std::vector<double> bounds = boundsOf(robot);
+    ASSERT_EQ(bounds.size(), 2U);
+    EXPECT_EQ(std::count_if(bounds.begin(), bounds.end(), [](double bound) { return std::isfinite(bound); }), 1)
+        << type;
+  }
+}
+
 TEST(MotionBound, HoldsForAChainOfAllKindsOfJoints)
 {
   geometry_msgs::Pose pose;
@@ -135,7 +187,8 @@ TEST(MotionBound, HoldsForAChainOfAllKindsOfJoints)
     builder.addCollisionBox("base", {0.4, 0.3, 0.2}, pose);
     std::string last = "base";
     int number = 0;
-    for (const char* type : {"prismatic", "continuous", "prismatic", "revolute", "floating", "revolute"})
+    for (const char* type :
+         {"prismatic", "continuous", "prismatic", "revolute", "planar", "revolute", "floating", "revolute"})
     {
       const std::string link = "link" + std::to_string(number++);
       builder.addChain(last + "->" + link, type, {pose},
