@@ -39,18 +39,18 @@ void randomize(RobotState& state, random_numbers::RandomNumberGenerator& random)
   state.update();
 }
 
-/// The corners of the parts' boxes in the world.
-std::vector<std::vector<Vector3d>> cornersOf(const std::vector<Part>& parts)
+/// The corners of the boxes of shape instances, in the world.
+std::vector<std::vector<Vector3d>> cornersOf(const std::vector<ShapeInstance>& instances)
 {
   std::vector<std::vector<Vector3d>> all;
-  for (const Part& part : parts)
+  for (const ShapeInstance& instance : instances)
   {
-    const core::CpuTree& tree = part.shape->tree();
+    const core::CpuTree& tree = instance.shape->tree();
     std::vector<Vector3d> corners;
     for (unsigned k = 0; k < 8; ++k)
-      corners.push_back(*part.pose * (tree.center + Vector3d((k & 1u) != 0 ? tree.half.x() : -tree.half.x(),
-                                                             (k & 2u) != 0 ? tree.half.y() : -tree.half.y(),
-                                                             (k & 4u) != 0 ? tree.half.z() : -tree.half.z())));
+      corners.push_back(*instance.pose * (tree.center + Vector3d((k & 1u) != 0 ? tree.half.x() : -tree.half.x(),
+                                                                 (k & 2u) != 0 ? tree.half.y() : -tree.half.y(),
+                                                                 (k & 4u) != 0 ? tree.half.z() : -tree.half.z())));
     all.push_back(std::move(corners));
   }
   return all;
@@ -91,23 +91,23 @@ double expectBoundsToHold(const RobotModelPtr& robot, int motions)
       from.interpolate(to, sample / double(kSamples), state);
       state.update();
       Workspace work;
-      geometry.place(state, nullptr, work->parts, work->attached);
+      geometry.place(state, nullptr, work->instances, work->attached);
       if (sample == 0)
-        bounds = displacementBounds(from, to, state, work->parts);
-      const std::vector<std::vector<Vector3d>> corners = cornersOf(work->parts);
-      for (std::size_t part = 0; sample > 0 && part < corners.size(); ++part)
+        bounds = displacementBounds(from, to, state, work->instances);
+      const std::vector<std::vector<Vector3d>> corners = cornersOf(work->instances);
+      for (std::size_t instance = 0; sample > 0 && instance < corners.size(); ++instance)
       {
-        if (!std::isfinite(bounds[part]))
+        if (!std::isfinite(bounds[instance]))
         {
           EXPECT_TRUE(turnsTheLongerWay(from, to) || followersJump(from, to))
-              << *work->parts[part].body.name << " in motion " << motion;
+              << *work->instances[instance].body.name << " in motion " << motion;
           continue;
         }
         double moved = 0.0;
-        for (std::size_t k = 0; k < corners[part].size(); ++k)
-          moved = std::max(moved, (corners[part][k] - before[part][k]).norm());
-        const double allowed = bounds[part] / kSamples;
-        EXPECT_LE(moved, allowed + 1e-9) << *work->parts[part].body.name << " in motion " << motion;
+        for (std::size_t k = 0; k < corners[instance].size(); ++k)
+          moved = std::max(moved, (corners[instance][k] - before[instance][k]).norm());
+        const double allowed = bounds[instance] / kSamples;
+        EXPECT_LE(moved, allowed + 1e-9) << *work->instances[instance].body.name << " in motion " << motion;
         if (allowed > 1e-6)
           largest = std::max(largest, moved / allowed);
       }
@@ -132,7 +132,7 @@ TEST(MotionBound, HoldsForFollowersOfAllKinds)
   EXPECT_GT(expectBoundsToHold(followerRobot(), 300), 0.99);
 }
 
-/// A bound of each part of a robot, for a small motion of all its joints.
+/// The bound of each shape instance of a robot, for a small motion of all its joints.
 std::vector<double> boundsOf(const RobotModelPtr& robot)
 {
   RobotState from(robot);
@@ -144,8 +144,8 @@ std::vector<double> boundsOf(const RobotModelPtr& robot)
   from.update();
   to.update();
   Workspace work;
-  RobotGeometry(*robot, {}, {}).place(from, nullptr, work->parts, work->attached);
-  return displacementBounds(from, to, from, work->parts);
+  RobotGeometry(*robot, {}, {}).place(from, nullptr, work->instances, work->attached);
+  return displacementBounds(from, to, from, work->instances);
 }
 
 TEST(MotionBound, IsInfiniteForABaseThatTurnsBeforeItDrives)
