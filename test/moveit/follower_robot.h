@@ -1,10 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
-#include <moveit/robot_model/robot_model.h>
+#include <moveit/robot_state/robot_state.h>
 #include <srdfdom/model.h>
 #include <urdf_parser/urdf_parser.h>
 
