@@ -116,7 +116,7 @@ struct GivingUp : core::PlannerFactory
     }
     ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition&) override
     {
-      return ompl::base::PlannerStatus::INFEASIBLE;
+      return ompl::base::PlannerStatus::ABORT;
     }
   };
 
