@@ -276,6 +276,8 @@ TEST_F(Detector, CountsANegativePaddingAsNone)
   EXPECT_TRUE(collides());
   env_->setLinkPadding("cart", -0.5);
   EXPECT_TRUE(collides());
+  env_->getWorld()->setObjectPose("cube", at(0.3, 0.05, 0.05));
+  EXPECT_FALSE(collides());
 }
 
 TEST_F(Detector, GivesTheDistanceToAnOctree)
@@ -692,6 +694,27 @@ TEST_F(Detector, LimitsTheDistancesOfAPair)
     EXPECT_EQ(found.size(), static_cast<std::size_t>(count));
     EXPECT_NEAR(found.front().distance, 0.35, 2e-6);
   }
+}
+
+TEST_F(Detector, SortsTheDistancesOfAPairAlsoIfTheBoxesOfItsShapesHaveAnotherOrder)
+{
+  // The box around the ball is nearer to the cart than the cube is, and the ball is farther.
+  env_->getWorld()->addToObject("shapes", std::make_shared<shapes::Sphere>(0.3), at(0.5, 0.5, 0));
+  env_->getWorld()->addToObject("shapes", box(0.1), at(0.35, 0, 0));
+  const double to_ball = 0.4 * std::sqrt(2.0) - 0.3;
+  DistanceRequest request;
+  request.type = DistanceRequestType::ALL;
+  DistanceResult result;
+  env_->distanceRobot(request, result, state_);
+  const std::pair<std::string, std::string> pair("cart", "shapes");
+  ASSERT_EQ(result.distances.at(pair).size(), 2U);
+  EXPECT_NEAR(result.distances.at(pair)[0].distance, 0.2, 2e-6);
+  EXPECT_NEAR(result.distances.at(pair)[1].distance, to_ball, 2e-6);
+  request.type = DistanceRequestType::SINGLE;
+  result.clear();
+  env_->distanceRobot(request, result, state_);
+  ASSERT_EQ(result.distances.at(pair).size(), 1U);
+  EXPECT_NEAR(result.distances.at(pair)[0].distance, 0.2, 2e-6);
 }
 
 TEST_F(Detector, GivesTheDepthAsANegativeDistance)
