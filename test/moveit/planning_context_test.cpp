@@ -13,6 +13,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "moveit/planner/planning_context.h"
+#include "moveit/planner/preparation.h"
 #include "moveit/planner_fixtures.h"
 
 // A planning context with a planner and a checker of the test.
@@ -146,6 +147,32 @@ class SlowAtFirst : public core::CpuChecker
   std::chrono::milliseconds preparation_;
 };
 
+/// Counts its checks with and without neighbourhoods.
+class Counting : public core::CpuChecker
+{
+ public:
+  struct Counts
+  {
+    int plain = 0;
+    int around = 0;
+  };
+
+  Counting(std::shared_ptr<const core::PlanningScene> scene, Counts& counts)
+    : CpuChecker(std::move(scene)), counts_(counts)
+  {
+  }
+
+  core::BatchResult check(const double* states, std::size_t count, const std::string& group,
+                          const core::JointNeighbourhood* around) override
+  {
+    ++(around ? counts_.around : counts_.plain);
+    return CpuChecker::check(states, count, group, around);
+  }
+
+ private:
+  Counts& counts_;
+};
+
 class Context : public Cart
 {
  protected:
@@ -227,6 +254,24 @@ TEST_F(Context, TerminatingEndsAPlannerThatRunsInAnotherThread)
     EXPECT_FALSE(response_.trajectory_);
     EXPECT_LT(response_.planning_time_, 30.0);
   }
+}
+
+TEST_F(Context, ThePreparedCheckerServesTheFirstRequest)
+{
+  int made = 0;
+  Counting::Counts counts;
+  const auto workshop = std::make_shared<Workshop>(
+      [&](const std::shared_ptr<const core::PlanningScene>& scene)
+      {
+        ++made;
+        return std::make_shared<Counting>(scene, counts);
+      });
+  prepareChecker(*workshop, robot_);
+  EXPECT_EQ(1, made);
+  EXPECT_LT(0, counts.plain);
+  EXPECT_LT(0, counts.around);
+  EXPECT_EQ(int(MoveItErrorCodes::SUCCESS), planWith(std::make_shared<Detours>(std::vector<double>{0.0}), workshop));
+  EXPECT_EQ(1, made);
 }
 
 TEST_F(Context, ARequestWithoutTimeKeepsThePreparedCheckerForTheNextOne)
