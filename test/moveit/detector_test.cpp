@@ -47,7 +47,7 @@ shapes::ShapeConstPtr meshCube(double size)
 {
   auto mesh = std::make_shared<shapes::Mesh>(8, 12);
   const double h = 0.5 * size;
-  for (unsigned i = 0; i < 8; ++i)
+  for (std::size_t i = 0; i < 8; ++i)
   {
     mesh->vertices[3 * i] = (i & 1u) != 0 ? h : -h;
     mesh->vertices[3 * i + 1] = (i & 2u) != 0 ? h : -h;
