@@ -3,7 +3,7 @@
 //     moveit_study agreement ROBOT STATES [NODE]
 //         verdicts and pairs of random states; each difference is explained and counted
 //     moveit_study cost ROBOT
-//         time of one state and of a change of the scene; memory of copied scenes
+//         processor time of one state and of a change of the scene; memory of copied scenes
 //
 // ROBOT: panda, pr2 or ur5_robotiq. ROS_PACKAGE_PATH must contain MoveIt's test robots, and ../shared/robots. NODE: the
 // full name of a running planning_scene_node with this robot and ~moveit_names. It gets each scene in MoveIt's message,
@@ -11,11 +11,11 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <functional>
 #include <map>
@@ -256,11 +256,19 @@ int agreement(const std::string& name, int states, const std::optional<StudyNode
   return unexplained == 0 ? 0 : 1;
 }
 
+/// The processor time of this thread, in seconds. Unlike wall time, it does not count the time of other programs.
+double processorSeconds()
+{
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 double secondsOf(const std::function<void()>& work)
 {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = processorSeconds();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return processorSeconds() - start;
 }
 
 double median(std::vector<double> values)

@@ -2,6 +2,7 @@
 import json
 import pathlib
 import sys
+import xml.etree.ElementTree
 
 OURS = "gpu_planning_scene"
 OUTCOMES = ["passed", "skipped", "failed"]  # a test that runs with several parameters has the last one that occurs
@@ -15,15 +16,26 @@ def outcome(test):
     return "skipped" if test.get("result") == "SKIPPED" else "passed"
 
 
+def suites_of(log):
+    """The suites of a program in the form of GoogleTest's JSON; rostest lets GoogleTest write XML."""
+    if log.with_suffix(".json").exists():
+        return json.loads(log.with_suffix(".json").read_text())["testsuites"]
+    if not log.with_suffix(".xml").exists():
+        return []
+    return [{"name": suite.get("name"), "testsuite": [
+        {"name": test.get("name"), "failures": test.findall("failure"), "result": test.get("result", "").upper()}
+        for test in suite.iter("testcase")]}
+            for suite in xml.etree.ElementTree.parse(log.with_suffix(".xml")).iter("testsuite")]
+
+
 def read(folder):
     """The outcomes in the form {(suite, test): {detector: outcome}}, and the programs that ended without results."""
     table, broken = {}, []
     for log in sorted(folder.glob("*.log")):
-        path = log.with_suffix(".json")
-        suites = json.loads(path.read_text())["testsuites"] if path.exists() else []
+        suites = suites_of(log)
         if not suites:
             broken.append(log.name[:-len(".log")])
-        detector = path.name.split(".")[0]
+        detector = log.name.split(".")[0]
         for suite in suites:
             if suite["name"] == "GoogleTestVerification":
                 continue

@@ -65,12 +65,12 @@ void addDistance(const CollisionRequest& request, const DistanceResult& found, C
     known.minimum_distance = found.minimum_distance;
   known.distances.insert(found.distances.begin(), found.distances.end());
 }
-/// A pair of parts of a distance request.
+/// A pair of shape instances of a distance request.
 struct Candidate
 {
   double least;  // lower bound of the distance
-  const Part* a;
-  Part b;
+  const ShapeInstance* a;
+  ShapeInstance b;
 };
 
 void measureNearestFirst(std::vector<Candidate>& candidates, DistanceQuery& query)
@@ -205,15 +205,15 @@ void CollisionEnv::checkSelf(const CollisionRequest& request, CollisionResult& r
   const UpdatedState updated(state);
   const PairFilter filter(matrix, PairFilter::activeLinks(*robot_model_, request.group_name));
   Workspace work;
-  robot_->place(*updated, nullptr, work->parts, work->attached);
-  const std::vector<Part>& parts = work->parts;
+  robot_->place(*updated, nullptr, work->instances, work->attached);
+  const std::vector<ShapeInstance>& instances = work->instances;
   CollisionQuery query(request, result, filter, work->pair);
-  for (std::size_t i = 0; i < parts.size() && !query.isDone(); ++i)
+  for (std::size_t i = 0; i < instances.size() && !query.isDone(); ++i)
   {
-    const bool is_active = filter.isActive(parts[i].body);
-    for (std::size_t j = i + 1; j < parts.size(); ++j)
-      if (parts[i].bounds.intersects(parts[j].bounds) && (is_active || filter.isActive(parts[j].body)) &&
-          query.test(parts[i], parts[j]))
+    const bool is_active = filter.isActive(instances[i].body);
+    for (std::size_t j = i + 1; j < instances.size(); ++j)
+      if (instances[i].bounds.intersects(instances[j].bounds) && (is_active || filter.isActive(instances[j].body)) &&
+          query.test(instances[i], instances[j]))
         break;
   }
   if (!request.distance)
@@ -232,10 +232,11 @@ void CollisionEnv::checkRobot(const CollisionRequest& request, CollisionResult& 
   if (!world_->empty())
   {
     Workspace work;
-    robot_->place(*updated, active, work->parts, work->attached);
+    robot_->place(*updated, active, work->instances, work->attached);
     CollisionQuery query(request, result, filter, work->pair);
-    for (const Part& part : work->parts)
-      if (world_->visitNear(part.bounds, work->nodes, [&](const Part& object) { return query.test(part, object); }))
+    for (const ShapeInstance& instance : work->instances)
+      if (world_->visitNear(instance.bounds, work->nodes,
+                            [&](const ShapeInstance& object) { return query.test(instance, object); }))
         break;
   }
   if (!request.distance)
@@ -260,12 +261,12 @@ void CollisionEnv::distanceSelf(const DistanceRequest& request, DistanceResult& 
   const UpdatedState updated(state);
   const PairFilter filter(request.acm, request.active_components_only);
   Workspace work;
-  robot_->place(*updated, nullptr, work->parts, work->attached);
-  const std::vector<Part>& parts = work->parts;
+  robot_->place(*updated, nullptr, work->instances, work->attached);
+  const std::vector<ShapeInstance>& instances = work->instances;
   std::vector<Candidate> candidates;
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    for (std::size_t j = i + 1; j < parts.size(); ++j)
-      candidates.push_back({leastDistance(parts[i], parts[j]), &parts[i], parts[j]});
+  for (std::size_t i = 0; i < instances.size(); ++i)
+    for (std::size_t j = i + 1; j < instances.size(); ++j)
+      candidates.push_back({leastDistance(instances[i], instances[j]), &instances[i], instances[j]});
   DistanceQuery query(request, result, filter, work->pair);
   measureNearestFirst(candidates, query);
 }
@@ -275,10 +276,13 @@ void CollisionEnv::distanceRobot(const DistanceRequest& request, DistanceResult&
   const UpdatedState updated(state);
   const PairFilter filter(request.acm, request.active_components_only);
   Workspace work;
-  robot_->place(*updated, request.active_components_only, work->parts, work->attached);
+  robot_->place(*updated, request.active_components_only, work->instances, work->attached);
   std::vector<Candidate> candidates;
-  for (const Part& part : work->parts)
-    world_->visitAll([&](const Part& object) { candidates.push_back({leastDistance(part, object), &part, object}); });
+  for (const ShapeInstance& instance : work->instances)
+    world_->visitAll(
+        [&](const ShapeInstance& object) {
+          candidates.push_back({leastDistance(instance, object), &instance, object});
+        });
   DistanceQuery query(request, result, filter, work->pair);
   measureNearestFirst(candidates, query);
 }

@@ -17,7 +17,7 @@ using collision_detection::CollisionResult;
 using collision_detection::Contact;
 
 /// The contact from the body with the first name to the other one, as in the key of the result.
-Contact contactBetween(const Part& a, const Part& b, const core::ShapeContact& found)
+Contact contactBetween(const ShapeInstance& a, const ShapeInstance& b, const core::ShapeContact& found)
 {
   const bool swapped = *b.body.name < *a.body.name;
   const Body& first = swapped ? b.body : a.body;
@@ -49,7 +49,7 @@ bool CollisionQuery::isComplete() const
   return result_.collision && !request_.cost && (!request_.contacts || result_.contact_count >= request_.max_contacts);
 }
 
-bool CollisionQuery::test(const Part& a, const Part& b)
+bool CollisionQuery::test(const ShapeInstance& a, const ShapeInstance& b)
 {
   // The oriented boxes cost less than the matrix, which finds the pair by two names.
   if (sameBody(a.body, b.body) || !boxesOverlap(a, b))
@@ -63,7 +63,7 @@ bool CollisionQuery::test(const Part& a, const Part& b)
   return is_done_;
 }
 
-std::size_t CollisionQuery::wantedContacts(const Part& a, const Part& b) const
+std::size_t CollisionQuery::wantedContacts(const ShapeInstance& a, const ShapeInstance& b) const
 {
   if (!request_.contacts || result_.contact_count >= request_.max_contacts)
     return 0;
@@ -74,13 +74,13 @@ std::size_t CollisionQuery::wantedContacts(const Part& a, const Part& b) const
              : std::min(request_.max_contacts_per_pair - have, request_.max_contacts - result_.contact_count);
 }
 
-void CollisionQuery::addContact(const Part& a, const Part& b, const core::ShapeContact& contact)
+void CollisionQuery::addContact(const ShapeInstance& a, const ShapeInstance& b, const core::ShapeContact& contact)
 {
   result_.contacts[keyOf(a, b)].push_back(contactBetween(a, b, contact));
   ++result_.contact_count;
 }
 
-bool CollisionQuery::isRefused(const Part& a, const Part& b)
+bool CollisionQuery::isRefused(const ShapeInstance& a, const ShapeInstance& b)
 {
   const collision_detection::DecideContactFn decider = filter_.decider(a.body, b.body);
   bool is_refused = false;
@@ -97,8 +97,8 @@ bool CollisionQuery::isRefused(const Part& a, const Part& b)
   return is_refused;
 }
 
-/// The place of the pair, as far as the bounds of both parts tell it. FCL counts each pair of triangles instead.
-void CollisionQuery::addCostSource(const Part& a, const Part& b)
+/// The place of the pair, as far as the bounds of both instances tell it. FCL counts each pair of triangles instead.
+void CollisionQuery::addCostSource(const ShapeInstance& a, const ShapeInstance& b)
 {
   const Eigen::AlignedBox3d common = a.bounds.intersection(b.bounds);
   if (!common.min().allFinite() || !common.max().allFinite())
@@ -112,7 +112,7 @@ void CollisionQuery::addCostSource(const Part& a, const Part& b)
     result_.cost_sources.erase(std::prev(result_.cost_sources.end()));
 }
 
-void CollisionQuery::addCollision(const Part& a, const Part& b, bool with_contacts)
+void CollisionQuery::addCollision(const ShapeInstance& a, const ShapeInstance& b, bool with_contacts)
 {
   result_.collision = true;
   if (request_.verbose)

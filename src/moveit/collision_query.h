@@ -20,17 +20,17 @@ class CollisionQuery
   /// Whether the result is complete: further pairs cannot change it, or the request's is_done() ends the search.
   bool isDone() const { return is_done_; }
 
-  /// Tests two parts whose bounds overlap. Returns isDone().
-  bool test(const Part& a, const Part& b);
+  /// Tests two shape instances whose bounds overlap. Returns isDone().
+  bool test(const ShapeInstance& a, const ShapeInstance& b);
 
  private:
-  void addContact(const Part& a, const Part& b, const core::ShapeContact& contact);
-  void addCostSource(const Part& a, const Part& b);
+  void addContact(const ShapeInstance& a, const ShapeInstance& b, const core::ShapeContact& contact);
+  void addCostSource(const ShapeInstance& a, const ShapeInstance& b);
   /// The number of contacts of this pair that the result still takes.
-  std::size_t wantedContacts(const Part& a, const Part& b) const;
+  std::size_t wantedContacts(const ShapeInstance& a, const ShapeInstance& b) const;
   /// Asks the decider of a colliding pair. Returns whether a contact is not allowed, and adds such contacts.
-  bool isRefused(const Part& a, const Part& b);
-  void addCollision(const Part& a, const Part& b, bool with_contacts);
+  bool isRefused(const ShapeInstance& a, const ShapeInstance& b);
+  void addCollision(const ShapeInstance& a, const ShapeInstance& b, bool with_contacts);
   bool isComplete() const;
 
   const collision_detection::CollisionRequest& request_;

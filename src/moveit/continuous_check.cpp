@@ -13,9 +13,10 @@
 #include "moveit/motion_bound.h"
 #include "moveit/workspace.h"
 
-// Bisection: a part of the robot that keeps a distance from all objects in the middle of an interval, larger than it
-// can move within half of the interval, is free in the interval (Schwarzer, Saha, Latombe 2002, "Exact collision
-// checking of robot paths"). The other parts are checked again in both halves.
+// Bisection: in the middle of an interval of the motion, the distance of a shape instance of the robot from all objects
+// is compared with the bound of its displacement within half of the interval. If the distance is larger, the instance
+// is free in the interval (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"). The other shape
+// instances are checked again in both halves.
 // MotionBatch (collision/motion) cannot serve here: it interpolates as this package does, and a StateChecker tells it
 // only whether a state is free. MoveIt's interpolation differs, for example for planar joints that are not holonomic.
 // Each call has a matrix and deciders of its own, and needs the contacts of the first collision.
@@ -25,7 +26,7 @@ namespace
 {
 using moveit::core::RobotState;
 
-// An interval in which a part moves by less is not divided further.
+// An interval in which a shape instance moves by less is not divided further.
 constexpr double kFinest = 1e-4;  // metres
 
 bool samePoses(const EigenSTL::vector_Isometry3d& a, const EigenSTL::vector_Isometry3d& b)
@@ -95,9 +96,9 @@ class MotionSearch
 
   void place(const RobotState& state)
   {
-    work_->parts.clear();
+    work_->instances.clear();
     work_->attached.clear();
-    robot_.place(state, active_, work_->parts, work_->attached);
+    robot_.place(state, active_, work_->instances, work_->attached);
   }
 
   /// Proves the motion of the robot with the objects that a state carries, or sets the result to a collision and
@@ -106,9 +107,9 @@ class MotionSearch
   {
     state_ = carrying;
     place(0.0);
-    bounds_ = displacementBounds(from_, to_, state_, work_->parts);
+    bounds_ = displacementBounds(from_, to_, state_, work_->instances);
     std::vector<std::size_t> all;
-    for (std::size_t i = 0; i < work_->parts.size(); ++i)
+    for (std::size_t i = 0; i < work_->instances.size(); ++i)
       all.push_back(i);
     return sampleIsFree(0.0) && sampleIsFree(1.0) && prove(0.0, 1.0, all);
   }
@@ -126,22 +127,23 @@ class MotionSearch
   bool sampleIsFree(double time)
   {
     place(time);
-    return partsAreFree(time);
+    return instancesAreFree(time);
   }
 
   bool stateIsFree(const RobotState& state, double time)
   {
     place(state);
-    return partsAreFree(time);
+    return instancesAreFree(time);
   }
 
-  /// Checks the placed parts. If they collide, their contacts go into the result.
-  bool partsAreFree(double time)
+  /// Checks the placed shape instances. If they collide, their contacts go into the result.
+  bool instancesAreFree(double time)
   {
     collision_detection::CollisionResult found;
     CollisionQuery query(request_, found, filter_, work_->pair);
-    for (const Part& part : work_->parts)
-      if (world_.visitNear(part.bounds, work_->nodes, [&](const Part& object) { return query.test(part, object); }))
+    for (const ShapeInstance& instance : work_->instances)
+      if (world_.visitNear(instance.bounds, work_->nodes,
+                           [&](const ShapeInstance& object) { return query.test(instance, object); }))
         break;
     if (found.collision)
       add(found, time);
@@ -165,18 +167,18 @@ class MotionSearch
     }
   }
 
-  /// Proves the interval for some parts, or sets the result to a collision and returns false.
-  bool prove(double begin, double end, const std::vector<std::size_t>& parts)
+  /// Proves the interval for some shape instances, or sets the result to a collision and returns false.
+  bool prove(double begin, double end, const std::vector<std::size_t>& instances)
   {
     const double middle = 0.5 * (begin + end);
     const double half = 0.5 * (end - begin);
     place(middle);
     std::vector<std::size_t> open;
     bool is_finest = false;
-    for (const std::size_t number : parts)
+    for (const std::size_t number : instances)
     {
       const double travel = half * bounds_[number];
-      if (isProven(work_->parts[number], travel))
+      if (isProven(work_->instances[number], travel))
         continue;
       open.push_back(number);
       is_finest = is_finest || !std::isfinite(travel) || travel <= kFinest;
@@ -193,25 +195,25 @@ class MotionSearch
     return prove(begin, middle, open) && prove(middle, end, open);
   }
 
-  /// Whether a part keeps a distance of more than `travel` from all objects with which it may not collide.
-  bool isProven(const Part& part, double travel)
+  /// Whether a shape instance keeps a distance of more than `travel` from all objects with which it may not collide.
+  bool isProven(const ShapeInstance& instance, double travel)
   {
     if (travel == 0.0)
-      return true;  // the part stays where sampleIsFree has checked it
+      return true;  // the shape instance stays where sampleIsFree has checked it
     const double margin = core::withRounding(travel);
-    if (!(margin <= core::kLargestLength) || part.shape->kind() == ShapeKind::Faulty)
+    if (!(margin <= core::kLargestLength) || instance.shape->kind() == ShapeKind::Faulty)
       return world_.empty();
-    Eigen::AlignedBox3d bounds(part.bounds.min().array() - margin, part.bounds.max().array() + margin);
-    const bool is_near =
-        world_.visitNear(bounds, work_->nodes,
-                         [&](const Part& object)
-                         {
-                           if (filter_.rule(part.body, object.body) == PairFilter::Rule::Skip ||
-                               !collide(part, object, work_->pair, margin))
-                             return false;
-                           near_ = {*part.body.name, part.body.type, *object.body.name, part.bounds.center()};
-                           return true;
-                         });
+    Eigen::AlignedBox3d bounds(instance.bounds.min().array() - margin, instance.bounds.max().array() + margin);
+    const bool is_near = world_.visitNear(
+        bounds, work_->nodes,
+        [&](const ShapeInstance& object)
+        {
+          if (filter_.rule(instance.body, object.body) == PairFilter::Rule::Skip ||
+              !collide(instance, object, work_->pair, margin))
+            return false;
+          near_ = {*instance.body.name, instance.body.type, *object.body.name, instance.bounds.center()};
+          return true;
+        });
     return !is_near;
   }
 
@@ -219,7 +221,7 @@ class MotionSearch
   {
     result_.collision = true;
     if (request_.verbose)
-      ROS_INFO_STREAM_NAMED(kLogName, "The motion of '" << near_.part << "' past '" << near_.object << "' at "
+      ROS_INFO_STREAM_NAMED(kLogName, "The motion of '" << near_.body << "' past '" << near_.object << "' at "
                                                         << 100.0 * time << " % of the motion is not proven free");
     if (!request_.contacts || result_.contact_count >= request_.max_contacts)
       return;
@@ -227,24 +229,24 @@ class MotionSearch
     contact.pos = near_.place;
     contact.normal = Eigen::Vector3d::UnitZ();
     contact.depth = 0.0;
-    contact.body_name_1 = near_.part;
+    contact.body_name_1 = near_.body;
     contact.body_type_1 = near_.type;
     contact.body_name_2 = near_.object;
     contact.body_type_2 = collision_detection::BodyTypes::WORLD_OBJECT;
     contact.percent_interpolation = time;
     contact.nearest_points[0] = contact.nearest_points[1] = contact.pos;
-    if (near_.object < near_.part)
+    if (near_.object < near_.body)
     {
       std::swap(contact.body_name_1, contact.body_name_2);
       std::swap(contact.body_type_1, contact.body_type_2);
     }
-    result_.contacts[std::minmax(near_.part, near_.object)].push_back(contact);
+    result_.contacts[std::minmax(near_.body, near_.object)].push_back(contact);
     ++result_.contact_count;
   }
 
   struct Near
   {
-    std::string part;
+    std::string body;
     collision_detection::BodyType type;
     std::string object;
     Eigen::Vector3d place;

@@ -23,8 +23,8 @@ using collision_detection::DistanceResultsData;
 // Exceeds the rounding of the bounds.
 constexpr double kBoundsMargin = 1e-9;  // metres
 
-/// Upper bound of the distance of two parts with limits.
-double mostDistance(const Part& a, const Part& b)
+/// Upper bound of the distance of two shape instances with limits.
+double mostDistance(const ShapeInstance& a, const ShapeInstance& b)
 {
   const Eigen::Vector3d reach =
       (a.bounds.max() - b.bounds.min()).cwiseAbs().cwiseMax((b.bounds.max() - a.bounds.min()).cwiseAbs());
@@ -38,7 +38,7 @@ bool isNearer(const DistanceResultsData& a, const DistanceResultsData& b)
 }
 }  // namespace
 
-double leastDistance(const Part& a, const Part& b)
+double leastDistance(const ShapeInstance& a, const ShapeInstance& b)
 {
   const double distance = a.bounds.exteriorDistance(b.bounds) - kBoundsMargin;
   return std::isfinite(distance) ? distance : -kBoundsMargin;
@@ -57,7 +57,7 @@ double DistanceQuery::limit() const
              : request_.distance_threshold;
 }
 
-double DistanceQuery::limitOf(const Part& a, const Part& b) const
+double DistanceQuery::limitOf(const ShapeInstance& a, const ShapeInstance& b) const
 {
   const auto known = result_.distances.find(keyOf(a, b));
   if (request_.type == DistanceRequestType::GLOBAL || known == result_.distances.end() || known->second.empty())
@@ -69,7 +69,7 @@ double DistanceQuery::limitOf(const Part& a, const Part& b) const
   return limit();
 }
 
-void DistanceQuery::measure(const Part& a, const Part& b)
+void DistanceQuery::measure(const ShapeInstance& a, const ShapeInstance& b)
 {
   if (sameBody(a.body, b.body) || (!filter_.isActive(a.body) && !filter_.isActive(b.body)))
     return;
@@ -88,7 +88,8 @@ void DistanceQuery::measure(const Part& a, const Part& b)
     add(a, b, dataOf(a, b, distance, collides));
 }
 
-DistanceResultsData DistanceQuery::dataOf(const Part& a, const Part& b, double distance, bool collides)
+DistanceResultsData DistanceQuery::dataOf(const ShapeInstance& a, const ShapeInstance& b, double distance,
+                                          bool collides)
 {
   DistanceResultsData data;
   data.distance = distance;
@@ -114,7 +115,7 @@ DistanceResultsData DistanceQuery::dataOf(const Part& a, const Part& b, double d
   return data;
 }
 
-void DistanceQuery::add(const Part& a, const Part& b, const DistanceResultsData& data)
+void DistanceQuery::add(const ShapeInstance& a, const ShapeInstance& b, const DistanceResultsData& data)
 {
   if (request_.verbose)
     ROS_INFO_STREAM_NAMED(

@@ -24,13 +24,14 @@ class DistanceQuery
   /// No pair at this distance or farther away changes the result. Infinite if only the pair itself tells.
   double limit() const;
 
-  /// Measures two parts.
-  void measure(const Part& a, const Part& b);
+  /// Measures two shape instances.
+  void measure(const ShapeInstance& a, const ShapeInstance& b);
 
  private:
-  double limitOf(const Part& a, const Part& b) const;
-  collision_detection::DistanceResultsData dataOf(const Part& a, const Part& b, double distance, bool collides);
-  void add(const Part& a, const Part& b, const collision_detection::DistanceResultsData& data);
+  double limitOf(const ShapeInstance& a, const ShapeInstance& b) const;
+  collision_detection::DistanceResultsData dataOf(const ShapeInstance& a, const ShapeInstance& b, double distance,
+                                                  bool collides);
+  void add(const ShapeInstance& a, const ShapeInstance& b, const collision_detection::DistanceResultsData& data);
 
   const collision_detection::DistanceRequest& request_;
   collision_detection::DistanceResult& result_;
@@ -39,6 +40,6 @@ class DistanceQuery
   bool is_done_ = false;
 };
 
-/// Lower bound of the distance of two parts, beyond their paddings. Can be negative.
-double leastDistance(const Part& a, const Part& b);
+/// Lower bound of the distance of two shape instances, beyond their paddings. Can be negative.
+double leastDistance(const ShapeInstance& a, const ShapeInstance& b);
 }  // namespace gpu_planning_scene::detector

@@ -27,19 +27,20 @@ const core::CpuShapePair& exactTest()
 }
 
 /// The bounds of a solid in the frame of an octree, without padding.
-AlignedBox3d boundsIn(const Part& octree, const Part& solid)
+AlignedBox3d boundsIn(const ShapeInstance& octree, const ShapeInstance& solid)
 {
   return core::boundsOf(solid.shape->tree(), core::relativePose(*octree.pose, *solid.pose));
 }
 
-Leaf leafOf(const Part& octree, const Vector3d& center, unsigned depth)
+Leaf leafOf(const ShapeInstance& octree, const Vector3d& center, unsigned depth)
 {
   return {octree.shape->leaf(depth), *octree.pose * Eigen::Translation3d(center)};
 }
 
 /// Calls visit(leaf) for the occupied leaves that collide with a solid, until it returns true.
 template <class Visit>
-bool visitColliding(const Part& octree, const Part& solid, double margin, PairScratch& scratch, const Visit& visit)
+bool visitColliding(const ShapeInstance& octree, const ShapeInstance& solid, double margin, PairScratch& scratch,
+                    const Visit& visit)
 {
   const double required = octree.padding + solid.padding + margin;
   const AlignedBox3d bounds = boundsIn(octree, solid);
@@ -55,7 +56,7 @@ bool visitColliding(const Part& octree, const Part& solid, double margin, PairSc
       });
 }
 
-bool solidCollides(const Part& solid, const Part& other, double margin, PairScratch& scratch)
+bool solidCollides(const ShapeInstance& solid, const ShapeInstance& other, double margin, PairScratch& scratch)
 {
   const double required = solid.padding + other.padding + margin;
   switch (other.shape->kind())
@@ -74,7 +75,7 @@ bool solidCollides(const Part& solid, const Part& other, double margin, PairScra
   return true;
 }
 
-bool halfSpacesMeet(const Part& a, const Part& b, double margin)
+bool halfSpacesMeet(const ShapeInstance& a, const ShapeInstance& b, double margin)
 {
   const core::PlacedHalfSpace first = placedHalfSpace(a);
   const core::PlacedHalfSpace second = placedHalfSpace(b);
@@ -83,13 +84,13 @@ bool halfSpacesMeet(const Part& a, const Part& b, double margin)
 }
 }  // namespace
 
-core::PlacedHalfSpace placedHalfSpace(const Part& part)
+core::PlacedHalfSpace placedHalfSpace(const ShapeInstance& instance)
 {
-  const core::HalfSpace placed = core::moved(part.shape->halfSpace(), *part.pose);
+  const core::HalfSpace placed = core::moved(instance.shape->halfSpace(), *instance.pose);
   return {placed.normal, placed.offset};
 }
 
-bool boxesOverlap(const Part& a, const Part& b)
+bool boxesOverlap(const ShapeInstance& a, const ShapeInstance& b)
 {
   if (a.shape->kind() != ShapeKind::Solid || b.shape->kind() != ShapeKind::Solid)
     return true;
@@ -97,7 +98,7 @@ bool boxesOverlap(const Part& a, const Part& b)
                        a.padding + b.padding + kBoxMargin);
 }
 
-bool collide(const Part& a, const Part& b, PairScratch& scratch, double margin)
+bool collide(const ShapeInstance& a, const ShapeInstance& b, PairScratch& scratch, double margin)
 {
   const ShapeKind kind_a = a.shape->kind();
   const ShapeKind kind_b = b.shape->kind();
@@ -112,7 +113,8 @@ bool collide(const Part& a, const Part& b, PairScratch& scratch, double margin)
   return kind_a == ShapeKind::Octree || kind_b == ShapeKind::Octree || halfSpacesMeet(a, b, margin);
 }
 
-std::vector<Leaf> collidingLeaves(const Part& octree, const Part& solid, std::size_t most, PairScratch& scratch)
+std::vector<Leaf> collidingLeaves(const ShapeInstance& octree, const ShapeInstance& solid, std::size_t most,
+                                  PairScratch& scratch)
 {
   std::vector<Leaf> leaves;
   visitColliding(octree, solid, 0.0, scratch,
@@ -124,7 +126,8 @@ std::vector<Leaf> collidingLeaves(const Part& octree, const Part& solid, std::si
   return leaves;
 }
 
-bool nearestLeaf(const Part& octree, const Part& solid, double& least, Leaf& leaf, PairScratch& scratch)
+bool nearestLeaf(const ShapeInstance& octree, const ShapeInstance& solid, double& least, Leaf& leaf,
+                 PairScratch& scratch)
 {
   const double required = octree.padding + solid.padding;
   const AlignedBox3d bounds = boundsIn(octree, solid);
@@ -157,7 +160,7 @@ bool nearestLeaf(const Part& octree, const Part& solid, double& least, Leaf& lea
   return is_found;
 }
 
-double clearance(const Part& a, const Part& b, double most, PairScratch& scratch)
+double clearance(const ShapeInstance& a, const ShapeInstance& b, double most, PairScratch& scratch)
 {
   const ShapeKind kind_a = a.shape->kind();
   const ShapeKind kind_b = b.shape->kind();

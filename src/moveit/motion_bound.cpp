@@ -77,31 +77,31 @@ Travel floatingTravel(const double* a, const double* b)
 Travel travelOf(const JointModel& joint, const RobotState& from, const RobotState& to)
 {
   Travel travel;
+  if (joint.getType() == JointModel::FIXED)
+    return travel;
   if (const JointModel* leader = joint.getMimic())
   {
     const Travel of_leader = travelOf(*leader, from, to);
     // A leader that passes half a turn jumps by a whole one, and its followers jump with it.
     const bool jumps =
         isContinuous(*leader) && !(std::abs(*to.getJointPositions(leader) - *from.getJointPositions(leader)) <= M_PI);
-    if (jumps)
+    const double motion = jumps ? kUnbounded : std::abs(joint.getMimicFactor()) * (of_leader.angle + of_leader.length);
+    switch (joint.getType())
     {
-      travel.angle = travel.length = kUnbounded;
-      return travel;
+      case JointModel::REVOLUTE:
+        travel.angle = motion;
+        return travel;
+      case JointModel::PRISMATIC:
+        travel.length = motion;
+        travel.offset = std::abs(joint.getMimicFactor()) * std::max(std::abs(*from.getJointPositions(leader)),
+                                                                    std::abs(*to.getJointPositions(leader))) +
+                        std::abs(joint.getMimicOffset());
+        return travel;
+      default:  // of several variables, MoveIt sets only the first one
+        travel.angle = travel.length = kUnbounded;
+        return travel;
     }
-    const double motion = std::abs(joint.getMimicFactor()) * (of_leader.angle + of_leader.length);
-    if (joint.getType() == JointModel::PRISMATIC)
-    {
-      travel.length = motion;
-      travel.offset = std::abs(joint.getMimicFactor()) *
-                          std::max(std::abs(*from.getJointPositions(leader)), std::abs(*to.getJointPositions(leader))) +
-                      std::abs(joint.getMimicOffset());
-    }
-    else
-      travel.angle = motion;
-    return travel;
   }
-  if (joint.getType() == JointModel::FIXED)
-    return travel;
   const double* a = from.getJointPositions(&joint);
   const double* b = to.getJointPositions(&joint);
   switch (joint.getType())
@@ -123,30 +123,30 @@ Travel travelOf(const JointModel& joint, const RobotState& from, const RobotStat
   }
 }
 
-/// The largest distance of a part's points from the origin of its link. Poses of one state give it, because the part is
-/// rigid.
-double radiusOf(const Part& part, const RobotState& state)
+/// The largest distance of the points of a shape instance from the origin of its link. Poses of any one state give it,
+/// because the shape is fixed to its link.
+double radiusOf(const ShapeInstance& instance, const RobotState& state)
 {
-  if (part.shape->kind() != ShapeKind::Solid)
+  if (instance.shape->kind() != ShapeKind::Solid)
     return kUnbounded;
-  const core::CpuTree& tree = part.shape->tree();
-  const Eigen::Vector3d origin = state.getGlobalLinkTransform(part.body.link).translation();
-  return (*part.pose * tree.center - origin).norm() + tree.half.norm();
+  const core::CpuTree& tree = instance.shape->tree();
+  const Eigen::Vector3d origin = state.getGlobalLinkTransform(instance.body.link).translation();
+  return (*instance.pose * tree.center - origin).norm() + tree.half.norm();
 }
 }  // namespace
 
 std::vector<double> displacementBounds(const RobotState& from, const RobotState& to, const RobotState& placed,
-                                       const std::vector<Part>& parts)
+                                       const std::vector<ShapeInstance>& instances)
 {
   std::map<const JointModel*, Travel> travels;
   for (const JointModel* joint : from.getRobotModel()->getJointModels())
     travels[joint] = travelOf(*joint, from, to);
   std::vector<double> bounds;
-  for (const Part& part : parts)
+  for (const ShapeInstance& instance : instances)
   {
-    double reach = radiusOf(part, placed);
+    double reach = radiusOf(instance, placed);
     double bound = 0.0;
-    for (const LinkModel* link = part.body.link; link; link = link->getParentLinkModel())
+    for (const LinkModel* link = instance.body.link; link; link = link->getParentLinkModel())
     {
       const Travel& travel = travels[link->getParentJointModel()];
       bound += travel.length;

@@ -4,15 +4,20 @@
 
 #include <moveit/robot_state/robot_state.h>
 
-#include "moveit/part.h"
+#include "moveit/shape_instance.h"
 
 namespace gpu_planning_scene::detector
 {
-/// How far each part of the robot can move, at most, while MoveIt interpolates from one state to another: metres over
-/// the whole motion. Over a fraction of the motion it is that fraction, because each joint moves at a constant speed.
-/// Infinite where there is no bound: planar joints that turn before they drive, joints that follow a continuous joint
-/// past half a turn, quaternions that are not normalised, and quaternions with a negative product, between which MoveIt
-/// turns the longer way at a changing speed. `parts`: placed as in the state `placed`.
+/// The bound of the displacement of each shape instance of the robot, in metres: no point of it moves farther while
+/// MoveIt interpolates from one state to another. Each joint moves at a constant speed, so the bound for a fraction of
+/// the motion is the same fraction. The bound is infinite in these cases:
+///   - a planar joint turns before it drives
+///   - a joint follows a continuous joint that passes half a turn, or it has several variables and follows another
+///   joint
+///   - a quaternion is not normalised
+///   - the product of two quaternions is negative: MoveIt turns the longer way at a changing speed
+/// `instances`: placed as in the state `placed`.
 std::vector<double> displacementBounds(const moveit::core::RobotState& from, const moveit::core::RobotState& to,
-                                       const moveit::core::RobotState& placed, const std::vector<Part>& parts);
+                                       const moveit::core::RobotState& placed,
+                                       const std::vector<ShapeInstance>& instances);
 }  // namespace gpu_planning_scene::detector

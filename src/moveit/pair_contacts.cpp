@@ -7,7 +7,8 @@
 #include "collision/exact/cpu_forest.h"
 #include "moveit/log.h"
 
-// FCL computes the points; the exact tests have decided that the parts collide, or how far they are from each other.
+// FCL computes the points; the exact tests have decided that the instances collide, or how far they are from each
+// other.
 namespace gpu_planning_scene::detector
 {
 namespace
@@ -36,7 +37,8 @@ void turn(std::vector<ShapeContact>& contacts)
 }
 
 /// The contacts of a solid `a` with anything.
-std::vector<ShapeContact> contactsOfSolid(const Part& a, const Part& b, std::size_t most, PairScratch& scratch)
+std::vector<ShapeContact> contactsOfSolid(const ShapeInstance& a, const ShapeInstance& b, std::size_t most,
+                                          PairScratch& scratch)
 {
   const double required = a.padding + b.padding;
   if (b.shape->kind() == ShapeKind::Solid)
@@ -56,30 +58,31 @@ std::vector<ShapeContact> contactsOfSolid(const Part& a, const Part& b, std::siz
   return contacts;
 }
 
-/// A contact that only tells that the parts count as colliding.
-ShapeContact contactWithoutDepth(const Part& a, const Part& b)
+/// A contact that only tells that the shape instances count as colliding.
+ShapeContact contactWithoutDepth(const ShapeInstance& a, const ShapeInstance& b)
 {
-  for (const Part* part : {&a, &b})
-    if (part->bounds.min().allFinite())
-      return {part->bounds.center(), Vector3d::UnitZ(), 0.0};
+  for (const ShapeInstance* instance : {&a, &b})
+    if (instance->bounds.min().allFinite())
+      return {instance->bounds.center(), Vector3d::UnitZ(), 0.0};
   Vector3d place = Vector3d::Zero();
   if (a.pose->translation().allFinite())
     place = a.pose->translation();
   return {place, Vector3d::UnitZ(), 0.0};
 }
 
-bool isSolid(const Part& part)
+bool isSolid(const ShapeInstance& instance)
 {
-  return part.shape->kind() == ShapeKind::Solid;
+  return instance.shape->kind() == ShapeKind::Solid;
 }
 
-bool isFaulty(const Part& part)
+bool isFaulty(const ShapeInstance& instance)
 {
-  return part.shape->kind() == ShapeKind::Faulty;
+  return instance.shape->kind() == ShapeKind::Faulty;
 }
 
 /// The nearest points of the surfaces without padding, at `distance` from each other. `a` is a solid.
-NearestPoints nearestPointsOfSolid(const Part& a, const Part& b, double distance, PairScratch& scratch)
+NearestPoints nearestPointsOfSolid(const ShapeInstance& a, const ShapeInstance& b, double distance,
+                                   PairScratch& scratch)
 {
   if (b.shape->kind() == ShapeKind::HalfSpace)
   {
@@ -114,8 +117,8 @@ NearestPoints nearestPointsOfSolid(const Part& a, const Part& b, double distance
 }
 }  // namespace
 
-std::vector<ShapeContact> contactsOf(const Part& a, const Part& b, std::size_t max_contacts, std::size_t searched,
-                                     PairScratch& scratch)
+std::vector<ShapeContact> contactsOf(const ShapeInstance& a, const ShapeInstance& b, std::size_t max_contacts,
+                                     std::size_t searched, PairScratch& scratch)
 {
   std::vector<ShapeContact> contacts;
   const std::size_t most = std::max(max_contacts, searched);
@@ -135,7 +138,7 @@ std::vector<ShapeContact> contactsOf(const Part& a, const Part& b, std::size_t m
   return contacts;
 }
 
-NearestPoints nearestPointsOf(const Part& a, const Part& b, double clearance, PairScratch& scratch)
+NearestPoints nearestPointsOf(const ShapeInstance& a, const ShapeInstance& b, double clearance, PairScratch& scratch)
 {
   if (!isSolid(a) && !isSolid(b))
     return {contactWithoutDepth(a, b).point, contactWithoutDepth(a, b).point};

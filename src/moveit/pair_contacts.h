@@ -11,19 +11,19 @@
 
 namespace gpu_planning_scene::detector
 {
-/// The contacts of two parts that collide, the deepest first; at least one, and at most `max_contacts`, which must not
-/// be 0. They are the deepest of those that FCL finds first: it looks for `searched` contacts, or for `max_contacts` if
-/// that is more. Normals point from `a` to `b`. Depths include the paddings. If a part is faulty, or neither is a
-/// solid, the only contact has no depth.
-std::vector<core::ShapeContact> contactsOf(const Part& a, const Part& b, std::size_t max_contacts, std::size_t searched,
-                                           PairScratch& scratch);
+/// The contacts of two shape instances that collide, the deepest first; at least one, and at most `max_contacts`, which
+/// must not be 0. They are the deepest of those that FCL finds first: it looks for `searched` contacts, or for
+/// `max_contacts` if that is more. Normals point from `a` to `b`. Depths include the paddings. If an instance is
+/// faulty, or neither is a solid, the only contact has no depth.
+std::vector<core::ShapeContact> contactsOf(const ShapeInstance& a, const ShapeInstance& b, std::size_t max_contacts,
+                                           std::size_t searched, PairScratch& scratch);
 
-/// The points of two parts that are nearest to each other, on their padded surfaces: their distance is `clearance`,
-/// which must be that of the parts.
+/// The points of two shape instances that are nearest to each other, on their padded surfaces. `clearance`: of the two
+/// instances; it is the distance of the points.
 struct NearestPoints
 {
   Eigen::Vector3d on_a;
   Eigen::Vector3d on_b;
 };
-NearestPoints nearestPointsOf(const Part& a, const Part& b, double clearance, PairScratch& scratch);
+NearestPoints nearestPointsOf(const ShapeInstance& a, const ShapeInstance& b, double clearance, PairScratch& scratch);
 }  // namespace gpu_planning_scene::detector

@@ -6,7 +6,7 @@
 #include <moveit/collision_detection/collision_matrix.h>
 #include <moveit/robot_model/robot_model.h>
 
-#include "moveit/part.h"
+#include "moveit/shape_instance.h"
 
 namespace gpu_planning_scene::detector
 {

@@ -36,14 +36,14 @@ RobotGeometry::RobotGeometry(const moveit::core::RobotModel& robot, const std::m
 }
 
 void RobotGeometry::place(const moveit::core::RobotState& state, const std::set<const moveit::core::LinkModel*>* active,
-                          std::vector<Part>& parts, std::vector<CollisionShapePtr>& attached) const
+                          std::vector<ShapeInstance>& instances, std::vector<CollisionShapePtr>& attached) const
 {
   const auto is_active = [active](const moveit::core::LinkModel* link)
   { return !active || active->find(link) != active->end(); };
   for (const LinkShape& shape : shapes_)
     if (shape.shape->kind() != ShapeKind::Empty && is_active(shape.link))
-      parts.push_back(makePart(*shape.shape, state.getCollisionBodyTransform(shape.link, shape.number), shape.padding,
-                               {ROBOT_LINK, &shape.link->getName(), shape.link, nullptr}));
+      instances.push_back(makeShapeInstance(*shape.shape, state.getCollisionBodyTransform(shape.link, shape.number),
+                                            shape.padding, {ROBOT_LINK, &shape.link->getName(), shape.link, nullptr}));
   thread_local std::vector<const moveit::core::AttachedBody*> bodies;
   state.getAttachedBodies(bodies);
   for (const moveit::core::AttachedBody* body : bodies)
@@ -57,8 +57,8 @@ void RobotGeometry::place(const moveit::core::RobotState& state, const std::set<
     {
       attached.push_back(collisionShapeOf(body->getShapes()[i], settings.scale, body->getName()));
       if (attached.back()->kind() != ShapeKind::Empty)
-        parts.push_back(makePart(*attached.back(), body->getGlobalCollisionBodyTransforms()[i], settings.padding,
-                                 {ROBOT_ATTACHED, &body->getName(), link, body}));
+        instances.push_back(makeShapeInstance(*attached.back(), body->getGlobalCollisionBodyTransforms()[i],
+                                              settings.padding, {ROBOT_ATTACHED, &body->getName(), link, body}));
     }
   }
 }

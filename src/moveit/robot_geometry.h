@@ -8,7 +8,7 @@
 
 #include <moveit/robot_state/robot_state.h>
 
-#include "moveit/part.h"
+#include "moveit/shape_instance.h"
 
 namespace gpu_planning_scene::detector
 {
@@ -20,11 +20,11 @@ class RobotGeometry
   RobotGeometry(const moveit::core::RobotModel& robot, const std::map<std::string, double>& padding,
                 const std::map<std::string, double>& scale);
 
-  /// Appends the parts of the links and of the attached objects to `parts`. They point into the state and into
-  /// `attached`, which receives the shapes of the attached objects. `active`: if not null, only the parts of these
-  /// links and of the objects that they carry.
+  /// Appends the shape instances of the links and of the attached objects to `instances`. They point into the state and
+  /// into `attached`, which receives the shapes of the attached objects. `active`: if not null, only the instances of
+  /// these links and of the objects that they carry.
   void place(const moveit::core::RobotState& state, const std::set<const moveit::core::LinkModel*>* active,
-             std::vector<Part>& parts, std::vector<CollisionShapePtr>& attached) const;
+             std::vector<ShapeInstance>& instances, std::vector<CollisionShapePtr>& attached) const;
 
  private:
   struct LinkShape

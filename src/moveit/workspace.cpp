@@ -26,7 +26,7 @@ Workspace::Workspace()
 
 Workspace::~Workspace()
 {
-  memory_->parts.clear();
+  memory_->instances.clear();
   memory_->attached.clear();  // shapes are not kept alive
   unused().push_back(std::move(memory_));
 }

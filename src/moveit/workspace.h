@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "moveit/exact_pair.h"
-#include "moveit/part.h"
+#include "moveit/shape_instance.h"
 
 namespace gpu_planning_scene::detector
 {
@@ -21,7 +21,7 @@ class Workspace
 
   struct Memory
   {
-    std::vector<Part> parts;                  ///< of the robot
+    std::vector<ShapeInstance> instances;     ///< of the robot
     std::vector<CollisionShapePtr> attached;  ///< shapes of attached objects
     std::vector<std::uint32_t> nodes;
     PairScratch pair;

@@ -34,9 +34,9 @@ void WorldGeometry::place(std::uint32_t number, const Eigen::Isometry3d& pose)
 {
   Slot& slot = slots_[number];
   slot.pose = pose;
-  const Part part = makePart(*slot.shape, slot.pose, 0.0, slot.part().body);
-  slot.bounds = part.bounds;
-  slot.faulty = part.shape != slot.shape.get();
+  const ShapeInstance instance = makeShapeInstance(*slot.shape, slot.pose, 0.0, slot.instance().body);
+  slot.bounds = instance.bounds;
+  slot.faulty = instance.shape != slot.shape.get();
   slot.in_tree = false;
   if (!slot.is_listed)
     outside_.push_back(number);

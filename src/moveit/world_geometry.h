@@ -11,7 +11,7 @@
 #include <moveit/collision_detection/world.h>
 
 #include "collision/exact/object_tree.h"
-#include "moveit/part.h"
+#include "moveit/shape_instance.h"
 
 namespace gpu_planning_scene::detector
 {
@@ -32,18 +32,18 @@ class WorldGeometry
 
   bool empty() const { return objects_.empty(); }
 
-  /// Calls visit(part) for the parts whose bounds overlap `bounds`, until visit returns true. Returns whether it did.
-  /// `stack`: work space.
+  /// Calls visit(instance) for the shape instances whose bounds overlap `bounds`, until visit returns true. Returns
+  /// whether it did. `stack`: work space.
   template <class Visit>
   bool visitNear(const Eigen::AlignedBox3d& bounds, std::vector<std::uint32_t>& stack, const Visit& visit) const;
 
-  /// Calls visit(part) for all parts.
+  /// Calls visit(instance) for all shape instances.
   template <class Visit>
   void visitAll(const Visit& visit) const
   {
     for (const Slot& slot : slots_)
       if (slot.shape)
-        visit(slot.part());
+        visit(slot.instance());
   }
 
  private:
@@ -57,7 +57,7 @@ class WorldGeometry
     bool is_listed = false;  // outside_ has the slot
     const std::string* name = nullptr;
 
-    Part part() const
+    ShapeInstance instance() const
     {
       return {faulty ? &CollisionShape::faulty() : shape.get(),
               &pose,
@@ -95,7 +95,7 @@ bool WorldGeometry::visitNear(const Eigen::AlignedBox3d& bounds, std::vector<std
   for (const std::uint32_t number : outside_)
   {
     const Slot& slot = slots_[number];
-    if (slot.bounds.intersects(bounds) && visit(slot.part()))
+    if (slot.bounds.intersects(bounds) && visit(slot.instance()))
       return true;
   }
   // The tree's box of a slot that is in the tree is the slot's bounds.
@@ -103,7 +103,7 @@ bool WorldGeometry::visitNear(const Eigen::AlignedBox3d& bounds, std::vector<std
                                           [this, &visit](std::uint32_t object)
                                           {
                                             const Slot& slot = slots_[(*tree_slots_)[object]];
-                                            return slot.shape && slot.in_tree && visit(slot.part());
+                                            return slot.shape && slot.in_tree && visit(slot.instance());
                                           });
 }
 }  // namespace gpu_planning_scene::detector

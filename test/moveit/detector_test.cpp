@@ -8,8 +8,6 @@
 #include <moveit/planning_scene/planning_scene.h>
 #include <moveit/utils/robot_model_test_utils.h>
 #include <octomap/OcTree.h>
-#include <srdfdom/model.h>
-#include <urdf_parser/urdf_parser.h>
 
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
 #include "moveit/collision_shape.h"
@@ -49,7 +47,7 @@ shapes::ShapeConstPtr meshCube(double size)
 {
   auto mesh = std::make_shared<shapes::Mesh>(8, 12);
   const double h = 0.5 * size;
-  for (unsigned i = 0; i < 8; ++i)
+  for (std::size_t i = 0; i < 8; ++i)
   {
     mesh->vertices[3 * i] = (i & 1u) != 0 ? h : -h;
     mesh->vertices[3 * i + 1] = (i & 2u) != 0 ? h : -h;
@@ -278,6 +276,8 @@ TEST_F(Detector, CountsANegativePaddingAsNone)
   EXPECT_TRUE(collides());
   env_->setLinkPadding("cart", -0.5);
   EXPECT_TRUE(collides());
+  env_->getWorld()->setObjectPose("cube", at(0.3, 0.05, 0.05));
+  EXPECT_FALSE(collides());
 }
 
 TEST_F(Detector, GivesTheDistanceToAnOctree)
@@ -696,6 +696,27 @@ TEST_F(Detector, LimitsTheDistancesOfAPair)
   }
 }
 
+TEST_F(Detector, SortsTheDistancesOfAPairAlsoIfTheBoxesOfItsShapesHaveAnotherOrder)
+{
+  // The box around the ball is nearer to the cart than the cube is, and the ball is farther.
+  env_->getWorld()->addToObject("shapes", std::make_shared<shapes::Sphere>(0.3), at(0.5, 0.5, 0));
+  env_->getWorld()->addToObject("shapes", box(0.1), at(0.35, 0, 0));
+  const double to_ball = 0.4 * std::sqrt(2.0) - 0.3;
+  DistanceRequest request;
+  request.type = DistanceRequestType::ALL;
+  DistanceResult result;
+  env_->distanceRobot(request, result, state_);
+  const std::pair<std::string, std::string> pair("cart", "shapes");
+  ASSERT_EQ(result.distances.at(pair).size(), 2U);
+  EXPECT_NEAR(result.distances.at(pair)[0].distance, 0.2, 2e-6);
+  EXPECT_NEAR(result.distances.at(pair)[1].distance, to_ball, 2e-6);
+  request.type = DistanceRequestType::SINGLE;
+  result.clear();
+  env_->distanceRobot(request, result, state_);
+  ASSERT_EQ(result.distances.at(pair).size(), 1U);
+  EXPECT_NEAR(result.distances.at(pair)[0].distance, 0.2, 2e-6);
+}
+
 TEST_F(Detector, GivesTheDepthAsANegativeDistance)
 {
   add("box", box(0.2), at(0.17, 0, 0));
@@ -805,161 +826,6 @@ TEST_F(Detector, AnswersSeveralThreadsAtOnce)
     thread.join();
   for (const int count : hits)
     EXPECT_EQ(count, 250);
-}
-
-/// MoveIt interpolates only the leader, so a follower has its given value at the ends of a motion alone.
-TEST(DetectorOfAGripper, ChecksTheEndsOfAMotionWithTheGivenValuesOfFollowers)
-{
-  const auto joint = [](const std::string& name, const std::string& child, const std::string& rest)
-  {
-    return "<joint name='" + name + "' type='prismatic'><parent link='palm'/><child link='" + child +
-           "'/><axis xyz='1 0 0'/><limit lower='-1' upper='1' effort='1' velocity='1'/>" + rest + "</joint>";
-  };
-  const urdf::ModelInterfaceSharedPtr urdf = urdf::parseURDF(
-      "<robot name='gripper'><link name='palm'/><link name='left_finger'/><link name='right_finger'><collision>"
-      "<geometry><box size='0.1 0.1 0.1'/></geometry></collision></link>" +
-      joint("left", "left_finger", "") + joint("right", "right_finger", "<mimic joint='left'/>") + "</robot>");
-  const auto srdf = std::make_shared<srdf::Model>();
-  ASSERT_TRUE(urdf && srdf->initString(*urdf, "<robot name='gripper'/>"));
-  const auto robot = std::make_shared<moveit::core::RobotModel>(urdf, srdf);
-  const auto env = CollisionDetectorAllocator().allocateEnv(robot);
-  env->getWorld()->addToObject("box", at(0.5, 0, 0), box(0.1), Isometry3d::Identity());
-  RobotState with(robot);
-  with.setToDefaultValues();
-  with.update();
-  RobotState away = with;
-  std::vector<double> values(2, 0.0);
-  values[static_cast<std::size_t>(robot->getVariableIndex("right"))] = 0.5;
-  away.setVariablePositions(values);
-  away.update();
-  const auto motion_collides = [&](const RobotState& from, const RobotState& to)
-  {
-    CollisionResult result;
-    env->checkRobotCollision(CollisionRequest(), result, from, to);
-    return result.collision;
-  };
-  EXPECT_FALSE(motion_collides(with, with));
-  EXPECT_TRUE(motion_collides(with, away));
-  EXPECT_TRUE(motion_collides(away, with));
-}
-
-/// An arm of 1 m that a continuous joint turns.
-RobotModelPtr turningRobot()
-{
-  moveit::core::RobotModelBuilder builder("turner", "base");
-  geometry_msgs::Pose pose;
-  pose.orientation.w = 1.0;
-  builder.addChain("base->arm", "continuous", {pose}, urdf::Vector3(0, 0, 1));
-  pose.position.x = 0.5;
-  builder.addCollisionBox("arm", {1.0, 0.05, 0.05}, pose);
-  builder.addVirtualJoint("world", "base", "fixed", "root");
-  builder.addGroupChain("base", "arm", "arm");
-  return builder.build();
-}
-
-/// Expects that the motion is a collision, and that one of its samples collides.
-void expectMotionThroughAnObject(const collision_detection::CollisionEnv& env, RobotState& from, RobotState& to)
-{
-  from.update();
-  to.update();
-  RobotState between(from);
-  bool is_hit = false;
-  for (int i = 0; i <= 2000; ++i)
-  {
-    from.interpolate(to, i / 2000.0, between);
-    between.update();
-    CollisionResult sample;
-    env.checkRobotCollision(CollisionRequest(), sample, between);
-    is_hit = is_hit || sample.collision;
-  }
-  CollisionResult result;
-  env.checkRobotCollision(CollisionRequest(), result, from, to);
-  EXPECT_TRUE(is_hit);
-  EXPECT_TRUE(result.collision);
-}
-
-/// MoveIt does not reduce the values of a continuous joint, so it turns further than the distance of the two angles.
-TEST(DetectorOfATurningArm, FindsAnObjectOnThePathOfAJointBeyondATurn)
-{
-  const RobotModelPtr robot = turningRobot();
-  const auto env = CollisionDetectorAllocator().allocateEnv(robot);
-  for (const double angle : {0.5, 1.2, 2.0, 2.9, 3.7, 4.5, 5.5})
-    env->getWorld()->addToObject("post" + std::to_string(angle), at(0.8 * std::cos(angle), 0.8 * std::sin(angle), 0),
-                                 box(0.05), Isometry3d::Identity());
-  for (const auto& [from, to] :
-       {std::pair(0.0, 4.0 * M_PI + 0.1), std::pair(0.0, 3.4 * M_PI), std::pair(0.0, -4.0 * M_PI - 0.1),
-        std::pair(4.0 * M_PI + 0.1, 0.0), std::pair(-4.0 * M_PI - 0.1, 0.1)})
-  {
-    RobotState from_state(robot);
-    RobotState to_state(robot);
-    from_state.setVariablePosition(0, from);
-    to_state.setVariablePosition(0, to);
-    expectMotionThroughAnObject(*env, from_state, to_state);
-  }
-}
-
-/// MoveIt turns a floating joint the longer way if the product of the two quaternions is negative.
-TEST(DetectorOfATurningArm, FindsAnObjectOnTheLongerWayOfAFloatingBase)
-{
-  moveit::core::RobotModelBuilder builder("bar", "bar");
-  geometry_msgs::Pose pose;
-  pose.orientation.w = 1.0;
-  pose.position.x = 0.5;
-  builder.addCollisionBox("bar", {1.0, 0.05, 0.05}, pose);
-  builder.addVirtualJoint("world", "bar", "floating", "root");
-  const RobotModelPtr robot = builder.build();
-  const auto env = CollisionDetectorAllocator().allocateEnv(robot);
-  env->getWorld()->addToObject("post", at(-0.8, 0, 0), box(0.05), Isometry3d::Identity());
-  RobotState from(robot);
-  from.setToDefaultValues();
-  RobotState to(robot);
-  to.setVariablePositions(std::vector<double>{0, 0, 0, 0, 0, -std::sin(0.1), -std::cos(0.1)});
-  expectMotionThroughAnObject(*env, from, to);
-}
-
-TEST(DetectorScene, ProvesOnlyMotionsWithoutACollidingSample)
-{
-  const RobotModelPtr robot = moveit::core::loadTestingRobotModel("panda");
-  const auto env = CollisionDetectorAllocator().allocateEnv(robot);
-  random_numbers::RandomNumberGenerator random(11);
-  for (int i = 0; i < 8; ++i)
-    env->getWorld()->addToObject(
-        "object" + std::to_string(i),
-        at(random.uniformReal(0.3, 0.7), random.uniformReal(-0.7, 0.7), random.uniformReal(0.2, 0.9)),
-        i % 2 == 0 ? box(0.1) : meshCube(0.1), Isometry3d::Identity());
-  RobotState from(robot);
-  RobotState to(robot);
-  RobotState sample(robot);
-  from.setToDefaultValues();
-  to.setToDefaultValues();
-  int free = 0;
-  int colliding = 0;
-  for (int i = 0; i < 100; ++i)
-  {
-    const auto* group = robot->getJointModelGroup("panda_arm");
-    from.setToRandomPositions(group, random);
-    to.setToRandomPositionsNearBy(group, from, 0.3, random);
-    from.update();
-    to.update();
-    bool is_hit = false;
-    for (int k = 0; k <= 100; ++k)
-    {
-      from.interpolate(to, 0.01 * k, sample);
-      sample.update();
-      CollisionResult result;
-      env->checkRobotCollision(CollisionRequest(), result, sample);
-      is_hit = is_hit || result.collision;
-    }
-    CollisionResult result;
-    env->checkRobotCollision(CollisionRequest(), result, from, to);
-    EXPECT_TRUE(result.collision || !is_hit) << "motion " << i;
-    // The samples are dense, so nearly all motions without a colliding sample are free.
-    free += !result.collision ? 1 : 0;
-    colliding += is_hit ? 1 : 0;
-  }
-  EXPECT_GT(colliding, 5);
-  EXPECT_GT(free, 10);
-  EXPECT_GE(free + colliding, 97);
 }
 
 TEST(DetectorScene, ReplacesTheDetectorOfAPlanningScene)

@@ -4,8 +4,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <moveit/robot_model/planar_joint_model.h>
 #include <moveit/utils/robot_model_test_utils.h>
 
+#include "moveit/follower_robot.h"
 #include "moveit/motion_bound.h"
 #include "moveit/robot_geometry.h"
 #include "moveit/workspace.h"
@@ -37,18 +39,18 @@ void randomize(RobotState& state, random_numbers::RandomNumberGenerator& random)
   state.update();
 }
 
-/// The corners of the parts' boxes in the world.
-std::vector<std::vector<Vector3d>> cornersOf(const std::vector<Part>& parts)
+/// The corners of the boxes of shape instances, in the world.
+std::vector<std::vector<Vector3d>> cornersOf(const std::vector<ShapeInstance>& instances)
 {
   std::vector<std::vector<Vector3d>> all;
-  for (const Part& part : parts)
+  for (const ShapeInstance& instance : instances)
   {
-    const core::CpuTree& tree = part.shape->tree();
+    const core::CpuTree& tree = instance.shape->tree();
     std::vector<Vector3d> corners;
     for (unsigned k = 0; k < 8; ++k)
-      corners.push_back(*part.pose * (tree.center + Vector3d((k & 1u) != 0 ? tree.half.x() : -tree.half.x(),
-                                                             (k & 2u) != 0 ? tree.half.y() : -tree.half.y(),
-                                                             (k & 4u) != 0 ? tree.half.z() : -tree.half.z())));
+      corners.push_back(*instance.pose * (tree.center + Vector3d((k & 1u) != 0 ? tree.half.x() : -tree.half.x(),
+                                                                 (k & 2u) != 0 ? tree.half.y() : -tree.half.y(),
+                                                                 (k & 4u) != 0 ? tree.half.z() : -tree.half.z())));
     all.push_back(std::move(corners));
   }
   return all;
@@ -89,22 +91,23 @@ double expectBoundsToHold(const RobotModelPtr& robot, int motions)
       from.interpolate(to, sample / double(kSamples), state);
       state.update();
       Workspace work;
-      geometry.place(state, nullptr, work->parts, work->attached);
+      geometry.place(state, nullptr, work->instances, work->attached);
       if (sample == 0)
-        bounds = displacementBounds(from, to, state, work->parts);
-      const std::vector<std::vector<Vector3d>> corners = cornersOf(work->parts);
-      for (std::size_t part = 0; sample > 0 && part < corners.size(); ++part)
+        bounds = displacementBounds(from, to, state, work->instances);
+      const std::vector<std::vector<Vector3d>> corners = cornersOf(work->instances);
+      for (std::size_t instance = 0; sample > 0 && instance < corners.size(); ++instance)
       {
-        if (!std::isfinite(bounds[part]))
+        if (!std::isfinite(bounds[instance]))
         {
-          EXPECT_TRUE(turnsTheLongerWay(from, to)) << *work->parts[part].body.name << " in motion " << motion;
+          EXPECT_TRUE(turnsTheLongerWay(from, to) || followersJump(from, to))
+              << *work->instances[instance].body.name << " in motion " << motion;
           continue;
         }
         double moved = 0.0;
-        for (std::size_t k = 0; k < corners[part].size(); ++k)
-          moved = std::max(moved, (corners[part][k] - before[part][k]).norm());
-        const double allowed = bounds[part] / kSamples;
-        EXPECT_LE(moved, allowed + 1e-9) << *work->parts[part].body.name << " in motion " << motion;
+        for (std::size_t k = 0; k < corners[instance].size(); ++k)
+          moved = std::max(moved, (corners[instance][k] - before[instance][k]).norm());
+        const double allowed = bounds[instance] / kSamples;
+        EXPECT_LE(moved, allowed + 1e-9) << *work->instances[instance].body.name << " in motion " << motion;
         if (allowed > 1e-6)
           largest = std::max(largest, moved / allowed);
       }
@@ -124,6 +127,55 @@ TEST(MotionBound, HoldsForPr2OnItsBase)
   EXPECT_GT(expectBoundsToHold(moveit::core::loadTestingRobotModel("pr2"), 30), 0.5);
 }
 
+TEST(MotionBound, HoldsForFollowersOfAllKinds)
+{
+  EXPECT_GT(expectBoundsToHold(followerRobot(), 300), 0.99);
+}
+
+/// The bound of each shape instance of a robot, for a small motion of all its joints.
+std::vector<double> boundsOf(const RobotModelPtr& robot)
+{
+  RobotState from(robot);
+  from.setToDefaultValues();
+  RobotState to = from;
+  for (const std::string& variable : robot->getVariableNames())
+    if (variable.find("rot_") == std::string::npos)
+      to.setVariablePosition(variable, 0.1);
+  from.update();
+  to.update();
+  Workspace work;
+  RobotGeometry(*robot, {}, {}).place(from, nullptr, work->instances, work->attached);
+  return displacementBounds(from, to, from, work->instances);
+}
+
+TEST(MotionBound, IsInfiniteForABaseThatTurnsBeforeItDrives)
+{
+  const RobotModelPtr robot = moveit::core::loadTestingRobotModel("pr2");
+  auto* base = dynamic_cast<moveit::core::PlanarJointModel*>(robot->getJointModel("world_joint"));
+  ASSERT_NE(base, nullptr);
+  for (const double bound : boundsOf(robot))
+    EXPECT_TRUE(std::isfinite(bound));
+  base->setMotionModel(moveit::core::PlanarJointModel::DIFF_DRIVE);
+  for (const double bound : boundsOf(robot))
+    EXPECT_FALSE(std::isfinite(bound));
+}
+
+/// MoveIt lets a planar or floating follower have the first variable of its leader, and keeps its other variables.
+TEST(MotionBound, IsInfiniteForFollowersWithSeveralVariables)
+{
+  for (const char* type : {"planar", "floating"})
+  {
+    const RobotModelPtr robot =
+        robotFromUrdf("<link name='base'/>" + jointWithLink("lead", type, "base", "leader", "0 0 0", "0 0 1", "") +
+                          jointWithLink("follow", type, "base", "follower", "0 0 0", "0 0 1", "<mimic joint='lead'/>"),
+                      "");
+    const std::vector<double> bounds = boundsOf(robot);
+    ASSERT_EQ(bounds.size(), 2U);
+    EXPECT_EQ(std::count_if(bounds.begin(), bounds.end(), [](double bound) { return std::isfinite(bound); }), 1)
+        << type;
+  }
+}
+
 TEST(MotionBound, HoldsForAChainOfAllKindsOfJoints)
 {
   geometry_msgs::Pose pose;
@@ -135,7 +187,8 @@ TEST(MotionBound, HoldsForAChainOfAllKindsOfJoints)
     builder.addCollisionBox("base", {0.4, 0.3, 0.2}, pose);
     std::string last = "base";
     int number = 0;
-    for (const char* type : {"prismatic", "continuous", "prismatic", "revolute", "floating", "revolute"})
+    for (const char* type :
+         {"prismatic", "continuous", "prismatic", "revolute", "planar", "revolute", "floating", "revolute"})
     {
       const std::string link = "link" + std::to_string(number++);
       builder.addChain(last + "->" + link, type, {pose},

@@ -89,6 +89,7 @@ TEST_F(Cart, EndsWithTheTimeOrWhenItIsTerminated)
         }
       });
   EXPECT_EQ(int(MoveItErrorCodes::PREEMPTED), plan());
+  EXPECT_LT(response_.planning_time_, 50.0);
   done = true;
   terminating.join();
 }

@@ -54,6 +54,18 @@ class MoveItTable(unittest.TestCase):
         programs = {"gpu_planning_scene.tests": [suite("Suite", ("A", False))], "gpu_planning_scene.empty": []}
         self.assertEqual(self.table(programs)[0], 1)
 
+    def test_results_in_xml_count(self):
+        for failure, expected in (("", 0), ("<failure message='no'/>", 1)):
+            with tempfile.TemporaryDirectory() as folder:
+                (pathlib.Path(folder) / "gpu_planning_scene.rostest.log").write_text("")
+                (pathlib.Path(folder) / "gpu_planning_scene.rostest.xml").write_text(
+                    "<testsuites><testsuite name='Following'><testcase name='A' result='completed'>" + failure +
+                    "</testcase></testsuite></testsuites>")
+                done = subprocess.run(["/usr/bin/python3", str(SCRIPTS / "lib" / "moveit_table.py"), folder],
+                                      capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, expected, done.stdout)
+            self.assertRegex(done.stdout, r"Following\.A .*" + ("failed" if failure else "passed"))
+
 
 if __name__ == "__main__":
     unittest.main()

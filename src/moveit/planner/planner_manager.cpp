@@ -14,6 +14,7 @@
 
 #include "collision/checkers/open_checker.h"
 #include "moveit/planner/planning_context.h"
+#include "moveit/planner/preparation.h"
 #include "moveit/planner/refusal.h"
 #include "moveit/planner/request.h"
 #include "planners/planner_configs.h"
@@ -105,8 +106,7 @@ class PlannerManager : public planning_interface::PlannerManager
         waypoint_distance_ = waypointDistance(name_space + "/waypoint_distance");
       }
       workshop_ = std::make_shared<Workshop>(checkerMakerFor(device));
-      // Opens the device now, so that the first request need not wait for it.
-      core::CheckerPool::Lease(workshop_->checkers, workshop_->converter.emptyScene(model)).giveBack();
+      prepareChecker(*workshop_, model);  // now, so that the first request need not wait for the device
       setPlannerConfigurations(settings());
       return true;
     }

@@ -226,11 +226,6 @@ std::shared_ptr<const RobotConversion> SceneConverter::robotFor(const moveit::co
   return newest_;
 }
 
-std::shared_ptr<const core::PlanningScene> SceneConverter::emptyScene(const moveit::core::RobotModelConstPtr& model)
-{
-  return std::make_shared<const core::PlanningScene>(robotFor(model, {})->robot());
-}
-
 ConvertedScene SceneConverter::convert(const planning_scene::PlanningScene& scene,
                                        const moveit::core::RobotState& start,
                                        const moveit::core::JointModelGroup& group,

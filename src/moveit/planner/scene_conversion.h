@@ -27,13 +27,11 @@ struct ConvertedScene
 class SceneConverter
 {
  public:
-  /// `start`: with the attached objects. `workspace`: see RobotNeeds. Throws Refusal for a scene that cannot be
-  /// expressed exactly.
+  /// `start`: with the attached objects. `workspace`: see RobotNeeds. Throws Refusal for a scene, and
+  /// core::Error for a robot, that cannot be expressed exactly.
   ConvertedScene convert(const planning_scene::PlanningScene& scene, const moveit::core::RobotState& start,
                          const moveit::core::JointModelGroup& group,
                          const std::optional<Eigen::AlignedBox3d>& workspace);
-  /// The robot of most requests, without objects. Throws core::Error if the robot cannot be expressed exactly.
-  std::shared_ptr<const core::PlanningScene> emptyScene(const moveit::core::RobotModelConstPtr& model);
 
  private:
   std::shared_ptr<const RobotConversion> robotFor(const moveit::core::RobotModelConstPtr& model,

@@ -1,4 +1,4 @@
-#include "moveit/part.h"
+#include "moveit/shape_instance.h"
 
 #include <limits>
 
@@ -24,9 +24,10 @@ bool isNear(const Eigen::Isometry3d& pose)
 }
 }  // namespace
 
-Part makePart(const CollisionShape& shape, const Eigen::Isometry3d& pose, double padding, const Body& body)
+ShapeInstance makeShapeInstance(const CollisionShape& shape, const Eigen::Isometry3d& pose, double padding,
+                                const Body& body)
 {
-  Part part{&shape, &pose, everything(), padding, body};
+  ShapeInstance instance{&shape, &pose, everything(), padding, body};
   if (!isNear(pose) || !(padding >= 0.0 && padding <= core::kLargestLength))
   {
     static LogLimit limit;
@@ -35,13 +36,13 @@ Part makePart(const CollisionShape& shape, const Eigen::Isometry3d& pose, double
                                            << *body.name
                                            << "' is not finite, above 1000 km, or negative. The shape counts as "
                                            << "colliding with every body that is checked against it.");
-    part.shape = &CollisionShape::faulty();
+    instance.shape = &CollisionShape::faulty();
   }
   else if (shape.kind() == ShapeKind::Solid)
   {
     const Eigen::AlignedBox3d bounds = core::boundsOf(shape.tree(), pose);
-    part.bounds = {bounds.min().array() - padding, bounds.max().array() + padding};
+    instance.bounds = {bounds.min().array() - padding, bounds.max().array() + padding};
   }
-  return part;
+  return instance;
 }
 }  // namespace gpu_planning_scene::detector

@@ -29,7 +29,7 @@ inline bool sameBody(const Body& a, const Body& b)
 }
 
 /// A shape of a body at its place in the planning frame.
-struct Part
+struct ShapeInstance
 {
   const CollisionShape* shape;
   const Eigen::Isometry3d* pose;
@@ -38,12 +38,13 @@ struct Part
   Body body;
 };
 
-/// The names of two parts' bodies in ascending order: the key of MoveIt's results.
-inline std::pair<std::string, std::string> keyOf(const Part& a, const Part& b)
+/// The names of the bodies of two shape instances in ascending order: the key of MoveIt's results.
+inline std::pair<std::string, std::string> keyOf(const ShapeInstance& a, const ShapeInstance& b)
 {
   return std::minmax(*a.body.name, *b.body.name);
 }
 
-/// Makes a part, with its bounds. A pose or a padding that is not finite, or above 1000 km, makes the part faulty.
-Part makePart(const CollisionShape& shape, const Eigen::Isometry3d& pose, double padding, const Body& body);
+/// Makes a shape instance, with its bounds. A pose or a padding that is not finite, or above 1000 km, makes it faulty.
+ShapeInstance makeShapeInstance(const CollisionShape& shape, const Eigen::Isometry3d& pose, double padding,
+                                const Body& body);
 }  // namespace gpu_planning_scene::detector
