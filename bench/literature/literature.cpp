@@ -8,6 +8,7 @@
 #include "command_line/command_line.h"
 #include "literature/experiment.h"
 #include "literature/families.h"
+#include "literature/libraries/library_methods.h"
 #include "literature/models.h"
 #include "model/text/name_list.h"
 #include "word_options.h"
@@ -57,7 +58,7 @@ std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
 std::vector<std::size_t> chosenTriangles(const CommandLine& arguments)
 {
   std::vector<std::size_t> counts;
-  const std::string all = arguments.has("--quick") ? "1000" : "1000,10000,100000,1000000";
+  const std::string all = arguments.has("--quick") ? "1000" : "1000,10000,100000";
   for (const std::string& word : splitAtCommas(arguments.value("--triangles", all)))
     counts.push_back(CommandLine({{"--triangles", "N", ""}}, 3, std::array{"", "--triangles", word.c_str()}.data())
                          .count("--triangles", 0, 100, kMostTriangles));
@@ -73,6 +74,8 @@ void writeRun(const Settings& settings)
   table.add({"seed", static_cast<std::size_t>(settings.seed)});
   table.add({"quick", settings.quick ? "yes" : "no"});
   std::cerr << machine.line() << std::endl;
+  for (const std::string& line : missingLibraryMethods())
+    std::cerr << line << std::endl;
 }
 
 void run(const CommandLine& arguments)
@@ -85,7 +88,7 @@ void run(const CommandLine& arguments)
   settings.fixed_models = !arguments.has("--models");
   settings.triangles = chosenTriangles(arguments);
   settings.protocols = chosenWords(arguments, "--protocols", kProtocols);
-  settings.seconds = arguments.number("--seconds", settings.quick ? 0.02 : 0.05, 0.001, 1e4);
+  settings.seconds = arguments.number("--seconds", 0.02, 0.001, 1e4);
   settings.contacts = arguments.count("--contacts", settings.quick ? 2 : 8, 1, 10000);
   settings.seed = arguments.count("--seed", 1, 0, 1ULL << 62);
   benchmark::makeTableFolder(settings.out);
@@ -116,10 +119,9 @@ int main(int argc, char** argv)
         {"--parts", "A,B", "of " + nameList(kParts) + " (default: both)"},
         {"--methods", "A,B", "an unknown name prints the list (default: all, but few resolutions)"},
         {"--models", "A,B", "of " + nameList(madeModelNames()) + " (default: all, a box, and links of robots)"},
-        {"--triangles", "N,M", "of each model (default 1000,10000,100000,1000000; with --quick 1000)"},
+        {"--triangles", "N,M", "of each model (default 1000,10000,100000; with --quick 1000)"},
         {"--protocols", "A,B", "of " + nameList(kProtocols) + " (default: both)"},
-        {"--seconds", "S",
-         "a method that takes longer at a distance gets fewer poses (default 0.05; with --quick 0.02)"},
+        {"--seconds", "S", "a method that takes longer at a distance gets fewer poses (default 0.02)"},
         {"--contacts", "N", "of each family of hard cases (default 8; with --quick 2)"},
         {"--seed", "N", "seed of models and poses (default 1)"}},
        run},
