@@ -61,7 +61,7 @@ void countWrong(const Answers& answers, const Sample& sample, Measurement& resul
   result.invented = std::max(result.invented, invented);
 }
 
-/// The first poses, as many as take about `seconds`, but at least one.
+/// The first poses, as many as take about `seconds`, but at least kFewPoses.
 std::vector<Eigen::Isometry3d> affordablePoses(Method& method, const std::vector<Eigen::Isometry3d>& poses,
                                                double seconds)
 {
@@ -70,7 +70,7 @@ std::vector<Eigen::Isometry3d> affordablePoses(Method& method, const std::vector
   const std::size_t few = std::min(kFewPoses, poses.size());
   const double trial = benchmark::secondsOf([&] { method.collide(first(few)); });
   const auto affordable = static_cast<std::size_t>(static_cast<double>(few) * seconds / trial);
-  return first(std::clamp<std::size_t>(affordable, 1, poses.size()));
+  return first(std::clamp(affordable, few, poses.size()));
 }
 
 /// Measures a method that has answered before, so one-time work is done.
