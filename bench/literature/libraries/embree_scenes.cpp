@@ -1,11 +1,10 @@
-#include "literature/libraries/embree_library.h"
-
 #include <atomic>
 #include <cmath>
 
 #include <embree3/rtcore.h>
 
 #include "gpu_planning_scene/error.h"
+#include "literature/libraries/embree_library.h"
 #include "literature/trees/triangle_overlap.h"
 
 // Embree (Wald, Woop, Benthin, Johnson, Ernst, "Embree: A Kernel Framework for Efficient CPU Ray Tracing", 2014):
