@@ -24,6 +24,9 @@ constexpr std::array<const char*, 13> kChosen = {
     "convex_patches", "recode_256x1", "cinder_256x1", "cullide_256x1", "cullide_fattened_256x1",
     "opcode",         "gimpact",      "embree"};
 
+/// Debian's ODE is built without ODE_EXT_mt_collisions: only one thread at a time may ask it.
+constexpr const char* kOneThread = "opcode";
+
 struct Sphere
 {
   Eigen::Vector3d center;
@@ -120,7 +123,7 @@ class PairMethods
 };
 
 /// Runs a method on all cores, each with its own PairMethods. A method that renders gets all states at once, on one
-/// thread, because the device has one queue.
+/// thread, because the device has one queue. OPCODE gets one thread too.
 class FromLiterature : public Method
 {
  public:
@@ -128,7 +131,8 @@ class FromLiterature : public Method
     : robot_(scene->robot), renders_(info.family == "image space")
   {
     const auto problem = std::make_shared<const CollisionProblem>(makeProblem(*scene, "", nullptr));
-    const std::size_t threads = renders_ ? 1 : std::max(1U, std::thread::hardware_concurrency());
+    const bool one_thread = renders_ || info.name == kOneThread;
+    const std::size_t threads = one_thread ? 1 : std::max(1U, std::thread::hardware_concurrency());
     for (std::size_t i = 0; i < threads; ++i)
       of_threads_.push_back(std::make_unique<PairMethods>(problem, info));
   }

@@ -23,7 +23,7 @@ namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
-constexpr std::size_t kTrial = 64;            // states of the first trial
+constexpr std::size_t kTrial = 4;             // states of the first trial
 constexpr std::size_t kWorkStates = 4096;     // upper bound on the states whose work is counted
 constexpr std::size_t kManyStates = 4096;     // from this number of states on, proofs are made before the timing
 constexpr std::size_t kErrorsMeasured = 100;  // upper bound, for each kind of wrong answer of a method
@@ -111,7 +111,7 @@ std::size_t affordableStates(const Run& run, const Batch& batch, const Settings&
 /// Runs one-time work (compiling, learning) before the timing. Then records the answers.
 void warmUp(Run& run, const Batch& batch, const Settings& settings)
 {
-  run.method->check(batch.states.data(), std::min<std::size_t>(16, batch.truth.size()));
+  run.method->check(batch.states.data(), std::min(kTrial, batch.truth.size()));
   run.count = affordableStates(run, batch, settings);
   run.wrong_timed = 0;
   run.rates.clear();

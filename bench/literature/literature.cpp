@@ -8,6 +8,7 @@
 #include "command_line/command_line.h"
 #include "literature/experiment.h"
 #include "literature/families.h"
+#include "literature/libraries/library_methods.h"
 #include "literature/models.h"
 #include "model/text/name_list.h"
 #include "word_options.h"
@@ -17,9 +18,8 @@ using namespace gpu_planning_scene::core::literature;
 
 namespace
 {
-const std::vector<std::string> kParts = {"experiment", "families"};
+const std::vector<std::string> kParts = {"families", "experiment"};
 const std::vector<std::string> kProtocols = {"turning", "clearance"};
-const std::string kQuickImages = "_64x3";  // end of the names: 64 x 64 pixels, 3 views
 constexpr std::size_t kMostTriangles = 10000000;
 
 std::vector<MethodInfo> allMethods()
@@ -35,14 +35,11 @@ std::vector<MethodInfo> allMethods()
   return methods;
 }
 
-/// --quick leaves out methods that render at another resolution, because each image takes milliseconds without a GPU.
+/// Each image takes milliseconds without a GPU, so the runs leave out some resolutions.
 bool leftOut(const MethodInfo& info, const CommandLine& arguments)
 {
-  const bool of_quick_resolution =
-      info.name.size() > kQuickImages.size() &&
-      info.name.compare(info.name.size() - kQuickImages.size(), kQuickImages.size(), kQuickImages) == 0;
-  return arguments.has("--quick") && !arguments.has("--methods") && info.family == "image space" &&
-         !of_quick_resolution;
+  const Scope most = arguments.has("--quick") ? Scope::Always : Scope::FullRun;
+  return !arguments.has("--methods") && info.scope > most;
 }
 
 std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
@@ -61,7 +58,7 @@ std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
 std::vector<std::size_t> chosenTriangles(const CommandLine& arguments)
 {
   std::vector<std::size_t> counts;
-  const std::string all = arguments.has("--quick") ? "1000" : "1000,10000,100000,1000000";
+  const std::string all = arguments.has("--quick") ? "1000" : "1000,10000,100000";
   for (const std::string& word : splitAtCommas(arguments.value("--triangles", all)))
     counts.push_back(CommandLine({{"--triangles", "N", ""}}, 3, std::array{"", "--triangles", word.c_str()}.data())
                          .count("--triangles", 0, 100, kMostTriangles));
@@ -77,6 +74,8 @@ void writeRun(const Settings& settings)
   table.add({"seed", static_cast<std::size_t>(settings.seed)});
   table.add({"quick", settings.quick ? "yes" : "no"});
   std::cerr << machine.line() << std::endl;
+  for (const std::string& line : missingLibraryMethods())
+    std::cerr << line << std::endl;
 }
 
 void run(const CommandLine& arguments)
@@ -86,11 +85,11 @@ void run(const CommandLine& arguments)
   settings.out = arguments.value("--out", "literature");
   settings.methods = chosenMethods(arguments);
   settings.models = chosenWords(arguments, "--models", madeModelNames());
-  settings.robot_links = !arguments.has("--models");
+  settings.fixed_models = !arguments.has("--models");
   settings.triangles = chosenTriangles(arguments);
   settings.protocols = chosenWords(arguments, "--protocols", kProtocols);
-  settings.seconds = arguments.number("--seconds", settings.quick ? 0.02 : 0.5, 0.001, 1e4);
-  settings.contacts = arguments.count("--contacts", settings.quick ? 2 : 32, 1, 10000);
+  settings.seconds = arguments.number("--seconds", 0.02, 0.001, 1e4);
+  settings.contacts = arguments.count("--contacts", settings.quick ? 2 : 8, 1, 10000);
   settings.seed = arguments.count("--seed", 1, 0, 1ULL << 62);
   benchmark::makeTableFolder(settings.out);
   writeRun(settings);
@@ -118,13 +117,12 @@ int main(int argc, char** argv)
        {{"--quick", "", "small models and few poses: under two minutes"},
         {"--out", "DIR", "folder for the tables (default literature)"},
         {"--parts", "A,B", "of " + nameList(kParts) + " (default: both)"},
-        {"--methods", "A,B", "an unknown name prints the list"},
-        {"--models", "A,B", "of " + nameList(madeModelNames()) + " (default: all, and links of robots)"},
-        {"--triangles", "N,M", "of each model (default 1000,10000,100000,1000000; with --quick 1000)"},
+        {"--methods", "A,B", "an unknown name prints the list (default: all, but few resolutions)"},
+        {"--models", "A,B", "of " + nameList(madeModelNames()) + " (default: all, a box, and links of robots)"},
+        {"--triangles", "N,M", "of each model (default 1000,10000,100000; with --quick 1000)"},
         {"--protocols", "A,B", "of " + nameList(kProtocols) + " (default: both)"},
-        {"--seconds", "S",
-         "a method that takes longer at a distance gets fewer poses (default 0.5; with --quick 0.02)"},
-        {"--contacts", "N", "of each family of hard cases (default 32; with --quick 2)"},
+        {"--seconds", "S", "a method that takes longer at a distance gets fewer poses (default 0.02)"},
+        {"--contacts", "N", "of each family of hard cases (default 8; with --quick 2)"},
         {"--seed", "N", "seed of models and poses (default 1)"}},
        run},
       argc, argv);

@@ -58,6 +58,14 @@ struct Domain
   bool containment = false;  ///< one shape inside the other, without a common point of the surfaces
 };
 
+/// The runs of the program `literature` that measure a method.
+enum class Scope
+{
+  Always,
+  FullRun,  ///< not with --quick; the experiment measures it with few models
+  Named     ///< only if --methods names it
+};
+
 struct MethodInfo
 {
   std::string name;    ///< on the command line and in tables
@@ -70,6 +78,7 @@ struct MethodInfo
   /// Prepares the method for two meshes. Throws Error if it cannot check them.
   std::function<std::unique_ptr<Method>(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b)>
       make;
+  Scope scope = Scope::Always;
 };
 
 /// Trees of bounding volumes on the CPU, after their papers.

@@ -221,9 +221,10 @@ Model madeModel(const std::string& name, std::size_t triangles, std::uint64_t se
   throw Error("there is no model '" + name + "'; use one of " + nameList(madeModelNames()));
 }
 
-std::vector<Model> robotLinks()
+std::vector<Model> fixedModels()
 {
-  std::vector<Model> models;
+  std::vector<Model> models = {centred("box", *tessellate(Box{{1.0, 0.7, 0.4}}).mesh)};
+  models.front().convex = true;
   for (const RealRobot& robot : {kr5(), ur5Robotiq(), drchubo()})
     if (std::optional<Model> link = largestLink(robot))
       models.push_back(std::move(*link));

@@ -30,7 +30,8 @@ const std::vector<std::string>& madeModelNames();
 /// courses of the pipes. Throws Error for an unknown name.
 Model madeModel(const std::string& name, std::size_t triangles, std::uint64_t seed);
 
-/// The links with the most triangles of the robots whose files are available, one of each robot: kr5, ur5_robotiq and
-/// drchubo. The names are those of robot and link.
-std::vector<Model> robotLinks();
+/// Models of one size each. First a box, which has few, large triangles. Then the links with the most triangles of the
+/// robots whose files are available, one of each robot: kr5, ur5_robotiq and drchubo. The names are those of robot and
+/// link.
+std::vector<Model> fixedModels();
 }  // namespace gpu_planning_scene::core::literature

@@ -85,23 +85,36 @@ std::vector<Isometry3d> turningPoses(double distance, std::uint64_t seed)
   return poses;
 }
 
-std::vector<Isometry3d> posesWithClearance(const Mesh& a, const Mesh& b, double size, double clearance,
+namespace
+{
+std::vector<Isometry3d> posesWithClearance(const Tree& a, const Tree& b, double size, double clearance,
                                            std::size_t count, std::uint64_t seed)
 {
-  const auto tree_a = fclTree<fcl::RSS<double>>(a);
-  const auto tree_b = fclTree<fcl::RSS<double>>(b);
   const std::vector<Isometry3d> starts = posesAt(2.0 * size + clearance, count, seed);
   std::vector<std::optional<Isometry3d>> found(count);
   parallelFor(count, 4,
               [&](std::size_t begin, std::size_t end)
               {
                 for (std::size_t i = begin; i < end; ++i)
-                  found[i] = approached(*tree_a, *tree_b, starts[i], starts[i].translation().normalized(), clearance);
+                  found[i] = approached(a, b, starts[i], starts[i].translation().normalized(), clearance);
               });
   std::vector<Isometry3d> poses;
   for (const std::optional<Isometry3d>& pose : found)
     if (pose)
       poses.push_back(*pose);
+  return poses;
+}
+}  // namespace
+
+std::vector<std::vector<Isometry3d>> posesWithClearances(const Mesh& a, const Mesh& b, double size,
+                                                         const std::vector<double>& clearances, std::size_t count,
+                                                         std::uint64_t seed)
+{
+  const auto tree_a = fclTree<fcl::RSS<double>>(a);
+  const auto tree_b = &a == &b ? tree_a : fclTree<fcl::RSS<double>>(b);
+  std::vector<std::vector<Isometry3d>> poses;
+  for (const double clearance : clearances)
+    poses.push_back(posesWithClearance(*tree_a, *tree_b, size, clearance, count, seed));
   return poses;
 }
 }  // namespace gpu_planning_scene::core::literature

@@ -19,10 +19,11 @@ std::vector<Eigen::Isometry3d> posesAt(double distance, std::size_t count, std::
 /// Dynamically Aligned DOP-Trees" (1998). The order of the poses is random, so that the first ones are a sample of all.
 std::vector<Eigen::Isometry3d> turningPoses(double distance, std::uint64_t seed);
 
-/// Random rotations and directions. b comes from outside along its direction until the surfaces have the distance
-/// `clearance`, up to a hundredth of it. `size`: of both meshes. After S. Trenkel, R. Weller, G. Zachmann, "A
-/// Benchmarking Suite for Static Collision Detection Algorithms" (2007). Poses for which the search does not end are
-/// left out.
-std::vector<Eigen::Isometry3d> posesWithClearance(const Mesh& a, const Mesh& b, double size, double clearance,
-                                                  std::size_t count, std::uint64_t seed);
+/// Random rotations and directions, `count` for each clearance. b comes from outside along its direction until the
+/// surfaces have the clearance, up to a hundredth of it. `size`: of both meshes. After S. Trenkel, R. Weller,
+/// G. Zachmann, "A Benchmarking Suite for Static Collision Detection Algorithms" (2007). Poses for which the search
+/// does not end are left out.
+std::vector<std::vector<Eigen::Isometry3d>> posesWithClearances(const Mesh& a, const Mesh& b, double size,
+                                                                const std::vector<double>& clearances,
+                                                                std::size_t count, std::uint64_t seed);
 }  // namespace gpu_planning_scene::core::literature

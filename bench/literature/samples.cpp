@@ -31,12 +31,16 @@ std::vector<Sample> samplesOf(const Model& model, const Settings& settings)
       for (const double distance : turningDistances(settings.quick))
         samples.push_back({protocol, distance, turningPoses(distance * model.size, settings.seed), {}});
     else
-      for (const double clearance : clearances(settings.quick))
-        samples.push_back({protocol,
-                           clearance,
-                           posesWithClearance(*model.mesh, *model.mesh, model.size, clearance * model.size,
-                                              kClearancePoses, settings.seed),
-                           {}});
+    {
+      const std::vector<double> shares = clearances(settings.quick);
+      std::vector<double> metres;
+      for (const double share : shares)
+        metres.push_back(share * model.size);
+      const auto poses =
+          posesWithClearances(*model.mesh, *model.mesh, model.size, metres, kClearancePoses, settings.seed);
+      for (std::size_t i = 0; i < shares.size(); ++i)
+        samples.push_back({protocol, shares[i], poses[i], {}});
+    }
   }
   const oracle::PreparedShape shape{Shape(model.mesh)};
   for (Sample& sample : samples)

@@ -1,11 +1,14 @@
 #!/usr/bin/python3
 """Draws the tables of the program `literature` as SVG: time against wrong answers, time against distance, and time
-against triangles. Writes the summary of all methods as a table in Markdown. Charts without data are left out."""
+against triangles. Writes the summary of all methods, and their times for each model, as tables in Markdown. Charts
+without data are left out."""
 import argparse
+import collections
 import csv
 import math
 import pathlib
 import re
+import statistics
 import sys
 
 import matplotlib
@@ -20,6 +23,12 @@ from chart_labels import end_labels, label_points
 COLOURS = {"ours": "#c1272d", "paper": "#b5179e", "trees": "#2b6cb0", "library": "#3a9d5d", "convex": "#8c6d31",
            "image space": "#6b6b6b"}
 SIZE = 10000  # triangles of the models whose times stand in the overview
+PAIR = ("torus", "lump")  # the models of the overview and the charts: all methods are measured with them
+COLUMNS = {"exact_cpu": "ours", "rapid": "RAPID", "dop18_larger": "18-DOPs", "dop24": "24-DOPs",
+           "box_tree": "box trees", "convex_patches": "convex patches", "breadth_first": "breadth-first, CPU",
+           "gress_zachmann": "breadth-first, device", "fcl_obb": "FCL, OBB", "opcode": "OPCODE", "gimpact": "GImpact",
+           "embree": "Embree", "cgal": "CGAL", "recode_64x1": "RECODE", "cinder_64x1": "CInDeR",
+           "cullide_64x1": "CULLIDE"}  # of the table of models
 LINES = ["exact_cpu", "rapid", "dop18_larger", "dop24", "box_tree", "convex_patches", "fcl_obb", "opcode",
          "breadth_first", "breadth_first_all", "gress_zachmann", "ours_breadth_first", "cinder_64x1", "cullide_64x1"]
 
@@ -53,12 +62,14 @@ class Results:
         self.families = read(folder, "families")
         self.on_cpu = renders_on_cpu(read(folder, "run"))
         self.time_column = "cpu_us_a_query" if self.on_cpu else "us_a_query"
-        self.made = [row for row in self.experiment if row["model"] in ("torus", "sphere", "lump", "car", "pipes")]
+        self.pair = [row for row in self.experiment if row["model"] in PAIR]
         self.samples = 0  # of the overview
+        self.chosen = 0  # triangles of the overview
         self.times = self.overview_times()
 
     def time(self, row):
-        return float(row[self.time_column])
+        """Microseconds a query. The clock of the CPU has steps of a microsecond for 60 queries."""
+        return max(float(row[self.time_column]), 0.01)
 
     def size(self, row):
         """The nominal number of triangles of a made model: a power of ten."""
@@ -67,12 +78,12 @@ class Results:
     def overview_times(self):
         """Microseconds a query of each method: the geometric mean over the models and distances of one size that all
         methods were measured with. A method with fewer than half of the samples is left out."""
-        sizes = {self.size(row) for row in self.made}
+        sizes = {self.size(row) for row in self.pair}
         if not sizes:
             return {}
-        chosen = min(sizes, key=lambda size: abs(math.log(size / SIZE)))
+        chosen = self.chosen = min(sizes, key=lambda size: abs(math.log(size / SIZE)))
         of_method = {}
-        for row in self.made:
+        for row in self.pair:
             if self.size(row) == chosen:
                 key = (row["model"], row["protocol"], row["distance"])
                 of_method.setdefault(row["method"], {})[key] = self.time(row)
@@ -85,13 +96,20 @@ class Results:
     def overview_time(self, method):
         return self.times.get(method)
 
+    def overview_poses(self, method):
+        """The number of poses at a distance that the times of the overview are means of."""
+        counts = [int(row["poses"]) for row in self.pair if row["method"] == method and self.size(row) == self.chosen]
+        if not counts:
+            return "-"
+        return f"{min(counts)}" if min(counts) == max(counts) else f"{min(counts)} to {max(counts)}"
+
     def growth(self, method):
         """The exponent of the time in the number of triangles, between the smallest and the largest size that the
         method was measured with; None for one size."""
-        sizes = sorted({self.size(row) for row in self.made if row["method"] == method})
+        sizes = sorted({self.size(row) for row in self.pair if row["method"] == method})
         if len(sizes) < 2:
             return None
-        first, last = ({(row["model"], row["protocol"], row["distance"]): self.time(row) for row in self.made
+        first, last = ({(row["model"], row["protocol"], row["distance"]): self.time(row) for row in self.pair
                         if row["method"] == method and self.size(row) == size} for size in (sizes[0], sizes[-1]))
         both = [last[key] / first[key] for key in first if key in last]
         return math.log(geometric_mean(both)) / math.log(sizes[-1] / sizes[0]) if both else None
@@ -187,12 +205,12 @@ def line_chart(axes, results, rows, x, title, x_label):
 
 
 def distance_chart(results, out):
-    sizes = {results.size(row) for row in results.made}
+    sizes = {results.size(row) for row in results.pair}
     if not sizes:
         return
     size = min(sizes, key=lambda one: abs(math.log(one / SIZE)))
     protocols = [protocol for protocol in ("turning", "clearance")
-                 if len({row["distance"] for row in results.made if row["protocol"] == protocol}) > 1]
+                 if len({row["distance"] for row in results.pair if row["protocol"] == protocol}) > 1]
     if not protocols:
         return
     titles = {"turning": "one copy turns and comes nearer", "clearance": "random rotations at given clearances"}
@@ -200,7 +218,7 @@ def distance_chart(results, out):
     figure, grid = pyplot.subplots(1, len(protocols), figsize=(6.2 * len(protocols), 4.6), squeeze=False)
     ends = []
     for axes, protocol in zip(grid.flat, protocols):
-        rows = [row for row in results.made if row["protocol"] == protocol and results.size(row) == size]
+        rows = [row for row in results.pair if row["protocol"] == protocol and results.size(row) == size]
         ends.append((axes, line_chart(axes, results, rows, "distance", titles[protocol], labels[protocol])))
         if protocol == "clearance":
             axes.set_xscale("log")
@@ -211,11 +229,14 @@ def distance_chart(results, out):
 
 
 def triangles_chart(results, out):
-    if len({results.size(row) for row in results.made}) < 2:
+    if len({results.size(row) for row in results.pair}) < 2:
         return
+    samples = collections.Counter((row["method"], results.size(row)) for row in results.pair)
+    most = max(samples.values())
+    rows = [row for row in results.pair if samples[row["method"], results.size(row)] == most]
     figure, axes = pyplot.subplots(figsize=(7, 4.6))
-    title = "all models and distances (geometric mean)"
-    ends = line_chart(axes, results, results.made, "triangles", title, "triangles of each copy")
+    title = "torus and lump, all distances (geometric mean)"
+    ends = line_chart(axes, results, rows, "triangles", title, "triangles of each copy")
     axes.set_xscale("log")
     end_labels(axes, ends)
     save(figure, out, "triangles")
@@ -237,8 +258,8 @@ def write_table(results, out):
     lines = ["# All methods in the hard cases", "",
              "For people who want the numbers behind [literature.md](../literature.md), which explains the columns.",
              "",
-             f"| method | source | domain | missed | false | {kind} us | growth |",
-             "| --- | --- | --- | --- | --- | --- | --- |"]
+             f"| method | source | domain | missed | false | {kind} us | poses | growth |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- |"]
     for method, info in results.methods.items():
         cells = []
         inside, everywhere = results.wrong(method, True), results.wrong(method, False)
@@ -249,8 +270,63 @@ def write_table(results, out):
             cells.append(text + (f"; outside {outside} of {poses_outside}" if poses_outside else ""))
         growth = results.growth(method)
         lines.append(f"| {info['title']} | {info['source']} | {domain(info)} | {cells[0]} | {cells[1]} | "
-                     f"{number(results.overview_time(method))} | {'-' if growth is None else f'n^{growth:.2f}'} |")
+                     f"{number(results.overview_time(method))} | {results.overview_poses(method)} | "
+                     f"{'-' if growth is None else f'n^{growth:.2f}'} |")
+    lines += model_table(results) + fastest_table(results)
     (out / "table.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def model_table(results):
+    """Lines of a table: microseconds a query for each model, as the geometric mean over all distances."""
+    times = {}
+    for row in results.experiment:
+        of_model = times.setdefault((row["model"], int(row["triangles"])), {})
+        of_model.setdefault(row["method"], []).append(results.time(row))
+    if not times:
+        return []
+    methods = [method for method in COLUMNS if method in results.methods]
+    lines = ["", "## Times by model", "",
+             "Microseconds a query: the geometric mean over all distances. A dash: not measured with this model, "
+             "because a\nsmaller one took too long, or because the method refuses it.", "",
+             f"| model | triangles | {' | '.join(COLUMNS[method] for method in methods)} |",
+             "| --- | --- |" + " --- |" * len(methods)]
+    for (model, triangles), of_method in times.items():
+        most = max(len(values) for values in of_method.values())
+        cells = [number(geometric_mean(of_method[method])) if len(of_method.get(method, [])) == most else "-"
+                 for method in methods]
+        lines.append(f"| {model} | {triangles:,} | {' | '.join(cells)} |")
+    return lines
+
+
+def fastest_table(results):
+    """Lines of a table: at each distance, how often another method is faster than the exact checker on one core."""
+    samples = {}
+    for row in results.experiment:
+        key = (row["protocol"], float(row["distance"]), row["model"], row["triangles"])
+        if row["method"] != "exact_cpu" or int(row["poses"]) > 1:
+            samples.setdefault(key, {})[row["method"]] = results.time(row)
+    distances = {}
+    for (protocol, distance, model, triangles), times in samples.items():
+        ours = times.pop("exact_cpu", None)
+        others = {method: time for method, time in times.items() if results.methods[method]["family"] != "ours"}
+        if ours is None or not others:
+            continue
+        fastest = min(others, key=others.get)
+        distances.setdefault((protocol, distance), []).append((others[fastest] / ours, fastest, model, int(triangles)))
+    if not distances:
+        return []
+    lines = ["", "## Is another method faster than ours?", "",
+             "At each distance: the time of the fastest other method, divided by the time of our exact checker on one "
+             "core. Below 1,\nthe other method is faster. Most models have several sizes. Left out: distances at which "
+             "other programs interrupted the\nfirst query of ours, so that only this query was measured.", "",
+             "| poses | distance / size | models and sizes | others faster | median ratio | smallest | by | with |",
+             "| --- | --- | --- | --- | --- | --- | --- | --- |"]
+    for (protocol, distance), ratios in sorted(distances.items()):
+        least, method, model, triangles = min(ratios)
+        lines.append(f"| {protocol} | {distance:g} | {len(ratios)} | {sum(ratio[0] < 1 for ratio in ratios)} | "
+                     f"{statistics.median(ratio[0] for ratio in ratios):.2g} | {least:.2g} | "
+                     f"{results.methods[method]['title']} | {model}, {triangles:,} triangles |")
+    return lines
 
 
 def wrong_outside(results, method):

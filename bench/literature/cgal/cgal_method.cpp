@@ -148,9 +148,14 @@ class Cgal : public Method
 };
 }  // namespace
 
+std::string whyNoCgal()
+{
+  return access(programPath().c_str(), X_OK) == 0 ? "" : "there is no program " + programPath();
+}
+
 std::vector<MethodInfo> cgalMethods()
 {
-  if (access(programPath().c_str(), X_OK) != 0)
+  if (!whyNoCgal().empty())
     return {};
   return {{"cgal",
            "CGAL",

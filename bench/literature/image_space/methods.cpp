@@ -7,9 +7,28 @@ namespace gpu_planning_scene::core::literature
 {
 namespace
 {
+using ScopeOf = Scope (*)(int resolution, int views);
+
+/// The run is full enough with all resolutions in one view, and with all views at two resolutions.
+Scope usualScope(int resolution, int views)
+{
+  if (resolution == 64 && views == 1)
+    return Scope::Always;
+  return views == 1 || resolution == 64 || resolution == 256 ? Scope::FullRun : Scope::Named;
+}
+
+/// Fattened triangles take most of the time, and miss nothing at any resolution.
+Scope slowScope(int resolution, int views)
+{
+  if (resolution == 64 && views == 1)
+    return Scope::Always;
+  return resolution == 256 && views == 1 ? Scope::FullRun : Scope::Named;
+}
+
 template <class Drawn>
 void append(std::vector<MethodInfo>& methods, const std::string& name, const std::string& title,
-            const std::string& source, const Domain& domain, const std::vector<int>& view_counts = {1, 3})
+            const std::string& source, const Domain& domain, ScopeOf scope,
+            const std::vector<int>& view_counts = {1, 3})
 {
   for (const int resolution : {64, 128, 256, 512})
     for (const int views : view_counts)
@@ -23,7 +42,8 @@ void append(std::vector<MethodInfo>& methods, const std::string& name, const std
                              (views == 1 ? "1 view" : std::to_string(views) + " views"),
                          source, "image space", domain,
                          [options](const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b)
-                         { return std::make_unique<Drawn>(a, b, options); }});
+                         { return std::make_unique<Drawn>(a, b, options); },
+                         scope(resolution, views)});
     }
 }
 }  // namespace
@@ -38,10 +58,11 @@ std::vector<MethodInfo> imageSpaceMethods()
   solids.open = false;
   solids.containment = true;
   std::vector<MethodInfo> methods;
-  append<Recode>(methods, "recode", "RECODE", "Baciu, Wong, Sun 1999", convex_solids);
-  append<Cinder>(methods, "cinder", "CInDeR", "Knott, Pai 2003", solids);
-  append<Cullide>(methods, "cullide", "CULLIDE", "Govindaraju, Redon, Lin, Manocha 2003", {}, {1, 2, 3});
-  append<FattenedCullide>(methods, "cullide_fattened", "CULLIDE, fattened", "Govindaraju, Lin, Manocha 2004", {});
+  append<Recode>(methods, "recode", "RECODE", "Baciu, Wong, Sun 1999", convex_solids, usualScope);
+  append<Cinder>(methods, "cinder", "CInDeR", "Knott, Pai 2003", solids, usualScope);
+  append<Cullide>(methods, "cullide", "CULLIDE", "Govindaraju, Redon, Lin, Manocha 2003", {}, usualScope, {1, 2, 3});
+  append<FattenedCullide>(methods, "cullide_fattened", "CULLIDE, fattened", "Govindaraju, Lin, Manocha 2004", {},
+                          slowScope);
   return methods;
 }
 }  // namespace gpu_planning_scene::core::literature

@@ -1,3 +1,5 @@
+#include "literature/libraries/library_methods.h"
+
 #include "literature/libraries/fcl_methods.h"
 #include "literature/libraries/gimpact.h"
 #include "literature/method.h"
@@ -29,5 +31,19 @@ std::vector<MethodInfo> libraryMethods()
   add(cgalMethods());
 #endif
   return methods;
+}
+
+std::vector<std::string> missingLibraryMethods()
+{
+  std::vector<std::string> lines;
+#ifdef GPS_LITERATURE_EMBREE
+  if (const std::string reason = whyNoEmbree(); !reason.empty())
+    lines.push_back("embree is left out: " + reason);
+#endif
+#ifdef GPS_LITERATURE_CGAL
+  if (const std::string reason = whyNoCgal(); !reason.empty())
+    lines.push_back("cgal is left out: " + reason);
+#endif
+  return lines;
 }
 }  // namespace gpu_planning_scene::core::literature
