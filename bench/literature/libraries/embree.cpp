@@ -43,10 +43,12 @@ std::string whyNoEmbree()
 
 std::vector<MethodInfo> embreeMethods()
 {
-  if (loaded().make == nullptr)
+  const auto make = loaded().make;
+  if (make == nullptr)
     return {};
-  return {{"embree", "Embree, refitted", "Wald et al. 2014; Embree 3", "library", {}, [](const auto& a, const auto& b) {
-             return std::unique_ptr<Method>(loaded().make(*a, *b));
-           }}};
+  return {
+      {"embree", "Embree, refitted", "Wald et al. 2014; Embree 3", "library", {}, [make](const auto& a, const auto& b) {
+         return std::unique_ptr<Method>(make(*a, *b));
+       }}};
 }
 }  // namespace gpu_planning_scene::core::literature
