@@ -28,7 +28,7 @@ const char* const kSrdf = R"(<robot name='r'>
 
 class XacroFile : public testing::Test
 {
- public:
+ protected:
   DescriptionText read(double seconds = 30.0)
   {
     return readDescription(

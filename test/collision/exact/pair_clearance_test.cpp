@@ -27,12 +27,12 @@ class PairClearance : public testing::Test
  protected:
   Vector3d vector(double largest)
   {
-    return {random.uniform(-largest, largest), random.uniform(-largest, largest), random.uniform(-largest, largest)};
+    return {random_.uniform(-largest, largest), random_.uniform(-largest, largest), random_.uniform(-largest, largest)};
   }
 
   Isometry3d poseAt(const Vector3d& position)
   {
-    return Eigen::Translation3d(position) * Eigen::AngleAxisd(random.uniform(-3.0, 3.0), random.direction());
+    return Eigen::Translation3d(position) * Eigen::AngleAxisd(random_.uniform(-3.0, 3.0), random_.direction());
   }
 
   /// Triangles around `center`. Some are degenerate, and some meshes have one triangle far from the others.
@@ -44,24 +44,24 @@ class PairClearance : public testing::Test
       const auto first = static_cast<std::uint32_t>(made->vertices.size());
       for (int corner = 0; corner < 3; ++corner)
         made->vertices.push_back(near + vector(size));
-      if (random.number() % 5 == 0)
+      if (random_.number() % 5 == 0)
         made->vertices.back() = made->vertices[first];
       made->triangles.push_back({first, first + 1, first + 2});
     };
-    const double size = random.size(1e-3, 0.3);
-    const std::uint64_t count = 1 + random.number() % (random.number() % 3 == 0 ? 4 : 60);
+    const double size = random_.size(1e-3, 0.3);
+    const std::uint64_t count = 1 + random_.number() % (random_.number() % 3 == 0 ? 4 : 60);
     for (std::uint64_t i = 0; i < count; ++i)
       add(center + vector(0.3), size);
-    if (random.number() % 5 == 0)
+    if (random_.number() % 5 == 0)
       add(center + Vector3d(100.0, 0.0, 0.0), size);
     return made;
   }
 
   Shape solid()
   {
-    const double width = random.uniform(0.05, 0.3);
-    const double length = random.uniform(0.05, 0.5);
-    switch (random.number() % 4)
+    const double width = random_.uniform(0.05, 0.3);
+    const double length = random_.uniform(0.05, 0.5);
+    switch (random_.number() % 4)
     {
       case 0:
         return Box{{width, length, 0.2}};
@@ -74,7 +74,7 @@ class PairClearance : public testing::Test
     }
   }
 
-  RandomGeometry random{kSeed};
+  RandomGeometry random_{kSeed};
 };
 
 /// Two placed shapes; the first is a mesh.
@@ -118,15 +118,15 @@ TEST_F(PairClearance, IsThatOfTheNearestTrianglesToAMicrometreAndNeverMore)
     Isometry3d pose_b = poseAt(Vector3d::Zero());
     const Vector3d place = vector(i % 11 == 0 ? 500.0 : 0.0);
     pose_a.translation() = place - pose_a.linear() * center_a;
-    pose_b.translation() = place + random.uniform(0.3, 3.0) * random.direction() -
+    pose_b.translation() = place + random_.uniform(0.3, 3.0) * random_.direction() -
                            (is_solid ? Vector3d(Vector3d::Zero()) : Vector3d(pose_b.linear() * center_b));
     const Placed placed{cpuTreeOf(shape_a, tessellate(shape_a)), cpuTreeOf(shape_b, tessellate(shape_b)),
                         relativePose(pose_a, pose_b)};
-    const double required = i % 2 == 0 ? 0.0 : random.uniform(0.0, 0.05);
+    const double required = i % 2 == 0 ? 0.0 : random_.uniform(0.0, 0.05);
     if (placed.within(required))
       continue;
     ++apart;
-    const double most = i % 6 == 0 ? random.uniform(0.0, 2.0) : i % 13 == 0 ? 1e300 : 1000.0;
+    const double most = i % 6 == 0 ? random_.uniform(0.0, 2.0) : i % 13 == 0 ? 1e300 : 1000.0;
     const double found = pairClearance(*placed.a, pose_a, *placed.b, pose_b, required, most, scratch);
     if (!placed.within(required + most))
     {
@@ -148,7 +148,7 @@ TEST_F(PairClearance, OfTwoSolidsIsTheirDistanceToAMicrometreAndNeverMore)
   {
     const Shape a = solid();
     const Shape b = solid();
-    const Isometry3d pose = poseAt(random.uniform(0.1, 2.0) * random.direction());
+    const Isometry3d pose = poseAt(random_.uniform(0.1, 2.0) * random_.direction());
     if (solidsWithin(a, b, pose, 0.0))
       continue;
     ++apart;
@@ -166,9 +166,9 @@ TEST_F(PairClearance, BisectionIsRightWithAnyEstimateAndShortWithAGoodOne)
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 1000; ++i)
   {
-    const double least = random.uniform(1e-5, 2.0);
+    const double least = random_.uniform(1e-5, 2.0);
     for (const double estimate :
-         {std::nan(""), kInfinity, -kInfinity, 0.0, 2.0, random.uniform(-1.0, 3.0), least, least + 5e-7, least - 5e-7})
+         {std::nan(""), kInfinity, -kInfinity, 0.0, 2.0, random_.uniform(-1.0, 3.0), least, least + 5e-7, least - 5e-7})
     {
       int calls = 0;
       const auto holds = [&](double x)
