@@ -12,6 +12,7 @@
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
 #include "moveit/collision_shape.h"
 #include "moveit/moveit_resources.h"
+#include "moveit/shapes.h"
 
 // The behaviour of the detector for MoveIt, where MoveIt's own suites do not look.
 namespace gpu_planning_scene::detector
@@ -31,16 +32,6 @@ using moveit::core::RobotModelPtr;
 using moveit::core::RobotState;
 
 const bool kReady = (useMoveItResources(), true);
-
-Isometry3d at(double x, double y, double z)
-{
-  return Isometry3d(Eigen::Translation3d(x, y, z));
-}
-
-shapes::ShapeConstPtr box(double size)
-{
-  return std::make_shared<shapes::Box>(size, size, size);
-}
 
 /// A closed cube as a mesh.
 shapes::ShapeConstPtr meshCube(double size)

@@ -16,6 +16,7 @@
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
 #include "moveit/follower_robot.h"
 #include "moveit/moveit_resources.h"
+#include "moveit/shapes.h"
 
 // Motions of joints for which MoveIt's interpolation has special cases: followers (mimic joints), joints without
 // limits, and bases. Dense samples are checked with MoveIt's FCL detector.
@@ -32,16 +33,6 @@ using moveit::core::RobotModelPtr;
 using moveit::core::RobotState;
 
 const bool kReady = (useMoveItResources(), true);
-
-Isometry3d at(double x, double y, double z)
-{
-  return Isometry3d(Eigen::Translation3d(x, y, z));
-}
-
-shapes::ShapeConstPtr box(double size)
-{
-  return std::make_shared<shapes::Box>(size, size, size);
-}
 
 /// Whether one of many states of a motion collides, by MoveIt's FCL detector.
 bool hasCollidingSample(const CollisionEnv& fcl, const RobotState& from, const RobotState& to, int samples)

@@ -12,6 +12,8 @@
 #include <moveit/utils/robot_model_test_utils.h>
 #include <pluginlib/class_loader.hpp>
 
+#include "moveit/shapes.h"
+
 namespace gpu_planning_scene::pipeline
 {
 inline planning_interface::PlannerManagerPtr loadManager(const moveit::core::RobotModelConstPtr& robot)
@@ -22,16 +24,6 @@ inline planning_interface::PlannerManagerPtr loadManager(const moveit::core::Rob
   if (!manager->initialize(robot, "planner_test"))
     throw std::runtime_error("the planner manager cannot be initialised");
   return manager;
-}
-
-inline Eigen::Isometry3d at(double x, double y, double z)
-{
-  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
-}
-
-inline shapes::ShapeConstPtr box(double x, double y, double z)
-{
-  return std::make_shared<shapes::Box>(x, y, z);
 }
 
 /// A cart that drives on a floor, from the origin to a goal behind a wall.

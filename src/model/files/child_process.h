@@ -13,7 +13,7 @@ struct ChildLimits
   std::size_t err;  ///< bytes of the standard error
 };
 
-/// What a child process wrote, and how it ended.
+/// The output and the end of a child process.
 struct ChildAnswer
 {
   std::string out;
