@@ -44,7 +44,7 @@ void LaneChecker::useProofs()
   proofs_ = proofs;
 }
 
-/// Forgets what was learned on other proofs: with new tables, the pairs have other numbers.
+/// Clears the records and trials if they belong to other proofs: with new tables, the pairs have other numbers.
 void LaneChecker::useScene(Scratch& scratch) const
 {
   if (scratch.scene == scene_)

@@ -53,11 +53,11 @@ class LaneChecker
   LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_ptr<const CollisionProblem> problem,
               std::shared_ptr<const CpuForest> forest, const CpuTraversal& traversal);
 
-  /// The proofs that there are. The first call starts to make them in the background. One caller at a time.
+  /// The stage of the newest proofs. The first call starts to make proofs in the background. One caller at a time.
   ProofStage requestProofs();
 
-  /// Takes over the proofs that there are. `requestProofs` must have returned another stage than None. Must be called
-  /// before `check`. One caller at a time.
+  /// From now on, `check` uses the newest proofs. Must be called before the first `check`, after `requestProofs` has
+  /// returned another stage than None. One caller at a time.
   void useProofs();
 
   /// Whether `check` may be called for a state.
