@@ -14,7 +14,7 @@ class LaneBuffers
   /// The kernel's work space for a scene. It is valid until the next call. The trials are kept from call to call.
   lanes::Scratch of(const LaneScene& scene);
 
-  /// Must be called before a scene with other numbers of pairs is used.
+  /// Must be called before another scene is used: it numbers its pairs differently.
   void forgetTrials() { trials_.clear(); }
 
  private:
