@@ -12,8 +12,8 @@ namespace gpu_planning_scene::detector
 /// MoveIt interpolates from one state to another. Each joint moves at a constant speed, so the bound for a fraction of
 /// the motion is the same fraction. The bound is infinite in these cases:
 ///   - a planar joint turns before it drives
-///   - a joint follows a continuous joint that passes half a turn, or it has several variables and follows another
-///   joint
+///   - a joint follows a continuous joint that passes half a turn
+///   - a joint with several variables follows another joint
 ///   - a quaternion is not normalised
 ///   - the product of two quaternions is negative: MoveIt turns the longer way at a changing speed
 /// `instances`: placed as in the state `placed`.

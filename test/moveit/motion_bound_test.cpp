@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -70,8 +71,17 @@ bool turnsTheLongerWay(const RobotState& from, const RobotState& to)
                      });
 }
 
+/// Sets both ends of a motion.
+using SetMotion = void (*)(RobotState& from, RobotState& to, random_numbers::RandomNumberGenerator& random);
+
+void randomizeBoth(RobotState& from, RobotState& to, random_numbers::RandomNumberGenerator& random)
+{
+  randomize(from, random);
+  randomize(to, random);
+}
+
 /// Checks random motions. Returns the largest displacement of a point as a part of its bound.
-double expectBoundsToHold(const RobotModelPtr& robot, int motions)
+double expectBoundsToHold(const RobotModelPtr& robot, int motions, SetMotion set_motion = randomizeBoth)
 {
   constexpr int kSamples = 40;
   const RobotGeometry geometry(*robot, {}, {});
@@ -81,8 +91,7 @@ double expectBoundsToHold(const RobotModelPtr& robot, int motions)
   double largest = 0.0;
   for (int motion = 0; motion < motions; ++motion)
   {
-    randomize(from, random);
-    randomize(to, random);
+    set_motion(from, to, random);
     RobotState state = from;
     std::vector<double> bounds;
     std::vector<std::vector<Vector3d>> before;
@@ -174,6 +183,36 @@ TEST(MotionBound, IsInfiniteForFollowersWithSeveralVariables)
     EXPECT_EQ(std::count_if(bounds.begin(), bounds.end(), [](double bound) { return std::isfinite(bound); }), 1)
         << type;
   }
+}
+
+/// Small rotations of a floating joint. The norms of the quaternions are wrong by up to the tolerance of 1e-6.
+void turnALittle(RobotState& from, RobotState& to, random_numbers::RandomNumberGenerator& random)
+{
+  const JointModel* joint = from.getRobotModel()->getActiveJointModels().front();
+  const double angle = std::pow(10.0, random.uniformReal(-5.0, -0.5));
+  const Vector3d axis =
+      Vector3d(random.uniformReal(-1.0, 1.0), random.uniformReal(-1.0, 1.0), random.uniformReal(-1.0, 1.0))
+          .normalized();
+  const Eigen::Quaterniond start(
+      Eigen::AngleAxisd(random.uniformReal(-3.0, 3.0), Vector3d(axis.y(), axis.z(), axis.x())));
+  const Eigen::Quaterniond end = start * Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
+  const auto set = [&](RobotState& state, const Eigen::Quaterniond& rotation)
+  {
+    std::array<double, 7> values = {};
+    const Eigen::Vector4d coefficients = (1.0 + random.uniformReal(-9e-7, 9e-7)) * rotation.coeffs();
+    std::copy_n(coefficients.data(), 4, values.begin() + 3);
+    state.setJointPositions(joint, values.data());
+    state.update();
+  };
+  set(from, start);
+  set(to, end);
+}
+
+TEST(MotionBound, HoldsForQuaternionsThatAreNotExactlyNormalised)
+{
+  const RobotModelPtr robot =
+      robotFromUrdf("<link name='base'/>" + jointWithLink("move", "floating", "base", "bar", "0 0 0", "0 0 1", ""), "");
+  EXPECT_GT(expectBoundsToHold(robot, 2000, turnALittle), 0.5);
 }
 
 TEST(MotionBound, HoldsForAChainOfAllKindsOfJoints)
