@@ -1,6 +1,5 @@
 #include "bindings/arguments.h"
 
-#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <map>
@@ -8,9 +7,8 @@
 
 #include <pybind11/stl.h>
 
+#include "bindings/named_rows.h"
 #include "gpu_planning_scene/error.h"
-#include "model/full_states.h"
-#include "model/text/name_list.h"
 #include "scene/rigid_pose.h"
 
 namespace gpu_planning_scene::python
@@ -47,64 +45,6 @@ std::function<std::string(const std::string&)> pathFunctionOf(py::function funct
     const py::gil_scoped_acquire lock;
     return pathFrom((*shared)(name), what);
   };
-}
-
-/// A str, or the items of a list or tuple of str; empty for anything else.
-std::vector<std::string> namesFrom(py::handle object)
-{
-  if (py::isinstance<py::str>(object))
-    return {object.cast<std::string>()};
-  std::vector<std::string> names;
-  if (!py::isinstance<py::list>(object) && !py::isinstance<py::tuple>(object))
-    return names;
-  for (const py::handle item : py::reinterpret_borrow<py::sequence>(object))
-    if (py::isinstance<py::str>(item))
-      names.push_back(item.cast<std::string>());
-    else
-      return {};
-  return names;
-}
-
-/// The full states of these names, one per row.
-Rows namedRows(const std::vector<std::string>& names, const core::RobotModel& robot, const std::string& what,
-               const std::vector<double>* current)
-{
-  const core::PartialState base = current == nullptr ? core::PartialState(robot) : core::PartialState(robot, *current);
-  const std::size_t width = robot.variables().size();
-  Rows rows;
-  rows.count = names.size();
-  rows.array = ArrayOf<double>(
-      std::vector<py::ssize_t>{static_cast<py::ssize_t>(names.size()), static_cast<py::ssize_t>(width)});
-  double* row = rows.array.mutable_data();
-  for (const std::string& name : names)
-  {
-    core::NamedState state;
-    try
-    {
-      state = robot.namedState(name);
-    }
-    catch (const core::Error& error)
-    {
-      throw core::Error(what + ": " + error.what());
-    }
-    std::vector<bool> known = base.known;
-    std::copy(base.values.begin(), base.values.end(), row);
-    for (std::size_t i = 0; i < state.variables.size(); ++i)
-    {
-      row[state.variables[i]] = state.values[i];
-      known[static_cast<std::size_t>(state.variables[i])] = true;
-    }
-    std::vector<std::string> missing;
-    for (std::size_t i = 0; i < width; ++i)
-      if (!known[i])
-        missing.push_back(robot.variables()[i].name);
-    if (!missing.empty())
-      throw core::Error(what + ": the state '" + name + "' of the SRDF has no value for " + core::nameList(missing) +
-                        (current == nullptr ? "; give numbers for all variables"
-                                            : "; set current_state of the scene, or give numbers for all variables"));
-    row += width;
-  }
-  return rows;
 }
 }  // namespace
 

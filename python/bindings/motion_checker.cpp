@@ -6,6 +6,7 @@
 
 #include "bindings/bindings.h"
 #include "bindings/interrupt.h"
+#include "bindings/named_rows.h"
 #include "bindings/state_checker.h"
 #include "gpu_planning_scene/error.h"
 
@@ -59,7 +60,7 @@ MotionVerdicts checkMotions(const SharedMotionChecker& checker, const py::object
   const MotionQuery question = queryFrom(query.value);
   const auto scene = checker.checker->scene();
   const Rows from = rowsFrom(starts, *checker.robot, "starts", &scene->current_state);
-  const Rows to = rowsFrom(ends, *checker.robot, "ends", &scene->current_state);
+  const Rows to = endsFrom(ends, from, *checker.robot);
   if (from.count != to.count)
     throw core::Error("there are " + std::to_string(from.count) + " starts and " + std::to_string(to.count) +
                       " ends; give one end for each start");

@@ -48,7 +48,8 @@ std::string baseOf(const std::string& path, const std::string& out_path)
   if (path.empty())
     return "";
   const DescriptionText srdf = readDescription(path, "SRDF", {});
-  if (srdf.name != path && path == out_path)
+  std::error_code missing;  // equivalent() is false for a file that does not exist
+  if (srdf.name != path && std::filesystem::equivalent(path, out_path, missing))
     throw Error(path + ": this is a xacro file, and the expanded SRDF would replace it; give another file as --out");
   return srdf.text;
 }

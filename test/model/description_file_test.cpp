@@ -26,6 +26,8 @@ const char* const kSrdf = R"(<robot name='r'>
 <group name='all'><joint name='j'/></group>
 </robot>)";
 
+const std::string kAdvice = "; expand it by hand, and give the result: xacro FILE [NAME:=VALUE] > expanded.urdf";
+
 class XacroFile : public testing::Test
 {
  protected:
@@ -51,7 +53,7 @@ TEST_F(XacroFile, IsExpandedWhereXacroIsInstalled)
   EXPECT_EQ(Eigen::Vector3d(1.0, 1.0, 2.0), std::get<Box>(robot->links().at(0).shapes.at(0).shape).size);
   EXPECT_EQ("all", robot->groups().at(0).name);
   EXPECT_TRUE(warnings.empty()) << warnings[0];
-  const std::string by = "' is a xacro file: it was expanded by " + xacro.program();
+  const std::string by = "' is a xacro file: it was expanded with its default arguments by " + xacro.program();
   EXPECT_EQ((std::vector<std::string>{"SRDF '" + srdf + by, "URDF '" + path_ + by}), info_);
 }
 
@@ -67,8 +69,7 @@ TEST_F(XacroFile, AFailureOfXacroIsAnErrorWithItsMessage)
   const XacroStandIn xacro(
       "echo 'error: no argument side'; echo 'error: no argument side' >&2; echo 'in macro arm' >&2; exit 1");
   EXPECT_EQ("URDF '" + path_ + "' is a xacro file: " + xacro.program() +
-                " failed with exit code 1: error: no argument side in macro arm; if the file needs arguments, expand "
-                "it with them: xacro FILE NAME:=VALUE > expanded.urdf",
+                " failed with exit code 1: error: no argument side in macro arm" + kAdvice,
             errorOf([&] { read(); }));
   EXPECT_TRUE(info_.empty());
 }
@@ -77,7 +78,7 @@ TEST_F(XacroFile, AXacroThatHangsIsStopped)
 {
   const XacroStandIn xacro("exec sleep 60");
   const auto begin = std::chrono::steady_clock::now();
-  EXPECT_EQ("URDF '" + path_ + "' is a xacro file: " + xacro.program() + " takes longer than 0.2 s",
+  EXPECT_EQ("URDF '" + path_ + "' is a xacro file: " + xacro.program() + " takes longer than 0.2 s" + kAdvice,
             errorOf([&] { read(0.2); }));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }

@@ -73,6 +73,22 @@ class MotionChecker(Case):
         np.testing.assert_array_equal(expected.valid, answer.valid)
         self.assert_one_line(gps.Error, "^ends: the SRDF has no state 'nose'", checker.check, "ready", "nose")
 
+    def test_a_variable_that_the_name_of_the_end_does_not_set_keeps_its_start(self):
+        joint = "<joint name='{0}' type='prismatic'><parent link='{1}'/><child link='{2}'/><axis xyz='{3}'/>" \
+                "<limit lower='-3' upper='3' effort='1' velocity='1'/></joint>"
+        ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>"
+        robot = gps.RobotModel.from_xml(
+            "<robot name='crane'><link name='rail'/><link name='cart'/><link name='ball'>" + ball + "</link>" +
+            joint.format("slide", "rail", "cart", "1 0 0") + joint.format("lift", "cart", "ball", "0 0 1") + "</robot>",
+            "<robot name='crane'><group name='carts'><joint name='slide'/></group>"
+            "<group_state name='far' group='carts'><joint name='slide' value='2'/></group_state></robot>")
+        scene = gps.PlanningScene(robot)
+        scene.add_object("wall", gps.Box([0.1, 1, 0.4]), [1, 0, 0])
+        scene.current_state = [0.0, -1.0]
+        # From z = 1 to the current z = -1, the ball would hit the wall.
+        self.assertEqual([True], motions(scene).check([[0.0, 1.0]], ["far"]).valid.tolist())
+        self.assertEqual([False], motions(scene).check([[0.0, 0.0]], ["far"]).valid.tolist())
+
     def test_the_query_valid_ends_at_the_first_collision(self):
         answer = motions(wall_scene(0.1), rule="samples").check([0.0], [2.0])
         self.assertEqual((False, 0.0), (answer.valid[0], answer.last_valid[0]))

@@ -124,7 +124,7 @@ class RobotModel(Case):
             with xacro(EXPAND) as program, contextlib.redirect_stderr(io.StringIO()) as printed:
                 robot = gps.RobotModel.from_files(urdf)
             self.assertEqual(0.1, robot.links[1].shapes[0][0].radius)
-            self.assertEqual(f"URDF '{urdf}' is a xacro file: it was expanded by {program}\n", printed.getvalue())
+            self.assertEqual(f"URDF '{urdf}' is a xacro file: it was expanded with its default arguments by {program}\n", printed.getvalue())
             with xacro("echo no such property >&2; exit 2"):
                 self.assert_one_line(gps.Error, "failed with exit code 2: no such property", gps.RobotModel.from_files,
                                      urdf)

@@ -166,7 +166,8 @@ TEST_F(CheckStates, AXacroFileIsExpandedWhereXacroIsInstalled)
     const ProgramOutput output = run(arguments);
     EXPECT_EQ(0, output.exit_code) << output.err;
     EXPECT_NE(std::string::npos,
-              output.err.find("URDF '" + raw + "' is a xacro file: it was expanded by " + xacro.program() + "\n"))
+              output.err.find("URDF '" + raw + "' is a xacro file: it was expanded with its default arguments by " +
+                              xacro.program() + "\n"))
         << output.err;
   }
   {

@@ -121,13 +121,19 @@ TEST_F(GenerateAcm, StartsFromTheExpandedTextOfAXacroFileAndDoesNotReplaceTheFil
   const XacroStandIn xacro(kExpandingXacro);
   const ProgramOutput output = generate({"--samples", "100", "--srdf", srdf});
   ASSERT_EQ(0, output.exit_code) << output.err;
-  EXPECT_NE(std::string::npos, output.err.find("SRDF '" + srdf + "' is a xacro file: it was expanded by "));
+  EXPECT_NE(std::string::npos,
+            output.err.find("SRDF '" + srdf + "' is a xacro file: it was expanded with its default arguments by "));
   EXPECT_EQ(std::string::npos, contentOf(out).find("xacro:"));
   EXPECT_EQ(1u, RobotModel::fromFiles(urdf, out, {})->groups().size());
   const ProgramOutput refused =
       runProgram(GPS_GENERATE_ACM, {"--urdf", urdf, "--samples", "100", "--srdf", srdf, "--out", srdf});
   EXPECT_EQ(1, refused.exit_code);
   EXPECT_NE(std::string::npos, refused.err.find("the expanded SRDF would replace it; give another file as --out"));
+  EXPECT_EQ(text, contentOf(srdf));
+  const auto other = std::filesystem::path(srdf).parent_path() / "." / "users.srdf.xacro";  // another name of the file
+  EXPECT_EQ(1,
+            runProgram(GPS_GENERATE_ACM, {"--urdf", urdf, "--samples", "100", "--srdf", srdf, "--out", other.string()})
+                .exit_code);
   EXPECT_EQ(text, contentOf(srdf));
 }
 

@@ -35,7 +35,7 @@ std::string readFile(const std::string& path, const std::string& kind)
   return text;
 }
 
-/// Whether xacro must expand a text. A malformed text is no xacro: RobotModel reports its fault.
+/// Whether xacro must expand a text. Returns false for malformed XML: RobotModel reports the fault.
 bool isXacroText(const std::string& text, const std::string& name)
 {
   try
@@ -69,6 +69,8 @@ std::string expanded(const std::string& program, const std::string& path, const 
                      const std::function<void(const std::string& line)>& info, double seconds)
 {
   const std::string start = kind + " '" + path + "' is a xacro file: ";
+  const std::string advice = "; expand it by hand, and give the result: xacro FILE [NAME:=VALUE] > expanded." +
+                             std::string(kind == "SRDF" ? "srdf" : "urdf");
   // A path that begins with a hyphen would be an option.
   const ChildAnswer answer = runChild("xacro", {program, path.front() == '-' ? "./" + path : path},
                                       {seconds, kMaxDescriptionBytes, kMaxXacroMessageBytes});
@@ -76,23 +78,24 @@ std::string expanded(const std::string& program, const std::string& path, const 
   {
     std::ostringstream limit;
     limit << seconds;
-    throw Error(start + program + " takes longer than " + limit.str() + " s");
+    throw Error(start + program + " takes longer than " + limit.str() + " s" + advice);
   }
   if (answer.too_long)
     throw Error(start + program + " printed more than " + std::to_string(kMaxDescriptionBytes) +
-                " bytes, or messages of more than " + std::to_string(kMaxXacroMessageBytes) + " bytes");
+                " bytes, or messages of more than " + std::to_string(kMaxXacroMessageBytes) + " bytes" + advice);
   const std::string said = answer.err.substr(0, answer.err.find_last_not_of(" \t\r\n") + 1);
   const std::string messages = said.empty() ? "it printed no message" : shortLine(said);
   if (WIFSIGNALED(answer.status))
-    throw Error(start + program + " crashed (signal " + std::to_string(WTERMSIG(answer.status)) + "): " + messages);
+    throw Error(start + program + " crashed (signal " + std::to_string(WTERMSIG(answer.status)) + "): " + messages +
+                advice);
   if (WEXITSTATUS(answer.status) != 0)
     throw Error(start + program + " failed with exit code " + std::to_string(WEXITSTATUS(answer.status)) + ": " +
-                messages + "; if the file needs arguments, expand it with them: xacro FILE NAME:=VALUE > expanded." +
-                (kind == "SRDF" ? "srdf" : "urdf"));
+                messages + advice);
   if (answer.out.empty())
-    throw Error(start + program + " printed nothing: " + messages);
+    throw Error(start + program + " printed nothing: " + messages + advice);
   if (info)
-    info(start + "it was expanded by " + program + (said.empty() ? "" : ", which says: " + messages));
+    info(start + "it was expanded with its default arguments by " + program +
+         (said.empty() ? "" : ", which says: " + messages));
   return answer.out;
 }
 }  // namespace

@@ -13,7 +13,7 @@ struct DescriptionText
 };
 
 /// Reads a URDF or SRDF file. If it is a xacro file, and the program xacro is in an absolute folder of the environment
-/// variable PATH, this program expands it. Without the program, the text is that of the file, which RobotModel refuses.
+/// variable PATH, this program expands it. Without it, the text is that of the file, and RobotModel refuses it.
 /// `kind`: "URDF" or "SRDF". `info` (may be empty) receives a line if xacro was run. Throws Error if the file cannot
 /// be read, and if xacro fails, prints nothing, or takes longer than `xacro_seconds`. Thread-safe.
 DescriptionText readDescription(const std::string& path, const std::string& kind,

@@ -22,7 +22,7 @@ void prepareChecker(Workshop& workshop, const moveit::core::RobotModelConstPtr& 
   moveit::core::RobotState& state = scene.getCurrentStateNonConst();
   state.setToDefaultValues();
   state.update();
-  // The robot reaches its last link.
+  // The box is at the last link, so no reduction leaves it out.
   scene.getWorldNonConst()->addToObject("box", state.getGlobalLinkTransform(model->getLinkModels().back()),
                                         std::make_shared<shapes::Box>(1e-3, 1e-3, 1e-3), Eigen::Isometry3d::Identity());
   const ConvertedScene converted =

@@ -22,11 +22,11 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
             requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix);
         const Snapshot& now = scene.now;
         const RobotModel& robot = *now.scene->robot;
+        const PartialState current = now.partialState();
         RequestedEnds given = requestedEnds(
-            robot, request, [this](std::size_t count) { server_.requireStateCount(count); });
+            robot, request, current, [this](std::size_t count) { server_.requireStateCount(count); });
         CheckJob job;
         job.columns = given.columns;
-        const PartialState current = now.partialState();
         const std::size_t count = given.count;
         const std::vector<double> starts = fullStates(robot, job.columns, given.starts.data(), count, current);
         const std::vector<double> ends = fullStates(robot, job.columns, given.ends.data(), count, current);

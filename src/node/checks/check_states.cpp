@@ -91,7 +91,9 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         }
         if (!request.named_state.empty())
           rows = requestedNamedState(robot, {"named_state", request.named_state},
-                                     request.joint_names.empty() && request.positions.empty());
+                                     !request.joint_names.empty() ? "joint_names"
+                                     : !request.positions.empty() ? "positions"
+                                                                  : nullptr);
         if (!is_of_current_state)
           set_by_request = job.columns = requestedColumns(
               robot, {"joint_names", rows.names}, {"positions", rows.values},

@@ -95,10 +95,12 @@ RobotState startOf(const RobotModel& robot, const CheckTrajectory::Request& requ
   RobotState start = request.start_state;
   if (request.named_start.empty())
     return start;
-  NamedRow named = requestedNamedState(robot, {"named_start", request.named_start},
-                                       start.joint_state.name.empty() && start.joint_state.position.empty() &&
-                                           start.multi_dof_joint_state.joint_names.empty() &&
-                                           start.multi_dof_joint_state.transforms.empty());
+  NamedRow named = requestedNamedState(
+      robot, {"named_start", request.named_start},
+      !start.joint_state.name.empty() || !start.joint_state.position.empty() ? "start_state.joint_state"
+      : !start.multi_dof_joint_state.joint_names.empty() || !start.multi_dof_joint_state.transforms.empty()
+          ? "start_state.multi_dof_joint_state"
+          : nullptr);
   start.joint_state.name = std::move(named.names);
   start.joint_state.position = std::move(named.values);
   return start;

@@ -1,7 +1,6 @@
 #include "node/messages/requested_ends.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string>
 
@@ -12,7 +11,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Rows of values for `columns`. A row that the SRDF names counts for all motions.
+/// Rows of values for `columns`. A named state is one row, which all motions use.
 struct EndRows
 {
   std::vector<int> columns;
@@ -41,8 +40,10 @@ EndRows rowsOf(const RobotModel& robot, const CheckMotions::Request& request, co
     return result;
   }
   const bool both_named = !request.named_start.empty() && !request.named_end.empty();
-  const NamedRow state =
-      requestedNamedState(robot, name, rows.values.empty() && (!both_named || request.joint_names.empty()));
+  const char* conflict = !rows.values.empty()                         ? rows.name
+                         : both_named && !request.joint_names.empty() ? "joint_names"
+                                                                      : nullptr;
+  const NamedRow state = requestedNamedState(robot, name, conflict);
   result.columns = requestedColumns(robot, {name.name, state.names}, {name.name, state.values}, require_count);
   result.values = state.values;
   result.is_named = true;
@@ -50,7 +51,7 @@ EndRows rowsOf(const RobotModel& robot, const CheckMotions::Request& request, co
 }
 }  // namespace
 
-RequestedEnds requestedEnds(const RobotModel& robot, const CheckMotions::Request& request,
+RequestedEnds requestedEnds(const RobotModel& robot, const CheckMotions::Request& request, const PartialState& current,
                             const std::function<void(std::size_t)>& require_count)
 {
   if (request.named_start.empty() && request.named_end.empty() && request.starts.size() != request.ends.size())
@@ -65,14 +66,15 @@ RequestedEnds requestedEnds(const RobotModel& robot, const CheckMotions::Request
     if (starts.indexOf(column) < 0)
       result.columns.push_back(column);
   requireWholeRotations(robot, result.columns);
-  std::vector<std::array<std::ptrdiff_t, 2>> indices;
-  for (const int column : result.columns)
-    indices.push_back({{starts.indexOf(column), ends.indexOf(column)}});
+  fullStates(robot, starts.columns, nullptr, 0, current);  // throws Error if a value of the starts is not known
   for (std::size_t motion = 0; motion < result.count; ++motion)
-    for (const auto& [start, end] : indices)
+    for (const int column : result.columns)
     {
-      result.starts.push_back(start >= 0 ? starts.row(motion)[start] : ends.row(motion)[end]);
-      result.ends.push_back(end >= 0 ? ends.row(motion)[end] : starts.row(motion)[start]);
+      const std::ptrdiff_t start = starts.indexOf(column);
+      const std::ptrdiff_t end = ends.indexOf(column);
+      result.starts.push_back(start >= 0 ? starts.row(motion)[start]
+                                         : current.values[static_cast<std::size_t>(column)]);
+      result.ends.push_back(end >= 0 ? ends.row(motion)[end] : result.starts.back());
     }
   return result;
 }

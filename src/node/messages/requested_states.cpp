@@ -28,11 +28,11 @@ std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<st
   return columns;
 }
 
-NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::string>& field, bool others_empty)
+NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::string>& field, const char* conflict)
 {
-  if (!others_empty)
-    throw Error(std::string(field.name) + " is '" + field.values +
-                "', but the request has joint names or positions too; give one of the two");
+  if (conflict != nullptr)
+    throw Error(std::string(field.name) + " is '" + field.values + "', but " + conflict +
+                " is not empty; give one of the two");
   const NamedState state = robot.namedState(field.values);
   NamedRow row;
   row.values = state.values;

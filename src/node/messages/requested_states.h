@@ -30,9 +30,10 @@ struct NamedRow
   std::vector<double> values;
 };
 
-/// The row of a state that the SRDF names. `field`: the field of the request that has the name. `others_empty`: true if
-/// the request has neither names nor values. Throws Error if this is false, or if the SRDF has no such state.
-NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::string>& field, bool others_empty);
+/// The row of a state that the SRDF names. `field`: the field of the request that has the name. `conflict`: a field of
+/// the request that must be empty but is not; null if there is none. Throws Error if there is one, or if the SRDF has
+/// no such state.
+NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::string>& field, const char* conflict);
 
 /// Throws Error if the columns have only some of the four variables of a floating joint's rotation: a motion between
 /// two such rotations is not defined.

@@ -31,7 +31,9 @@ NamedRow namedGoal(const PlanMotion::Request& request, const GroupStateSpace& sp
 {
   const RobotModel& robot = *space.robot();
   const NamedRow state = requestedNamedState(robot, {"named_goal", request.named_goal},
-                                             request.goal_names.empty() && request.goals.empty());
+                                             !request.goal_names.empty() ? "goal_names"
+                                             : !request.goals.empty()    ? "goals"
+                                                                         : nullptr);
   NamedRow goal;
   for (std::size_t i = 0; i < state.names.size(); ++i)
     if (std::find(space.variables().begin(), space.variables().end(), robot.variableIndex(state.names[i])) !=
@@ -107,7 +109,9 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   NamedRow start_row{request.start_names, request.start};
   if (!request.named_start.empty())
     start_row = requestedNamedState(robot, {"named_start", request.named_start},
-                                    request.start_names.empty() && request.start.empty());
+                                    !request.start_names.empty() ? "start_names"
+                                    : !request.start.empty()     ? "start"
+                                                                 : nullptr);
   if (start_row.names.empty() && start_row.values.empty())
     query.start = fullStates(robot, {}, nullptr, 1, current);
   else

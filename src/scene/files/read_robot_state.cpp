@@ -25,7 +25,7 @@ struct GivenState
     values[variable] = value;
     given[variable] = true;
   }
-  /// Whether the file names a joint, also one that is not used.
+  /// Whether the file names any joint. Joints that are ignored count.
   bool hasJoints() const
   {
     return std::find(given.begin(), given.end(), true) != given.end() || !unknown_joints.empty() ||

@@ -461,7 +461,7 @@ TEST_F(Service, ANamedStateOfFixedJointsIsRefused)
               "<group_state name=\"tight\" group=\"bolts\"><joint name=\"bolt\" "
               "value=\"0\"/></group_state>");
   const auto robot = RobotModel::fromXml(sliderUrdf(), srdf, {});
-  const std::string error = errorOf([&] { requestedNamedState(*robot, {"named_state", "tight"}, true); });
+  const std::string error = errorOf([&] { requestedNamedState(*robot, {"named_state", "tight"}, nullptr); });
   EXPECT_EQ(
       "the state 'tight' of the SRDF sets no variable: each of its joints is fixed, follows another joint, or has a "
       "value that was ignored with a warning; name another state",
@@ -508,8 +508,12 @@ TEST_F(Service, ANamedEndCountsForAllMotions)
   EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 1}), to.valid);
   asked.joint_names = {"turn"};
   asked.starts = {0.0, 0.5};
-  EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), services.checkMotions(asked).valid)
-      << "the cart is where the end has it";
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), services.checkMotions(asked).valid)
+      << "the cart starts where it is now: in the wall";
+  store.updateState({{"slide", 1.9}});
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), services.checkMotions(asked).valid) << "it drives through the wall";
+  store.updateState({{"slide", 0.0}});
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 1}), services.checkMotions(asked).valid) << "it drives away from the wall";
 }
 
 TEST_F(Service, ANameAndValuesOfOneEndOfAMotionAreRefused)
@@ -521,12 +525,11 @@ TEST_F(Service, ANameAndValuesOfOneEndOfAMotionAreRefused)
   EXPECT_EQ("the SRDF has no state 'home'; its states: drive/left, drive/right", services.checkMotions(asked).message);
   asked.named_start = "left";
   asked.joint_names = {"turn"};
-  EXPECT_EQ("named_start is 'left', but the request has joint names or positions too; give one of the two",
+  EXPECT_EQ("named_start is 'left', but joint_names is not empty; give one of the two",
             services.checkMotions(asked).message);
   asked.named_start = "";
   asked.starts = asked.ends = {0.5};
-  EXPECT_EQ("named_end is 'left', but the request has joint names or positions too; give one of the two",
-            services.checkMotions(asked).message);
+  EXPECT_EQ("named_end is 'left', but ends is not empty; give one of the two", services.checkMotions(asked).message);
   asked = CheckMotions::Request();
   asked.named_start = "left";
   EXPECT_EQ("joint_names is empty; name at least one variable", services.checkMotions(asked).message);

@@ -177,8 +177,7 @@ TEST_F(SliderTrajectory, TheStartCanBeAStateOfTheSrdf)
   request.named_start = "left";
   request.start_state.joint_state.name = {"slide"};
   request.start_state.joint_state.position = {0.0};
-  expectRefusal(request,
-                "named_start is 'left', but the request has joint names or positions too; give one of the two");
+  expectRefusal(request, "named_start is 'left', but start_state.joint_state is not empty; give one of the two");
 }
 
 TEST_F(SliderTrajectory, AStartInCollisionIsAnAnswer)

@@ -283,7 +283,7 @@ TEST_F(Planning, StartAndGoalMayBeStatesOfTheSrdf)
   wanted.named_goal = "right";
   wanted.start_names = {"slide"};
   expectStatus(wanted, Response::BAD_REQUEST,
-               "named_start is 'left', but the request has joint names or positions too");
+               "named_start is 'left', but start_names is not empty; give one of the two");
   // A state of both joints counts for the group's joint.
   wanted.named_start.clear();
   wanted.start_names = {"slide", "turn"};
