@@ -213,6 +213,7 @@ const std::map<std::string, Task>& tasks()
       {"distances", checkDistances},
       {"kinematics", checkKinematics},
       {"crossings", checkCrossings},
+      {"containment", checkContainment},
       {"half_spaces", checkHalfSpaces},
   };
   return all;
