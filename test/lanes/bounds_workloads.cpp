@@ -1,6 +1,7 @@
 // Functions of the shaders, alone, with the arithmetic of the simulated device. Each input is exact, so that each error
 // is one of the function. The bounds are those of docs/error_bounds.md.
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -342,6 +343,50 @@ std::vector<std::string> checkDistances(const std::string& shaders, std::uint64_
   return wrong;
 }
 
+namespace
+{
+/// The sine and the cosine of angles up to 2^20, in double precision.
+void checkSines(const std::string& shaders, Random& random, std::vector<std::string>& wrong)
+{
+  const Program program = Program::fromText(shaders, "sines", R"(// One invocation per angle: its sine and its cosine.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "problem/kinematics.glsl"
+layout(std430, binding = BINDING_C) readonly buffer Angles { double angles[]; };
+layout(std430, binding = BINDING_D) writeonly buffer Results { dvec2 results[]; };
+void main()
+{
+  const uint i = invocationIndex();
+  double sine, cosine;
+  sineCosine(angles[i], sine, cosine);
+  results[i] = dvec2(sine, cosine);
+}
+)");
+  std::vector<double> angles(kCases);
+  for (double& angle : angles)
+    angle = random.uniform(-1.0, 1.0) * std::pow(2.0, random.uniform(0.0, 20.0));
+  Buffer input(kCases * sizeof(double));
+  input.write(angles);
+  std::vector<std::array<double, 2>> results(kCases);
+  Buffer output(kCases * sizeof(results[0]));
+  input.bindStorage(BINDING_C);
+  output.bindStorage(BINDING_D);
+  program.dispatch(groupsFor(kCases));
+  output.read(results.data(), kCases * sizeof(results[0]));
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    const auto angle = static_cast<long double>(angles[i]);
+    const auto off = static_cast<double>(
+        std::max(std::abs(results[i][0] - std::sin(angle)), std::abs(results[i][1] - std::cos(angle))));
+    // The part of a rotation in the bound of link poses, for operations that are rounded in any direction.
+    if (!(off <= 30.0 * 0x1p-52))
+      wrong.push_back("the sine or cosine of " + std::to_string(angles[i]) + " is off by " +
+                      std::to_string(off * 1e15) + "e-15");
+  }
+}
+}  // namespace
+
 std::vector<std::string> checkKinematics(const std::string& shaders, std::uint64_t seed)
 {
   const auto robot = RobotModel::fromXml(R"(<robot name="turning"><link name="base"/><link name="a"/><link name="b"/>
@@ -366,6 +411,7 @@ std::vector<std::string> checkKinematics(const std::string& shaders, std::uint64
   std::vector<float> found(kCases * problem.robot.size() * POSE_FLOATS);
   poses.buffer().read(found.data(), found.size() * sizeof(float));
   std::vector<std::string> wrong;
+  checkSines(shaders, random, wrong);
   std::vector<Eigen::Isometry3d> links(3);
   for (std::size_t i = 0; i < kCases; ++i)
   {
