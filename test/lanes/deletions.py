@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Shows that the simulated device finds faults: deletes one after the other each barrier() and each `precise` of the
-shaders, and each bit of glMemoryBarrier at each kind of command, and runs small tasks until one of them is wrong.
-Prints a table (Markdown). See docs/gpu.md.
+shaders, and each bit of glMemoryBarrier at each kind of command, and runs small tasks until one of them is wrong. A
+`precise` that is not found is deleted again together with each other `precise` of its file, because two of them often
+protect the same result. Prints a table (Markdown). See docs/gpu.md.
 
     deletions.py BUILD [--seeds N] [--quick] [--only TEXT]
 """
@@ -31,14 +32,16 @@ BITS = {"GL_TEXTURE_FETCH_BARRIER_BIT": 0x8, "GL_COMMAND_BARRIER_BIT": 0x40, "GL
         "GL_SHADER_STORAGE_BARRIER_BIT": 0x2000}
 # Tasks for a folder of shaders; others try all tasks.
 BATCHES = ["work_queue", "breadth_first"]
-FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "half_spaces"]
-# With --quick, a `precise` is looked for by the function task of its file alone.
+FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "containment",
+             "half_spaces"]
+# With --quick, and for two `precise`, only the function tasks of the file are tried.
 FUNCTION_OF = {
     "shaders/broad_phase/half_spaces.comp": ["half_spaces"],
     "shaders/geometry/pose.glsl": ["transforms"],
     "shaders/geometry/triangle_distance.glsl": ["distances"],
+    "shaders/geometry/triangle_error_bounds.glsl": ["triangles", "distances"],
     "shaders/geometry/triangle_pair.glsl": ["triangles", "distances"],
-    "shaders/geometry/winding_number.glsl": ["crossings"],
+    "shaders/geometry/winding_number.glsl": ["crossings", "containment"],
     "shaders/problem/kinematics.glsl": ["kinematics"],
     "shaders/self_test/float_arithmetic.comp": ["arithmetic"],
 }
@@ -142,21 +145,38 @@ class Runner:
                     return f"stability, {family}", str(seed), (wrong or [process.stderr.strip()[-200:]])[0]
         return None
 
-    def without_line(self, path, number, text):
-        """The same for a shader whose line `number` is replaced by `text`."""
+    def without_lines(self, path, texts, search):
+        """`search` for shaders in which the lines of a file, the keys of `texts`, are replaced by its values."""
         with tempfile.TemporaryDirectory() as folder:
             shaders = os.path.join(folder, "shaders")
             shutil.copytree(SHADERS, shaders)
             lines = lines_of(path)
-            lines[number - 1] = text
+            for number, text in texts.items():
+                lines[number - 1] = text
             with open(os.path.join(folder, path), "w", encoding="utf-8") as file:
                 file.write("\n".join(lines))
-            barrier = "precise" not in lines_of(path)[number - 1]
-            if barrier:
-                return self.tasks(shaders, BATCHES, {})
-            if self.quick:
-                return self.tasks(shaders, FUNCTION_OF[path], {})
-            return self.tasks(shaders, FUNCTIONS, {}) or self.tasks(shaders, BATCHES, {}) or self.families(shaders)
+            return search(shaders)
+
+    def without_barrier(self, path, number, text):
+        return self.without_lines(path, {number: text}, lambda shaders: self.tasks(shaders, BATCHES, {}))
+
+    def without_precise(self, path, number, text, others):
+        """The same without a `precise`. If it is not found, without one of the `others` of its file, too."""
+        def functions(shaders):
+            return self.tasks(shaders, FUNCTION_OF[path], {})
+
+        def all_tasks(shaders):
+            return functions(shaders) or self.tasks(shaders, FUNCTIONS, {}) or self.tasks(shaders, BATCHES, {}) \
+                or self.families(shaders)
+
+        found = self.without_lines(path, {number: text}, functions if self.quick else all_tasks)
+        for other, other_text in others:
+            if found:
+                break
+            both = self.without_lines(path, {number: text, other: other_text}, functions)
+            if both:
+                return f"not found alone; with line {other}: {both[0]}", *both[1:]
+        return found
 
     def without_bit(self, bit, command):
         variables = {"GPS_LANES_IGNORE_BITS": hex(BITS[bit]), "GPS_LANES_IGNORE_BEFORE": command}
@@ -173,21 +193,31 @@ def main():
     runner = Runner(arguments.build, arguments.seeds, arguments.quick)
     jobs = []
     with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
-        for path, number, text in shader_deletions():
-            what = f"{path}:{number}: `{lines_of(path)[number - 1].strip()}`"
-            if arguments.only in what:
-                jobs.append((what, pool.submit(runner.without_line, path, number, text)))
+        deletions = list(shader_deletions())
+        for path, number, text in deletions:
+            line = lines_of(path)[number - 1]
+            what = f"{path}:{number}: `{line.strip()}`"
+            if arguments.only not in what:
+                continue
+            if "precise" in line:
+                others = [other[1:] for other in deletions
+                          if other[0] == path and other[1] != number and "precise" in lines_of(path)[other[1] - 1]]
+                jobs.append((what, pool.submit(runner.without_precise, path, number, text, others)))
+            else:
+                jobs.append((what, pool.submit(runner.without_barrier, path, number, text)))
         for path, number, bit, command in bit_deletions():
             what = f"{path}:{number}: {bit} before {command}"
             if arguments.only in what:
                 jobs.append((what, pool.submit(runner.without_bit, bit, command)))
         print("| deletion | task | seed | what is wrong |\n| --- | --- | --- | --- |", flush=True)
-        missed = 0
+        alone = 0
+        together = 0
         for what, job in jobs:
             found = job.result()
-            missed += not found
+            together += bool(found) and "not found alone" in found[0]
+            alone += bool(found) and "not found alone" not in found[0]
             print("| " + " | ".join([what, *(found or ("not found", "", ""))]) + " |", flush=True)
-    print(f"\n{len(jobs) - missed} of {len(jobs)} deletions are found.")
+    print(f"\n{alone} of {len(jobs)} deletions are found, {together} more together with another one.")
 
 
 if __name__ == "__main__":
