@@ -165,11 +165,10 @@ Pair parallelPair(Random& random)
   for (Vector3d& corner : pair.a)
     corner = random.vector(size);
   const Vector3d edge = pair.a[1] - pair.a[0];
-  const Vector3d away =
-      size * std::pow(10.0, random.uniform(1.5, 3.5)) * edge.cross(random.vector(1.0)).normalized();
+  const Vector3d away = size * std::pow(10.0, random.uniform(1.5, 3.5)) * edge.cross(random.vector(1.0)).normalized();
   pair.b[0] = random.vector(size) + away;
-  pair.b[1] = pair.b[0] + random.uniform(0.5, 2.0) * edge +
-              random.vector(size) * std::pow(10.0, random.uniform(-7.5, -4.0));
+  pair.b[1] =
+      pair.b[0] + random.uniform(0.5, 2.0) * edge + random.vector(size) * std::pow(10.0, random.uniform(-7.5, -4.0));
   pair.b[2] = random.vector(size) + away;
   for (Vector3d& corner : pair.b)
     corner = Random::rounded(corner);

@@ -222,8 +222,8 @@ std::vector<std::string> checkContainment(const std::string& shaders, std::uint6
     std::array<std::uint32_t, 4> texels[2] = {{0, 0, 0, 4 * i}, {0, 0, 0, 4}};
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      const auto [low, high] = std::minmax({solid.corners[0][axis], solid.corners[1][axis], solid.corners[2][axis],
-                                            solid.corners[3][axis]});
+      const auto [low, high] =
+          std::minmax({solid.corners[0][axis], solid.corners[1][axis], solid.corners[2][axis], solid.corners[3][axis]});
       const float center = (low + high) / 2.0F;
       const float extent = (high - low) * 0.6F + std::abs(center) * 1e-6F;
       std::memcpy(&texels[0][axis], &center, sizeof(center));
