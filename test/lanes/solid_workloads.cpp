@@ -1,5 +1,5 @@
 // Tasks for the shaders that place points against solids: the crossing of a ray and a triangle, the winding number of a
-// point, which rests on such crossings, and the heights of corners above a half-space.
+// point, which rests on such crossings, the distance of a triangle and a solid, and the heights of corners above a half-space.
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include "collision/gpu/gpu_checker.h"
 #include "gpu/program.h"
 #include "lanes/workloads.h"
+#include "oracle/convex.h"
 #include "oracle/quad.h"
 #include "shader_constants.h"
 
@@ -288,6 +289,117 @@ void main()
     if ((results[i] == STATE_HIT && exact < 0) || (results[i] == 0 && exact > 0))
       wrong.push_back("point " + std::to_string(i) + " is called " + (exact < 0 ? "inside" : "outside"));
   }
+  return wrong;
+}
+
+namespace
+{
+/// A triangle 1e-8 m to 0.1 m from a solid of 0.1 m to 1 m.
+struct NearSolid
+{
+  std::uint32_t kind;
+  Texel size;  // as in problem/instances.glsl
+  Corners corners;
+  oracle::Bounds distance;
+};
+
+oracle::Convex convexOf(std::uint32_t kind, const Texel& size)
+{
+  if (kind == SOLID_BOX)
+    return Box{2.0 * Vector3d(size[0], size[1], size[2])};
+  if (kind == SOLID_SPHERE)
+    return Sphere{size[0]};
+  if (kind == SOLID_CYLINDER)
+    return Cylinder{size[0], 2.0 * size[2]};
+  return Cone{size[0], 2.0 * size[2]};
+}
+
+NearSolid nearSolid(Random& random)
+{
+  NearSolid near;
+  near.kind = SOLID_BOX + static_cast<std::uint32_t>(random.uniform(0.0, 4.0));
+  near.size = rounded({random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), random.uniform(0.1, 1.0)});
+  if (near.kind != SOLID_BOX)
+    near.size[1] = near.size[0];
+  if (near.kind == SOLID_SPHERE)
+    near.size[2] = near.size[0];
+  const oracle::Convex solid = convexOf(near.kind, near.size);
+  const Vector3d out = random.vector().normalized();
+  const Vector3d first =
+      oracle::farthestPoint(solid, oracle::Vector(out)).toDouble() + std::pow(10.0, random.uniform(-8.0, -1.0)) * out;
+  near.corners[0] = rounded(first);
+  for (std::size_t i = 1; i < 3; ++i)
+  {
+    const Vector3d edge = random.vector();
+    near.corners[i] = rounded(first + edge + (std::abs(edge.dot(out)) - edge.dot(out) + 0.05) * out);
+  }
+  oracle::Corners corners;
+  for (std::size_t i = 0; i < 3; ++i)
+    corners.corners[i] = oracle::Vector(Vector3d(near.corners[i][0], near.corners[i][1], near.corners[i][2]));
+  near.distance = oracle::convexDistance(corners, {}, solid, {}, Quad(-1), Quad(1e30));
+  return near;
+}
+}  // namespace
+
+std::vector<std::string> checkSolids(const std::string& shaders, std::uint64_t seed)
+{
+  Random random(seed);
+  std::vector<NearSolid> cases;
+  std::vector<Texel> values;
+  while (cases.size() < kTriangles)
+  {
+    const NearSolid near = nearSolid(random);
+    if (near.distance.lower <= 0)
+      continue;
+    cases.push_back(near);
+    values.insert(values.end(), near.corners.begin(), near.corners.end());
+    values.push_back({near.size[0], near.size[1], near.size[2], static_cast<float>(near.kind)});
+    // The required distance is less than the distance of the two, and the gap is not.
+    values.push_back({std::nextafter(static_cast<float>(near.distance.lower), 0.0F),
+                      std::nextafter(static_cast<float>(near.distance.upper), INFINITY), 0.0F, 0.0F});
+  }
+  const Program program = Program::fromText(shaders, "solids", R"(// One invocation per triangle: its verdict.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "traversal/root_pairs.glsl"
+#include "problem/nodes.glsl"
+#include "common/counters.glsl"
+#include "traversal/verdicts.glsl"
+#include "problem/instances.glsl"
+#include "traversal/solid_leaf.glsl"
+layout(std430, binding = BINDING_C) readonly buffer Values { vec4 values[]; };
+layout(std430, binding = BINDING_D) writeonly buffer Results { uint results[]; };
+void main()
+{
+  const uint first = 5u * invocationIndex();
+  vec3 corners[3];
+  for (uint i = 0u; i < 3u; ++i)
+    corners[i] = values[first + i].xyz;
+  const vec4 size = values[first + 3u];
+  const vec4 lengths = values[first + 4u];
+  const Instance solid = Instance(0u, 0.0, 0u, 0u, vec3(0.0), uint(size.w), size.xyz, 0.0);
+  results[invocationIndex()] = triangleSolid(corners, solid, 0.0, lengths.x, lengths.y);
+}
+)");
+  Buffer input(values.size() * sizeof(Texel));
+  input.write(values);
+  Buffer output(kTriangles * sizeof(std::uint32_t));
+  input.bindStorage(BINDING_C);
+  output.bindStorage(BINDING_D);
+  program.dispatch(groupsFor(kTriangles));
+  std::vector<std::uint32_t> results(kTriangles);
+  output.read(results.data(), results.size() * sizeof(std::uint32_t));
+  std::vector<std::string> wrong;
+  for (std::size_t i = 0; i < kTriangles; ++i)
+    if (results[i] == STATE_HIT || results[i] == 0)
+    {
+      std::ostringstream line;
+      line << "triangle " << i << " at a distance of " << static_cast<double>(cases[i].distance.lower)
+           << " m from a solid of kind " << cases[i].kind << " is proven to be "
+           << (results[i] == 0 ? "farther apart" : "nearer");
+      wrong.push_back(line.str());
+    }
   return wrong;
 }
 

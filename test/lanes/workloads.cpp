@@ -214,6 +214,7 @@ const std::map<std::string, Task>& tasks()
       {"kinematics", checkKinematics},
       {"crossings", checkCrossings},
       {"containment", checkContainment},
+      {"solids", checkSolids},
       {"half_spaces", checkHalfSpaces},
   };
   return all;
