@@ -35,7 +35,9 @@ vec3 nearestOfTriangle(vec3 corners[3], vec3 p)
   const float db = dot(p - b, p - b);
   const float dc = dot(p - c, p - c);
   const vec3 on_edge = da <= db && da <= dc ? a : (db <= dc ? b : c);
-  return within ? corners[0] + s * e1 + t * e2 : on_edge;
+  // Rounded here, so that no compiler can expand the square of its distance from an axis.
+  precise const vec3 nearest = within ? corners[0] + s * e1 + t * e2 : on_edge;
+  return nearest;
 }
 
 // Returns true if all corners lie on one side of the solid along n, beyond it by more than `beyond` (for n of length
@@ -67,9 +69,7 @@ uint triangleSolid(vec3 corners[3], Instance solid, float error, float distance,
     size = max(size, dot(corners[i], corners[i]));
   const float off = error + 64.0 * u * sqrt(size);
   const float beyond = gap + off;
-  const vec3 e1 = vectorBetween(corners[0], corners[1]);
-  const vec3 e2 = vectorBetween(corners[0], corners[2]);
-  precise const vec3 normal = cross(e1, e2);
+  precise const vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
   bool apart = liesBeyond(corners, solid, normal, beyond);
   for (int i = 0; i < 3; ++i)
   {

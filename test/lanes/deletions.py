@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """Shows that the simulated device finds faults: deletes one after the other each barrier() and each `precise` of the
-shaders, and each bit of glMemoryBarrier at each kind of command, and runs small tasks until one of them is wrong. A
-`precise` that is not found is deleted again together with each other such `precise` of its file, because two of them
-often protect the same result. Prints a table (Markdown). See docs/gpu.md.
+shaders, and each bit of glMemoryBarrier at each kind of command, and runs small tasks until one of them is wrong. A call
+of vectorBetween counts as a `precise`: a plain difference replaces it. A `precise` that is not found is deleted again
+together with each other such `precise` of its file, because two of them often protect the same result. Prints a table
+(Markdown). See docs/gpu.md.
 
     deletions.py BUILD [--seeds N] [--quick] [--only TEXT]
 """
@@ -19,8 +20,9 @@ import tempfile
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SHADERS = os.path.join(SOURCE, "shaders")
+BARRIER = re.compile(r"^\s*(barrier|memoryBarrier\w*|groupMemoryBarrier)\(\);")
 STATEMENTS = [
-    (re.compile(r"^\s*(barrier|memoryBarrier\w*|groupMemoryBarrier)\(\);"), re.compile(r"\w+\(\);")),
+    (BARRIER, re.compile(r"\w+\(\);")),
     (re.compile(r"^\s*precise\s"), re.compile(r"precise\s")),
 ]
 # The commands that a memory barrier precedes, by the file of the barrier. Only indirect dispatches have all bits.
@@ -33,18 +35,20 @@ BITS = {"GL_TEXTURE_FETCH_BARRIER_BIT": 0x8, "GL_COMMAND_BARRIER_BIT": 0x40, "GL
         "GL_SHADER_STORAGE_BARRIER_BIT": 0x2000}
 # Tasks for a folder of shaders; others try all tasks.
 BATCHES = ["work_queue", "breadth_first"]
-FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "containment",
+FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "containment", "solids",
              "half_spaces"]
 # With --quick, and for two `precise`, only the function tasks of the file are tried.
 FUNCTION_OF = {
     "shaders/broad_phase/half_spaces.comp": ["half_spaces"],
-    "shaders/geometry/pose.glsl": ["transforms"],
+    "shaders/geometry/pose.glsl": ["transforms", "solids"],
     "shaders/geometry/triangle_distance.glsl": ["distances"],
     "shaders/geometry/triangle_error_bounds.glsl": ["triangles", "distances"],
     "shaders/geometry/triangle_pair.glsl": ["triangles", "distances"],
     "shaders/geometry/winding_number.glsl": ["crossings", "containment"],
     "shaders/problem/kinematics.glsl": ["kinematics"],
     "shaders/self_test/float_arithmetic.comp": ["arithmetic"],
+    "shaders/traversal/solid_leaf.glsl": ["solids"],
+    "shaders/traversal/solid_nodes.glsl": ["solids"],
 }
 # A run that needs more processor time than this, in seconds, does not end. A run without a deletion needs a few seconds.
 MOST_SECONDS = 60
@@ -55,6 +59,21 @@ FAMILIES = ["random rigid motions", "far", "sliver", "in or near a closed mesh",
 def limit_time(seeds):
     """Processor time, because a wait for a busy machine is not a fault."""
     resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS * seeds, MOST_SECONDS * seeds + 5))
+
+
+def without_vector_between(line):
+    """The line with a plain difference in place of the call of vectorBetween."""
+    start = line.index("vectorBetween(")
+    first = start + len("vectorBetween(")
+    commas = []
+    depth = 1
+    end = first
+    while depth > 0:
+        if line[end] == "," and depth == 1:
+            commas.append(end)
+        depth += (line[end] in "([") - (line[end] in ")]")
+        end += 1
+    return f"{line[:start]}({line[commas[0] + 1:end - 1]} - ({line[first:commas[0]]})){line[end:]}"
 
 
 def lines_of(path):
@@ -71,6 +90,8 @@ def shader_deletions():
                 for statement, words in STATEMENTS:
                     if statement.search(line):
                         yield path, number, words.sub("", line, count=1)
+                if "vectorBetween(" in line and not line.startswith("vec3 vectorBetween"):
+                    yield path, number, without_vector_between(line)
 
 
 def bit_deletions():
@@ -159,10 +180,11 @@ class Runner:
             return self.tasks(shaders, names, {}, self.seeds)
 
         def search(shaders):
-            found = tasks(shaders, FUNCTION_OF[path])
+            own = FUNCTION_OF.get(path, [])
+            found = tasks(shaders, own) if own else None
             if found or quick:
                 return found
-            others = [name for name in FUNCTIONS if name not in FUNCTION_OF[path]]
+            others = [name for name in FUNCTIONS if name not in own]
             return tasks(shaders, others) or tasks(shaders, BATCHES) or self.families(shaders)
 
         return self.without_lines(path, texts, search)
@@ -192,7 +214,7 @@ def search(runner, pool, arguments):
         line = lines_of(path)[number - 1]
         what = f"{path}:{number}: `{line.strip()}`"
         if arguments.only in what:
-            job = pool.submit(runner.without_precise, path, {number: text}, arguments.quick) if "precise" in line \
+            job = pool.submit(runner.without_precise, path, {number: text}, arguments.quick) if not BARRIER.search(line) \
                 else pool.submit(runner.without_barrier, path, number, text)
             jobs.append((what, job, (path, number, text)))
     for path, number, bit, command in bit_deletions():

@@ -1,5 +1,6 @@
 // Tasks for the shaders that place points against solids: the crossing of a ray and a triangle, the winding number of a
-// point, which rests on such crossings, the distance of a triangle and a solid, and the heights of corners above a half-space.
+// point, which rests on such crossings, the distance of a triangle and a solid, and the heights of corners above a
+// half-space.
 
 #include <algorithm>
 #include <cmath>
@@ -294,13 +295,15 @@ void main()
 
 namespace
 {
-/// A triangle 1e-8 m to 0.1 m from a solid of 0.1 m to 1 m.
+/// A triangle and a cube 1e-8 m to 0.1 m from a solid of 0.1 m to 1 m. One triangle in four is a sliver.
 struct NearSolid
 {
   std::uint32_t kind;
   Texel size;  // as in problem/instances.glsl
   Corners corners;
   oracle::Bounds distance;
+  Texel cube;  // its centre, and half its edge length
+  oracle::Bounds cube_distance;
 };
 
 oracle::Convex convexOf(std::uint32_t kind, const Texel& size)
@@ -325,18 +328,30 @@ NearSolid nearSolid(Random& random)
     near.size[2] = near.size[0];
   const oracle::Convex solid = convexOf(near.kind, near.size);
   const Vector3d out = random.vector().normalized();
-  const Vector3d first =
-      oracle::farthestPoint(solid, oracle::Vector(out)).toDouble() + std::pow(10.0, random.uniform(-8.0, -1.0)) * out;
+  const Vector3d foot = oracle::farthestPoint(solid, oracle::Vector(out)).toDouble();
+  const double gap = std::pow(10.0, random.uniform(-8.0, -1.0));
+  const Vector3d first = foot + gap * out;
   near.corners[0] = rounded(first);
   for (std::size_t i = 1; i < 3; ++i)
   {
     const Vector3d edge = random.vector();
     near.corners[i] = rounded(first + edge + (std::abs(edge.dot(out)) - edge.dot(out) + 0.05) * out);
   }
+  const auto share = static_cast<float>(std::pow(10.0, random.uniform(-6.0, -0.3)));
+  if (random.uniform(0.0, 1.0) < 0.25)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      near.corners[2][axis] = near.corners[0][axis] + share * (near.corners[1][axis] - near.corners[0][axis]);
   oracle::Corners corners;
   for (std::size_t i = 0; i < 3; ++i)
     corners.corners[i] = oracle::Vector(Vector3d(near.corners[i][0], near.corners[i][1], near.corners[i][2]));
   near.distance = oracle::convexDistance(corners, {}, solid, {}, Quad(-1), Quad(1e30));
+  const auto half = static_cast<float>(std::pow(10.0, random.uniform(-6.0, -2.0)));
+  near.cube = rounded(foot + (gap + 2.0 * static_cast<double>(half)) * out);
+  near.cube[3] = half;
+  oracle::Motion cube_pose;
+  cube_pose.translation = oracle::Vector(Vector3d(near.cube[0], near.cube[1], near.cube[2]));
+  near.cube_distance = oracle::convexDistance(Box{Vector3d::Constant(2.0 * static_cast<double>(half))}, cube_pose,
+                                              solid, {}, Quad(-1), Quad(1e30));
   return near;
 }
 }  // namespace
@@ -349,16 +364,19 @@ std::vector<std::string> checkSolids(const std::string& shaders, std::uint64_t s
   while (cases.size() < kTriangles)
   {
     const NearSolid near = nearSolid(random);
-    if (near.distance.lower <= 0)
+    if (near.distance.lower <= 0 || near.cube_distance.lower <= 0)
       continue;
     cases.push_back(near);
     values.insert(values.end(), near.corners.begin(), near.corners.end());
     values.push_back({near.size[0], near.size[1], near.size[2], static_cast<float>(near.kind)});
     // The required distance is less than the distance of the two, and the gap is not.
     values.push_back({std::nextafter(static_cast<float>(near.distance.lower), 0.0F),
-                      std::nextafter(static_cast<float>(near.distance.upper), INFINITY), 0.0F, 0.0F});
+                      std::nextafter(static_cast<float>(near.distance.upper), INFINITY),
+                      std::nextafter(static_cast<float>(near.cube_distance.upper), INFINITY), 0.0F});
+    values.push_back(near.cube);
   }
-  const Program program = Program::fromText(shaders, "solids", R"(// One invocation per triangle: its verdict.
+  const Program program =
+      Program::fromText(shaders, "solids", R"(// One invocation per triangle and box: their verdicts.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -368,38 +386,48 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "traversal/verdicts.glsl"
 #include "problem/instances.glsl"
 #include "traversal/solid_leaf.glsl"
+#include "traversal/bounding_volume_overlap.glsl"
+#include "traversal/solid_nodes.glsl"
 layout(std430, binding = BINDING_C) readonly buffer Values { vec4 values[]; };
-layout(std430, binding = BINDING_D) writeonly buffer Results { uint results[]; };
+layout(std430, binding = BINDING_D) writeonly buffer Results { uvec2 results[]; };
 void main()
 {
-  const uint first = 5u * invocationIndex();
+  const uint first = 6u * invocationIndex();
   vec3 corners[3];
   for (uint i = 0u; i < 3u; ++i)
     corners[i] = values[first + i].xyz;
   const vec4 size = values[first + 3u];
   const vec4 lengths = values[first + 4u];
   const Instance solid = Instance(0u, 0.0, 0u, 0u, vec3(0.0), uint(size.w), size.xyz, 0.0);
-  results[invocationIndex()] = triangleSolid(corners, solid, 0.0, lengths.x, lengths.y);
+  const Box box = Box(values[first + 5u].xyz, vec3(values[first + 5u].w));
+  const float margin = lengths.z + sizeError(box, Box(vec3(0.0), solid.size));
+  const bool beyond = boxBeyondSolid(solid, box.center, mat3(1.0), box.extent, margin);
+  results[invocationIndex()] = uvec2(triangleSolid(corners, solid, 0.0, lengths.x, lengths.y), beyond ? 1u : 0u);
 }
 )");
   Buffer input(values.size() * sizeof(Texel));
   input.write(values);
-  Buffer output(kTriangles * sizeof(std::uint32_t));
+  std::vector<std::array<std::uint32_t, 2>> results(kTriangles);
+  Buffer output(kTriangles * sizeof(results[0]));
   input.bindStorage(BINDING_C);
   output.bindStorage(BINDING_D);
   program.dispatch(groupsFor(kTriangles));
-  std::vector<std::uint32_t> results(kTriangles);
-  output.read(results.data(), results.size() * sizeof(std::uint32_t));
+  output.read(results.data(), kTriangles * sizeof(results[0]));
   std::vector<std::string> wrong;
+  const auto add = [&](std::size_t i, const char* what, const oracle::Bounds& distance, const char* proven)
+  {
+    std::ostringstream line;
+    line << what << " " << i << " at a distance of " << static_cast<double>(distance.lower)
+         << " m from a solid of kind " << cases[i].kind << " is proven to be " << proven;
+    wrong.push_back(line.str());
+  };
   for (std::size_t i = 0; i < kTriangles; ++i)
-    if (results[i] == STATE_HIT || results[i] == 0)
-    {
-      std::ostringstream line;
-      line << "triangle " << i << " at a distance of " << static_cast<double>(cases[i].distance.lower)
-           << " m from a solid of kind " << cases[i].kind << " is proven to be "
-           << (results[i] == 0 ? "farther apart" : "nearer");
-      wrong.push_back(line.str());
-    }
+  {
+    if (results[i][0] == STATE_HIT || results[i][0] == 0)
+      add(i, "triangle", cases[i].distance, results[i][0] == 0 ? "farther apart" : "nearer");
+    if (results[i][1] != 0)
+      add(i, "cube", cases[i].cube_distance, "farther apart");
+  }
   return wrong;
 }
 
