@@ -59,6 +59,7 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
     gpu_checker.selectPairs(problem);
     selected_group = group;
   }
+  gpu_checker.useProofs(on_cpu.proofs(group));
   gpu_checker.check(states, count, result, margins);
   work = gpu_checker.lastWork();
 }
@@ -118,8 +119,8 @@ std::size_t BatchChecker::Impl::threshold(const std::string& group, const double
   BatchResult unused;
   const CpuOrGpu::Checks checks{[&](const double* rows, std::size_t size) { on_cpu.check(rows, size, group, unused); },
                                 [&](const double* rows, std::size_t size) { checkOnGpu(rows, size, group, unused); }};
-  const ProofStage proofs = cpu_or_gpu.isMeasured() ? on_cpu.proofStage(group) : ProofStage::None;
-  return cpu_or_gpu.threshold(group, on_cpu.scene(), *on_cpu.problem(group), states, count, proofs, checks);
+  return cpu_or_gpu.threshold(group, on_cpu.scene(), *on_cpu.problem(group), states, count, on_cpu.proofStage(group),
+                              checks);
 }
 
 BatchChecker::BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
@@ -171,8 +172,7 @@ BatchResult BatchChecker::Impl::timedCheck(const double* states, std::size_t cou
   else
     check(states, count, group, result);
   result.seconds = secondsSince(start);
-  if (cpu_or_gpu.isMeasured())
-    on_cpu.countStates(work.states, group);
+  on_cpu.countStates(work.states, group);
   return result;
 }
 

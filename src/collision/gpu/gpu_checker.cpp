@@ -97,6 +97,7 @@ void GpuChecker::restore()
 
 void GpuChecker::apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot)
 {
+  proofs_.reset();
   pairs_->setProblem(problem);
   // The time to compile the shader grows with the square of the number of links.
   constexpr std::size_t kMaxLinks = 120;
@@ -128,6 +129,15 @@ void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
   gl_.run([&] { pairs_->selectPairs(*problem); });
   problem_ = std::move(problem);
   on_cpu_.reset();
+}
+
+void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
+{
+  if (!proofs || proofs == proofs_)
+    return;
+  requireUsableScene();
+  gl_.run([&] { pairs_->useProofs(*proofs, *problem_); });
+  proofs_ = proofs;
 }
 
 void GpuChecker::prepareMargins()

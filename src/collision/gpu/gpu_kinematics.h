@@ -35,6 +35,7 @@ class GpuKinematics : public PoseSource
   /// Sets the batch for `write`: row-major rows of the robot's variables. canPlace must be true for each row.
   void setStates(const double* states) { states_ = states; }
   void write(std::size_t begin, std::size_t count, TexelBuffer& poses) override;
+  std::size_t boundVariables() const override { return largest_.size(); }
 
  private:
   std::shared_ptr<const RobotModel> robot_;

@@ -11,6 +11,7 @@
 #include "collision/batch_size.h"
 #include "collision/gpu/broad_phase_order.h"
 #include "collision/gpu/gpu_margins.h"
+#include "collision/gpu/gpu_proofs.h"
 #include "collision/gpu/gpu_scene.h"
 #include "collision/gpu/pose_source.h"
 #include "collision/gpu/traversal/gpu_traversal.h"
@@ -38,6 +39,10 @@ class GpuPairChecker
   /// See GpuScene.
   void setProblem(const CollisionProblem& problem);
   void selectPairs(const CollisionProblem& problem);
+
+  /// From now on, these proofs decide pairs before trees do. The proofs must be those of `problem`, whose
+  /// trees and instances are those of the last setProblem. setProblem forgets them.
+  void useProofs(const RobotProofs& proofs, const CollisionProblem& problem);
   const GpuScene& scene() const { return scene_; }
 
   /// Compiles the programs for batches with margins, if this has not been done.
@@ -92,14 +97,15 @@ class GpuPairChecker
   void finish(const Batch& batch, Part& part, Verdicts& verdicts);
   bool fetch(Part& part, Verdicts& verdicts);
   void testHalfSpaces(std::uint32_t states);
-  void findCandidates(std::uint32_t states);
+  void findCandidates(const Batch& batch, std::uint32_t states);
   void writeQueries();
   void learnOrder(const Verdicts& verdicts);
   void testRoots();
+  void proveRootPairs();
   TraversalTask task(bool solids, bool padded) const;
   void prepare();
   void traverse(bool padded);
-  void testContainment();
+  void testContainment(bool solids);
 
   std::string float_fault_;
   std::string definitions_;  // for the programs that test triangles
@@ -116,8 +122,9 @@ class GpuPairChecker
   Programs plain_;
   std::optional<Programs> with_margins_;  // compiled when first needed
   const Programs* programs_ = &plain_;    // programs of the current batch
-  Program inside_program_, done_program_;
+  Program proofs_program_, inside_program_, done_program_;
   GpuMargins margins_;
+  GpuProofs proofs_;
   TexelBuffer poses_, spheres_, world_queries_, self_queries_;
   BroadPhaseOrder order_;
   BroadPhaseQueries queries_;
