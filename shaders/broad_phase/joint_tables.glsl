@@ -9,6 +9,9 @@ layout(binding = UNIT_STATES) uniform usamplerBuffer state_texels;
 // TABLE_APART, TABLE_COLLIDING or TABLE_NONE.
 layout(binding = UNIT_TABLES) uniform usamplerBuffer table_texels;
 
+// A larger angle modulo 2 pi is not accurate enough.
+#define LARGEST_TABLE_ANGLE 1e4lf
+
 dvec2 twoDoublesOf(uvec4 texel)
 {
   return dvec2(packDouble2x32(texel.xy), packDouble2x32(texel.zw));
@@ -28,6 +31,8 @@ uint proveByTable(uint state, uint a, uint b)
     const uvec4 axis = texelFetch(table_texels, int(first + TABLE_AXIS_TEXELS * k + 1u));
     const uint at = state * variable_count + axis.x;
     double value = twoDoublesOf(texelFetch(state_texels, int(at / 2u)))[at % 2u];
+    if (axis.y != 0u && abs(value) > LARGEST_TABLE_ANGLE)
+      return STATE_UNDECIDED;
     if (axis.y != 0u)
       value -= 6.283185307179586lf * roundEven(value / 6.283185307179586lf);
     const double place = (value - range.x) * range.y;

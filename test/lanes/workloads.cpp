@@ -214,6 +214,7 @@ const std::map<std::string, Task>& tasks()
       {"kinematics", checkKinematics},
       {"crossings", checkCrossings},
       {"half_spaces", checkHalfSpaces},
+      {"proofs", checkProofs},
   };
   return all;
 }

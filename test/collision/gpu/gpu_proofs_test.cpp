@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/filter/proof_scene.h"
 #include "collision/filter/proven_scene.h"
 #include "collision/gpu/gpu_checker.h"
+#include "collision/gpu/sliding_balls.h"
 #include "support/near_contact.h"
 #include "support/repetitions.h"
 
@@ -18,15 +18,34 @@ namespace
 {
 constexpr std::uint64_t kSeed = 59;
 
+ProvenScene provenSlidingBalls()
+{
+  const std::shared_ptr<PlanningScene> scene = slidingBalls();
+  const std::size_t width = scene->robot->variables().size();
+  ProvenScene made =
+      prove({"sliding_balls", scene, std::vector<double>(width, -kSlide), std::vector<double>(width, kSlide)});
+  RobotProofs proofs = *made.proofs;
+  proofs.covers = exactCovers();
+  made.proofs = std::make_shared<const RobotProofs>(proofs);
+  return made;
+}
+
+const ProvenScene& provenBallsOr(const std::string& name)
+{
+  static const ProvenScene balls = provenSlidingBalls();
+  return name == "sliding_balls" ? balls : provenScene(name);
+}
+
 /// The GPU's checks of a scene, with or without proofs.
-class GpuProofsOfScenes : public ProvenScenes
+class GpuProofsOfScenes : public testing::TestWithParam<const char*>
 {
  protected:
   void SetUp() override
   {
-    ProvenScenes::SetUp();
-    if (IsSkipped())
-      return;
+    const std::string name = GetParam();
+    if (const std::string missing = name == "sliding_balls" ? "" : missingFor(name); !missing.empty())
+      GTEST_SKIP() << "there is no " << missing;
+    proven_ = &provenBallsOr(name);
     for (const bool proofs : {false, true})
     {
       BatchCheckerOptions options;
@@ -71,6 +90,9 @@ class GpuProofsOfScenes : public ProvenScenes
     }
   }
 
+  const RobotModel& robot() const { return *proven_->scene.scene->robot; }
+
+  const ProvenScene* proven_ = nullptr;
   std::array<std::unique_ptr<GpuChecker>, 2> checkers_;  // [0]: without proofs, [1]: with proofs
 };
 
@@ -106,9 +128,9 @@ TEST_P(GpuProofsOfScenes, KeepTheMarginsOfPairs)
 
 #ifdef GPS_SOAK
 INSTANTIATE_TEST_SUITE_P(Scenes, GpuProofsOfScenes,
-                         testing::Values("kr5", "kr5_crowded", "ur5_cage", "wam", "arm_boxes"));
+                         testing::Values("sliding_balls", "kr5", "kr5_crowded", "ur5_cage", "wam", "arm_boxes"));
 #else
-INSTANTIATE_TEST_SUITE_P(Scenes, GpuProofsOfScenes, testing::Values("kr5", "arm_boxes"));
+INSTANTIATE_TEST_SUITE_P(Scenes, GpuProofsOfScenes, testing::Values("sliding_balls", "kr5", "arm_boxes"));
 #endif
 }  // namespace
 }  // namespace gpu_planning_scene::core
