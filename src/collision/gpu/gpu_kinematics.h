@@ -29,6 +29,10 @@ class GpuKinematics : public PoseSource
   /// Sets the shape instances to place: the instances of `problem.robot`.
   void setInstances(const CollisionProblem& problem);
 
+  /// The largest magnitude of each variable for which canPlace is true. Empty if the robot has quaternions, which need
+  /// a test of their own.
+  std::vector<double> largestValues() const { return quaternions_.empty() ? largest_ : std::vector<double>(); }
+
   /// Whether all angles of a state are within the range of the shader's sine and cosine.
   bool canPlace(const double* state) const;
 

@@ -132,14 +132,15 @@ void GpuPairChecker::prepareMargins()
       traversal_->prepare(task(solids, true));
 }
 
-void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins)
+void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins,
+                           const Done& done)
 {
   verdicts.flags.assign(count, 0);
   verdicts.hits.assign(count, 0);
   work_ = {};
   if (scene_.robotCount() == 0)
-    return;
-  const Batch batch{source, margins, margins ? parts_with_margins_ : plain_parts_};
+    return done(0, count);
+  const Batch batch{source, margins, margins ? parts_with_margins_ : plain_parts_, verdicts, done};
   if (margins)
     prepareMargins();
   programs_ = margins ? &*with_margins_ : &plain_;
@@ -161,7 +162,7 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
     if (running)
     {
       const std::size_t states = running->count;
-      finish(batch, *running, verdicts);
+      finish(batch, *running);
       const Clock::time_point now = Clock::now();
       batch.parts.took(states, std::chrono::duration<double>(now - last).count());
       last = now;
@@ -195,16 +196,16 @@ void GpuPairChecker::writeQueries()
   }
 }
 
-void GpuPairChecker::finish(const Batch& batch, Part& part, Verdicts& verdicts)
+void GpuPairChecker::finish(const Batch& batch, Part& part)
 {
-  if (fetch(part, verdicts))
-    return;
+  if (fetch(part, batch.verdicts))
+    return batch.done(part.begin, part.count);
   const std::size_t begin = part.begin;
   const std::size_t count = part.count;
   if (count == 1)
   {
-    verdicts.flags[begin] = STATE_UNDECIDED;
-    return;
+    batch.verdicts.flags[begin] = STATE_UNDECIDED;
+    return batch.done(begin, count);
   }
   batch.parts.tooLarge(count);
   for (const auto& [first, states] : {std::pair(begin, count / 2), std::pair(begin + count / 2, count - count / 2)})
@@ -212,7 +213,7 @@ void GpuPairChecker::finish(const Batch& batch, Part& part, Verdicts& verdicts)
     part.begin = first;
     part.count = states;
     start(batch, part);
-    finish(batch, part, verdicts);
+    finish(batch, part);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,8 +58,10 @@ class GpuPairChecker
   ///
   /// A batch goes to the device in parts. A part takes at most about kPartSeconds, and the next part is started before
   /// the results of the current one are fetched. A part whose lists overflow is split; a single state whose lists
-  /// overflow is undecided. `margins`: for these states and pairs; null: none.
-  void check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins = nullptr);
+  /// overflow is undecided. `margins`: for these states and pairs; null: none. `done`: called with the first state and
+  /// the number of states as soon as their verdicts are there, while the device works on later parts.
+  using Done = std::function<void(std::size_t begin, std::size_t count)>;
+  void check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins, const Done& done);
 
   /// Work of the last check. A part whose lists overflowed counts only after it has been split.
   const GpuWork& lastWork() const { return work_; }
@@ -81,6 +84,8 @@ class GpuPairChecker
     PoseSource& poses;
     const Margins* margins;
     BatchSize& parts;
+    Verdicts& verdicts;
+    const Done& done;
   };
 
   /// The states of a batch that the device works on together, and the buffers for their results.
@@ -94,7 +99,7 @@ class GpuPairChecker
   };
 
   void start(const Batch& batch, Part& part);
-  void finish(const Batch& batch, Part& part, Verdicts& verdicts);
+  void finish(const Batch& batch, Part& part);
   bool fetch(Part& part, Verdicts& verdicts);
   void testHalfSpaces(std::uint32_t states);
   void findCandidates(const Batch& batch, std::uint32_t states);
