@@ -25,7 +25,7 @@ ProvenScene provenSlidingBalls()
   ProvenScene made =
       prove({"sliding_balls", scene, std::vector<double>(width, -kSlide), std::vector<double>(width, kSlide)});
   RobotProofs proofs = *made.proofs;
-  proofs.covers = exactCovers();
+  proofs.covers = exactCovers(*made.problem, *scene->robot);
   made.proofs = std::make_shared<const RobotProofs>(proofs);
   return made;
 }

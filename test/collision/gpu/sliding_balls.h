@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "collision/filter/proofs/robot_proofs.h"
 #include "gpu_planning_scene/planning_scene.h"
@@ -65,8 +66,17 @@ inline std::shared_ptr<const BallCover> ballCover(double outer, double layer, do
 
 /// Covers of the balls that are exactly the balls, so that small errors of radii and distances change verdicts. The
 /// large ball is the sum of a ball and a layer.
-inline std::vector<std::shared_ptr<const BallCover>> exactCovers()
+inline std::vector<std::shared_ptr<const BallCover>> exactCovers(const CollisionProblem& problem,
+                                                                 const RobotModel& robot)
 {
-  return {ballCover(0.01, 0.11, 0.12), ballCover(0.07, 0.0, 0.07), ballCover(0.09, 0.0, 0.09)};
+  std::vector<std::shared_ptr<const BallCover>> covers;
+  for (const ShapeInstance& instance : problem.robot)
+  {
+    const std::string& link = robot.links()[static_cast<std::size_t>(instance.link)].name;
+    covers.push_back(link == "large"   ? ballCover(0.01, 0.11, 0.12)
+                     : link == "small" ? ballCover(0.07, 0.0, 0.07)
+                                       : ballCover(0.09, 0.0, 0.09));
+  }
+  return covers;
 }
 }  // namespace gpu_planning_scene::core
