@@ -38,7 +38,7 @@ void main()
   {
     const uint partner = partnerOf(query, k);
     const vec4 theirs = sphereOf(min(partner, robot_count - 1u), state);
-    const vec3 apart = mine.xyz - theirs.xyz;
+    precise const vec3 apart = mine.xyz - theirs.xyz;
     const float reach = mine.w + theirs.w;
     near |= partner != NO_PARTNER && !provenGreater(dot(apart, apart), reach * reach) ? 1u << k : 0u;
   }

@@ -23,6 +23,15 @@ mat3 absolute(mat3 m)
   return mat3(abs(m[0]), abs(m[1]), abs(m[2]));
 }
 
+// The vector between two points, rounded once. A compiler must not multiply the two points in its place: their products
+// may be much larger than those of the vector. It is a function of its own because glslang 12 does not terminate when
+// `precise` reaches back through a long loop.
+vec3 vectorBetween(vec3 from, vec3 to)
+{
+  precise const vec3 between = to - from;
+  return between;
+}
+
 vec3 apply(Pose pose, vec3 point)
 {
   precise const vec3 turned = pose.rotation * point;

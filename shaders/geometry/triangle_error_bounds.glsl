@@ -23,7 +23,7 @@ TriangleErrorBounds triangleErrorBounds(vec3 a[3], vec3 b[3], vec3 r[3], vec3 ea
                                         float error, float gap)
 {
   const float far_a = longest(a);
-  vec3 own_b[3];  // the corners of b relative to the origin of its shape
+  precise vec3 own_b[3];  // the corners of b relative to the origin of its shape
   for (int i = 0; i < 3; ++i)
     own_b[i] = b[i] - origin_b;
   const float far_b = longest(own_b);

@@ -13,14 +13,6 @@ bool boundsSolid(uint primitive)
   return (solid_triangles[triangle >> 5u] >> (triangle & 31u) & 1u) != 0u;
 }
 
-// The vector between two points, rounded once. It is a function of its own because glslang 12 does not terminate when
-// `precise` reaches back through the stack of insideMesh.
-vec3 vectorBetween(vec3 from, vec3 to)
-{
-  precise const vec3 between = to - from;
-  return between;
-}
-
 // The crossing of a triangle by the ray from the origin along +z: +1 or -1 by the direction of the triangle, 0 if the
 // ray misses it, UNCERTAIN_CROSSING if rounding leaves this open. The corners are off by at most `error`.
 #define UNCERTAIN_CROSSING 1000

@@ -2,6 +2,7 @@
 // prove a hit. triangleSolid names the sources. Lengths are in metres.
 #include "common/comparisons.glsl"
 #include "geometry/error_bounds.glsl"
+#include "geometry/pose.glsl"
 #include "problem/triangles.glsl"
 #include "geometry/solid.glsl"
 
@@ -66,10 +67,13 @@ uint triangleSolid(vec3 corners[3], Instance solid, float error, float distance,
     size = max(size, dot(corners[i], corners[i]));
   const float off = error + 64.0 * u * sqrt(size);
   const float beyond = gap + off;
-  bool apart = liesBeyond(corners, solid, cross(corners[1] - corners[0], corners[2] - corners[0]), beyond);
+  const vec3 e1 = vectorBetween(corners[0], corners[1]);
+  const vec3 e2 = vectorBetween(corners[0], corners[2]);
+  precise const vec3 normal = cross(e1, e2);
+  bool apart = liesBeyond(corners, solid, normal, beyond);
   for (int i = 0; i < 3; ++i)
   {
-    const vec3 edge = corners[(i + 1) % 3] - corners[i];
+    const vec3 edge = vectorBetween(corners[i], corners[(i + 1) % 3]);
     apart = apart || liesBeyond(corners, solid, vec3(0.0, edge.z, -edge.y), beyond) ||
             liesBeyond(corners, solid, vec3(-edge.z, 0.0, edge.x), beyond) ||
             liesBeyond(corners, solid, vec3(edge.y, -edge.x, 0.0), beyond);
@@ -83,10 +87,10 @@ uint triangleSolid(vec3 corners[3], Instance solid, float error, float distance,
   for (uint step = 0u; step < SOLID_ITERATIONS && found == STATE_UNDECIDED; ++step)
   {
     const vec3 q = projectToCore(solid.kind, coreSize(solid, depth), p);
-    const vec3 n = p - q;
+    const vec3 n = vectorBetween(q, p);
     const float span = length(n);
     const vec3 next = nearestOfTriangle(corners, q);
-    if (liesBeyond(corners, solid, n, beyond) || liesBeyond(corners, solid, next - q, beyond))
+    if (liesBeyond(corners, solid, n, beyond) || liesBeyond(corners, solid, vectorBetween(q, next), beyond))
       found = 0u;
     if (provenGreater(depth + distance * (1.0 - 4.0 * u), span + off))
       found = STATE_HIT;

@@ -2,6 +2,7 @@
 // because the box around a curved solid has corners that the solid does not fill. They are separating axis tests with
 // one axis. The choice of this axis is our own. Lengths are in metres.
 #include "common/comparisons.glsl"
+#include "geometry/pose.glsl"
 #include "geometry/solid.glsl"
 
 // Returns true if a box is proven to lie beyond the solid by more than `margin`. The axis is the line from the nearest
@@ -9,7 +10,7 @@
 // proves nothing.
 bool boxBeyondSolid(Instance solid, vec3 center, mat3 axes, vec3 extent, float margin)
 {
-  const vec3 n = center - projectToCore(solid.kind, coreSize(solid, 0.0), center);
+  const vec3 n = vectorBetween(projectToCore(solid.kind, coreSize(solid, 0.0), center), center);
   const float gap = dot(n, center) - dot(abs(n * axes), extent) - extentAlong(solid, n);
   return provenGreater(gap, margin * lengthAtMost(n) * (1.0 + 16.0 * u) + TINY);
 }

@@ -7,7 +7,7 @@ layout(location = LOCATION_TOLERANCE) uniform float tolerance;  // metres
 
 bool isCloseEnough(uint root_pair_index, RootPair root_pair, OrientedNode a, OrientedNode b)
 {
-  const vec3 between = apply(root_pair.pose, b.box.center) - a.box.center;
+  const vec3 between = vectorBetween(a.box.center, apply(root_pair.pose, b.box.center));
 #if SOLIDS
   // Only the solid of a box fills its node. Other solids do not end a traversal early.
   const bool a_is_box =

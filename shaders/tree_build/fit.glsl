@@ -43,7 +43,10 @@ void fetchAround(uint triangle, vec3 origin, out vec3 corners[3])
 {
   fetchTriangle(triangle, corners);
   for (int i = 0; i < 3; ++i)
-    corners[i] -= origin;
+  {
+    precise const vec3 around = corners[i] - origin;
+    corners[i] = around;
+  }
 }
 
 void add(inout Spread spread, vec3 corners[3], uint triangle)

@@ -151,6 +151,9 @@ struct Real
   friend Real operator*(const Real& x, const Real& y)
   {
     Run& run = *kernel().run;
+    if (!run.lane->precise && x.count > 1 && y.count > 1 && x.count * y.count <= kTerms &&
+        run.choose(run.arithmetic.distribute))
+      return expanded(x, y);
     if (!run.lane->precise && x.count > 1 && run.choose(run.arithmetic.distribute))
       return distributed(x, y.value);
     if (!run.lane->precise && y.count > 1 && run.choose(run.arithmetic.distribute))
@@ -239,11 +242,25 @@ struct Real
   {
     Real r;
     for (int i = 0; i < x.count; ++i)
-      r.terms[i] = {x.terms[i].b == T(1) ? x.terms[i].a : rounded<T>(static_cast<Wide>(x.terms[i].a) * x.terms[i].b),
-                    factor};
+      r.terms[i] = {valueOf(x.terms[i]), factor};
     r.count = x.count;
     r.value = reordered(r);
     return r;
+  }
+
+  /// The product of two sums, as the sum of the products of their terms.
+  static Real expanded(const Real& x, const Real& y)
+  {
+    Real r;
+    for (int i = 0; i < x.count; ++i)
+      for (int j = 0; j < y.count; ++j)
+        r.terms[r.count++] = {valueOf(x.terms[i]), valueOf(y.terms[j])};
+    r.value = reordered(r);
+    return r;
+  }
+  static T valueOf(const Term& term)
+  {
+    return term.b == T(1) ? term.a : rounded<T>(static_cast<Wide>(term.a) * term.b);
   }
 
   /// The sum of all terms in a random order. A fused operation adds a product before it is rounded.

@@ -1,6 +1,7 @@
 // Functions of the shaders, alone, with the arithmetic of the simulated device. Each input is exact, so that each error
 // is one of the function. The bounds are those of docs/error_bounds.md.
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -155,6 +156,26 @@ Pair nearPair(Random& random)
   return pair;
 }
 
+/// Two triangles with nearly parallel edges, 30 to 3000 sizes apart. The product of these edges consists of rounding
+/// errors for the most part.
+Pair parallelPair(Random& random)
+{
+  Pair pair;
+  const double size = std::pow(10.0, random.uniform(-2.0, 1.0));
+  for (Vector3d& corner : pair.a)
+    corner = random.vector(size);
+  const Vector3d edge = pair.a[1] - pair.a[0];
+  const Vector3d away = size * std::pow(10.0, random.uniform(1.5, 3.5)) * edge.cross(random.vector(1.0)).normalized();
+  pair.b[0] = random.vector(size) + away;
+  pair.b[1] =
+      pair.b[0] + random.uniform(0.5, 2.0) * edge + random.vector(size) * std::pow(10.0, random.uniform(-7.5, -4.0));
+  pair.b[2] = random.vector(size) + away;
+  for (Vector3d& corner : pair.b)
+    corner = Random::rounded(corner);
+  pair.distance = oracle::distance(exactly(pair.a), exactly(pair.b), Quad(1e30));
+  return pair;
+}
+
 const char* const kTriangleIncludes = R"(
 #include "geometry/pose.glsl"
 #include "problem/nodes.glsl"
@@ -211,7 +232,7 @@ std::vector<std::string> checkTransforms(const std::string& shaders, std::uint64
   struct Given
   {
     Eigen::Matrix3d a, b;
-    Vector3d s, t, point;
+    Vector3d s, t, point, back;
   };
   std::vector<Given> given(kCases);
   std::vector<Texel> values;
@@ -223,18 +244,22 @@ std::vector<std::string> checkTransforms(const std::string& shaders, std::uint64
     g.s = random.vector(far);
     g.t = Random::rounded(g.s + random.vector(1.0));
     g.point = random.vector(1.0);
+    g.back = Random::rounded(random.vector(0.001) - g.point);
     for (const auto& [rotation, translation] : {std::pair(g.a, g.s), std::pair(g.b, g.t)})
       for (Eigen::Index row = 0; row < 3; ++row)
         values.push_back(texel(rotation.row(row), translation[row]));
     values.push_back(texel(g.point));
+    values.push_back(texel(g.back));
   }
   const std::vector<Texel> results = run(shaders, "#include \"geometry/pose.glsl\"\n", R"(
   const Pose a = poseFromRows(values[first], values[first + 1u], values[first + 2u]);
   const Pose b = poseFromRows(values[first + 3u], values[first + 4u], values[first + 5u]);
   results[to] = vec4(apply(a, values[first + 6u].xyz), 0.0);
   results[to + 1u] = vec4(relativePose(a, b).translation, 0.0);
+  const Pose back = Pose(mat3(1.0), values[first + 7u].xyz);
+  results[to + 2u] = vec4(dot(values[first + 3u].xyz, apply(back, values[first + 6u].xyz)));
 )",
-                                         values, 7, 2);
+                                         values, 8, 3);
   std::vector<std::string> wrong;
   for (std::size_t i = 0; i < kCases; ++i)
   {
@@ -245,13 +270,19 @@ std::vector<std::string> checkTransforms(const std::string& shaders, std::uint64
       return oracle::Vector(row(0), row(1), row(2));
     };
     // Rx: three products, two sums. Then the sum with t.
-    expectWithin("a transformed point", threeOf(results[2 * i]),
+    expectWithin("a transformed point", threeOf(results[3 * i]),
                  turned(g.a, oracle::Vector(g.point)) + oracle::Vector(g.s),
                  kU * (4.0 * (g.a.cwiseAbs() * g.point.cwiseAbs()) + g.s.cwiseAbs()), wrong);
     // t - s, then three products and two sums.
-    expectWithin("a relative translation", threeOf(results[2 * i + 1]),
+    expectWithin("a relative translation", threeOf(results[3 * i + 1]),
                  turned(g.a.transpose(), oracle::Vector(g.t) - oracle::Vector(g.s)),
                  kU * 4.0 * (g.a.cwiseAbs().transpose() * (g.t - g.s).cwiseAbs()), wrong);
+    // A translation that moves a point almost to the origin: one sum, then three products and two sums.
+    const oracle::Vector moved = oracle::Vector(g.point) + oracle::Vector(g.back);
+    const Vector3d normal = g.b.row(0);
+    const Quad height = oracle::dot(oracle::Vector(normal), moved);
+    expectWithin("the height of a moved point", threeOf(results[3 * i + 2]), oracle::Vector(height, height, height),
+                 Vector3d::Constant(kU * 4.0 * normal.cwiseAbs().dot(moved.toDouble().cwiseAbs())), wrong);
   }
   return wrong;
 }
@@ -263,7 +294,7 @@ std::vector<std::string> checkTriangles(const std::string& shaders, std::uint64_
   std::vector<Texel> lengths;
   for (std::size_t i = 0; i < kCases; ++i)
   {
-    pairs.push_back(nearPair(random));
+    pairs.push_back(i % 4 == 0 ? parallelPair(random) : nearPair(random));
     lengths.push_back({0.0F, atLeast(pairs.back().distance)});
   }
   const std::vector<Texel> results =
@@ -311,6 +342,50 @@ std::vector<std::string> checkDistances(const std::string& shaders, std::uint64_
   return wrong;
 }
 
+namespace
+{
+/// The sine and the cosine of angles up to 2^20, in double precision.
+void checkSines(const std::string& shaders, Random& random, std::vector<std::string>& wrong)
+{
+  const Program program = Program::fromText(shaders, "sines", R"(// One invocation per angle: its sine and its cosine.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "problem/kinematics.glsl"
+layout(std430, binding = BINDING_C) readonly buffer Angles { double angles[]; };
+layout(std430, binding = BINDING_D) writeonly buffer Results { dvec2 results[]; };
+void main()
+{
+  const uint i = invocationIndex();
+  double sine, cosine;
+  sineCosine(angles[i], sine, cosine);
+  results[i] = dvec2(sine, cosine);
+}
+)");
+  std::vector<double> angles(kCases);
+  for (double& angle : angles)
+    angle = random.uniform(-1.0, 1.0) * std::pow(2.0, random.uniform(0.0, 20.0));
+  Buffer input(kCases * sizeof(double));
+  input.write(angles);
+  std::vector<std::array<double, 2>> results(kCases);
+  Buffer output(kCases * sizeof(results[0]));
+  input.bindStorage(BINDING_C);
+  output.bindStorage(BINDING_D);
+  program.dispatch(groupsFor(kCases));
+  output.read(results.data(), kCases * sizeof(results[0]));
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    const auto angle = static_cast<long double>(angles[i]);
+    const auto off = static_cast<double>(
+        std::max(std::abs(results[i][0] - std::sin(angle)), std::abs(results[i][1] - std::cos(angle))));
+    // The part of a rotation in the bound of link poses, for operations that are rounded in any direction.
+    if (!(off <= 30.0 * 0x1p-52))
+      wrong.push_back("the sine or cosine of " + std::to_string(angles[i]) + " is off by " +
+                      std::to_string(off * 1e15) + "e-15");
+  }
+}
+}  // namespace
+
 std::vector<std::string> checkKinematics(const std::string& shaders, std::uint64_t seed)
 {
   const auto robot = RobotModel::fromXml(R"(<robot name="turning"><link name="base"/><link name="a"/><link name="b"/>
@@ -335,6 +410,7 @@ std::vector<std::string> checkKinematics(const std::string& shaders, std::uint64
   std::vector<float> found(kCases * problem.robot.size() * POSE_FLOATS);
   poses.buffer().read(found.data(), found.size() * sizeof(float));
   std::vector<std::string> wrong;
+  checkSines(shaders, random, wrong);
   std::vector<Eigen::Isometry3d> links(3);
   for (std::size_t i = 0; i < kCases; ++i)
   {

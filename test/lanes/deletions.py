@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 """Shows that the simulated device finds faults: deletes one after the other each barrier() and each `precise` of the
-shaders, and each bit of glMemoryBarrier at each kind of command, and runs small tasks until one of them is wrong.
-Prints a table (Markdown). See docs/gpu.md.
+shaders, and each bit of glMemoryBarrier at each kind of command, and runs small tasks until one of them is wrong. A
+`precise` that is not found is deleted again together with each other such `precise` of its file, because two of them
+often protect the same result. Prints a table (Markdown). See docs/gpu.md.
 
     deletions.py BUILD [--seeds N] [--quick] [--only TEXT]
 """
 import argparse
 import concurrent.futures
+import itertools
 import os
 import re
 import resource
@@ -31,14 +33,16 @@ BITS = {"GL_TEXTURE_FETCH_BARRIER_BIT": 0x8, "GL_COMMAND_BARRIER_BIT": 0x40, "GL
         "GL_SHADER_STORAGE_BARRIER_BIT": 0x2000}
 # Tasks for a folder of shaders; others try all tasks.
 BATCHES = ["work_queue", "breadth_first"]
-FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "half_spaces"]
-# With --quick, a `precise` is looked for by the function task of its file alone.
+FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "containment",
+             "half_spaces"]
+# With --quick, and for two `precise`, only the function tasks of the file are tried.
 FUNCTION_OF = {
     "shaders/broad_phase/half_spaces.comp": ["half_spaces"],
     "shaders/geometry/pose.glsl": ["transforms"],
     "shaders/geometry/triangle_distance.glsl": ["distances"],
+    "shaders/geometry/triangle_error_bounds.glsl": ["triangles", "distances"],
     "shaders/geometry/triangle_pair.glsl": ["triangles", "distances"],
-    "shaders/geometry/winding_number.glsl": ["crossings"],
+    "shaders/geometry/winding_number.glsl": ["crossings", "containment"],
     "shaders/problem/kinematics.glsl": ["kinematics"],
     "shaders/self_test/float_arithmetic.comp": ["arithmetic"],
 }
@@ -48,9 +52,9 @@ MOST_SECONDS = 60
 FAMILIES = ["random rigid motions", "far", "sliver", "in or near a closed mesh", "primitive", "padding"]
 
 
-def limit_time():
+def limit_time(seeds):
     """Processor time, because a wait for a busy machine is not a fault."""
-    resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 5))
+    resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS * seeds, MOST_SECONDS * seeds + 5))
 
 
 def lines_of(path):
@@ -82,44 +86,37 @@ def bit_deletions():
 
 
 class Runner:
-    def __init__(self, build, seeds, quick):
-        self.quick = quick
+    def __init__(self, build, seeds):
         self.programs = os.path.join(build, "devel", "lib", "gpu_planning_scene")
         self.device = os.path.join(build, "devel", "lib", "liblanes_device.so")
         self.seeds = seeds
         self.undamaged = {}
 
-    def run_tasks(self, shaders, seeds, names, variables):
-        """The task, its seed and what is wrong with these shaders and seeds (1 to N); None if nothing is."""
-        for seed in range(1, seeds + 1):
-            found = self.run_seed(shaders, seed, names, variables)
-            if found:
-                return found
-        return None
-
-    def run_seed(self, shaders, seed, names, variables):
-        """The same for one seed."""
-        process = subprocess.run([os.path.join(self.programs, "lanes_workload"), shaders, f"{seed}-{seed}", *names],
+    def run_tasks(self, shaders, first, last, names, variables):
+        """The task, its seed and what is wrong with these shaders and seeds; None if nothing is."""
+        process = subprocess.run([os.path.join(self.programs, "lanes_workload"), shaders, f"{first}-{last}", *names],
                                  env={**os.environ, **variables}, capture_output=True, text=True,
-                                 preexec_fn=limit_time)
+                                 preexec_fn=lambda: limit_time(last - first + 1))
         if process.returncode == 0:
             return None
         if process.returncode == -signal.SIGXCPU:
-            return ", ".join(names), str(seed), f"the run does not end: it needs more than {MOST_SECONDS} s"
+            return ", ".join(names), str(first), f"the run does not end: it needs more than {MOST_SECONDS} s"
         if process.returncode != 1:
             raise RuntimeError(process.stderr)
         name, seed, *wrong = process.stdout.strip().split("\t")
         hangs = [line for line in wrong[1:] if "does not end" in line or "given up" in line]
         return name, seed, "; ".join([wrong[0], *hangs[:1]])
 
-    def tasks(self, shaders, names, variables):
-        """The same, for what is right without the deletion."""
-        found = self.run_tasks(shaders, self.seeds, names, variables)
+    def tasks(self, shaders, names, variables, at_once=1):
+        """The same for all seeds, `at_once` of them a process, for what is right without the deletion."""
+        found = None
+        for first in range(1, self.seeds + 1, at_once):
+            found = found or self.run_tasks(shaders, first, min(first + at_once - 1, self.seeds), names, variables)
         if not found:
             return None
         name, seed, _ = found
         if (name, seed) not in self.undamaged:
-            self.undamaged[name, seed] = self.run_seed(SHADERS, seed, name.split(", "), {})
+            self.undamaged[name, seed] = self.run_tasks(SHADERS, int(seed), int(seed), name.split(", "), {})
         if self.undamaged[name, seed]:
             raise RuntimeError(f"{name} is wrong without a deletion: {self.undamaged[name, seed]}")
         return found
@@ -142,21 +139,33 @@ class Runner:
                     return f"stability, {family}", str(seed), (wrong or [process.stderr.strip()[-200:]])[0]
         return None
 
-    def without_line(self, path, number, text):
-        """The same for a shader whose line `number` is replaced by `text`."""
+    def without_lines(self, path, texts, search):
+        """`search` for shaders in which the lines of a file, the keys of `texts`, are replaced by its values."""
         with tempfile.TemporaryDirectory() as folder:
             shaders = os.path.join(folder, "shaders")
             shutil.copytree(SHADERS, shaders)
             lines = lines_of(path)
-            lines[number - 1] = text
+            for number, text in texts.items():
+                lines[number - 1] = text
             with open(os.path.join(folder, path), "w", encoding="utf-8") as file:
                 file.write("\n".join(lines))
-            barrier = "precise" not in lines_of(path)[number - 1]
-            if barrier:
-                return self.tasks(shaders, BATCHES, {})
-            if self.quick:
-                return self.tasks(shaders, FUNCTION_OF[path], {})
-            return self.tasks(shaders, FUNCTIONS, {}) or self.tasks(shaders, BATCHES, {}) or self.families(shaders)
+            return search(shaders)
+
+    def without_barrier(self, path, number, text):
+        return self.without_lines(path, {number: text}, lambda shaders: self.tasks(shaders, BATCHES, {}))
+
+    def without_precise(self, path, texts, quick):
+        def tasks(shaders, names):
+            return self.tasks(shaders, names, {}, self.seeds)
+
+        def search(shaders):
+            found = tasks(shaders, FUNCTION_OF[path])
+            if found or quick:
+                return found
+            others = [name for name in FUNCTIONS if name not in FUNCTION_OF[path]]
+            return tasks(shaders, others) or tasks(shaders, BATCHES) or self.families(shaders)
+
+        return self.without_lines(path, texts, search)
 
     def without_bit(self, bit, command):
         variables = {"GPS_LANES_IGNORE_BITS": hex(BITS[bit]), "GPS_LANES_IGNORE_BEFORE": command}
@@ -170,24 +179,38 @@ def main():
     parser.add_argument("--quick", action="store_true", help="for `precise`, only the function task of its file")
     parser.add_argument("--only", default="", help="only deletions whose line in the table contains this text")
     arguments = parser.parse_args()
-    runner = Runner(arguments.build, arguments.seeds, arguments.quick)
-    jobs = []
+    runner = Runner(arguments.build, arguments.seeds)
     with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
-        for path, number, text in shader_deletions():
-            what = f"{path}:{number}: `{lines_of(path)[number - 1].strip()}`"
-            if arguments.only in what:
-                jobs.append((what, pool.submit(runner.without_line, path, number, text)))
-        for path, number, bit, command in bit_deletions():
-            what = f"{path}:{number}: {bit} before {command}"
-            if arguments.only in what:
-                jobs.append((what, pool.submit(runner.without_bit, bit, command)))
-        print("| deletion | task | seed | what is wrong |\n| --- | --- | --- | --- |", flush=True)
-        missed = 0
-        for what, job in jobs:
-            found = job.result()
-            missed += not found
-            print("| " + " | ".join([what, *(found or ("not found", "", ""))]) + " |", flush=True)
-    print(f"\n{len(jobs) - missed} of {len(jobs)} deletions are found.")
+        found = search(runner, pool, arguments)
+    print(f"\n{sum(1 for one in found if one)} of {len(found)} deletions are found.")
+
+
+def search(runner, pool, arguments):
+    """Prints the table. Returns for each deletion what run_tasks does."""
+    jobs = []
+    for path, number, text in shader_deletions():
+        line = lines_of(path)[number - 1]
+        what = f"{path}:{number}: `{line.strip()}`"
+        if arguments.only in what:
+            job = pool.submit(runner.without_precise, path, {number: text}, arguments.quick) if "precise" in line \
+                else pool.submit(runner.without_barrier, path, number, text)
+            jobs.append((what, job, (path, number, text)))
+    for path, number, bit, command in bit_deletions():
+        what = f"{path}:{number}: {bit} before {command}"
+        if arguments.only in what:
+            jobs.append((what, pool.submit(runner.without_bit, bit, command), None))
+    print("| deletion | task | seed | what is wrong |\n| --- | --- | --- | --- |", flush=True)
+    for what, job, _ in jobs:
+        print("| " + " | ".join([what, *(job.result() or ("not found", "", ""))]) + " |", flush=True)
+    missed = [deletion for _, job, deletion in jobs if deletion and deletion[0] in FUNCTION_OF and not job.result()]
+    pairs = [(one[0], {one[1]: one[2], other[1]: other[2]})
+             for one, other in itertools.combinations(missed, 2) if one[0] == other[0]]
+    together = [(path, texts, pool.submit(runner.without_precise, path, texts, True)) for path, texts in pairs]
+    for path, texts, job in together:
+        lines = " and ".join(str(number) for number in texts)
+        if job.result():
+            print("| " + " | ".join([f"{path}:{lines} together", *job.result()]) + " |", flush=True)
+    return [job.result() for _, job, _ in jobs]
 
 
 if __name__ == "__main__":

@@ -91,5 +91,27 @@ TEST_F(SimulatedDevice, FindsAMissingPreciseBeforeADifferenceIsRotated)
   shaders.replace("geometry/pose.glsl", "precise const vec3 between", "const vec3 between");
   EXPECT_TRUE(isFound("transforms", shaders.path()));
 }
+
+TEST_F(SimulatedDevice, FindsAMissingPreciseAtTheProductOfParallelEdges)
+{
+  const ShaderFolder shaders;
+  shaders.replace("geometry/triangle_pair.glsl", "precise const vec3 axis", "const vec3 axis");
+  EXPECT_TRUE(isFound("triangles", shaders.path()));
+}
+
+TEST_F(SimulatedDevice, FindsAMissingPreciseAtTheCornersAroundAPoint)
+{
+  const ShaderFolder shaders;
+  shaders.replace("geometry/winding_number.glsl", "precise vec3 c[3]", "vec3 c[3]");
+  EXPECT_TRUE(isFound("containment", shaders.path()));
+}
+
+TEST_F(SimulatedDevice, FindsTwoMissingPreciseInTheReductionOfAnAngle)
+{
+  const ShaderFolder shaders;
+  shaders.replace("problem/kinematics.glsl", "precise const double first", "const double first");
+  shaders.replace("problem/kinematics.glsl", "precise const double second", "const double second");
+  EXPECT_TRUE(isFound("kinematics", shaders.path()));
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -1,7 +1,9 @@
-// Tasks for the shaders that place points against solids: the crossing of a ray and a triangle, on which the winding
-// number rests, and the heights of corners above a half-space.
+// Tasks for the shaders that place points against solids: the crossing of a ray and a triangle, the winding number of a
+// point, which rests on such crossings, the distance of a triangle and a solid, and the heights of corners above a half-space.
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <sstream>
 
@@ -10,6 +12,7 @@
 #include "collision/gpu/gpu_checker.h"
 #include "gpu/program.h"
 #include "lanes/workloads.h"
+#include "oracle/convex.h"
 #include "oracle/quad.h"
 #include "shader_constants.h"
 
@@ -22,6 +25,7 @@ using Eigen::Vector3d;
 using oracle::Quad;
 
 constexpr std::size_t kTriangles = 256;
+constexpr std::size_t kPoints = 256;
 constexpr std::size_t kStates = 64;
 
 using Texel = std::array<float, 4>;
@@ -80,6 +84,71 @@ int exactCrossing(const Corners& c, bool& touches)
     return height > 0 ? 1 : 0;
   return negative == 3 && height < 0 ? -1 : 0;
 }
+
+Texel rounded(const Vector3d& v)
+{
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
+}
+
+/// A tetrahedron, and a point 1e-8 to 1e-1 of its size from one of its faces or edges. The distance of both from the
+/// origin is 1 to 1e5 times the size.
+struct Solid
+{
+  Corners face(std::size_t i) const
+  {
+    static constexpr std::size_t kFaces[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+    return {corners[kFaces[i][0]], corners[kFaces[i][1]], corners[kFaces[i][2]]};
+  }
+  std::array<Texel, 4> corners;
+  Texel point;
+};
+
+Solid farSolid(Random& random)
+{
+  const double size = std::pow(10.0, random.uniform(-2.0, 1.0));
+  const Vector3d place = size * std::pow(10.0, random.uniform(0.0, 5.0)) * random.vector();
+  std::array<Vector3d, 4> corners;
+  for (Vector3d& corner : corners)
+    corner = random.vector();
+  const double first = random.uniform(0.0, 1.0);
+  const double second = random.sign() > 0.0 ? random.uniform(0.0, 1.0 - first) : 0.0;
+  const Vector3d foot = corners[0] + first * (corners[1] - corners[0]) + second * (corners[2] - corners[0]);
+  Solid solid;
+  for (std::size_t i = 0; i < 4; ++i)
+    solid.corners[i] = rounded(place + size * corners[i]);
+  solid.point = rounded(place + size * (foot + std::pow(10.0, random.uniform(-8.0, -1.0)) * random.vector()));
+  return solid;
+}
+
+/// Six times the signed volume that a point spans with a triangle.
+Quad volumeOf(const Corners& c, const Texel& point)
+{
+  const auto d = [&](std::size_t corner, std::size_t axis) { return Quad(c[corner][axis]) - point[axis]; };
+  Quad sum = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+  {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    sum += d(0, i) * (d(1, j) * d(2, k) - d(1, k) * d(2, j));
+  }
+  return sum;
+}
+
+/// 1 if the point is in the solid, -1 if it is outside, 0 if it is in the plane of a face.
+int exactPlace(const Solid& solid)
+{
+  int positive = 0;
+  int negative = 0;
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const Quad volume = volumeOf(solid.face(i), solid.point);
+    positive += volume > 0 ? 1 : 0;
+    negative += volume < 0 ? 1 : 0;
+  }
+  if (positive + negative < 4)
+    return 0;
+  return positive == 4 || negative == 4 ? 1 : -1;
+}
 }  // namespace
 
 std::vector<std::string> checkCrossings(const std::string& shaders, std::uint64_t seed)
@@ -134,6 +203,203 @@ void main()
       wrong.push_back(line.str());
     }
   }
+  return wrong;
+}
+
+std::vector<std::string> checkContainment(const std::string& shaders, std::uint64_t seed)
+{
+  Random random(seed);
+  std::vector<Solid> solids;
+  std::vector<Texel> points;
+  std::vector<Texel> triangles;
+  std::vector<std::array<std::uint32_t, 4>> nodes;
+  std::vector<std::uint32_t> leaf_order;
+  for (std::uint32_t i = 0; i < kPoints; ++i)
+  {
+    const Solid solid = farSolid(random);
+    solids.push_back(solid);
+    points.push_back(solid.point);
+    // The tree of the solid is one leaf, whose box is larger than needed.
+    std::array<std::uint32_t, 4> texels[2] = {{0, 0, 0, 4 * i}, {0, 0, 0, 4}};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const auto [low, high] =
+          std::minmax({solid.corners[0][axis], solid.corners[1][axis], solid.corners[2][axis], solid.corners[3][axis]});
+      const float center = (low + high) / 2.0F;
+      const float extent = (high - low) * 0.6F + std::abs(center) * 1e-6F;
+      std::memcpy(&texels[0][axis], &center, sizeof(center));
+      std::memcpy(&texels[1][axis], &extent, sizeof(extent));
+    }
+    nodes.insert(nodes.end(), texels, texels + 2);
+    for (std::uint32_t face = 0; face < 4; ++face)
+    {
+      const Corners corners = solid.face(face);
+      triangles.insert(triangles.end(), corners.begin(), corners.end());
+      leaf_order.push_back(4 * i + face);
+    }
+  }
+  const Program program = Program::fromText(shaders, "containment", R"(// One invocation per solid: a point's place.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "geometry/pose.glsl"
+#include "problem/nodes.glsl"
+#include "problem/triangles.glsl"
+#include "geometry/error_bounds.glsl"
+#include "geometry/winding_number.glsl"
+layout(std430, binding = BINDING_C) readonly buffer Values { vec4 values[]; };
+layout(std430, binding = BINDING_D) writeonly buffer Results { uint results[]; };
+void main()
+{
+  uint iterations = 100u;
+  const uint i = invocationIndex();
+  results[i] = insideMesh(i, values[i].xyz, 0.0, iterations);
+}
+)");
+  const auto fill = [](TexelBuffer& buffer, const auto& texels)
+  {
+    buffer.reserve(texels.size() * TexelBuffer::kTexelBytes);
+    buffer.buffer().write(texels);
+  };
+  TexelBuffer node_texels;
+  TexelBuffer triangle_texels;
+  fill(node_texels, nodes);
+  fill(triangle_texels, triangles);
+  node_texels.bindTexture(UNIT_NODES);
+  triangle_texels.bindTexture(UNIT_TRIANGLES);
+  const auto bound = [](const auto& values, std::uint32_t binding)
+  {
+    Buffer buffer(values.size() * sizeof(values.front()));
+    buffer.write(values);
+    buffer.bindStorage(binding);
+    return buffer;
+  };
+  const Buffer order = bound(leaf_order, BINDING_A);
+  const Buffer all_count = bound(std::vector<std::uint32_t>(4 * kPoints / 32, ~0U), BINDING_B);
+  const Buffer input = bound(points, BINDING_C);
+  Buffer output(kPoints * sizeof(std::uint32_t));
+  output.bindStorage(BINDING_D);
+  program.dispatch(groupsFor(kPoints));
+  std::vector<std::uint32_t> results(kPoints);
+  output.read(results.data(), results.size() * sizeof(std::uint32_t));
+  std::vector<std::string> wrong;
+  for (std::size_t i = 0; i < kPoints; ++i)
+  {
+    const int exact = exactPlace(solids[i]);
+    if ((results[i] == STATE_HIT && exact < 0) || (results[i] == 0 && exact > 0))
+      wrong.push_back("point " + std::to_string(i) + " is called " + (exact < 0 ? "inside" : "outside"));
+  }
+  return wrong;
+}
+
+namespace
+{
+/// A triangle 1e-8 m to 0.1 m from a solid of 0.1 m to 1 m.
+struct NearSolid
+{
+  std::uint32_t kind;
+  Texel size;  // as in problem/instances.glsl
+  Corners corners;
+  oracle::Bounds distance;
+};
+
+oracle::Convex convexOf(std::uint32_t kind, const Texel& size)
+{
+  if (kind == SOLID_BOX)
+    return Box{2.0 * Vector3d(size[0], size[1], size[2])};
+  if (kind == SOLID_SPHERE)
+    return Sphere{size[0]};
+  if (kind == SOLID_CYLINDER)
+    return Cylinder{size[0], 2.0 * size[2]};
+  return Cone{size[0], 2.0 * size[2]};
+}
+
+NearSolid nearSolid(Random& random)
+{
+  NearSolid near;
+  near.kind = SOLID_BOX + static_cast<std::uint32_t>(random.uniform(0.0, 4.0));
+  near.size = rounded({random.uniform(0.1, 1.0), random.uniform(0.1, 1.0), random.uniform(0.1, 1.0)});
+  if (near.kind != SOLID_BOX)
+    near.size[1] = near.size[0];
+  if (near.kind == SOLID_SPHERE)
+    near.size[2] = near.size[0];
+  const oracle::Convex solid = convexOf(near.kind, near.size);
+  const Vector3d out = random.vector().normalized();
+  const Vector3d first =
+      oracle::farthestPoint(solid, oracle::Vector(out)).toDouble() + std::pow(10.0, random.uniform(-8.0, -1.0)) * out;
+  near.corners[0] = rounded(first);
+  for (std::size_t i = 1; i < 3; ++i)
+  {
+    const Vector3d edge = random.vector();
+    near.corners[i] = rounded(first + edge + (std::abs(edge.dot(out)) - edge.dot(out) + 0.05) * out);
+  }
+  oracle::Corners corners;
+  for (std::size_t i = 0; i < 3; ++i)
+    corners.corners[i] = oracle::Vector(Vector3d(near.corners[i][0], near.corners[i][1], near.corners[i][2]));
+  near.distance = oracle::convexDistance(corners, {}, solid, {}, Quad(-1), Quad(1e30));
+  return near;
+}
+}  // namespace
+
+std::vector<std::string> checkSolids(const std::string& shaders, std::uint64_t seed)
+{
+  Random random(seed);
+  std::vector<NearSolid> cases;
+  std::vector<Texel> values;
+  while (cases.size() < kTriangles)
+  {
+    const NearSolid near = nearSolid(random);
+    if (near.distance.lower <= 0)
+      continue;
+    cases.push_back(near);
+    values.insert(values.end(), near.corners.begin(), near.corners.end());
+    values.push_back({near.size[0], near.size[1], near.size[2], static_cast<float>(near.kind)});
+    // The required distance is less than the distance of the two, and the gap is not.
+    values.push_back({std::nextafter(static_cast<float>(near.distance.lower), 0.0F),
+                      std::nextafter(static_cast<float>(near.distance.upper), INFINITY), 0.0F, 0.0F});
+  }
+  const Program program = Program::fromText(shaders, "solids", R"(// One invocation per triangle: its verdict.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "traversal/root_pairs.glsl"
+#include "problem/nodes.glsl"
+#include "common/counters.glsl"
+#include "traversal/verdicts.glsl"
+#include "problem/instances.glsl"
+#include "traversal/solid_leaf.glsl"
+layout(std430, binding = BINDING_C) readonly buffer Values { vec4 values[]; };
+layout(std430, binding = BINDING_D) writeonly buffer Results { uint results[]; };
+void main()
+{
+  const uint first = 5u * invocationIndex();
+  vec3 corners[3];
+  for (uint i = 0u; i < 3u; ++i)
+    corners[i] = values[first + i].xyz;
+  const vec4 size = values[first + 3u];
+  const vec4 lengths = values[first + 4u];
+  const Instance solid = Instance(0u, 0.0, 0u, 0u, vec3(0.0), uint(size.w), size.xyz, 0.0);
+  results[invocationIndex()] = triangleSolid(corners, solid, 0.0, lengths.x, lengths.y);
+}
+)");
+  Buffer input(values.size() * sizeof(Texel));
+  input.write(values);
+  Buffer output(kTriangles * sizeof(std::uint32_t));
+  input.bindStorage(BINDING_C);
+  output.bindStorage(BINDING_D);
+  program.dispatch(groupsFor(kTriangles));
+  std::vector<std::uint32_t> results(kTriangles);
+  output.read(results.data(), results.size() * sizeof(std::uint32_t));
+  std::vector<std::string> wrong;
+  for (std::size_t i = 0; i < kTriangles; ++i)
+    if (results[i] == STATE_HIT || results[i] == 0)
+    {
+      std::ostringstream line;
+      line << "triangle " << i << " at a distance of " << static_cast<double>(cases[i].distance.lower)
+           << " m from a solid of kind " << cases[i].kind << " is proven to be "
+           << (results[i] == 0 ? "farther apart" : "nearer");
+      wrong.push_back(line.str());
+    }
   return wrong;
 }
 

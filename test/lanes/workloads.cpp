@@ -213,6 +213,8 @@ const std::map<std::string, Task>& tasks()
       {"distances", checkDistances},
       {"kinematics", checkKinematics},
       {"crossings", checkCrossings},
+      {"containment", checkContainment},
+      {"solids", checkSolids},
       {"half_spaces", checkHalfSpaces},
   };
   return all;

@@ -20,6 +20,8 @@ std::vector<std::string> checkTriangles(const std::string& shaders, std::uint64_
 std::vector<std::string> checkDistances(const std::string& shaders, std::uint64_t seed);
 std::vector<std::string> checkKinematics(const std::string& shaders, std::uint64_t seed);
 std::vector<std::string> checkCrossings(const std::string& shaders, std::uint64_t seed);
+std::vector<std::string> checkContainment(const std::string& shaders, std::uint64_t seed);
+std::vector<std::string> checkSolids(const std::string& shaders, std::uint64_t seed);
 // A box near a half-space: the checker's answers, compared with those of the exact checker.
 std::vector<std::string> checkHalfSpaces(const std::string& shaders, std::uint64_t seed);
 }  // namespace gpu_planning_scene::core
