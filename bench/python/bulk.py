@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""bulk.py URDF SCENE [--package NAME=DIR] [--states N] [--shard N] [--kill-seconds S] [--only NAME]: what bulk checking
-on a Dask cluster costs, and whether it survives.
+"""bulk.py URDF SCENE [--package NAME=DIR] [--states N] [--shard N] [--repeats N] [--workers N ...] [--kill-seconds S]
+[--only NAME]: what bulk checking on a Dask cluster costs, and whether it survives.
 
     scheduler   the rate on 1, 2 and 4 worker processes, against the same run without Dask; and the efficiency of 64
                 workers, by a model from measured times. With 5 repeats, it takes about 4 minutes without other load
@@ -35,12 +35,13 @@ PROGRAM = [sys.executable, "-m", "gpu_planning_scene.bulk"]
 
 
 class Processes:
-    """A scheduler and workers as docs/bulk.md starts them. Each is a session of its own, with all of its processes."""
+    """A scheduler and workers as docs/bulk.md starts them. Each has a process group for all of its processes. In
+    sessions of their own, they would get another share of the processors where the kernel has autogroups."""
 
     def __init__(self, folder, workers):
         self.folder = folder
         self.workers = workers
-        self.sessions = []
+        self.groups = []
 
     def __enter__(self):
         file = self.folder / "scheduler.json"
@@ -58,36 +59,36 @@ class Processes:
         return self
 
     def _start(self, program, *options):
-        self.sessions.append(subprocess.Popen([sys.executable, "-m", f"distributed.cli.{program}", *map(str, options)],
+        self.groups.append(subprocess.Popen([sys.executable, "-m", f"distributed.cli.{program}", *map(str, options)],
                                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                              start_new_session=True))
+                                              preexec_fn=os.setpgrp))
 
     def __exit__(self, *_error):
-        for session in self.sessions:
-            os.killpg(session.pid, signal.SIGKILL)
-            session.wait()
+        for group in self.groups:
+            os.killpg(group.pid, signal.SIGKILL)
+            group.wait()
 
     @contextlib.contextmanager
     def stopped(self):
         """All processes stand still."""
-        for session in self.sessions:
-            os.killpg(session.pid, signal.SIGSTOP)
+        for group in self.groups:
+            os.killpg(group.pid, signal.SIGSTOP)
         try:
             yield
         finally:
-            for session in self.sessions:
-                os.killpg(session.pid, signal.SIGCONT)
+            for group in self.groups:
+                os.killpg(group.pid, signal.SIGCONT)
 
     def processor_seconds(self):
         """Of the scheduler, and of all workers with their nannies."""
-        used = dict.fromkeys((session.pid for session in self.sessions), 0.0)
+        used = dict.fromkeys((group.pid for group in self.groups), 0.0)
         for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
             try:
                 fields = path.read_text().rpartition(")")[2].split()
             except OSError:  # the process has ended
                 continue
-            if int(fields[3]) in used:
-                used[int(fields[3])] += (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+            if int(fields[2]) in used:
+                used[int(fields[2])] += (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
         scheduler, *workers = used.values()
         return scheduler, sum(workers)
 
@@ -117,8 +118,8 @@ class Bench:
         return {path.name: path.read_bytes() for path in sorted((self.folder / out).rglob("*")) if path.is_file()}
 
     def here(self, states, out):
-        """A run without Dask in this process, which keeps its checker as workers do. Returns the seconds in which it has
-        workers, and the processor seconds."""
+        """A run without Dask in this process, which keeps its checker as workers do. Returns the seconds in which it
+        has workers, and the processor seconds."""
         before = time.process_time()
         status, line = command_line.execute(self.options_here(states, out)[len(PROGRAM):])
         if status != 0:
@@ -133,13 +134,13 @@ class Bench:
         return states / rate_of(line), *(end - begin for begin, end in zip(before, after))
 
     def scheduler(self):
-        """Runs with and without Dask take turns. The processes of Dask are stopped meanwhile, because they use processor
-        time even if they have no work."""
+        """Runs with and without Dask take turns. The processes of Dask are stopped meanwhile, because they use
+        processor time even if they have no work."""
         states = self.arguments.states // self.arguments.shard * self.arguments.shard
-        print("workers  seconds without Dask, with Dask  share of the rate (least, most)  processor seconds without Dask; "
-              "with Dask: program, scheduler, workers")
+        print("workers  seconds without Dask, with Dask  share of the rate (least, most)  processor seconds without "
+              "Dask; with Dask: program, scheduler, workers")
         rates = []
-        for workers in (1, 2, 4):
+        for workers in self.arguments.workers:
             out = f"scheduler {workers}"
             with Processes(self.folder, workers) as cluster:
                 rows = []
@@ -154,7 +155,8 @@ class Bench:
             print(f"{workers:7}  {median[0]:.2f}, {median[1]:.2f}  {median[2]:.3f} ({min(columns[2]):.3f}, "
                   f"{max(columns[2]):.3f})  {median[3]:.1f}; {median[4]:.1f}, {median[5]:.2f}, {median[6]:.1f}",
                   flush=True)
-        contents = [self.content(name) for name in ("without Dask", *(f"scheduler {n}" for n in (1, 2, 4)))]
+        names = ["without Dask", *(f"scheduler {workers}" for workers in self.arguments.workers)]
+        contents = [self.content(name) for name in names]
         print("the outputs have the same bytes:", all(each == contents[0] for each in contents))
         self.model(max(rates))
 
@@ -292,6 +294,7 @@ def main():
     parser.add_argument("--states", type=int, default=10**7)
     parser.add_argument("--shard", type=int, default=524288)
     parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--workers", type=int, nargs="+", default=[1, 2, 4], help="worker processes")
     parser.add_argument("--kill-seconds", type=float, default=60.0)
     parser.add_argument("--kill-states", type=int, help="so many that the run takes longer than --kill-seconds")
     parser.add_argument("--liar-runs", type=int, default=3)
