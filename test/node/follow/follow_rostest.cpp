@@ -210,10 +210,12 @@ TEST_F(Replicas, HaveTheRevisionOfTheLeaderAfterEachKindOfChange)
   state.robot_state = stateMessage(free_state);
   state.robot_state.is_diff = true;
   state.robot_state.joint_state.position[0] += 0.01;
-  PlanningSceneMessage whole;
-  whole.robot_state = stateMessage(free_state);
+  PlanningSceneMessage named = diffScene();
+  named.name = "named";
+  PlanningSceneMessage nameless;  // no difference leads to this scene
+  nameless.robot_state = stateMessage(free_state);
   for (const PlanningSceneMessage& change :
-       {diffWith(boxObject("box", farAway(), 0.2)), diffWith(carried), padding, state, whole,
+       {diffWith(boxObject("box", farAway(), 0.2)), diffWith(carried), padding, state, named, nameless,
         diffWith(boxObject("box", farAway(), 0.1)), diffWith(objectOperation("box", CollisionObject::REMOVE))})
   {
     const std::uint64_t revision = apply(change);
