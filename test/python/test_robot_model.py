@@ -235,7 +235,8 @@ class RobotModel(Case):
         np.testing.assert_allclose(vertices[1], [0.2, 0, 0])
         with self.assertRaises(ValueError):
             vertices[0, 0] = 1.0
-        self.assertEqual(2, sys.getrefcount(vertices))
+        alone = np.zeros(3)  # the count depends on the version of Python
+        self.assertEqual(sys.getrefcount(alone), sys.getrefcount(vertices))
 
 
 if __name__ == "__main__":
