@@ -7,7 +7,7 @@ import sys
 
 INTEL = re.compile(r"CS SIMD(\d+) shader: (\d+) inst, (\d+) loops, (\d+) cycles, (\d+):(\d+) spills:fills")
 AMD = re.compile(r"Shader Stats: SGPRS: (\d+) VGPRS: (\d+) Code Size: (\d+) LDS: (\d+) Scratch: (\d+) Max Waves: (\d+) "
-                 r"Spilled SGPRs: (\d+) Spilled VGPRs: (\d+)")
+                 r"Spilled SGPRs: (\d+) Spilled VGPRs: (\d+) [^\t]*\(CS, W(\d+)\)")
 
 
 def intel_costs(text):
@@ -25,10 +25,10 @@ def amd_costs(text):
     found = [tuple(int(number) for number in match) for match in AMD.findall(text)]
     if not found:
         return None
-    _, registers, code, _, scratch, waves, spilled_scalars, spilled = found[-1]
+    _, registers, code, _, scratch, waves, spilled_scalars, spilled, lanes = found[-1]
     extra = f", {scratch:,} bytes of scratch" if scratch else ""
     extra += f", {spilled + spilled_scalars:,} spills" if spilled + spilled_scalars else ""
-    return code, f"{registers} registers, {waves} waves, {code / 1024:,.1f} KiB{extra}"
+    return code, f"{lanes} lanes, {registers} registers, {waves} waves, {code / 1024:,.1f} KiB{extra}"
 
 
 def read(path):
