@@ -39,8 +39,8 @@ def read(path):
         if len(parts) < 2:  # the rest of a log of several lines
             continue
         kernel, seconds, text = parts[0], float(parts[1]), "\t".join(parts[2:])
-        failure = re.search(r"failed: .*", text)
-        costs = (float("inf"), failure.group()) if failure else intel_costs(text) or amd_costs(text) or (0, "no report")
+        failure = re.search(r"(?:^|\t)(failed: .*)", text)
+        costs = (float("inf"), failure.group(1)) if failure else intel_costs(text) or amd_costs(text) or (0, "no report")
         kernels[kernel] = (*costs, seconds)
     return kernels
 
