@@ -35,7 +35,9 @@ GpuChecker::GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<Fores
         [&]
         {
           pairs_ = std::make_unique<GpuPairChecker>(shader_folder_, options.traversal, options.max_batch);
-          double_fault_ = findDoubleFault(shader_folder_);
+          double_fault_ = findEmulatedDouble(shader_folder_);
+          if (double_fault_.empty())
+            double_fault_ = findDoubleFault(shader_folder_);
         });
   }
   catch (...)
