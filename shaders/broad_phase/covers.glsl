@@ -82,7 +82,8 @@ bool centerBeyond(Instance solid, bool is_solid, OrientedNode node, vec3 center,
 
 // The results of the proofs: STATE_HIT, 0 if the pair is apart, or STATE_UNDECIDED if nothing is proven.
 
-// Of a robot instance and an object of the world, by the coarse balls, then by the fine ones. `node`: the root node of the object, or the node of the solid.
+// Of a robot instance and an object of the world, by the coarse balls, then by the fine ones. `node`: the root node of
+// the object, or the node of the solid.
 uint proveWorldPair(RootPair pair, Instance object, bool is_solid, OrientedNode node, float distance)
 {
   const Cover cover = fetchCover(pairRobot(pair.pair));

@@ -1,4 +1,5 @@
-// Never runs. The size of this program with and without MULTIPLY_ADDS shows whether the device emulates double precision.
+// Never runs. The size of this program with and without MULTIPLY_ADDS shows whether the device emulates double
+// precision.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -1,5 +1,6 @@
 // Tasks for the shaders that place points against solids: the crossing of a ray and a triangle, the winding number of a
-// point, which rests on such crossings, the distance of a triangle and a solid, and the heights of corners above a half-space.
+// point, which rests on such crossings, the distance of a triangle and a solid, and the heights of corners above a
+// half-space.
 
 #include <algorithm>
 #include <cmath>

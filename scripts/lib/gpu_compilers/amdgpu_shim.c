@@ -1,6 +1,7 @@
 // A kernel driver "amdgpu" that executes nothing, for Mesa's drm-shim. It describes one GPU, hands out memory and
-// ignores commands. So radeonsi compiles shaders on a machine without an AMD GPU. AMDGPU_SHIM_CHIP names the GPU: navi10
-// or gfx1100. Mesa 22.3 has such a library for Intel's GPUs, and for AMD's only for the older kernel driver radeon.
+// ignores commands. So radeonsi compiles shaders on a machine without an AMD GPU. AMDGPU_SHIM_CHIP names the GPU:
+// navi10 or gfx1100. Mesa 22.3 has such a library for Intel's GPUs, and for AMD's only for the older kernel driver
+// radeon.
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
-"""kernel_table.py FOLDER DEVICE...: prints a table of the kernels that scripts/gpu_compilers compiled. FOLDER has a file
-DEVICE.tsv for each device: one line for each kernel, as the program kernel_costs prints it. The file FOLDER/all.md gets a
-row for each kernel with each set of definitions. The printed table has the largest of these sets."""
+"""kernel_table.py FOLDER DEVICE...: prints a table of the kernels that scripts/gpu_compilers compiled. FOLDER has a
+file DEVICE.tsv for each device: one line for each kernel, as the program kernel_costs prints it. The file FOLDER/all.md
+gets a row for each kernel with each set of definitions. The printed table has the largest of these sets."""
 import pathlib
 import re
 import sys
@@ -40,7 +40,9 @@ def read(path):
             continue
         kernel, seconds, text = parts[0], float(parts[1]), "\t".join(parts[2:])
         failure = re.search(r"(?:^|\t)(failed: .*)", text)
-        costs = (float("inf"), failure.group(1)) if failure else intel_costs(text) or amd_costs(text) or (0, "no report")
+        costs = intel_costs(text) or amd_costs(text) or (0, "no report")
+        if failure:
+            costs = (float("inf"), failure.group(1))
         kernels[kernel] = (*costs, seconds)
     return kernels
 
@@ -72,7 +74,8 @@ def main():
                           for short in sorted({name(kernel) for kernel in kernels})}))
     for device, result in zip(devices, results):
         failed = sum(entry[1].startswith("failed") for entry in result.values())
-        print(f"{device}: {len(result)} programs in {sum(entry[2] for entry in result.values()):.0f} s, {failed} failed")
+        seconds = sum(entry[2] for entry in result.values())
+        print(f"{device}: {len(result)} programs in {seconds:.0f} s, {failed} failed")
 
 
 if __name__ == "__main__":
