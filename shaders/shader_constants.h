@@ -62,6 +62,8 @@
 #define LOCATION_GROUND 48
 #define LOCATION_BACKGROUND 49
 #define LOCATION_FLAT_COLOR 50
+#define LOCATION_HAS_COVERS 51
+#define LOCATION_VARIABLE_COUNT 52
 
 // --- Sizes of records ----------------------------------------------------------------------------------------------
 // A texel has 16 bytes: one element of a buffer texture, or one vec4 or uvec4 of a storage buffer.
@@ -83,6 +85,8 @@
 #define LARGE_NODE_TEXELS 1     // see tree_build/fit_boxes.comp
 #define BOUNDS_WORDS 6          // the bounds of a mesh, see tree_build/bounds.comp
 #define OUTCOME_TEXELS 2        // of one case of self_test/float_arithmetic.comp
+#define COVER_TEXELS 81         // see broad_phase/covers.glsl
+#define TABLE_AXIS_TEXELS 2     // of one variable of a joint table, see broad_phase/joint_tables.glsl
 
 // --- Building trees ------------------------------------------------------------------------------------------------
 // A leaf of a tree holds at most this many triangles.
@@ -176,6 +180,8 @@
 #define UNIT_LINK_SHAPES 14
 #define UNIT_ORIENTED_NODES 15
 #define UNIT_MARGINS 16      // see problem/margins.glsl
+#define UNIT_COVERS 17       // see broad_phase/covers.glsl
+#define UNIT_TABLES 18       // see broad_phase/joint_tables.glsl
 // Bindings of the storage buffers.
 #define BINDING_COUNTERS 0
 #define BINDING_FLAGS 1       // one uint a state: STATE_* bits
@@ -253,6 +259,20 @@
 #define NO_PARTNER 0xffffu
 // Marks an inner node in the tree over the world's objects.
 #define NO_OBJECT 0xffffffffu
+
+// Balls of the covers on the device (broad_phase/covers.glsl): a coarse level, then a fine one.
+#define COVER_COARSE_BALLS 8
+#define COVER_FINE_BALLS 32
+#define COVER_BALLS (COVER_COARSE_BALLS + COVER_FINE_BALLS)
+// Bits of a cover.
+#define COVER_SAME_CENTERS 1u  // each witness is the centre of its outer ball
+#define COVER_UNUSABLE 2u      // the cover proves nothing
+// The verdicts of a cell of a joint table, and the bits of a cell.
+#define TABLE_APART 0u
+#define TABLE_COLLIDING 1u
+#define TABLE_NONE 2u
+#define TABLE_CELL_BITS 2
+#define TABLE_CELLS_A_WORD 16
 
 // Places of the counters (uints). Each list has a count. Its indirect arguments are written before each dispatch over
 // it.

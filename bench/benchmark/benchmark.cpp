@@ -175,7 +175,7 @@ int main(int argc, char** argv)
        "and growth, of this project's methods, of FCL, Bullet, fitted spheres and VAMP, and of the methods of\n"
        "bench/literature, and writes them as CSV tables.\n"
        "Work is counted outside the timing, and only if counting costs nothing: on the CPU the visited nodes per\n"
-       "state, on the GPU the candidates and root pairs per state. The GPU's traversal and the peers have no counts.\n"
+       "state, on the GPU the candidates, root pairs and traversed pairs per state. The peers have no counts.\n"
        "scripts/charts draws the tables. Exit status 1 if a method that claims to be exact gives a wrong answer.\n"
        "Without the robots of Debian's dart-doc (see --data), their scenes are left out.",
        {{"--quick", "", "two scenes, few states, no methods of bench/literature: under a minute"},

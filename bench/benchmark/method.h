@@ -20,6 +20,7 @@ struct WorkPerState
   double node_visits = NAN;  ///< visited nodes of the trees on the CPU; a test of eight boxes counts as two
   double candidates = NAN;   ///< see GpuWork
   double root_pairs = NAN;
+  double traversed = NAN;
 };
 
 /// A method that decides which states of a scene are free.

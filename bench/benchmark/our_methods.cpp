@@ -85,7 +85,8 @@ class BatchMethod : public CheckerMethod
     const auto all = static_cast<double>(done.states);
     WorkPerState work;
     if (done.states > 0)
-      work = {NAN, static_cast<double>(done.candidates) / all, static_cast<double>(done.root_pairs) / all};
+      work = {NAN, static_cast<double>(done.candidates) / all, static_cast<double>(done.root_pairs) / all,
+              static_cast<double>(done.traversed) / all};
     return work;
   }
 

@@ -174,7 +174,8 @@ class Tables
                    "cpu_below",
                    "node_visits_a_state",
                    "candidates_a_state",
-                   "root_pairs_a_state"}),
+                   "root_pairs_a_state",
+                   "traversed_a_state"}),
       accuracy_(folder, "accuracy.csv",
                 {"scene", "kind", "padding_m", "method", "title", "family", "claims_exact", "states", "open",
                  "wrong_free", "wrong_collision", "wrong_per_million", "measured", "largest_clearance_m",
@@ -212,7 +213,8 @@ class Tables
                      cpuBelow(*run.method),
                      work.node_visits,
                      work.candidates,
-                     work.root_pairs});
+                     work.root_pairs,
+                     work.traversed});
   }
 
   /// Returns the number of wrong answers.

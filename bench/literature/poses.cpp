@@ -1,6 +1,7 @@
 #include "literature/poses.h"
 
 #include <algorithm>
+#include <cassert>  // FCL 0.7 uses assert without it
 #include <cmath>
 #include <optional>
 #include <random>

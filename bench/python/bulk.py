@@ -1,17 +1,16 @@
 #!/usr/bin/python3
-"""bulk.py URDF SCENE [--package NAME=DIR] [--states N] [--shard N] [--kill-seconds S] [--only NAME]: what bulk checking
-on a Dask cluster costs, and whether it survives.
+"""bulk.py URDF SCENE [--package NAME=DIR] [--states N] [--shard N] [--repeats N] [--workers N ...] [--kill-seconds S]
+[--only NAME]: what bulk checking on a Dask cluster costs, and whether it survives.
 
-    scheduler   the rate on 1, 2 and 4 worker processes, against the same shards in one process without Dask; and the
-                efficiency of 64 workers, by a model from measured times
+    scheduler   the rate on 1, 2 and 4 worker processes, against the same run without Dask; and the efficiency of 64
+                workers, by a model from measured times. With 5 repeats, it takes about 4 minutes without other load
     kills       one worker process is killed every few seconds; the output is compared byte by byte
     liar        a worker lies about one of 10^6 states; it must be named
     resume      the whole run is killed and started again
 
-The load of the machine changes the rates, so the processor time of all processes of a run is compared with that of the
-same shards without Dask. Idle processes of Dask take processor time too; it counts apart, as a share of the machine,
-because it grows with the time that the run takes on a busy machine."""
+The load of the machine changes the rates, so the processor times are printed too."""
 import argparse
+import contextlib
 import json
 import os
 import pathlib
@@ -29,21 +28,76 @@ import dask
 import distributed
 import numpy as np
 
-from gpu_planning_scene.bulk import work
-from gpu_planning_scene.bulk.bundle import RobotBundle, SceneBundle
-from gpu_planning_scene.bulk.states import RandomSlice
+from gpu_planning_scene.bulk import command_line
 
 SEED = 1
+PROGRAM = [sys.executable, "-m", "gpu_planning_scene.bulk"]
+
+
+class Processes:
+    """A scheduler and workers as docs/bulk.md starts them. Each has a process group for all of its processes. In
+    sessions of their own, they would get another share of the processors where the kernel has autogroups."""
+
+    def __init__(self, folder, workers):
+        self.folder = folder
+        self.workers = workers
+        self.groups = []
+
+    def __enter__(self):
+        file = self.folder / "scheduler.json"
+        file.unlink(missing_ok=True)
+        self._start("dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--dashboard-address", "127.0.0.1:0",
+                    "--scheduler-file", file)
+        while not file.exists() or not file.read_text():
+            time.sleep(0.05)
+        self.scheduler_address = json.loads(file.read_text())["address"]
+        for _ in range(self.workers):
+            self._start("dask_worker", self.scheduler_address, "--host", "127.0.0.1", "--nthreads", "1",
+                        "--no-dashboard", "--local-directory", self.folder)
+        with distributed.Client(self.scheduler_address) as client:
+            client.wait_for_workers(self.workers)
+        return self
+
+    def _start(self, program, *options):
+        self.groups.append(subprocess.Popen([sys.executable, "-m", f"distributed.cli.{program}", *map(str, options)],
+                                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                              preexec_fn=os.setpgrp))
+
+    def __exit__(self, *_error):
+        for group in self.groups:
+            os.killpg(group.pid, signal.SIGKILL)
+            group.wait()
+
+    @contextlib.contextmanager
+    def stopped(self):
+        """All processes stand still."""
+        for group in self.groups:
+            os.killpg(group.pid, signal.SIGSTOP)
+        try:
+            yield
+        finally:
+            for group in self.groups:
+                os.killpg(group.pid, signal.SIGCONT)
+
+    def processor_seconds(self):
+        """Of the scheduler, and of all workers with their nannies."""
+        used = dict.fromkeys((group.pid for group in self.groups), 0.0)
+        for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
+            try:
+                fields = path.read_text().rpartition(")")[2].split()
+            except OSError:  # the process has ended
+                continue
+            if int(fields[2]) in used:
+                used[int(fields[2])] += (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+        scheduler, *workers = used.values()
+        return scheduler, sum(workers)
 
 
 class Bench:
     def __init__(self, arguments, folder):
         self.arguments = arguments
         self.folder = folder
-        packages = dict(each.split("=", 1) for each in arguments.package)
-        self.robot = RobotBundle.from_files(arguments.urdf, packages=packages)
-        self.scene = SceneBundle.from_file(arguments.scene, self.robot.load(), packages)
-        self.command = [sys.executable, "-m", "gpu_planning_scene.bulk", "--urdf", arguments.urdf, "--scene",
+        self.command = [*PROGRAM, "--urdf", arguments.urdf, "--scene",
                         arguments.scene, "--device", "cpu", "--shard", str(arguments.shard), "--seed", str(SEED)]
         for package in arguments.package:
             self.command += ["--package", package]
@@ -57,62 +111,54 @@ class Bench:
                 cluster.scheduler_address, *more]
 
     def run(self, *words):
-        """The last line of a run, and its seconds."""
-        begin = time.perf_counter()
-        answer = subprocess.run(words, check=True, capture_output=True, text=True)
-        return answer.stdout.strip(), time.perf_counter() - begin
+        """The last line of a run."""
+        return subprocess.run(words, check=True, capture_output=True, text=True).stdout.strip()
 
     def content(self, out):
         return {path.name: path.read_bytes() for path in sorted((self.folder / out).rglob("*")) if path.is_file()}
 
-    def task(self, number):
-        first = number * self.arguments.shard
-        return work.CheckTask(RandomSlice(SEED, first, self.arguments.shard, False), "")
+    def here(self, states, out):
+        """A run without Dask in this process, which keeps its checker as workers do. Returns the seconds in which it
+        has workers, and the processor seconds."""
+        before = time.process_time()
+        status, line = command_line.execute(self.options_here(states, out)[len(PROGRAM):])
+        if status != 0:
+            raise RuntimeError(line)
+        return states / rate_of(line), time.process_time() - before
 
-    def direct(self, count):
-        """Shards in this process, without Dask and without files: seconds, and seconds of processor time."""
-        work.perform(self.robot, self.scene, self.task(0), "cpu")
-        begin = time.perf_counter(), time.process_time()
-        for number in range(count):
-            work.perform(self.robot, self.scene, self.task(number), "cpu")
-        return time.perf_counter() - begin[0], time.process_time() - begin[1]
-
-    def on_cluster(self, cluster, client, states, out):
-        """The same for a run: the time in which it had workers, and the processor time of all its processes."""
-        before = processor_seconds(client)
-        line, _ = self.run(*self.options(cluster, states, out, "--check-twice", "0"))
-        rate = float(re.search("([0-9,]+) states/s", line)[1].replace(",", ""))
-        return states / rate, processor_seconds(client) - before
-
-    def idle(self, client, seconds=10):
-        """Processor time that the cluster uses in a second while it does nothing."""
-        before = processor_seconds(client), time.perf_counter()
-        time.sleep(seconds)
-        return (processor_seconds(client) - before[0]) / (time.perf_counter() - before[1])
+    def there(self, cluster, states, out):
+        """The same for a run on a cluster, and the processor seconds of the scheduler and of the workers."""
+        before = sum(os.times()[2:4]), *cluster.processor_seconds()
+        line = self.run(*self.options(cluster, states, out, "--check-twice", "0"))
+        after = sum(os.times()[2:4]), *cluster.processor_seconds()
+        return states / rate_of(line), *(end - begin for begin, end in zip(before, after))
 
     def scheduler(self):
-        count = self.arguments.states // self.arguments.shard
-        states = count * self.arguments.shard
-        print("workers  without Dask: seconds, processor seconds  with Dask: the same  share of the rate  cost in "
-              "processor time: of the work, of Dask's idle processes")
-        used = []
-        for workers in (1, 2, 4):
-            with self.cluster(workers) as cluster, distributed.Client(cluster) as client:
-                # First, each worker prepares the scene. The second run shows what the program needs to start.
-                self.on_cluster(cluster, client, 2 * workers * self.arguments.shard, "start")
-                start = self.on_cluster(cluster, client, 64, "start")[1]
-                idle = self.idle(client)
-                pairs = []
-                for _ in range(self.arguments.repeats):
-                    direct = self.direct(count)
-                    pairs.append((*direct, *self.on_cluster(cluster, client, states, f"scheduler {workers}")))
-            wall, base, wall_dask, base_dask = (statistics.median(each) for each in zip(*pairs))
-            used.append(base)
-            print(f"{workers:7}  {wall:.1f} {base:.1f}  {wall_dask:.1f} {base_dask:.1f}  {wall / wall_dask:.3f}  "
-                  f"{(base_dask - start - idle * wall_dask) / base - 1:.1%}  {idle / os.cpu_count():.1%}")
-        contents = [self.content(f"scheduler {workers}") for workers in (1, 2, 4)]
-        print("the outputs have the same bytes:", contents[0] == contents[1] == contents[2])
-        self.model(states / min(used) * os.cpu_count())
+        """Runs with and without Dask take turns. The processes of Dask are stopped meanwhile, because they use
+        processor time even if they have no work."""
+        states = self.arguments.states // self.arguments.shard * self.arguments.shard
+        print("workers  seconds without Dask, with Dask  share of the rate (least, most)  processor seconds without "
+              "Dask; with Dask: program, scheduler, workers")
+        rates = []
+        for workers in self.arguments.workers:
+            out = f"scheduler {workers}"
+            with Processes(self.folder, workers) as cluster:
+                rows = []
+                for _ in range(self.arguments.repeats + 1):
+                    with cluster.stopped():
+                        here = self.here(states, "without Dask")
+                    there = self.there(cluster, states, out)
+                    rows.append((here[0], there[0], here[0] / there[0], here[1], *there[1:]))
+            columns = list(zip(*rows[1:]))  # in the first run, the processes prepare the scene
+            median = [statistics.median(column) for column in columns]
+            rates.append(states / median[0])
+            print(f"{workers:7}  {median[0]:.2f}, {median[1]:.2f}  {median[2]:.3f} ({min(columns[2]):.3f}, "
+                  f"{max(columns[2]):.3f})  {median[3]:.1f}; {median[4]:.1f}, {median[5]:.2f}, {median[6]:.1f}",
+                  flush=True)
+        names = ["without Dask", *(f"scheduler {workers}" for workers in self.arguments.workers)]
+        contents = [self.content(name) for name in names]
+        print("the outputs have the same bytes:", all(each == contents[0] for each in contents))
+        self.model(max(rates))
 
     def model(self, rate):
         """What the program and the scheduler do for each shard: the processor time of runs with shards of 64 states.
@@ -195,7 +241,7 @@ class Bench:
 
     def resume(self):
         states = self.arguments.states
-        whole, _ = self.run(*self.options_here(states, "whole"))
+        whole = self.run(*self.options_here(states, "whole"))
         with self.cluster(2) as cluster:
             words = self.options(cluster, states, "resume")
             for part in (0.2, 0.6):
@@ -207,7 +253,7 @@ class Bench:
                 process.wait()
                 print(f"killed with {len(self.shards('resume'))} shards")
             finished = {path: path.stat().st_ino for path in self.shards("resume")}
-            line, _ = self.run(*words)
+            line = self.run(*words)
         kept = all(path.stat().st_ino == inode for path, inode in finished.items())
         print(f"{whole}\n{line}\nthe finished shards were not written again: {kept}")
         print("the output has the same bytes:", self.content("whole") == self.content("resume"))
@@ -216,9 +262,9 @@ class Bench:
         return sorted((self.folder / out).glob("*/*.npy"))
 
 
-def processor_seconds(client):
-    """Of the workers, of the scheduler, which is in this process, and of all programs that have ended."""
-    return sum(client.run(time.process_time).values()) + time.process_time() + sum(os.times()[2:4])
+def rate_of(line):
+    """The rate in the last line of a run, in states a second."""
+    return float(re.search("([0-9,]+) states/s", line)[1].replace(",", ""))
 
 
 def lie(shard, seed):
@@ -247,7 +293,8 @@ def main():
     parser.add_argument("--package", action="append", default=[])
     parser.add_argument("--states", type=int, default=10**7)
     parser.add_argument("--shard", type=int, default=524288)
-    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--workers", type=int, nargs="+", default=[1, 2, 4], help="worker processes")
     parser.add_argument("--kill-seconds", type=float, default=60.0)
     parser.add_argument("--kill-states", type=int, help="so many that the run takes longer than --kill-seconds")
     parser.add_argument("--liar-runs", type=int, default=3)

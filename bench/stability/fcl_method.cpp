@@ -1,3 +1,5 @@
+#include <cassert>  // FCL 0.7 uses assert without it
+
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/cone.h>

@@ -20,7 +20,7 @@ Traversal traversalFromName(const std::string& name);
 struct BatchCheckerOptions : CheckerOptions
 {
   /// "auto" (the first hardware device, or software if there is none), "software", an index (Device::index), or a part
-  /// of a renderer's name.
+  /// of a renderer's name. The node and the tools also take several devices ("0+1") and all hardware devices ("all").
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
   std::size_t max_batch = 16384;  ///< largest number of states sent to the GPU at once; larger requests are split
@@ -35,13 +35,15 @@ struct GpuWork
 {
   std::size_t states = 0;      ///< checked by the GPU
   std::size_t candidates = 0;  ///< pairs of instances whose spheres or outer boxes overlap; a pair counts in each state
-  std::size_t root_pairs = 0;  ///< candidates whose root boxes overlap too: these are traversed
+  std::size_t root_pairs = 0;  ///< candidates whose root boxes overlap too
+  std::size_t traversed = 0;   ///< root pairs whose trees are traversed, because no balls prove a verdict
 
   GpuWork& operator+=(const GpuWork& other)
   {
     states += other.states;
     candidates += other.candidates;
     root_pairs += other.root_pairs;
+    traversed += other.traversed;
     return *this;
   }
 };

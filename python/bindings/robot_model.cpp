@@ -70,11 +70,8 @@ RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, con
   return loaded([&](auto* warnings) { return RobotModel::fromXml(urdf.value, srdf.value, options, warnings); });
 }
 
-/// The text of a URDF or SRDF file. xacro expands it as in fromFiles, which has already said so.
-py::str descriptionFrom(const py::object& path, const Arg<std::string>& kind)
+py::str decoded(const std::string& text, const std::string& file)
 {
-  const std::string file = pathFrom(path, "path");
-  const std::string text = withoutLock([&] { return core::readDescription(file, kind.value, {}).text; });
   PyObject* decoded = PyUnicode_Decode(text.data(), static_cast<Py_ssize_t>(text.size()), "utf-8-sig", "strict");
   if (decoded == nullptr)
   {
@@ -82,6 +79,23 @@ py::str descriptionFrom(const py::object& path, const Arg<std::string>& kind)
     throw core::Error(file + ": the file is not UTF-8; save it in this encoding");
   }
   return py::reinterpret_steal<py::str>(decoded);
+}
+
+/// The robot of fromFiles, and the texts of the URDF and of the SRDF that it was made of. xacro runs once for each
+/// file.
+py::tuple withTexts(const py::object& urdf, const py::object& srdf, const py::object& packages, const py::object& files)
+{
+  core::RobotModelOptions options = optionsFrom(packages, 1.0, files);
+  const std::string urdf_path = pathFrom(urdf, "urdf");
+  const std::string srdf_path = pathFrom(srdf, "srdf");
+  const core::RobotDescription read =
+      withoutLock([&] { return core::readRobotDescription(urdf_path, srdf_path, options.info); });
+  options.urdf_folder = read.urdf_folder;
+  options.urdf_name = read.urdf.name;
+  options.srdf_name = read.srdf.name;
+  const RobotPtr robot =
+      loaded([&](auto* warnings) { return RobotModel::fromXml(read.urdf.text, read.srdf.text, options, warnings); });
+  return py::make_tuple(robot, decoded(read.urdf.text, urdf_path), decoded(read.srdf.text, srdf_path));
 }
 
 /// Calls `work(i)` for all indices below `count`, and ends when a signal handler raises an exception.
@@ -102,12 +116,27 @@ void forEachState(std::size_t count, const Work& work)
   interrupt.rethrow();
 }
 
+/// The array for `count` states: `out`, or a new one.
+py::array_t<double> rowsFor(std::size_t count, std::size_t width, const py::object& out)
+{
+  if (out.is_none())
+    return py::array_t<double>({count, width});
+  if (!py::isinstance<ArrayOf<double>>(out) || !out.cast<py::array>().writeable())
+    throwTypeError(expectedButGot("a writable array of float64 in C order for out", out));
+  py::array_t<double> array = out.cast<py::array_t<double>>();
+  if (array.ndim() != 2 || array.shape(0) != static_cast<py::ssize_t>(count) ||
+      array.shape(1) != static_cast<py::ssize_t>(width))
+    throw core::Error("out: the shape is " + std::string(py::str(array.attr("shape"))) + "; it must be (" +
+                      std::to_string(count) + ", " + std::to_string(width) + ")");
+  return array;
+}
+
 py::array_t<double> randomStates(const RobotModel& robot, Arg<std::size_t> count, Arg<std::uint64_t> seed,
-                                 const py::object& base)
+                                 const py::object& base, const py::object& out)
 {
   const std::size_t width = robot.variables().size();
   const std::vector<double> start = base.is_none() ? std::vector<double>() : rowFrom(base, robot, "base");
-  py::array_t<double> states({count.value, width});
+  py::array_t<double> states = rowsFor(count.value, width, out);
   double* rows = states.mutable_data();
   std::mt19937_64 generator(seed.value);
   forEachState(count.value,
@@ -202,8 +231,6 @@ void addParts(py::module_& module)
 void addRobotModel(py::module_& module)
 {
   addParts(module);
-  module.def("_read_description", &descriptionFrom, py::arg("path"), py::arg("kind"),
-             "The text of a URDF or SRDF file, expanded if it is a xacro file. For the robots of bulk runs.");
   py::class_<RobotModel, RobotPtr>(
       module, "RobotModel",
       "A robot: the kinematic tree of a URDF with its collision shapes, and the content of its SRDF. It never changes "
@@ -278,10 +305,13 @@ void addRobotModel(py::module_& module)
           },
           "A state with all variables 0, or in the middle of their limits if 0 is outside. Shape (variables,).")
       .def("random_states", &randomStates, py::arg("count"), py::arg("seed"), py::arg("base") = py::none(),
+           py::arg("out") = py::none(),
            "Random states within the joint limits, shape (count, variables).\n\nThe same seed gives the same states "
            "as the library with std::mt19937_64(seed), and, with base, as the tool check_states. base: a state of "
            "shape (variables,); planar and floating joints, such as a virtual joint, have its values. Without it, "
-           "the robot's base moves too. Ctrl-C ends a long call.\n\n"
+           "the robot's base moves too. out: an array of float64 in the order of C, of the shape of the result, which "
+           "gets "
+           "the states and is returned. Ctrl-C ends a long call.\n\n"
            "    states = robot.random_states(1000, seed=1, base=robot.default_state())")
       .def("link_poses", &linkPoses, py::arg("states"),
            "Forward kinematics: the pose of each link in the planning frame, for each state.\n\nstates: shape "
@@ -289,6 +319,9 @@ void addRobotModel(py::module_& module)
            "shape (n, links, 4, 4) or (links, 4, 4). Raises Error "
            "for another shape. Ctrl-C ends a long call.\n\n"
            "    poses = robot.link_poses(states)\n    tool = poses[:, robot.link_index(\"palm\")]")
+      .def_static("_from_files_with_texts", &withTexts, py::arg("urdf"), py::arg("srdf"), py::arg("packages"),
+                  py::arg("files"),
+                  "from_files, and the texts of the URDF and of the SRDF. For the robots of bulk runs.")
       .def("__repr__", [](const RobotModel& robot) { return "<RobotModel '" + robot.name() + "'>"; });
 }
 }  // namespace gpu_planning_scene::python

@@ -9,6 +9,7 @@
 #include "bindings/bindings.h"
 #include "bindings/interrupt.h"
 #include "collision/checkers/open_checker.h"
+#include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/device.h"
@@ -169,17 +170,32 @@ std::size_t SharedChecker::statesOfPart() const
   return std::max(kLeastPart, static_cast<std::size_t>(std::min(kSecondsOfPart / seconds_per_state_, 1e15)));
 }
 
+BatchResult SharedChecker::checkPart(const double* states, std::size_t first, std::size_t count,
+                                     const std::string& group)
+{
+  const core::RobotModel& robot = *scene_->robot;
+  try
+  {
+    return checker_->check(states + first * robot.variables().size(), count, group);
+  }
+  catch (const core::Error&)
+  {
+    // A message about a wrong value counts the states of the part. This one counts those of the call.
+    core::validateStates(robot, states, first + count);
+    throw;
+  }
+}
+
 BatchResult SharedChecker::check(const double* states, std::size_t count, const std::string& group,
                                  Interrupt& interrupt)
 {
   const Call call(*this);
-  const std::size_t width = scene_->robot->variables().size();
   BatchResult result;
   std::size_t done = 0;
   do
   {
     const std::size_t part = std::min(count - done, statesOfPart());
-    BatchResult next = checker_->check(states + done * width, part, group);
+    BatchResult next = checkPart(states, done, part, group);
     if (part >= kLeastPart)
       seconds_per_state_ = next.seconds / static_cast<double>(part);
     if (done == 0)

@@ -53,6 +53,7 @@ class SharedChecker
 
  private:
   std::size_t statesOfPart() const;
+  core::BatchResult checkPart(const double* states, std::size_t first, std::size_t count, const std::string& group);
 
   std::shared_ptr<core::StateChecker> checker_;
   mutable std::mutex scene_mutex_;  // held only for a moment

@@ -1,7 +1,6 @@
 // One invocation per candidate: computes the relative pose and tests the root boxes. If one shape is a primitive, it
 // also tests whether the other shape is inside this primitive. A candidate that remains becomes a root pair
-// (traversal/root_pairs.glsl), with the node pair with which its traversal begins. Sources:
-// traversal/bounding_volume_overlap.glsl. Lengths are in metres.
+// (traversal/root_pairs.glsl). Sources: traversal/bounding_volume_overlap.glsl. Lengths are in metres.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -23,9 +22,6 @@ layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
 layout(binding = UNIT_WORLD_POSES) uniform usamplerBuffer world_poses;
 layout(binding = UNIT_CANDIDATES) uniform usamplerBuffer candidates;
 layout(std430, binding = BINDING_A) writeonly buffer RootPairs { uvec4 root_pairs[]; };
-// The node pairs with which traversals begin: of two meshes, and of a mesh and a solid.
-layout(std430, binding = BINDING_B) writeonly buffer MeshEntries { uvec4 mesh_entries[]; };
-layout(std430, binding = BINDING_D) writeonly buffer SolidEntries { uvec4 solid_entries[]; };
 
 void main()
 {
@@ -35,6 +31,8 @@ void main()
   const uvec4 two = texelFetch(candidates, int(i / 2u));
   const uvec2 candidate = i % 2u == 0u ? two.xy : two.zw;
   const uint state = candidate.x;
+  if (isDecided(state))
+    return;
   const uint robot = pairRobot(candidate.y);
   const uint other = pairOther(candidate.y);
   const bool world = other >= robot_count;
@@ -80,8 +78,4 @@ void main()
     root_pairs[texel + uint(row)] = floatBitsToUint(vec4(rows[row], pose.translation[row]));
   root_pairs[texel + 3u] = uvec4(state, candidate.y, floatBitsToUint(error), floatBitsToUint(gap));
   root_pairs[texel + 4u] = uvec4(floatBitsToUint(distance), 0u, 0u, 0u);
-  if (a_is_solid || b_is_solid)
-    solid_entries[atomicAdd(counters[COUNTER_SOLID_ENTRIES], 1u)] = uvec4(at, root_a, root_b, 0u);
-  else
-    mesh_entries[atomicAdd(counters[COUNTER_MESH_ENTRIES], 1u)] = uvec4(at, root_a, root_b, 0u);
 }

@@ -1,5 +1,6 @@
 // Broad phase among links. One invocation per (state, query): compares the bounding sphere of a robot instance with the
-// spheres of six others. Overlapping spheres make a candidate. All pairs are compared: a robot has few links, and this
+// spheres of six others. Pairs with overlapping spheres are looked up in the joint tables. Those without a proof become
+// candidates. All pairs are compared: a robot has few links, and this
 // needs no tree per state.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
@@ -8,6 +9,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "broad_phase/candidates.glsl"
 #include "broad_phase/queries.glsl"
 #include "common/comparisons.glsl"
+#include "traversal/verdicts.glsl"
+#include "broad_phase/joint_tables.glsl"
 layout(binding = UNIT_SPHERES) uniform usamplerBuffer spheres;
 
 vec4 sphereOf(uint robot, uint state)
@@ -26,6 +29,8 @@ void main()
   if (i >= state_count * query_count)
     return;
   const uint state = stateOf(i);
+  if (isDecided(state))
+    return;
   const uvec4 query = fetchQuery(rowOf(i));
   const vec4 mine = sphereOf(query.x, state);
   uint near = 0u;
@@ -38,5 +43,12 @@ void main()
     near |= partner != NO_PARTNER && !provenGreater(dot(apart, apart), reach * reach) ? 1u << k : 0u;
   }
   for (; near != 0u; near &= near - 1u)
-    addCandidate(state, packPair(query.x, partnerOf(query, uint(findLSB(near)))));
+  {
+    const uint partner = partnerOf(query, uint(findLSB(near)));
+    const uint proof = variable_count != 0u ? proveByTable(state, query.x, partner) : STATE_UNDECIDED;
+    if (proof == STATE_HIT)
+      report(state, packPair(query.x, partner), proof);
+    else if (proof == STATE_UNDECIDED)
+      addCandidate(state, packPair(query.x, partner));
+  }
 }

@@ -10,6 +10,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "problem/nodes.glsl"
 #include "broad_phase/placed_instance.glsl"
 #include "broad_phase/queries.glsl"
+#include "traversal/verdicts.glsl"
 layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
 // First texel of a node: the centre of its box, and the next node if the boxes are apart. Second texel: the half
 // extents, and the world instance or NO_OBJECT. If the boxes overlap, the traversal continues with the next node in the
@@ -29,6 +30,8 @@ void main()
   if (i >= state_count * query_count)
     return;
   const uint state = stateOf(i);
+  if (isDecided(state))
+    return;
   const uint robot = fetchQuery(rowOf(i)).x;
   const PlacedInstance placed = place(robot, state);
   const vec3 center = placed.center;

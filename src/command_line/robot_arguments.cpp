@@ -24,7 +24,7 @@ std::vector<Option> deviceOptions()
 {
   return {{"--device", "DEVICE",
            "auto (default): a GPU, else a software device;\nsoftware; an index; part of a renderer's name;\n"
-           "or cpu: double precision without a GL device"},
+           "several of these (0+1); all: all GPUs; or cpu: double\nprecision without a GL device"},
           {"--traversal", "NAME", "work_queue (default) or breadth_first; cpu has its own"},
           {"--max-batch", "N", "states that go to the device at once (default 16384)"},
           {"--tolerance", "METRES",

@@ -1,6 +1,8 @@
 #include "gpu/float_arithmetic.h"
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -10,6 +12,7 @@
 
 #include "gpu/buffer.h"
 #include "gpu/program.h"
+#include "model/seconds_since.h"
 #include "shader_constants.h"
 
 // Runs kernels on known numbers and compares their results with those of the CPU in double, in which the sum and the
@@ -21,6 +24,12 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kCases = 4096;
+
+// Of self_test/double_size.comp. A multiplication and an addition add 8 to 16 bytes to a program of Mesa's drivers, and
+// 8,600 where they are emulated (scripts/gpu_compilers). Their compilation takes less than 1 ms, or else over 30 ms.
+constexpr int kMultiplyAdds = 4;
+constexpr std::size_t kEmulatedBytes = 1000;
+constexpr double kEmulatedSeconds = 0.005;
 
 struct Outcome
 {
@@ -68,6 +77,24 @@ const char* faultOf(double x, double y, const Outcome& found)
   if (found.comparison_holds != 0.0F)
     return "a comparison with NaN is true";
   return nullptr;
+}
+Program doubleProgram(const std::string& shader_folder, int multiply_adds)
+{
+  return Program(shader_folder, "self_test/double_size.comp",
+                 "#define MULTIPLY_ADDS " + std::to_string(multiply_adds) + "\n");
+}
+
+/// The least time of three compilations, so that other work on the machine matters less.
+double secondsToCompile(const std::string& shader_folder, int multiply_adds)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    doubleProgram(shader_folder, multiply_adds);
+    least = std::min(least, secondsSince(start));
+  }
+  return least;
 }
 }  // namespace
 
@@ -131,5 +158,16 @@ std::string findDoubleFault(const std::string& shader_folder)
       return "double precision: numbers are not rounded to the nearest float; the CPU computes the link poses";
   }
   return {};
+}
+
+std::string findEmulatedDouble(const std::string& shader_folder)
+{
+  const std::size_t without = doubleProgram(shader_folder, 0).binaryBytes();
+  const std::size_t bytes = doubleProgram(shader_folder, kMultiplyAdds).binaryBytes();
+  // A driver without program binaries keeps no compiled programs either, so the time to compile is a measure.
+  const bool emulated = without > 0 ? bytes > without + kMultiplyAdds * kEmulatedBytes
+                                    : secondsToCompile(shader_folder, kMultiplyAdds) >
+                                          secondsToCompile(shader_folder, 0) + kMultiplyAdds * kEmulatedSeconds;
+  return emulated ? "double precision: the driver emulates it; the CPU computes the link poses" : "";
 }
 }  // namespace gpu_planning_scene::core

@@ -13,4 +13,9 @@ std::string findFloatFault(const std::string& shader_folder);
 /// The same test for double precision, which is used for link poses. Operations must be right to 2^-50 of their result,
 /// and results must be rounded to the nearest float.
 std::string findDoubleFault(const std::string& shader_folder);
+
+/// Finds out whether the driver emulates double precision by integer operations, as Intel's does since Gen11. One
+/// operation is then some hundred instructions, and to compile a robot's kinematics takes hours. Returns one line, or
+/// an empty string. Used on the context's thread.
+std::string findEmulatedDouble(const std::string& shader_folder);
 }  // namespace gpu_planning_scene::core

@@ -32,7 +32,7 @@ GlThread::~GlThread()
   thread_.join();
 }
 
-void GlThread::run(const std::function<void()>& job)
+std::future<void> GlThread::start(const std::function<void()>& job)
 {
   std::packaged_task<void()> task(
       [&job]
@@ -54,7 +54,7 @@ void GlThread::run(const std::function<void()>& job)
     jobs_.push(std::move(task));
   }
   wake_.notify_one();
-  done.get();
+  return done;
 }
 
 void GlThread::serve(const std::string& device_selector, std::promise<Device>& started)

@@ -24,7 +24,10 @@ class GlThread
 
   /// Runs `job` on the thread, waits for it, and rethrows its exception here. Throws DeviceLost if the context was lost
   /// meanwhile, whether the job failed or not. Thread-safe.
-  void run(const std::function<void()>& job);
+  void run(const std::function<void()>& job) { start(job).get(); }
+
+  /// The same without waiting. The future's `get` waits and throws. `job` must exist until then.
+  std::future<void> start(const std::function<void()>& job);
 
   const Device& device() const { return device_; }
 

@@ -175,6 +175,13 @@ Program::~Program()
 
 Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
 
+std::size_t Program::binaryBytes() const
+{
+  GLint size = 0;
+  glGetProgramiv(id_, GL_PROGRAM_BINARY_LENGTH, &size);
+  return size > 0 ? static_cast<std::size_t>(size) : 0;
+}
+
 void Program::set(int location, std::uint32_t value) const
 {
   glProgramUniform1ui(id_, location, value);

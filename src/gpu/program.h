@@ -32,6 +32,10 @@ class Program
   Program(Program&& other) noexcept;
   Program& operator=(Program&&) = delete;
 
+  /// The size of the compiled program in bytes, with what the driver keeps beside its instructions. 0: the driver does
+  /// not tell.
+  std::size_t binaryBytes() const;
+
   /// Sets a uniform. The shaders give its location explicitly (LOCATION_* in shader_constants.h).
   void set(int location, std::uint32_t value) const;
   void setFloat(int location, float value) const;

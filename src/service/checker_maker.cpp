@@ -51,7 +51,7 @@ class CheckerMaker
     return std::make_shared<ResilientChecker>(scene, device, cpu, resilience_, opening);
   }
 
-  /// A device that the user has named must work. The device "auto" need not exist.
+  /// A device that the user has named must work. The devices "auto" and "all" need not exist.
   std::shared_ptr<StateChecker> first(const Scene& scene)
   {
     try
@@ -62,7 +62,7 @@ class CheckerMaker
     }
     catch (const Error& error)
     {
-      if (options_.device != "auto")
+      if (options_.device != "auto" && options_.device != "all")
         throw;
       auto checker = std::make_shared<CpuChecker>(scene, options_);  // throws Error if the scene is invalid
       cpu_only_ = true;

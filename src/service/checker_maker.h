@@ -15,8 +15,8 @@ using OpenDevice = std::function<std::unique_ptr<StateChecker>(std::shared_ptr<c
                                                                const BatchCheckerOptions& options)>;
 
 /// Returns a function that makes checkers that survive the loss of their device. The function is thread-safe. If the
-/// first checker cannot open its device, the function throws the error; but with the device "auto", it calls `warn`
-/// with one line, and the CPU checks all states from then on. If a later checker cannot open its device, the CPU
+/// first checker cannot open its device, the function throws the error; but with the device "auto" or "all", it calls
+/// `warn` with one line, and the CPU checks all states from then on. If a later checker cannot open its device, the CPU
 /// answers for it. `warn` also gets the checkers' StateChecker::deviceWarning.
 CheckServer::MakeChecker makeResilientCheckers(const BatchCheckerOptions& options, const ResilientOptions& resilience,
                                                const OpenDevice& open_device,

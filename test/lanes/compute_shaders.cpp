@@ -46,6 +46,7 @@ std::set<std::string> computeShaders(const std::string& folder)
           programs->prepare({solids, padded, tolerance, 1});
   }
   findDoubleFault(folder);
+  findEmulatedDouble(folder);
   const GpuKinematics kinematics(folder, robotWithAllJoints());
   std::set<std::string> texts;
   for (const std::string& text : lanes::compiledShaders())

@@ -88,7 +88,8 @@ TEST_F(SimulatedDevice, FindsAMissingMemoryBarrierBeforeADownload)
 TEST_F(SimulatedDevice, FindsAMissingPreciseBeforeADifferenceIsRotated)
 {
   const ShaderFolder shaders;
-  shaders.replace("geometry/pose.glsl", "precise const vec3 between", "const vec3 between");
+  shaders.replace("geometry/pose.glsl", "precise const vec3 between = b.translation",
+                  "const vec3 between = b.translation");
   EXPECT_TRUE(isFound("transforms", shaders.path()));
 }
 

@@ -4,10 +4,14 @@ import io
 import json
 import os
 import pathlib
+import re
+import shlex
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
+import textwrap
 import unittest
 
 import numpy as np
@@ -15,9 +19,9 @@ import numpy as np
 import gpu_planning_scene as gps
 from bulk_runs import ARM_OPTIONS, bulk, content, shards, started_bulk, wait_for_shards
 from gpu_planning_scene.bulk import RobotBundle, SceneBundle
-from gpu_planning_scene.bulk.states import BLOCK, RandomSlice
-from robots import (ARM, ARM_SCENE, EXPAND, KR5, KR5_SCENE, RAIL, RAIL_SRDF, RAIL_XACRO, Case, arm, arm_scene, kr5,
-                    kr5_scene, xacro)
+from gpu_planning_scene.bulk.states import BLOCK, PART, RandomSlice
+from robots import (ARM, ARM_SCENE, EXPAND, KR5, KR5_SCENE, RAIL, RAIL_SRDF, RAIL_XACRO, ROOT, Case, arm, arm_scene,
+                    kr5, kr5_scene, xacro)
 
 TETRAHEDRON = """ply
 format ascii 1.0
@@ -104,6 +108,10 @@ class Checks(Folder):
         for first, count in ((0, 1), (BLOCK - 1, 2), (100, 2 * BLOCK), (2 * BLOCK, BLOCK), (5, 0)):
             np.testing.assert_array_equal(whole[first:first + count],
                                           RandomSlice(7, first, count, False).states(robot, None))
+        parts = [part.copy() for part in RandomSlice(7, 5, 2 * PART + 100, False).parts(robot, None)]
+        self.assertEqual([PART, PART, 100], list(map(len, parts)))
+        np.testing.assert_array_equal(RandomSlice(7, 5, 2 * PART + 100, False).states(robot, None), np.concatenate(parts))
+        np.testing.assert_array_equal(whole[5:], np.concatenate(parts)[:3 * BLOCK - 5])
         lower, upper = np.array([(each.lower, each.upper) for each in robot.variables]).T
         self.assertTrue(((whole >= lower) & (whole <= upper)).all())
         np.testing.assert_allclose(np.ptp(whole, axis=0), upper - lower, rtol=1e-2)
@@ -357,6 +365,24 @@ class Errors(Folder):
         self.assert_error("warp drive", *ARM_OPTIONS[:-1], "warp drive", "--out", self.out, "--random", 3)
 
 
+class Document(Folder):
+    def test_the_first_command_and_the_program_that_reads_its_output(self):
+        text = (ROOT / "docs" / "bulk.md").read_text(encoding="utf-8")
+        blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", text, flags=re.MULTILINE)
+        command, = [block for block in blocks if "--random 1000000" in block]
+        program, = [textwrap.dedent(block) for block in blocks if "import pathlib" in block]
+        words = shlex.split(command.replace("\\\n", " ").replace("1000000", "1000"))
+        self.assertEqual(["python3", "-m", "gpu_planning_scene.bulk"], words[:3])
+        (self.folder / "config").symlink_to(ROOT / "config")
+        run = subprocess.run([sys.executable, "-B", *words[1:]], cwd=self.folder, capture_output=True, text=True,
+                             timeout=200, check=False)
+        self.assertEqual(0, run.returncode, run.stderr)
+        read = subprocess.run([sys.executable, "-B", "-c", program + "print(len(valid), valid.sum())"], cwd=self.folder,
+                              capture_output=True, text=True, timeout=200, check=False)
+        count, good = read.stdout.split()
+        self.assertIn(f"{int(count):,} states, {good} valid; ", run.stdout)
+
+
 class Bundles(Folder):
     def scene_with_files(self):
         """A robot and a scene with meshes by package, relative and absolute paths, and an octomap."""
@@ -397,8 +423,10 @@ class Bundles(Folder):
     def test_a_bundle_has_the_expanded_text_of_a_xacro_file(self):
         urdf = self.folder / "rail.urdf.xacro"
         urdf.write_text(RAIL_XACRO, encoding="utf-8")
-        with xacro(EXPAND), contextlib.redirect_stderr(io.StringIO()) as printed:
+        runs = self.folder / "runs"
+        with xacro(f"echo \"$1\" >> '{runs}'; {EXPAND}"), contextlib.redirect_stderr(io.StringIO()) as printed:
             bundle = RobotBundle.from_files(urdf)
+        self.assertEqual([str(urdf)], runs.read_text().splitlines(), "xacro runs once")
         self.assertEqual(1, len(printed.getvalue().splitlines()))
         self.assertEqual(RAIL, bundle.urdf)
         self.assertEqual("rail", bundle.load().name)

@@ -1,5 +1,7 @@
 #include "support/fcl_broad_phase.h"
 
+#include <cassert>  // FCL 0.7 uses assert without it
+
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision_object.h>

@@ -1,6 +1,7 @@
 #include "support/fcl_peer.h"
 
 #include <algorithm>
+#include <cassert>  // FCL 0.7 uses assert without it
 #include <chrono>
 #include <limits>
 

@@ -1,5 +1,7 @@
 #include "literature/libraries/fcl_methods.h"
 
+#include <cassert>  // FCL 0.7 uses assert without it
+
 #include <fcl/config.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>

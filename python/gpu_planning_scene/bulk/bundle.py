@@ -4,7 +4,6 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import hashlib
-import importlib
 import os
 import pathlib
 import tempfile
@@ -35,9 +34,8 @@ class RobotBundle:
                    packages: gps.Packages = None) -> RobotBundle:
         """Reads a robot. The arguments are those of gpu_planning_scene.RobotModel.from_files. Raises its errors."""
         found = _FoundFiles(os.path.dirname(os.path.abspath(urdf)), packages)
-        gps.RobotModel.from_files(urdf, srdf, packages=packages, files=found)
-        read = importlib.import_module("gpu_planning_scene._core")._read_description
-        texts = (read(urdf, "URDF"), "" if srdf is None else read(srdf, "SRDF"))
+        # pylint: disable-next=protected-access
+        _robot, *texts = gps.RobotModel._from_files_with_texts(urdf, srdf, packages, found)
         files = found.read()
         return RobotBundle(*texts, files, _digest(*texts, *_parts(files)))
 

@@ -19,12 +19,18 @@ class Progress:
         self._done = self._done_before = done
         self._shown = sys.stderr.isatty() if shown is None else shown
         self._begin = time.monotonic()
+        self._end: Optional[float] = None
         self._last = 0.0
+
+    def begin(self) -> None:
+        """The workers are there: the time counts from now on."""
+        self._begin = time.monotonic()
 
     @property
     def rate(self) -> float:
-        """Per second, in this run."""
-        return (self._done - self._done_before) / max(time.monotonic() - self._begin, 1e-9)
+        """Per second, from `begin` to `close`."""
+        end = time.monotonic() if self._end is None else self._end
+        return (self._done - self._done_before) / max(end - self._begin, 1e-9)
 
     def add(self, count: int, workers: int) -> None:
         self._done += count
@@ -40,6 +46,7 @@ class Progress:
         print(text, file=sys.stderr, flush=True)
 
     def close(self) -> None:
+        self._end = time.monotonic()
         if self._shown:
             print(file=sys.stderr)
 

@@ -158,6 +158,7 @@ async def _run(job: Job, output: OutputFolder, runner: Runner, options: Dispatch
     try:
         if missing:
             await runner.open()
+            progress.begin()
             await dispatcher.run()
     except WorkerIsWrong as wrong:
         count = output.discard(wrong.hardware)

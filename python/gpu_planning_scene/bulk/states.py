@@ -7,7 +7,7 @@ import hashlib
 import io
 import os
 import pathlib
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, Iterator, List, Optional, Tuple, Union
 
 import numpy as np
 
@@ -18,6 +18,9 @@ Base = Optional[np.ndarray]  # the current state of the scene, shape (variables,
 # Random states are drawn in blocks. Each block has a seed of its own, so that a state depends only on the seed of the
 # run and on its index, and not on the size of the shards.
 BLOCK = 4096
+# Random states that are checked at once. Their memory is used again for the next ones: new memory costs a page fault for
+# each 4 KB, because Dask's workers give freed memory back to the system at once.
+PART = 16 * BLOCK
 
 
 @dataclasses.dataclass(frozen=True)
@@ -30,14 +33,31 @@ class RandomSlice:
 
     def states(self, robot: gps.RobotModel, base: Base) -> np.ndarray:
         """Shape (count, variables)."""
+        states = np.empty((self.count, len(robot.variables)))
+        self._draw(robot, base, self.first, states)
+        return states
+
+    def parts(self, robot: gps.RobotModel, base: Base) -> Iterator[np.ndarray]:
+        """The same states in arrays of up to PART rows. Each array has the memory of the one before."""
+        states = np.empty((min(PART, self.count), len(robot.variables)))
+        for done in range(0, self.count, PART):
+            part = states[:min(PART, self.count - done)]
+            self._draw(robot, base, self.first + done, part)
+            yield part
+
+    def _draw(self, robot: gps.RobotModel, base: Base, first: int, out: np.ndarray) -> None:
+        """Draws the states with the indices first, first + 1, ... into the rows of `out`."""
         start = None if self.moves_base else robot.default_state() if base is None else base
-        end = self.first + self.count
-        parts = [robot.random_states(0, seed=0)]
-        for block in range(self.first // BLOCK, -(-end // BLOCK)):
-            begin = block * BLOCK
-            drawn = robot.random_states(min(BLOCK, end - begin), seed=block_seed(self.seed, block), base=start)
-            parts.append(drawn[max(0, self.first - begin):])
-        return np.concatenate(parts)
+        done = 0
+        while done < len(out):
+            block, skipped = divmod(first + done, BLOCK)
+            seed = block_seed(self.seed, block)
+            rows = out[done:done + BLOCK - skipped]
+            if skipped:
+                rows[:] = robot.random_states(skipped + len(rows), seed=seed, base=start)[skipped:]
+            else:
+                robot.random_states(len(rows), seed=seed, base=start, out=rows)
+            done += len(rows)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -59,6 +79,10 @@ class ArraySlice:
         states[:] = 0.0 if base is None else base
         states[:, columns] = self.values
         return states
+
+    def parts(self, robot: gps.RobotModel, base: Base) -> Iterator[np.ndarray]:
+        """The same states in one array, so that messages about wrong values count the states of the slice."""
+        yield self.states(robot, base)
 
 
 Slice = Union[RandomSlice, ArraySlice]

@@ -24,8 +24,9 @@ class CheckTask:
     group: str
 
     def run(self, checker: gps.StateChecker, scene: gps.PlanningScene) -> bytes:
-        states = self.states.states(scene.robot, scene.current_state)
-        return np.packbits(checker.check(states, self.group).valid).tobytes()
+        parts = self.states.parts(scene.robot, scene.current_state)
+        valid = [checker.check(states, self.group).valid.copy() for states in parts]
+        return np.packbits(np.concatenate(valid)).tobytes()
 
 
 @dataclasses.dataclass(frozen=True)

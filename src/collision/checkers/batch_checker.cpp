@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "collision/checkers/cpu_scene.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/problem/state_validation.h"
+#include "collision/rows_without.h"
 #include "model/seconds_since.h"
 
 namespace gpu_planning_scene::core
@@ -31,13 +33,14 @@ struct BatchChecker::Impl
   }
 
   std::size_t width() const { return on_cpu.scene()->robot->variables().size(); }
+  bool areOrdinary(const double* states, std::size_t count, const std::string& group);
   void checkOnGpu(const double* states, std::size_t count, const std::string& group, BatchResult& result,
-                  const Margins* margins = nullptr);
-  void check(const double* states, std::size_t count, const std::string& group, BatchResult& result);
+                  const Margins* margins, bool ordinary);
+  void check(const double* states, std::size_t count, const std::string& group, bool ordinary, BatchResult& result);
   void checkAround(const double* states, std::size_t count, const std::string& group, const Margins& margins,
                    BatchResult& result);
   BatchResult timedCheck(const double* states, std::size_t count, const std::string& group,
-                         const JointNeighbourhood* around);
+                         const JointNeighbourhood* around, bool ordinary);
   std::size_t threshold(const std::string& group, const double* states, std::size_t count);
 
   std::mutex mutex;
@@ -48,9 +51,37 @@ struct BatchChecker::Impl
   std::optional<std::string> selected_group;  // group whose pairs the GPU checker holds
 };
 
-/// The group's problem must be valid for the states.
+/// Whether all states are valid, within the ranges of the group's problem, and not too large for the device. One pass
+/// over a large request replaces three: its memory is the bottleneck. False proves nothing.
+bool BatchChecker::Impl::areOrdinary(const double* states, std::size_t count, const std::string& group)
+{
+  std::vector<double> upper = gpu_checker.largestValues();
+  if (upper.size() != width())
+    return false;
+  for (std::size_t i = 0; i < upper.size(); ++i)
+    upper[i] = std::min(upper[i], on_cpu.scene()->robot->variables()[i].largest);
+  std::vector<double> lower(upper.size());
+  std::transform(upper.begin(), upper.end(), lower.begin(), std::negate<>());
+  for (const VariableRange& range : on_cpu.problem(group)->ranges)
+  {
+    const auto variable = static_cast<std::size_t>(range.variable);
+    lower[variable] = std::max(lower[variable], range.lower);
+    upper[variable] = std::min(upper[variable], range.upper);
+  }
+  const auto is_ordinary = [&](std::size_t row)
+  {
+    const double* const state = states + row * upper.size();
+    bool within = true;
+    for (std::size_t i = 0; i < upper.size(); ++i)
+      within &= state[i] >= lower[i] && state[i] <= upper[i];
+    return within;
+  };
+  return rowsWithout(count, is_ordinary).empty();
+}
+
+/// The group's problem must be valid for the states. `ordinary`: see areOrdinary.
 void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, const std::string& group,
-                                    BatchResult& result, const Margins* margins)
+                                    BatchResult& result, const Margins* margins, bool ordinary)
 {
   if (selected_group != group)
   {
@@ -59,23 +90,31 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
     gpu_checker.selectPairs(problem);
     selected_group = group;
   }
-  gpu_checker.check(states, count, result, margins);
+  gpu_checker.useProofs(on_cpu.proofs(group));
+  gpu_checker.check(states, count, result, margins, ordinary);
   work = gpu_checker.lastWork();
 }
 
 /// Sends the states for which the group's problem is not valid to the CPU; only the CPU can decide them.
-void BatchChecker::Impl::check(const double* states, std::size_t count, const std::string& group, BatchResult& result)
+void BatchChecker::Impl::check(const double* states, std::size_t count, const std::string& group, bool ordinary,
+                               BatchResult& result)
 {
   const CollisionProblem& problem = *on_cpu.problem(group);
   if (count == 0 || problem.always_colliding)
     return on_cpu.check(states, count, group, result);
   if (count < threshold(group, states, count))
     return on_cpu.check(states, count, group, result);
+  if (ordinary)
+    return checkOnGpu(states, count, group, result, nullptr, true);
   std::vector<std::size_t> rows[2];  // [0]: states for the GPU, [1]: states for the CPU
-  for (std::size_t i = 0; i < count; ++i)
-    rows[isValidFor(problem, states + i * width()) ? 0 : 1].push_back(i);
+  rows[1] = rowsWithout(count, [&](std::size_t row) { return isValidFor(problem, states + row * width()); });
   if (rows[1].empty())
-    return checkOnGpu(states, count, group, result);
+    return checkOnGpu(states, count, group, result, nullptr, false);
+  for (std::size_t row = 0, next = 0; row < count; ++row)
+    if (next < rows[1].size() && rows[1][next] == row)
+      ++next;
+    else
+      rows[0].push_back(row);
   result.valid.resize(count);
   result.colliding.resize(count);
   for (const auto& part : rows)
@@ -85,7 +124,7 @@ void BatchChecker::Impl::check(const double* states, std::size_t count, const st
       values.insert(values.end(), states + row * width(), states + (row + 1) * width());
     BatchResult answers;
     if (&part == rows)
-      checkOnGpu(values.data(), part.size(), group, answers);
+      checkOnGpu(values.data(), part.size(), group, answers, nullptr, false);
     else
       on_cpu.check(values.data(), part.size(), group, answers);
     result.undecided_states += answers.undecided_states;
@@ -104,7 +143,7 @@ void BatchChecker::Impl::checkAround(const double* states, std::size_t count, co
 {
   if (on_cpu.problem(group)->always_colliding || count < threshold(group, states, count))
     return on_cpu.check(states, count, group, result, &margins);
-  checkOnGpu(states, count, group, result, &margins);
+  checkOnGpu(states, count, group, result, &margins, false);
   for (std::size_t i = 0; i < count; ++i)
     if (margins.within[i] == 0)
     {
@@ -117,9 +156,10 @@ std::size_t BatchChecker::Impl::threshold(const std::string& group, const double
 {
   BatchResult unused;
   const CpuOrGpu::Checks checks{[&](const double* rows, std::size_t size) { on_cpu.check(rows, size, group, unused); },
-                                [&](const double* rows, std::size_t size) { checkOnGpu(rows, size, group, unused); }};
-  const ProofStage proofs = cpu_or_gpu.isMeasured() ? on_cpu.proofStage(group) : ProofStage::None;
-  return cpu_or_gpu.threshold(group, on_cpu.scene(), *on_cpu.problem(group), states, count, proofs, checks);
+                                [&](const double* rows, std::size_t size)
+                                { checkOnGpu(rows, size, group, unused, nullptr, false); }};
+  return cpu_or_gpu.threshold(group, on_cpu.scene(), *on_cpu.problem(group), states, count, on_cpu.proofStage(group),
+                              checks);
 }
 
 BatchChecker::BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
@@ -153,7 +193,7 @@ void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
 
 /// Checks states that were validated, with or without neighbourhoods, and sets `work`.
 BatchResult BatchChecker::Impl::timedCheck(const double* states, std::size_t count, const std::string& group,
-                                           const JointNeighbourhood* around)
+                                           const JointNeighbourhood* around, bool ordinary)
 {
   if (count != 0 && !on_cpu.problem(group)->always_colliding)
   {
@@ -169,10 +209,9 @@ BatchResult BatchChecker::Impl::timedCheck(const double* states, std::size_t cou
   if (around)
     checkAround(states, count, group, on_cpu.margins(*around, states, count, group), result);
   else
-    check(states, count, group, result);
+    check(states, count, group, ordinary, result);
   result.seconds = secondsSince(start);
-  if (cpu_or_gpu.isMeasured())
-    on_cpu.countStates(work.states, group);
+  on_cpu.countStates(work.states, group);
   return result;
 }
 
@@ -181,15 +220,19 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   impl_->on_cpu.problem(group);  // throws for an unknown group
-  validateStates(*impl_->on_cpu.scene()->robot, states, count);
+  const bool ordinary = impl_->areOrdinary(states, count, group);
+  if (!ordinary)
+    validateStates(*impl_->on_cpu.scene()->robot, states, count);
   if (around)
-    return impl_->timedCheck(states, count, group, around);
-  BatchResult result = impl_->timedCheck(states, std::min(count, kStatesPerChoice), group, nullptr);
+    return impl_->timedCheck(states, count, group, around, ordinary);
+  BatchResult result = impl_->timedCheck(states, std::min(count, kStatesPerChoice), group, nullptr, ordinary);
   GpuWork work = impl_->work;
+  result.valid.reserve(count);
+  result.colliding.reserve(count);
   for (std::size_t begin = kStatesPerChoice; begin < count; begin += kStatesPerChoice)
   {
     const double* const first = states + begin * impl_->width();
-    result.append(impl_->timedCheck(first, std::min(kStatesPerChoice, count - begin), group, nullptr));
+    result.append(impl_->timedCheck(first, std::min(kStatesPerChoice, count - begin), group, nullptr, ordinary));
     work += impl_->work;
   }
   impl_->work = work;

@@ -39,9 +39,6 @@ class CpuOrGpu
                         const CollisionProblem& problem, const double* states, std::size_t count, ProofStage proofs,
                         const Checks& checks);
 
-  /// Whether the threshold is measured.
-  bool isMeasured() const { return !fixed_; }
-
   /// Forgets all measurements. A new robot may have groups of the same names.
   void forget() { thresholds_.clear(); }
 

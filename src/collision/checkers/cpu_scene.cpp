@@ -112,6 +112,11 @@ ProofStage CpuScene::proofStage(const std::string& name)
   return proofStage(group);
 }
 
+std::shared_ptr<const RobotProofs> CpuScene::proofs(const std::string& name)
+{
+  return proofStage(name) == ProofStage::None ? nullptr : groupOf(name).lanes->proofs();
+}
+
 void CpuScene::countStates(std::size_t count, const std::string& name)
 {
   checked_ += count;

@@ -43,6 +43,9 @@ class CpuScene
   /// checked.
   ProofStage proofStage(const std::string& group);
 
+  /// The proofs of proofStage; null: none.
+  std::shared_ptr<const RobotProofs> proofs(const std::string& group);
+
   /// Counts states of the group that were checked elsewhere, so that proofs are made for a robot in use.
   void countStates(std::size_t count, const std::string& group);
 

@@ -1,5 +1,8 @@
 #include "collision/checkers/open_checker.h"
 
+#include <vector>
+
+#include "collision/checkers/device_group.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/device.h"
 #include "gpu_planning_scene/error.h"
@@ -19,10 +22,8 @@ bool hasDevice()
     return false;  // a library of EGL or OpenGL is missing
   }
 }
-}  // namespace
 
-std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
-                                          const BatchCheckerOptions& options)
+std::unique_ptr<StateChecker> openOne(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
 {
   if (options.device == "cpu")
     return std::make_unique<CpuChecker>(std::move(scene), options);
@@ -36,5 +37,21 @@ std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> s
       throw;
     throw Error(std::string(error.what()) + "; or choose the device 'cpu', which needs no GPU");
   }
+}
+}  // namespace
+
+std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
+                                          const BatchCheckerOptions& options)
+{
+  const std::vector<std::string> devices = devicesOf(options.device);
+  const auto open = [&options](std::shared_ptr<const PlanningScene> its_scene, const std::string& device)
+  {
+    BatchCheckerOptions its_options = options;
+    its_options.device = device;
+    return openOne(std::move(its_scene), its_options);
+  };
+  if (devices.size() == 1)
+    return open(std::move(scene), devices.front());
+  return std::make_unique<DeviceGroup>(scene, devices, open);
 }
 }  // namespace gpu_planning_scene::core

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>  // FCL 0.7 uses assert without it
 #include <cmath>
 #include <exception>
 #include <limits>

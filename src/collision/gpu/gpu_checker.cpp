@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <future>
+#include <optional>
 #include <utility>
 
 #include "collision/parallel_for.h"
+#include "collision/rows_without.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
+#include "model/finally.h"
 #include "model/seconds_since.h"
 #include "shader_constants.h"
 
@@ -30,7 +35,9 @@ GpuChecker::GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<Fores
         [&]
         {
           pairs_ = std::make_unique<GpuPairChecker>(shader_folder_, options.traversal, options.max_batch);
-          double_fault_ = findDoubleFault(shader_folder_);
+          double_fault_ = findEmulatedDouble(shader_folder_);
+          if (double_fault_.empty())
+            double_fault_ = findDoubleFault(shader_folder_);
         });
   }
   catch (...)
@@ -97,6 +104,7 @@ void GpuChecker::restore()
 
 void GpuChecker::apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot)
 {
+  proofs_.reset();
   pairs_->setProblem(problem);
   // The time to compile the shader grows with the square of the number of links.
   constexpr std::size_t kMaxLinks = 120;
@@ -130,6 +138,15 @@ void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
   on_cpu_.reset();
 }
 
+void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
+{
+  if (!proofs || proofs == proofs_)
+    return;
+  requireUsableScene();
+  gl_.run([&] { pairs_->useProofs(*proofs, *problem_); });
+  proofs_ = proofs;
+}
+
 void GpuChecker::prepareMargins()
 {
   requireUsableScene();
@@ -142,15 +159,22 @@ void GpuChecker::requireUsableScene() const
     throw DeviceLost("the GPU failed while its scene was being changed and holds no usable scene");
 }
 
-void GpuChecker::check(const double* states, std::size_t count, BatchResult& result, const Margins* margins)
+std::vector<double> GpuChecker::largestValues() const
+{
+  return kinematics_ && kinematics_fault_.empty() ? kinematics_->largestValues() : std::vector<double>();
+}
+
+void GpuChecker::check(const double* states, std::size_t count, BatchResult& result, const Margins* margins,
+                       bool within_largest)
 {
   const RobotModel& robot = *robot_;
   const std::size_t width = robot.variables().size();
   const LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* poses)
   { robot.linkPoses(states + row * width, poses); };
-  bool on_gpu = kinematics_ != nullptr && kinematics_fault_.empty();
-  for (std::size_t i = 0; on_gpu && i < count; ++i)
-    on_gpu = kinematics_->canPlace(states + i * width);
+  const bool on_gpu =
+      kinematics_ != nullptr && kinematics_fault_.empty() &&
+      (within_largest ||
+       rowsWithout(count, [&](std::size_t row) { return kinematics_->canPlace(states + row * width); }).empty());
   const std::size_t links = robot.links().size();
   if (on_gpu)
   {
@@ -170,37 +194,59 @@ void GpuChecker::checkPoses(std::size_t count, std::size_t link_count, const Lin
 void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
                        const Margins* margins, BatchResult& result)
 {
-  const std::vector<ShapeInstance>& robot = problem_->robot;
   result.valid.assign(count, 1);
   result.colliding.assign(count, kNoPair);
+  result.undecided_states = 0;
+  result.undecided_seconds = 0.0;
   requireUsableScene();
-  Verdicts verdicts;
+  PartQueue parts;
+  const std::function<void()> job = [&]
+  {
+    const Finally end([&parts] { parts.end(); });
+    pairs_->check(source, count, verdicts_, margins,
+                  [&parts](std::size_t begin, std::size_t states) {
+                    parts.add({begin, states});
+                  });
+  };
+  std::future<void> on_device = gl_.start(job);
+  {
+    const Finally wait([&on_device] { on_device.wait(); });
+    while (const std::optional<StateRange> part = parts.next())
+      settle(*part, link_count, link_poses, margins, result);
+  }
   try
   {
-    gl_.run([&] { pairs_->check(source, count, verdicts, margins); });
+    on_device.get();
   }
   catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state, through no fault of the caller
   {
     throw DeviceLost(error.what());
   }
+}
+
+/// Writes the verdicts of a part into the result, while the device works on the next part.
+void GpuChecker::settle(const StateRange& part, std::size_t link_count, const LinkPoses& link_poses,
+                        const Margins* margins, BatchResult& result)
+{
+  const std::vector<ShapeInstance>& robot = problem_->robot;
   std::vector<std::size_t> undecided;
-  for (std::size_t i = 0; i < count; ++i)
-    if (verdicts.flags[i] & STATE_HIT)
+  for (std::size_t i = part.begin; i < part.begin + part.count; ++i)
+    if (verdicts_.flags[i] & STATE_HIT)
     {
-      const auto [a, b] = GpuPairChecker::pairOf(verdicts.hits[i]);
+      const auto [a, b] = GpuPairChecker::pairOf(verdicts_.hits[i]);
       result.valid[i] = 0;
       // Ascending order: the body index of an attached object is larger than the index of an object that it hits.
       const std::int32_t first = robot[a].body;
       const std::int32_t second = bodyOf(*problem_, b);
       result.colliding[i] = {std::min(first, second), std::max(first, second)};
     }
-    else if (verdicts.flags[i] & STATE_UNDECIDED)
+    else if (verdicts_.flags[i] & STATE_UNDECIDED)
       undecided.push_back(i);
-  result.undecided_states = undecided.size();
+  result.undecided_states += undecided.size();
   const auto start = std::chrono::steady_clock::now();
   if (!undecided.empty())
     settleOnCpu(undecided, link_count, link_poses, margins, result);
-  result.undecided_seconds = secondsSince(start);
+  result.undecided_seconds += secondsSince(start);
 }
 
 void GpuChecker::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,

@@ -12,6 +12,7 @@
 #include "collision/exact/forest_cache.h"
 #include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/gpu_pair_checker.h"
+#include "collision/gpu/part_queue.h"
 #include "collision/gpu/uploaded_poses.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu/gl_thread.h"
@@ -37,12 +38,22 @@ class GpuChecker
   /// Restricts the checked pairs to the pairs of `problem`, which must have the same trees and instances.
   void selectPairs(std::shared_ptr<const CollisionProblem> problem);
 
+  /// From now on, the balls of these proofs decide pairs before trees do. They must be those of the selected problem's
+  /// robot. Null, or the proofs of the last call: changes nothing. setProblem forgets them.
+  void useProofs(const std::shared_ptr<const RobotProofs>& proofs);
+
   /// Compiles the programs for batches with margins, if this has not been done, so that no check has to.
   void prepareMargins();
 
+  /// The largest magnitude of each variable of a state whose link poses the device can compute. Empty if a state needs
+  /// other tests too.
+  std::vector<double> largestValues() const;
+
   /// Checks `count` states (rows of the robot's variables). Fills the result except for revision and seconds.
-  /// `margins`: for these states and the selected pairs; null: none.
-  void check(const double* states, std::size_t count, BatchResult& result, const Margins* margins = nullptr);
+  /// `margins`: for these states and the selected pairs; null: none. `within_largest`: no value is beyond
+  /// largestValues(), so the states need not be tested.
+  void check(const double* states, std::size_t count, BatchResult& result, const Margins* margins = nullptr,
+             bool within_largest = false);
 
   /// The same for link poses that the caller computes.
   void checkPoses(std::size_t count, std::size_t link_count, const UploadedPoses::LinkPoses& link_poses,
@@ -64,6 +75,8 @@ class GpuChecker
   void apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot);
   void check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
              const Margins* margins, BatchResult& result);
+  void settle(const StateRange& part, std::size_t link_count, const LinkPoses& link_poses, const Margins* margins,
+              BatchResult& result);
   void settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,
                    const Margins* margins, BatchResult& result);
 
@@ -77,8 +90,10 @@ class GpuChecker
   std::string kinematics_fault_;
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
-  bool usable_ = false;  // the device holds exactly `problem_`
+  std::shared_ptr<const RobotProofs> proofs_;  // whose covers the device holds; null: none
+  bool usable_ = false;                        // the device holds exactly `problem_`
   std::shared_ptr<ForestCache> trees_;
+  Verdicts verdicts_;  // of the last batch; kept, because new memory takes longer than the verdicts
   std::unique_ptr<const CpuTraversal> on_cpu_;  // for the selected pairs; built when a state is undecided
 };
 }  // namespace gpu_planning_scene::core

@@ -48,7 +48,7 @@ Texel twoDoubles(double first, double second)
 }
 
 /// The largest magnitude of each variable that gives no angle beyond the range of the shader's sine.
-std::vector<double> largestValues(const RobotModel& robot)
+std::vector<double> largestOfVariables(const RobotModel& robot)
 {
   std::vector<double> largest(robot.variables().size(), std::numeric_limits<double>::max());
   for (const Joint& joint : robot.joints())
@@ -71,7 +71,7 @@ std::vector<double> largestValues(const RobotModel& robot)
 GpuKinematics::GpuKinematics(const std::string& shader_folder, std::shared_ptr<const RobotModel> robot)
   : robot_(std::move(robot)),
     program_(Program::fromText(shader_folder, "kinematics of " + robot_->name(), kinematicsShader(*robot_))),
-    largest_(largestValues(*robot_))
+    largest_(largestOfVariables(*robot_))
 {
   for (const Joint& joint : robot_->joints())
     if (joint.type == JointType::Floating)

@@ -29,12 +29,17 @@ class GpuKinematics : public PoseSource
   /// Sets the shape instances to place: the instances of `problem.robot`.
   void setInstances(const CollisionProblem& problem);
 
+  /// The largest magnitude of each variable for which canPlace is true. Empty if the robot has quaternions, which need
+  /// a test of their own.
+  std::vector<double> largestValues() const { return quaternions_.empty() ? largest_ : std::vector<double>(); }
+
   /// Whether all angles of a state are within the range of the shader's sine and cosine.
   bool canPlace(const double* state) const;
 
   /// Sets the batch for `write`: row-major rows of the robot's variables. canPlace must be true for each row.
   void setStates(const double* states) { states_ = states; }
   void write(std::size_t begin, std::size_t count, TexelBuffer& poses) override;
+  std::size_t boundVariables() const override { return largest_.size(); }
 
  private:
   std::shared_ptr<const RobotModel> robot_;

@@ -8,9 +8,9 @@
 #include "gpu/gl_check.h"
 #include "shader_constants.h"
 
-// Queues all dispatches of a part without waiting: kinematics, half-spaces, broad phase, root boxes, traversal and
-// containment. If a list overflows, the device sets a counter, and the part is split and repeated. The traversal on the
-// device follows Gress and Zachmann (2003); the queue of dispatches and the split are our own method.
+// Queues all dispatches of a part without waiting: kinematics, half-spaces, broad phase, root boxes, proofs, traversal
+// and containment. If a list overflows, the device sets a counter, and the part is split and repeated. The traversal on
+// the device follows Gress and Zachmann (2003); the queue of dispatches and the split are our own method.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -76,6 +76,7 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
     arguments_(folder),
     folder_(folder),
     plain_(folder, definitions_),
+    proofs_program_(folder, "broad_phase/prove_pairs.comp", definitions_),
     inside_program_(folder, "traversal/containment.comp", definitions_),
     done_program_(folder, "common/batch_done.comp")
 {
@@ -88,6 +89,7 @@ std::pair<std::uint32_t, std::uint32_t> GpuPairChecker::pairOf(std::uint32_t hit
 
 void GpuPairChecker::setProblem(const CollisionProblem& problem)
 {
+  proofs_.clear();
   scene_.setProblem(problem);
   order_.setPairs(problem);
   margins_.setPairs(problem);
@@ -100,6 +102,12 @@ void GpuPairChecker::selectPairs(const CollisionProblem& problem)
   order_.setPairs(problem);
   margins_.setPairs(problem);
   prepare();
+}
+
+void GpuPairChecker::useProofs(const RobotProofs& proofs, const CollisionProblem& problem)
+{
+  if (float_fault_.empty())  // otherwise they would prove nothing
+    proofs_.set(proofs, problem);
 }
 
 /// Compiles programs and sizes the parts, so that no batch has to.
@@ -124,14 +132,15 @@ void GpuPairChecker::prepareMargins()
       traversal_->prepare(task(solids, true));
 }
 
-void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins)
+void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins,
+                           const Done& done)
 {
   verdicts.flags.assign(count, 0);
   verdicts.hits.assign(count, 0);
   work_ = {};
   if (scene_.robotCount() == 0)
-    return;
-  const Batch batch{source, margins, margins ? parts_with_margins_ : plain_parts_};
+    return done(0, count);
+  const Batch batch{source, margins, margins ? parts_with_margins_ : plain_parts_, verdicts, done};
   if (margins)
     prepareMargins();
   programs_ = margins ? &*with_margins_ : &plain_;
@@ -153,7 +162,7 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
     if (running)
     {
       const std::size_t states = running->count;
-      finish(batch, *running, verdicts);
+      finish(batch, *running);
       const Clock::time_point now = Clock::now();
       batch.parts.took(states, std::chrono::duration<double>(now - last).count());
       last = now;
@@ -187,16 +196,16 @@ void GpuPairChecker::writeQueries()
   }
 }
 
-void GpuPairChecker::finish(const Batch& batch, Part& part, Verdicts& verdicts)
+void GpuPairChecker::finish(const Batch& batch, Part& part)
 {
-  if (fetch(part, verdicts))
-    return;
+  if (fetch(part, batch.verdicts))
+    return batch.done(part.begin, part.count);
   const std::size_t begin = part.begin;
   const std::size_t count = part.count;
   if (count == 1)
   {
-    verdicts.flags[begin] = STATE_UNDECIDED;
-    return;
+    batch.verdicts.flags[begin] = STATE_UNDECIDED;
+    return batch.done(begin, count);
   }
   batch.parts.tooLarge(count);
   for (const auto& [first, states] : {std::pair(begin, count / 2), std::pair(begin + count / 2, count - count / 2)})
@@ -204,7 +213,7 @@ void GpuPairChecker::finish(const Batch& batch, Part& part, Verdicts& verdicts)
     part.begin = first;
     part.count = states;
     start(batch, part);
-    finish(batch, part, verdicts);
+    finish(batch, part);
   }
 }
 
@@ -217,6 +226,7 @@ bool GpuPairChecker::fetch(Part& part, Verdicts& verdicts)
   work_.states += part.count;
   work_.candidates += words[COUNTER_CANDIDATES];
   work_.root_pairs += words[COUNTER_ROOT_PAIRS];
+  work_.traversed += words[COUNTER_MESH_ENTRIES] + words[COUNTER_SOLID_ENTRIES];
   std::copy_n(words + offsets.flags / sizeof(std::uint32_t), part.count,
               verdicts.flags.begin() + static_cast<std::ptrdiff_t>(part.begin));
   std::copy_n(words + offsets.hits / sizeof(std::uint32_t), part.count,
@@ -250,10 +260,12 @@ void GpuPairChecker::start(const Batch& batch, Part& part)
 
   const auto states = static_cast<std::uint32_t>(part.count);
   testHalfSpaces(states);
-  findCandidates(states);
+  findCandidates(batch, states);
   testRoots();
+  proveRootPairs();
   traverse(scene_.isPadded() || batch.margins);
-  testContainment();
+  for (const bool solids : {true, false})
+    testContainment(solids);
   part.serial = serial_ = std::max(1U, serial_ + 1U);  // 0 is the value of a cleared counter
   done_program_.set(LOCATION_SERIAL, part.serial);
   done_program_.dispatch(1);
@@ -281,8 +293,13 @@ void GpuPairChecker::testHalfSpaces(std::uint32_t states)
 }
 
 /// The queries with the most hits run first, whether they are about the world or about other links.
-void GpuPairChecker::findCandidates(std::uint32_t states)
+void GpuPairChecker::findCandidates(const Batch& batch, std::uint32_t states)
 {
+  const bool has_tables = proofs_.haveTables() && !batch.margins;  // tables know no margins
+  programs_->self.set(LOCATION_VARIABLE_COUNT,
+                      has_tables ? static_cast<std::uint32_t>(batch.poses.boundVariables()) : 0U);
+  if (proofs_.exist())
+    proofs_.bind();
   for (const Program* program : {&programs_->spheres, &programs_->world, &programs_->self, &programs_->roots})
   {
     program->set(LOCATION_STATE_COUNT, states);
@@ -321,9 +338,20 @@ void GpuPairChecker::testRoots()
   programs_->roots.set(LOCATION_SOLID_NODES, scene_.solidNodes());
   scene_.components().bindStorage(BINDING_C);
   lists_.root_pairs.buffer().bindStorage(BINDING_A);
+  programs_->roots.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
+}
+
+/// The balls of covers decide most pairs. The others become entries of the traversals.
+void GpuPairChecker::proveRootPairs()
+{
+  arguments_.prepare(COUNTER_ROOT_PAIRS, lists_.capacity.root_pairs, GROUP_SIZE, COUNTER_SCRATCH);
+  proofs_program_.set(LOCATION_ROBOT_COUNT, scene_.robotCount());
+  proofs_program_.set(LOCATION_ROOT_PAIR_CAPACITY, lists_.capacity.root_pairs);
+  proofs_program_.set(LOCATION_SOLID_NODES, scene_.solidNodes());
+  proofs_program_.set(LOCATION_HAS_COVERS, proofs_.exist() ? 1U : 0U);
   lists_.mesh_entries.buffer().bindStorage(BINDING_B);
   lists_.solid_entries.buffer().bindStorage(BINDING_D);
-  programs_->roots.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
+  proofs_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
 }
 
 TraversalTask GpuPairChecker::task(bool solids, bool padded) const
@@ -340,12 +368,16 @@ void GpuPairChecker::traverse(bool padded)
 }
 
 /// Tests whether a mesh or a primitive is inside a mesh. testRoots has already tested the inside of primitives.
-void GpuPairChecker::testContainment()
+/// `solids`: the pairs with a primitive.
+void GpuPairChecker::testContainment(bool solids)
 {
-  if (!scene_.hasMeshSolids())
+  if (!scene_.hasMeshSolids() || (solids && scene_.solidNodes() == 0))
     return;
-  arguments_.prepare(COUNTER_ROOT_PAIRS, lists_.capacity.root_pairs, GROUP_SIZE, COUNTER_SCRATCH);
-  inside_program_.set(LOCATION_ROOT_PAIR_CAPACITY, lists_.capacity.root_pairs);
+  const std::uint32_t counter = solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
+  arguments_.prepare(counter, lists_.capacity.root_pairs, GROUP_SIZE, COUNTER_SCRATCH);
+  inside_program_.set(LOCATION_IN_COUNTER, counter);
+  inside_program_.set(LOCATION_IN_CAPACITY, lists_.capacity.root_pairs);
+  (solids ? lists_.solid_entries : lists_.mesh_entries).bindTexture(UNIT_ENTRIES);
   scene_.components().bindStorage(BINDING_C);
   scene_.leafOrder().bindStorage(BINDING_A);
   scene_.solidTriangles().bindStorage(BINDING_B);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "collision/batch_size.h"
 #include "collision/gpu/broad_phase_order.h"
 #include "collision/gpu/gpu_margins.h"
+#include "collision/gpu/gpu_proofs.h"
 #include "collision/gpu/gpu_scene.h"
 #include "collision/gpu/pose_source.h"
 #include "collision/gpu/traversal/gpu_traversal.h"
@@ -38,6 +40,10 @@ class GpuPairChecker
   /// See GpuScene.
   void setProblem(const CollisionProblem& problem);
   void selectPairs(const CollisionProblem& problem);
+
+  /// From now on, these proofs decide pairs before trees do. The proofs must be those of `problem`, whose
+  /// trees and instances are those of the last setProblem. setProblem forgets them.
+  void useProofs(const RobotProofs& proofs, const CollisionProblem& problem);
   const GpuScene& scene() const { return scene_; }
 
   /// Compiles the programs for batches with margins, if this has not been done.
@@ -52,8 +58,10 @@ class GpuPairChecker
   ///
   /// A batch goes to the device in parts. A part takes at most about kPartSeconds, and the next part is started before
   /// the results of the current one are fetched. A part whose lists overflow is split; a single state whose lists
-  /// overflow is undecided. `margins`: for these states and pairs; null: none.
-  void check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins = nullptr);
+  /// overflow is undecided. `margins`: for these states and pairs; null: none. `done`: called with the first state and
+  /// the number of states as soon as their verdicts are there, while the device works on later parts.
+  using Done = std::function<void(std::size_t begin, std::size_t count)>;
+  void check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins, const Done& done);
 
   /// Work of the last check. A part whose lists overflowed counts only after it has been split.
   const GpuWork& lastWork() const { return work_; }
@@ -76,6 +84,8 @@ class GpuPairChecker
     PoseSource& poses;
     const Margins* margins;
     BatchSize& parts;
+    Verdicts& verdicts;
+    const Done& done;
   };
 
   /// The states of a batch that the device works on together, and the buffers for their results.
@@ -89,17 +99,18 @@ class GpuPairChecker
   };
 
   void start(const Batch& batch, Part& part);
-  void finish(const Batch& batch, Part& part, Verdicts& verdicts);
+  void finish(const Batch& batch, Part& part);
   bool fetch(Part& part, Verdicts& verdicts);
   void testHalfSpaces(std::uint32_t states);
-  void findCandidates(std::uint32_t states);
+  void findCandidates(const Batch& batch, std::uint32_t states);
   void writeQueries();
   void learnOrder(const Verdicts& verdicts);
   void testRoots();
+  void proveRootPairs();
   TraversalTask task(bool solids, bool padded) const;
   void prepare();
   void traverse(bool padded);
-  void testContainment();
+  void testContainment(bool solids);
 
   std::string float_fault_;
   std::string definitions_;  // for the programs that test triangles
@@ -116,8 +127,9 @@ class GpuPairChecker
   Programs plain_;
   std::optional<Programs> with_margins_;  // compiled when first needed
   const Programs* programs_ = &plain_;    // programs of the current batch
-  Program inside_program_, done_program_;
+  Program proofs_program_, inside_program_, done_program_;
   GpuMargins margins_;
+  GpuProofs proofs_;
   TexelBuffer poses_, spheres_, world_queries_, self_queries_;
   BroadPhaseOrder order_;
   BroadPhaseQueries queries_;

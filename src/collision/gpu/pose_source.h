@@ -16,5 +16,8 @@ class PoseSource
   /// texels (shaders/geometry/pose.glsl). The poses are ordered by instance, then by state (poseIndex in
   /// shaders/problem/instance_lists.glsl). `poses` must be large enough.
   virtual void write(std::size_t begin, std::size_t count, TexelBuffer& poses) = 0;
+
+  /// The number of variables of a state, if `write` leaves the states bound to UNIT_STATES; otherwise 0.
+  virtual std::size_t boundVariables() const { return 0; }
 };
 }  // namespace gpu_planning_scene::core

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <vector>
 
+#include "collision/rows_without.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core
@@ -47,14 +49,30 @@ void validateNeighbourhood(const RobotModel& robot, const JointNeighbourhood& ar
 void validateStates(const RobotModel& robot, const double* states, std::size_t count, const char* what)
 {
   const auto& variables = robot.variables();
-  for (std::size_t row = 0; row < count; ++row, states += variables.size())
-    for (std::size_t i = 0; i < variables.size(); ++i)
-      if (!(std::abs(states[i]) <= variables[i].largest))
-        throw Error(what + (" " + std::to_string(row)) + ": the value of variable '" + variables[i].name + "' is " +
-                    (std::isfinite(states[i]) ? text(states[i]) + "; it must be within " + text(variables[i].largest) +
-                                                    ", because no joint can move by more than 1000 km or turn by "
-                                                    "more than 1e300"
-                                              : "not a finite number"));
+  std::vector<double> largest;
+  for (const Variable& variable : variables)
+    largest.push_back(variable.largest);
+  const auto is_allowed = [&](std::size_t row)
+  {
+    const double* const state = states + row * largest.size();
+    bool allowed = true;
+    for (std::size_t i = 0; i < largest.size(); ++i)
+      allowed = allowed && std::abs(state[i]) <= largest[i];
+    return allowed;
+  };
+  const std::vector<std::size_t> refused = rowsWithout(count, is_allowed);
+  if (refused.empty())
+    return;
+  const double* const state = states + refused.front() * largest.size();
+  std::size_t i = 0;
+  while (std::abs(state[i]) <= largest[i])
+    ++i;
+  throw Error(what + (" " + std::to_string(refused.front())) + ": the value of variable '" + variables[i].name +
+              "' is " +
+              (std::isfinite(state[i]) ? text(state[i]) + "; it must be within " + text(largest[i]) +
+                                             ", because no joint can move by more than 1000 km or turn by more than "
+                                             "1e300"
+                                       : "not a finite number"));
 }
 
 ValuesOutsideLimits valuesOutside(const std::vector<VariableRange>& ranges, const RobotModel& robot,

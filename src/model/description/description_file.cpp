@@ -85,6 +85,8 @@ std::string expanded(const std::string& program, const std::string& path, const 
                 " bytes, or messages of more than " + std::to_string(kMaxXacroMessageBytes) + " bytes" + advice);
   const std::string said = answer.err.substr(0, answer.err.find_last_not_of(" \t\r\n") + 1);
   const std::string messages = said.empty() ? "it printed no message" : shortLine(said);
+  if (!answer.has_status)
+    throw Error(start + program + " has ended, but " + kNoStatus);
   if (WIFSIGNALED(answer.status))
     throw Error(start + program + " crashed (signal " + std::to_string(WTERMSIG(answer.status)) + "): " + messages +
                 advice);
@@ -110,5 +112,17 @@ DescriptionText readDescription(const std::string& path, const std::string& kind
   if (program.empty())
     return description;
   return {"xacro " + path, expanded(program, path, kind, info, xacro_seconds)};
+}
+
+RobotDescription readRobotDescription(const std::string& urdf_path, const std::string& srdf_path,
+                                      const std::function<void(const std::string& line)>& info)
+{
+  RobotDescription description;
+  const std::filesystem::path folder = std::filesystem::path(urdf_path).parent_path();
+  description.urdf_folder = folder.empty() ? "." : folder.string();
+  if (!srdf_path.empty())
+    description.srdf = readDescription(srdf_path, "SRDF", info);
+  description.urdf = readDescription(urdf_path, "URDF", info);
+  return description;
 }
 }  // namespace gpu_planning_scene::core

@@ -18,4 +18,16 @@ struct DescriptionText
 /// be read, and if xacro fails, prints nothing, or takes longer than `xacro_seconds`. Thread-safe.
 DescriptionText readDescription(const std::string& path, const std::string& kind,
                                 const std::function<void(const std::string& line)>& info, double xacro_seconds = 60.0);
+
+/// The two files of a robot, each read once.
+struct RobotDescription
+{
+  DescriptionText urdf;
+  DescriptionText srdf;     ///< empty without an SRDF
+  std::string urdf_folder;  ///< base folder of relative mesh paths
+};
+
+/// Reads both files as readDescription does. `srdf_path` may be empty.
+RobotDescription readRobotDescription(const std::string& urdf_path, const std::string& srdf_path,
+                                      const std::function<void(const std::string& line)>& info);
 }  // namespace gpu_planning_scene::core

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <filesystem>
 #include <set>
 #include <utility>
 
@@ -178,12 +177,10 @@ std::shared_ptr<const RobotModel> RobotModel::fromXml(const std::string& urdf, c
 std::shared_ptr<const RobotModel> RobotModel::fromFiles(const std::string& urdf_path, const std::string& srdf_path,
                                                         RobotModelOptions options, std::vector<std::string>* warnings)
 {
-  const std::filesystem::path folder = std::filesystem::path(urdf_path).parent_path();
-  options.urdf_folder = folder.empty() ? "." : folder.string();
-  const DescriptionText srdf = srdf_path.empty() ? DescriptionText() : readDescription(srdf_path, "SRDF", options.info);
-  const DescriptionText urdf = readDescription(urdf_path, "URDF", options.info);
-  options.urdf_name = urdf.name;
-  options.srdf_name = srdf.name;
-  return fromXml(urdf.text, srdf.text, options, warnings);
+  const RobotDescription files = readRobotDescription(urdf_path, srdf_path, options.info);
+  options.urdf_folder = files.urdf_folder;
+  options.urdf_name = files.urdf.name;
+  options.srdf_name = files.srdf.name;
+  return fromXml(files.urdf.text, files.srdf.text, options, warnings);
 }
 }  // namespace gpu_planning_scene::core

@@ -31,6 +31,8 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
                 std::to_string(limits.file), std::to_string(limits.triangles)},
                {limits.seconds, maxMeshBytes(limits.triangles), kMaxErrorBytes});
   const int status = answer.status;
+  if (!answer.late && !answer.too_long && !answer.has_status)
+    throw Error(file + "the reader has ended, but " + kNoStatus);
   if (answer.late || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM)))
   {
     std::ostringstream seconds;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <optional>
 #include <thread>
 
 #include <fcntl.h>
@@ -52,8 +53,8 @@ class Pipe
   std::array<int, 2> ends_{{-1, -1}};
 };
 
-/// A child process with `out` and `err` as its standard output and error. The destructor kills the process if it still
-/// runs, and reaps it.
+/// A child process with `out` and `err` as its standard output and error. It leads a process group of its own, because
+/// it may start processes too. The destructor kills the group if the child still runs, and reaps the child.
 class Child
 {
  public:
@@ -77,7 +78,8 @@ class Child
     sigfillset(&all);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     const int error = posix_spawn(&id_, command[0].c_str(), &files, &attributes, arguments.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
@@ -95,7 +97,7 @@ class Child
   void kill() const
   {
     if (id_ > 0)
-      ::kill(id_, SIGKILL);
+      ::kill(-id_, SIGKILL);
   }
 
   /// Waits for the end of the process, at most until `end`. Returns true if it has ended.
@@ -104,22 +106,24 @@ class Child
     for (;; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
     {
       siginfo_t ended{};  // wait() still needs its status
-      if (waitid(P_PID, static_cast<id_t>(id_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == id_)
+      const int result = waitid(P_PID, static_cast<id_t>(id_), &ended, WEXITED | WNOHANG | WNOWAIT);
+      if ((result == 0 && ended.si_pid == id_) || (result != 0 && errno == ECHILD))
         return true;
       if (Clock::now() >= end)
         return false;
     }
   }
 
-  /// Waits for the process and returns the status of waitpid.
-  int wait()
+  /// Waits for the process and returns the status of waitpid. Returns nothing if the status is lost.
+  std::optional<int> wait()
   {
     int status = 0;
-    while (id_ > 0 && waitpid(id_, &status, 0) < 0 && errno == EINTR)
+    pid_t waited = -1;
+    while (id_ > 0 && (waited = waitpid(id_, &status, 0)) < 0 && errno == EINTR)
     {
     }
     id_ = -1;
-    return status;
+    return waited > 0 ? std::optional<int>(status) : std::nullopt;
   }
 
  private:
@@ -180,7 +184,9 @@ ChildAnswer runChild(const std::string& what, const std::vector<std::string>& co
     answer.late = !child.endsBy(end);  // the child may close its pipes and run on
   if (answer.late || answer.too_long)
     child.kill();
-  answer.status = child.wait();
+  const std::optional<int> status = child.wait();
+  answer.has_status = status.has_value();
+  answer.status = status.value_or(0);
   return answer;
 }
 }  // namespace gpu_planning_scene::core

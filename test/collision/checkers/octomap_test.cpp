@@ -1,5 +1,6 @@
 // Verdicts in scenes with an octomap are those of FCL's octrees.
 
+#include <cassert>  // FCL 0.7 uses assert without it
 #include <cmath>
 #include <random>
 

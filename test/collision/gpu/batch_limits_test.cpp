@@ -62,7 +62,14 @@ class BatchLimits : public testing::TestWithParam<Traversal>
     const UploadedPoses::LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses_[row]; };
     UploadedPoses poses(*problem_, 1, link_poses);
     Verdicts verdicts;
-    checker.check(poses, kStates, verdicts);
+    std::vector<int> done(kStates, 0);
+    checker.check(poses, kStates, verdicts, nullptr,
+                  [&done](std::size_t begin, std::size_t count)
+                  {
+                    for (std::size_t i = begin; i < begin + count; ++i)
+                      ++done[i];
+                  });
+    EXPECT_EQ(done, std::vector<int>(kStates, 1)) << "each verdict is announced once";
     return verdicts;
   }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/gpu_scene.h"
 #include "gpu/egl_context.h"
@@ -173,6 +174,29 @@ TEST(GpuKinematics, ADeviceWithOtherDoublesIsFoundOut)
   EXPECT_EQ(findDoubleFault(folder.path()), "");
   folder.replace("self_test/double_arithmetic.comp", "n.x / n.y", "n.x / n.y * 1.000000000001lf");
   EXPECT_NE(findDoubleFault(folder.path()), "");
+}
+
+TEST(GpuKinematics, ADeviceThatEmulatesDoublesIsFoundOutAndTheCpuComputesThePoses)
+{
+  ShaderFolder folder;
+  std::string emulation;
+  for (int i = 0; i < 2000; ++i)
+    emulation += "  x = x * n.y + n.y;\n";
+  {
+    EglContext context("auto");
+    EXPECT_EQ(findEmulatedDouble(folder.path()), "");
+    folder.replace("self_test/double_size.comp", "  x = x * n.y + n.y;\n", emulation);
+    EXPECT_NE(findEmulatedDouble(folder.path()), "");
+  }
+  BatchCheckerOptions options;
+  options.shader_folder = folder.path();
+  // The kinematics would not compile.
+  folder.replace("problem/kinematics.glsl", "DoublePose compose", "Wrong compose");
+  GpuChecker checker(options);
+  EXPECT_NE(checker.fault().find("emulates"), std::string::npos) << checker.fault();
+  const auto robot = robotOf(boxLink("a") + boxLink("b") + jointXml("spin", "continuous", "a", "b"));
+  checker.setProblem(std::make_shared<const CollisionProblem>(), robot);
+  EXPECT_NE(checker.fault().find("emulates"), std::string::npos);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

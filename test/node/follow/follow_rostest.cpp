@@ -34,10 +34,11 @@ class Replicas : public RunningNode
     leader.reset();
   }
 
-  static std::unique_ptr<ChildNode> follower(const std::string& name, const std::string& of)
+  static std::unique_ptr<ChildNode> follower(const std::string& name, const std::string& of,
+                                             const std::string& period = "0.3")
   {
     return std::make_unique<ChildNode>(
-        name, std::vector<std::string>{"_device:=cpu", "_follow:=" + of, "_follow_period:=0.3"});
+        name, std::vector<std::string>{"_device:=cpu", "_follow:=" + of, "_follow_period:=" + period});
   }
 
   static CheckStates::Response checkWith(const ChildNode& node, const CheckStates::Request& request)
@@ -187,6 +188,43 @@ TEST_F(Replicas, NoticeAMissedDifference)
   ASSERT_TRUE(reaches(*node, apply(diffWith(boxObject("fourth", farAway(), 0.4)))));
   EXPECT_EQ(wholeScene(*leader), wholeScene(*node));
   EXPECT_EQ(3, relay.fetches());
+}
+
+TEST_F(Replicas, HaveTheRevisionOfTheLeaderAfterEachKindOfChange)
+{
+  Relay relay("/exact_relay", kLeader);
+  const std::unique_ptr<ChildNode> node = follower("exact", "/exact_relay", "1000");
+  ASSERT_TRUE(reaches(*node, scene().scene_revision));
+  // After the first comparison of the revisions, the next one comes in 1000 s. So none repairs a wrong revision.
+  ASSERT_TRUE(becomes([&] { return relay.hasSubscriber() && relay.comparisons() == 1; }));
+  const int fetches = relay.fetches();
+
+  AttachedCollisionObject carried;
+  carried.link_name = tip;
+  carried.object = objectOperation("box", CollisionObject::ADD);
+  PlanningSceneMessage padding = diffScene();
+  padding.link_padding.resize(1);
+  padding.link_padding[0].link_name = tip;
+  padding.link_padding[0].padding = 0.01;
+  PlanningSceneMessage state = diffScene();
+  state.robot_state = stateMessage(free_state);
+  state.robot_state.is_diff = true;
+  state.robot_state.joint_state.position[0] += 0.01;
+  PlanningSceneMessage named = diffScene();
+  named.name = "named";
+  PlanningSceneMessage nameless;  // no difference leads to this scene
+  nameless.robot_state = stateMessage(free_state);
+  for (const PlanningSceneMessage& change :
+       {diffWith(boxObject("box", farAway(), 0.2)), diffWith(carried), padding, state, named, nameless,
+        diffWith(boxObject("box", farAway(), 0.1)), diffWith(objectOperation("box", CollisionObject::REMOVE))})
+  {
+    const std::uint64_t revision = apply(change);
+    ASSERT_TRUE(reaches(*node, revision));
+    EXPECT_EQ(revision, wholeScene(*node).scene_revision);
+    EXPECT_EQ(wholeScene(*leader), wholeScene(*node));
+  }
+  EXPECT_EQ(fetches, relay.fetches());
+  EXPECT_EQ(1, relay.comparisons());
 }
 
 TEST_F(Replicas, RefuseRequestsWhileTheLeaderIsAwayAndTakeTheSceneOfItsNextRun)

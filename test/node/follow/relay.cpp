@@ -23,7 +23,8 @@ void Relay::pass(const PlanningSceneMessage& message)
 
 bool Relay::answer(GetPlanningScene::Request& request, GetPlanningScene::Response& response)
 {
-  fetches_ += (request.components.components & kForFollowers) != 0 ? 1 : 0;
+  const bool is_fetch = (request.components.components & kForFollowers) != 0;
+  ++(is_fetch ? fetches_ : comparisons_);
   GetPlanningScene call;
   call.request = request;
   const bool was_answered = callPersistently(leader_ + "/get_planning_scene", call);

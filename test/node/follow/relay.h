@@ -21,6 +21,8 @@ class Relay
   bool hasSubscriber() const { return publisher_.getNumSubscribers() != 0; }
   /// How often a follower has fetched the whole scene.
   int fetches() const { return fetches_; }
+  /// How often a follower has compared the revisions.
+  int comparisons() const { return comparisons_; }
 
  private:
   void pass(const PlanningSceneMessage& message);
@@ -29,6 +31,7 @@ class Relay
   const std::string leader_;
   std::atomic<bool> loses_{false};
   std::atomic<int> fetches_{0};
+  std::atomic<int> comparisons_{0};
   ros::NodeHandle node_;
   ros::Publisher publisher_;
   ros::ServiceServer service_;

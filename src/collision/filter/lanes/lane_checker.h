@@ -56,6 +56,9 @@ class LaneChecker
   /// The stage of the newest proofs. The first call starts to make proofs in the background. One caller at a time.
   ProofStage requestProofs();
 
+  /// The newest proofs; null: none, or not requested. One caller at a time.
+  std::shared_ptr<const RobotProofs> proofs() const { return job_ ? job_->proofs() : nullptr; }
+
   /// From now on, `check` uses the newest proofs. Must be called before the first `check`, after `requestProofs` has
   /// returned another stage than None. One caller at a time.
   void useProofs();

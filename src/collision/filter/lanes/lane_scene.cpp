@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "collision/filter/lanes/lane_objects.h"
+#include "collision/geometry/outward_rounding.h"
 #include "model/math_constants.h"
 
 // Links that are rigidly connected share a frame, which has the balls of their shapes. The rounding errors of the
@@ -30,16 +31,6 @@ constexpr double kAxisError = 16.0 * kUnit;  // of an axis of a box: a rounded c
 constexpr double kLargestLaneAngle = 1e4;  // radians: a larger angle modulo 2 pi is not accurate
 constexpr double kLargestGiven = 32.0;     // metres: distance of a planar or floating joint's frame from the origin
 constexpr std::size_t kGroup = 8;          // world pairs of a group
-
-float above(double x)
-{
-  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
-}
-
-float below(double x)
-{
-  return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity());
-}
 
 Matrix3d crossProductMatrix(const Vector3d& a)
 {
@@ -192,8 +183,8 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
     for (int i = 0; i < count; ++i)
     {
       const CoverBall& ball = balls[std::min<std::size_t>(static_cast<std::size_t>(i), balls.size() - 1)];
-      writeBall(pose * ball.center, above(ball.outer), first + i, made.outer_balls);
-      writeBall(pose * ball.witness, below(ball.inner), first + i, made.inner_balls);
+      writeBall(pose * ball.center, floatAbove(ball.outer), first + i, made.outer_balls);
+      writeBall(pose * ball.witness, floatBelow(ball.inner), first + i, made.inner_balls);
       largest_distance = std::max({largest_distance, (pose * ball.center).norm(), (pose * ball.witness).norm()});
     }
   }
@@ -201,8 +192,8 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
   const Vector3d center = pose * enclosing.center;
   for (int axis = 0; axis < 3; ++axis)
     made.center[axis] = static_cast<float>(center[axis]);
-  made.outer = above(enclosing.outer);
-  made.inner = is_same(enclosing) ? below(enclosing.inner) : -1.0F;
+  made.outer = floatAbove(enclosing.outer);
+  made.inner = is_same(enclosing) ? floatBelow(enclosing.inner) : -1.0F;
   const Matrix3d axes = pose.linear() * box.axes;
   const Vector3d box_center = pose * box.center;
   for (int k = 0; k < 3; ++k)
@@ -210,7 +201,7 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
     for (int axis = 0; axis < 3; ++axis)
       made.box.axes[axis][k] = static_cast<float>(axes(k, axis));
     made.box.center[k] = static_cast<float>(box_center[k]);
-    made.box.half[k] = above(box.half[k]);
+    made.box.half[k] = floatAbove(box.half[k]);
   }
   largest_distance = std::max({largest_distance, center.norm(), box_center.norm()});
   instances_.push_back(made);
@@ -228,7 +219,8 @@ lanes::BoxThresholds LaneScene::boxThresholds(std::uint32_t a, std::uint32_t b) 
   const double centers = instance_errors_[a].largest_distance + instance_errors_[b].largest_distance;
   const double lengths = centers + box_errors_[a].radius + box_errors_[b].radius;
   const double between = instance_errors_[a].position + instance_errors_[b].position + rotation * centers;
-  return {above(2.0 * between + (2.0 * rotation + 32.0 * kUnit) * lengths), above(4.0 * rotation + 32.0 * kUnit)};
+  return {floatAbove(2.0 * between + (2.0 * rotation + 32.0 * kUnit) * lengths),
+          floatAbove(4.0 * rotation + 32.0 * kUnit)};
 }
 
 double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
@@ -279,7 +271,7 @@ void LaneScene::addClusters()
         parts[f].radius <= kLargestCluster * parts[f].largest)
     {
       cluster = static_cast<int>(clusters_.size());
-      clusters_.push_back({static_cast<int>(f), above(parts[f].radius * (1.0 + 1e-6))});
+      clusters_.push_back({static_cast<int>(f), floatAbove(parts[f].radius * (1.0 + 1e-6))});
     }
     cluster_of_frame_.push_back(cluster);
   }
@@ -299,7 +291,8 @@ void LaneScene::addSelfPair(std::size_t p, const CollisionProblem& problem)
   const BallCover& cover_a = *proofs_->covers[a];
   const BallCover& cover_b = *proofs_->covers[b];
   const double layer = std::max(openLayer(cover_a, cover_b), openLayer(cover_b, cover_a));
-  self_pairs_.push_back({a, b, {above(error), above(layer + error), below(-error)}, boxThresholds(a, b)});
+  self_pairs_.push_back(
+      {a, b, {floatAbove(error), floatAbove(layer + error), floatBelow(-error)}, boxThresholds(a, b)});
   pairs_.push_back({a, b});
   self_pair_of_.push_back(p);
 }
@@ -369,10 +362,11 @@ void LaneScene::addSelfGroups(std::uint32_t first)
     const double error = a.error.position + b.error.position +
                          kDistanceError * (a.error.largest_distance + b.error.largest_distance + a.radius + b.radius);
     const bool is_tested = end - p > 1 && centers.first != centers.second;
-    self_groups_.push_back({{centers.first, centers.second},
-                            is_tested ? above(a.radius + b.radius + error) : std::numeric_limits<float>::infinity(),
-                            p,
-                            end});
+    self_groups_.push_back(
+        {{centers.first, centers.second},
+         is_tested ? floatAbove(a.radius + b.radius + error) : std::numeric_limits<float>::infinity(),
+         p,
+         end});
     p = end;
   }
 }
@@ -403,7 +397,7 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
       {
         group.center[axis] = static_cast<float>(bounds.center()[axis]);
         const double rounding = 4.0 * kUnit * (std::abs(bounds.center()[axis]) + 0.5 * bounds.sizes()[axis]);
-        group.half[axis] = above(0.5 * bounds.sizes()[axis] + rounding);
+        group.half[axis] = floatAbove(0.5 * bounds.sizes()[axis] + rounding);
       }
       world_groups_.push_back(group);
       bounds.setEmpty();
@@ -419,8 +413,8 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
                            kDistanceError * (instance_errors_[b].largest_distance + object.largest_distance + required +
                                              static_cast<double>(instances_[b].outer));
       const double layer = object.thickness > cover.layer ? 0.0 : cover.layer;
-      const lanes::Thresholds thresholds = {above(required + error), above(required + layer + error),
-                                            below(required - error)};
+      const lanes::Thresholds thresholds = {floatAbove(required + error), floatAbove(required + layer + error),
+                                            floatBelow(required - error)};
       const Vector3d growth = Vector3d::Constant(static_cast<double>(thresholds.enclosing));
       bounds.extend(object.bounds.min() - growth);
       bounds.extend(object.bounds.max() + growth);

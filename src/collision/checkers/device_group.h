@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "gpu_planning_scene/state_checker.h"
+
+namespace gpu_planning_scene::core
+{
+/// The devices that a user has selected: the parts of "A+B", or all hardware devices for "all" ("auto" if there is
+/// none). Throws Error if the EGL or OpenGL library is missing.
+std::vector<std::string> devicesOf(const std::string& selection);
+
+/// Several devices as one checker. A large batch is cut into parts, and each part goes to the next free device. The
+/// order of the states is kept. If a device is lost, the others check its parts and all later batches; deviceWarning
+/// then names it. DeviceLost is thrown only if no device is left.
+class DeviceGroup : public StateChecker
+{
+ public:
+  using Open = std::function<std::unique_ptr<StateChecker>(std::shared_ptr<const PlanningScene> scene,
+                                                           const std::string& device)>;
+
+  /// Opens all devices. Throws the Error of the first that cannot be opened.
+  DeviceGroup(const std::shared_ptr<const PlanningScene>& scene, const std::vector<std::string>& devices,
+              const Open& open);
+
+  /// Throws Error and keeps the old scene on all devices if one of them cannot take the new scene.
+  void setScene(std::shared_ptr<const PlanningScene> scene) override;
+  BatchResult check(const double* states, std::size_t count, const std::string& group = "",
+                    const JointNeighbourhood* around = nullptr) override;
+  /// Pairs as one device reports them; SceneReport::decided is summed over the devices.
+  SceneReport report(const std::string& group = "") override;
+  std::string deviceName() const override;
+  std::string deviceWarning() const override;
+
+ private:
+  struct Batch;
+  void checkParts(StateChecker& device, Batch& batch) const;
+  void dropLost(const std::vector<std::exception_ptr>& errors);
+
+  mutable std::mutex mutex_;
+  std::shared_ptr<const PlanningScene> scene_;
+  std::vector<std::unique_ptr<StateChecker>> devices_;
+  std::string lost_;  // one line; empty: none
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,171 @@
+// Several devices answer like one, also if some of them are lost.
+
+#include <atomic>
+
+#include <gtest/gtest.h>
+
+#include "collision/checkers/device_group.h"
+#include "collision/checkers/open_checker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "model/model_testing.h"
+#include "support/test_scenes.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Scene = std::shared_ptr<const PlanningScene>;
+
+/// A CPU checker that is lost at its check number `lost_at` (from 0; negative: never), and counts its states.
+class LosableChecker : public CpuChecker
+{
+ public:
+  LosableChecker(const Scene& scene, int lost_at) : CpuChecker(scene), left_(lost_at) {}
+
+  BatchResult check(const double* states, std::size_t count, const std::string& group,
+                    const JointNeighbourhood* around) override
+  {
+    if (left_-- == 0)
+      throw DeviceLost("the test has switched it off");
+    checked += count;
+    return CpuChecker::check(states, count, group, around);
+  }
+
+  void setScene(Scene scene) override
+  {
+    if (refuses)
+      throw Error("the scene is too large for this device");
+    CpuChecker::setScene(std::move(scene));
+  }
+
+  std::size_t checked = 0;
+  bool refuses = false;
+
+ private:
+  int left_;
+};
+
+class DeviceGroups : public testing::Test
+{
+ protected:
+  static constexpr std::size_t kCount = 100'000;
+
+  /// Devices that are lost at these checks; -1: never.
+  std::unique_ptr<DeviceGroup> groupOf(const std::vector<int>& lost_at)
+  {
+    checkers_.clear();
+    std::vector<std::string> names;
+    for (const int check : lost_at)
+      names.push_back(std::to_string(check));
+    return std::make_unique<DeviceGroup>(test_.scene, names,
+                                         [this](const Scene& scene, const std::string& name)
+                                         {
+                                           auto made = std::make_unique<LosableChecker>(scene, std::stoi(name));
+                                           checkers_.push_back(made.get());
+                                           return made;
+                                         });
+  }
+
+  TestScene test_ = testScene("arm_boxes");
+  std::size_t width_ = test_.scene->robot->variables().size();
+  std::vector<double> states_ = test_.randomStates(kCount, 3);
+  BatchResult expected_ = CpuChecker(test_.scene).check(states_.data(), kCount);
+  std::vector<LosableChecker*> checkers_;
+};
+
+TEST_F(DeviceGroups, ShareTheStatesOfALargeBatch)
+{
+  const auto group = groupOf({-1, -1});
+  std::size_t batches = 0;
+  // On a busy machine, one thread may check a whole batch before the other one starts.
+  while (batches < 100 && (checkers_[0]->checked == 0 || checkers_[1]->checked == 0))
+  {
+    const BatchResult result = group->check(states_.data(), kCount);
+    EXPECT_EQ(result.valid, expected_.valid);
+    EXPECT_EQ(result.revision, expected_.revision);
+    ++batches;
+  }
+  EXPECT_GT(checkers_[0]->checked, 0u);
+  EXPECT_GT(checkers_[1]->checked, 0u);
+  EXPECT_EQ(checkers_[0]->checked + checkers_[1]->checked, batches * kCount);
+  EXPECT_EQ(group->deviceName(), "CPU + CPU");
+  EXPECT_EQ(group->deviceWarning(), "");
+  std::uint64_t decided = 0;
+  for (const DecidedStates& stage : group->report().decided)
+    decided += stage.states;
+  EXPECT_EQ(decided, batches * kCount);
+}
+
+TEST_F(DeviceGroups, LoseNoStateIfDevicesAreLost)
+{
+  for (const auto& [lost_at, left] : {std::pair(std::vector{0, -1}, 1), std::pair(std::vector{-1, 1, 0}, 1),
+                                      std::pair(std::vector{0, 0, -1}, 1), std::pair(std::vector{1, -1, -1}, 2)})
+  {
+    const auto group = groupOf(lost_at);
+    const std::string names = left == 1 ? "CPU" : "CPU + CPU";
+    for (int batches = 0; batches < 100 && group->deviceName() != names; ++batches)
+      EXPECT_EQ(group->check(states_.data(), kCount).valid, expected_.valid);
+    EXPECT_EQ(group->deviceName(), names);
+    EXPECT_EQ(group->check(states_.data(), kCount).valid, expected_.valid);
+    EXPECT_NE(group->deviceWarning().find("was lost: the test has switched it off"), std::string::npos);
+  }
+}
+
+TEST_F(DeviceGroups, AreLostIfNoDeviceIsLeft)
+{
+  const auto group = groupOf({0, 1});
+  EXPECT_THROW(group->check(states_.data(), kCount), DeviceLost);
+}
+
+TEST_F(DeviceGroups, NameTheStateOfTheWholeBatchInErrors)
+{
+  const auto group = groupOf({-1, -1});
+  states_[70'000 * width_ + 1] = NAN;
+  EXPECT_NE(errorOf([&] { group->check(states_.data(), kCount); }).find("state 70000"), std::string::npos);
+  EXPECT_NE(errorOf([&] { group->check(states_.data(), kCount, "no group"); }), "");
+}
+
+TEST_F(DeviceGroups, KeepTheOldSceneOnAllDevicesIfOneRefusesTheNewOne)
+{
+  const auto group = groupOf({-1, -1});
+  auto empty = std::make_shared<PlanningScene>(test_.scene->robot);
+  empty->revision = 77;
+  checkers_[1]->refuses = true;
+  EXPECT_EQ(errorOf([&] { group->setScene(empty); }), "the scene is too large for this device");
+  checkers_[1]->refuses = false;
+  EXPECT_EQ(group->check(states_.data(), kCount).valid, expected_.valid);
+  group->setScene(empty);
+  const BatchResult result = group->check(states_.data(), kCount);
+  EXPECT_EQ(result.revision, 77u);
+  EXPECT_EQ(result.valid, CpuChecker(empty).check(states_.data(), kCount).valid);
+}
+
+TEST_F(DeviceGroups, KeepTheNeighbourhoodOfEachState)
+{
+  const std::size_t joints = test_.scene->robot->joints().size();
+  JointNeighbourhood around;
+  for (std::size_t row = 0; row < 5; ++row)
+    around.travel.insert(around.travel.end(), joints, JointTravel{0.0, 0.01 * static_cast<double>(row)});
+  for (std::uint32_t i = 0; i < kCount; ++i)
+    around.rows.push_back(i * 7 % 5);
+  const std::vector<std::uint8_t> one = CpuChecker(test_.scene).check(states_.data(), kCount, "", &around).valid;
+  EXPECT_NE(one, expected_.valid);
+  EXPECT_EQ(groupOf({-1, -1, -1})->check(states_.data(), kCount, "", &around).valid, one);
+}
+
+TEST_F(DeviceGroups, OfTwoSoftwareDevicesAnswerLikeOne)
+{
+  BatchCheckerOptions options;
+  options.device = "software+software";
+  options.cpu_below = 0;
+  const auto two = openChecker(test_.scene, options);
+  EXPECT_NE(two->deviceName().find(" + "), std::string::npos);
+  const std::size_t count = 40'000;
+  const std::vector<std::uint8_t> valid = two->check(states_.data(), count).valid;
+  EXPECT_TRUE(std::equal(valid.begin(), valid.end(), expected_.valid.begin()));
+  options.device = "software+no such device";
+  EXPECT_NE(errorOf([&] { openChecker(test_.scene, options); }).find("no such device"), std::string::npos);
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,136 @@
+// Joint tables and balls on the GPU decide most pairs, and never otherwise than the exact checker.
+
+#include <algorithm>
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/filter/proven_scene.h"
+#include "collision/gpu/gpu_checker.h"
+#include "collision/gpu/sliding_balls.h"
+#include "support/near_contact.h"
+#include "support/repetitions.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr std::uint64_t kSeed = 59;
+
+ProvenScene provenSlidingBalls()
+{
+  const std::shared_ptr<PlanningScene> scene = slidingBalls();
+  const std::size_t width = scene->robot->variables().size();
+  ProvenScene made =
+      prove({"sliding_balls", scene, std::vector<double>(width, -kSlide), std::vector<double>(width, kSlide)});
+  RobotProofs proofs = *made.proofs;
+  proofs.covers = exactCovers(*made.problem, *scene->robot);
+  made.proofs = std::make_shared<const RobotProofs>(proofs);
+  return made;
+}
+
+const ProvenScene& provenBallsOr(const std::string& name)
+{
+  static const ProvenScene balls = provenSlidingBalls();
+  return name == "sliding_balls" ? balls : provenScene(name);
+}
+
+/// The GPU's checks of a scene, with or without proofs.
+class GpuProofsOfScenes : public testing::TestWithParam<const char*>
+{
+ protected:
+  void SetUp() override
+  {
+    const std::string name = GetParam();
+    if (const std::string missing = name == "sliding_balls" ? "" : missingFor(name); !missing.empty())
+      GTEST_SKIP() << "there is no " << missing;
+    proven_ = &provenBallsOr(name);
+    for (const bool proofs : {false, true})
+    {
+      BatchCheckerOptions options;
+      options.max_batch = 2048;
+      checkers_[proofs ? 1 : 0] = std::make_unique<GpuChecker>(options);
+      checkers_[proofs ? 1 : 0]->setProblem(proven_->problem, proven_->scene.scene->robot);
+    }
+    checkers_[1]->useProofs(proven_->proofs);
+  }
+
+  /// The number of traversed pairs with proofs, relative to the number without proofs.
+  double traversedShare() const
+  {
+    return static_cast<double>(checkers_[1]->lastWork().traversed) /
+           static_cast<double>(checkers_[0]->lastWork().traversed);
+  }
+
+  /// Compares all verdicts, with and without proofs, with the exact checker.
+  void compare(const std::vector<double>& states, const Margins* margins)
+  {
+    const std::size_t count = states.size() / robot().variables().size();
+    BatchResult without;
+    checkers_[0]->check(states.data(), count, without, margins);
+    BatchResult with;
+    checkers_[1]->check(states.data(), count, with, margins);
+    std::vector<Eigen::Isometry3d> poses(robot().links().size());
+    CpuTraversal::Scratch scratch;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      robot().linkPoses(states.data() + i * robot().variables().size(), poses.data());
+      const double* const row = margins ? margins->of(i) : nullptr;
+      const bool is_free = !proven_->exact->firstCollision(poses.data(), scratch, row);
+      EXPECT_EQ(without.valid[i] != 0, is_free) << "state " << i << ", without proofs, seed " << kSeed;
+      EXPECT_EQ(with.valid[i] != 0, is_free) << "state " << i << ", with proofs, seed " << kSeed;
+      if (with.valid[i] != 0 || margins)
+        continue;
+      std::vector<BodyPair> colliding;
+      for (const InstancePair& pair : proven_->exact->collidingInstances(poses.data(), scratch))
+        colliding.push_back(bodiesOf(*proven_->problem, pair));
+      EXPECT_EQ(std::count(colliding.begin(), colliding.end(), with.colliding[i]) > 0, true)
+          << "state " << i << ": the reported pair does not collide, seed " << kSeed;
+    }
+  }
+
+  const RobotModel& robot() const { return *proven_->scene.scene->robot; }
+
+  const ProvenScene* proven_ = nullptr;
+  std::array<std::unique_ptr<GpuChecker>, 2> checkers_;  // [0]: without proofs, [1]: with proofs
+};
+
+TEST_P(GpuProofsOfScenes, DecideMostPairsOfRandomStates)
+{
+  compare(proven_->scene.randomStates(repetitions(2000, 40'000), kSeed), nullptr);
+  std::cout << "traversed pairs: " << traversedShare() << " of those without proofs" << std::endl;
+  EXPECT_LT(traversedShare(), 0.5);
+}
+
+TEST_P(GpuProofsOfScenes, DecideNoPairWronglyNearContact)
+{
+  compare(nearContactStates(proven_->scene, repetitions(100, 1000), kSeed + 1), nullptr);
+}
+
+TEST_P(GpuProofsOfScenes, KeepTheMarginsOfPairs)
+{
+  constexpr double kLargestMargin = 0.05;  // metres
+  constexpr std::uint32_t kRows = 7;
+  const std::size_t count = repetitions(500, 10'000);
+  std::mt19937_64 generator(kSeed + 2);
+  std::uniform_real_distribution<double> distances(0.0, kLargestMargin);
+  Margins margins;
+  margins.width = proven_->problem->robot.size() + proven_->problem->self_pairs.size();
+  margins.values.resize(kRows * margins.width);
+  std::generate(margins.values.begin(), margins.values.end(), [&] { return distances(generator); });
+  margins.within.assign(count, 1);
+  for (std::uint32_t i = 0; i < count; ++i)
+    margins.rows.push_back(i % kRows);
+  compare(proven_->scene.randomStates(count, kSeed + 3), &margins);
+  EXPECT_LT(traversedShare(), 0.9);
+}
+
+#ifdef GPS_SOAK
+INSTANTIATE_TEST_SUITE_P(Scenes, GpuProofsOfScenes,
+                         testing::Values("sliding_balls", "kr5", "kr5_crowded", "ur5_cage", "wam", "arm_boxes"));
+#else
+INSTANTIATE_TEST_SUITE_P(Scenes, GpuProofsOfScenes, testing::Values("sliding_balls", "kr5", "arm_boxes"));
+#endif
+}  // namespace
+}  // namespace gpu_planning_scene::core
