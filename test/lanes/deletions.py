@@ -36,10 +36,11 @@ BITS = {"GL_TEXTURE_FETCH_BARRIER_BIT": 0x8, "GL_COMMAND_BARRIER_BIT": 0x40, "GL
 # Tasks for a folder of shaders; others try all tasks.
 BATCHES = ["work_queue", "breadth_first"]
 FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "containment", "solids",
-             "half_spaces"]
+             "boxes", "far_links", "half_spaces"]
 # With --quick, and for two `precise`, only the function tasks of the file are tried.
 FUNCTION_OF = {
     "shaders/broad_phase/half_spaces.comp": ["half_spaces"],
+    "shaders/broad_phase/self_pairs.comp": ["far_links"],
     "shaders/geometry/pose.glsl": ["transforms", "solids"],
     "shaders/geometry/triangle_distance.glsl": ["distances"],
     "shaders/geometry/triangle_error_bounds.glsl": ["triangles", "distances"],
@@ -49,6 +50,8 @@ FUNCTION_OF = {
     "shaders/self_test/float_arithmetic.comp": ["arithmetic"],
     "shaders/traversal/solid_leaf.glsl": ["solids"],
     "shaders/traversal/solid_nodes.glsl": ["solids"],
+    "shaders/traversal/tolerance.glsl": ["boxes"],
+    "shaders/tree_build/fit.glsl": ["boxes"],
 }
 # A run that needs more processor time than this, in seconds, does not end. A run without a deletion needs a few seconds.
 MOST_SECONDS = 60

@@ -86,9 +86,16 @@ int exactCrossing(const Corners& c, bool& touches)
   return negative == 3 && height < 0 ? -1 : 0;
 }
 
+/// With g++ 12 -O3, a plain conversion of two neighbours to float and back does nothing.
+float roundedNumber(double x)
+{
+  const volatile auto nearest = static_cast<float>(x);
+  return nearest;
+}
+
 Texel rounded(const Vector3d& v)
 {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
+  return {roundedNumber(v.x()), roundedNumber(v.y()), roundedNumber(v.z()), 0.0F};
 }
 
 /// A tetrahedron, and a point 1e-8 to 1e-1 of its size from one of its faces or edges. The distance of both from the

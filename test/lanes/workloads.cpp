@@ -215,6 +215,8 @@ const std::map<std::string, Task>& tasks()
       {"crossings", checkCrossings},
       {"containment", checkContainment},
       {"solids", checkSolids},
+      {"boxes", checkBoxes},
+      {"far_links", checkFarLinks},
       {"half_spaces", checkHalfSpaces},
   };
   return all;
