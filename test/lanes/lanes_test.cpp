@@ -107,6 +107,20 @@ TEST_F(SimulatedDevice, FindsAMissingPreciseAtTheCornersAroundAPoint)
   EXPECT_TRUE(isFound("containment", shaders.path()));
 }
 
+TEST_F(SimulatedDevice, FindsAMissingPreciseAtTheLineFromASolidToATriangle)
+{
+  const ShaderFolder shaders;
+  shaders.replace("traversal/solid_leaf.glsl", "const vec3 n = vectorBetween(q, p)", "const vec3 n = p - q");
+  EXPECT_TRUE(isFound("solids", shaders.path()));
+}
+
+TEST_F(SimulatedDevice, FindsAMissingPreciseAtTheCornersAroundTheCentreOfABox)
+{
+  const ShaderFolder shaders;
+  shaders.replace("tree_build/fit.glsl", "precise const vec3 around", "const vec3 around");
+  EXPECT_TRUE(isFound("boxes", shaders.path()));
+}
+
 TEST_F(SimulatedDevice, FindsTwoMissingPreciseInTheReductionOfAnAngle)
 {
   const ShaderFolder shaders;
