@@ -222,6 +222,11 @@
 #define PADDED 0
 #endif
 
+// 1 in the program of the broad phase among links that looks pairs up in joint tables.
+#ifndef JOINT_TABLES
+#define JOINT_TABLES 0
+#endif
+
 // The bits of infinity in float32. As unsigned integers, the bits of every NaN are larger.
 #define INFINITY_BITS 0x7f800000u
 

@@ -89,8 +89,9 @@ uint proveWorldPair(RootPair pair, Instance object, bool is_solid, OrientedNode 
   const Cover cover = fetchCover(pairRobot(pair.pair));
   if ((cover.bits & COVER_UNUSABLE) != 0u)
     return STATE_UNDECIDED;
-  const bool fits = !is_solid || !(innerRadius(object) * (1.0 - 64.0 * u) > cover.layer);
-  const CoverReach reach = coverReach(pair, distance, fits ? cover.layer : 0.0);
+  // A primitive that is thicker than the layer cannot hide in it.
+  const bool can_hide = !is_solid || !(innerRadius(object) * (1.0 - 64.0 * u) > cover.layer);
+  const CoverReach reach = coverReach(pair, distance, can_hide ? cover.layer : 0.0);
   const vec3 core = coreSize(object, 0.0);
   const float rounding = 32.0 * u * length(node.box.extent);
   for (uint level = 0u; level < 2u; ++level)

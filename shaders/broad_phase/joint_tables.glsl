@@ -1,8 +1,7 @@
 // The verdicts of pairs of robot instances whose relative pose depends on one or two variables
 // (src/collision/filter/proofs/joint_table.h). A table has a verdict for each box of these variables.
-layout(location = LOCATION_VARIABLE_COUNT) uniform uint variable_count;  // variables of a state; 0: there are no tables
-// The variables of the states, two doubles a texel, state after state.
-layout(binding = UNIT_STATES) uniform usamplerBuffer state_texels;
+#include "problem/states.glsl"
+layout(location = LOCATION_VARIABLE_COUNT) uniform uint variable_count;  // of a state
 // First the tables of the pairs, in words: [robot][robot], the first texel of the table, or 0. Then the tables. Two
 // texels for each of two variables: the first value and the number of cells a unit (two doubles); the variable, whether
 // the angle counts modulo 2 pi, the number of cells, and the stride of the cells. Then the cells, 16 a word:
@@ -11,11 +10,6 @@ layout(binding = UNIT_TABLES) uniform usamplerBuffer table_texels;
 
 // A larger angle modulo 2 pi is not accurate enough.
 #define LARGEST_TABLE_ANGLE 1e4lf
-
-dvec2 twoDoublesOf(uvec4 texel)
-{
-  return dvec2(packDouble2x32(texel.xy), packDouble2x32(texel.zw));
-}
 
 // STATE_HIT, 0 if the pair is apart, or STATE_UNDECIDED if there is no proof.
 uint proveByTable(uint state, uint a, uint b)
@@ -27,10 +21,9 @@ uint proveByTable(uint state, uint a, uint b)
   uint cell = 0u;
   for (uint k = 0u; k < 2u; ++k)
   {
-    const dvec2 range = twoDoublesOf(texelFetch(table_texels, int(first + TABLE_AXIS_TEXELS * k)));
+    const dvec2 range = twoDoubles(texelFetch(table_texels, int(first + TABLE_AXIS_TEXELS * k)));
     const uvec4 axis = texelFetch(table_texels, int(first + TABLE_AXIS_TEXELS * k + 1u));
-    const uint at = state * variable_count + axis.x;
-    double value = twoDoublesOf(texelFetch(state_texels, int(at / 2u)))[at % 2u];
+    double value = variable(state, variable_count, axis.x);
     if (axis.y != 0u && abs(value) > LARGEST_TABLE_ANGLE)
       return STATE_UNDECIDED;
     if (axis.y != 0u)

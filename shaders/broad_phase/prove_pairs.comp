@@ -13,10 +13,9 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "traversal/verdicts.glsl"
 #include "traversal/solid_nodes.glsl"
 #include "broad_phase/covers.glsl"
+#include "broad_phase/roots.glsl"
 layout(location = LOCATION_ROBOT_COUNT) uniform uint robot_count;
 layout(location = LOCATION_ROOT_PAIR_CAPACITY) uniform uint root_pair_capacity;
-// First node of the primitives, one node an instance. 0: primitives are tested by their triangles.
-layout(location = LOCATION_SOLID_NODES) uniform uint solid_nodes;
 layout(location = LOCATION_HAS_COVERS) uniform uint has_covers;
 // The node pairs with which traversals begin: of two meshes, and of a mesh and a solid.
 layout(std430, binding = BINDING_B) writeonly buffer MeshEntries { uvec4 mesh_entries[]; };
@@ -34,21 +33,19 @@ void main()
   const uint robot = pairRobot(pair.pair);
   const Instance a = fetchInstance(other);
   const Instance b = fetchInstance(robot);
-  // At most one of the two shapes is tested as a solid. The other one is tested by its triangles.
-  const bool a_is_solid = solid_nodes != 0u && isPrimitive(a);
-  const bool b_is_solid = solid_nodes != 0u && !a_is_solid && isPrimitive(b);
-  const uint root_a = a_is_solid ? solid_nodes + other : a.root;
-  const uint root_b = b_is_solid ? solid_nodes + robot : b.root;
+  const Roots roots = rootsOf(other, a, robot, b);
   uint proof = STATE_UNDECIDED;
   if (has_covers != 0u)
-    proof = other >= robot_count ? proveWorldPair(pair, a, a_is_solid, fetchOrientedNode(root_a), fetchDistance(i)) :
-                                   proveSelfPair(pair, fetchDistance(i));
+    proof = other >= robot_count ?
+                proveWorldPair(pair, a, roots.a_is_solid, fetchOrientedNode(roots.a), fetchDistance(i)) :
+                proveSelfPair(pair, fetchDistance(i));
   if (proof == STATE_HIT)
     report(pair.state, pair.pair, proof);
   if (proof != STATE_UNDECIDED)
     return;
-  if (a_is_solid || b_is_solid)
-    solid_entries[atomicAdd(counters[COUNTER_SOLID_ENTRIES], 1u)] = uvec4(i, root_a, root_b, 0u);
+  const uvec4 entry = uvec4(i, roots.a, roots.b, 0u);
+  if (roots.a_is_solid || roots.b_is_solid)
+    solid_entries[atomicAdd(counters[COUNTER_SOLID_ENTRIES], 1u)] = entry;
   else
-    mesh_entries[atomicAdd(counters[COUNTER_MESH_ENTRIES], 1u)] = uvec4(i, root_a, root_b, 0u);
+    mesh_entries[atomicAdd(counters[COUNTER_MESH_ENTRIES], 1u)] = entry;
 }

@@ -13,11 +13,10 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "common/counters.glsl"
 #include "traversal/verdicts.glsl"
 #include "broad_phase/primitive_containment.glsl"
+#include "broad_phase/roots.glsl"
 #include "problem/margins.glsl"
 layout(location = LOCATION_CANDIDATE_CAPACITY) uniform uint candidate_capacity;
 layout(location = LOCATION_ROOT_PAIR_CAPACITY) uniform uint root_pair_capacity;
-// First node of the primitives, one node an instance. 0: primitives are tested by their triangles.
-layout(location = LOCATION_SOLID_NODES) uniform uint solid_nodes;
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
 layout(binding = UNIT_WORLD_POSES) uniform usamplerBuffer world_poses;
 layout(binding = UNIT_CANDIDATES) uniform usamplerBuffer candidates;
@@ -45,23 +44,19 @@ void main()
   const Pose pose = relativePose(pose_a, pose_b);
   const Instance a = fetchInstance(other);
   const Instance b = fetchInstance(robot);
-  // At most one of the two shapes is tested as a solid. The other one is tested by its triangles.
-  const bool a_is_solid = solid_nodes != 0u && isPrimitive(a);
-  const bool b_is_solid = solid_nodes != 0u && !a_is_solid && isPrimitive(b);
-  const uint root_a = a_is_solid ? solid_nodes + other : a.root;
-  const uint root_b = b_is_solid ? solid_nodes + robot : b.root;
-  const Box box_a = fetchNode(root_a).box;
-  const Box box_b = fetchNode(root_b).box;
+  const Roots roots = rootsOf(other, a, robot, b);
+  const Box box_a = fetchNode(roots.a).box;
+  const Box box_b = fetchNode(roots.b).box;
   const vec3 far_a = farCorner(box_a);
   const float error = positionError(pose_a, pose_b, pose, far_a, farCorner(box_b));
   const float distance = world ? a.padding + b.padding + worldMargin(state, robot) : selfMargin(state, robot, other);
-  const float gap = requiredGap(distance, (a_is_solid ? 0.0 : a.slack) + (b_is_solid ? 0.0 : b.slack));
-  if (nodesApart(fetchOrientedNode(root_a), fetchOrientedNode(root_b), pose, boxMargin(gap, error)))
+  const float gap = requiredGap(distance, (roots.a_is_solid ? 0.0 : a.slack) + (roots.b_is_solid ? 0.0 : b.slack));
+  if (nodesApart(fetchOrientedNode(roots.a), fetchOrientedNode(roots.b), pose, boxMargin(gap, error)))
     return;
   // A shape that is tested as a solid needs no certain result here: the traversal also finds triangles inside it. So an
   // uncertain result is dropped.
-  uint inside = containment(b, a, pose, boxError(error)) & (a_is_solid ? STATE_HIT : ~0u);
-  inside |= containment(a, b, inversePose(pose), inverseError(error, far_a)) & (b_is_solid ? STATE_HIT : ~0u);
+  uint inside = containment(b, a, pose, boxError(error)) & (roots.a_is_solid ? STATE_HIT : ~0u);
+  inside |= containment(a, b, inversePose(pose), inverseError(error, far_a)) & (roots.b_is_solid ? STATE_HIT : ~0u);
   if (inside != 0u)
     report(state, candidate.y, inside);
   if ((inside & STATE_HIT) != 0u)

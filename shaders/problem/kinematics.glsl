@@ -4,8 +4,7 @@
 // of src/model/sine.cpp. Lengths are in metres, angles in radians.
 #include "problem/instances.glsl"
 #include "problem/instance_lists.glsl"
-// The variables of the states, two doubles a texel, state after state.
-layout(binding = UNIT_STATES) uniform usamplerBuffer state_texels;
+#include "problem/states.glsl"
 // Texels 0 and 1: the origin of the poses, in the planning frame. Then one texel per link: the first of its records,
 // the end of its records, and the texel at which the records begin. Then the records, one for each shape of a link: six
 // texels with the rows of its pose in the frame of its link (two texels a row), and one with its robot instance.
@@ -22,17 +21,6 @@ struct DoublePose
 DoublePose compose(DoublePose a, DoublePose b)
 {
   return DoublePose(a.rotation * b.rotation, a.rotation * b.translation + a.translation);
-}
-
-dvec2 twoDoubles(uvec4 texel)
-{
-  return dvec2(packDouble2x32(texel.xy), packDouble2x32(texel.zw));
-}
-
-double variable(uint state, uint variable_count, uint index)
-{
-  const uint at = state * variable_count + index;
-  return twoDoubles(texelFetch(state_texels, int(at / 2u)))[at % 2u];
 }
 
 // Sine and cosine for |x| <= 2^20: argument reduction as in src/model/sine.cpp (Cody and Waite 1980), then Taylor

@@ -218,6 +218,7 @@ const std::map<std::string, Task>& tasks()
       {"boxes", checkBoxes},
       {"far_links", checkFarLinks},
       {"half_spaces", checkHalfSpaces},
+      {"proofs", checkProofs},
   };
   return all;
 }

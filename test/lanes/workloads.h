@@ -25,6 +25,9 @@ std::vector<std::string> checkSolids(const std::string& shaders, std::uint64_t s
 std::vector<std::string> checkBoxes(const std::string& shaders, std::uint64_t seed);
 // Two links far from the origin: the checker's answers, compared with those of the exact checker.
 std::vector<std::string> checkFarLinks(const std::string& shaders, std::uint64_t seed);
+// States near contact that balls and joint tables decide: the checker's answers, compared with those of the exact
+// checker.
+std::vector<std::string> checkProofs(const std::string& shaders, std::uint64_t seed);
 // A box near a half-space: the checker's answers, compared with those of the exact checker.
 std::vector<std::string> checkHalfSpaces(const std::string& shaders, std::uint64_t seed);
 }  // namespace gpu_planning_scene::core

@@ -38,7 +38,7 @@ struct BatchChecker::Impl
                   const Margins* margins, bool ordinary);
   void check(const double* states, std::size_t count, const std::string& group, bool ordinary, BatchResult& result);
   void checkAround(const double* states, std::size_t count, const std::string& group, const Margins& margins,
-                   BatchResult& result);
+                   bool ordinary, BatchResult& result);
   BatchResult timedCheck(const double* states, std::size_t count, const std::string& group,
                          const JointNeighbourhood* around, bool ordinary);
   std::size_t threshold(const std::string& group, const double* states, std::size_t count);
@@ -51,8 +51,9 @@ struct BatchChecker::Impl
   std::optional<std::string> selected_group;  // group whose pairs the GPU checker holds
 };
 
-/// Whether all states are valid, within the ranges of the group's problem, and not too large for the device. One pass
-/// over a large request replaces three: its memory is the bottleneck. False proves nothing.
+/// Whether all states pass three tests: their values are allowed, the group's problem is valid for them, and the device
+/// can place them. If this is true, one pass over a large request replaces three passes, whose time would be the time
+/// to read the memory. False proves nothing.
 bool BatchChecker::Impl::areOrdinary(const double* states, std::size_t count, const std::string& group)
 {
   std::vector<double> upper = gpu_checker.largestValues();
@@ -139,11 +140,11 @@ void BatchChecker::Impl::check(const double* states, std::size_t count, const st
 
 /// States outside the joints' limits have no displacement bounds, so they are never reported as free.
 void BatchChecker::Impl::checkAround(const double* states, std::size_t count, const std::string& group,
-                                     const Margins& margins, BatchResult& result)
+                                     const Margins& margins, bool ordinary, BatchResult& result)
 {
   if (on_cpu.problem(group)->always_colliding || count < threshold(group, states, count))
     return on_cpu.check(states, count, group, result, &margins);
-  checkOnGpu(states, count, group, result, &margins, false);
+  checkOnGpu(states, count, group, result, &margins, ordinary);
   for (std::size_t i = 0; i < count; ++i)
     if (margins.within[i] == 0)
     {
@@ -207,7 +208,7 @@ BatchResult BatchChecker::Impl::timedCheck(const double* states, std::size_t cou
   result.revision = on_cpu.scene()->revision;
   const auto start = std::chrono::steady_clock::now();
   if (around)
-    checkAround(states, count, group, on_cpu.margins(*around, states, count, group), result);
+    checkAround(states, count, group, on_cpu.margins(*around, states, count, group), ordinary, result);
   else
     check(states, count, group, ordinary, result);
   result.seconds = secondsSince(start);

@@ -292,15 +292,25 @@ void GpuPairChecker::testHalfSpaces(std::uint32_t states)
   }
 }
 
+/// The program of the broad phase among links. Tables know no margins, and they need the states on the device.
+const Program& GpuPairChecker::selfProgram(const Batch& batch)
+{
+  const std::size_t variables = batch.poses.boundVariables();
+  if (!proofs_.haveTables() || batch.margins || variables == 0)
+    return programs_->self;
+  if (!self_with_tables_)
+    self_with_tables_.emplace(folder_, "broad_phase/self_pairs.comp", definitions_ + "#define JOINT_TABLES 1\n");
+  self_with_tables_->set(LOCATION_VARIABLE_COUNT, static_cast<std::uint32_t>(variables));
+  return *self_with_tables_;
+}
+
 /// The queries with the most hits run first, whether they are about the world or about other links.
 void GpuPairChecker::findCandidates(const Batch& batch, std::uint32_t states)
 {
-  const bool has_tables = proofs_.haveTables() && !batch.margins;  // tables know no margins
-  programs_->self.set(LOCATION_VARIABLE_COUNT,
-                      has_tables ? static_cast<std::uint32_t>(batch.poses.boundVariables()) : 0U);
   if (proofs_.exist())
     proofs_.bind();
-  for (const Program* program : {&programs_->spheres, &programs_->world, &programs_->self, &programs_->roots})
+  const Program& self = selfProgram(batch);
+  for (const Program* program : {&programs_->spheres, &programs_->world, &self, &programs_->roots})
   {
     program->set(LOCATION_STATE_COUNT, states);
     program->set(LOCATION_ROBOT_COUNT, scene_.robotCount());
@@ -324,9 +334,9 @@ void GpuPairChecker::findCandidates(const Batch& batch, std::uint32_t states)
     program.set(LOCATION_QUERY_COUNT, static_cast<std::uint32_t>(end - begin));
     program.dispatch(groupsFor(states * (end - begin)));
   };
-  query(programs_->self, self_queries_, 0, queries_.hot_self);
+  query(self, self_queries_, 0, queries_.hot_self);
   query(programs_->world, world_queries_, 0, queries_.hot_world);
-  query(programs_->self, self_queries_, queries_.hot_self, queries_.self.size());
+  query(self, self_queries_, queries_.hot_self, queries_.self.size());
   query(programs_->world, world_queries_, queries_.hot_world, queries_.world.size());
 }
 

@@ -41,8 +41,8 @@ class GpuPairChecker
   void setProblem(const CollisionProblem& problem);
   void selectPairs(const CollisionProblem& problem);
 
-  /// From now on, these proofs decide pairs before trees do. The proofs must be those of `problem`, whose
-  /// trees and instances are those of the last setProblem. setProblem forgets them.
+  /// From now on, these proofs decide pairs before trees do. The proofs must be those of `problem`, whose trees and
+  /// instances are those of the last setProblem. setProblem forgets them.
   void useProofs(const RobotProofs& proofs, const CollisionProblem& problem);
   const GpuScene& scene() const { return scene_; }
 
@@ -102,6 +102,7 @@ class GpuPairChecker
   void finish(const Batch& batch, Part& part);
   bool fetch(Part& part, Verdicts& verdicts);
   void testHalfSpaces(std::uint32_t states);
+  const Program& selfProgram(const Batch& batch);
   void findCandidates(const Batch& batch, std::uint32_t states);
   void writeQueries();
   void learnOrder(const Verdicts& verdicts);
@@ -126,7 +127,9 @@ class GpuPairChecker
   std::string folder_;
   Programs plain_;
   std::optional<Programs> with_margins_;  // compiled when first needed
-  const Programs* programs_ = &plain_;    // programs of the current batch
+  // Instead of plain_.self where joint tables can be used; compiled when first needed. It needs double precision.
+  std::optional<Program> self_with_tables_;
+  const Programs* programs_ = &plain_;  // programs of the current batch
   Program proofs_program_, inside_program_, done_program_;
   GpuMargins margins_;
   GpuProofs proofs_;

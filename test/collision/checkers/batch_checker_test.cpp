@@ -8,9 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "collision/checkers/cpu_or_gpu.h"
+#include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
+#include "model/model_testing.h"
 #include "support/kept_trees.h"
 #include "support/repetitions.h"
 #include "support/shader_folder.h"
@@ -269,6 +271,21 @@ TEST_F(BatchCheckerTest, RefusesOptionsThatMakeNoSense)
   options.shader_folder = "/no/such/folder";
   EXPECT_THROW(BatchChecker(scene_, options), Error);
   EXPECT_THROW(traversalFromName("depth_first"), Error);
+}
+
+TEST(SeveralDevices, AnswerLikeOne)
+{
+  const TestScene& test = testScene("arm_boxes");
+  constexpr std::size_t kCount = 40'000;
+  const std::vector<double> states = test.randomStates(kCount, 3);
+  BatchCheckerOptions options;
+  options.device = "software+software";
+  options.cpu_below = 0;
+  const auto two = openChecker(test.scene, options);
+  EXPECT_NE(two->deviceName().find(" + "), std::string::npos);
+  EXPECT_EQ(two->check(states.data(), kCount).valid, CpuChecker(test.scene).check(states.data(), kCount).valid);
+  options.device = "software+no such device";
+  EXPECT_NE(errorOf([&] { openChecker(test.scene, options); }).find("no such device"), std::string::npos);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -1,15 +1,15 @@
 // Several devices answer like one, also if some of them are lost.
 
-#include <atomic>
+#include <cmath>
+#include <random>
 
 #include <gtest/gtest.h>
 
 #include "collision/checkers/device_group.h"
-#include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
-#include "support/test_scenes.h"
+#include "scene/slider_robot.h"
 
 namespace gpu_planning_scene::core
 {
@@ -58,7 +58,7 @@ class DeviceGroups : public testing::Test
     std::vector<std::string> names;
     for (const int check : lost_at)
       names.push_back(std::to_string(check));
-    return std::make_unique<DeviceGroup>(test_.scene, names,
+    return std::make_unique<DeviceGroup>(scene_, names,
                                          [this](const Scene& scene, const std::string& name)
                                          {
                                            auto made = std::make_unique<LosableChecker>(scene, std::stoi(name));
@@ -67,10 +67,19 @@ class DeviceGroups : public testing::Test
                                          });
   }
 
-  TestScene test_ = testScene("arm_boxes");
-  std::size_t width_ = test_.scene->robot->variables().size();
-  std::vector<double> states_ = test_.randomStates(kCount, 3);
-  BatchResult expected_ = CpuChecker(test_.scene).check(states_.data(), kCount);
+  static std::vector<double> randomStates(const RobotModel& robot)
+  {
+    std::mt19937_64 generator(3);
+    std::vector<double> states(kCount * robot.variables().size());
+    for (std::size_t i = 0; i < states.size(); i += robot.variables().size())
+      robot.randomState(generator, states.data() + i);
+    return states;
+  }
+
+  Scene scene_ = std::make_shared<PlanningScene>(sliderAndWall());
+  std::size_t width_ = scene_->robot->variables().size();
+  std::vector<double> states_ = randomStates(*scene_->robot);
+  BatchResult expected_ = CpuChecker(scene_).check(states_.data(), kCount);
   std::vector<LosableChecker*> checkers_;
 };
 
@@ -129,7 +138,7 @@ TEST_F(DeviceGroups, NameTheStateOfTheWholeBatchInErrors)
 TEST_F(DeviceGroups, KeepTheOldSceneOnAllDevicesIfOneRefusesTheNewOne)
 {
   const auto group = groupOf({-1, -1});
-  auto empty = std::make_shared<PlanningScene>(test_.scene->robot);
+  auto empty = std::make_shared<PlanningScene>(scene_->robot);
   empty->revision = 77;
   checkers_[1]->refuses = true;
   EXPECT_EQ(errorOf([&] { group->setScene(empty); }), "the scene is too large for this device");
@@ -143,29 +152,15 @@ TEST_F(DeviceGroups, KeepTheOldSceneOnAllDevicesIfOneRefusesTheNewOne)
 
 TEST_F(DeviceGroups, KeepTheNeighbourhoodOfEachState)
 {
-  const std::size_t joints = test_.scene->robot->joints().size();
+  const std::size_t joints = scene_->robot->joints().size();
   JointNeighbourhood around;
   for (std::size_t row = 0; row < 5; ++row)
     around.travel.insert(around.travel.end(), joints, JointTravel{0.0, 0.01 * static_cast<double>(row)});
   for (std::uint32_t i = 0; i < kCount; ++i)
     around.rows.push_back(i * 7 % 5);
-  const std::vector<std::uint8_t> one = CpuChecker(test_.scene).check(states_.data(), kCount, "", &around).valid;
+  const std::vector<std::uint8_t> one = CpuChecker(scene_).check(states_.data(), kCount, "", &around).valid;
   EXPECT_NE(one, expected_.valid);
   EXPECT_EQ(groupOf({-1, -1, -1})->check(states_.data(), kCount, "", &around).valid, one);
-}
-
-TEST_F(DeviceGroups, OfTwoSoftwareDevicesAnswerLikeOne)
-{
-  BatchCheckerOptions options;
-  options.device = "software+software";
-  options.cpu_below = 0;
-  const auto two = openChecker(test_.scene, options);
-  EXPECT_NE(two->deviceName().find(" + "), std::string::npos);
-  const std::size_t count = 40'000;
-  const std::vector<std::uint8_t> valid = two->check(states_.data(), count).valid;
-  EXPECT_TRUE(std::equal(valid.begin(), valid.end(), expected_.valid.begin()));
-  options.device = "software+no such device";
-  EXPECT_NE(errorOf([&] { openChecker(test_.scene, options); }).find("no such device"), std::string::npos);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
