@@ -43,7 +43,7 @@ uint levelBegin(uint level)
 // True if two points are proven to be farther apart than `reach`, up to the errors of their positions.
 bool pointsApart(vec3 a, vec3 b, float reach)
 {
-  const vec3 between = a - b;
+  const vec3 between = vectorBetween(a, b);
   return provenGreater(dot(between, between), reach * reach * (1.0 + 32.0 * u));
 }
 
@@ -51,7 +51,7 @@ bool pointsApart(vec3 a, vec3 b, float reach)
 // nothing.
 bool pointsNear(vec3 a, vec3 b, float reach)
 {
-  const vec3 between = a - b;
+  const vec3 between = vectorBetween(a, b);
   return reach > LEAST_SQUARED && provenGreater(reach * reach * (1.0 - 32.0 * u), dot(between, between));
 }
 

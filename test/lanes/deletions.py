@@ -36,9 +36,10 @@ BITS = {"GL_TEXTURE_FETCH_BARRIER_BIT": 0x8, "GL_COMMAND_BARRIER_BIT": 0x40, "GL
 # Tasks for a folder of shaders; others try all tasks.
 BATCHES = ["work_queue", "breadth_first"]
 FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "containment", "solids",
-             "boxes", "far_links", "half_spaces"]
+             "boxes", "far_links", "half_spaces", "balls"]
 # With --quick, and for two `precise`, only the function tasks of the file are tried.
 FUNCTION_OF = {
+    "shaders/broad_phase/covers.glsl": ["balls"],
     "shaders/broad_phase/half_spaces.comp": ["half_spaces"],
     "shaders/broad_phase/self_pairs.comp": ["far_links"],
     "shaders/geometry/pose.glsl": ["transforms", "solids"],

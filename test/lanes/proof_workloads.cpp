@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -5,9 +6,11 @@
 #include "collision/exact/forest_cache.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/sliding_balls.h"
+#include "gpu/program.h"
 #include "lanes/workloads.h"
+#include "shader_constants.h"
 
-// Balls and joint tables decide states near contact.
+// Tasks for the proofs of the device: states near contact that balls and joint tables decide, and two centres of balls.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -100,6 +103,68 @@ std::vector<std::string> checkProofs(const std::string& shaders, std::uint64_t s
     if ((result.valid[i] != 0) != proven.isFree({first, first + static_cast<std::ptrdiff_t>(width)}))
       wrong.push_back("state " + std::to_string(i) + " of " + std::to_string(kStates) + " is called " +
                       (result.valid[i] != 0 ? "free" : "a collision"));
+  }
+  return wrong;
+}
+
+std::vector<std::string> checkBalls(const std::string& shaders, std::uint64_t seed)
+{
+  constexpr std::size_t kPairs = 256;
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const auto vector = [&] { return Eigen::Vector3d(uniform(generator), uniform(generator), uniform(generator)); };
+  std::vector<std::array<float, 4>> input;
+  for (std::size_t i = 0; i < kPairs; ++i)
+  {
+    // The distance is 1e-4 to 1 of the distance from the origin. The reach is 1e-8 to 1e-1 of itself away from it.
+    const Eigen::Vector3d place = vector();
+    const Eigen::Vector3d between = std::pow(10.0, 2.0 * uniform(generator) - 2.0) * vector();
+    const double share = std::copysign(std::pow(10.0, 3.5 * uniform(generator) - 4.5), uniform(generator));
+    const Eigen::Vector3f a = place.cast<float>();
+    const Eigen::Vector3f b = (place + between).cast<float>();
+    const auto reach = static_cast<float>((1.0 + share) * between.norm());
+    input.push_back({a.x(), a.y(), a.z(), reach});
+    input.push_back({b.x(), b.y(), b.z(), 0.0F});
+  }
+  const Program program = Program::fromText(shaders, "balls", R"(// One invocation per pair of centres.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+#include "common/invocation.glsl"
+#include "traversal/root_pairs.glsl"
+#include "problem/nodes.glsl"
+#include "geometry/error_bounds.glsl"
+#include "problem/instances.glsl"
+#include "traversal/bounding_volume_overlap.glsl"
+#include "traversal/solid_nodes.glsl"
+#include "broad_phase/covers.glsl"
+layout(std430, binding = 0) readonly buffer Pairs { vec4 pairs[]; };
+layout(std430, binding = 1) writeonly buffer Results { uint results[]; };
+void main()
+{
+  const uint i = invocationIndex();
+  const vec4 a = pairs[2u * i];
+  const vec3 b = pairs[2u * i + 1u].xyz;
+  results[i] = (pointsApart(a.xyz, b, a.w) ? 1u : 0u) + (pointsNear(a.xyz, b, a.w) ? 2u : 0u);
+}
+)");
+  Buffer pairs(input.size() * sizeof(input[0]));
+  pairs.write(input);
+  pairs.bindStorage(0);
+  Buffer results(kPairs * sizeof(std::uint32_t));
+  results.bindStorage(1);
+  program.dispatch(kPairs / GROUP_SIZE);
+  std::vector<std::uint32_t> found(kPairs);
+  results.read(found.data(), kPairs * sizeof(std::uint32_t));
+  std::vector<std::string> wrong;
+  for (std::size_t i = 0; i < kPairs; ++i)
+  {
+    const auto point = [&](std::size_t k)
+    { return Eigen::Map<const Eigen::Vector3f>(input[2 * i + k].data()).cast<double>().eval(); };
+    const double distance = (point(1) - point(0)).norm();
+    const auto reach = static_cast<double>(input[2 * i][3]);
+    if (((found[i] & 1U) != 0 && !(distance > reach)) || ((found[i] & 2U) != 0 && !(distance < reach)))
+      wrong.push_back("pair " + std::to_string(i) + ", at a distance of " + std::to_string(distance / reach) +
+                      " times the reach: " + std::to_string(found[i]));
   }
   return wrong;
 }

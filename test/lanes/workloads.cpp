@@ -219,6 +219,7 @@ const std::map<std::string, Task>& tasks()
       {"far_links", checkFarLinks},
       {"half_spaces", checkHalfSpaces},
       {"proofs", checkProofs},
+      {"balls", checkBalls},
   };
   return all;
 }
