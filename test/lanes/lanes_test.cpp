@@ -1,8 +1,11 @@
 // The project's shaders run on the simulated device without a fault, and the device finds faults that are made on
 // purpose. deletions.py does the same for every barrier, every bit of a memory barrier and every `precise`.
 
+#include <array>
 #include <cstdlib>
 #include <random>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -56,21 +59,6 @@ TEST_F(SimulatedDevice, FindsNoFaultInTheShadersWithARandomSeed)
   expectNoFault(seed);
 }
 
-TEST_F(SimulatedDevice, FindsAMissingBarrierBetweenTheSumsOfAGroupAndTheirUse)
-{
-  const ShaderFolder shaders;
-  shaders.replace("common/prefix_sum.glsl", "  part_sums[invocation] = sum;\n  barrier();\n",
-                  "  part_sums[invocation] = sum;\n");
-  EXPECT_TRUE(isFound("breadth_first", shaders.path()));
-}
-
-TEST_F(SimulatedDevice, FindsAMissingBarrierBeforeTheTrianglesOfTheLeafQueue)
-{
-  const ShaderFolder shaders;
-  shaders.replace("traversal/leaf_queue.glsl", "    barrier();\n    const uint todo", "    const uint todo");
-  EXPECT_TRUE(isFound("work_queue", shaders.path()));
-}
-
 TEST_F(SimulatedDevice, FindsAMissingMemoryBarrierBetweenTwoDispatches)
 {
   constexpr std::uint32_t kShaderStorage = 0x2000;
@@ -85,48 +73,63 @@ TEST_F(SimulatedDevice, FindsAMissingMemoryBarrierBeforeADownload)
   EXPECT_TRUE(isFound("buffers", kShaders));
 }
 
-TEST_F(SimulatedDevice, FindsAMissingPreciseBeforeADifferenceIsRotated)
+/// A deletion in a shader that a task must find.
+struct Deletion
 {
-  const ShaderFolder shaders;
-  shaders.replace("geometry/pose.glsl", "precise const vec3 between = b.translation",
-                  "const vec3 between = b.translation");
-  EXPECT_TRUE(isFound("transforms", shaders.path()));
-}
+  const char* deleted;
+  const char* file;
+  const char* task;
+  std::vector<std::array<const char*, 2>> replacements;
+};
 
-TEST_F(SimulatedDevice, FindsAMissingPreciseAtTheProductOfParallelEdges)
+// One test, because each process compiles the shaders of a new build folder for itself.
+TEST_F(SimulatedDevice, FindsEachDeletedStatement)
 {
-  const ShaderFolder shaders;
-  shaders.replace("geometry/triangle_pair.glsl", "precise const vec3 axis", "const vec3 axis");
-  EXPECT_TRUE(isFound("triangles", shaders.path()));
-}
-
-TEST_F(SimulatedDevice, FindsAMissingPreciseAtTheCornersAroundAPoint)
-{
-  const ShaderFolder shaders;
-  shaders.replace("geometry/winding_number.glsl", "precise vec3 c[3]", "vec3 c[3]");
-  EXPECT_TRUE(isFound("containment", shaders.path()));
-}
-
-TEST_F(SimulatedDevice, FindsAMissingPreciseAtTheLineFromASolidToATriangle)
-{
-  const ShaderFolder shaders;
-  shaders.replace("traversal/solid_leaf.glsl", "const vec3 n = vectorBetween(q, p)", "const vec3 n = p - q");
-  EXPECT_TRUE(isFound("solids", shaders.path()));
-}
-
-TEST_F(SimulatedDevice, FindsAMissingPreciseAtTheCornersAroundTheCentreOfABox)
-{
-  const ShaderFolder shaders;
-  shaders.replace("tree_build/fit.glsl", "precise const vec3 around", "const vec3 around");
-  EXPECT_TRUE(isFound("boxes", shaders.path()));
-}
-
-TEST_F(SimulatedDevice, FindsTwoMissingPreciseInTheReductionOfAnAngle)
-{
-  const ShaderFolder shaders;
-  shaders.replace("problem/kinematics.glsl", "precise const double first", "const double first");
-  shaders.replace("problem/kinematics.glsl", "precise const double second", "const double second");
-  EXPECT_TRUE(isFound("kinematics", shaders.path()));
+  const std::vector<Deletion> deletions = {
+      {"a barrier between the sums of a group and their use",
+       "common/prefix_sum.glsl",
+       "breadth_first",
+       {{"  part_sums[invocation] = sum;\n  barrier();\n", "  part_sums[invocation] = sum;\n"}}},
+      {"a barrier before the triangles of the leaf queue",
+       "traversal/leaf_queue.glsl",
+       "work_queue",
+       {{"    barrier();\n    const uint todo", "    const uint todo"}}},
+      {"precise, before a difference is rotated",
+       "geometry/pose.glsl",
+       "transforms",
+       {{"precise const vec3 between = b.translation", "const vec3 between = b.translation"}}},
+      {"precise, at the product of parallel edges",
+       "geometry/triangle_pair.glsl",
+       "triangles",
+       {{"precise const vec3 axis", "const vec3 axis"}}},
+      {"precise, at the corners around a point",
+       "geometry/winding_number.glsl",
+       "containment",
+       {{"precise vec3 c[3]", "vec3 c[3]"}}},
+      {"precise, at the line from a solid to a triangle",
+       "traversal/solid_leaf.glsl",
+       "solids",
+       {{"const vec3 n = vectorBetween(q, p)", "const vec3 n = p - q"}}},
+      {"precise, at the corners around the centre of a box",
+       "tree_build/fit.glsl",
+       "boxes",
+       {{"precise const vec3 around", "const vec3 around"}}},
+      {"precise, between the centres of balls",
+       "broad_phase/covers.glsl",
+       "balls",
+       {{"vectorBetween(a, b);\n  return provenGreater", "b - a;\n  return provenGreater"}}},
+      {"two times precise, in the reduction of an angle",
+       "problem/kinematics.glsl",
+       "kinematics",
+       {{"precise const double first", "const double first"}, {"precise const double second", "const double second"}}},
+  };
+  for (const Deletion& deletion : deletions)
+  {
+    const ShaderFolder shaders;
+    for (const auto& [text, replacement] : deletion.replacements)
+      shaders.replace(deletion.file, text, replacement);
+    EXPECT_TRUE(isFound(deletion.task, shaders.path())) << deletion.deleted;
+  }
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
