@@ -176,7 +176,7 @@
 #define UNIT_WORLD_PAIRS 10  // bits [robot][world], 128 a texel
 #define UNIT_QUERIES 11     // see broad_phase/queries.glsl
 #define UNIT_SPHERES 12      // [robot][state]
-#define UNIT_STATES 13       // this one and the next: see problem/kinematics.glsl
+#define UNIT_STATES 13       // see problem/states.glsl
 #define UNIT_LINK_SHAPES 14
 #define UNIT_ORIENTED_NODES 15
 #define UNIT_MARGINS 16      // see problem/margins.glsl

@@ -310,8 +310,7 @@ void addRobotModel(py::module_& module)
            "as the library with std::mt19937_64(seed), and, with base, as the tool check_states. base: a state of "
            "shape (variables,); planar and floating joints, such as a virtual joint, have its values. Without it, "
            "the robot's base moves too. out: an array of float64 in the order of C, of the shape of the result, which "
-           "gets "
-           "the states and is returned. Ctrl-C ends a long call.\n\n"
+           "gets the states and is returned. Ctrl-C ends a long call.\n\n"
            "    states = robot.random_states(1000, seed=1, base=robot.default_state())")
       .def("link_poses", &linkPoses, py::arg("states"),
            "Forward kinematics: the pose of each link in the planning frame, for each state.\n\nstates: shape "

@@ -75,8 +75,9 @@ bool centerBeyond(Instance solid, bool is_solid, OrientedNode node, vec3 center,
 {
   if (is_solid)
     return boxBeyondSolid(solid, center, mat3(1.0), vec3(0.0), reach);
-  const vec3 beyond = max(abs((center - node.box.center) * node.axes) - node.box.extent, vec3(0.0));
-  const float margin = reach + 512.0 * u * dot(node.box.extent, vec3(1.0));
+  const vec3 beyond =
+      max(abs(vectorBetween(node.box.center, center) * node.axes) - node.box.extent, vec3(0.0));
+  const float margin = reach * (1.0 + 64.0 * u) + 512.0 * u * dot(node.box.extent, vec3(1.0));
   return provenGreater(dot(beyond, beyond), margin * margin * (1.0 + 32.0 * u));
 }
 

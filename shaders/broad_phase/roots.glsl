@@ -1,5 +1,6 @@
 // The nodes with which the traversal of a pair of instances begins. At most one of the two shapes is tested as a solid.
 // The other one is tested by its triangles.
+
 // First node of the primitives, one node an instance. 0: primitives are tested by their triangles.
 layout(location = LOCATION_SOLID_NODES) uniform uint solid_nodes;
 

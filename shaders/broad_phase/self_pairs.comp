@@ -1,7 +1,6 @@
 // Broad phase among links. One invocation per (state, query): compares the bounding sphere of a robot instance with the
 // spheres of six others. If the spheres overlap and no joint table proves a verdict, the pair becomes a candidate. All
-// pairs are compared: a robot has few links, and this
-// needs no tree per state.
+// pairs are compared: a robot has few links, and this needs no tree per state.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"

@@ -145,9 +145,12 @@ void run(const CommandLine& arguments)
 
   const BatchCheckerOptions options = checkerOptionsFrom(arguments);
   const auto checker = openChecker(scene, options);
-  if (const std::string warning = checker->deviceWarning(); !warning.empty())
-    std::cerr << "warning: " << warning << "\n";
+  const std::string at_start = checker->deviceWarning();
+  if (!at_start.empty())
+    std::cerr << "warning: " << at_start << "\n";
   const BatchResult result = checkAll(*checker, *source, options.max_batch, group);
+  if (const std::string warning = checker->deviceWarning(); warning != at_start)
+    std::cerr << "warning: " << warning << "\n";
 
   if (out_path.empty())
   {

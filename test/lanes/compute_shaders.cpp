@@ -45,7 +45,7 @@ std::set<std::string> computeShaders(const std::string& folder)
         for (const float tolerance : {0.0F, 0.001F})
           programs->prepare({solids, padded, tolerance, 1});
   }
-  Program(folder, "broad_phase/self_pairs.comp", "#define JOINT_TABLES 1\n");
+  const Program with_tables(folder, "broad_phase/self_pairs.comp", "#define JOINT_TABLES 1\n");
   findDoubleFault(folder);
   findEmulatedDouble(folder);
   const GpuKinematics kinematics(folder, robotWithAllJoints());

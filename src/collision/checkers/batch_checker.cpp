@@ -257,6 +257,7 @@ GpuWork BatchChecker::lastWork() const
 
 std::string BatchChecker::deviceWarning() const
 {
+  const std::lock_guard<std::mutex> lock(impl_->mutex);
   return impl_->gpu_checker.fault();
 }
 

@@ -37,22 +37,42 @@ std::exception_ptr thrownBy(const Action& action)
   }
 }
 
-/// The message of a lost device. No value: the error is another one, or there is none.
-std::optional<std::string> lossOf(const std::exception_ptr& error)
+struct Message
+{
+  bool is_loss;  // of a DeviceLost
+  std::string text;
+};
+
+Message messageOf(const std::exception_ptr& error)
 {
   try
   {
-    if (error)
-      std::rethrow_exception(error);
+    std::rethrow_exception(error);
   }
   catch (const DeviceLost& lost)
   {
-    return lost.what();
+    return {true, lost.what()};
   }
-  catch (...)  // NOLINT(bugprone-empty-catch): the caller throws it again
+  catch (const std::exception& other)
   {
+    return {false, other.what()};
   }
-  return std::nullopt;
+}
+
+/// The neighbourhoods of `count` states from `begin` on, with the rows of the travel that they use.
+JointNeighbourhood partOf(const JointNeighbourhood& around, std::size_t begin, std::size_t count, std::size_t joints)
+{
+  const auto rows = around.rows.begin() + static_cast<std::ptrdiff_t>(begin);
+  JointNeighbourhood part;
+  part.rows.assign(rows, rows + static_cast<std::ptrdiff_t>(count));
+  const auto [least, most] = std::minmax_element(part.rows.begin(), part.rows.end());
+  const std::uint32_t first = *least;
+  const auto travel = around.travel.begin();
+  part.travel.assign(travel + static_cast<std::ptrdiff_t>(first * joints),
+                     travel + static_cast<std::ptrdiff_t>((*most + std::size_t{1}) * joints));
+  for (std::uint32_t& row : part.rows)
+    row -= first;
+  return part;
 }
 
 void addLine(const std::string& line, const std::string& separator, std::string& all)
@@ -102,6 +122,8 @@ std::vector<std::string> devicesOf(const std::string& selection)
   {
     const std::size_t end = std::min(selection.find('+', begin), selection.size());
     devices.push_back(selection.substr(begin, end - begin));
+    if (devices.back().empty())
+      throw Error("the device '" + selection + "' has an empty part; give names or numbers with + between them: 0+1");
     begin = end + 1;
   }
   return devices;
@@ -152,50 +174,68 @@ DeviceGroup::DeviceGroup(const std::shared_ptr<const PlanningScene>& scene, cons
     devices_.push_back(open(scene, device));
 }
 
-/// Forgets the devices that were lost. `errors`: of the first devices. Throws any other error, and DeviceLost if no
-/// device is left.
-void DeviceGroup::dropLost(const std::vector<std::exception_ptr>& errors)
+void DeviceGroup::requireDevice() const
+{
+  if (devices_.empty())
+    throw DeviceLost(lost_);
+}
+
+/// Runs the action on the first `count` devices at once.
+DeviceGroup::Errors DeviceGroup::onEachDevice(std::size_t count, const std::function<void(StateChecker&)>& action)
+{
+  Errors errors(count);
+  const auto run = [&](std::size_t i) { errors[i] = thrownBy([&] { action(*devices_[i]); }); };
+  std::vector<std::future<void>> others;
+  for (std::size_t i = 1; i < count; ++i)
+    others.push_back(std::async(std::launch::async, run, i));
+  run(0);
+  for (const std::future<void>& other : others)
+    other.wait();
+  return errors;
+}
+
+/// Forgets the devices that were lost. Returns the first other error; null: none. Throws DeviceLost if no device is
+/// left.
+std::exception_ptr DeviceGroup::dropLost(const Errors& errors)
 {
   std::exception_ptr other;
   std::vector<std::unique_ptr<StateChecker>> left;
   for (std::size_t i = 0; i < devices_.size(); ++i)
   {
     const std::exception_ptr error = i < errors.size() ? errors[i] : nullptr;
-    if (const std::optional<std::string> loss = lossOf(error))
+    if (const Message message = error ? messageOf(error) : Message{}; message.is_loss)
     {
-      addLine("the device " + devices_[i]->deviceName() + " was lost: " + *loss, "; ", lost_);
+      addLine("the device " + devices_[i]->deviceName() + " was lost: " + message.text, "; ", lost_);
       continue;
     }
-    if (error && !other)
+    if (!other)
       other = error;
     left.push_back(std::move(devices_[i]));
   }
   devices_ = std::move(left);
-  if (devices_.empty())
-    throw DeviceLost(lost_);
-  if (other)
-    std::rethrow_exception(other);
+  requireDevice();
+  return other;
+}
+
+/// Gives the old scene to all devices. A device that does not take it would answer for another scene, so it is dropped.
+void DeviceGroup::restoreScene()
+{
+  Errors errors = onEachDevice(devices_.size(), [this](StateChecker& device) { device.setScene(scene_); });
+  for (std::exception_ptr& error : errors)
+    if (error)
+      error = std::make_exception_ptr(DeviceLost("it has not taken the old scene again: " + messageOf(error).text));
+  dropLost(errors);
 }
 
 void DeviceGroup::setScene(std::shared_ptr<const PlanningScene> scene)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<std::exception_ptr> errors;
-  for (const auto& device : devices_)
-    errors.push_back(thrownBy([&] { device->setScene(scene); }));
-  try
+  requireDevice();
+  const Errors errors = onEachDevice(devices_.size(), [&scene](StateChecker& device) { device.setScene(scene); });
+  if (const std::exception_ptr refusal = dropLost(errors))
   {
-    dropLost(errors);
-  }
-  catch (const DeviceLost&)
-  {
-    throw;
-  }
-  catch (...)
-  {
-    for (const auto& device : devices_)
-      device->setScene(scene_);
-    throw;
+    restoreScene();
+    std::rethrow_exception(refusal);
   }
   scene_ = std::move(scene);
 }
@@ -211,12 +251,11 @@ void DeviceGroup::checkParts(StateChecker& device, Batch& batch) const
     {
       JointNeighbourhood around;
       if (batch.around)
-      {
-        const auto first = batch.around->rows.begin() + static_cast<std::ptrdiff_t>(begin);
-        around = {batch.around->travel, {first, first + static_cast<std::ptrdiff_t>(count)}};
-      }
-      batch.results[*part] =
-          device.check(batch.states + begin * batch.width, count, batch.group, batch.around ? &around : nullptr);
+        around = partOf(*batch.around, begin, count, scene_->robot->joints().size());
+      BatchResult& result = batch.results[*part];
+      result = device.check(batch.states + begin * batch.width, count, batch.group, batch.around ? &around : nullptr);
+      if (result.revision != scene_->revision)
+        throw DeviceLost("it has the scene of another revision");
     }
     catch (const DeviceLost&)
     {
@@ -230,6 +269,7 @@ BatchResult DeviceGroup::check(const double* states, std::size_t count, const st
                                const JointNeighbourhood* around)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  requireDevice();
   // Here, so that the error names the state's number in the whole batch.
   validateStates(*scene_->robot, states, count);
   if (around)
@@ -239,15 +279,10 @@ BatchResult DeviceGroup::check(const double* states, std::size_t count, const st
   batch.cut(devices_.size());
   while (!batch.waiting.empty())
   {
-    std::vector<std::exception_ptr> errors(std::min(devices_.size(), batch.waiting.size()));
-    const auto run = [&](std::size_t i) { errors[i] = thrownBy([&] { checkParts(*devices_[i], batch); }); };
-    std::vector<std::future<void>> others;
-    for (std::size_t i = 1; i < errors.size(); ++i)
-      others.push_back(std::async(std::launch::async, run, i));
-    run(0);
-    for (const std::future<void>& other : others)
-      other.wait();
-    dropLost(errors);
+    const std::size_t used = std::min(devices_.size(), batch.waiting.size());
+    if (const std::exception_ptr error =
+            dropLost(onEachDevice(used, [&](StateChecker& device) { checkParts(device, batch); })))
+      std::rethrow_exception(error);
   }
   BatchResult result = std::move(batch.results.front());
   for (std::size_t i = 1; i < batch.results.size(); ++i)
@@ -259,6 +294,7 @@ BatchResult DeviceGroup::check(const double* states, std::size_t count, const st
 SceneReport DeviceGroup::report(const std::string& group)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  requireDevice();
   SceneReport report = devices_.front()->report(group);
   for (std::size_t i = 1; i < devices_.size(); ++i)
     addDecided(devices_[i]->report(group).decided, report.decided);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -11,12 +12,13 @@
 namespace gpu_planning_scene::core
 {
 /// The devices that a user has selected: the parts of "A+B", or all hardware devices for "all" ("auto" if there is
-/// none). Throws Error if the EGL or OpenGL library is missing.
+/// none). Throws Error for "all" if the EGL or OpenGL library is missing, and if a part is empty.
 std::vector<std::string> devicesOf(const std::string& selection);
 
 /// Several devices as one checker. A large batch is cut into parts, and each part goes to the next free device. The
 /// order of the states is kept. If a device is lost, the others check its parts and all later batches; deviceWarning
-/// then names it. DeviceLost is thrown only if no device is left.
+/// then names it. A device also counts as lost if it holds another scene than the others. DeviceLost is thrown only if
+/// no device is left.
 class DeviceGroup : public StateChecker
 {
  public:
@@ -38,8 +40,12 @@ class DeviceGroup : public StateChecker
 
  private:
   struct Batch;
+  using Errors = std::vector<std::exception_ptr>;  // of the first devices; null: none
+  void requireDevice() const;
+  Errors onEachDevice(std::size_t count, const std::function<void(StateChecker&)>& action);
+  std::exception_ptr dropLost(const Errors& errors);
+  void restoreScene();
   void checkParts(StateChecker& device, Batch& batch) const;
-  void dropLost(const std::vector<std::exception_ptr>& errors);
 
   mutable std::mutex mutex_;
   std::shared_ptr<const PlanningScene> scene_;

@@ -70,6 +70,7 @@ struct ResilientChecker::Impl
   void placeOnCpu(const Scene& scene);
   void openDevice(const Scene& scene, double seconds);
   void run(const std::function<void()>& job, double seconds);
+  void noteStatus(const std::string& name, const std::string& warning);
   void noteFailedRebuild();
   void dropDevice();
   void noteLoss(const std::string& error);
@@ -136,6 +137,20 @@ void ResilientChecker::Impl::openDevice(const Scene& the_scene, double seconds)
   history.rebuild_failed = false;
   device_name = opened->name;
   device_warning = opened->warning;
+}
+
+/// A new warning means that the checker has lost one of several devices, or an ability of its device.
+void ResilientChecker::Impl::noteStatus(const std::string& name, const std::string& warning)
+{
+  const std::lock_guard<std::mutex> lock(status_mutex);
+  device_name = name;
+  if (warning == device_warning)
+    return;
+  device_warning = warning;
+  if (warning.empty())
+    return;
+  ++history.losses;
+  history.last_error = warning;
 }
 
 void ResilientChecker::Impl::noteFailedRebuild()
@@ -252,11 +267,25 @@ Result ResilientChecker::Impl::request(const Scene& the_scene, const Request<Res
     {
       if (!placeOnDevice(the_scene))
         break;
-      const auto result = std::make_shared<Result>();
-      run([slot = device, result, work] { *result = work(*slot->checker); }, seconds_per_call);
+      struct Answer
+      {
+        Result result;
+        std::string name;
+        std::string warning;
+      };
+      const auto answer = std::make_shared<Answer>();
+      run(
+          [slot = device, answer, work]
+          {
+            answer->result = work(*slot->checker);
+            answer->name = slot->checker->deviceName();
+            answer->warning = slot->checker->deviceWarning();
+          },
+          seconds_per_call);
       cpu.reset();
       answered_by(false);
-      return std::move(*result);
+      noteStatus(answer->name, answer->warning);
+      return std::move(answer->result);
     }
     catch (const DeviceLost& error)
     {

@@ -13,7 +13,7 @@ namespace gpu_planning_scene::core
 /// Events of a device since the start.
 struct DeviceHistory
 {
-  std::uint64_t losses = 0;    ///< noticed losses of the device
+  std::uint64_t losses = 0;    ///< noticed losses of the device, or of one of several devices
   std::uint64_t rebuilds = 0;  ///< new checkers on the device after the first one
   std::uint64_t batches_on_cpu = 0;
   bool on_cpu = false;          ///< the CPU answers now

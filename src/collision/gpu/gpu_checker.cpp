@@ -105,6 +105,7 @@ void GpuChecker::restore()
 void GpuChecker::apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot)
 {
   proofs_.reset();
+  proofs_fault_.clear();
   pairs_->setProblem(problem);
   // The time to compile the shader grows with the square of the number of links.
   constexpr std::size_t kMaxLinks = 120;
@@ -124,7 +125,7 @@ void GpuChecker::apply(const CollisionProblem& problem, const std::shared_ptr<co
 
 std::string GpuChecker::fault() const
 {
-  for (const std::string& fault : {pairs_->floatFault(), double_fault_, kinematics_fault_})
+  for (const std::string& fault : {pairs_->floatFault(), double_fault_, kinematics_fault_, proofs_fault_})
     if (!fault.empty())
       return fault;
   return {};
@@ -143,7 +144,23 @@ void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
   if (!proofs || proofs == proofs_)
     return;
   requireUsableScene();
-  gl_.run([&] { pairs_->useProofs(*proofs, *problem_); });
+  const bool tables = kinematics_ && kinematics_fault_.empty();
+  try
+  {
+    gl_.run([&] { pairs_->useProofs(*proofs, *problem_, tables); });
+  }
+  catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state
+  {
+    throw DeviceLost(error.what());
+  }
+  catch (const DeviceLost&)
+  {
+    throw;
+  }
+  catch (const Error& error)
+  {
+    proofs_fault_ = std::string("proofs on the device: ") + error.what() + "; trees decide all pairs";
+  }
   proofs_ = proofs;
 }
 
@@ -200,6 +217,7 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
   result.undecided_seconds = 0.0;
   requireUsableScene();
   PartQueue parts;
+  std::size_t settled = 0;
   const std::function<void()> job = [&]
   {
     const Finally end([&parts] { parts.end(); });
@@ -212,7 +230,10 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
   {
     const Finally wait([&on_device] { on_device.wait(); });
     while (const std::optional<StateRange> part = parts.next())
+    {
       settle(*part, link_count, link_poses, margins, result);
+      settled += part->count;
+    }
   }
   try
   {
@@ -222,6 +243,8 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
   {
     throw DeviceLost(error.what());
   }
+  if (settled != count)  // the others would stay free
+    throw DeviceLost("the device has returned " + std::to_string(settled) + " of " + std::to_string(count) + " states");
 }
 
 /// Writes the verdicts of a part into the result, while the device works on the next part.

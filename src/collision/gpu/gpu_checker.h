@@ -38,8 +38,9 @@ class GpuChecker
   /// Restricts the checked pairs to the pairs of `problem`, which must have the same trees and instances.
   void selectPairs(std::shared_ptr<const CollisionProblem> problem);
 
-  /// From now on, the balls of these proofs decide pairs before trees do. They must be those of the selected problem's
-  /// robot. Null, or the proofs of the last call: changes nothing. setProblem forgets them.
+  /// From now on, these proofs decide pairs before trees do. They must be those of the selected problem's robot. Null,
+  /// or the proofs of the last call: changes nothing. setProblem forgets them. If the device does not take them,
+  /// `fault` says so, and trees decide all pairs.
   void useProofs(const std::shared_ptr<const RobotProofs>& proofs);
 
   /// Compiles the programs for batches with margins, if this has not been done, so that no check has to.
@@ -90,8 +91,9 @@ class GpuChecker
   std::string kinematics_fault_;
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
-  std::shared_ptr<const RobotProofs> proofs_;  // whose covers the device holds; null: none
-  bool usable_ = false;                        // the device holds exactly `problem_`
+  std::shared_ptr<const RobotProofs> proofs_;  // of the last useProofs
+  std::string proofs_fault_;
+  bool usable_ = false;  // the device holds exactly `problem_`
   std::shared_ptr<ForestCache> trees_;
   Verdicts verdicts_;  // of the last batch; kept, because new memory takes longer than the verdicts
   std::unique_ptr<const CpuTraversal> on_cpu_;  // for the selected pairs; built when a state is undecided

@@ -104,10 +104,14 @@ void GpuPairChecker::selectPairs(const CollisionProblem& problem)
   prepare();
 }
 
-void GpuPairChecker::useProofs(const RobotProofs& proofs, const CollisionProblem& problem)
+void GpuPairChecker::useProofs(const RobotProofs& proofs, const CollisionProblem& problem, bool tables)
 {
-  if (float_fault_.empty())  // otherwise they would prove nothing
-    proofs_.set(proofs, problem);
+  if (!float_fault_.empty())
+    return;  // they would prove nothing
+  proofs_.clear();
+  if (tables && !self_with_tables_)
+    self_with_tables_.emplace(folder_, "broad_phase/self_pairs.comp", definitions_ + "#define JOINT_TABLES 1\n");
+  proofs_.set(proofs, problem);
 }
 
 /// Compiles programs and sizes the parts, so that no batch has to.
@@ -296,10 +300,8 @@ void GpuPairChecker::testHalfSpaces(std::uint32_t states)
 const Program& GpuPairChecker::selfProgram(const Batch& batch)
 {
   const std::size_t variables = batch.poses.boundVariables();
-  if (!proofs_.haveTables() || batch.margins || variables == 0)
+  if (!self_with_tables_ || !proofs_.haveTables() || batch.margins || variables == 0)
     return programs_->self;
-  if (!self_with_tables_)
-    self_with_tables_.emplace(folder_, "broad_phase/self_pairs.comp", definitions_ + "#define JOINT_TABLES 1\n");
   self_with_tables_->set(LOCATION_VARIABLE_COUNT, static_cast<std::uint32_t>(variables));
   return *self_with_tables_;
 }

@@ -42,8 +42,9 @@ class GpuPairChecker
   void selectPairs(const CollisionProblem& problem);
 
   /// From now on, these proofs decide pairs before trees do. The proofs must be those of `problem`, whose trees and
-  /// instances are those of the last setProblem. setProblem forgets them.
-  void useProofs(const RobotProofs& proofs, const CollisionProblem& problem);
+  /// instances are those of the last setProblem. setProblem forgets them. `tables`: the device has states and double
+  /// precision, so that joint tables can be used. If it throws, no proofs are used.
+  void useProofs(const RobotProofs& proofs, const CollisionProblem& problem, bool tables);
   const GpuScene& scene() const { return scene_; }
 
   /// Compiles the programs for batches with margins, if this has not been done.
@@ -127,7 +128,7 @@ class GpuPairChecker
   std::string folder_;
   Programs plain_;
   std::optional<Programs> with_margins_;  // compiled when first needed
-  // Instead of plain_.self where joint tables can be used; compiled when first needed. It needs double precision.
+  // Instead of plain_.self where joint tables are used; compiled when first needed.
   std::optional<Program> self_with_tables_;
   const Programs* programs_ = &plain_;  // programs of the current batch
   Program proofs_program_, inside_program_, done_program_;

@@ -104,16 +104,18 @@ void appendTable(const JointTable& table, std::vector<TableTexel>& texels)
 
 void GpuProofs::set(const RobotProofs& proofs, const CollisionProblem& problem)
 {
+  clear();
   std::vector<CoverTexel> texels;
   for (std::size_t i = 0; i < problem.robot.size(); ++i)
     appendCover(*proofs.covers[i], largestCoordinates(problem.tessellations[problem.robot[i].tree]), texels);
   covers_.reserve(texels.size() * sizeof(CoverTexel));
   covers_.buffer().write(texels);
-  setTables(proofs, problem);
+  have_tables_ = setTables(proofs, problem);
   exist_ = true;
 }
 
-void GpuProofs::setTables(const RobotProofs& proofs, const CollisionProblem& problem)
+/// Returns whether there is a table.
+bool GpuProofs::setTables(const RobotProofs& proofs, const CollisionProblem& problem)
 {
   const std::size_t robots = problem.robot.size();
   std::vector<TableTexel> texels((robots * robots + TEXEL_WORDS - 1) / TEXEL_WORDS);
@@ -122,7 +124,7 @@ void GpuProofs::setTables(const RobotProofs& proofs, const CollisionProblem& pro
     const std::size_t place = a * robots + b;
     texels[place / TEXEL_WORDS][place % TEXEL_WORDS] = static_cast<std::uint32_t>(texels.size());
   };
-  have_tables_ = false;
+  bool any = false;
   for (std::size_t p = 0; p < proofs.tables.size(); ++p)
   {
     if (!proofs.tables[p])
@@ -131,10 +133,11 @@ void GpuProofs::setTables(const RobotProofs& proofs, const CollisionProblem& pro
     set_table(a, b);
     set_table(b, a);
     appendTable(*proofs.tables[p], texels);
-    have_tables_ = true;
+    any = true;
   }
   tables_.reserve(texels.size() * sizeof(TableTexel));
   tables_.buffer().write(texels);
+  return any;
 }
 
 void GpuProofs::bind() const

@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 class GpuProofs
 {
  public:
-  /// Uploads the proofs, which must be those of `problem`.
+  /// Uploads the proofs, which must be those of `problem`. If it throws, there are no proofs.
   void set(const RobotProofs& proofs, const CollisionProblem& problem);
 
   /// From now on there are no proofs.
@@ -21,7 +21,7 @@ class GpuProofs
   void bind() const;
 
  private:
-  void setTables(const RobotProofs& proofs, const CollisionProblem& problem);
+  bool setTables(const RobotProofs& proofs, const CollisionProblem& problem);
 
   TexelBuffer covers_;
   TexelBuffer tables_;

@@ -1,6 +1,7 @@
 // The batch checker's answers do not depend on the batches and order of the states. A refused call changes nothing.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -9,6 +10,7 @@
 
 #include "collision/checkers/cpu_or_gpu.h"
 #include "collision/checkers/open_checker.h"
+#include "collision/gpu/sliding_balls.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
@@ -271,6 +273,69 @@ TEST_F(BatchCheckerTest, RefusesOptionsThatMakeNoSense)
   options.shader_folder = "/no/such/folder";
   EXPECT_THROW(BatchChecker(scene_, options), Error);
   EXPECT_THROW(traversalFromName("depth_first"), Error);
+}
+
+/// Checks random states until the checker's device uses proofs, which a background thread makes.
+void waitForProofs(BatchChecker& checker, const TestScene& test)
+{
+  constexpr std::size_t kCount = 15'000;  // two batches of them suffice for a request
+  const std::vector<double> states = test.randomStates(kCount, kSeed);
+  checker.check(states.data(), kCount);
+  const std::size_t without = checker.lastWork().traversed;
+  const auto begin = std::chrono::steady_clock::now();
+  while (2 * checker.lastWork().traversed > without)
+  {
+    ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(2));
+    checker.check(states.data(), kCount);
+  }
+}
+
+/// Expects the verdicts of the exact checker for random states.
+void expectExact(BatchChecker& checker, const TestScene& test, const std::shared_ptr<const PlanningScene>& scene,
+                 const std::string& group, std::uint64_t seed)
+{
+  constexpr std::size_t kCount = 4000;
+  const std::vector<double> states = test.randomStates(kCount, seed);
+  CheckerOptions exact;
+  exact.reductions.proofs = false;
+  const std::vector<std::uint8_t> expected = CpuChecker(scene, exact).check(states.data(), kCount, group).valid;
+  EXPECT_EQ(checker.check(states.data(), kCount, group).valid, expected);
+  EXPECT_GT(std::count(expected.begin(), expected.end(), 1), 0);
+  EXPECT_GT(std::count(expected.begin(), expected.end(), 0), 0);
+}
+
+TEST(ProofsOnTheDevice, AreForgottenWithTheirScene)
+{
+  const TestScene& test = testScene("arm_boxes");
+  BatchChecker checker(test.scene, with(Traversal::WorkQueue));
+  waitForProofs(checker, test);
+  expectExact(checker, test, test.scene, "", kSeed + 1);
+  for (const auto& group : test.scene->robot->groups())
+    expectExact(checker, test, test.scene, group.name, kSeed + 2);
+
+  auto carrying = std::make_shared<PlanningScene>(*test.scene);
+  const int tip = static_cast<int>(test.scene->robot->links().size()) - 1;
+  carrying->attached.push_back({{"load",
+                                 Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.1, 0.1)),
+                                 {{Sphere{0.1}, Eigen::Isometry3d::Identity()}},
+                                 0.0},
+                                tip,
+                                {tip, tip - 1}});
+  checker.setScene(carrying);
+  expectExact(checker, test, carrying, "", kSeed + 3);
+
+  auto padded = std::make_shared<PlanningScene>(*test.scene);
+  padded->link_padding.assign(test.scene->robot->links().size(), 0.03);
+  checker.setScene(padded);
+  expectExact(checker, test, padded, "", kSeed + 4);
+  waitForProofs(checker, test);
+  expectExact(checker, test, padded, "", kSeed + 5);
+
+  const std::shared_ptr<PlanningScene> balls = slidingBalls();
+  const std::vector<double> limits(balls->robot->variables().size(), kSlide);
+  const TestScene other{"sliding_balls", balls, std::vector<double>(limits.size(), -kSlide), limits};
+  checker.setScene(balls);
+  expectExact(checker, other, balls, "", kSeed + 6);
 }
 
 TEST(SeveralDevices, AnswerLikeOne)

@@ -34,13 +34,13 @@ class LosableChecker : public CpuChecker
 
   void setScene(Scene scene) override
   {
-    if (refuses)
+    if (scene->revision == refused)
       throw Error("the scene is too large for this device");
     CpuChecker::setScene(std::move(scene));
   }
 
   std::size_t checked = 0;
-  bool refuses = false;
+  std::uint64_t refused = ~std::uint64_t{0};  // revision of a scene that the device does not take
 
  private:
   int left_;
@@ -125,6 +125,9 @@ TEST_F(DeviceGroups, AreLostIfNoDeviceIsLeft)
 {
   const auto group = groupOf({0, 1});
   EXPECT_THROW(group->check(states_.data(), kCount), DeviceLost);
+  EXPECT_THROW(group->check(states_.data(), kCount), DeviceLost);
+  EXPECT_THROW(group->setScene(scene_), DeviceLost);
+  EXPECT_THROW(group->report(), DeviceLost);
 }
 
 TEST_F(DeviceGroups, NameTheStateOfTheWholeBatchInErrors)
@@ -140,14 +143,49 @@ TEST_F(DeviceGroups, KeepTheOldSceneOnAllDevicesIfOneRefusesTheNewOne)
   const auto group = groupOf({-1, -1});
   auto empty = std::make_shared<PlanningScene>(scene_->robot);
   empty->revision = 77;
-  checkers_[1]->refuses = true;
+  checkers_[1]->refused = 77;
   EXPECT_EQ(errorOf([&] { group->setScene(empty); }), "the scene is too large for this device");
-  checkers_[1]->refuses = false;
   EXPECT_EQ(group->check(states_.data(), kCount).valid, expected_.valid);
+  EXPECT_EQ(group->deviceName(), "CPU + CPU");
+  checkers_[1]->refused = 78;
   group->setScene(empty);
   const BatchResult result = group->check(states_.data(), kCount);
   EXPECT_EQ(result.revision, 77u);
   EXPECT_EQ(result.valid, CpuChecker(empty).check(states_.data(), kCount).valid);
+}
+
+TEST_F(DeviceGroups, DropADeviceThatDoesNotTakeTheOldSceneAgain)
+{
+  const auto group = groupOf({-1, -1, -1});
+  auto empty = std::make_shared<PlanningScene>(scene_->robot);
+  empty->revision = 77;
+  checkers_[0]->refused = scene_->revision;
+  checkers_[1]->refused = 77;
+  EXPECT_EQ(errorOf([&] { group->setScene(empty); }), "the scene is too large for this device");
+  EXPECT_EQ(group->deviceName(), "CPU + CPU");
+  EXPECT_NE(group->deviceWarning().find("it has not taken the old scene again"), std::string::npos);
+  const BatchResult result = group->check(states_.data(), kCount);
+  EXPECT_EQ(result.valid, expected_.valid);
+  EXPECT_EQ(result.revision, scene_->revision);
+}
+
+TEST_F(DeviceGroups, DropADeviceThatAnswersForAnotherScene)
+{
+  const auto group = groupOf({-1, -1});
+  auto empty = std::make_shared<PlanningScene>(scene_->robot);
+  empty->revision = 77;
+  checkers_[0]->setScene(empty);
+  for (int batches = 0; batches < 100 && group->deviceName() != "CPU"; ++batches)
+    EXPECT_EQ(group->check(states_.data(), kCount).valid, expected_.valid);
+  EXPECT_NE(group->deviceWarning().find("another revision"), std::string::npos);
+}
+
+TEST_F(DeviceGroups, AreSelectedByNamesWithPlusBetweenThem)
+{
+  EXPECT_EQ(devicesOf("0"), std::vector<std::string>{"0"});
+  EXPECT_EQ(devicesOf("0+software"), (std::vector<std::string>{"0", "software"}));
+  for (const char* selection : {"", "0+", "+0", "0++1"})
+    EXPECT_NE(errorOf([&] { devicesOf(selection); }).find("empty part"), std::string::npos) << selection;
 }
 
 TEST_F(DeviceGroups, KeepTheNeighbourhoodOfEachState)

@@ -30,6 +30,7 @@ struct Script
   std::function<bool(const PlanningScene&)> takes = [](const PlanningScene&) { return true; };
 
   std::mutex mutex;
+  std::string warning = "coarse";
   int made = 0;
   int alive = 0;
   std::vector<std::size_t> batches;  // sizes of the checked batches
@@ -107,7 +108,11 @@ class FakeChecker : public StateChecker
     return report;
   }
   std::string deviceName() const override { return name_; }
-  std::string deviceWarning() const override { return std::string(name_) == "CPU" ? "" : "coarse"; }
+  std::string deviceWarning() const override
+  {
+    const std::lock_guard<std::mutex> lock(script_->mutex);
+    return std::string(name_) == "CPU" ? "" : script_->warning;
+  }
 
  private:
   void take(Scene scene)
@@ -184,6 +189,20 @@ TEST_F(Resilient, ALossInACheckRebuildsTheDeviceAndRepeatsTheCheck)
   EXPECT_EQ(history.batches_on_cpu, 0u);
   EXPECT_EQ(history.last_error, "gone");
   EXPECT_FALSE(history.on_cpu);
+}
+
+TEST_F(Resilient, ANewWarningOfADeviceIsToldAndCountsAsALoss)
+{
+  EXPECT_EQ(ask(), 1u);
+  EXPECT_EQ(checker().history().losses, 0u);
+  device_->warning = "the device B was lost";
+  for (int i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(ask(), 1u);
+    EXPECT_EQ(checker().deviceWarning(), "the device B was lost");
+    EXPECT_EQ(checker().history().losses, 1u);
+    EXPECT_EQ(checker().history().last_error, "the device B was lost");
+  }
 }
 
 TEST_F(Resilient, ALossInASceneChangeKeepsTheNewScene)
