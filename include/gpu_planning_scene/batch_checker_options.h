@@ -20,7 +20,8 @@ Traversal traversalFromName(const std::string& name);
 struct BatchCheckerOptions : CheckerOptions
 {
   /// "auto" (the first hardware device, or software if there is none), "software", an index (Device::index), or a part
-  /// of a renderer's name. The node, the tools and Python also take several devices ("0+1") and all hardware devices ("all").
+  /// of a renderer's name. The node, the tools and Python also take several devices ("0+1") and all hardware devices
+  /// ("all").
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
   std::size_t max_batch = 16384;  ///< largest number of states sent to the GPU at once; larger requests are split

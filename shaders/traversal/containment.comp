@@ -1,7 +1,7 @@
 // One invocation per entry of a traversal. It does nothing if the state of the entry has a hit already. If one shape is
-// a mesh with closed components, the invocation tests whether a component of the other shape is inside this mesh without
-// crossing its surface. The winding number of one point per component decides (geometry/winding_number.glsl). It reports
-// the verdict.
+// a mesh with closed components, the invocation tests whether a component of the other shape is inside this mesh
+// without crossing its surface. The winding number of one point per component decides (geometry/winding_number.glsl).
+// It reports the verdict.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
