@@ -294,7 +294,7 @@ class Sharding : public Replicas
     if (const auto known = is_free_.find(response.scene_revision); known != is_free_.end())
     {
       EXPECT_EQ(known->second, *verdicts.begin() != 0);
-      ++judged_;
+      ++judged;
     }
   }
 
@@ -306,7 +306,7 @@ class Sharding : public Replicas
     return stateRequest(states);
   }
 
-  int judged_ = 0;
+  int judged = 0;
 
  private:
   std::mutex mutex_;
@@ -338,7 +338,7 @@ TEST_F(Sharding, NoAnswerIsLostOrMixedWhileTheSceneChangesAndANodeIsKilled)
   }
   done = true;
   changes.join();
-  EXPECT_GT(judged_, 20);
+  EXPECT_GT(judged, 20);
 }
 
 TEST_F(Sharding, TheAnswerIsThatOfOneNode)
