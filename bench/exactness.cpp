@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "command_line/command_line.h"
+#include "gpu/egl_context.h"
 #include "support/carrying_scene.h"
 #include "support/exactness.h"
 #include "support/near_contact.h"
@@ -87,6 +88,7 @@ void run(const CommandLine& arguments)
   const auto seed = arguments.count("--seed", 1, 0, 1ULL << 62);
   const auto states = arguments.count("--states", 0, 0, 100000000);
   const bool quick = arguments.has("--quick");
+  const std::string device = arguments.value("--device", "auto");
   const auto count_of = [&](std::size_t full) {
     return states != 0 ? states : quick ? std::min(kQuickStates, full / 10) : full;
   };
@@ -94,6 +96,7 @@ void run(const CommandLine& arguments)
   if (!only.empty() && std::none_of(all.begin(), all.end(), [&](const Robot& robot) { return robot.name == only; }))
     throw UsageError("there is no robot '" + only + "'; see --help");
 
+  std::printf("device: %s\n\n", EglContext(device).device().renderer.c_str());
   printHead();
   bool good = true;
   std::array<std::size_t, 8> clearances{};
@@ -104,7 +107,7 @@ void run(const CommandLine& arguments)
     if (const std::string missing = missingFor(robot.scene); !missing.empty())
       throw Error("robot " + robot.name + " needs " + missing);
     const TestScene scene = robot.make();
-    ExactnessCheck check(scene, true);
+    ExactnessCheck check(scene, true, device);
     const Exactness in_random_states =
         check.compare(scene.randomStates(count_of(robot.states), seed), false, robot.name + ", random");
     printRow(robot.name + ", random", in_random_states);
@@ -125,7 +128,7 @@ int main(int argc, char** argv)
 {
   const Tool tool{
       "exactness",
-      "[--quick] [--states N] [--robot NAME] [--seed S]",
+      "[--quick] [--states N] [--robot NAME] [--seed S] [--device D]",
       "Compares the answers of both traversals, at several batch sizes, and of the CPU checker, with and without\n"
       "proofs (balls and tables of joint values), with an oracle in quadruple precision: 100,000 random states of "
       "kr5,\n"
@@ -138,7 +141,8 @@ int main(int argc, char** argv)
       {{"--quick", "", "a tenth of the states, at most 1000 of each kind"},
        {"--states", "N", "N states of each kind"},
        {"--robot", "NAME", "only this robot"},
-       {"--seed", "S", "seed of the random states (default 1)"}},
+       {"--seed", "S", "seed of the random states (default 1)"},
+       {"--device", "D", "auto (default), software, an index, or part of a renderer's name"}},
       run};
   return runTool(tool, argc, argv);
 }

@@ -126,8 +126,8 @@ BatchCheckerOptions batchOptions(const MethodOptions& options)
   return made;
 }
 
-/// Only the GPU, with one traversal.
-MethodInfo onGpu(const std::string& name, const std::string& title, Traversal traversal)
+/// Only the GPU, with one traversal. `proofs`: whether joint tables and balls decide pairs before trees do.
+MethodInfo onGpu(const std::string& name, const std::string& title, Traversal traversal, bool proofs)
 {
   MethodInfo info;
   info.name = name;
@@ -136,10 +136,12 @@ MethodInfo onGpu(const std::string& name, const std::string& title, Traversal tr
   info.exact = true;
   info.batched = true;
   info.responsive = true;
-  info.make = [traversal](const auto& scene, const MethodOptions& options)
+  info.in_quick_run = proofs;
+  info.make = [traversal, proofs](const auto& scene, const MethodOptions& options)
   {
     BatchCheckerOptions made = batchOptions(options);
     made.traversal = traversal;
+    made.reductions.proofs = proofs;
     made.cpu_below = 0;
     return std::make_unique<BatchMethod>(std::make_unique<BatchChecker>(scene, made));
   };
@@ -201,8 +203,9 @@ std::vector<MethodInfo> ourMethods()
   methods.push_back(onCpu("exact_cpu", "exact checker, CPU", true));
   methods.push_back(onCpu("exact_cpu_no_proofs", "exact checker, CPU, no proofs", false));
   methods.push_back(automatic(0));
-  methods.push_back(onGpu("ours_work_queue", "ours, work queues", Traversal::WorkQueue));
-  methods.push_back(onGpu("ours_breadth_first", "ours, breadth-first", Traversal::BreadthFirst));
+  methods.push_back(onGpu("ours_work_queue", "ours, work queues", Traversal::WorkQueue, true));
+  methods.push_back(onGpu("ours_breadth_first", "ours, breadth-first", Traversal::BreadthFirst, true));
+  methods.push_back(onGpu("ours_work_queue_no_proofs", "ours, work queues, no proofs", Traversal::WorkQueue, false));
   for (const int millimetres : {1, 2, 5, 10, 20, 50})
     methods.push_back(automatic(millimetres));
   MethodInfo floats;

@@ -2,6 +2,8 @@
 
 import csv
 import os
+import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -127,6 +129,40 @@ class BundleTest(unittest.TestCase):
         result = self.run_program("benchmrak")
         self.assertEqual(result.returncode, 2)
         self.assertIn("benchmark", result.stderr)
+
+
+class ReportTest(unittest.TestCase):
+    """The report of a bundle whose programs are stand-ins."""
+
+    def report(self, stand_in):
+        folder = tempfile.TemporaryDirectory(prefix="gpu_planning_scene_report_")
+        self.addCleanup(folder.cleanup)
+        bundle = pathlib.Path(folder.name)
+        shutil.copy(SCRIPTS / "lib/bundle/report", bundle)
+        (bundle / "run").write_text("#!/bin/sh\n" + stand_in)
+        (bundle / "run").chmod(0o755)
+        (bundle / "data/problems").mkdir(parents=True)
+        command = [bundle / "report", bundle / "out", "--device", "1"]
+        result = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        self.again = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        return result.returncode, (bundle / "out/report.txt").read_text()
+
+    def test_has_the_output_of_each_program_for_the_device(self):
+        status, report = self.report('echo "output of $*"')
+        self.assertEqual(status, 0, report)
+        for program in ("stability --quick", "exactness", "benchmark --quick"):
+            self.assertIn(f"output of {program} --device 1\n", report)
+        self.assertRegex(report, "output of planning_study .*--device 1\n")
+        self.assertEqual(report.count(" passed "), 4, report)
+        self.assertEqual(self.again.returncode, 2)
+        self.assertIn("exists; name another folder", self.again.stderr)
+
+    def test_names_the_programs_that_failed_or_took_too_long(self):
+        status, report = self.report('case $1 in exactness) exit 1 ;; benchmark) exit 124 ;; esac')
+        self.assertEqual(status, 1)
+        self.assertRegex(report, "exactness +failed with exit status 1")
+        self.assertRegex(report, "benchmark +stopped after 110 s")
+        self.assertRegex(report, "planning_study +passed")
 
 
 if __name__ == "__main__":

@@ -26,9 +26,10 @@ std::shared_ptr<const CollisionProblem> problemOf(const TestScene& scene)
   return std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr));
 }
 
-std::unique_ptr<BatchChecker> batchChecker(const TestScene& scene, Traversal traversal)
+std::unique_ptr<BatchChecker> batchChecker(const TestScene& scene, Traversal traversal, const std::string& device)
 {
   BatchCheckerOptions options;
+  options.device = device;
   options.traversal = traversal;
   options.cpu_below = 0;
   return std::make_unique<BatchChecker>(scene.scene, options);
@@ -86,13 +87,13 @@ std::size_t decadeOf(double clearance)
 }
 }  // namespace
 
-ExactnessCheck::ExactnessCheck(const TestScene& scene, bool with_proofs)
+ExactnessCheck::ExactnessCheck(const TestScene& scene, bool with_proofs, const std::string& device)
   : scene_(scene),
     oracle_(problemOf(scene)),
     cpu_(scene.scene, withoutProofs()),
     with_proofs_(with_proofs ? proven(scene) : nullptr),
-    work_queue_(batchChecker(scene, Traversal::WorkQueue)),
-    breadth_first_(batchChecker(scene, Traversal::BreadthFirst))
+    work_queue_(batchChecker(scene, Traversal::WorkQueue, device)),
+    breadth_first_(batchChecker(scene, Traversal::BreadthFirst, device))
 {
   const auto problem = problemOf(scene);
   const std::size_t robot = problem->robot.size();

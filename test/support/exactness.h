@@ -51,8 +51,9 @@ struct Exactness
 class ExactnessCheck
 {
  public:
-  /// `with_proofs`: the CPU checker that uses proofs is compared too. Making the proofs takes seconds.
-  explicit ExactnessCheck(const TestScene& scene, bool with_proofs = false);
+  /// `with_proofs`: the CPU checker that uses proofs is compared too. Making the proofs takes seconds. `device`: as in
+  /// BatchCheckerOptions.
+  explicit ExactnessCheck(const TestScene& scene, bool with_proofs = false, const std::string& device = "auto");
 
   /// `clearances`: whether clearances are measured. `label`: for the progress bar.
   Exactness compare(const std::vector<double>& states, bool clearances, const std::string& label);
