@@ -302,6 +302,7 @@
 
 // Breadth-first traversal: number of node pairs that one invocation handles in sequence.
 #define LEVEL_CHUNK 8
+#define LEVEL_GROUP (LEVEL_CHUNK * GROUP_SIZE)  // of a work group
 // Number of leaf pairs whose triangles a work group distributes over its invocations at once.
 #define LEAF_CHUNK 64
 // Work queues.
@@ -309,6 +310,7 @@
 #define QUEUE_MAX_GROUPS 2048  // most work groups of a dispatch
 #define QUEUE_STEPS 8          // most steps of an invocation between two barriers
 #define QUEUE_STACK 48         // node pairs and leaf pairs that the memory of an invocation holds
+#define QUEUE_LAST_ROUNDS 16   // rounds of a work group after the entry list became empty
 #define QUEUE_FLUSH 32         // number of leaf pairs from which on the work group tests their triangles
 // llvmpipe ends an invocation without an error after 65535 loop iterations. An invocation stops before that, and hands
 // its remaining work on.

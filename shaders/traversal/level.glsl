@@ -1,7 +1,7 @@
 // Breadth-first traversal (after Gress and Zachmann 2003). All node pairs of a level overlap. First the overlapping
 // pairs of children of each node pair are counted. The counts are then summed as a tree. The sums finally place each
-// pair of the next level, tightly packed. Gress and Zachmann sum with a mip map of fan-in 4; here the first step has
-// fan-in LEVEL_CHUNK, and one work group sums the rest. Pairs of leaves go to a list of their own.
+// pair of the next level, tightly packed. Gress and Zachmann sum with a mip map of fan-in 4. Here each work group sums
+// the counts of LEVEL_GROUP node pairs, and one work group sums the rest. Pairs of leaves go to a list of their own.
 #include "traversal/root_pairs.glsl"
 #include "problem/nodes.glsl"
 #include "geometry/error_bounds.glsl"

@@ -1,6 +1,6 @@
 // Step 3 of a level (level.glsl). One invocation per LEVEL_CHUNK node pairs: writes the overlapping child pairs to
-// their places in the lists. In: the masks of level_overlap.comp, and the prefix sums of level_scan.comp. Out: the node
-// pairs of the next level, and the leaf pairs.
+// their places in the lists. In: the masks of level_overlap.comp, and the prefix sums of level_scan.comp, which are the
+// first places of each work group. Out: the node pairs of the next level, and the leaf pairs.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -10,15 +10,26 @@ layout(std430, binding = BINDING_B) readonly buffer Sums { uvec2 sums[]; };
 layout(std430, binding = BINDING_C) writeonly buffer NextEntries { uvec4 next_entries[]; };
 layout(std430, binding = BINDING_D) writeonly buffer LeafPairs { uvec4 leaf_pairs[]; };
 
+shared uint next_place;
+shared uint leaf_place;
+
 void main()
 {
-  const uint invocation = invocationIndex();
   const uint entry_count = min(counters[in_counter], in_capacity);
-  if (invocation * LEVEL_CHUNK >= entry_count)
-    return;
-  uvec2 at = sums[invocation];
-  const uint end = min((invocation + 1u) * LEVEL_CHUNK, entry_count);
-  for (uint i = invocation * LEVEL_CHUNK; i < end; ++i)
+  const uint first = invocationIndex() * LEVEL_CHUNK;
+  const uint end = min(first + LEVEL_CHUNK, entry_count);
+  if (gl_LocalInvocationID.x == 0u && first < entry_count)
+  {
+    const uvec2 place = sums[groupIndex()];
+    next_place = place.x;
+    leaf_place = place.y;
+  }
+  barrier();
+  uvec2 sum = uvec2(0u);
+  for (uint i = first; i < end; ++i)
+    sum += uvec2(bitCount(masks[i] & 15u), bitCount(masks[i] >> 4u));
+  uvec2 at = uvec2(atomicAdd(next_place, sum.x), atomicAdd(leaf_place, sum.y));
+  for (uint i = first; i < end; ++i)
   {
     const uint mask = masks[i];
     const uvec4 entry = texelFetch(entries, int(i));

@@ -1,6 +1,6 @@
 // Step 1 of a level (level.glsl). One invocation per LEVEL_CHUNK node pairs: tests which child pairs overlap. Out: one
 // mask per node pair (low four bits: pairs for the next level, next four bits: leaf pairs), and the sums of both for
-// the chunk. A pair that is proven to collide is reported, and its mask is 0.
+// the work group. A pair that is proven to collide is reported, and its mask is 0.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/comparisons.glsl"
@@ -17,15 +17,22 @@ layout(local_size_x = GROUP_SIZE) in;
 layout(std430, binding = BINDING_A) writeonly buffer Masks { uint masks[]; };
 layout(std430, binding = BINDING_B) writeonly buffer Sums { uvec2 sums[]; };
 
+shared uint next_sum;
+shared uint leaf_sum;
+
 void main()
 {
-  const uint invocation = invocationIndex();
-  const uint entry_count = min(counters[in_counter], in_capacity);
-  if (invocation * LEVEL_CHUNK >= entry_count)
-    return;
+  if (gl_LocalInvocationID.x == 0u)
+  {
+    next_sum = 0u;
+    leaf_sum = 0u;
+  }
+  barrier();
   uvec2 sum = uvec2(0u);
-  const uint end = min((invocation + 1u) * LEVEL_CHUNK, entry_count);
-  for (uint i = invocation * LEVEL_CHUNK; i < end; ++i)
+  const uint entry_count = min(counters[in_counter], in_capacity);
+  const uint first = invocationIndex() * LEVEL_CHUNK;
+  const uint end = min(first + LEVEL_CHUNK, entry_count);
+  for (uint i = first; i < end; ++i)
   {
     const uvec4 entry = texelFetch(entries, int(i));
     const RootPair root_pair = fetchRootPair(entry.x);
@@ -64,5 +71,9 @@ void main()
     masks[i] = mask;
     sum += uvec2(bitCount(mask & 15u), bitCount(mask >> 4u));
   }
-  sums[invocation] = sum;
+  atomicAdd(next_sum, sum.x);
+  atomicAdd(leaf_sum, sum.y);
+  barrier();
+  if (gl_LocalInvocationID.x == 0u && first < entry_count)
+    sums[groupIndex()] = uvec2(next_sum, leaf_sum);
 }

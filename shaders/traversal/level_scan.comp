@@ -1,4 +1,4 @@
-// Step 2 of a level (level.glsl). One work group: computes the exclusive prefix sums of the chunks' sums, the sizes of
+// Step 2 of a level (level.glsl). One work group: computes the exclusive prefix sums of the groups' sums, the sizes of
 // the next level and of the leaf list, and the indirect arguments for both. It sets COUNTER_OVERFLOW if a list is too
 // short, before anything is written to it.
 #include "shader_constants.h"
@@ -20,7 +20,7 @@ layout(std430, binding = BINDING_B) buffer Sums { uvec2 sums[]; };
 void main()
 {
   const uint entry_count = min(counters[in_counter], in_capacity);
-  const uvec2 total = scanInPlace((entry_count + LEVEL_CHUNK - 1u) / LEVEL_CHUNK);
+  const uvec2 total = scanInPlace((entry_count + LEVEL_GROUP - 1u) / LEVEL_GROUP);
   if (gl_LocalInvocationID.x == 0u)
   {
     // The deepest possible level has no node pairs for a next level.
@@ -32,8 +32,7 @@ void main()
     // level_expand.comp runs with the arguments of this level.
     for (uint i = 0u; i < 3u; ++i)
       counters[COUNTER_CHUNK_ARGUMENTS + i] = counters[COUNTER_ARGUMENTS + i];
-    const uint chunks = (kept.x + LEVEL_CHUNK - 1u) / LEVEL_CHUNK;
-    setGroups(COUNTER_ARGUMENTS, (chunks + GROUP_SIZE - 1u) / GROUP_SIZE);
+    setGroups(COUNTER_ARGUMENTS, (kept.x + LEVEL_GROUP - 1u) / LEVEL_GROUP);
     setGroups(COUNTER_LEAF_ARGUMENTS, (kept.y + GROUP_SIZE - 1u) / GROUP_SIZE);
   }
 }

@@ -1,9 +1,12 @@
 // Traversal by work queues. Each invocation takes node pairs from the entry list and traverses them with a stack of its
 // own. It adds leaf pairs to a list that the work group shares. As soon as that list holds QUEUE_FLUSH pairs, all
 // invocations of the work group test its triangles. All invocations of a work group meet at the same barriers: the
-// outer loop is uniform, and an invocation makes at most QUEUE_STEPS steps between two barriers. Node pairs go to the
-// next entry list if the stack is full or the iterations run out. The sources are in
-// src/collision/gpu/traversal/work_queue.cpp.
+// outer loop is uniform, and an invocation makes at most QUEUE_STEPS steps between two barriers.
+//
+// Node pairs go to the entry list of the next pass if the stack is full, if the iterations run out, or
+// QUEUE_LAST_ROUNDS rounds after the entry list became empty. So a long traversal does not keep one invocation busy
+// while all others have ended: the next pass distributes its node pairs. The last pass hands nothing on before the
+// iterations run out. The sources are in src/collision/gpu/traversal/work_queue.cpp.
 //
 // On llvmpipe a branch skips nothing, so every store and atomic costs time in each step of each invocation. A step
 // therefore has only one store: the memory of an invocation holds node pairs from below and leaf pairs from above. All
@@ -32,6 +35,7 @@ layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;    // counter of
 layout(location = LOCATION_OUT_COUNTER) uniform uint out_counter;  // counter of the list that is written
 layout(location = LOCATION_ENTRY_CAPACITY) uniform uint entry_capacity;
 layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;  // of the list that is read
+layout(location = LOCATION_IS_LAST) uniform uint is_last;          // 1: no further pass follows
 layout(binding = UNIT_ENTRIES) uniform usamplerBuffer entries;
 layout(std430, binding = BINDING_A) writeonly buffer Spill { uvec4 spilled[]; };
 
@@ -40,6 +44,7 @@ layout(std430, binding = BINDING_A) writeonly buffer Spill { uvec4 spilled[]; };
 #define STEP_ITERATIONS 4u
 
 shared uint busy;
+shared uint list_ended;  // 1: an invocation has found the entry list empty
 
 // Hands a node pair on to the next pass. If the list is full, the state becomes undecided, so that no collision is
 // missed.
@@ -72,10 +77,12 @@ void main()
   {
     leaf_pair_count = 0u;
     busy = 0u;
+    list_ended = 0u;
   }
   barrier();
 
   uint iterations = 0u;
+  uint last_rounds = 0u;  // since the entry list became empty
   bool running = true;
   while (running)
   {
@@ -150,9 +157,12 @@ void main()
       leaf_pairs[at++] = uvec4(root_pair_index, memory[QUEUE_STACK - leaves], 0u);
     if (walking || !exhausted)
       busy = 1u;
+    if (exhausted)
+      list_ended = 1u;
     barrier();
     const uint count = leaf_pair_count;
     const bool more = busy != 0u;
+    last_rounds += list_ended;
     barrier();
     const bool flush = count >= QUEUE_FLUSH || !more;
     if (gl_LocalInvocationID.x == 0u)
@@ -162,11 +172,11 @@ void main()
         leaf_pair_count = 0u;
     }
     iterations += 1u + (STEP_ITERATIONS + 2u) * QUEUE_STEPS + testLeafPairs(flush ? count : 0u);
-    running = more && iterations < INVOCATION_ITERATIONS;
+    running = more && iterations < INVOCATION_ITERATIONS && (is_last != 0u || last_rounds < QUEUE_LAST_ROUNDS);
     barrier();
   }
 
-  // Something is left only after too many iterations. Node pairs go to the next pass.
+  // What is left goes to the next pass.
   testLeafPairs(leaf_pair_count);
   if (walking)
     spill(root_pair_index, nodes, root_pair.state);

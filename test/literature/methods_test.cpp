@@ -70,7 +70,7 @@ Answers answersOf(const MethodInfo& info, const std::shared_ptr<const Mesh>& a, 
   return info.make(a, b)->collide(poses);
 }
 
-const MethodInfo& named(const std::vector<MethodInfo>& methods, const std::string& name)
+const MethodInfo& methodNamed(const std::vector<MethodInfo>& methods, const std::string& name)
 {
   return *std::find_if(
       methods.begin(), methods.end(), [&](const MethodInfo& info) { return info.name == name; });
@@ -116,11 +116,11 @@ TEST(LiteratureMethods, OrientedBoxesGiveTheSameAnswersInEveryUnit)
   const std::vector<MethodInfo> methods = treeMethods();
   const Model model = madeModel("torus", 500, 1);
   const std::vector<Isometry3d> poses = easyPoses();
-  const Answers expected = answersOf(named(methods, "rapid"), model.mesh, model.mesh, poses);
+  const Answers expected = answersOf(methodNamed(methods, "rapid"), model.mesh, model.mesh, poses);
   for (const double unit : {1e-6, 1e6})
   {
     const auto mesh = scaled(*model.mesh, unit);
-    EXPECT_EQ(answersOf(named(methods, "rapid"), mesh, mesh, scaled(poses, unit)), expected) << unit;
+    EXPECT_EQ(answersOf(methodNamed(methods, "rapid"), mesh, mesh, scaled(poses, unit)), expected) << unit;
   }
 }
 

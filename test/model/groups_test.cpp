@@ -8,14 +8,9 @@ namespace
 {
 using Names = std::vector<std::string>;
 
-std::string error(const std::string& srdf)
-{
-  return errorOf([&] { robotOf(armUrdf(), srdf); });
-}
-
 void expectError(const std::string& srdf, const std::string& text)
 {
-  EXPECT_NE(error(srdf).find(text), std::string::npos) << srdf << ": " << error(srdf);
+  EXPECT_NE(srdfError(srdf).find(text), std::string::npos) << srdf << ": " << srdfError(srdf);
 }
 
 TEST(Groups, JointsLinksChainsAndSubgroupsAddJoints)

@@ -78,6 +78,11 @@ std::string armUrdf()
          jointXml("pan", "continuous", "base", "head");
 }
 
+std::string srdfError(const std::string& srdf)
+{
+  return errorOf([&] { robotOf(armUrdf(), srdf); });
+}
+
 std::vector<std::string> linkNames(const RobotModel& robot, const std::vector<int>& links)
 {
   std::vector<std::string> names;

@@ -44,6 +44,8 @@ extern const char* const kLimits;  ///< a <limit> from -1 to 2
 ///     base -pan-> head
 /// arm_1 and arm_2 are revolute, pan is continuous, left and right are prismatic, hand_fix is fixed.
 std::string armUrdf();
+/// The message of the Error for this SRDF of that robot; empty if there is none.
+std::string srdfError(const std::string& srdf);
 std::vector<std::string> linkNames(const RobotModel& robot, const std::vector<int>& links);
 std::vector<std::string> jointNames(const RobotModel& robot, const std::vector<int>& joints);
 }  // namespace gpu_planning_scene::core

@@ -9,11 +9,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-std::string error(const std::string& srdf)
-{
-  return errorOf([&] { robotOf(armUrdf(), srdf); });
-}
-
 TEST(Srdf, CollisionEntriesArePairsOfLinkIndices)
 {
   std::vector<std::string> warnings;
@@ -38,19 +33,19 @@ TEST(Srdf, CollisionEntriesArePairsOfLinkIndices)
 
 TEST(Srdf, AUrdfInItsPlaceIsRefused)
 {
-  const std::string message = error("\n<link name='base'/>");
+  const std::string message = srdfError("\n<link name='base'/>");
   EXPECT_EQ(message.find("test.srdf:2: <link> is an element of a URDF, and an SRDF is needed here"), 0u) << message;
 }
 
 TEST(Srdf, XacroIsRefusedWithTheCommandToRun)
 {
-  const std::string message = error("<group name='arm'/>\n<xacro:include filename='x'/>");
+  const std::string message = srdfError("<group name='arm'/>\n<xacro:include filename='x'/>");
   EXPECT_EQ(
       message.find("test.srdf:2: <xacro:include> is xacro, which must be expanded first: xacro FILE > expanded.srdf, "
                    "or for the launch file srdf_command:=\"xacro FILE\" instead of srdf:=FILE"),
       0u)
       << message;
-  EXPECT_EQ(error("<group name='${name}_arm'/>").find("test.srdf:1: name=\"${name}_arm\" is xacro"), 0u);
+  EXPECT_EQ(srdfError("<group name='${name}_arm'/>").find("test.srdf:1: name=\"${name}_arm\" is xacro"), 0u);
 }
 
 TEST(Srdf, UnknownLinksInCollisionEntriesAreWarnings)
@@ -138,12 +133,13 @@ TEST(Srdf, VirtualJointsThatDoNotFitAreIgnoredWithAWarning)
 
 TEST(Srdf, BadVirtualJointsAreErrors)
 {
-  EXPECT_NE(error(R"(<virtual_joint name="v" type="ball" parent_frame="odom" child_link="base"/>)").find("'ball'"),
+  EXPECT_NE(srdfError(R"(<virtual_joint name="v" type="ball" parent_frame="odom" child_link="base"/>)").find("'ball'"),
             std::string::npos);
-  EXPECT_NE(error(R"(<virtual_joint name="v" type="fixed" child_link="base"/>)").find("'parent_frame'"),
+  EXPECT_NE(srdfError(R"(<virtual_joint name="v" type="fixed" child_link="base"/>)").find("'parent_frame'"),
             std::string::npos);
-  EXPECT_NE(error(R"(<virtual_joint name="pan" type="fixed" parent_frame="odom" child_link="base"/>)").find("'pan'"),
-            std::string::npos);
+  EXPECT_NE(
+      srdfError(R"(<virtual_joint name="pan" type="fixed" parent_frame="odom" child_link="base"/>)").find("'pan'"),
+      std::string::npos);
 }
 
 TEST(Srdf, PassiveJointsAreMarked)
@@ -155,8 +151,8 @@ TEST(Srdf, PassiveJointsAreMarked)
 
 TEST(Srdf, MalformedXmlIsAnErrorWithItsLine)
 {
-  EXPECT_NE(error("\n<group name=\"g\">\n</grop>").find("test.srdf:"), std::string::npos);
-  EXPECT_NE(error("<disable_collisions link1=\"base\"/>").find("test.srdf:1: <disable_collisions> lacks"),
+  EXPECT_NE(srdfError("\n<group name=\"g\">\n</grop>").find("test.srdf:"), std::string::npos);
+  EXPECT_NE(srdfError("<disable_collisions link1=\"base\"/>").find("test.srdf:1: <disable_collisions> lacks"),
             std::string::npos);
   EXPECT_NE(errorOf([] { RobotModel::fromXml("<robot name=\"r\"><link name=\"a\"/></robot>", "<srdf/>", {}); })
                 .find("robot_description_semantic:1: the root element is <srdf>"),

@@ -10,7 +10,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kTargetSagitta = 100e-6;
 constexpr std::size_t kMaxTriangles = 1 << 15;
 
@@ -35,7 +34,7 @@ Surface sphere(double r)
           [r](std::mt19937_64& g)
           {
             const double z = 2.0 * uniform(g) - 1.0;
-            const double angle = 2.0 * kPi * uniform(g);
+            const double angle = 2.0 * M_PI * uniform(g);
             const double rho = std::sqrt(1.0 - z * z);
             return Eigen::Vector3d(r * Eigen::Vector3d(rho * std::cos(angle), rho * std::sin(angle), z));
           }};
@@ -43,7 +42,7 @@ Surface sphere(double r)
 
 Eigen::Vector3d onCircle(double radius, double z, std::mt19937_64& g)
 {
-  const double angle = 2.0 * kPi * uniform(g);
+  const double angle = 2.0 * M_PI * uniform(g);
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 

@@ -8,15 +8,15 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-std::string error(const std::string& urdf)
+std::string urdfError(const std::string& urdf)
 {
   return errorOf([&] { robotOf(urdf); });
 }
 
 // Every message is one line that begins with the file and line number and names the cause.
-void expectError(const std::string& urdf, const std::string& where, const std::string& text)
+void expectUrdfError(const std::string& urdf, const std::string& where, const std::string& text)
 {
-  const std::string message = error(urdf);
+  const std::string message = urdfError(urdf);
   EXPECT_EQ(message.find(where), 0u) << message;
   EXPECT_NE(message.find(text), std::string::npos) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -26,8 +26,8 @@ const std::string kTwoLinks = "<link name=\"a\"/><link name=\"b\"/>\n";
 
 TEST(UrdfErrors, MalformedXmlIsNamedWithItsLine)
 {
-  expectError("\n<link name=\"a\">\n</lnk>", "test.urdf:2: malformed XML", "mismatched");
-  expectError("\n\n<link name=a/>", "test.urdf:3: malformed XML", "attribute");
+  expectUrdfError("\n<link name=\"a\">\n</lnk>", "test.urdf:2: malformed XML", "mismatched");
+  expectUrdfError("\n\n<link name=a/>", "test.urdf:3: malformed XML", "attribute");
   const auto whole = [](const std::string& text)
   { return errorOf([&] { RobotModel::fromXml(text, "", RobotModelOptions()); }); };
   EXPECT_NE(whole("This is not a valid URDF file.").find("robot_description:1: malformed XML"), std::string::npos);
@@ -40,10 +40,10 @@ TEST(UrdfErrors, MalformedXmlIsNamedWithItsLine)
 
 TEST(UrdfErrors, XacroIsRefusedWithTheCommandToRun)
 {
-  expectError("<link name='a'/>\n<xacro:macro name='arm'/>", "test.urdf:2: <xacro:macro> is xacro",
-              "xacro FILE > expanded.urdf, or for the launch file urdf_command:=\"xacro FILE\"");
-  expectError("<link name='a'><collision><geometry>\n<box size='1 1 ${height}'/></geometry></collision></link>",
-              "test.urdf:2: size=\"1 1 ${height}\" is xacro", "urdf_command");
+  expectUrdfError("<link name='a'/>\n<xacro:macro name='arm'/>", "test.urdf:2: <xacro:macro> is xacro",
+                  "xacro FILE > expanded.urdf, or for the launch file urdf_command:=\"xacro FILE\"");
+  expectUrdfError("<link name='a'><collision><geometry>\n<box size='1 1 ${height}'/></geometry></collision></link>",
+                  "test.urdf:2: size=\"1 1 ${height}\" is xacro", "urdf_command");
 }
 
 TEST(UrdfErrors, TheCommandForXacroNamesTheGivenFile)
@@ -71,29 +71,29 @@ TEST(UrdfErrors, AMacroCallThatXacroLeftIsAWarning)
 
 TEST(UrdfErrors, AnSrdfInItsPlaceIsRefused)
 {
-  expectError("\n<group name='arm'/>", "test.urdf:2: <group> without any <link>: this is an SRDF", "srdf:=FILE");
+  expectUrdfError("\n<group name='arm'/>", "test.urdf:2: <group> without any <link>: this is an SRDF", "srdf:=FILE");
 }
 
 TEST(UrdfErrors, LimitsMustBeThereAndInOrder)
 {
-  expectError(kTwoLinks + jointXml("j", "revolute", "a", "b"), "test.urdf:2:", "[j]");
-  expectError(kTwoLinks + jointXml("j", "prismatic", "a", "b"), "test.urdf:2:", "[j]");
-  expectError(
+  expectUrdfError(kTwoLinks + jointXml("j", "revolute", "a", "b"), "test.urdf:2:", "[j]");
+  expectUrdfError(kTwoLinks + jointXml("j", "prismatic", "a", "b"), "test.urdf:2:", "[j]");
+  expectUrdfError(
       kTwoLinks + jointXml("j", "revolute", "a", "b", R"(<limit lower="2" upper="-1" effort="1" velocity="1"/>)"),
       "test.urdf:2: joint 'j'", "lower limit above its upper limit");
 }
 
 TEST(UrdfErrors, NumbersMustBeFinite)
 {
-  expectError(
+  expectUrdfError(
       kTwoLinks + jointXml("j", "revolute", "a", "b", R"(<limit lower="nan" upper="1" effort="1" velocity="1"/>)"),
       "test.urdf", "j");
-  expectError(
+  expectUrdfError(
       kTwoLinks + jointXml("j", "revolute", "a", "b", R"(<limit lower="-inf" upper="inf" effort="1" velocity="1"/>)"),
       "test.urdf", "j");
-  expectError(R"(<link name="a"><collision><geometry><box size="1 nan 1"/></geometry></collision></link>)",
-              "test.urdf:1: link 'a'", "nan");
-  expectError(
+  expectUrdfError(R"(<link name="a"><collision><geometry><box size="1 nan 1"/></geometry></collision></link>)",
+                  "test.urdf:1: link 'a'", "nan");
+  expectUrdfError(
       "<link name=\"a\"><collision><origin xyz=\"0 inf 0\"/><geometry><sphere radius=\"1\"/></geometry>"
       "</collision></link>",
       "test.urdf:1: link 'a'", "inf");
@@ -101,9 +101,9 @@ TEST(UrdfErrors, NumbersMustBeFinite)
 
 TEST(UrdfErrors, NothingIsPlacedFurtherThanAThousandKilometres)
 {
-  expectError(kTwoLinks + jointXml("j", "fixed", "a", "b", "<origin xyz='0 -1.1e6 0'/>"), "test.urdf:2: joint 'j'",
-              "more than 1000 km");
-  expectError(
+  expectUrdfError(kTwoLinks + jointXml("j", "fixed", "a", "b", "<origin xyz='0 -1.1e6 0'/>"), "test.urdf:2: joint 'j'",
+                  "more than 1000 km");
+  expectUrdfError(
       "<link name=\"a\"><collision><origin xyz=\"1e39 0 0\"/><geometry><sphere radius=\"1\"/></geometry>"
       "</collision></link>",
       "test.urdf:1: link 'a'", "more than 1000 km");
@@ -111,55 +111,56 @@ TEST(UrdfErrors, NothingIsPlacedFurtherThanAThousandKilometres)
 
 TEST(UrdfErrors, TheAxisMustHaveALength)
 {
-  expectError(kTwoLinks + jointXml("j", "continuous", "a", "b", "<axis xyz=\"0 0 0\"/>"), "test.urdf:2: joint 'j'",
-              "axis");
+  expectUrdfError(kTwoLinks + jointXml("j", "continuous", "a", "b", "<axis xyz=\"0 0 0\"/>"), "test.urdf:2: joint 'j'",
+                  "axis");
 }
 
 TEST(UrdfErrors, TypesAndParentsMustBeKnown)
 {
-  expectError(kTwoLinks + jointXml("j", "screw", "a", "b"), "test.urdf:2:", "screw");
-  expectError(kTwoLinks + jointXml("j", "fixed", "a", "c"), "test.urdf:2:", "[c]");
-  expectError(kTwoLinks + jointXml("j", "fix\ned", "a", "b"), "test.urdf:2:", "fix ed");
+  expectUrdfError(kTwoLinks + jointXml("j", "screw", "a", "b"), "test.urdf:2:", "screw");
+  expectUrdfError(kTwoLinks + jointXml("j", "fixed", "a", "c"), "test.urdf:2:", "[c]");
+  expectUrdfError(kTwoLinks + jointXml("j", "fix\ned", "a", "b"), "test.urdf:2:", "fix ed");
 }
 
 TEST(UrdfErrors, LinksMustFormATree)
 {
-  EXPECT_NE(error(kTwoLinks).find("wo root links"), std::string::npos) << error(kTwoLinks);
-  expectError(kTwoLinks + jointXml("j", "fixed", "a", "b") + jointXml("k", "fixed", "b", "a"), "test.urdf:", "loop");
+  EXPECT_NE(urdfError(kTwoLinks).find("wo root links"), std::string::npos) << urdfError(kTwoLinks);
+  expectUrdfError(kTwoLinks + jointXml("j", "fixed", "a", "b") + jointXml("k", "fixed", "b", "a"),
+                  "test.urdf:", "loop");
   const std::string four_links = "<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/><link name=\"d\"/>\n";
-  expectError(four_links + jointXml("1", "fixed", "a", "b") + jointXml("2", "fixed", "a", "c") +
-                  jointXml("3", "fixed", "b", "d") + jointXml("4", "fixed", "c", "d"),
-              "test.urdf:5: link 'd'", "child of several joints");
-  expectError(four_links + jointXml("1", "fixed", "a", "b") + jointXml("2", "fixed", "c", "d") +
-                  jointXml("3", "fixed", "d", "c"),
-              "test.urdf:", "loop");
-  expectError(kTwoLinks + "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/></joint>", "test.urdf:2: joint 'j'",
-              "lacks a parent or a child");
+  expectUrdfError(four_links + jointXml("1", "fixed", "a", "b") + jointXml("2", "fixed", "a", "c") +
+                      jointXml("3", "fixed", "b", "d") + jointXml("4", "fixed", "c", "d"),
+                  "test.urdf:5: link 'd'", "child of several joints");
+  expectUrdfError(four_links + jointXml("1", "fixed", "a", "b") + jointXml("2", "fixed", "c", "d") +
+                      jointXml("3", "fixed", "d", "c"),
+                  "test.urdf:", "loop");
+  expectUrdfError(kTwoLinks + "<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/></joint>", "test.urdf:2: joint 'j'",
+                  "lacks a parent or a child");
 }
 
 TEST(UrdfErrors, MimicsMustLeadToAJointWithOneVariable)
 {
   const std::string links = "<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/><link name=\"d\"/>\n";
   const auto mimic = [](const std::string& leader) { return kLimits + ("<mimic joint=\"" + leader + "\"/>"); };
-  expectError(links + jointXml("1", "revolute", "a", "b", mimic("9")) + jointXml("2", "fixed", "a", "c") +
-                  jointXml("3", "fixed", "a", "d"),
-              "test.urdf:2: joint '1'", "mimics joint '9'");
+  expectUrdfError(links + jointXml("1", "revolute", "a", "b", mimic("9")) + jointXml("2", "fixed", "a", "c") +
+                      jointXml("3", "fixed", "a", "d"),
+                  "test.urdf:2: joint '1'", "mimics joint '9'");
   const std::string loop = jointXml("1", "revolute", "a", "b", mimic("2")) +
                            jointXml("2", "revolute", "a", "c", mimic("1")) + jointXml("3", "fixed", "a", "d");
-  expectError(links + loop, "test.urdf:2: joint '1'", "mimics itself");
+  expectUrdfError(links + loop, "test.urdf:2: joint '1'", "mimics itself");
   const std::string into_a_loop = jointXml("1", "revolute", "a", "b", mimic("2")) +
                                   jointXml("2", "revolute", "a", "c", mimic("3")) +
                                   jointXml("3", "revolute", "a", "d", mimic("2"));
-  expectError(links + into_a_loop, "test.urdf:2: joint '1'", "mimics itself");
+  expectUrdfError(links + into_a_loop, "test.urdf:2: joint '1'", "mimics itself");
   for (const char* type : {"fixed", "floating", "planar"})
   {
-    expectError(links + jointXml("1", "revolute", "a", "b", mimic("2")) + jointXml("2", type, "a", "c") +
-                    jointXml("3", "fixed", "a", "d"),
-                "test.urdf:2: joint '1'", "joint '2' is not revolute");
+    expectUrdfError(links + jointXml("1", "revolute", "a", "b", mimic("2")) + jointXml("2", type, "a", "c") +
+                        jointXml("3", "fixed", "a", "d"),
+                    "test.urdf:2: joint '1'", "joint '2' is not revolute");
   }
-  expectError(links + jointXml("1", "continuous", "a", "b") + jointXml("2", "floating", "a", "c", mimic("1")) +
-                  jointXml("3", "fixed", "a", "d"),
-              "test.urdf:3: joint '2'", "is not revolute");
+  expectUrdfError(links + jointXml("1", "continuous", "a", "b") + jointXml("2", "floating", "a", "c", mimic("1")) +
+                      jointXml("3", "fixed", "a", "d"),
+                  "test.urdf:3: joint '2'", "is not revolute");
 }
 
 TEST(UrdfErrors, TheMimicOfAFixedJointIsIgnoredWithAWarning)
@@ -175,12 +176,12 @@ TEST(UrdfErrors, BadShapesAreNamedWithTheirLink)
 {
   const auto link = [](const std::string& geometry)
   { return "\n<link name=\"a\">\n<collision><geometry>" + geometry + "</geometry></collision></link>"; };
-  expectError(link("<sphere radius=\"0\"/>"), "test.urdf:2: link 'a'", "radius");
-  expectError(link("<box size=\"1 -1 1\"/>"), "test.urdf:2: link 'a'", "size along y");
-  expectError(link("<capsule/>"), "test.urdf:2:", "capsule");
-  expectError(link("<mesh filename=\"/no/such/mesh.stl\"/>"), "test.urdf:2: link 'a'", "/no/such/mesh.stl");
-  expectError(link("<mesh filename=\"mesh.stl\"/>"), "test.urdf:2: link 'a'", "relative");
-  expectError(link("<mesh filename=\"package://p/mesh.stl\"/>"), "test.urdf:2: link 'a'", "package 'p'");
+  expectUrdfError(link("<sphere radius=\"0\"/>"), "test.urdf:2: link 'a'", "radius");
+  expectUrdfError(link("<box size=\"1 -1 1\"/>"), "test.urdf:2: link 'a'", "size along y");
+  expectUrdfError(link("<capsule/>"), "test.urdf:2:", "capsule");
+  expectUrdfError(link("<mesh filename=\"/no/such/mesh.stl\"/>"), "test.urdf:2: link 'a'", "/no/such/mesh.stl");
+  expectUrdfError(link("<mesh filename=\"mesh.stl\"/>"), "test.urdf:2: link 'a'", "relative");
+  expectUrdfError(link("<mesh filename=\"package://p/mesh.stl\"/>"), "test.urdf:2: link 'a'", "package 'p'");
 }
 
 TEST(UrdfErrors, NoCollisionElementIsLostBehindABadOne)
@@ -190,8 +191,8 @@ TEST(UrdfErrors, NoCollisionElementIsLostBehindABadOne)
        {"<collision/>", "<collision><geometry/></collision>", "<collision><geometry><mesh/></geometry></collision>",
         "<collision><geometry><sphere radius=\"x\"/></geometry></collision>"})
   {
-    expectError("<link name=\"a\">" + good + bad + good + "</link>", "test.urdf:1: link 'a'",
-                "collision element that cannot be read");
+    expectUrdfError("<link name=\"a\">" + good + bad + good + "</link>", "test.urdf:1: link 'a'",
+                    "collision element that cannot be read");
   }
 }
 
@@ -208,7 +209,7 @@ TEST(UrdfErrors, UrdfdomsOwnMessagesGoIntoTheErrorAlone)
 {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
-  const std::string message = error(kTwoLinks + jointXml("j", "revolute", "a", "b"));
+  const std::string message = urdfError(kTwoLinks + jointXml("j", "revolute", "a", "b"));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_NE(message.find("does not specify limits"), std::string::npos) << message;

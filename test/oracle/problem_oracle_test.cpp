@@ -12,7 +12,7 @@ using oracle::Verdict;
 
 namespace
 {
-Eigen::Isometry3d shift(double x, double y, double z)
+Eigen::Isometry3d shifted(double x, double y, double z)
 {
   return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
 }
@@ -22,8 +22,8 @@ std::shared_ptr<CollisionProblem> spheresAndBox()
 {
   auto problem = std::make_shared<CollisionProblem>();
   problem->shapes = {Sphere{0.5}, Box{{1.0, 1.0, 1.0}}};
-  problem->robot = {{0, 0, 0, shift(0.0, 0.0, 1.0), 0.125}, {0, 1, 1, Eigen::Isometry3d::Identity(), 0.25}};
-  problem->world = {{1, 2, -1, shift(0.0, 0.0, 0.0), 0.125}};
+  problem->robot = {{0, 0, 0, shifted(0.0, 0.0, 1.0), 0.125}, {0, 1, 1, Eigen::Isometry3d::Identity(), 0.25}};
+  problem->world = {{1, 2, -1, shifted(0.0, 0.0, 0.0), 0.125}};
   problem->half_spaces = {{3, Eigen::Vector3d::UnitZ(), -3.0, 0.0}};
   problem->world_pairs = {1, 0};
   problem->half_space_pairs = {0, 1};
@@ -68,24 +68,24 @@ TEST(ProblemOracle, KinematicsAgreeWithThoseInDouble)
 TEST(ProblemOracle, ChecksThePairsThatTheProblemSays)
 {
   const auto problem = spheresAndBox();
-  EXPECT_EQ(verdictOf(problem, shift(10, 0, 0), shift(0, 0, 10)), Verdict::Free);
-  EXPECT_EQ(verdictOf(problem, shift(0, 0, -1), shift(0, 0, 10)), Verdict::Collides);    // with the box
-  EXPECT_EQ(verdictOf(problem, shift(10, 0, 0), shift(0, 0, 0)), Verdict::Free);         // this pair is not checked
-  EXPECT_EQ(verdictOf(problem, shift(10, 0, 0), shift(20, 0, -3)), Verdict::Collides);   // with the ground
-  EXPECT_EQ(verdictOf(problem, shift(10, 0, -20), shift(0, 0, 10)), Verdict::Free);      // not checked with the ground
-  EXPECT_EQ(verdictOf(problem, shift(10, 0, 0), shift(10.5, 0, 1)), Verdict::Collides);  // with each other
+  EXPECT_EQ(verdictOf(problem, shifted(10, 0, 0), shifted(0, 0, 10)), Verdict::Free);
+  EXPECT_EQ(verdictOf(problem, shifted(0, 0, -1), shifted(0, 0, 10)), Verdict::Collides);   // with the box
+  EXPECT_EQ(verdictOf(problem, shifted(10, 0, 0), shifted(0, 0, 0)), Verdict::Free);        // this pair is not checked
+  EXPECT_EQ(verdictOf(problem, shifted(10, 0, 0), shifted(20, 0, -3)), Verdict::Collides);  // with the ground
+  EXPECT_EQ(verdictOf(problem, shifted(10, 0, -20), shifted(0, 0, 10)), Verdict::Free);  // not checked with the ground
+  EXPECT_EQ(verdictOf(problem, shifted(10, 0, 0), shifted(10.5, 0, 1)), Verdict::Collides);  // with each other
 }
 
 TEST(ProblemOracle, PaddingIsAddedForTheWorldOnly)
 {
   const auto problem = spheresAndBox();
   // The sphere's lowest point is 0.25 m above the box, which is the sum of the paddings.
-  EXPECT_EQ(verdictOf(problem, shift(0, 0, 0.25), shift(0, 0, 10)), Verdict::Collides);
-  EXPECT_EQ(verdictOf(problem, shift(0, 0, 0.25 + 0.5e-9), shift(0, 0, 10)), Verdict::Either);
-  EXPECT_EQ(verdictOf(problem, shift(0, 0, 0.25 + 2e-9), shift(0, 0, 10)), Verdict::Free);
-  EXPECT_EQ(verdictOf(problem, shift(10, 0, 0), shift(0, 0, -2.25)), Verdict::Collides);
-  EXPECT_EQ(verdictOf(problem, shift(10, 0, 0), shift(0, 0, -2.25 + 2e-9)), Verdict::Free);
-  EXPECT_EQ(verdictOf(problem, shift(10, 0, 0), shift(11.01, 0, 1)), Verdict::Free);
+  EXPECT_EQ(verdictOf(problem, shifted(0, 0, 0.25), shifted(0, 0, 10)), Verdict::Collides);
+  EXPECT_EQ(verdictOf(problem, shifted(0, 0, 0.25 + 0.5e-9), shifted(0, 0, 10)), Verdict::Either);
+  EXPECT_EQ(verdictOf(problem, shifted(0, 0, 0.25 + 2e-9), shifted(0, 0, 10)), Verdict::Free);
+  EXPECT_EQ(verdictOf(problem, shifted(10, 0, 0), shifted(0, 0, -2.25)), Verdict::Collides);
+  EXPECT_EQ(verdictOf(problem, shifted(10, 0, 0), shifted(0, 0, -2.25 + 2e-9)), Verdict::Free);
+  EXPECT_EQ(verdictOf(problem, shifted(10, 0, 0), shifted(11.01, 0, 1)), Verdict::Free);
 }
 
 TEST(ProblemOracle, ClearanceIsTheLeastDistanceBeyondTheRequiredOne)
@@ -94,10 +94,10 @@ TEST(ProblemOracle, ClearanceIsTheLeastDistanceBeyondTheRequiredOne)
   const auto clearance = [&](const Eigen::Isometry3d& first, const Eigen::Isometry3d& second, double limit) {
     return oracle.clearance({Motion(first), Motion(second)}, limit);
   };
-  EXPECT_NEAR(clearance(shift(0, 0, 1), shift(0, 0, 10), 100.0), 0.75, 1e-12);
-  EXPECT_NEAR(clearance(shift(0, 0, -0.9), shift(0, 0, 10), 100.0), -0.25, 1e-12);
-  EXPECT_GE(clearance(shift(0, 0, 1), shift(0, 0, 10), 0.5), 0.5);
-  EXPECT_EQ(oracle.pairVerdict({Motion(shift(10, 0, 0)), Motion(shift(0, 0, 0))}, 1, 2), Verdict::Collides);
-  EXPECT_EQ(oracle.pairVerdict({Motion(shift(10, 0, 0)), Motion(shift(0, 0, 0))}, 0, 1), Verdict::Free);
-  EXPECT_EQ(oracle.pairVerdict({Motion(shift(10, 0, -20)), Motion(shift(0, 0, 0))}, 0, 3), Verdict::Collides);
+  EXPECT_NEAR(clearance(shifted(0, 0, 1), shifted(0, 0, 10), 100.0), 0.75, 1e-12);
+  EXPECT_NEAR(clearance(shifted(0, 0, -0.9), shifted(0, 0, 10), 100.0), -0.25, 1e-12);
+  EXPECT_GE(clearance(shifted(0, 0, 1), shifted(0, 0, 10), 0.5), 0.5);
+  EXPECT_EQ(oracle.pairVerdict({Motion(shifted(10, 0, 0)), Motion(shifted(0, 0, 0))}, 1, 2), Verdict::Collides);
+  EXPECT_EQ(oracle.pairVerdict({Motion(shifted(10, 0, 0)), Motion(shifted(0, 0, 0))}, 0, 1), Verdict::Free);
+  EXPECT_EQ(oracle.pairVerdict({Motion(shifted(10, 0, -20)), Motion(shifted(0, 0, 0))}, 0, 3), Verdict::Collides);
 }

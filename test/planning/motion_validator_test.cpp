@@ -22,7 +22,7 @@ namespace og = ompl::geometric;
 using Position = PointRobot::Position;
 
 /// Two walls, each with a gap at a different end. The robot is 0.1 m wide.
-const std::vector<Wall> kTwoWalls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
+const std::vector<Wall> kWallsWithGaps = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
 
 struct MotionValidatorTest : testing::Test
 {
@@ -31,7 +31,7 @@ struct MotionValidatorTest : testing::Test
     return robot.validator().checkMotion(robot.at(from).get(), robot.at(to).get());
   }
 
-  PointRobot robot{kTwoWalls};
+  PointRobot robot{kWallsWithGaps};
 };
 
 TEST_F(MotionValidatorTest, CountsValidAndInvalidMotions)
@@ -145,7 +145,7 @@ TYPED_TEST_SUITE(OmplPlanners, Planners);
 
 TYPED_TEST(OmplPlanners, FindAValidPath)
 {
-  const PointRobot robot(kTwoWalls);
+  const PointRobot robot(kWallsWithGaps);
   const ob::ProblemDefinitionPtr problem = robot.problem({-1.0, 0.0}, {{1.0, 0.0}});
   const auto objective = std::make_shared<PathLengthObjective>(robot.information());
   objective->setCostThreshold(objective->infiniteCost());  // stop at the first path

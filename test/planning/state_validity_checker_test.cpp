@@ -62,9 +62,9 @@ std::shared_ptr<PlanningScene> wallAndLamp(std::shared_ptr<const RobotModel> rob
 }
 
 /// The objects for planning for a group of a scene.
-struct Planning
+struct GroupPlanning
 {
-  explicit Planning(std::shared_ptr<const PlanningScene> the_scene, const std::string& group)
+  explicit GroupPlanning(std::shared_ptr<const PlanningScene> the_scene, const std::string& group)
     : scene(std::move(the_scene)),
       space(std::make_shared<GroupStateSpace>(scene->robot, group)),
       information(std::make_shared<ob::SpaceInformation>(space)),
@@ -113,7 +113,7 @@ struct Planning
 
 /// Expects the answers of a CpuChecker for `rows`, in bulk and one by one. Variables outside the group must have their
 /// values in the scene.
-void expectCheckersAnswers(const Planning& planning, const std::vector<Row>& rows)
+void expectCheckersAnswers(const GroupPlanning& planning, const std::vector<Row>& rows)
 {
   CpuChecker peer(planning.scene);
   std::vector<ob::ScopedState<>> states;
@@ -153,7 +153,7 @@ TEST_P(ValidityOnFloors, AnswersAreThoseOfTheChecker)
     <group name="everything"><joint name="floor"/><joint name="slide"/><joint name="turn"/></group>)");
   const auto scene = wallAndLamp(RobotModel::fromXml(sliderUrdf(), srdf, {}));
   scene->objects.push_back({"dome", Eigen::Isometry3d::Identity(), {{Sphere{0.9}}}});
-  const Planning planning(scene, "everything");
+  const GroupPlanning planning(scene, "everything");
   std::vector<Row> rows(400, Row(planning.scene->robot->variables().size()));
   for (Row& row : rows)
     planning.scene->robot->randomState(generator, row.data());
@@ -171,7 +171,7 @@ TEST(StateValidityChecker, AnswersForUr5AreThoseOfTheChecker)
   const std::uint64_t seed = 5;
   std::cout << "seed " << seed << '\n';
   const TestScene& made = testScene(name);
-  const Planning planning(made.scene, "manipulator");
+  const GroupPlanning planning(made.scene, "manipulator");
   const std::size_t count = 200;
   const Row random = made.randomStates(count, seed);
   const Row reference =
@@ -185,7 +185,7 @@ TEST(StateValidityChecker, AnswersForUr5AreThoseOfTheChecker)
 
 TEST(StateValidityChecker, AllStatesAreCheckedInOneCallForTheGroup)
 {
-  const Planning planning(wallAndLamp(sliderRobot()), "drive");
+  const GroupPlanning planning(wallAndLamp(sliderRobot()), "drive");
   EXPECT_EQ(planning.validate({{0, 0}, {1, 0}, {-1, 0}, {-0.5, 2}}), (std::vector<std::uint8_t>{1, 0, 0, 1}));
   EXPECT_EQ(planning.checker->batches, std::vector<std::size_t>{4});
   EXPECT_EQ(planning.checker->groups, std::vector<std::string>{"drive"});
@@ -196,7 +196,7 @@ TEST(StateValidityChecker, AllStatesAreCheckedInOneCallForTheGroup)
 
 TEST(StateValidityChecker, StatesOutOfBoundsAreInvalidAndNotChecked)
 {
-  const Planning planning(wallAndLamp(sliderRobot()), "drive");
+  const GroupPlanning planning(wallAndLamp(sliderRobot()), "drive");
   EXPECT_EQ(planning.validate({{2.5, 0}, {0, 0}, {0, -3.5}, {1, 0}, {0.5, 1}}),
             (std::vector<std::uint8_t>{0, 1, 0, 0, 1}));
   EXPECT_EQ(planning.checker->batches, std::vector<std::size_t>{3});
@@ -207,7 +207,7 @@ TEST(StateValidityChecker, StatesOutOfBoundsAreInvalidAndNotChecked)
 
 TEST(StateValidityChecker, ValuesThatAreNotFiniteAreInvalidAndLeaveTheOthersTheirAnswers)
 {
-  const Planning planning(wallAndLamp(sliderRobot()), "drive");
+  const GroupPlanning planning(wallAndLamp(sliderRobot()), "drive");
   EXPECT_EQ(planning.validate({{std::nan(""), 0}, {0, 0}, {0, std::nan("")}, {HUGE_VAL, 0}, {1, 0}}),
             (std::vector<std::uint8_t>{0, 1, 0, 0, 0}));
   EXPECT_EQ(planning.checker->batches, std::vector<std::size_t>{2});
@@ -216,17 +216,17 @@ TEST(StateValidityChecker, ValuesThatAreNotFiniteAreInvalidAndLeaveTheOthersThei
 TEST(StateValidityChecker, OtherVariablesAreAsInTheCurrentStateOrDefault)
 {
   const auto scene = wallAndLamp(sliderRobot());
-  EXPECT_TRUE(Planning(scene, "mast").isValid({0.5}));
+  EXPECT_TRUE(GroupPlanning(scene, "mast").isValid({0.5}));
   scene->current_state = {-1.0, 0.0};
-  EXPECT_FALSE(Planning(scene, "mast").isValid({0.5})) << "the pole is in the lamp";
+  EXPECT_FALSE(GroupPlanning(scene, "mast").isValid({0.5})) << "the pole is in the lamp";
   scene->current_state = {1.0, 0.0};
-  EXPECT_TRUE(Planning(scene, "mast").isValid({0.5})) << "the group does not move the cart, which is in the wall";
+  EXPECT_TRUE(GroupPlanning(scene, "mast").isValid({0.5})) << "the group does not move the cart, which is in the wall";
 }
 
 TEST(StateValidityChecker, ClearanceIsWhatIsLeftBeyondTheRequiredDistance)
 {
   const auto scene = wallAndLamp(sliderRobot());
-  const Planning planning(scene, "drive");
+  const GroupPlanning planning(scene, "drive");
   EXPECT_EQ(planning.validity->getSpecs().clearanceComputationType, ob::StateValidityCheckerSpecs::EXACT);
   EXPECT_NEAR(planning.validity->clearance(planning.joints({0.3, 0}).get()), 0.5, 2e-6);
   EXPECT_NEAR(planning.validity->clearance(planning.joints({-0.5, 0}).get()), 0.35, 2e-6);
@@ -237,7 +237,7 @@ TEST(StateValidityChecker, ClearanceIsWhatIsLeftBeyondTheRequiredDistance)
 
   const auto padded = std::make_shared<PlanningScene>(*scene);
   padded->link_padding.assign(padded->robot->links().size(), 0.05);
-  const Planning padded_planning(padded, "drive");
+  const GroupPlanning padded_planning(padded, "drive");
   EXPECT_NEAR(padded_planning.validity->clearance(padded_planning.joints({0.3, 0}).get()), 0.45, 2e-6);
 }
 
@@ -246,13 +246,13 @@ TEST(StateValidityChecker, ClearanceIsToTheRobotItselfToo)
   const auto scene = wallAndLamp(sliderRobot());
   scene->objects.clear();
   scene->allowed_collisions = AllowedCollisionMatrix();
-  const Planning planning(scene, "mast");
+  const GroupPlanning planning(scene, "mast");
   EXPECT_NEAR(planning.validity->clearance(planning.joints({0.0}).get()), 0.2, 2e-6);
 }
 
 TEST(StateValidityChecker, ThreadsGetTheSameAnswers)
 {
-  const Planning planning(wallAndLamp(sliderRobot()), "drive");
+  const GroupPlanning planning(wallAndLamp(sliderRobot()), "drive");
   std::vector<std::size_t> right(4, 0);
   std::vector<std::thread> threads;
   for (std::size_t& mine : right)

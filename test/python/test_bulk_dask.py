@@ -169,7 +169,7 @@ class Cluster(Case):
         self.assertTrue(self.whole(*run) == content(self.out))
 
     def test_killed_workers_lose_and_double_no_state(self):
-        run = ["--random", 600000, "--shard", 10000, "--seed", 5]
+        run = ["--random", 300000, "--shard", 5000, "--seed", 5]
         expected = self.whole(*run)
         process = started_bulk(*self.options(*run, "--out", self.out))
         kills = 0
@@ -199,7 +199,7 @@ class Cluster(Case):
         self.assertTrue(self.whole(*run) == content(self.out))
 
     def test_a_worker_that_lies_is_named_and_its_shards_are_deleted(self):
-        run = ["--random", 200000, "--shard", 2000]
+        run = ["--random", 100000, "--shard", 1000]
         liar = self.workers()[1]
         self.patch(flip_one_answer, liar)
         status, line, _ = bulk(*self.options(*run, "--out", self.out))
@@ -212,7 +212,7 @@ class Cluster(Case):
                 self.assertEqual(expected[path], data)
 
     def test_a_killed_run_goes_on_on_the_cluster(self):
-        run = ["--random", 600000, "--shard", 10000, "--seed", 5]
+        run = ["--random", 300000, "--shard", 5000, "--seed", 5]
         process = started_bulk(*self.options(*run, "--out", self.out))
         wait_for_shards(self.out, 5, process)
         process.kill()

@@ -15,7 +15,7 @@ namespace
 const std::vector<double> kPicked = {0.5, M_PI_2};  // slide, turn
 const std::vector<double> kPlaced = {-1.0, M_PI};
 
-Eigen::Isometry3d pose(double x, double y, double z, double angle_about_z)
+Eigen::Isometry3d turnedPose(double x, double y, double z, double angle_about_z)
 {
   return Eigen::Translation3d(x, y, z) * Eigen::AngleAxisd(angle_about_z, Eigen::Vector3d::UnitZ());
 }
@@ -23,9 +23,9 @@ Eigen::Isometry3d pose(double x, double y, double z, double angle_about_z)
 PlanningScene sceneWithBoxes()
 {
   PlanningScene scene(sliderRobot());
-  scene.objects = {{"left", pose(1, 0, 0, 0), {{Box{{0.1, 0.1, 0.1}}, pose(0, 0, 7, 0)}}, 0.25},
-                   {"right", pose(2, 0, 0, 0), {{Sphere{0.1}}}},
-                   {"floor", pose(0, 0, -1, 0), {{HalfSpace{Eigen::Vector3d::UnitZ(), 0.0}}}}};
+  scene.objects = {{"left", turnedPose(1, 0, 0, 0), {{Box{{0.1, 0.1, 0.1}}, turnedPose(0, 0, 7, 0)}}, 0.25},
+                   {"right", turnedPose(2, 0, 0, 0), {{Sphere{0.1}}}},
+                   {"floor", turnedPose(0, 0, -1, 0), {{HalfSpace{Eigen::Vector3d::UnitZ(), 0.0}}}}};
   return scene;
 }
 
@@ -40,7 +40,7 @@ TEST(Attach, KeepsTheObjectWhereItIsInTheState)
   EXPECT_EQ(scene.robot->linkIndex("pole"), carried.link);
   EXPECT_EQ(std::vector<int>{scene.robot->linkIndex("cart")}, carried.touch_links);
   // The pole is at x = 0.5, rotated by 90 degrees, so the object is at -0.5 m along the pole's y.
-  EXPECT_TRUE(carried.object.pose.isApprox(pose(0, -0.5, 0, -M_PI_2), 1e-15)) << carried.object.pose.matrix();
+  EXPECT_TRUE(carried.object.pose.isApprox(turnedPose(0, -0.5, 0, -M_PI_2), 1e-15)) << carried.object.pose.matrix();
   EXPECT_EQ(7.0, carried.object.shapes.at(0).pose.translation().z());
   EXPECT_EQ(0.25, carried.object.padding);
   EXPECT_EQ("right", scene.bodyName(static_cast<int>(scene.robot->links().size())));
@@ -63,7 +63,7 @@ TEST(Attach, CarriesTheObjectToWhereItIsDetached)
   ASSERT_EQ(3u, scene.objects.size());
   EXPECT_EQ("left", scene.objects[2].id);
   // The pole is at x = -1, rotated by 180 degrees. The object is still at -0.5 m along the pole's y.
-  EXPECT_TRUE(scene.objects[2].pose.isApprox(pose(-1, 0.5, 0, M_PI_2), 1e-15)) << scene.objects[2].pose.matrix();
+  EXPECT_TRUE(scene.objects[2].pose.isApprox(turnedPose(-1, 0.5, 0, M_PI_2), 1e-15)) << scene.objects[2].pose.matrix();
   EXPECT_EQ(0.25, scene.objects[2].padding);
 }
 
@@ -72,7 +72,7 @@ TEST(Attach, OnAPlaceItNeverLeftChangesNothing)
   PlanningScene scene = sceneWithBoxes();
   scene.attach("left", "pole", {}, kPicked.data());
   scene.detach("left", kPicked.data());
-  EXPECT_TRUE(scene.objects[2].pose.isApprox(pose(1, 0, 0, 0), 1e-15));
+  EXPECT_TRUE(scene.objects[2].pose.isApprox(turnedPose(1, 0, 0, 0), 1e-15));
 }
 
 TEST(Attach, LeavesTheScenesThatItWasCopiedFromAlone)

@@ -93,8 +93,8 @@ void expectSameShapes(const std::vector<PlacedShape>& expected, const std::vecto
   }
 }
 
-using Frames = std::map<std::string, Eigen::Isometry3d>;
-void expectSameFrames(const Frames& expected, const Frames& found, double tolerance)
+using FramePoses = std::map<std::string, Eigen::Isometry3d>;
+void expectSameFrames(const FramePoses& expected, const FramePoses& found, double tolerance)
 {
   ASSERT_EQ(expected.size(), found.size());
   for (const auto& [name, pose] : expected)

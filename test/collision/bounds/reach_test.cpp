@@ -9,13 +9,12 @@
 #include "collision/geometry/shape_bounds.h"
 #include "model/model_testing.h"
 #include "model/real_robots.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 3;
-
 /// A robot with all kinds of joints that have bounds. Two joints are mimics with negative multipliers.
 std::shared_ptr<const RobotModel> oddRobot()
 {

@@ -17,13 +17,12 @@
 #include "support/carrying_scene.h"
 #include "support/kept_trees.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 11;
-
 struct Setting
 {
   std::string name;

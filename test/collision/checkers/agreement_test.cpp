@@ -11,14 +11,14 @@
 #include "support/fcl_agreement.h"
 #include "support/kept_trees.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kStates = repetitions(400, 2000);
-constexpr std::uint64_t kSeed = 20261121;
+constexpr std::size_t kComparedStates = repetitions(400, 2000);
 
 /// FCL with the scene's problem. It is made once per process, because building FCL's trees takes a while.
 FclPeer& fclPeerOf(const TestScene& scene)
@@ -42,16 +42,16 @@ TEST_P(Agreement, WithFclInRandomStates)
     GTEST_SKIP() << "there is no " << missing;
   const TestScene& scene = testScene(name);
   keepTrees(*scene.scene);
-  const std::vector<double> states = scene.randomStates(kStates, kSeed);
+  const std::vector<double> states = scene.randomStates(kComparedStates, kSeed);
   StateChecker& checker = checkerOf(method, *scene.scene);
-  const BatchResult result = checker.check(states.data(), kStates);
+  const BatchResult result = checker.check(states.data(), kComparedStates);
 
   const FclAgreement agreement = compareWithFcl(fclPeerOf(scene), *scene.scene, states, result);
   std::cout << name << " on " << checker.deviceName() << ", seed " << kSeed << ": " << agreement << std::endl;
   // Otherwise the comparison shows little.
-  ASSERT_GE(agreement.free, kStates / 10);
-  ASSERT_LE(agreement.free, kStates * 9 / 10);
-  ASSERT_GE(agreement.world_hits, kStates / 20);
+  ASSERT_GE(agreement.free, kComparedStates / 10);
+  ASSERT_LE(agreement.free, kComparedStates * 9 / 10);
+  ASSERT_GE(agreement.world_hits, kComparedStates / 20);
   EXPECT_TRUE(agreement.failures.empty());
 }
 

@@ -17,6 +17,7 @@
 #include "model/model_testing.h"
 #include "support/kept_trees.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 #include "support/shader_folder.h"
 #include "support/test_scenes.h"
 
@@ -24,8 +25,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 29;
-
 BatchCheckerOptions with(Traversal traversal, std::size_t max_batch = 16384)
 {
   BatchCheckerOptions options;

@@ -11,13 +11,12 @@
 #include "support/exactness.h"
 #include "support/near_contact.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 20261121;
-
 struct Slice
 {
   const char* name;

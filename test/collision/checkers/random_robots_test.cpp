@@ -25,7 +25,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kStates = repetitions(100, 500);
+constexpr std::size_t kStatesOfARobot = repetitions(100, 500);
 
 class RandomRobots : public testing::TestWithParam<std::uint64_t>
 {
@@ -172,8 +172,8 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
   std::vector<double> randomStates(const RobotModel& robot)
   {
     const std::size_t width = robot.variables().size();
-    std::vector<double> states(kStates * width);
-    for (std::size_t i = 0; i < kStates; ++i)
+    std::vector<double> states(kStatesOfARobot * width);
+    for (std::size_t i = 0; i < kStatesOfARobot; ++i)
       robot.randomState(generator_, &states[i * width]);
     return states;
   }
@@ -205,9 +205,9 @@ class RandomRobots : public testing::TestWithParam<std::uint64_t>
       follow(robot, &around.travel[around.travel.size() - robot.joints().size()]);
     }
     const bool by_turns = below(2) == 0;  // else a part of the batch may not use the first or the last rows
-    for (std::size_t i = 0; i < kStates; ++i)
+    for (std::size_t i = 0; i < kStatesOfARobot; ++i)
       around.rows.push_back(
-          static_cast<std::uint32_t>(by_turns ? static_cast<std::size_t>(below(5)) : i * 5 / kStates));
+          static_cast<std::uint32_t>(by_turns ? static_cast<std::size_t>(below(5)) : i * 5 / kStatesOfARobot));
     return around;
   }
 
@@ -392,20 +392,20 @@ TEST_P(RandomRobots, HaveTheVerdictsOfTheCpuOnTheGpu)
   const auto made = scene();
   const std::size_t width = made->robot->variables().size();
   const std::vector<double> states = randomStates(*made->robot);
-  const std::vector<std::uint8_t> expected = CpuChecker(made).check(states.data(), kStates).valid;
+  const std::vector<std::uint8_t> expected = CpuChecker(made).check(states.data(), kStatesOfARobot).valid;
   for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
   {
     BatchCheckerOptions options;
     options.traversal = traversal;
     options.cpu_below = 0;
     options.max_batch = below(2) == 0 ? 16384 : 64;
-    EXPECT_EQ(BatchChecker(made, options).check(states.data(), kStates).valid, expected)
+    EXPECT_EQ(BatchChecker(made, options).check(states.data(), kStatesOfARobot).valid, expected)
         << "seed " << GetParam() << ", " << made->robot->links().size() << " links, " << made->objects.size()
         << " objects";
   }
   std::cout << "seed " << GetParam() << ": " << made->robot->links().size() << " links, " << width << " variables, "
             << made->objects.size() << " objects, " << std::count(expected.begin(), expected.end(), 1) << " of "
-            << kStates << " free" << std::endl;
+            << kStatesOfARobot << " free" << std::endl;
 }
 TEST_P(RandomRobots, FreeNeighbourhoodsHoldFreeStates)
 {
@@ -416,9 +416,9 @@ TEST_P(RandomRobots, FreeNeighbourhoodsHoldFreeStates)
   const std::vector<double> states = randomStates(robot);
   const JointNeighbourhood around = surroundings(robot);
   CpuChecker checker(made);
-  const std::vector<std::uint8_t> proven = checker.check(states.data(), kStates, "", &around).valid;
+  const std::vector<std::uint8_t> proven = checker.check(states.data(), kStatesOfARobot, "", &around).valid;
   std::vector<double> neighbours;
-  for (std::size_t i = 0; i < kStates; ++i)
+  for (std::size_t i = 0; i < kStatesOfARobot; ++i)
     for (std::size_t k = 0; proven[i] != 0 && k < kNeighbours; ++k)
     {
       neighbours.insert(neighbours.end(), &states[i * width], &states[(i + 1) * width]);
@@ -426,8 +426,8 @@ TEST_P(RandomRobots, FreeNeighbourhoodsHoldFreeStates)
     }
   const std::vector<std::uint8_t> free = checker.check(neighbours.data(), neighbours.size() / width).valid;
   EXPECT_EQ(std::count(free.begin(), free.end(), 0), 0) << "seed " << GetParam();
-  const std::vector<std::uint8_t> plain = checker.check(states.data(), kStates).valid;
-  for (std::size_t i = 0; i < kStates; ++i)
+  const std::vector<std::uint8_t> plain = checker.check(states.data(), kStatesOfARobot).valid;
+  for (std::size_t i = 0; i < kStatesOfARobot; ++i)
     EXPECT_LE(proven[i], plain[i]) << "seed " << GetParam() << ", state " << i;
   std::cout << "seed " << GetParam() << ": " << std::count(plain.begin(), plain.end(), 1) << " free, "
             << std::count(proven.begin(), proven.end(), 1) << " with what is around" << std::endl;
@@ -466,7 +466,7 @@ TEST_P(RandomRobots, AreAsFreeAroundAStateOnTheGpuAsOnTheCpu)
   const auto made = scene();
   const std::vector<double> states = randomStates(*made->robot);
   const JointNeighbourhood around = surroundings(*made->robot);
-  const std::vector<std::uint8_t> expected = CpuChecker(made).check(states.data(), kStates, "", &around).valid;
+  const std::vector<std::uint8_t> expected = CpuChecker(made).check(states.data(), kStatesOfARobot, "", &around).valid;
   for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
   {
     BatchCheckerOptions options;
@@ -474,9 +474,9 @@ TEST_P(RandomRobots, AreAsFreeAroundAStateOnTheGpuAsOnTheCpu)
     options.cpu_below = 0;
     options.max_batch = below(2) == 0 ? 16384 : 64;
     BatchChecker checker(made, options);
-    const std::vector<std::uint8_t> plain = checker.check(states.data(), kStates).valid;
-    EXPECT_EQ(checker.check(states.data(), kStates, "", &around).valid, expected) << "seed " << GetParam();
-    EXPECT_EQ(checker.check(states.data(), kStates).valid, plain) << "after margins, seed " << GetParam();
+    const std::vector<std::uint8_t> plain = checker.check(states.data(), kStatesOfARobot).valid;
+    EXPECT_EQ(checker.check(states.data(), kStatesOfARobot, "", &around).valid, expected) << "seed " << GetParam();
+    EXPECT_EQ(checker.check(states.data(), kStatesOfARobot).valid, plain) << "after margins, seed " << GetParam();
   }
 }
 /// Making the proofs takes seconds a robot under sanitizers, so this suite has fewer seeds.
@@ -504,7 +504,7 @@ TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
   CpuTraversal::Scratch exact_scratch;
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   std::size_t free = 0;
-  for (std::size_t i = 0; i + lanes::kLanes <= kStates; i += lanes::kLanes)
+  for (std::size_t i = 0; i + lanes::kLanes <= kStatesOfARobot; i += lanes::kLanes)
   {
     const double* block = &states[i * width];
     BatchResult result;
@@ -522,7 +522,7 @@ TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
         ASSERT_EQ(std::count(colliding.begin(), colliding.end(), result.colliding[lane]), 1) << "seed " << GetParam();
     }
   }
-  std::cout << free << " of " << kStates << " states are free, seed " << GetParam() << std::endl;
+  std::cout << free << " of " << kStatesOfARobot << " states are free, seed " << GetParam() << std::endl;
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, ProofsOfRandomRobots,
                          testing::Range<std::uint64_t>(1, 1 + repetitions<std::uint64_t>(1, 60)));

@@ -14,13 +14,12 @@
 #include "support/generated_arm.h"
 #include "support/obstacles.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 20;
-
 class SceneEdits
 {
  public:

@@ -16,13 +16,13 @@
 #include "support/carrying_scene.h"
 #include "support/kept_trees.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 23;
-constexpr std::size_t kStates = repetitions(500, 800);
+constexpr std::size_t kToleratedStates = repetitions(500, 800);
 constexpr std::size_t kMaxMeasured = 5;  // by the oracle, which is slow
 
 /// A checker with a tolerance. `method`: "cpu", "breadth_first" or "work_queue".
@@ -57,8 +57,8 @@ struct ExactScene
 {
   explicit ExactScene(const TestScene& from)
     : scene(from.scene),
-      states(from.randomStates(kStates, kSeed)),
-      valid(CpuChecker(scene).check(states.data(), kStates).valid),
+      states(from.randomStates(kToleratedStates, kSeed)),
+      valid(CpuChecker(scene).check(states.data(), kToleratedStates).valid),
       oracle(std::make_shared<const CollisionProblem>(makeProblem(*scene, "", nullptr)))
   {
     keepTrees(*scene);
@@ -99,9 +99,9 @@ TEST_P(ToleranceIn, FindsAllCollisionsAndAddsOnlyWhatIsWithinIt)
   for (const double tolerance : {0.001, 0.01, 0.05})
   {
     const std::vector<std::uint8_t> valid =
-        keptCheckerWith(tolerance, method, exact.scene).check(exact.states.data(), kStates).valid;
+        keptCheckerWith(tolerance, method, exact.scene).check(exact.states.data(), kToleratedStates).valid;
     std::vector<std::size_t> measured;
-    for (std::size_t i = 0; i < kStates; ++i)
+    for (std::size_t i = 0; i < kToleratedStates; ++i)
     {
       EXPECT_LE(valid[i], before[i]) << "state " << i << " is free at " << tolerance << ", not at less, seed " << kSeed;
       if (exact.valid[i] && !valid[i] && measured.size() < kMaxMeasured)

@@ -10,14 +10,13 @@
 #include "gpu_planning_scene/state_inspector.h"
 #include "oracle/problem_oracle.h"
 #include "support/obstacles.h"
+#include "support/seed.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 23;
-
 /// The problem with only its world pairs or only its self pairs.
 std::shared_ptr<const CollisionProblem> partOf(const PlanningScene& scene, const std::string& group, bool world)
 {

@@ -11,6 +11,7 @@
 #include "collision/geometry/cpu_box_pair.h"
 #include "collision/geometry/primitive_solid.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
@@ -19,7 +20,6 @@ namespace
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr std::uint64_t kSeed = 47;
 constexpr double kAccuracy = 1.0001e-6;  // metres: pairClearance() promises 1e-6
 
 class PairClearance : public testing::Test

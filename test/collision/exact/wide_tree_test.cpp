@@ -9,6 +9,7 @@
 #include "collision/exact/random_geometry.h"
 #include "collision/exact/wide_tests.h"
 #include "collision/geometry/cpu_box_pair.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
@@ -19,8 +20,6 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
-
-constexpr std::uint64_t kSeed = 47;
 
 /// Counts in which leaf each triangle is. Expects that it is in the box of the leaf and of all boxes above.
 void countTriangles(const CpuTree& tree, BoxIndex box, std::vector<OrientedBox> above, std::vector<int>& counts)

@@ -7,6 +7,7 @@
 #include "collision/exact/cpu_tree.h"
 #include "collision/exact/random_geometry.h"
 #include "collision/exact/wide_tests.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
@@ -15,8 +16,6 @@ namespace
 using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-constexpr std::uint64_t kSeed = 53;
 
 class WideTriangles : public testing::TestWithParam<WideTests>, protected RandomGeometry
 {

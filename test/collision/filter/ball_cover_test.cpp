@@ -9,6 +9,7 @@
 #include "collision/filter/proofs/shape_samples.h"
 #include "collision/geometry/primitive_solid.h"
 #include "collision/geometry/triangle_pair.h"
+#include "support/seed.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
@@ -16,8 +17,6 @@ namespace gpu_planning_scene::core
 namespace
 {
 using Eigen::Vector3d;
-
-constexpr std::uint64_t kSeed = 31;
 
 using NamedShape = std::pair<std::string, Shape>;
 

@@ -7,13 +7,12 @@
 #include "collision/exact/cpu_shape_pair.h"
 #include "collision/filter/proven_scene.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 37;
-
 TEST_P(ProvenScenes, CellsOfJointTablesHoldInRandomStates)
 {
   const ProvenScene& proven = *proven_;

@@ -9,13 +9,12 @@
 #include "collision/filter/proven_scene.h"
 #include "support/near_contact.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 41;
-
 using InstancePairs = std::vector<InstancePair>;
 
 /// The pairs that collide in each state.

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/seed.h"
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -13,8 +15,6 @@ namespace
 using Eigen::Isometry3d;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
-
-constexpr std::uint64_t kSeed = 47;
 
 class DisplacementOfPoints : public testing::Test
 {

@@ -11,6 +11,7 @@
 #include "collision/filter/proof_scene.h"
 #include "collision/filter/proofs/proof_worker.h"
 #include "gpu_planning_scene/cpu_checker.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
@@ -19,7 +20,6 @@ namespace
 namespace fs = std::filesystem;
 
 constexpr std::size_t kManyStates = 25000;  // more than are checked before proofs are made
-constexpr std::uint64_t kSeed = 43;
 
 /// A user's cache folder of a test.
 class CacheOfATest

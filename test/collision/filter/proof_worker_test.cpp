@@ -11,6 +11,7 @@
 
 #include "collision/filter/proof_scene.h"
 #include "gpu_planning_scene/cpu_checker.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
@@ -18,7 +19,6 @@ namespace
 {
 constexpr std::size_t kManyStates = 25000;  // more than are checked before proofs are made
 constexpr std::size_t kEvery = 10;
-constexpr std::uint64_t kSeed = 43;
 
 /// The same neighbourhood for each state.
 JointNeighbourhood around(const RobotModel& robot, std::size_t count)

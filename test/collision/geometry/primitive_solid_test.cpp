@@ -151,13 +151,13 @@ TEST(PrimitiveSolid, TouchesAtTheTrueSurfaceAndNotBeyond)
   };
   const double angle = 0.7;  // not an angle of any vertex of the tessellations
   const Vector3d radial(std::cos(angle), std::sin(angle), 0.0);
-  struct Contact
+  struct SurfaceContact
   {
     Shape shape;
     Vector3d point;
     Vector3d outward;
   };
-  const std::vector<Contact> contacts = {
+  const std::vector<SurfaceContact> contacts = {
       {kBox, Vector3d(0.15, 0.03, 0.02), Vector3d(1, 0, 0)},
       {kBox, Vector3d(0.15, 0.10, 0.20), Vector3d(1, 1, 1)},
       {kSphere, 0.2 * Vector3d(1, 2, 3).normalized(), Vector3d(1, 2, 3)},
@@ -168,7 +168,7 @@ TEST(PrimitiveSolid, TouchesAtTheTrueSurfaceAndNotBeyond)
       {kCone, 0.25 * Vector3d::UnitZ(), Vector3d::UnitZ()},
       {kCone, -0.25 * Vector3d::UnitZ() + 0.1 * radial, -Vector3d::UnitZ()},
   };
-  for (const Contact& contact : contacts)
+  for (const SurfaceContact& contact : contacts)
   {
     EXPECT_TRUE(touches(contact.shape, contact.point, contact.outward, 0.0)) << contact.point.transpose();
     EXPECT_FALSE(touches(contact.shape, contact.point, contact.outward, 1e-9)) << contact.point.transpose();

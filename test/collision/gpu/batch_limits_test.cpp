@@ -11,6 +11,7 @@
 #include "collision/gpu/uploaded_poses.h"
 #include "gpu/egl_context.h"
 #include "shader_constants.h"
+#include "support/seed.h"
 #include "support/shader_folder.h"
 
 namespace gpu_planning_scene::core
@@ -18,7 +19,6 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kStates = 300;
-constexpr std::uint64_t kSeed = 23;
 
 /// A wavy closed surface that is not convex, so that answers depend on triangles.
 std::shared_ptr<const Mesh> wavySphere()

@@ -12,14 +12,14 @@
 #include "gpu/float_arithmetic.h"
 #include "model/model_testing.h"
 #include "model/real_robots.h"
+#include "support/seed.h"
 #include "support/shader_folder.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 31;
-constexpr std::size_t kStates = 200;
+constexpr std::size_t kPosedStates = 200;
 
 /// Two shapes on each link, one of them rotated, relative to an origin.
 CollisionProblem shapesOn(const RobotModel& robot)
@@ -39,8 +39,8 @@ std::vector<double> statesOf(const RobotModel& robot)
 {
   std::mt19937_64 generator(kSeed);
   const std::size_t width = robot.variables().size();
-  std::vector<double> states(kStates * width);
-  for (std::size_t i = 0; i < kStates; ++i)
+  std::vector<double> states(kPosedStates * width);
+  for (std::size_t i = 0; i < kPosedStates; ++i)
   {
     robot.randomState(generator, &states[i * width]);
     for (std::size_t v = 0; v < width; ++v)
@@ -65,13 +65,13 @@ void expectPosesOfTheModel(const std::shared_ptr<const RobotModel>& robot)
   kinematics.setStates(states.data());
   const std::size_t count = problem.robot.size();
   TexelBuffer poses;
-  poses.reserve(kStates * count * 12 * sizeof(float));
-  kinematics.write(0, kStates, poses);
-  std::vector<float> found(kStates * count * 12);
+  poses.reserve(kPosedStates * count * 12 * sizeof(float));
+  kinematics.write(0, kPosedStates, poses);
+  std::vector<float> found(kPosedStates * count * 12);
   poses.buffer().read(found.data(), found.size() * sizeof(float));
 
   std::vector<Eigen::Isometry3d> links(robot->links().size());
-  for (std::size_t i = 0; i < kStates; ++i)
+  for (std::size_t i = 0; i < kPosedStates; ++i)
   {
     robot->linkPoses(&states[i * robot->variables().size()], links.data());
     for (std::size_t k = 0; k < count; ++k)
@@ -84,7 +84,7 @@ void expectPosesOfTheModel(const std::shared_ptr<const RobotModel>& robot)
       for (int entry = 0; entry < 12; ++entry)
       {
         const double expected = pose(entry / 4, entry % 4);
-        ASSERT_NEAR(found[(k * kStates + i) * 12 + static_cast<std::size_t>(entry)], expected,
+        ASSERT_NEAR(found[(k * kPosedStates + i) * 12 + static_cast<std::size_t>(entry)], expected,
                     0x1p-24 * std::abs(expected) + 1e-13 * scale)
             << "state " << i << ", shape " << k << " on " << robot->links()[static_cast<std::size_t>(shape.link)].name
             << ", seed " << kSeed;

@@ -13,6 +13,7 @@
 #include "gpu/egl_context.h"
 #include "gpu/program.h"
 #include "shader_constants.h"
+#include "support/seed.h"
 #include "support/test_scenes.h"
 #include "support/triangle_soup.h"
 
@@ -21,8 +22,6 @@ namespace gpu_planning_scene::core
 namespace
 {
 using Eigen::Vector3d;
-
-constexpr std::uint64_t kSeed = 23;
 
 double halfSurface(const std::array<float, 3>& half)
 {

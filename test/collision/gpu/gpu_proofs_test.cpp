@@ -11,13 +11,12 @@
 #include "collision/gpu/sliding_balls.h"
 #include "support/near_contact.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint64_t kSeed = 59;
-
 ProvenScene provenSlidingBalls()
 {
   const std::shared_ptr<PlanningScene> scene = slidingBalls();

@@ -15,6 +15,7 @@
 #include "gpu/egl_context.h"
 #include "gpu/program.h"
 #include "shader_constants.h"
+#include "support/seed.h"
 #include "support/shader_folder.h"
 
 namespace gpu_planning_scene::core
@@ -22,8 +23,6 @@ namespace gpu_planning_scene::core
 namespace
 {
 using Eigen::Vector3d;
-
-constexpr std::uint64_t kSeed = 17;
 
 /// Declarations for tests of two nodes, each in a tree with a pose.
 const char* const kPlacedNodes = R"(

@@ -21,7 +21,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 CheckStates::Request request(const std::vector<std::string>& names, const std::vector<double>& positions)
@@ -212,10 +211,10 @@ TEST_F(Service, TooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
       store, [](auto scene) { return std::make_shared<CpuChecker>(std::move(scene)); }, options);
   CheckServices bounded(store, small, memory, {}, nullptr);
   EXPECT_NE(std::string::npos,
-            bounded.checkStates(request({"turn"}, {0.0, 0.0, kNan})).message.find("limits/request_states"));
+            bounded.checkStates(request({"turn"}, {0.0, 0.0, std::nan("")})).message.find("limits/request_states"));
   CheckMotions::Request motions;
   motions.joint_names = {"turn"};
-  motions.starts = {0.0, 0.0, kNan};
+  motions.starts = {0.0, 0.0, std::nan("")};
   motions.ends = motions.starts;
   EXPECT_NE(std::string::npos, bounded.checkMotions(motions).message.find("limits/request_states"));
 }
@@ -263,7 +262,7 @@ TEST_F(Service, WrongRequestsAreRefusedWithTheReason)
                 "joint 'flag' mimics joint 'turn', from which its value follows; leave it out; the robot's variables "
                 "are slide, turn");
   expectRefusal(request({"turn", "turn"}, {0.0, 0.0}), "'turn' is given twice");
-  expectRefusal(request({"turn", "slide"}, {0.0, 0.0, kNan, 0.0}), "state 1: the position of 'turn'");
+  expectRefusal(request({"turn", "slide"}, {0.0, 0.0, std::nan(""), 0.0}), "state 1: the position of 'turn'");
   expectRefusal(request({"turn", "slide"}, {0.0, kInfinity}), "state 0: the position of 'slide'");
   CheckStates::Request unknown_group = request({"turn", "slide"}, {0.0, 0.0});
   unknown_group.group = "sails";

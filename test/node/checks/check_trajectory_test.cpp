@@ -21,8 +21,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 std::vector<std::string> variableNames(const RobotModel& robot)
 {
   std::vector<std::string> names;
@@ -202,7 +200,7 @@ TEST_F(SliderTrajectory, WrongTrajectoriesAreRefusedWithTheReason)
                 "joint_trajectory has 1 joints and 0 points; give both, or leave both empty");
   expectRefusal(trajectoryOf({"slide", "turn"}, {{0.0, 0.0}, {0.0}}),
                 "joint_trajectory: waypoint 1 has 1 values for 2 joints");
-  expectRefusal(trajectoryOf({"slide", "turn"}, {{0.0, 0.0}, {0.0, kNan}}),
+  expectRefusal(trajectoryOf({"slide", "turn"}, {{0.0, 0.0}, {0.0, std::nan("")}}),
                 "joint_trajectory: waypoint 1: the position of 'turn' is not a finite number");
   expectRefusal(trajectoryOf({"slide", "turns"}, {{0.0, 0.0}}),
                 "the robot has no variable 'turns'; the robot's variables are slide, turn");
@@ -326,7 +324,7 @@ TEST(MultiDofTrajectory, IsCheckedAsTheSameValuesByName)
         "'hall' or the joint's parent 'hall'",
         robot.services.checkTrajectory(wrong).message);
     wrong = transforms;
-    wrong.multi_dof_joint_trajectory.points[1].transforms[0].translation.x = kNan;
+    wrong.multi_dof_joint_trajectory.points[1].transforms[0].translation.x = std::nan("");
     EXPECT_EQ("multi_dof_joint_trajectory: waypoint 1: 'floor' is not finite",
               robot.services.checkTrajectory(wrong).message);
     wrong = transforms;

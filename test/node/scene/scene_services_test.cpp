@@ -1,5 +1,6 @@
 // Changes of the scene by services and joint states. No ROS master is needed.
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,8 +15,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 sensor_msgs::JointState jointState(const std::vector<std::string>& names, const std::vector<double>& positions)
 {
   sensor_msgs::JointState message;
@@ -126,10 +125,10 @@ TEST_F(JointStates, UpdateWhatTheyNameOfTheRobot)
 TEST_F(JointStates, AWrongMessageChangesNothing)
 {
   take(jointState({"slide", "turn"}, {0.25, 0.5}));
-  EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0, kNan})), Error);
+  EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0, std::nan("")})), Error);
   EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0})), Error);
   EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.snapshot().state);
-  take(jointState({"slide", "wheel"}, {1.0, kNan}));  // the wrong value belongs to another robot
+  take(jointState({"slide", "wheel"}, {1.0, std::nan("")}));  // the wrong value belongs to another robot
   EXPECT_EQ(1.0, store.snapshot().state[0]);
 }
 

@@ -30,7 +30,7 @@ BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definit
     overlap_(folder, "traversal/level_overlap.comp", definitions, TaskPrograms::Needs::NoPadding),
     triangles_(folder, "traversal/level_triangles.comp", definitions, TaskPrograms::Needs::NoTolerance),
     masks_(std::size_t{largestLevel(capacities)} * 4),
-    sums_((std::size_t{largestLevel(capacities)} / LEVEL_CHUNK + 1) * 8)
+    sums_((std::size_t{largestLevel(capacities)} / LEVEL_GROUP + 1) * 8)
 {
   leaf_pairs_.reserve(std::size_t{capacities.leaf_pairs} * TexelBuffer::kTexelBytes);
 }
@@ -49,9 +49,8 @@ void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
   if (task.tolerance > 0.0F)
     overlap.setFloat(LOCATION_TOLERANCE, task.tolerance);
   const std::uint32_t capacity = lists.capacity.node_pairs;
-  const auto group_node_pairs = std::uint32_t{LEVEL_CHUNK} * GROUP_SIZE;
   std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
-  arguments_.prepare(in_counter, lists.capacity.root_pairs, group_node_pairs, COUNTER_ENTRIES_ODD);
+  arguments_.prepare(in_counter, lists.capacity.root_pairs, LEVEL_GROUP, COUNTER_ENTRIES_ODD);
   for (const Program* program : level_programs)
   {
     program->set(LOCATION_ENTRY_CAPACITY, capacity);

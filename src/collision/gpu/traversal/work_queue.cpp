@@ -12,9 +12,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Usually one pass suffices. The other passes take the node pairs that are left when a stack is full or the iterations
-/// run out.
-constexpr std::uint32_t kPasses = 3;
+/// Each pass but the last hands the node pairs of long traversals on to the next one.
+constexpr std::uint32_t kPasses = 4;
 }  // namespace
 
 void WorkQueue::start(BatchLists& lists, const TraversalTask& task)
@@ -35,6 +34,7 @@ void WorkQueue::start(BatchLists& lists, const TraversalTask& task)
     program.set(LOCATION_IN_COUNTER, in_counter);
     program.set(LOCATION_OUT_COUNTER, out_counter);
     program.set(LOCATION_IN_CAPACITY, in_capacity);
+    program.set(LOCATION_IS_LAST, pass + 1 == kPasses ? 1U : 0U);
     in_list->bindTexture(UNIT_ENTRIES);
     out_list.buffer().bindStorage(BINDING_A);
     program.dispatchIndirect(lists.counters, ArgumentsKernel::argumentsOffset());
