@@ -190,6 +190,13 @@ TEST_P(BatchLimits, WorkThatIsLeftWhenTheIterationsRunOutIsHandedOn)
   EXPECT_EQ(resultWithChangedShaders().valid, validOnCpu());
 }
 
+TEST_P(BatchLimits, WorkThatIsHandedOnAfterEachRoundIsFinishedByTheLastPass)
+{
+  folder_.define("QUEUE_LAST_ROUNDS", "0");
+  EXPECT_EQ(resultWithChangedShaders().valid, validOnCpu());
+  EXPECT_EQ(resultWithChangedShaders().undecided_states, 0U);
+}
+
 TEST_P(BatchLimits, AWalkThroughTheWorldThatTakesTooLongIsUndecided)
 {
   folder_.define("INVOCATION_ITERATIONS", "2");
