@@ -197,7 +197,7 @@ std::string pathFrom(py::handle object, const char* what)
 
 core::PackageResolver packagesFrom(py::handle object)
 {
-  const char* remedy = "give the folder of NAME in the argument packages";
+  const char* remedy = "give the folder of NAME in the argument packages of this call";
   if (object.is_none())
     return core::packageResolver({}, remedy);
   if (py::isinstance<py::dict>(object))

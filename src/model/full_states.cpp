@@ -73,9 +73,10 @@ std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& 
     if (!given[i] && !current.known[i])
       missing.push_back(robot.variables()[i].name);
   if (!missing.empty())
-    throw Error("no value for " + nameList(missing) +
-                "; give one, or set the current state: with the topic joint_states, with robot_state.joint_state in "
-                "the scene file, or with ~apply_planning_scene");
+    throw Error(
+        "no value for " + nameList(missing) +
+        "; give values for all joints (a named state takes no further values), or set the current state: with the "
+        "topic joint_states, with robot_state.joint_state in the scene file, or with ~apply_planning_scene");
 
   std::vector<double> states(count * width);
   for (std::size_t row = 0; row < count; ++row)

@@ -33,9 +33,10 @@ class YourRobot(unittest.TestCase):
             for block in examples(os.path.join("docs", "your_robot.md"))
             if block
         ]
-        self.assertEqual(13, len(blocks))
+        self.assertEqual(14, len(blocks))
         self.variables, self.generate, scene, self.launch, self.report, self.set_state, self.collides_now = blocks[:7]
-        self.carry, self.client, self.client_answer, self.plan, self.picture, self.check_many = blocks[7:]
+        self.carry, self.client, self.client_answer, self.plan, self.picture, self.check_many = blocks[7:13]
+        self.colliding_state = blocks[13]
         with open(os.path.join(self.folder.name, "my_scene.yaml"), "w", encoding="utf-8") as file:
             file.write(scene)
 
@@ -78,6 +79,9 @@ class YourRobot(unittest.TestCase):
         for name in ("answers.csv", "states.csv"):
             with open(os.path.join(self.folder.name, name), encoding="utf-8") as file:
                 self.assertEqual(1001, len(file.readlines()), name)
+        names, state = self.run_block(self.colliding_state).splitlines()
+        self.assertEqual("shoulder_yaw,", names[:13])
+        self.assertEqual(6, len(state.split(",")))
 
     def test_the_scene_has_15_lines_with_each_kind_of_object(self):
         with open(os.path.join(self.folder.name, "my_scene.yaml"), encoding="utf-8") as file:

@@ -150,7 +150,7 @@ class ReportTest(unittest.TestCase):
     def test_has_the_output_of_each_program_for_the_device(self):
         status, report = self.report('echo "output of $*"')
         self.assertEqual(status, 0, report)
-        for program in ("stability --quick", "exactness", "benchmark --quick"):
+        for program in ("stability --quick", "exactness --quick", "benchmark --quick"):
             self.assertIn(f"output of {program} --device 1\n", report)
         self.assertRegex(report, "output of planning_study .*--device 1\n")
         self.assertEqual(report.count(" passed "), 4, report)

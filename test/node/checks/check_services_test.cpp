@@ -90,8 +90,10 @@ TEST_F(Service, ARequestCanNameARevision)
 TEST_F(Service, OtherVariablesTakeTheCurrentState)
 {
   expectRefusal(request({"turn"}, {0.0}),
-                "no value for slide; give one, or set the current state: with the topic joint_states, with "
-                "robot_state.joint_state in the scene file, or with ~apply_planning_scene");
+                "no value for slide; give values for all joints (a named state takes no further values), or set the "
+                "current state: "
+                "with the topic joint_states, with robot_state.joint_state in the scene file, or with "
+                "~apply_planning_scene");
   store.updateState({{"slide", 1.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);
 }
