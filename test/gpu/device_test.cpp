@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu/driver_fault.h"
 #include "gpu/egl_context.h"
 #include "gpu/gl_thread.h"
 #include "gpu_planning_scene/device.h"
@@ -56,6 +57,13 @@ TEST(Device, UnknownDeviceIsRefusedWithAListOfDevices)
     EXPECT_NE(error.find(listDevices().front().renderer), std::string::npos) << error;
     EXPECT_EQ(error.find('\n'), std::string::npos);
   }
+}
+
+TEST(Device, IsRefusedIfItsDriverIsKnownToComputeWrongAnswers)
+{
+  EXPECT_NE(driverFault("zink (llvmpipe (LLVM 15.0.6, 256 bits))").find("zink"), std::string::npos);
+  EXPECT_EQ(driverFault("llvmpipe (LLVM 15.0.6, 256 bits)"), "");
+  EXPECT_EQ(driverFault("NVIDIA H200/PCIe/SSE2"), "");
 }
 
 TEST(GlThread, PassesOnWhatAJobThrowsAndGoesOn)
