@@ -132,10 +132,14 @@ py::array_t<double> rowsFor(std::size_t count, std::size_t width, const py::obje
 }
 
 py::array_t<double> randomStates(const RobotModel& robot, Arg<std::size_t> count, Arg<std::uint64_t> seed,
-                                 const py::object& base, const py::object& out)
+                                 const py::object& base, const py::object& out, Arg<bool> moves_base)
 {
   const std::size_t width = robot.variables().size();
-  const std::vector<double> start = base.is_none() ? std::vector<double>() : rowFrom(base, robot, "base");
+  if (moves_base.value && !base.is_none())
+    throw core::Error("base is given and moves_base is True; give one of the two");
+  std::vector<double> start;
+  if (!moves_base.value)
+    start = base.is_none() ? robot.defaultState() : rowFrom(base, robot, "base");
   py::array_t<double> states = rowsFor(count.value, width, out);
   double* rows = states.mutable_data();
   std::mt19937_64 generator(seed.value);
@@ -305,13 +309,13 @@ void addRobotModel(py::module_& module)
           },
           "A state with all variables 0, or in the middle of their limits if 0 is outside. Shape (variables,).")
       .def("random_states", &randomStates, py::arg("count"), py::arg("seed"), py::arg("base") = py::none(),
-           py::arg("out") = py::none(),
+           py::arg("out") = py::none(), py::arg("moves_base") = false,
            "Random states within the joint limits, shape (count, variables).\n\nThe same seed gives the same states "
-           "as the library with std::mt19937_64(seed), and, with base, as the tool check_states. base: a state of "
-           "shape (variables,); planar and floating joints, such as a virtual joint, have its values. Without it, "
-           "the robot's base moves too. out: an array of float64 in the order of C, of the shape of the result, which "
+           "as the tool check_states. base: a state of shape (variables,), by default default_state(). Planar and "
+           "floating joints, such as a virtual joint, have its values. moves_base: these joints get random values "
+           "too. out: an array of float64 in the order of C, of the shape of the result, which "
            "gets the states and is returned. Ctrl-C ends a long call.\n\n"
-           "    states = robot.random_states(1000, seed=1, base=robot.default_state())")
+           "    states = robot.random_states(1000, seed=1)")
       .def("link_poses", &linkPoses, py::arg("states"),
            "Forward kinematics: the pose of each link in the planning frame, for each state.\n\nstates: shape "
            "(n, variables) or (variables,), or names of states of the SRDF that set all variables. Returns matrices of "

@@ -108,7 +108,7 @@ class RobotModel(Case):
         self.assert_one_line(gps.Error, r"out: the shape is \(7, 6\); it must be \(3, 6\)", robot.random_states, 3, 1,
                              None, rows)
 
-    def test_the_base_of_random_states_stands_still_where_base_says(self):
+    def test_the_base_of_random_states_stands_still_unless_it_is_to_move(self):
         srdf = ('<robot name="rail"><virtual_joint name="world" type="planar" parent_frame="map" child_link="rail"/>'
                 "</robot>")
         robot = gps.RobotModel.from_xml(RAIL, srdf)
@@ -116,7 +116,11 @@ class RobotModel(Case):
         base[:3] = [1.0, 2.0, 0.5]
         states = robot.random_states(10, seed=1, base=base)
         np.testing.assert_array_equal(states[:, :3], np.tile(base[:3], (10, 1)))
-        self.assertTrue(np.all(robot.random_states(10, seed=1)[:, 0] != 1.0))
+        default = robot.default_state()
+        np.testing.assert_array_equal(robot.random_states(10, seed=1)[:, :3], np.tile(default[:3], (10, 1)))
+        self.assertTrue(np.all(robot.random_states(10, seed=1, moves_base=True)[:, 0] != default[0]))
+        self.assert_one_line(gps.Error, "base is given and moves_base is True", robot.random_states, 10, 1, base, None,
+                             True)
 
     def test_a_wrong_shape_of_states_names_the_variables(self):
         robot = rail()

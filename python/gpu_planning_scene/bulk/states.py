@@ -47,16 +47,17 @@ class RandomSlice:
 
     def _draw(self, robot: gps.RobotModel, base: Base, first: int, out: np.ndarray) -> None:
         """Draws the states with the indices first, first + 1, ... into the rows of `out`."""
-        start = None if self.moves_base else robot.default_state() if base is None else base
+        start = None if self.moves_base else base
         done = 0
         while done < len(out):
             block, skipped = divmod(first + done, BLOCK)
             seed = block_seed(self.seed, block)
             rows = out[done:done + BLOCK - skipped]
             if skipped:
-                rows[:] = robot.random_states(skipped + len(rows), seed=seed, base=start)[skipped:]
+                rows[:] = robot.random_states(skipped + len(rows), seed=seed, base=start,
+                                               moves_base=self.moves_base)[skipped:]
             else:
-                robot.random_states(len(rows), seed=seed, base=start, out=rows)
+                robot.random_states(len(rows), seed=seed, base=start, out=rows, moves_base=self.moves_base)
             done += len(rows)
 
 
