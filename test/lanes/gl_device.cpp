@@ -32,6 +32,25 @@ std::string ignored_before;  // the kind of command, empty: every command
 bool recording = false;
 std::recursive_mutex lock;
 
+/// The counts of the host's work, if there are any, else some that nobody reads.
+HostWork& hostWork()
+{
+  static HostWork unread;
+  return device().counts() ? device().counts()->host : unread;
+}
+
+void countUpload(GLsizeiptr bytes)
+{
+  ++hostWork().uploads;
+  hostWork().uploaded_bytes += static_cast<std::uint64_t>(bytes);
+}
+
+void countDownload(GLsizeiptr bytes)
+{
+  ++hostWork().downloads;
+  hostWork().downloaded_bytes += static_cast<std::uint64_t>(bytes);
+}
+
 /// Lets the memory barriers since the last command take effect. `command`: the kind of the command that follows.
 void applyBarriers(const char* command)
 {
@@ -79,12 +98,15 @@ void readBuffer(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data)
 
 void bufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data)
 {
+  countUpload(size);
   applyBarriers("upload");
   writeBuffer(buffer, offset, size, data);
 }
 
 void getBufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data)
 {
+  countDownload(size);
+  ++hostWork().waits;
   applyBarriers("download");
   readBuffer(buffer, offset, size, data);
 }
@@ -98,7 +120,10 @@ void clearBufferSubData(GLuint buffer, GLenum, GLintptr offset, GLsizeiptr size,
 
 void copyBufferSubData(GLuint from, GLuint to, GLintptr from_offset, GLintptr to_offset, GLsizeiptr size)
 {
-  applyBarriers(mapped.count(to) > 0 ? "readback" : "copy");
+  const bool is_readback = mapped.count(to) > 0;
+  if (is_readback)
+    countDownload(size);
+  applyBarriers(is_readback ? "readback" : "copy");
   std::vector<char> bytes(static_cast<std::size_t>(size));
   readBuffer(from, from_offset, size, bytes.data());
   writeBuffer(to, to_offset, size, bytes.data());
@@ -240,8 +265,7 @@ void dispatchComputeIndirect(GLintptr offset)
   applyBarriers("indirect dispatch");
   GLuint groups[3] = {};
   device().commandRead(indirect_block, static_cast<std::size_t>(offset), sizeof(groups), groups, Command);
-  if (groups[0] * groups[1] * groups[2] != 0)
-    runProgram(groups[0], groups[1]);
+  runProgram(groups[0], groups[2] == 0 ? 0 : groups[1]);
 }
 
 GLsync fenceSync(GLenum, GLbitfield)
@@ -251,6 +275,7 @@ GLsync fenceSync(GLenum, GLbitfield)
 
 GLenum clientWaitSync(GLsync, GLbitfield, GLuint64)
 {
+  ++hostWork().waits;
   return GL_ALREADY_SIGNALED;
 }
 
@@ -266,6 +291,7 @@ struct Locked<function>
   static R call(A... arguments)
   {
     const std::lock_guard<std::recursive_mutex> guard(lock);
+    ++hostWork().calls;
     return function(arguments...);
   }
 };

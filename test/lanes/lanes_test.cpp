@@ -4,13 +4,17 @@
 #include <array>
 #include <cstdlib>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "gpu/buffer.h"
+#include "gpu/program.h"
 #include "lanes/gl_device.h"
 #include "lanes/workloads.h"
+#include "shader_constants.h"
 #include "support/shader_folder.h"
 
 namespace gpu_planning_scene::core
@@ -71,6 +75,86 @@ TEST_F(SimulatedDevice, FindsAMissingMemoryBarrierBeforeADownload)
   constexpr std::uint32_t kBufferUpdate = 0x200;
   lanes::ignoreBarrierBits(kBufferUpdate, "download");
   EXPECT_TRUE(isFound("buffers", kShaders));
+}
+
+TEST_F(SimulatedDevice, CountsTheWorkOfAKernel)
+{
+  constexpr std::uint64_t kGroups = 3;
+  constexpr std::uint64_t kDispatches = 2;
+  constexpr std::uint64_t kAll = kGroups * GROUP_SIZE;
+  const Program program = Program::fromText(kShaders, "work", R"(// One invocation per number: work that is counted.
+#include "shader_constants.h"
+layout(local_size_x = GROUP_SIZE) in;
+layout(binding = 0) uniform usamplerBuffer texels;
+layout(std430, binding = 0) readonly buffer Numbers { vec2 numbers[]; };
+layout(std430, binding = 1) writeonly buffer Results { float results[]; };
+layout(std430, binding = 2) buffer Sum { uint sum; };
+shared float places[GROUP_SIZE];
+void main()
+{
+  const uint i = gl_LocalInvocationID.x;
+  const uint at = gl_WorkGroupID.x * GROUP_SIZE + i;
+  const vec2 number = numbers[at];
+  float x = max(number.x, uintBitsToFloat(texelFetch(texels, 0).x));
+  for (uint k = 0u; k < (i == 5u ? 10u : 0u); ++k)
+    x = 0.5 * x + number.y;
+  places[i] = x;
+  barrier();
+  const double twice = 2.0lf * double(places[GROUP_SIZE - 1u - i]);
+  results[at] = i == 40u ? -abs(sqrt(dot(number, number)) / 3.0) : float(twice);
+  atomicAdd(sum, 1u);
+}
+)");
+  TexelBuffer texels;
+  texels.reserve(TexelBuffer::kTexelBytes);
+  texels.buffer().clear();
+  texels.bindTexture(0);
+  Buffer numbers(kAll * 2 * sizeof(float));
+  numbers.clear();
+  numbers.bindStorage(0);
+  Buffer results(kAll * sizeof(float));
+  results.bindStorage(1);
+  Buffer sum(sizeof(std::uint32_t));
+  sum.clear();
+  sum.bindStorage(2);
+
+  lanes::WorkCounts counts;
+  lanes::device().clearFaults();
+  lanes::device().countWork(&counts);
+  for (std::uint64_t i = 0; i < kDispatches; ++i)
+    program.dispatch(kGroups);
+  std::vector<std::uint32_t> found(2);
+  sum.read(found.data(), sizeof(std::uint32_t));
+  numbers.write(found);
+  lanes::device().countWork(nullptr);
+  EXPECT_EQ(lanes::device().faults(), std::set<std::string>());
+  EXPECT_EQ(found[0], kDispatches * kAll);
+
+  EXPECT_EQ(counts.host.uploads, 1U);
+  EXPECT_EQ(counts.host.uploaded_bytes, 8U);
+  EXPECT_EQ(counts.host.downloads, 1U);
+  EXPECT_EQ(counts.host.downloaded_bytes, 4U);
+  EXPECT_EQ(counts.host.waits, 1U);
+  ASSERT_EQ(counts.programs().size(), 1U);
+  const lanes::ProgramWork& all = counts.programs().begin()->second;
+  EXPECT_EQ(all.dispatches, kDispatches);
+  EXPECT_EQ(all.invocations, kDispatches * kAll);
+  const std::uint64_t groups = kDispatches * kGroups;
+  // Each invocation has one comparison. One has 10 sums and 10 products, another one a dot product.
+  EXPECT_EQ(all.work.floats, groups * (GROUP_SIZE + 20 + 3));
+  EXPECT_EQ(all.work.doubles, groups * GROUP_SIZE);
+  EXPECT_EQ(all.work.quotients, groups * 2);
+  EXPECT_EQ(all.work.shared, groups * 2 * GROUP_SIZE);
+  for (const auto member : {&lanes::Work::fetches, &lanes::Work::loads, &lanes::Work::stores, &lanes::Work::atomics,
+                            &lanes::Work::barriers})
+    EXPECT_EQ(all.work.*member, groups * GROUP_SIZE);
+  EXPECT_EQ(all.work.bytes, groups * GROUP_SIZE * (16 + 8 + 4 + 4));
+  // 4 steps before the barrier and 4 after it. The slowest invocation of the first warp has 20 more before it, that of
+  // the second one 5 more after it.
+  EXPECT_EQ(all.steps, groups * (GROUP_SIZE * 8 + 20 + 5));
+  EXPECT_EQ(all.steps_of_warps, groups * 32 * (4 + 20 + 4 + 4 + 4 + 5));
+  EXPECT_EQ(all.longest.operations, kDispatches * (1 + 20 + 1 + 5));
+  EXPECT_EQ(all.longest.accesses, kDispatches * 4);
 }
 
 /// A deletion in a shader that a task must find.

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <string>
 
 #include <unistd.h>
@@ -25,12 +26,17 @@ struct Preload
     lanes::device().setSeed(number("GPS_LANES_SEED", 1));
     if (number("GPS_LANES_EXACT", 0) != 0)
       lanes::device().useExactArithmetic();
+    lanes::device().setResidentGroups(number("GPS_LANES_GROUPS", 3));
+    if (number("GPS_LANES_COUNTS", 0) != 0)
+      lanes::device().countWork(&counts);
     const char* const before = std::getenv("GPS_LANES_IGNORE_BEFORE");
     lanes::ignoreBarrierBits(static_cast<std::uint32_t>(number("GPS_LANES_IGNORE_BITS", 0)), before ? before : "");
     lanes::replaceOpenGl();
   }
   ~Preload()
   {
+    if (lanes::device().counts())
+      counts.print(std::cerr);
     const auto& faults = lanes::device().faults();
     for (const std::string& fault : faults)
       std::fprintf(stderr, "lanes: %s\n", fault.c_str());
@@ -39,6 +45,8 @@ struct Preload
     std::fflush(nullptr);
     _exit(1);
   }
+
+  lanes::WorkCounts counts;
 };
-const Preload preload;
+Preload preload;
 }  // namespace

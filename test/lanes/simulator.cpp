@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include <boost/context/fiber.hpp>
 #include <boost/context/fixedsize_stack.hpp>
@@ -13,8 +14,6 @@ namespace lanes
 namespace
 {
 constexpr std::size_t kStackBytes = std::size_t{512} * 1024;
-/// Work groups that are in flight at the same time.
-constexpr std::size_t kResidentGroups = 3;
 /// An invocation with more accesses to memory than this hangs. The loops of a shader have at most INVOCATION_ITERATIONS
 /// iterations, and an iteration has fewer than 64 accesses.
 constexpr std::uint32_t kMostAccesses = 4'000'000;
@@ -51,6 +50,7 @@ struct Simulator::Group
   std::size_t finished = 0, waiting = 0;
   std::vector<char> shared;
   std::map<std::uint32_t, std::vector<Place>> places;  // by offset of the variable
+  LongestPath path;
 };
 
 struct Simulator::Fiber
@@ -201,6 +201,8 @@ Block* Simulator::find(std::uint32_t binding, std::uint64_t word, std::uint32_t 
 void Simulator::load(std::uint32_t binding, std::uint64_t first, std::uint32_t count, std::uint32_t* values)
 {
   maybeSwitch();
+  ++running_->lane.work.loads;
+  running_->lane.work.bytes += count * sizeof(std::uint32_t);
   std::size_t at = 0;
   Block* block = find(binding, first, count, at);
   std::fill_n(values, count, 0);
@@ -255,6 +257,8 @@ void Simulator::noteWrite(Block::Word& word, std::uint32_t value, bool atomicall
 void Simulator::store(std::uint32_t binding, std::uint64_t first, std::uint32_t count, const std::uint32_t* values)
 {
   maybeSwitch();
+  ++running_->lane.work.stores;
+  running_->lane.work.bytes += count * sizeof(std::uint32_t);
   std::size_t at = 0;
   Block* block = find(binding, first, count, at);
   if (!block)
@@ -273,6 +277,8 @@ std::uint32_t Simulator::atomic(std::uint32_t binding, std::uint64_t first, Atom
                                 std::uint32_t value)
 {
   maybeSwitch();
+  ++running_->lane.work.atomics;
+  running_->lane.work.bytes += sizeof(std::uint32_t);
   std::size_t at = 0;
   Block* block = find(binding, first, 1, at);
   if (!block)
@@ -289,6 +295,8 @@ std::uint32_t Simulator::atomic(std::uint32_t binding, std::uint64_t first, Atom
 
 void Simulator::fetch(std::uint32_t unit, std::int64_t texel, std::uint32_t* values)
 {
+  ++running_->lane.work.fetches;
+  running_->lane.work.bytes += 4 * sizeof(std::uint32_t);
   std::fill_n(values, 4, 0);
   const auto bound = textures_.find(unit);
   if (bound == textures_.end() || blocks_.find(bound->second) == blocks_.end())
@@ -316,6 +324,7 @@ void* Simulator::shared(std::uint32_t offset, std::uint32_t place, SharedAccess 
     maybeSwitch();
   if (place == kNoPlace)
     return &running_->group->shared[offset];
+  ++running_->lane.work.shared;
   const Kernel& kernel = *program_->kernel;
   const Variable* of = nullptr;
   for (std::uint32_t i = 0; i < kernel.variable_count; ++i)
@@ -360,6 +369,7 @@ void* Simulator::shared(std::uint32_t offset, std::uint32_t place, SharedAccess 
 void Simulator::barrier(int site)
 {
   countAccess();
+  ++running_->lane.work.barriers;
   running_->barrier = site;
   ++running_->group->waiting;
   running_->pause();
@@ -391,6 +401,8 @@ bool Simulator::release(Group& group)
 {
   if (group.waiting + group.finished < group.lanes.size())
     return false;
+  if (counts_)
+    countWork(group);
   if (group.waiting > 0)
   {
     int site = 0;
@@ -413,6 +425,17 @@ bool Simulator::release(Group& group)
     ++group.epoch;
   }
   return group.finished == group.lanes.size();
+}
+
+/// Adds the work of all lanes of a group since their last barrier to the counts.
+void Simulator::countWork(Group& group)
+{
+  std::vector<Work> work;
+  for (const auto& lane : group.lanes)
+    work.push_back(std::exchange(lane->lane.work, {}));
+  counts_->add(work, group.path);
+  if (group.finished == group.lanes.size())
+    counts_->endGroup(group.lanes.size(), group.path);
 }
 
 void Simulator::chooseFreedoms()
@@ -452,7 +475,7 @@ void Simulator::startGroup(std::uint32_t number, std::uint32_t columns, std::uin
       idle_.push_back(std::make_unique<Fiber>());
     std::unique_ptr<Fiber> fiber = std::move(idle_.back());
     idle_.pop_back();
-    fiber->lane = {i, {number % columns, number / columns, 0}, {columns, rows, 1}, false};
+    fiber->lane = {i, {number % columns, number / columns, 0}, {columns, rows, 1}, false, {}};
     fiber->group = group.get();
     fiber->main = program_->main;
     fiber->finished = false;
@@ -469,6 +492,10 @@ void Simulator::dispatch(const Program& program, std::uint32_t columns, std::uin
 {
   if (hangs_)
     return;
+  if (counts_)
+    counts_->begin(program.name);
+  if (columns * rows == 0)
+    return;
   ++dispatch_;
   accesses_after_fault_ = 0;
   program_ = &program;
@@ -481,7 +508,7 @@ void Simulator::dispatch(const Program& program, std::uint32_t columns, std::uin
   std::shuffle(pending.begin(), pending.end(), random_);
   while (!pending.empty() || !groups_.empty())
   {
-    while (!pending.empty() && groups_.size() < kResidentGroups)
+    while (!pending.empty() && groups_.size() < resident_groups_)
     {
       startGroup(pending.back(), columns, rows);
       pending.pop_back();

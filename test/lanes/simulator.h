@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lanes/host.h"
+#include "lanes/work_counts.h"
 
 namespace lanes
 {
@@ -68,6 +69,12 @@ class Simulator : private Memory
   void setSeed(std::uint64_t seed);
   /// Uses IEEE arithmetic in place of the seed's.
   void useExactArithmetic() { chosen_arithmetic_ = false; }
+  /// The work groups that are in flight at the same time. A GPU has hundreds, which share the entries of a queue.
+  void setResidentGroups(std::size_t groups) { resident_groups_ = groups; }
+
+  /// From now on, work is added to these counts. Null: to none.
+  void countWork(WorkCounts* counts) { counts_ = counts; }
+  WorkCounts* counts() { return counts_; }
 
   std::uint32_t addBlock(std::size_t bytes);
   void removeBlock(std::uint32_t id) { blocks_.erase(id); }
@@ -118,6 +125,7 @@ class Simulator : private Memory
   void maybeSwitch();
   void startGroup(std::uint32_t number, std::uint32_t columns, std::uint32_t rows);
   bool release(Group& group);
+  void countWork(Group& group);
 
   std::map<std::uint32_t, std::unique_ptr<Block>> blocks_;
   std::map<std::uint32_t, Binding> storage_;
@@ -127,6 +135,8 @@ class Simulator : private Memory
   std::uint32_t dispatch_ = 0;
   Run run_;
   bool chosen_arithmetic_ = true;
+  std::size_t resident_groups_ = 3;
+  WorkCounts* counts_ = nullptr;
   std::mt19937_64 random_{1};
   std::set<std::string> faults_;
   std::uint64_t switches_ = 0;

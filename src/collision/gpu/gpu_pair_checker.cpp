@@ -18,9 +18,6 @@ namespace
 /// The order of queries is learned from about this many states of a batch.
 constexpr std::size_t kMaxCounted = 16384;
 
-/// Wanted duration of a part. Some devices abort work that takes seconds, and other users of the device wait until a
-/// part has ended.
-constexpr double kPartSeconds = 0.05;
 constexpr std::size_t kFirstPart = 2048;
 
 /// Byte offsets in the results of a part: counters, then flags, then hits. `words` is the size of the flags and of the
@@ -64,13 +61,13 @@ GpuPairChecker::Programs::Programs(const std::string& folder, const std::string&
 }
 
 GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, std::size_t max_states,
-                               const ListCapacities& capacities)
+                               const ListCapacities& capacities, double part_seconds)
   : float_fault_(findFloatFault(folder)),
     definitions_(float_fault_.empty() ? "" : "#define FLOAT32_TRUSTED 0\n"),
     scene_(folder),
     max_states_(std::max<std::size_t>(1, max_states)),
-    plain_parts_({kPartSeconds, kFirstPart, 1, max_states_}),
-    parts_with_margins_({kPartSeconds, kFirstPart, 1, max_states_}),
+    plain_parts_({part_seconds, kFirstPart, 1, max_states_}),
+    parts_with_margins_({part_seconds, kFirstPart, 1, max_states_}),
     lists_(withDefaults(capacities, max_states_)),
     traversal_(makeTraversal(traversal, folder, definitions_, lists_.capacity)),
     arguments_(folder),

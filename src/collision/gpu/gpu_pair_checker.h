@@ -33,9 +33,13 @@ struct Verdicts
 class GpuPairChecker
 {
  public:
+  /// Wanted duration of a part. Some devices abort work that takes seconds, and other users of the device wait until a
+  /// part has ended.
+  static constexpr double kPartSeconds = 0.05;
+
   /// At most `max_states` states go to the GPU at once. `capacities`: 0 means the default for this number of states.
   GpuPairChecker(const std::string& shader_folder, Traversal traversal, std::size_t max_states,
-                 const ListCapacities& capacities = {});
+                 const ListCapacities& capacities = {}, double part_seconds = kPartSeconds);
 
   /// See GpuScene.
   void setProblem(const CollisionProblem& problem);
@@ -57,10 +61,10 @@ class GpuPairChecker
   /// Checks `count` states. The poses must be in the frame of the world's poses, i.e. relative to
   /// CollisionProblem::origin.
   ///
-  /// A batch goes to the device in parts. A part takes at most about kPartSeconds, and the next part is started before
-  /// the results of the current one are fetched. A part whose lists overflow is split; a single state whose lists
-  /// overflow is undecided. `margins`: for these states and pairs; null: none. `done`: called with the first state and
-  /// the number of states as soon as their verdicts are there, while the device works on later parts.
+  /// A batch goes to the device in parts. A part takes at most about `part_seconds`, and the next part is started
+  /// before the results of the current one are fetched. A part whose lists overflow is split; a single state whose
+  /// lists overflow is undecided. `margins`: for these states and pairs; null: none. `done`: called with the first
+  /// state and the number of states as soon as their verdicts are there, while the device works on later parts.
   using Done = std::function<void(std::size_t begin, std::size_t count)>;
   void check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins, const Done& done);
 
