@@ -24,7 +24,7 @@ ACCESS = 4               # instructions of an access: addresses, the access, the
 ISSUE = 0.25             # share of the cycles in which a scheduler issues an instruction
 OPERATION_CYCLES = 4     # of an operation on the longest path
 ACCESS_CYCLES = 125      # of an access on it: 500 cycles, four of them at the same time
-SECTOR = 2               # bytes that the cache moves for each byte that is used
+SECTOR_BYTES = 32
 ATOMIC_SECONDS = 1e-9    # of atomics on one address
 DISPATCH_SECONDS = 5e-6  # with its barrier
 WAIT_SECONDS = 15e-6
@@ -122,7 +122,7 @@ def terms(scene, gpu, states, changes):
             ACCESS * (accesses(row) + row["shared"])
         full = {"instructions": instructions / busy / rate / ISSUE,
                 "doubles": row["doubles"] / busy * gpu.cycles_of_double / rate,
-                "L2 cache": row["bytes"] * SECTOR / gpu.cache,
+                "L2 cache": row["sectors"] * SECTOR_BYTES / gpu.cache,
                 "atomics": row["atomics"] * changes.atomics * ATOMIC_SECONDS}
         longest = max(full, key=full.get)
         reasons[longest] += share * full[longest]
@@ -174,7 +174,8 @@ def print_work(scenes):
         ("fetches of texels", lambda s: number(s.a_state("fetches"))),
         ("loads; stores", lambda s: number(s.a_state("loads")) + "; " + number(s.a_state("stores"))),
         ("atomics", lambda s: number(s.a_state("atomics"))),
-        ("bytes of these", lambda s: number(s.a_state("bytes"))),
+        ("bytes of these; of their sectors", lambda s: number(s.a_state("bytes")) + "; " +
+         number(SECTOR_BYTES * s.a_state("sectors"))),
         ("accesses to shared memory", lambda s: number(s.a_state("shared"))),
         ("busy invocations of a warp", busy),
         ("bytes up; down", lambda s: number(s.host["uploaded bytes"] / s.states) + "; " +

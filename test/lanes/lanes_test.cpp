@@ -149,6 +149,9 @@ void main()
                             &lanes::Work::barriers})
     EXPECT_EQ(all.work.*member, groups * GROUP_SIZE);
   EXPECT_EQ(all.work.bytes, groups * GROUP_SIZE * (16 + 8 + 4 + 4));
+  // Before the barrier, a warp reads one texel and 32 numbers of 8 bytes. After it, the warp writes 32 numbers of 4
+  // bytes and the sum.
+  EXPECT_EQ(all.sectors, groups * 2 * (1 + 8 + 4 + 1));
   // 4 steps before the barrier and 4 after it. The slowest invocation of the first warp has 20 more before it, that of
   // the second one 5 more after it.
   EXPECT_EQ(all.steps, groups * (GROUP_SIZE * 8 + 20 + 5));

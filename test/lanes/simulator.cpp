@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cstdlib>
 #include <cstring>
+#include <unordered_set>
 #include <utility>
 
 #include <boost/context/fiber.hpp>
@@ -51,6 +52,7 @@ struct Simulator::Group
   std::vector<char> shared;
   std::map<std::uint32_t, std::vector<Place>> places;  // by offset of the variable
   LongestPath path;
+  std::vector<std::unordered_set<std::uint64_t>> sectors;  // since the last barrier, of each warp; only if counted
 };
 
 struct Simulator::Fiber
@@ -195,6 +197,7 @@ Block* Simulator::find(std::uint32_t binding, std::uint64_t word, std::uint32_t 
     return nullptr;
   }
   at = bound->second.first + word;
+  touch(bound->second.block, at, count);
   return blocks_.at(bound->second.block).get();
 }
 
@@ -304,6 +307,7 @@ void Simulator::fetch(std::uint32_t unit, std::int64_t texel, std::uint32_t* val
   Block& block = *blocks_.at(bound->second);
   if (texel < 0 || (texel + 1) * 16 > static_cast<std::int64_t>(block.bytes))
     return report("a fetch beyond the end of texture unit " + text(unit));
+  touch(bound->second, static_cast<std::size_t>(texel) * 4, 4);
   for (int i = 0; i < 4; ++i)
   {
     Block::Word& word = block.history[texel * 4 + i];
@@ -427,13 +431,28 @@ bool Simulator::release(Group& group)
   return group.finished == group.lanes.size();
 }
 
+/// Notes the sectors of an access.
+void Simulator::touch(std::uint32_t block, std::size_t word, std::size_t words)
+{
+  if (!counts_)
+    return;
+  std::vector<std::unordered_set<std::uint64_t>>& sectors = running_->group->sectors;
+  sectors.resize((running_->group->lanes.size() + kWarp - 1) / kWarp);
+  constexpr std::size_t kWords = kSectorBytes / sizeof(std::uint32_t);
+  for (std::size_t sector = word / kWords; sector <= (word + words - 1) / kWords; ++sector)
+    sectors[running_->lane.local / kWarp].insert(std::uint64_t{block} << 40U | sector);
+}
+
 /// Adds the work of all lanes of a group since their last barrier to the counts.
 void Simulator::countWork(Group& group)
 {
   std::vector<Work> work;
   for (const auto& lane : group.lanes)
     work.push_back(std::exchange(lane->lane.work, {}));
-  counts_->add(work, group.path);
+  std::size_t sectors = 0;
+  for (auto& of_warp : group.sectors)
+    sectors += std::exchange(of_warp, {}).size();
+  counts_->add(work, sectors, group.path);
   if (group.finished == group.lanes.size())
     counts_->endGroup(group.lanes.size(), group.path);
 }

@@ -126,6 +126,7 @@ class Simulator : private Memory
   void startGroup(std::uint32_t number, std::uint32_t columns, std::uint32_t rows);
   bool release(Group& group);
   void countWork(Group& group);
+  void touch(std::uint32_t block, std::size_t word, std::size_t words);
 
   std::map<std::uint32_t, std::unique_ptr<Block>> blocks_;
   std::map<std::uint32_t, Binding> storage_;

@@ -8,8 +8,6 @@ namespace lanes
 {
 namespace
 {
-constexpr std::size_t kWarp = 32;
-
 constexpr std::pair<const char*, std::uint64_t Work::*> kColumns[] = {
     {"floats", &Work::floats},   {"doubles", &Work::doubles}, {"quotients", &Work::quotients},
     {"fetches", &Work::fetches}, {"loads", &Work::loads},     {"stores", &Work::stores},
@@ -36,8 +34,8 @@ void printRow(std::ostream& out, const std::string& name, const ProgramWork& row
   out << name << '\t' << row.dispatches << '\t' << row.invocations;
   for (const auto& [column, member] : kColumns)
     out << '\t' << row.work.*member;
-  out << '\t' << row.steps << '\t' << row.steps_of_warps << '\t' << row.longest.operations << '\t'
-      << row.longest.accesses << '\n';
+  out << '\t' << row.sectors << '\t' << row.steps << '\t' << row.steps_of_warps << '\t' << row.longest.operations
+      << '\t' << row.longest.accesses << '\n';
 }
 }  // namespace
 
@@ -54,6 +52,7 @@ ProgramWork& ProgramWork::operator+=(const ProgramWork& other)
   invocations += other.invocations;
   for (const auto& [column, member] : kColumns)
     work.*member += other.work.*member;
+  sectors += other.sectors;
   steps += other.steps;
   steps_of_warps += other.steps_of_warps;
   longest += other.longest;
@@ -67,8 +66,9 @@ void WorkCounts::begin(const std::string& program)
   ++current_->dispatches;
 }
 
-void WorkCounts::add(const std::vector<Work>& invocations, LongestPath& path)
+void WorkCounts::add(const std::vector<Work>& invocations, std::size_t sectors, LongestPath& path)
 {
+  current_->sectors += sectors;
   LongestPath slowest;
   for (std::size_t first = 0; first < invocations.size(); first += kWarp)
   {
@@ -114,7 +114,7 @@ void WorkCounts::print(std::ostream& out)
   out << "program\tdispatches\tinvocations";
   for (const auto& [column, member] : kColumns)
     out << '\t' << column;
-  out << "\tsteps\tsteps of warps\tlongest operations\tlongest accesses\n";
+  out << "\tsectors\tsteps\tsteps of warps\tlongest operations\tlongest accesses\n";
   ProgramWork all;
   for (const auto& [name, row] : programs())
   {

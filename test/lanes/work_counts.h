@@ -10,6 +10,11 @@
 
 namespace lanes
 {
+/// The invocations of a warp, which a GPU runs together.
+constexpr std::size_t kWarp = 32;
+/// A cache moves memory in pieces of this size.
+constexpr std::size_t kSectorBytes = 32;
+
 /// The largest numbers that one invocation reaches. Between two barriers of its work group, the slowest invocation of
 /// the group counts.
 struct LongestPath
@@ -26,9 +31,12 @@ struct ProgramWork
   std::uint64_t invocations = 0;
   Work work;
   /// Operations and accesses of all invocations. `steps_of_warps`: as if each invocation took as long as the slowest
-  /// one of its warp, which is 32 invocations, between two barriers.
+  /// one of its warp between two barriers.
   std::uint64_t steps = 0;
   std::uint64_t steps_of_warps = 0;
+  /// Different pieces of kSectorBytes of textures and storage buffers that a warp accesses between two barriers: what
+  /// moves if each warp has a cache.
+  std::uint64_t sectors = 0;
   LongestPath longest;  ///< summed over the dispatches
   ProgramWork& operator+=(const ProgramWork& other);
 };
@@ -51,9 +59,9 @@ class WorkCounts
   /// Begins the next dispatch. The work that follows belongs to it.
   void begin(const std::string& program);
 
-  /// Adds the work of a work group's invocations, in their order, between two barriers, and the slowest of them to the
-  /// path of the group.
-  void add(const std::vector<Work>& invocations, LongestPath& path);
+  /// Adds the work of a work group between two barriers: of its invocations, in their order, and the sectors of its
+  /// warps. Adds the slowest invocation to the path of the group.
+  void add(const std::vector<Work>& invocations, std::size_t sectors, LongestPath& path);
 
   /// Ends a work group.
   void endGroup(std::size_t invocations, const LongestPath& path);
