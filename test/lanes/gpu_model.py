@@ -36,17 +36,19 @@ Gpu = collections.namedtuple("Gpu", "name lanes hertz cycles_of_double cache upl
 GPUS = [Gpu("H200", 132 * 128, 1.98e9, 2, 5e12, 50e9),
         Gpu("RTX 4060 Laptop", 24 * 128, 2.0e9, 64, 1e12, 12e9)]
 
-# Changes of the program, each in addition to those before it.
-Changes = collections.namedtuple("Changes", "title part path busy dispatches atomics host",
-                                 defaults=(DEFAULT_PART, 1, 0, 0, 1, 1))
+# Changes of the program, each in addition to those before it: factors, the largest part, and the least busy share of a
+# warp in the traversals.
+Changes = collections.namedtuple("Changes", "title part path busy work dispatches atomics host",
+                                 defaults=(DEFAULT_PART, 1, 0, 1, 1, 1, 1))
 STEPS = [
     ("as it is", {}),
     ("parts of 262,144 states", {"part": 1 << 18}),
-    ("the invocations of a work group share the traversal of a pair: path of an eighth, 70 % busy",
+    ("work groups share a traversal after each round: an eighth of its longest path, warps 70 % busy",
      {"path": 1 / 8, "busy": 0.7}),
-    ("one pass of a work queue instead of three: 8 dispatches fewer", {"dispatches": -8}),
-    ("one atomic for a warp: an eighth of them", {"atomics": 1 / 8}),
-    ("the host's work on eight cores instead of two", {"host": 1 / 4}),
+    ("half of the dispatches", {"dispatches": 1 / 2}),
+    ("one atomic for the invocations of a warp: an eighth", {"atomics": 1 / 8}),
+    ("the work of the host on eight cores instead of two", {"host": 1 / 4}),
+    ("half of the operations of traversals", {"work": 1 / 2}),
 ]
 
 
@@ -118,6 +120,7 @@ def terms(scene, gpu, states, changes):
     for row in scene.programs:
         is_queue = "Traversal by work queues" in row["program"]
         busy = max(row["steps"] / max(1, row["steps of warps"]), changes.busy if is_queue else 0)
+        work = share * (changes.work if is_queue else 1)
         instructions = row["floats"] + row["doubles"] + QUOTIENT * row["quotients"] + \
             ACCESS * (accesses(row) + row["shared"])
         full = {"instructions": instructions / busy / rate / ISSUE,
@@ -125,10 +128,10 @@ def terms(scene, gpu, states, changes):
                 "L2 cache": row["sectors"] * SECTOR_BYTES / gpu.cache,
                 "atomics": row["atomics"] * changes.atomics * ATOMIC_SECONDS}
         longest = max(full, key=full.get)
-        reasons[longest] += share * full[longest]
+        reasons[longest] += work * full[longest]
         path = row["longest operations"] * OPERATION_CYCLES + row["longest accesses"] * ACCESS_CYCLES
         reasons["longest path"] += path / scene.parts / gpu.hertz * (changes.path if is_queue else 1)
-    reasons["dispatches"] = (scene.dispatches() + changes.dispatches) * DISPATCH_SECONDS
+    reasons["dispatches"] = scene.dispatches() * changes.dispatches * DISPATCH_SECONDS
     reasons["wait"] = WAIT_SECONDS
     reasons["upload"] = states / scene.states * scene.host["uploaded bytes"] / gpu.upload
     undecided = scene.checked["undecided"] / scene.states
