@@ -106,11 +106,15 @@ class PairMethods
       }
       if (asked.empty())
         continue;
+      queries_ += static_cast<double>(asked.size());
       const std::vector<std::uint8_t> hits = methods_.at({pair.a->tree, pair.b->tree})->collide(b_in_a);
       for (std::size_t i = 0; i < asked.size(); ++i)
         valid[asked[i]] = hits[i] == 0 ? 1 : 0;
     }
   }
+
+  /// The pairs of shapes whose spheres overlapped in all calls so far, each in one state.
+  double queries() const { return queries_; }
 
   /// The tests of bounding volumes in all calls so far. NaN if the method does not count them.
   double volumeTests() const
@@ -136,6 +140,7 @@ class PairMethods
   std::vector<Pair> pairs_;
   std::vector<Sphere> spheres_;  // of each tree
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<literature::Method>> methods_;
+  double queries_ = 0.0;
 };
 
 /// Runs a method on all cores, each with its own PairMethods. A method that renders gets all states at once, on one
@@ -175,13 +180,15 @@ class FromLiterature : public Method
   WorkPerState work(const double* states, std::size_t count) override
   {
     PairMethods& methods = *of_threads_.front();
-    const double before = methods.volumeTests();
-    if (std::isnan(before))
+    const double tests = methods.volumeTests();
+    const double queries = methods.queries();
+    if (std::isnan(tests))
       return {};
     std::vector<std::uint8_t> valid(count);
     checkChunk(methods, states, count, valid.data());
     WorkPerState work;
-    work.node_visits = (methods.volumeTests() - before) / static_cast<double>(count);
+    work.node_visits = (methods.volumeTests() - tests) / static_cast<double>(count);
+    work.root_pairs = (methods.queries() - queries) / static_cast<double>(count);
     return work;
   }
 

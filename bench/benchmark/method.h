@@ -21,7 +21,7 @@ struct WorkPerState
   /// tests of two bounding volumes.
   double node_visits = NAN;
   double candidates = NAN;  ///< see GpuWork
-  double root_pairs = NAN;
+  double root_pairs = NAN;  ///< for the trees of bench/literature: pairs of shapes that are checked
   double traversed = NAN;
 };
 
