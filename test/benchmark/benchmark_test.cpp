@@ -244,9 +244,8 @@ TEST(Benchmark, DopTreesRealignTheLinksAndNotTheWorld)
   if (!missingFor("ur5_cage").empty())
     GTEST_SKIP() << "there is no " << missingFor("ur5_cage");
   const TemporaryFolder folder;
-  const ProgramOutput output =
-      runBenchmark(folder.path(), {"--parts", "throughput", "--scenes", "ur5_cage", "--kinds", "random", "--states",
-                                   "16", "--methods", "rapid,dop18,dop18_larger,dop24"});
+  const ProgramOutput output = runBenchmark(folder.path(), {"--parts", "throughput", "--scenes", "ur5_cage", "--kinds",
+                                                            "random", "--methods", "rapid,dop18,dop18_larger,dop24"});
   ASSERT_EQ(output.exit_code, 0) << output.err;
   const Table table = readTable(folder.path() + "/throughput.csv");
   ASSERT_EQ(table.size(), 4U);
