@@ -80,10 +80,15 @@ std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
   }
   for (const MethodInfo& method : all)
     names.push_back(method.name);
+  for (const MethodInfo& method : all)
+    if (std::find(names.begin(), names.end(), method.family) == names.end())
+      names.push_back(method.family);
   names = chosenWords(arguments, "--methods", names);
+  const auto chosen = [&](const std::string& name)
+  { return std::find(names.begin(), names.end(), name) != names.end(); };
   std::vector<MethodInfo> methods;
   for (const MethodInfo& method : all)
-    if (std::find(names.begin(), names.end(), method.name) != names.end() &&
+    if ((chosen(method.name) || chosen(method.family)) &&
         (method.in_quick_run || arguments.has("--methods") || !arguments.has("--quick")))
       methods.push_back(method);
   return methods;
@@ -183,7 +188,7 @@ int main(int argc, char** argv)
         {"--data", "DIR", "folder with urdf/KR5, urdf/drchubo, urdf/wam, robots/ur5_robotiq, problems/ur5"},
         {"--parts", "A,B", "of " + nameList(kParts) + " (default all)"},
         {"--scenes", "A,B", "of " + nameList(benchmarkSceneNames())},
-        {"--methods", "A,B", "an unknown name prints the list"},
+        {"--methods", "A,B", "names of methods or of families of methods; an unknown name prints the list"},
         {"--kinds", "A,B", "of states: " + nameList(stateKinds())},
         {"--padding", "X,Y", "metres (default 0,0.01; with --quick 0); values after the first only with random states"},
         {"--batches", "N,M", "sizes of batches of the GPU's methods (default 1024,16384)"},

@@ -2,8 +2,10 @@
 // matrix does not allow, one pair after the other. Pairs whose bounding spheres are apart are left out. A method gets
 // all states of a chunk for a pair at once, because methods that render draw many poses into one picture.
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <map>
 #include <thread>
 
@@ -19,10 +21,9 @@ using Eigen::Isometry3d;
 
 /// Left out: FCL, which peerMethods() has; other resolutions of the methods that render; methods that find all pairs of
 /// triangles; and CGAL, which would need a process for each pair of shapes.
-constexpr std::array<const char*, 13> kChosen = {
-    "rapid",          "dop18",        "dop24",        "box_tree",      "breadth_first",
-    "convex_patches", "recode_256x1", "cinder_256x1", "cullide_256x1", "cullide_fattened_256x1",
-    "opcode",         "gimpact",      "embree"};
+constexpr std::array<const char*, 14> kChosen = {
+    "rapid",        "dop18",        "dop18_larger",  "dop24",  "box_tree", "breadth_first", "convex_patches",
+    "recode_256x1", "cinder_256x1", "cullide_256x1", "opcode", "gimpact",  "embree",        "cullide_fattened_256x1"};
 
 /// Debian's ODE is built without ODE_EXT_mt_collisions: only one thread at a time may ask it.
 constexpr const char* kOneThread = "opcode";
@@ -44,7 +45,8 @@ Sphere enclosingSphere(const Mesh& mesh)
   return sphere;
 }
 
-/// Two instances: `a` of the robot, `b` of the robot or of the world.
+/// Two instances. `a`: of the world, which stands still, or of the robot. `b`: of the robot, which moves. Klosowski's
+/// 18-DOPs open the tree of `a` first, and all DOP trees refit or realign the nodes of `b`.
 struct Pair
 {
   const ShapeInstance* a;
@@ -58,7 +60,7 @@ std::vector<Pair> checkedPairs(const CollisionProblem& problem)
   for (std::size_t i = 0; i < problem.robot.size(); ++i)
     for (std::size_t k = 0; k < world; ++k)
       if (problem.world_pairs[i * world + k] != 0)
-        pairs.push_back({&problem.robot[i], &problem.world[k]});
+        pairs.push_back({&problem.world[k], &problem.robot[i]});
   for (const auto& pair : problem.self_pairs)
     pairs.push_back({&problem.robot[pair[0]], &problem.robot[pair[1]]});
   return pairs;
@@ -104,10 +106,28 @@ class PairMethods
       }
       if (asked.empty())
         continue;
+      queries_ += static_cast<double>(asked.size());
       const std::vector<std::uint8_t> hits = methods_.at({pair.a->tree, pair.b->tree})->collide(b_in_a);
       for (std::size_t i = 0; i < asked.size(); ++i)
         valid[asked[i]] = hits[i] == 0 ? 1 : 0;
     }
+  }
+
+  /// The pairs of shapes whose spheres overlapped in all calls so far, each in one state.
+  double queries() const { return queries_; }
+
+  /// The tests of bounding volumes in all calls so far. NaN if the method does not count them.
+  double volumeTests() const
+  {
+    double tests = methods_.empty() ? NAN : 0.0;
+    for (const auto& [trees, method] : methods_)
+    {
+      const literature::WorkCounts counts = method->work();
+      const auto volumes =
+          std::find_if(counts.begin(), counts.end(), [](const auto& count) { return count.first == "volume tests"; });
+      tests += volumes == counts.end() ? NAN : volumes->second;
+    }
+    return tests;
   }
 
  private:
@@ -120,6 +140,7 @@ class PairMethods
   std::vector<Pair> pairs_;
   std::vector<Sphere> spheres_;  // of each tree
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<literature::Method>> methods_;
+  double queries_ = 0.0;
 };
 
 /// Runs a method on all cores, each with its own PairMethods. A method that renders gets all states at once, on one
@@ -144,15 +165,8 @@ class FromLiterature : public Method
     std::atomic<std::size_t> next{0};
     const auto work = [&](PairMethods& methods)
     {
-      const std::size_t links = robot_->links().size();
       for (std::size_t begin = next.fetch_add(chunk); begin < count; begin = next.fetch_add(chunk))
-      {
-        const std::size_t size = std::min(chunk, count - begin);
-        std::vector<Isometry3d> poses(size * links);
-        for (std::size_t i = 0; i < size; ++i)
-          robot_->linkPoses(states + (begin + i) * robot_->variables().size(), &poses[i * links]);
-        methods.check(poses, links, size, &valid[begin]);
-      }
+        checkChunk(methods, states + begin * robot_->variables().size(), std::min(chunk, count - begin), &valid[begin]);
     };
     std::vector<std::thread> helpers;
     for (std::size_t i = 1; i < of_threads_.size() && i * chunk < count; ++i)
@@ -163,7 +177,31 @@ class FromLiterature : public Method
     return valid;
   }
 
+  WorkPerState work(const double* states, std::size_t count) override
+  {
+    PairMethods& methods = *of_threads_.front();
+    const double tests = methods.volumeTests();
+    const double queries = methods.queries();
+    if (std::isnan(tests))
+      return {};
+    std::vector<std::uint8_t> valid(count);
+    checkChunk(methods, states, count, valid.data());
+    WorkPerState work;
+    work.node_visits = (methods.volumeTests() - tests) / static_cast<double>(count);
+    work.root_pairs = (methods.queries() - queries) / static_cast<double>(count);
+    return work;
+  }
+
  private:
+  void checkChunk(PairMethods& methods, const double* states, std::size_t count, std::uint8_t* valid) const
+  {
+    const std::size_t links = robot_->links().size();
+    std::vector<Isometry3d> poses(count * links);
+    for (std::size_t i = 0; i < count; ++i)
+      robot_->linkPoses(states + i * robot_->variables().size(), &poses[i * links]);
+    methods.check(poses, links, count, valid);
+  }
+
   static constexpr std::size_t kChunk = 64;
   std::shared_ptr<const RobotModel> robot_;
   bool renders_;

@@ -17,9 +17,11 @@ namespace gpu_planning_scene::core::benchmark
 /// Work of a method per state, as an average over some states. NaN if the method does not count it.
 struct WorkPerState
 {
-  double node_visits = NAN;  ///< visited nodes of the trees on the CPU; a test of eight boxes counts as two
-  double candidates = NAN;   ///< see GpuWork
-  double root_pairs = NAN;
+  /// Visited nodes of the trees on the CPU; a test of eight boxes counts as two. For the trees of bench/literature:
+  /// tests of two bounding volumes.
+  double node_visits = NAN;
+  double candidates = NAN;  ///< see GpuWork
+  double root_pairs = NAN;  ///< for the trees of bench/literature: pairs of shapes that are checked
   double traversed = NAN;
 };
 

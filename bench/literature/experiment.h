@@ -27,7 +27,7 @@ struct Settings
 /// The experiment of A. Gress, G. Zachmann, "Object-Space Interference Detection on Programmable Graphics Hardware"
 /// (2003), and of the benchmarks that it refers to: two copies of a model, one of which turns and comes nearer
 /// ("turning"), and random rotations at given clearances ("clearance"). Writes experiment.csv, work.csv and builds.csv.
-/// A method that took more than 25 times Settings::seconds to make for a model, or more than 100 times with its
+/// A method that took more than 100 times Settings::seconds to make for a model, or more than 200 times with its
 /// measurements, is left out of larger models of this name; builds.csv says so. If a query takes more than 50 times
 /// Settings::seconds, the other distances of this model are left out. A method of Scope::FullRun is measured only with
 /// the torus and the lump of about 10,000 triangles. Returns the number of wrong answers of the family "ours".

@@ -58,7 +58,7 @@ std::vector<MethodInfo> chosenMethods(const CommandLine& arguments)
 std::vector<std::size_t> chosenTriangles(const CommandLine& arguments)
 {
   std::vector<std::size_t> counts;
-  const std::string all = arguments.has("--quick") ? "1000" : "1000,10000,100000";
+  const std::string all = arguments.has("--quick") ? "1000" : "1000,10000,100000,1000000";
   for (const std::string& word : splitAtCommas(arguments.value("--triangles", all)))
     counts.push_back(CommandLine({{"--triangles", "N", ""}}, 3, std::array{"", "--triangles", word.c_str()}.data())
                          .count("--triangles", 0, 100, kMostTriangles));
@@ -119,7 +119,7 @@ int main(int argc, char** argv)
         {"--parts", "A,B", "of " + nameList(kParts) + " (default: both)"},
         {"--methods", "A,B", "an unknown name prints the list (default: all, but few resolutions)"},
         {"--models", "A,B", "of " + nameList(madeModelNames()) + " (default: all, a box, and links of robots)"},
-        {"--triangles", "N,M", "of each model (default 1000,10000,100000; with --quick 1000)"},
+        {"--triangles", "N,M", "of each model (default 1000 to 1000000 in powers of ten; with --quick 1000)"},
         {"--protocols", "A,B", "of " + nameList(kProtocols) + " (default: both)"},
         {"--seconds", "S", "a method that takes longer at a distance gets fewer poses (default 0.02)"},
         {"--contacts", "N", "of each family of hard cases (default 8; with --quick 2)"},

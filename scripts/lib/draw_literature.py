@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Draws the tables of the program `literature` as SVG: time against wrong answers, time against distance, and time
-against triangles. Writes the summary of all methods, and their times for each model, as tables in Markdown. Charts
+against triangles. Draws the tables of the program `benchmark` in the folder `states`: time against wrong answers in
+states of robots. Writes the summary of all methods, and their times for each model, as tables in Markdown. Charts
 without data are left out."""
 import argparse
 import collections
@@ -21,7 +22,7 @@ from matplotlib import pyplot
 from chart_labels import end_labels, label_points
 
 COLOURS = {"ours": "#c1272d", "paper": "#b5179e", "trees": "#2b6cb0", "library": "#3a9d5d", "convex": "#8c6d31",
-           "image space": "#6b6b6b"}
+           "image space": "#6b6b6b", "exact checker": "#c1272d", "FCL": "#3a9d5d"}
 SIZE = 10000  # triangles of the models whose times stand in the overview
 PAIR = ("torus", "lump")  # the models of the overview and the charts: all methods are measured with them
 COLUMNS = {"exact_cpu": "ours", "rapid": "RAPID", "dop18_larger": "18-DOPs", "dop24": "24-DOPs",
@@ -29,6 +30,9 @@ COLUMNS = {"exact_cpu": "ours", "rapid": "RAPID", "dop18_larger": "18-DOPs", "do
            "gress_zachmann": "breadth-first, device", "fcl_obb": "FCL, OBB", "opcode": "OPCODE", "gimpact": "GImpact",
            "embree": "Embree", "cgal": "CGAL", "recode_64x1": "RECODE", "cinder_64x1": "CInDeR",
            "cullide_64x1": "CULLIDE"}  # of the table of models
+SCENES = {"kr5_boxes": "kr5 among 8 boxes", "ur5_cage": "ur5_robotiq in a cage",
+          "drchubo_corridor": "drchubo in a corridor"}
+KINDS = {"random": "random states", "near_contact": "within 1e-10 ... 1e-4 m of contact"}
 LINES = ["exact_cpu", "rapid", "dop18_larger", "dop24", "box_tree", "convex_patches", "fcl_obb", "opcode",
          "breadth_first", "breadth_first_all", "gress_zachmann", "ours_breadth_first", "cinder_64x1", "cullide_64x1"]
 
@@ -53,6 +57,18 @@ def renders_on_cpu(run):
     return any(row["what"] == "device" and "llvmpipe" in row["value"] for row in run)
 
 
+def robot_states(folder):
+    """One row for each method, scene and kind of states, with the columns of both tables of `benchmark` and `us`: CPU
+    time a state where the CPU does the work of the device too, else wall time."""
+    on_cpu = renders_on_cpu(read(folder, "run"))
+    rows = {(row["scene"], row["kind"], row["method"]): row for row in read(folder, "throughput")}
+    for row in read(folder, "accuracy"):
+        both = rows[row["scene"], row["kind"], row["method"]]
+        both.update(row)
+        both["us"] = float(both["cpu_us_a_state"]) if on_cpu else 1e6 / float(both["states_per_s"])
+    return list(rows.values())
+
+
 class Results:
     """The tables of a folder. `time_column`: CPU time where the CPU does the work of the device too, else wall time."""
 
@@ -61,6 +77,7 @@ class Results:
         self.experiment = read(folder, "experiment")
         self.families = read(folder, "families")
         self.on_cpu = renders_on_cpu(read(folder, "run"))
+        self.states = robot_states(folder / "states")
         self.time_column = "cpu_us_a_query" if self.on_cpu else "us_a_query"
         self.pair = [row for row in self.experiment if row["model"] in PAIR]
         self.samples = 0  # of the overview
@@ -138,6 +155,19 @@ def short(title):
     return re.sub(r" x (\d+) pixels, (\d) views?", r"² x \2", title)
 
 
+def share_axis(axes, shares):
+    """A logarithmic axis for shares, with a line for 0. Returns the height of this line."""
+    zero = 10 ** (math.floor(math.log10(min((share for share in shares if share > 0), default=1e-2))) - 0.7)
+    axes.set_yscale("log")
+    axes.set_ylim(zero / 2.2, 1.0)
+    axes.axhline(zero, color="#999999", lw=0.6, zorder=1)
+    ticks = [10.0 ** k for k in range(math.ceil(math.log10(zero) + 0.1), 1)]
+    axes.set_yticks([zero] + ticks, ["0"] + [f"{100 * tick:g} %" for tick in ticks])
+    axes.minorticks_off()
+    axes.grid(color="#e8e8e8", lw=0.5)
+    return zero
+
+
 def overview(results, out):
     """Time against the share of wrong answers in the hard cases: a filled point in the domain of the method, an empty
     one in all cases."""
@@ -154,8 +184,7 @@ def overview(results, out):
     if not points:
         return
     figure, axes = pyplot.subplots(figsize=(11, 6.5))
-    positive = [share for point in points for share in point[1:3] if share > 0]
-    zero = 10 ** (math.floor(math.log10(min(positive, default=1e-3))) - 0.7)
+    zero = share_axis(axes, [share for point in points for share in point[1:3]])
     texts = []
     for time, inside, everywhere, info in points:
         colour = COLOURS[info["family"]]
@@ -165,20 +194,15 @@ def overview(results, out):
         axes.scatter([time], [low], s=26, color=colour, zorder=4)
         texts.append((time, low, short(info["title"]), colour))
     axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_ylim(zero / 2.2, 1.0)
-    axes.axhline(zero, color="#999999", lw=0.6, zorder=1)
-    ticks = [10.0 ** k for k in range(math.ceil(math.log10(zero) + 0.1), 1)]
-    axes.set_yticks([zero] + ticks, ["0"] + [f"{100 * tick:g} %" for tick in ticks])
     axes.minorticks_off()
-    axes.grid(color="#e8e8e8", lw=0.5)
     kind = "CPU" if results.on_cpu else "wall"
     axes.set_xlabel(f"{kind} time a query, microseconds (left is better): two copies of a model of about 10,000 "
                     f"triangles,\ngeometric mean over {results.samples} distances")
     axes.set_ylabel("wrong answers in the hard cases\nfilled: in the method's domain; empty: in all cases")
-    for family, colour in COLOURS.items():
-        axes.scatter([], [], color=colour, s=26, label=family)
-    axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(0.0, 1.08), ncol=len(COLOURS))
+    families = unique(results.methods.values(), "family")
+    for family in [name for name in COLOURS if name in families]:
+        axes.scatter([], [], color=COLOURS[family], s=26, label=family)
+    axes.legend(fontsize=7, frameon=False, loc="upper left", bbox_to_anchor=(0.0, 1.08), ncol=len(families))
     label_points(axes, texts)
     save(figure, out, "overview")
 
@@ -242,6 +266,63 @@ def triangles_chart(results, out):
     save(figure, out, "triangles")
 
 
+def states_chart(results, out):
+    """Time a state against the share of wrong answers, for each scene and kind of states."""
+    scenes, kinds = unique(results.states, "scene"), unique(results.states, "kind")
+    if not scenes:
+        return
+    figure, grid = pyplot.subplots(len(scenes), len(kinds), figsize=(6.4 * len(kinds), 4.2 * len(scenes)),
+                                   squeeze=False)
+    texts = {}
+    for line, scene in zip(grid, scenes):
+        for axes, kind in zip(line, kinds):
+            rows = [row for row in results.states if row["scene"] == scene and row["kind"] == kind]
+            shares = [float(row["wrong_per_million"]) * 1e-6 for row in rows]
+            zero = share_axis(axes, shares)
+            axes.set_ylim(zero / 12.0, 1.0)  # room for the names of the points on the line of 0
+            axes.set_xscale("log")
+            axes.set_xlim(0.4 * min(row["us"] for row in rows), 4.0 * max(row["us"] for row in rows))
+            axes.set_title(f"{SCENES.get(scene, scene)}: {KINDS.get(kind, kind)}")
+            axes.set_xlabel(f"{'CPU' if results.on_cpu else 'wall'} time a state, microseconds (left is better)")
+            axes.set_ylabel("wrong answers")
+            for row, share in zip(rows, shares):
+                colour = COLOURS[row["family"]]
+                axes.scatter([row["us"]], [max(share, zero)], s=26, color=colour, zorder=3)
+                texts.setdefault(axes, []).append((row["us"], max(share, zero), short(row["title"]), colour))
+    figure.tight_layout(h_pad=2.0, w_pad=2.0)
+    for axes, points in texts.items():
+        label_points(axes, points)
+    save(figure, out, "states")
+
+
+def states_table(results):
+    """Lines of a table: a row for each method, a column for each scene and kind of states."""
+    columns = list(dict.fromkeys((row["scene"], row["kind"]) for row in results.states))
+    if not columns:
+        return []
+    lines = ["", "## Robot states", "",
+             f"{'CPU' if results.on_cpu else 'Wall'} microseconds a state; wrong answers as false \"free\" + false "
+             "\"collision\", of the number of states. Near contact,\nwrong answers within 1e-9 m of contact are not "
+             "counted. In brackets: tests of two bounding volumes a state.", "",
+             f"| method | {' | '.join(f'{scene}, {kind}' for scene, kind in columns)} |",
+             "| --- |" + " --- |" * len(columns)]
+    for method in unique(results.states, "method"):
+        cells = []
+        for scene, kind in columns:
+            row = next((row for row in results.states
+                        if (row["scene"], row["kind"], row["method"]) == (scene, kind, method)), None)
+            if row is None:
+                cells.append("-")
+                continue
+            wrong = [int(row["wrong_free"]), int(row["wrong_collision"])]
+            text = f"{wrong[0]} + {wrong[1]}" if sum(wrong) else "0"
+            tests = f" [{number(float(row['node_visits_a_state']), 3)}]" if row["node_visits_a_state"] else ""
+            cells.append(f"{number(row['us'])}; {text} of {row['states']}{tests}")
+        title = next(row["title"] for row in results.states if row["method"] == method)
+        lines.append(f"| {title} | {' | '.join(cells)} |")
+    return lines
+
+
 def domain(info):
     words = ["any mesh" if info["open"] == "yes" else "closed meshes" if info["concave"] == "yes" else "convex solids"]
     words.append("solids" if info["containment"] == "yes" else "surfaces only")
@@ -272,7 +353,7 @@ def write_table(results, out):
         lines.append(f"| {info['title']} | {info['source']} | {domain(info)} | {cells[0]} | {cells[1]} | "
                      f"{number(results.overview_time(method))} | {results.overview_poses(method)} | "
                      f"{'-' if growth is None else f'n^{growth:.2f}'} |")
-    lines += model_table(results) + fastest_table(results)
+    lines += model_table(results) + fastest_table(results) + states_table(results)
     (out / "table.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
@@ -347,7 +428,7 @@ def main():
     out = arguments.out or arguments.tables
     out.mkdir(parents=True, exist_ok=True)
     results = Results(arguments.tables)
-    for draw in (overview, distance_chart, triangles_chart, write_table):
+    for draw in (overview, distance_chart, triangles_chart, states_chart, write_table):
         draw(results, out)
 
 
