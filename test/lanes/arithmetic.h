@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #include "lanes/host.h"
 
@@ -109,7 +110,8 @@ T rounded(typename Format<T>::Wide exact)
 template <class T>
 T approximate(typename Format<T>::Wide exact)
 {
-  countOperation(&Work::quotients);
+  if (std::is_same_v<T, float>)
+    countOperation(&Work::quotients);
   Run& run = *kernel().run;
   const int steps =
       run.arithmetic.steps == Arithmetic::kRandomSteps ? static_cast<int>(run.next() % 5) - 2 : run.arithmetic.steps;

@@ -4,8 +4,8 @@
     gpu_model.py BUILD TABLES [--states N]
 
 Runs state_costs of the folder BUILD for three scenes and keeps its tables in the folder TABLES. Tables that are there
-are used again. Prints tables (Markdown): the work of a state, the time of a part of a batch by reason, the predicted
-states per second, and the same after changes of the program.
+are used again. Prints tables (Markdown): the work of a state, the time of a part of a batch by reason with the
+predicted states per second, and the same after changes of the program.
 """
 import argparse
 import collections
@@ -43,11 +43,11 @@ Changes = collections.namedtuple("Changes", "title part path busy work dispatche
 STEPS = [
     ("as it is", {}),
     ("parts of 262,144 states", {"part": 1 << 18}),
-    ("work groups share a traversal after each round: an eighth of its longest path, warps 70 % busy",
+    ("work groups share traversals: an eighth of the path, 70 % busy",
      {"path": 1 / 8, "busy": 0.7}),
     ("half of the dispatches", {"dispatches": 1 / 2}),
-    ("one atomic for the invocations of a warp: an eighth", {"atomics": 1 / 8}),
-    ("the work of the host on eight cores instead of two", {"host": 1 / 4}),
+    ("an eighth of the atomics: one for a warp", {"atomics": 1 / 8}),
+    ("eight cores for the host instead of two", {"host": 1 / 4}),
     ("half of the operations of traversals", {"work": 1 / 2}),
 ]
 
@@ -186,7 +186,7 @@ def print_work(scenes):
         ("undecided, of a million", lambda s: number(1e6 * s.checked["undecided"] / s.states)),
         ("of a part: dispatches (`breadth_first`)",
          lambda s: f"{number(s.dispatches())} ({number(s.breadth_first_dispatches())})"),
-        ("of a part: calls of OpenGL; waits", lambda s: number(s.host["host calls"] / s.parts) + "; 1"),
+        ("of a part: calls of OpenGL", lambda s: number(s.host["host calls"] / s.parts)),
         ("of a part: longest path, operations; accesses", lambda s: number(s.all["longest operations"] / s.parts) +
          "; " + number(s.all["longest accesses"] / s.parts)),
     ]
@@ -195,31 +195,31 @@ def print_work(scenes):
 
 
 def print_times(scenes):
-    """The terms of a part of 16,384 states, and the states per second of batches."""
+    """The terms of a part of 16,384 states in microseconds, and the millions of states per second of batches."""
     as_it_is, large_parts = all_changes()[:2]
-    names = ["instructions", "doubles", "L2 cache", "atomics", "longest path", "dispatches", "wait", "host", "upload"]
-    rows, rates = [], []
+    names = ["instructions", "doubles", "L2 cache", "atomics", "longest path", "dispatches", "host", "upload"]
+    rows = []
     for gpu in GPUS:
         for scene in scenes:
             reasons = terms(scene, gpu, DEFAULT_PART, as_it_is)
-            rows.append([gpu.name, scene.name] + [number(1e6 * reasons[name]) for name in names])
-            rates.append([gpu.name, scene.name] + [rate(scene, gpu, BATCHES[size], as_it_is) for size in BATCHES] +
-                         [rate(scene, gpu, BATCHES["1M"], large_parts)])
-    print_table(["GPU", "scene"] + names, rows)
-    print_table(["GPU", "scene"] + list(BATCHES) + ["1M in parts of 262k"], rates)
+            rows.append([f"{gpu.name}, {scene.name}"] + [number(1e6 * reasons[name]) for name in names] +
+                        [number(rate(scene, gpu, states, as_it_is)[0]) for states in BATCHES.values()] +
+                        [number(rate(scene, gpu, BATCHES["1M"], large_parts)[0])])
+    print_table(["", *names, *BATCHES, "1M, large parts"], rows)
 
 
 def rate(scene, gpu, states, changes):
     """Millions of states per second, and what bounds them."""
     seconds, reason = batch_seconds(scene, gpu, states, changes)
-    return f"{number(states / seconds / 1e6)} ({reason})"
+    return states / seconds / 1e6, reason
 
 
 def print_changes(scenes):
-    """The states per second on the first GPU with more and more changes."""
+    """The same on the first GPU with more and more changes."""
     sizes = ["16k", "262k"]
     print_table(["change"] + [f"{scene.name}, {size}" for scene in scenes for size in sizes],
-                [[changes.title] + [rate(scene, GPUS[0], BATCHES[size], changes) for scene in scenes for size in sizes]
+                [[changes.title] + ["{} ({})".format(number(millions), reason) for scene in scenes for size in sizes
+                                    for millions, reason in [rate(scene, GPUS[0], BATCHES[size], changes)]]
                  for changes in all_changes()])
 
 

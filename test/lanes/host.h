@@ -37,14 +37,16 @@ struct Arithmetic
 /// values, conversions, integers and booleans are not counted. An access counts once, however many words it has.
 struct Work
 {
-  std::uint64_t floats = 0;     ///< sums, products and comparisons of floats
-  std::uint64_t doubles = 0;    ///< the same of doubles
-  std::uint64_t quotients = 0;  ///< divisions and square roots
-  std::uint64_t fetches = 0;    ///< of texels
-  std::uint64_t loads = 0;      ///< from storage buffers
-  std::uint64_t stores = 0;     ///< to storage buffers
-  std::uint64_t atomics = 0;    ///< on storage buffers
-  std::uint64_t shared = 0;     ///< accesses to shared memory
+  std::uint64_t floats = 0;   ///< sums, products and comparisons of floats
+  std::uint64_t doubles = 0;  ///< the same of doubles
+  /// Divisions and square roots of floats. Those of doubles are not counted: nearly all divide constants, which a
+  /// compiler does (problem/kinematics.glsl).
+  std::uint64_t quotients = 0;
+  std::uint64_t fetches = 0;  ///< of texels
+  std::uint64_t loads = 0;    ///< from storage buffers
+  std::uint64_t stores = 0;   ///< to storage buffers
+  std::uint64_t atomics = 0;  ///< on storage buffers
+  std::uint64_t shared = 0;   ///< accesses to shared memory
   std::uint64_t barriers = 0;
   std::uint64_t bytes = 0;  ///< of fetches, loads, stores and atomics
 };
