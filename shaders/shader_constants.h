@@ -310,7 +310,7 @@
 #define QUEUE_MAX_GROUPS 2048  // most work groups of a dispatch
 #define QUEUE_STEPS 8          // most steps of an invocation between two barriers
 #define QUEUE_STACK 48         // node pairs and leaf pairs that the memory of an invocation holds
-#define QUEUE_LAST_ROUNDS 16   // rounds of a work group after the entry list became empty
+#define QUEUE_LAST_ROUNDS 16   // rounds of a work group after one of its invocations found the entry list empty
 #define QUEUE_FLUSH 32         // number of leaf pairs from which on the work group tests their triangles
 // llvmpipe ends an invocation without an error after 65535 loop iterations. An invocation stops before that, and hands
 // its remaining work on.

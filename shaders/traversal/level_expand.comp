@@ -18,9 +18,9 @@ void main()
   const uint entry_count = min(counters[in_counter], in_capacity);
   const uint first = invocationIndex() * LEVEL_CHUNK;
   const uint end = min(first + LEVEL_CHUNK, entry_count);
-  if (gl_LocalInvocationID.x == 0u && first < entry_count)
+  if (gl_LocalInvocationID.x == 0u)
   {
-    const uvec2 place = sums[groupIndex()];
+    const uvec2 place = first < entry_count ? sums[groupIndex()] : uvec2(0u);
     next_place = place.x;
     leaf_place = place.y;
   }

@@ -4,9 +4,9 @@
 // outer loop is uniform, and an invocation makes at most QUEUE_STEPS steps between two barriers.
 //
 // Node pairs go to the entry list of the next pass if the stack is full, if the iterations run out, or
-// QUEUE_LAST_ROUNDS rounds after the entry list became empty. So a long traversal does not keep one invocation busy
-// while all others have ended: the next pass distributes its node pairs. The last pass hands nothing on before the
-// iterations run out. The sources are in src/collision/gpu/traversal/work_queue.cpp.
+// QUEUE_LAST_ROUNDS rounds after the first invocation of the work group found the entry list empty. So a long traversal
+// does not keep one invocation busy while all others have ended: the next pass distributes its node pairs. The last
+// pass hands nothing on before the iterations run out. The sources are in src/collision/gpu/traversal/work_queue.cpp.
 //
 // On llvmpipe a branch skips nothing, so every store and atomic costs time in each step of each invocation. A step
 // therefore has only one store: the memory of an invocation holds node pairs from below and leaf pairs from above. All
@@ -82,7 +82,7 @@ void main()
   barrier();
 
   uint iterations = 0u;
-  uint last_rounds = 0u;  // since the entry list became empty
+  uint last_rounds = 0u;  // rounds since an invocation of this work group found the entry list empty
   bool running = true;
   while (running)
   {

@@ -9,6 +9,7 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
+#include "gpu/driver_fault.h"
 #include "gpu/gl_debug.h"
 #include "gpu_planning_scene/error.h"
 
@@ -148,6 +149,7 @@ std::vector<Candidate> probe()
       candidate.device.renderer = glString(GL_RENDERER);
       candidate.device.version = glString(GL_VERSION);
       candidate.device.software = isSoftware(candidate.device.renderer);
+      candidate.why_not = driverFault(candidate.device.renderer);
       destroy(display, context);
     }
     candidates.push_back(candidate);

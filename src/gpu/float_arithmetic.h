@@ -14,8 +14,8 @@ std::string findFloatFault(const std::string& shader_folder);
 /// and results must be rounded to the nearest float.
 std::string findDoubleFault(const std::string& shader_folder);
 
-/// Finds out whether the driver emulates double precision by integer operations, as Intel's does since Gen11. One
-/// operation is then some hundred instructions, and to compile a robot's kinematics takes hours. Returns one line, or
-/// an empty string. Used on the context's thread.
+/// Finds out whether the driver emulates double precision by integer operations, as Intel's does for Gen11 and Gen12.
+/// One operation is then some hundred instructions, and to compile a robot's kinematics takes hours. Returns one line,
+/// or an empty string. Used on the context's thread.
 std::string findEmulatedDouble(const std::string& shader_folder);
 }  // namespace gpu_planning_scene::core

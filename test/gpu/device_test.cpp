@@ -1,6 +1,8 @@
 // Devices are listed, selected by index or name, and unknown selectors are refused.
 
 #include <algorithm>
+#include <cstdlib>
+#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -25,6 +27,18 @@ std::string errorFor(const std::string& selector)
     return error.what();
   }
   return {};
+}
+
+/// Prints the error for `selector`, and the number of usable devices, of a driver that says that it is zink.
+[[noreturn]] void selectADeviceOfZink(const char* selector)
+{
+  setenv("force_gl_renderer", "zink (of a test)", 1);  // an option of Mesa's drivers: GL_RENDERER
+  std::cerr << errorFor(selector) << "\n";
+  const std::vector<Device> devices = listDevices();
+  if (!devices.empty() && devices.front().version.find("Mesa") == std::string::npos)
+    std::cerr << "only Mesa's drivers take another name\n";
+  std::cerr << devices.size() << " devices\n";
+  std::_Exit(0);
 }
 
 TEST(Device, EveryListedOneCanBeChosenByItsIndexAndByPartOfItsRenderer)
@@ -61,7 +75,18 @@ TEST(Device, UnknownDeviceIsRefusedWithAListOfDevices)
 
 TEST(Device, IsRefusedIfItsDriverIsKnownToComputeWrongAnswers)
 {
+  // A display that a process has used keeps its name, so each selector gets a new process.
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  for (const char* selector : {"auto", "software", "0", "zink"})
+    EXPECT_EXIT(selectADeviceOfZink(selector), testing::ExitedWithCode(0),
+                "unusable: the driver of 'zink .of a test.' computes wrong answers.*\n0 devices"
+                "|only Mesa's drivers take another name");
+}
+
+TEST(Device, ThatTranslatesToVulkanHasAFaultyDriver)
+{
   EXPECT_NE(driverFault("zink (llvmpipe (LLVM 15.0.6, 256 bits))").find("zink"), std::string::npos);
+  EXPECT_NE(driverFault("virgl (zink (NVIDIA GeForce RTX 4060))"), "");
   EXPECT_EQ(driverFault("llvmpipe (LLVM 15.0.6, 256 bits)"), "");
   EXPECT_EQ(driverFault("NVIDIA H200/PCIe/SSE2"), "");
 }

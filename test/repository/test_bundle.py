@@ -148,8 +148,9 @@ class ReportTest(unittest.TestCase):
         return result.returncode, (bundle / "out/report.txt").read_text()
 
     def test_has_the_output_of_each_program_for_the_device(self):
-        status, report = self.report('echo "output of $*"')
+        status, report = self.report('echo "device: llvmpipe (a test), seed 1"; echo "output of $*"')
         self.assertEqual(status, 0, report)
+        self.assertRegex(report.split("== stability")[0], "device: llvmpipe .a test., seed 1\nwarning: no GPU was used")
         for program in ("stability --quick", "exactness --quick", "benchmark --quick"):
             self.assertIn(f"output of {program} --device 1\n", report)
         self.assertRegex(report, "output of planning_study .*--device 1\n")

@@ -55,7 +55,7 @@ class RandomSlice:
             rows = out[done:done + BLOCK - skipped]
             if skipped:
                 rows[:] = robot.random_states(skipped + len(rows), seed=seed, base=start,
-                                               moves_base=self.moves_base)[skipped:]
+                                              moves_base=self.moves_base)[skipped:]
             else:
                 robot.random_states(len(rows), seed=seed, base=start, out=rows, moves_base=self.moves_base)
             done += len(rows)

@@ -9,7 +9,6 @@
 
 #include "collision/parallel_for.h"
 #include "collision/rows_without.h"
-#include "gpu/driver_fault.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
@@ -30,8 +29,6 @@ GpuChecker::GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<Fores
 {
   if (options.max_batch == 0)
     throw Error("max_batch is 0; it must be at least 1");
-  if (const std::string fault = driverFault(gl_.device().renderer); !fault.empty())
-    throw Error(fault);
   try
   {
     gl_.run(
