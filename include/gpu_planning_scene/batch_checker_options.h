@@ -24,7 +24,9 @@ struct BatchCheckerOptions : CheckerOptions
   /// ("all").
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
-  std::size_t max_batch = 16384;  ///< largest number of states sent to the GPU at once; larger requests are split
+  /// Most states that go to the GPU at once. Larger requests are split. The number that is used is smaller if so many
+  /// states take the GPU more than 50 ms. A state needs about 8 kB of the GPU's memory.
+  std::size_t max_batch = 131072;
   /// The CPU checks batches of fewer states; 0: the GPU checks batches of every size. Unset: for each group, the
   /// checker measures at which batch size the GPU becomes faster.
   std::optional<std::size_t> cpu_below;

@@ -220,7 +220,7 @@ void addStateChecker(py::module_& module)
       "the first hardware device, or software if there is none; \"software\"; an index of list_devices() as a str; a "
       "part of a renderer's name. All devices give the same `valid`. "
       "tolerance: metres; 0: exact; above 0, bodies within this distance may be reported as colliding. max_batch: the "
-      "largest number of states sent to the GPU at once. cpu_below: the CPU checks batches of fewer states; None: the "
+      "most states that go to the GPU at once. cpu_below: the CPU checks batches of fewer states; None: the "
       "checker measures at which size the GPU becomes faster. traversal: \"work_queue\" or \"breadth_first\".\n\n"
       "Thread-safe: calls are served one after the other, and other threads of Python run meanwhile. Raises Error if "
       "the device cannot be used, or if the scene or an option is not valid.\n\n"

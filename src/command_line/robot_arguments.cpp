@@ -26,7 +26,7 @@ std::vector<Option> deviceOptions()
            "auto (default): a GPU, else a software device;\nsoftware; an index; part of a renderer's name;\n"
            "several of these (0+1); all: all GPUs; or cpu: double\nprecision without a GL device"},
           {"--traversal", "NAME", "work_queue (default) or breadth_first; cpu has its own"},
-          {"--max-batch", "N", "states that go to the device at once (default 16384)"},
+          {"--max-batch", "N", "most states that go to the device at once (default 131072)"},
           {"--tolerance", "METRES",
            "0 (default): exact. Above 0: to save time, bodies within this\ndistance (beyond their padding) may be "
            "reported as colliding"}};

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <limits>
 
+#include "collision/batch_size.h"
 #include "collision/checkers/open_checker.h"
 #include "collision/checkers/scene_text.h"
 #include "command_line/robot_arguments.h"
@@ -42,18 +43,28 @@ void checkUsage(const CommandLine& arguments)
   checkStateUsage(arguments);
 }
 
-/// Checks all states, in batches of `batch` states, to show the progress.
-BatchResult checkAll(StateChecker& checker, StateSource& source, std::size_t batch, const std::string& group)
+struct Checked
 {
-  BatchResult all;
-  all.valid.reserve(source.count());
-  all.colliding.reserve(source.count());
+  BatchResult states;
+  std::size_t largest_batch = 0;
+};
+
+/// Checks all states, in batches that take at most about half a second, so that the progress is seen.
+Checked checkAll(StateChecker& checker, StateSource& source, std::size_t max_batch, const std::string& group)
+{
+  Checked all;
+  all.states.valid.reserve(source.count());
+  all.states.colliding.reserve(source.count());
+  BatchSize batch({0.5, 16384, 1024, max_batch});
   ProgressBar progress("checking", source.count());
-  while (all.valid.size() < source.count())
+  while (all.states.valid.size() < source.count())
   {
-    const std::size_t count = std::min(batch, source.count() - all.valid.size());
-    all.append(checker.check(source.next(count), count, group));
-    progress.update(all.valid.size());
+    const std::size_t count = std::min(batch.size(), source.count() - all.states.valid.size());
+    const BatchResult result = checker.check(source.next(count), count, group);
+    batch.took(count, result.seconds);
+    all.largest_batch = std::max(all.largest_batch, count);
+    all.states.append(result);
+    progress.update(all.states.valid.size());
   }
   return all;
 }
@@ -97,8 +108,9 @@ std::size_t countValid(const BatchResult& result)
 }
 
 void printSummary(const PlanningScene& scene, const SceneReport& report, const StateSource& source,
-                  const BatchResult& result, const std::string& device, std::size_t max_batch)
+                  const Checked& checked, const std::string& device)
 {
+  const BatchResult& result = checked.states;
   const std::size_t count = source.count();
   const std::size_t valid = countValid(result);
   char line[128];
@@ -115,7 +127,7 @@ void printSummary(const PlanningScene& scene, const SceneReport& report, const S
     std::cerr << text << "\n";
   const double rate = static_cast<double>(count) / std::max(result.seconds, 1e-9);
   std::snprintf(line, sizeof line, ", %zu valid, %.0f states/s, ", valid, rate);
-  const bool all_on_cpu = report.cpu_below && std::min(count, max_batch) < *report.cpu_below;
+  const bool all_on_cpu = report.cpu_below && checked.largest_batch < *report.cpu_below;
   std::cerr << counted(count, "state") << line << (all_on_cpu ? "CPU" : device) << "\n";
 }
 
@@ -148,26 +160,26 @@ void run(const CommandLine& arguments)
   const std::string at_start = checker->deviceWarning();
   if (!at_start.empty())
     std::cerr << "warning: " << at_start << "\n";
-  const BatchResult result = checkAll(*checker, *source, options.max_batch, group);
+  const Checked checked = checkAll(*checker, *source, options.max_batch, group);
   if (const std::string warning = checker->deviceWarning(); warning != at_start)
     std::cerr << "warning: " << warning << "\n";
 
   if (out_path.empty())
   {
-    writeAnswers(std::cout, result, *scene);
+    writeAnswers(std::cout, checked.states, *scene);
   }
   else
   {
     out_file.close();
     out_file.open(out_path, std::ios::trunc);
-    writeAnswers(out_file, result, *scene);
+    writeAnswers(out_file, checked.states, *scene);
     if (!out_file.flush())
       throw Error(out_path + ": writing the file failed");
   }
   std::cout.flush();
   const SceneReport report = checker->report(group);
   printWarnings(warningsOfScene(*scene, report));
-  printSummary(*scene, report, *source, result, checker->deviceName(), options.max_batch);
+  printSummary(*scene, report, *source, checked, checker->deviceName());
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -39,7 +39,7 @@ std::set<std::string> computeShaders(const std::string& folder)
   for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
   {
     GpuPairChecker(folder, traversal, 64).prepareMargins();
-    const auto programs = makeTraversal(traversal, folder, kUntrusted, {64, 64, 64, 64});
+    const auto programs = makeTraversal(traversal, folder, kUntrusted);
     for (const bool solids : {false, true})
       for (const bool padded : {false, true})
         for (const float tolerance : {0.0F, 0.001F})

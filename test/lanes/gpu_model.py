@@ -16,7 +16,8 @@ SCENES = ["kr5", "ur5_cage", "drchubo_corridor"]
 BATCHES = {"16k": 1 << 14, "262k": 1 << 18, "1M": 1 << 20}
 # States that the breadth-first traversal checks, only to count its dispatches.
 BREADTH_FIRST_STATES = 256
-DEFAULT_PART = 16384  # BatchCheckerOptions::max_batch
+DEFAULT_PART = 131072  # BatchCheckerOptions::max_batch
+COUNTED_STATES = 16384
 
 # Assumptions, the same for both GPUs.
 QUOTIENT = 10            # instructions of a division or square root
@@ -36,13 +37,12 @@ Gpu = collections.namedtuple("Gpu", "name lanes hertz cycles_of_double cache upl
 GPUS = [Gpu("H200", 132 * 128, 1.98e9, 2, 5e12, 50e9),
         Gpu("RTX 4060 Laptop", 24 * 128, 2.0e9, 64, 1e12, 12e9)]
 
-# Changes of the program, each in addition to those before it: factors, the largest part, and the least busy share of a
-# warp in the traversals.
-Changes = collections.namedtuple("Changes", "title part path busy work dispatches atomics host",
-                                 defaults=(DEFAULT_PART, 1, 0, 1, 1, 1, 1))
+# Changes of the program, each in addition to those before it: factors, and the least busy share of a warp in the
+# traversals.
+Changes = collections.namedtuple("Changes", "title path busy work dispatches atomics host",
+                                 defaults=(1, 0, 1, 1, 1, 1))
 STEPS = [
     ("as it is", {}),
-    ("parts of 262,144 states", {"part": 1 << 18}),
     ("work groups share traversals: an eighth of the path, 70 % busy",
      {"path": 1 / 8, "busy": 0.7}),
     ("half of the dispatches", {"dispatches": 1 / 2}),
@@ -144,7 +144,7 @@ BESIDE = ("host", "upload")  # they work on the next part while the device works
 
 def batch_seconds(scene, gpu, states, changes):
     """The time of a batch, and what takes most of it."""
-    part = min(changes.part, states)
+    part = min(DEFAULT_PART, states)
     reasons = terms(scene, gpu, part, changes)
     beside = max(reasons[name] for name in BESIDE)
     device = sum(seconds for name, seconds in reasons.items() if name not in BESIDE)
@@ -196,16 +196,15 @@ def print_work(scenes):
 
 def print_times(scenes):
     """The terms of a part of 16,384 states in microseconds, and the millions of states per second of batches."""
-    as_it_is, large_parts = all_changes()[:2]
+    as_it_is = all_changes()[0]
     names = ["instructions", "doubles", "L2 cache", "atomics", "longest path", "dispatches", "host", "upload"]
     rows = []
     for gpu in GPUS:
         for scene in scenes:
-            reasons = terms(scene, gpu, DEFAULT_PART, as_it_is)
+            reasons = terms(scene, gpu, COUNTED_STATES, as_it_is)
             rows.append([f"{gpu.name}, {scene.name}"] + [number(1e6 * reasons[name]) for name in names] +
-                        [number(rate(scene, gpu, states, as_it_is)[0]) for states in BATCHES.values()] +
-                        [number(rate(scene, gpu, BATCHES["1M"], large_parts)[0])])
-    print_table(["", *names, *BATCHES, "1M, large parts"], rows)
+                        [number(rate(scene, gpu, states, as_it_is)[0]) for states in BATCHES.values()])
+    print_table(["", *names, *BATCHES], rows)
 
 
 def rate(scene, gpu, states, changes):
@@ -227,7 +226,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("build")
     parser.add_argument("tables")
-    parser.add_argument("--states", type=int, default=DEFAULT_PART)
+    parser.add_argument("--states", type=int, default=COUNTED_STATES)
     arguments = parser.parse_args()
     scenes = [Scene(arguments.build, arguments.tables, name, arguments.states) for name in SCENES]
     print_work(scenes)

@@ -37,18 +37,6 @@ struct AnswerOffsets
   std::size_t end;
 };
 static_assert(COUNTER_WORDS * sizeof(std::uint32_t) <= Buffer::kStorageAlignment, "they lie before the flags");
-
-/// Default capacities that suffice for most batches: the average need per state, plus a constant for small batches.
-ListCapacities withDefaults(ListCapacities capacities, std::size_t max_states)
-{
-  const auto per_state = [&](std::uint32_t chosen, std::size_t count)
-  { return chosen ? chosen : static_cast<std::uint32_t>(std::min<std::size_t>(max_states * count + 65536, 1U << 25)); };
-  capacities.candidates = per_state(capacities.candidates, 96);
-  capacities.root_pairs = per_state(capacities.root_pairs, 24);
-  capacities.node_pairs = per_state(capacities.node_pairs, 128);
-  capacities.leaf_pairs = per_state(capacities.leaf_pairs, 64);
-  return capacities;
-}
 }  // namespace
 
 GpuPairChecker::Programs::Programs(const std::string& folder, const std::string& definitions)
@@ -68,8 +56,8 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
     max_states_(std::max<std::size_t>(1, max_states)),
     plain_parts_({part_seconds, kFirstPart, 1, max_states_}),
     parts_with_margins_({part_seconds, kFirstPart, 1, max_states_}),
-    lists_(withDefaults(capacities, max_states_)),
-    traversal_(makeTraversal(traversal, folder, definitions_, lists_.capacity)),
+    lists_(capacities),
+    traversal_(makeTraversal(traversal, folder, definitions_)),
     arguments_(folder),
     folder_(folder),
     plain_(folder, definitions_),
@@ -111,7 +99,7 @@ void GpuPairChecker::useProofs(const RobotProofs& proofs, const CollisionProblem
   proofs_.set(proofs, problem);
 }
 
-/// Compiles programs and sizes the parts, so that no batch has to.
+/// Compiles programs, sizes the parts and allocates the lists, so that the first batch does not have to.
 void GpuPairChecker::prepare()
 {
   writeQueries();
@@ -119,6 +107,7 @@ void GpuPairChecker::prepare()
                                            std::max(queries_.world.size(), queries_.self.size()));
   plain_parts_.setMax(std::min(max_states_, room));
   parts_with_margins_.setMax(std::max<std::size_t>(1, std::min({max_states_, room, margins_.maxStates()})));
+  lists_.reserve(plain_parts_.size());
   traversal_->prepare(task(false, scene_.isPadded()));
   if (scene_.solidNodes() != 0)
     traversal_->prepare(task(true, scene_.isPadded()));
@@ -241,6 +230,7 @@ void GpuPairChecker::start(const Batch& batch, Part& part)
   const AnswerOffsets offsets(part.count);
   part.answers.reserve(offsets.end);
   part.answers.clear(offsets.flags, offsets.words);
+  lists_.reserve(part.count);
   lists_.counters.clear();
   poses_.reserve(part.count * scene_.robotCount() * POSE_TEXELS * TexelBuffer::kTexelBytes);
   batch.poses.write(part.begin, part.count, poses_);

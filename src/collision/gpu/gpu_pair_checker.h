@@ -37,7 +37,7 @@ class GpuPairChecker
   /// part has ended.
   static constexpr double kPartSeconds = 0.05;
 
-  /// At most `max_states` states go to the GPU at once. `capacities`: 0 means the default for this number of states.
+  /// At most `max_states` states go to the GPU at once. `capacities`: 0 means a default for the number of states.
   GpuPairChecker(const std::string& shader_folder, Traversal traversal, std::size_t max_states,
                  const ListCapacities& capacities = {}, double part_seconds = kPartSeconds);
 

@@ -220,6 +220,29 @@ TEST_P(BatchLimits, InvocationsThatTheDeviceEndsEarlyAreNoticed)
     EXPECT_GT(result.undecided_states, 0U);
 }
 
+TEST(BatchLists, GrowWithThePartsAsFarAsTheDeviceAllows)
+{
+  const EglContext context("auto");
+  ListCapacities fixed;
+  fixed.leaf_pairs = 7;
+  BatchLists lists(fixed);
+  lists.reserve(100);
+  const ListCapacities small = lists.capacity;
+  lists.reserve(20000);
+  const ListCapacities large = lists.capacity;
+  EXPECT_GT(large.candidates, small.candidates);
+  EXPECT_GT(large.root_pairs, small.root_pairs);
+  EXPECT_GT(large.node_pairs, small.node_pairs);
+  EXPECT_EQ(large.leaf_pairs, 7U);
+  lists.reserve(100);
+  EXPECT_EQ(lists.capacity.node_pairs, large.node_pairs);
+  lists.reserve(TexelBuffer::maxBytes() / TexelBuffer::kTexelBytes / 100);  // 128 node pairs a state are too many
+  EXPECT_EQ(lists.capacity.node_pairs, TexelBuffer::maxBytes() / TexelBuffer::kTexelBytes);
+  EXPECT_GE(lists.node_pairs[1].buffer().size(), std::size_t{lists.capacity.node_pairs} * TexelBuffer::kTexelBytes);
+  EXPECT_GE(lists.root_pairs.buffer().size(),
+            std::size_t{lists.capacity.root_pairs} * ROOT_PAIR_TEXELS * TexelBuffer::kTexelBytes);
+}
+
 INSTANTIATE_TEST_SUITE_P(Traversals, BatchLimits, testing::Values(Traversal::BreadthFirst, Traversal::WorkQueue),
                          [](const auto& parameter)
                          { return parameter.param == Traversal::WorkQueue ? "WorkQueue" : "BreadthFirst"; });

@@ -15,24 +15,24 @@ constexpr std::size_t offsetOf(std::size_t counter)
 {
   return counter * sizeof(std::uint32_t);
 }
-
-/// The entries of a level: root pairs on the first level, node pairs on the others.
-std::uint32_t largestLevel(const ListCapacities& capacities)
-{
-  return std::max(capacities.root_pairs, capacities.node_pairs);
-}
 }  // namespace
 
-BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definitions, const ListCapacities& capacities)
+BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definitions)
   : arguments_(folder),
     scan_(folder, "traversal/level_scan.comp"),
     expand_(folder, "traversal/level_expand.comp", definitions),
     overlap_(folder, "traversal/level_overlap.comp", definitions, TaskPrograms::Needs::NoPadding),
-    triangles_(folder, "traversal/level_triangles.comp", definitions, TaskPrograms::Needs::NoTolerance),
-    masks_(std::size_t{largestLevel(capacities)} * 4),
-    sums_((std::size_t{largestLevel(capacities)} / LEVEL_GROUP + 1) * 8)
+    triangles_(folder, "traversal/level_triangles.comp", definitions, TaskPrograms::Needs::NoTolerance)
 {
-  leaf_pairs_.reserve(std::size_t{capacities.leaf_pairs} * TexelBuffer::kTexelBytes);
+}
+
+void BreadthFirst::reserve(const ListCapacities& capacity)
+{
+  // A level has root pairs or node pairs.
+  const std::size_t level = std::max(capacity.root_pairs, capacity.node_pairs);
+  masks_.reserve(level * sizeof(std::uint32_t));
+  sums_.reserve((level / LEVEL_GROUP + 1) * 2 * sizeof(std::uint32_t));
+  leaf_pairs_.reserve(std::size_t{capacity.leaf_pairs} * TexelBuffer::kTexelBytes);
 }
 
 void BreadthFirst::prepare(const TraversalTask& task)
@@ -43,6 +43,7 @@ void BreadthFirst::prepare(const TraversalTask& task)
 
 void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
 {
+  reserve(lists.capacity);
   const Program& overlap = overlap_.forTask(task);
   const Program& triangles = triangles_.forTask(task);
   const std::array<const Program*, 3> level_programs = {&overlap, &scan_, &expand_};

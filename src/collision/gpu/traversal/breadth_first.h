@@ -11,11 +11,13 @@ namespace gpu_planning_scene::core
 class BreadthFirst : public GpuTraversal
 {
  public:
-  BreadthFirst(const std::string& shader_folder, const std::string& definitions, const ListCapacities& capacities);
+  BreadthFirst(const std::string& shader_folder, const std::string& definitions);
   void prepare(const TraversalTask& task) override;
   void start(BatchLists& lists, const TraversalTask& task) override;
 
  private:
+  void reserve(const ListCapacities& capacity);
+
   ArgumentsKernel arguments_;
   Program scan_, expand_;
   TaskPrograms overlap_, triangles_;

@@ -1,5 +1,7 @@
 #include "collision/gpu/traversal/gpu_traversal.h"
 
+#include <algorithm>
+
 #include "collision/gpu/traversal/breadth_first.h"
 #include "collision/gpu/traversal/work_queue.h"
 #include "gpu_planning_scene/error.h"
@@ -18,15 +20,30 @@ Traversal traversalFromName(const std::string& name)
   throw Error("unknown traversal '" + name + "'; use breadth_first or work_queue");
 }
 
-BatchLists::BatchLists(const ListCapacities& capacities)
-  : capacity(capacities), counters(COUNTER_WORDS * sizeof(std::uint32_t))
+BatchLists::BatchLists(const ListCapacities& fixed) : counters(COUNTER_WORDS * sizeof(std::uint32_t)), fixed_(fixed) {}
+
+void BatchLists::reserve(std::size_t states)
 {
-  candidates.reserve((std::size_t{capacity.candidates} + 1) / 2 * TexelBuffer::kTexelBytes);
-  root_pairs.reserve(std::size_t{capacity.root_pairs} * ROOT_PAIR_TEXELS * TexelBuffer::kTexelBytes);
-  mesh_entries.reserve(std::size_t{capacity.root_pairs} * TexelBuffer::kTexelBytes);
-  solid_entries.reserve(std::size_t{capacity.root_pairs} * TexelBuffer::kTexelBytes);
+  // The defaults suffice for most parts: the average need of a state, plus a constant for small parts.
+  const auto grown = [states, most_bytes = TexelBuffer::maxBytes()](std::uint32_t now, std::uint32_t fixed,
+                                                                    std::size_t per_state, std::size_t entry_bytes)
+  {
+    const std::size_t wanted = std::min(states * per_state + 65536, most_bytes / entry_bytes);
+    return fixed ? fixed : std::max(now, static_cast<std::uint32_t>(wanted));
+  };
+  constexpr std::size_t kTexel = TexelBuffer::kTexelBytes;
+  ListCapacities wanted;
+  wanted.candidates = grown(capacity.candidates, fixed_.candidates, 96, kTexel / 2);
+  wanted.root_pairs = grown(capacity.root_pairs, fixed_.root_pairs, 24, ROOT_PAIR_TEXELS * kTexel);
+  wanted.node_pairs = grown(capacity.node_pairs, fixed_.node_pairs, 128, kTexel);
+  wanted.leaf_pairs = grown(capacity.leaf_pairs, fixed_.leaf_pairs, 64, kTexel);
+  candidates.reserve((std::size_t{wanted.candidates} + 1) / 2 * kTexel);
+  root_pairs.reserve(std::size_t{wanted.root_pairs} * ROOT_PAIR_TEXELS * kTexel);
+  mesh_entries.reserve(std::size_t{wanted.root_pairs} * kTexel);
+  solid_entries.reserve(std::size_t{wanted.root_pairs} * kTexel);
   for (TexelBuffer& list : node_pairs)
-    list.reserve(std::size_t{capacity.node_pairs} * TexelBuffer::kTexelBytes);
+    list.reserve(std::size_t{wanted.node_pairs} * kTexel);
+  capacity = wanted;  // last, so that it is true if an allocation throws
 }
 
 TaskPrograms::TaskPrograms(std::string shader_folder, std::string name, std::string definitions, Needs needs)
@@ -55,10 +72,10 @@ const Program& TaskPrograms::forTask(const TraversalTask& task)
 }
 
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,
-                                            const std::string& definitions, const ListCapacities& capacities)
+                                            const std::string& definitions)
 {
   if (traversal == Traversal::BreadthFirst)
-    return std::make_unique<BreadthFirst>(shader_folder, definitions, capacities);
+    return std::make_unique<BreadthFirst>(shader_folder, definitions);
   return std::make_unique<WorkQueue>(shader_folder, definitions);
 }
 

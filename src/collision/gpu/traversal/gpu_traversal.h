@@ -13,7 +13,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Capacities of a batch's lists, in entries. If a list overflows, the batch is split.
+/// Capacities of the lists of a part of a batch, in entries. If a list overflows, the part is split.
 struct ListCapacities
 {
   std::uint32_t candidates = 0;  ///< pairs of instances whose spheres or outer boxes overlap
@@ -22,16 +22,26 @@ struct ListCapacities
   std::uint32_t leaf_pairs = 0;  ///< leaf pairs of one level (breadth-first)
 };
 
-/// The lists of a batch in GPU memory, see shaders/shader_constants.h and shaders/traversal/root_pairs.glsl.
-struct BatchLists
+/// The lists of a part in GPU memory, see shaders/shader_constants.h and shaders/traversal/root_pairs.glsl. Parts use
+/// the same lists one after the other.
+class BatchLists
 {
-  explicit BatchLists(const ListCapacities& capacities);
+ public:
+  /// `fixed`: capacities that do not depend on the number of states; 0: the default capacity.
+  explicit BatchLists(const ListCapacities& fixed);
+
+  /// Grows the lists to the default capacities for a part of `states` states, as far as the device's limit for a buffer
+  /// allows it. Throws Error if OpenGL fails; OutOfDeviceMemory if the device has too little memory.
+  void reserve(std::size_t states);
 
   ListCapacities capacity;
   Buffer counters;
   TexelBuffer candidates, root_pairs;
   TexelBuffer mesh_entries, solid_entries;  ///< node pairs to start from: of two meshes; of a mesh and a solid
   std::array<TexelBuffer, 2> node_pairs;    ///< node pairs for the next level or pass, by turns
+
+ private:
+  ListCapacities fixed_;
 };
 
 /// The task of one traversal.
@@ -82,7 +92,7 @@ class GpuTraversal
 
 /// `definitions`: preprocessor definitions for the programs, see Program.
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,
-                                            const std::string& definitions, const ListCapacities& capacities);
+                                            const std::string& definitions);
 
 /// A kernel that computes the size of a later indirect dispatch on the device.
 class ArgumentsKernel
