@@ -1,6 +1,7 @@
 // The methods of bench/literature on robot states: each of them checks the pairs of shapes that the allowed collision
-// matrix does not allow, one pair after the other. Pairs whose bounding spheres are apart are left out. A method gets
-// all states of a chunk for a pair at once, because methods that render draw many poses into one picture.
+// matrix does not allow, one pair after the other. Pairs whose boxes along the axes of the robot's base are apart are
+// left out, as by the FCL peer. A method gets all states of a chunk for a pair at once, because methods that render
+// draw many poses into one picture.
 
 #include <algorithm>
 #include <array>
@@ -28,21 +29,28 @@ constexpr std::array<const char*, 14> kChosen = {
 /// Debian's ODE is built without ODE_EXT_mt_collisions: only one thread at a time may ask it.
 constexpr const char* kOneThread = "opcode";
 
-struct Sphere
+/// The box of a mesh in a frame in which the mesh has this pose, a little larger than needed.
+struct PlacedBox
 {
+  PlacedBox(const Eigen::AlignedBox3d& box, const Isometry3d& pose)
+    : center(pose * box.center()), half(pose.linear().cwiseAbs() * (0.5 * (1.0 + 1e-9) * box.sizes()))
+  {
+  }
+  bool overlaps(const PlacedBox& other) const
+  {
+    return ((center - other.center).cwiseAbs().array() <= (half + other.half).array()).all();
+  }
+
   Eigen::Vector3d center;
-  double radius;
+  Eigen::Vector3d half;
 };
 
-Sphere enclosingSphere(const Mesh& mesh)
+Eigen::AlignedBox3d boxOf(const Mesh& mesh)
 {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices)
     box.extend(vertex);
-  Sphere sphere{box.center(), 0.0};
-  for (const Eigen::Vector3d& vertex : mesh.vertices)
-    sphere.radius = std::max(sphere.radius, (vertex - sphere.center).norm());
-  return sphere;
+  return box;
 }
 
 /// Two instances. `a`: of the world, which stands still, or of the robot. `b`: of the robot, which moves. Klosowski's
@@ -74,7 +82,7 @@ class PairMethods
     : problem_(std::move(problem)), pairs_(checkedPairs(*problem_))
   {
     for (const Tessellation& shape : problem_->tessellations)
-      spheres_.push_back(enclosingSphere(*shape.mesh));
+      boxes_.push_back(boxOf(*shape.mesh));
     for (const Pair& pair : pairs_)
     {
       std::unique_ptr<literature::Method>& method = methods_[{pair.a->tree, pair.b->tree}];
@@ -89,8 +97,6 @@ class PairMethods
     std::fill_n(valid, count, std::uint8_t{1});
     for (const Pair& pair : pairs_)
     {
-      const Sphere& sphere_a = spheres_[pair.a->tree];
-      const Sphere& sphere_b = spheres_[pair.b->tree];
       std::vector<std::size_t> asked;
       std::vector<Isometry3d> b_in_a;
       for (std::size_t i = 0; i < count; ++i)
@@ -98,11 +104,12 @@ class PairMethods
         if (valid[i] == 0)
           continue;
         const Isometry3d* poses = &link_poses[i * links];
-        const Isometry3d pose = placed(*pair.a, poses).inverse() * placed(*pair.b, poses);
-        if ((pose * sphere_b.center - sphere_a.center).norm() > sphere_a.radius + sphere_b.radius)
+        const Isometry3d pose_a = placed(*pair.a, poses);
+        const Isometry3d pose_b = placed(*pair.b, poses);
+        if (!PlacedBox(boxes_[pair.a->tree], pose_a).overlaps(PlacedBox(boxes_[pair.b->tree], pose_b)))
           continue;
         asked.push_back(i);
-        b_in_a.push_back(pose);
+        b_in_a.push_back(pose_a.inverse() * pose_b);
       }
       if (asked.empty())
         continue;
@@ -113,7 +120,7 @@ class PairMethods
     }
   }
 
-  /// The pairs of shapes whose spheres overlapped in all calls so far, each in one state.
+  /// The pairs of shapes whose boxes overlapped in all calls so far, each in one state.
   double queries() const { return queries_; }
 
   /// The tests of bounding volumes in all calls so far. NaN if the method does not count them.
@@ -138,7 +145,7 @@ class PairMethods
 
   std::shared_ptr<const CollisionProblem> problem_;
   std::vector<Pair> pairs_;
-  std::vector<Sphere> spheres_;  // of each tree
+  std::vector<Eigen::AlignedBox3d> boxes_;  // of each tree, in the frame of its mesh
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::unique_ptr<literature::Method>> methods_;
   double queries_ = 0.0;
 };
