@@ -33,6 +33,9 @@ class BatchSize
     size_ = std::min(size_, capacity_);
   }
 
+  /// The next batches differ from the last ones, for example because the scene has changed: begins as at first.
+  void restart() { size_ = std::min(limits_.first, capacity_); }
+
   /// Reports that a batch of `count` states took `seconds`. Only a batch that took too long makes the next ones
   /// smaller: the fixed costs of a short batch say little about a full one. Only a full batch makes the next ones
   /// larger.

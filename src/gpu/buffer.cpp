@@ -137,15 +137,17 @@ std::size_t TexelBuffer::maxBytes()
 
 void TexelBuffer::reserve(std::size_t size)
 {
-  if (size <= buffer_.size() && texture_)
+  if (size <= buffer_.size() && is_texture_current_)
     return;
   const std::size_t max_bytes = maxBytes();
   requireWithin(size, max_bytes);
+  is_texture_current_ = false;  // if something throws, the next call tries again
   buffer_.reserve(size, max_bytes);
   if (!texture_)
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture_);
   glTextureBuffer(texture_, GL_RGBA32UI, buffer_.id());
   checkGl("making a buffer texture");
+  is_texture_current_ = true;
 }
 
 void TexelBuffer::bindTexture(std::uint32_t unit) const

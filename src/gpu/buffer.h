@@ -72,5 +72,6 @@ class TexelBuffer
  private:
   Buffer buffer_;
   std::uint32_t texture_ = 0;
+  bool is_texture_current_ = false;  // whether the texture shows buffer_
 };
 }  // namespace gpu_planning_scene::core

@@ -9,8 +9,7 @@ std::string driverFault(const std::string& renderer)
   if (renderer.find("zink") != std::string::npos)
     return "the driver of '" + renderer +
            "' computes wrong answers (zink translates OpenGL to Vulkan); install the GPU vendor's own OpenGL driver, "
-           "or "
-           "choose 'software' or 'cpu'";
+           "or choose the device 'cpu'";
   return "";
 }
 }  // namespace gpu_planning_scene::core

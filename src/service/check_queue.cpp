@@ -319,6 +319,7 @@ Snapshot CheckQueue::takeScene(const CheckJob& job)
     else
       checker_ = make_checker_(now.scene);
     checked_ = now.scene;
+    batch_size_.restart();
   }
   catch (...)
   {

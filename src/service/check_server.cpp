@@ -10,6 +10,9 @@ namespace
 // check.
 constexpr std::size_t kBodiesOfSmallMatrix = 100;
 
+// Small requests are merged up to the states of so many of the largest ones. Each of them waits for all.
+constexpr std::size_t kMergedRequests = 16;
+
 bool isSmall(const CheckJob& job, const SceneStore& store)
 {
   const bool has_other_scene = job.scene && job.scene->scene != store.snapshot().scene;
@@ -20,7 +23,7 @@ bool isSmall(const CheckJob& job, const SceneStore& store)
 CheckServer::CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options)
   : store_(store),
     options_(options),
-    small_(std::make_unique<CheckQueue>(store, make_checker, options, options.max_batch_states)),
+    small_(std::make_unique<CheckQueue>(store, make_checker, options, kMergedRequests * options.small_request)),
     large_(std::make_unique<CheckQueue>(store, make_checker, options, 0))
 {
   small_->open();

@@ -22,7 +22,7 @@ struct CheckServerOptions
   std::size_t max_waiting_requests = 64;     ///< in each queue
   std::size_t max_waiting_states = 4000000;  ///< in each queue; one request always fits
   std::size_t max_states = 1000000;          ///< in one request
-  std::size_t max_batch_states = 131072;  ///< most states that are checked at once, if they take at most half a second
+  std::size_t max_batch_states = 524288;  ///< most states that are checked at once, if they take at most half a second
 };
 
 /// A request to check states or motions. States are rows of values for some of the robot's variables. The other

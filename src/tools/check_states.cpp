@@ -49,13 +49,14 @@ struct Checked
   std::size_t largest_batch = 0;
 };
 
-/// Checks all states, in batches that take at most about half a second, so that the progress is seen.
-Checked checkAll(StateChecker& checker, StateSource& source, std::size_t max_batch, const std::string& group)
+/// Checks all states, in batches that take at most about half a second, so that the progress is seen. Only within a
+/// batch, the device works on a part while the host prepares the next one.
+Checked checkAll(StateChecker& checker, StateSource& source, const std::string& group)
 {
   Checked all;
   all.states.valid.reserve(source.count());
   all.states.colliding.reserve(source.count());
-  BatchSize batch({0.5, 16384, 1024, max_batch});
+  BatchSize batch({0.5, 16384, 1024, 524288});
   ProgressBar progress("checking", source.count());
   while (all.states.valid.size() < source.count())
   {
@@ -160,7 +161,7 @@ void run(const CommandLine& arguments)
   const std::string at_start = checker->deviceWarning();
   if (!at_start.empty())
     std::cerr << "warning: " << at_start << "\n";
-  const Checked checked = checkAll(*checker, *source, options.max_batch, group);
+  const Checked checked = checkAll(*checker, *source, group);
   if (const std::string warning = checker->deviceWarning(); warning != at_start)
     std::cerr << "warning: " << warning << "\n";
 

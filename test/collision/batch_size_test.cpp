@@ -29,6 +29,19 @@ TEST(BatchSizes, ApproachTheWantedTime)
   EXPECT_EQ(64u, size.size());
 }
 
+TEST(BatchSizes, BeginSmallAgainAfterARestart)
+{
+  BatchSize size({0.05, 2048, 64, 65536});
+  for (int i = 0; i < 10; ++i)
+    size.took(size.size(), 1e-6);
+  EXPECT_EQ(65536u, size.size());
+  size.restart();
+  EXPECT_EQ(2048u, size.size());
+  size.tooLarge(1000);
+  size.restart();
+  EXPECT_EQ(500u, size.size()) << "a list that was too short still counts";
+}
+
 TEST(BatchSizes, StaySmallForAWhileAfterOneThatDidNotFit)
 {
   BatchSize size({0.05, 2048, 1, 65536});

@@ -17,6 +17,7 @@ BATCHES = {"16k": 1 << 14, "262k": 1 << 18, "1M": 1 << 20}
 # States that the breadth-first traversal checks, only to count its dispatches.
 BREADTH_FIRST_STATES = 256
 DEFAULT_PART = 131072  # BatchCheckerOptions::max_batch
+SLICE = 524288         # kStatesPerChoice of batch_checker.cpp: within it, the host works beside the device
 COUNTED_STATES = 16384
 
 # Assumptions, the same for both GPUs.
@@ -144,6 +145,9 @@ BESIDE = ("host", "upload")  # they work on the next part while the device works
 
 def batch_seconds(scene, gpu, states, changes):
     """The time of a batch, and what takes most of it."""
+    if states > SLICE:
+        seconds, reason = batch_seconds(scene, gpu, SLICE, changes)
+        return seconds * states / SLICE, reason
     part = min(DEFAULT_PART, states)
     reasons = terms(scene, gpu, part, changes)
     beside = max(reasons[name] for name in BESIDE)

@@ -17,8 +17,10 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// A smaller part would not keep a GPU busy; a larger one would keep the caller waiting for the slowest device.
+// A smaller part would not keep a GPU busy, unless fewer states fall to each device; a larger one would keep the caller
+// waiting for the slowest device.
 constexpr std::size_t kSmallestPart = 16'384;
+constexpr std::size_t kBusyPart = 65'536;
 constexpr std::size_t kLargestPart = 262'144;
 constexpr std::size_t kPartsPerDevice = 4;
 
@@ -145,7 +147,8 @@ struct DeviceGroup::Batch
   /// Cuts the batch into parts for a number of devices.
   void cut(std::size_t devices)
   {
-    per_part = std::clamp(count / (devices * kPartsPerDevice), kSmallestPart, kLargestPart);
+    const std::size_t least = std::clamp((count + devices - 1) / devices, kSmallestPart, kBusyPart);
+    per_part = std::clamp(count / (devices * kPartsPerDevice), least, kLargestPart);
     results.resize(std::max<std::size_t>(1, (count + per_part - 1) / per_part));
     for (std::size_t i = results.size(); i-- > 0;)
       waiting.push_back(i);

@@ -134,7 +134,15 @@ std::string GpuChecker::fault() const
 void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
 {
   requireUsableScene();
-  gl_.run([&] { pairs_->selectPairs(*problem); });
+  try
+  {
+    gl_.run([&] { pairs_->selectPairs(*problem); });
+  }
+  catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state
+  {
+    usable_ = false;
+    throw DeviceLost(error.what());
+  }
   problem_ = std::move(problem);
   on_cpu_.reset();
 }
@@ -151,6 +159,7 @@ void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
   }
   catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state
   {
+    usable_ = false;
     throw DeviceLost(error.what());
   }
   catch (const DeviceLost&)
@@ -241,6 +250,7 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
   }
   catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state, through no fault of the caller
   {
+    usable_ = false;
     throw DeviceLost(error.what());
   }
   if (settled != count)  // the others would stay free

@@ -153,6 +153,12 @@ bool GpuKinematics::canPlace(const double* state) const
                      });
 }
 
+std::size_t GpuKinematics::maxStates() const
+{
+  const std::size_t numbers = TexelBuffer::maxBytes() / sizeof(double) - 1;  // see write()
+  return std::max<std::size_t>(1, numbers / std::max<std::size_t>(1, largest_.size()));
+}
+
 void GpuKinematics::write(std::size_t begin, std::size_t count, TexelBuffer& poses)
 {
   const std::size_t width = largest_.size();

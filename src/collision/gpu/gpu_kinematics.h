@@ -39,6 +39,7 @@ class GpuKinematics : public PoseSource
   /// Sets the batch for `write`: row-major rows of the robot's variables. canPlace must be true for each row.
   void setStates(const double* states) { states_ = states; }
   void write(std::size_t begin, std::size_t count, TexelBuffer& poses) override;
+  std::size_t maxStates() const override;
   std::size_t boundVariables() const override { return largest_.size(); }
 
  private:

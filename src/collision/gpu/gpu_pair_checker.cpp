@@ -99,7 +99,8 @@ void GpuPairChecker::useProofs(const RobotProofs& proofs, const CollisionProblem
   proofs_.set(proofs, problem);
 }
 
-/// Compiles programs, sizes the parts and allocates the lists, so that the first batch does not have to.
+/// Compiles programs, sizes the parts and allocates the lists, so that the first batch does not have to. The next
+/// states may take much longer than the last ones, so the parts begin small again.
 void GpuPairChecker::prepare()
 {
   writeQueries();
@@ -107,7 +108,9 @@ void GpuPairChecker::prepare()
                                            std::max(queries_.world.size(), queries_.self.size()));
   plain_parts_.setMax(std::min(max_states_, room));
   parts_with_margins_.setMax(std::max<std::size_t>(1, std::min({max_states_, room, margins_.maxStates()})));
-  lists_.reserve(plain_parts_.size());
+  for (BatchSize* parts : {&plain_parts_, &parts_with_margins_})
+    parts->restart();
+  lists_.reserve(plain_parts_.size(), TexelBuffer::maxBytes());
   traversal_->prepare(task(false, scene_.isPadded()));
   if (scene_.solidNodes() != 0)
     traversal_->prepare(task(true, scene_.isPadded()));
@@ -145,7 +148,7 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
     {
       next = &parts_[i % 2];
       next->begin = begin;
-      next->count = std::min(batch.parts.size(), count - begin);
+      next->count = std::min({batch.parts.size(), source.maxStates(), count - begin});
       begin += next->count;
       start(batch, *next);
     }
@@ -230,7 +233,7 @@ void GpuPairChecker::start(const Batch& batch, Part& part)
   const AnswerOffsets offsets(part.count);
   part.answers.reserve(offsets.end);
   part.answers.clear(offsets.flags, offsets.words);
-  lists_.reserve(part.count);
+  lists_.reserve(part.count, TexelBuffer::maxBytes());
   lists_.counters.clear();
   poses_.reserve(part.count * scene_.robotCount() * POSE_TEXELS * TexelBuffer::kTexelBytes);
   batch.poses.write(part.begin, part.count, poses_);

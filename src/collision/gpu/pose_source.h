@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 #include "gpu/buffer.h"
 
@@ -16,6 +17,9 @@ class PoseSource
   /// texels (shaders/geometry/pose.glsl). The poses are ordered by instance, then by state (poseIndex in
   /// shaders/problem/instance_lists.glsl). `poses` must be large enough.
   virtual void write(std::size_t begin, std::size_t count, TexelBuffer& poses) = 0;
+
+  /// The most states that `write` takes at once.
+  virtual std::size_t maxStates() const { return std::numeric_limits<std::size_t>::max(); }
 
   /// The number of variables of a state, if `write` leaves the states bound to UNIT_STATES; otherwise 0.
   virtual std::size_t boundVariables() const { return 0; }

@@ -1,6 +1,8 @@
 // Overflowing lists and stacks and exhausted iterations cost time, but change no answer. The problem has one mesh, as a
 // link and as three objects.
 
+#include <algorithm>
+#include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -220,27 +222,57 @@ TEST_P(BatchLimits, InvocationsThatTheDeviceEndsEarlyAreNoticed)
     EXPECT_GT(result.undecided_states, 0U);
 }
 
-TEST(BatchLists, GrowWithThePartsAsFarAsTheDeviceAllows)
+TEST_P(BatchLimits, ListsThatGrowWhileTheDeviceWorksChangeNoAnswer)
+{
+  const Verdicts once = verdictsWith({});
+  const EglContext context("auto");
+  GpuPairChecker checker(folder_.path(), GetParam(), 16384, {}, std::numeric_limits<double>::infinity());
+  checker.setProblem(*problem_);
+  const UploadedPoses::LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* pose)
+  { *pose = poses_[row % kStates]; };
+  UploadedPoses poses(*problem_, 1, link_poses);
+  constexpr std::size_t kMany = 40 * kStates;
+  Verdicts verdicts;
+  std::vector<std::size_t> parts;
+  checker.check(poses, kMany, verdicts, nullptr,
+                [&parts](std::size_t /*begin*/, std::size_t count) { parts.push_back(count); });
+  EXPECT_GT(*std::max_element(parts.begin(), parts.end()), parts.front());
+  for (std::size_t i = 0; i < kMany; ++i)
+  {
+    EXPECT_EQ(verdicts.flags[i] & STATE_HIT, once.flags[i % kStates] & STATE_HIT) << "state " << i;
+    EXPECT_EQ(verdicts.flags[i] == 0, once.flags[i % kStates] == 0) << "state " << i;
+  }
+}
+
+TEST(BatchLists, GrowWithThePartsUpToALimit)
 {
   const EglContext context("auto");
   ListCapacities fixed;
   fixed.leaf_pairs = 7;
   BatchLists lists(fixed);
-  lists.reserve(100);
+  constexpr std::size_t kMaxBytes = 8'000'000;
+  const auto fit = [&lists]
+  {
+    return lists.candidates.buffer().size() >= lists.capacity.candidates * TexelBuffer::kTexelBytes / 2 &&
+           lists.root_pairs.buffer().size() >=
+               lists.capacity.root_pairs * ROOT_PAIR_TEXELS * TexelBuffer::kTexelBytes &&
+           lists.node_pairs[0].buffer().size() >= lists.capacity.node_pairs * TexelBuffer::kTexelBytes &&
+           lists.node_pairs[1].buffer().size() >= lists.capacity.node_pairs * TexelBuffer::kTexelBytes;
+  };
+  lists.reserve(100, kMaxBytes);
   const ListCapacities small = lists.capacity;
-  lists.reserve(20000);
-  const ListCapacities large = lists.capacity;
-  EXPECT_GT(large.candidates, small.candidates);
-  EXPECT_GT(large.root_pairs, small.root_pairs);
-  EXPECT_GT(large.node_pairs, small.node_pairs);
-  EXPECT_EQ(large.leaf_pairs, 7U);
-  lists.reserve(100);
-  EXPECT_EQ(lists.capacity.node_pairs, large.node_pairs);
-  lists.reserve(TexelBuffer::maxBytes() / TexelBuffer::kTexelBytes / 100);  // 128 node pairs a state are too many
-  EXPECT_EQ(lists.capacity.node_pairs, TexelBuffer::maxBytes() / TexelBuffer::kTexelBytes);
-  EXPECT_GE(lists.node_pairs[1].buffer().size(), std::size_t{lists.capacity.node_pairs} * TexelBuffer::kTexelBytes);
-  EXPECT_GE(lists.root_pairs.buffer().size(),
-            std::size_t{lists.capacity.root_pairs} * ROOT_PAIR_TEXELS * TexelBuffer::kTexelBytes);
+  EXPECT_TRUE(fit());
+  lists.reserve(1000, kMaxBytes);
+  EXPECT_GT(lists.capacity.candidates, small.candidates);
+  EXPECT_GT(lists.capacity.root_pairs, small.root_pairs);
+  EXPECT_GT(lists.capacity.node_pairs, small.node_pairs);
+  EXPECT_EQ(lists.capacity.leaf_pairs, 7U);
+  EXPECT_TRUE(fit());
+  lists.reserve(100'000, kMaxBytes);
+  EXPECT_EQ(lists.capacity.node_pairs, kMaxBytes / TexelBuffer::kTexelBytes);
+  EXPECT_TRUE(fit());
+  lists.reserve(100, kMaxBytes);
+  EXPECT_EQ(lists.capacity.node_pairs, kMaxBytes / TexelBuffer::kTexelBytes) << "lists do not shrink";
 }
 
 INSTANTIATE_TEST_SUITE_P(Traversals, BatchLimits, testing::Values(Traversal::BreadthFirst, Traversal::WorkQueue),

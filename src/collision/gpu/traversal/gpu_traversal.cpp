@@ -4,6 +4,7 @@
 
 #include "collision/gpu/traversal/breadth_first.h"
 #include "collision/gpu/traversal/work_queue.h"
+#include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
 
@@ -22,28 +23,39 @@ Traversal traversalFromName(const std::string& name)
 
 BatchLists::BatchLists(const ListCapacities& fixed) : counters(COUNTER_WORDS * sizeof(std::uint32_t)), fixed_(fixed) {}
 
-void BatchLists::reserve(std::size_t states)
+void BatchLists::reserve(std::size_t states, std::size_t max_bytes)
 {
-  // The defaults suffice for most parts: the average need of a state, plus a constant for small parts.
-  const auto grown = [states, most_bytes = TexelBuffer::maxBytes()](std::uint32_t now, std::uint32_t fixed,
-                                                                    std::size_t per_state, std::size_t entry_bytes)
+  // The defaults suffice for most parts: the average need of a state, plus a constant for small parts. Large parts get
+  // less for a state, to save memory. If a scene needs more, its parts are split and stay smaller.
+  constexpr std::size_t kFullStates = 16384;
+  const std::size_t counted = std::min(states, kFullStates) + (states - std::min(states, kFullStates)) / 4;
+  const auto grown =
+      [counted, max_bytes](std::uint32_t now, std::uint32_t fixed, std::size_t per_state, std::size_t entry_bytes)
   {
-    const std::size_t wanted = std::min(states * per_state + 65536, most_bytes / entry_bytes);
+    const std::size_t wanted = std::min(counted * per_state + 65536, max_bytes / entry_bytes);
     return fixed ? fixed : std::max(now, static_cast<std::uint32_t>(wanted));
   };
   constexpr std::size_t kTexel = TexelBuffer::kTexelBytes;
   ListCapacities wanted;
-  wanted.candidates = grown(capacity.candidates, fixed_.candidates, 96, kTexel / 2);
+  wanted.candidates = grown(capacity.candidates, fixed_.candidates, 96, kTexel);  // a texel holds two of them
   wanted.root_pairs = grown(capacity.root_pairs, fixed_.root_pairs, 24, ROOT_PAIR_TEXELS * kTexel);
   wanted.node_pairs = grown(capacity.node_pairs, fixed_.node_pairs, 128, kTexel);
   wanted.leaf_pairs = grown(capacity.leaf_pairs, fixed_.leaf_pairs, 64, kTexel);
-  candidates.reserve((std::size_t{wanted.candidates} + 1) / 2 * kTexel);
-  root_pairs.reserve(std::size_t{wanted.root_pairs} * ROOT_PAIR_TEXELS * kTexel);
-  mesh_entries.reserve(std::size_t{wanted.root_pairs} * kTexel);
-  solid_entries.reserve(std::size_t{wanted.root_pairs} * kTexel);
-  for (TexelBuffer& list : node_pairs)
-    list.reserve(std::size_t{wanted.node_pairs} * kTexel);
-  capacity = wanted;  // last, so that it is true if an allocation throws
+  try
+  {
+    candidates.reserve((std::size_t{wanted.candidates} + 1) / 2 * kTexel);
+    root_pairs.reserve(std::size_t{wanted.root_pairs} * ROOT_PAIR_TEXELS * kTexel);
+    mesh_entries.reserve(std::size_t{wanted.root_pairs} * kTexel);
+    solid_entries.reserve(std::size_t{wanted.root_pairs} * kTexel);
+    for (TexelBuffer& list : node_pairs)
+      list.reserve(std::size_t{wanted.node_pairs} * kTexel);
+  }
+  catch (const OutOfDeviceMemory& error)
+  {
+    throw OutOfDeviceMemory(std::string(error.what()) + "; choose a smaller max_batch (" + std::to_string(states) +
+                            " states did not fit)");
+  }
+  capacity = wanted;  // last, so that no capacity is more than its list holds, even if an allocation throws
 }
 
 TaskPrograms::TaskPrograms(std::string shader_folder, std::string name, std::string definitions, Needs needs)

@@ -30,9 +30,10 @@ class BatchLists
   /// `fixed`: capacities that do not depend on the number of states; 0: the default capacity.
   explicit BatchLists(const ListCapacities& fixed);
 
-  /// Grows the lists to the default capacities for a part of `states` states, as far as the device's limit for a buffer
-  /// allows it. Throws Error if OpenGL fails; OutOfDeviceMemory if the device has too little memory.
-  void reserve(std::size_t states);
+  /// Grows the lists to the default capacities for a part of `states` states, but each to at most `max_bytes`, which is
+  /// TexelBuffer::maxBytes() except in tests. Throws OutOfDeviceMemory, which names max_batch, if the device has too
+  /// little memory, and DeviceLost if OpenGL fails otherwise.
+  void reserve(std::size_t states, std::size_t max_bytes);
 
   ListCapacities capacity;
   Buffer counters;
