@@ -65,9 +65,12 @@ class PairSampler
   std::unique_ptr<const CpuTraversal> traversal_;
 };
 
-HitCounts countInRandomStates(const RobotModel& robot, const PairSampler& sampler, const SamplingOptions& options)
+constexpr std::size_t kStatesAtOnce = 1024;
+
+/// Counts in random states. `first` checks the first kStatesAtOnce of them, `others` the others.
+HitCounts countInRandomStates(const RobotModel& robot, const PairSampler& first, const PairSampler& others,
+                              const SamplingOptions& options)
 {
-  constexpr std::size_t kStatesAtOnce = 1024;
   const std::size_t width = robot.variables().size();
   HitCounts counts;
   std::mt19937_64 generator(options.seed);
@@ -78,7 +81,7 @@ HitCounts countInRandomStates(const RobotModel& robot, const PairSampler& sample
     std::vector<double> states(count * width);
     for (std::size_t i = 0; i < count; ++i)
       robot.randomState(generator, states.data() + i * width);
-    sampler.add(states, count, counts);
+    (done == 0 ? first : others).add(states, count, counts);
     done += count;
     progress.update(done);
   }
@@ -135,11 +138,14 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Sa
     decide(first, second);
   ForestCache trees;
   HitCounts in_default_state;
-  PairSampler(robot, decided, trees).add(robot->defaultState(), 1, in_default_state);
+  const PairSampler undecided(robot, decided, trees);
+  undecided.add(robot->defaultState(), 1, in_default_state);
   for (const auto& [pair, count] : in_default_state)
     decide(pair[0], pair[1]);
-  const HitCounts hits = countInRandomStates(*robot, PairSampler(robot, decided, trees), options);
+  const HitCounts hits = countInRandomStates(*robot, undecided, PairSampler(robot, decided, trees), options);
   const double always = options.always_share * static_cast<double>(options.samples);
+  // Pairs that collide in the default state are only checked in the first random states.
+  const double always_of_first = options.always_share * static_cast<double>(std::min(kStatesAtOnce, options.samples));
 
   GeneratedMatrix matrix;
   const int links = static_cast<int>(robot->links().size());
@@ -154,7 +160,13 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Sa
       if (adjacent.count({first, second}) != 0)
         matrix.disabled.push_back({first, second, DisabledReason::Adjacent});
       else if (in_default_state.count({first, second}) != 0)
-        matrix.disabled.push_back({first, second, DisabledReason::Default});
+      {
+        const double count = hit == hits.end() ? 0.0 : static_cast<double>(hit->second);
+        if (count >= always_of_first)
+          matrix.disabled.push_back({first, second, DisabledReason::Default});
+        else
+          matrix.real_in_default_state.emplace_back(first, second);
+      }
       else if (hit == hits.end())
         matrix.disabled.push_back({first, second, DisabledReason::Never});
       else if (static_cast<double>(hit->second) >= always)
@@ -163,6 +175,7 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Sa
         ++matrix.remaining_pairs;
     }
   }
+  matrix.remaining_pairs += matrix.real_in_default_state.size();
   return matrix;
 }
 }  // namespace gpu_planning_scene::core

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu_planning_scene/robot_model.h"
@@ -14,7 +15,7 @@ namespace gpu_planning_scene::core
 enum class DisabledReason
 {
   Adjacent,  ///< a joint joins them
-  Default,   ///< they collide in RobotModel::defaultState()
+  Default,   ///< they collide in RobotModel::defaultState(), and in nearly every random state
   Always,    ///< they collide in nearly every random state
   Never      ///< they collide in no random state
 };
@@ -31,13 +32,16 @@ struct SamplingOptions
 {
   std::size_t samples = 10000;
   std::uint64_t seed = 0;
-  double always_share = 0.95;  ///< a pair that collides in at least this share of the samples is Always
+  double always_share = 0.95;  ///< a pair that collides in at least this share of the samples is Always or Default
 };
 
 struct GeneratedMatrix
 {
   std::vector<DisabledPair> disabled;  ///< sorted by link indices
-  std::size_t remaining_pairs = 0;     ///< pairs of links with collision shapes that must be checked
+  /// Pairs of links that collide in the default state, but not in nearly every random state. So they can really
+  /// collide, and are checked; the Setup Assistant disables them.
+  std::vector<std::pair<int, int>> real_in_default_state;
+  std::size_t remaining_pairs = 0;  ///< pairs of links with collision shapes that must be checked
 };
 
 /// Decides for each pair of links with collision shapes whether it must be checked. It samples random states and checks

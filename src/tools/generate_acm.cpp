@@ -55,9 +55,14 @@ std::string baseOf(const std::string& path, const std::string& out_path)
 }
 
 /// `groups`: the names of the planning groups in the SRDF.
-void printSummary(const GeneratedMatrix& matrix, const SamplingOptions& sampling,
+void printSummary(const RobotModel& robot, const GeneratedMatrix& matrix, const SamplingOptions& sampling,
                   const std::vector<std::string>& groups)
 {
+  for (const auto& [first, second] : matrix.real_in_default_state)
+    std::cerr << "warning: in the default state, '" << robot.links()[first].name << "' and '"
+              << robot.links()[second].name
+              << "' collide, but in many random states they do not; so this pair stays checked. If it may collide, add "
+                 "a disable_collisions entry with a reason of your own\n";
   std::cerr << counted(sampling.samples, "random state") << ", seed " << sampling.seed << "\ndisabled pairs of links:";
   for (const DisabledReason reason :
        {DisabledReason::Adjacent, DisabledReason::Default, DisabledReason::Always, DisabledReason::Never})
@@ -103,7 +108,7 @@ void run(const CommandLine& arguments)
   {
     std::cout << srdf;
   }
-  printSummary(matrix, sampling, groupNamesOf(srdf));
+  printSummary(*robot, matrix, sampling, groupNamesOf(srdf));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
@@ -115,8 +120,10 @@ int main(int argc, char** argv)
       "generate_acm", "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [options]",
       "Finds the pairs of a robot's links that need not be checked for collision, as MoveIt's Setup\n"
       "Assistant does, and writes them as disable_collisions of an SRDF: Adjacent (a joint joins them),\n"
-      "Default (they collide in the default state), Always (in nearly all of many random states) and\n"
-      "Never (in none of them). Runs on the CPU, on all cores, in double precision.\n"
+      "Always (they collide in nearly all of many random states), Default (also in the default state) and\n"
+      "Never (in none of them). The Setup Assistant disables all pairs that collide in the default state;\n"
+      "this tool checks those that can be apart, and prints their names. Runs on the CPU, on all cores, in double "
+      "precision.\n"
       "If there is no SRDF yet, or none with groups, it also writes planning groups: a chain from the root\n"
       "link to each tip, with the name of the tip.\n"
       "Exit code: 0 success, 2 bad usage, 1 any other error.",

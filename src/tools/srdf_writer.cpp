@@ -23,10 +23,10 @@ std::string commentText(const GeneratedMatrix& matrix, const RobotModel& robot, 
   std::ostringstream text;
   text.precision(2);
   text << kCommentStart << " for robot " << robot.name() << " from " << options.samples << " random states, seed "
-       << options.seed
-       << ".\n    Adjacent: a joint joins the links. Default: they collide in the default state (every variable is 0, "
-       << "or in the middle\n    of its limits if 0 is outside). Always: they collide in at least "
-       << 100.0 * options.always_share << " % of the states. Never: they collide in none\n    of them. So, with "
+       << options.seed << ".\n    Adjacent: a joint joins the links. Always: they collide in at least "
+       << 100.0 * options.always_share
+       << " % of the states. Default: also in the\n    default state (every variable is 0, or in the middle of its "
+       << "limits if 0 is outside). Never: they collide in none\n    of the states. So, with "
        << "95 % confidence, for each pair, fewer than " << 100.0 * bound
        << " % of random states collide. This\n    is no proof that none collides. " << matrix.remaining_pairs
        << " pairs of links remain to be checked. ";
