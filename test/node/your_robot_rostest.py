@@ -33,10 +33,10 @@ class YourRobot(unittest.TestCase):
             for block in examples(os.path.join("docs", "your_robot.md"))
             if block
         ]
-        self.assertEqual(14, len(blocks))
-        self.variables, self.generate, scene, self.launch, self.report, self.set_state, self.collides_now = blocks[:7]
-        self.carry, self.client, self.client_answer, self.plan, self.picture, self.check_many = blocks[7:13]
-        self.colliding_state = blocks[13]
+        self.assertEqual(15, len(blocks))
+        self.variables, self.generate, scene, self.first_verdict, self.launch, self.report = blocks[:6]
+        self.set_state, self.collides_now, self.carry, self.client, self.client_answer = blocks[6:11]
+        self.plan, self.picture, self.check_many, self.colliding_state = blocks[11:]
         with open(os.path.join(self.folder.name, "my_scene.yaml"), "w", encoding="utf-8") as file:
             file.write(scene)
 
@@ -49,6 +49,7 @@ class YourRobot(unittest.TestCase):
 
     def test_each_step_of_the_page_works(self):
         self.assertIn("planning groups: palm\n", self.run_block(self.generate))
+        self.assertRegex(self.run_block(self.first_verdict), r"\n0,(wrist|palm),box\n")
         with subprocess.Popen(["bash", "-c", self.variables + "\nexec " + self.launch + " device:=cpu"]) as node:
             try:
                 rospy.wait_for_service("/planning_scene/check_states", 60)

@@ -216,6 +216,11 @@ TEST_F(ChangeAttached, AMatrixThatForbidsTheCarryingLinkIsAWarning)
   EXPECT_TRUE(
       warned("the allowed-collision matrix forbids object 'a' to touch link 'pole', but this pair is not checked"));
   apply(forbid);
+  EXPECT_FALSE(warned("forbids object 'a'")) << "it forbade this before";
+  SceneChange allow = forbid;
+  allow.matrix->setEntry("a", "pole", true);
+  apply(allow);
+  apply(forbid);
   EXPECT_TRUE(warned("forbids object 'a'"));
   AttachedChange touching = attachedChange(Operation::Append, "a", "pole");
   touching.touch_links = {"pole"};

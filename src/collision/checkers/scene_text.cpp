@@ -76,11 +76,11 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
                   counted(robot.variables().size(), "variable") + ", planning frame " + robot.planningFrame());
   lines.push_back("scene: " + counted(scene.objects.size(), "object") +
                   (scene.attached.empty() ? std::string() : ", " + counted(scene.attached.size(), "attached object")));
-  lines.push_back("triangles: " + std::to_string(robot.triangleCount()) + " in the robot, " +
-                  std::to_string(report.triangles) + " in the " + counted(report.trees, "tree") +
+  lines.push_back("triangles: " + std::to_string(robot.triangleCount()) + " in the robot; " +
+                  std::to_string(report.triangles) + " in the " + counted(report.trees, "different shape") +
                   " of robot and scene" +
-                  (report.shared_trees ? ", " + counted(report.shared_trees, "further shape") +
-                                             (report.shared_trees == 1 ? " shares" : " share") + " these trees"
+                  (report.shared_trees ? ", to which " + counted(report.shared_trees, "further shape") +
+                                             (report.shared_trees == 1 ? " is" : " are") + " equal"
                                        : ""));
   lines.push_back("checked pairs of bodies: " + std::to_string(report.self_pairs) + " of two links, " +
                   std::to_string(report.world_pairs) + " of a link and an object");

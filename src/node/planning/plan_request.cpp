@@ -119,7 +119,14 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
     const std::vector<int> columns =
         requestedColumns(robot, {"start_names", start_row.names}, {"start", start_row.values}, one);
     requireWholeRotations(robot, columns);
-    query.start = fullStates(robot, columns, start_row.values.data(), 1, current);
+    try
+    {
+      query.start = fullStates(robot, columns, start_row.values.data(), 1, current);
+    }
+    catch (const Error& error)
+    {
+      throw Error(std::string("the start of the motion: ") + error.what());
+    }
   }
   const auto few = [&options](std::size_t count)
   {

@@ -64,7 +64,8 @@ ChangedScene SceneChanger::make(const SceneChange& change)
   count_.requireFramesAndColors(result_.scene);
   warnOfMatrixReset(change, matrix_before);
   for (const AttachedObject& attached : result_.scene.attached)
-    if (has_new_matrix_ || attached_here_.count(attached.object.id) != 0)
+    if (attached_here_.count(attached.object.id) != 0 ||
+        (has_new_matrix_ && matrix_before.allowed(attached.object.id, linkName(attached.link))))
       warnOfForbiddenCarrier(attached);
   result_.scene.current_state = result_.state;
   return std::move(result_);
