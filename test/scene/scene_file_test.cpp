@@ -409,6 +409,19 @@ TEST_F(SceneFile, ANamedStateSetsTheVariablesOfItsGroupAlone)
   EXPECT_TRUE(warned(":1: robot_state: joints without a value get their default: slide"));
 }
 
+TEST_F(SceneFile, SeveralNamedStatesSetTheVariablesOfTheirGroups)
+{
+  std::string srdf = sliderSrdf();
+  srdf.insert(srdf.find("</robot>"),
+              "<group_state name=\"turned\" group=\"mast\"><joint name=\"turn\" value=\"0.5\"/></group_state>"
+              "<group name=\"cart\"><joint name=\"slide\"/></group>"
+              "<group_state name=\"near\" group=\"cart\"><joint name=\"slide\" value=\"0.2\"/></group_state>");
+  const auto robot = RobotModel::fromXml(sliderUrdf(), srdf, {});
+  EXPECT_EQ((std::vector<double>{0.2, 0.5}),
+            load("robot_state: {named_state: [mast/turned, near]}", robot).current_state);
+  EXPECT_TRUE(warnings.empty()) << warnings[0];
+}
+
 TEST_F(SceneFile, ANamedStateIsThePlaceOfObjectsOnLinks)
 {
   const PlanningScene scene = load(

@@ -114,21 +114,37 @@ void readMultiDofState(const YamlValue& value, const SceneReader& reader, GivenS
   }
 }
 
-/// The state that the SRDF names. The rule is that of CheckStates.srv: a name, or joint values, but not both.
-void readNamedState(const YamlValue& value, const SceneReader& reader, GivenState& state)
+void readNamedState(const YamlValue& name, const SceneReader& reader, GivenState& state)
 {
-  if (state.hasJoints())
-    value.fail("named_state is '" + value.text() + "', but the robot state has joint values too; give one of the two");
+  NamedState named;
+  const std::string& text = name.text();
   try
   {
-    const NamedState named = reader.robot.namedState(value.text());
-    for (std::size_t i = 0; i < named.variables.size(); ++i)
-      state.set(named.variables[i], named.values[i]);
+    named = reader.robot.namedState(text);
   }
   catch (const Error& error)
   {
-    value.fail(std::string("named_state: ") + error.what());
+    name.fail(std::string("named_state: ") + error.what());
   }
+  for (std::size_t i = 0; i < named.variables.size(); ++i)
+  {
+    const int variable = named.variables[i];
+    if (state.given[variable])
+      name.fail("named_state: '" + text + "' sets '" + reader.robot.variables()[variable].name +
+                "', which another state of the list has set");
+    state.set(variable, named.values[i]);
+  }
+}
+
+/// One or several states that the SRDF names, but no joint values beside them, as in CheckStates.srv.
+void readNamedStates(const YamlValue& value, const SceneReader& reader, GivenState& state)
+{
+  if (state.hasJoints())
+    value.fail("named_state is given, but the robot state has joint values too; give one of the two");
+  if (value.kind() != YamlValue::Kind::Sequence)
+    return readNamedState(value, reader, state);
+  for (const YamlValue& name : value.items())
+    readNamedState(name, reader, state);
 }
 }  // namespace
 
@@ -145,7 +161,7 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
   if (const YamlValue* joints = value.find("multi_dof_joint_state"))
     readMultiDofState(*joints, reader, state);
   if (const YamlValue* name = value.find("named_state"))
-    readNamedState(*name, reader, state);
+    readNamedStates(*name, reader, state);
 
   const std::string start = value.where() + ": robot_state: ";
   if (!state.unknown_joints.empty())
