@@ -251,13 +251,14 @@ TEST(BatchLists, GrowWithThePartsUpToALimit)
   fixed.leaf_pairs = 7;
   BatchLists lists(fixed);
   constexpr std::size_t kMaxBytes = 8'000'000;
-  const auto fit = [&lists]
+  const auto holds = [](const TexelBuffer& list, std::size_t entries, std::size_t texels)
+  { return list.buffer().size() >= entries * texels * TexelBuffer::kTexelBytes; };
+  const auto fit = [&lists, &holds]
   {
-    return lists.candidates.buffer().size() >= lists.capacity.candidates * TexelBuffer::kTexelBytes / 2 &&
-           lists.root_pairs.buffer().size() >=
-               lists.capacity.root_pairs * ROOT_PAIR_TEXELS * TexelBuffer::kTexelBytes &&
-           lists.node_pairs[0].buffer().size() >= lists.capacity.node_pairs * TexelBuffer::kTexelBytes &&
-           lists.node_pairs[1].buffer().size() >= lists.capacity.node_pairs * TexelBuffer::kTexelBytes;
+    return holds(lists.candidates, lists.capacity.candidates / 2, 1) &&
+           holds(lists.root_pairs, lists.capacity.root_pairs, ROOT_PAIR_TEXELS) &&
+           holds(lists.node_pairs[0], lists.capacity.node_pairs, 1) &&
+           holds(lists.node_pairs[1], lists.capacity.node_pairs, 1);
   };
   lists.reserve(100, kMaxBytes);
   const ListCapacities small = lists.capacity;
