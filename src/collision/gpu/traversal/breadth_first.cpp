@@ -31,7 +31,8 @@ void BreadthFirst::reserve(const ListCapacities& capacity)
   // A level has root pairs or node pairs.
   const std::size_t level = std::max(capacity.root_pairs, capacity.node_pairs);
   masks_.reserve(level * sizeof(std::uint32_t));
-  sums_.reserve(2 * sizeof(std::uint32_t) * (level / LEVEL_GROUP + 1));
+  constexpr int kGroup = LEVEL_GROUP;
+  sums_.reserve((level / kGroup + 1) * 2 * sizeof(std::uint32_t));
   leaf_pairs_.reserve(std::size_t{capacity.leaf_pairs} * TexelBuffer::kTexelBytes);
 }
 
